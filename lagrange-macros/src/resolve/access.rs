@@ -1,4 +1,4 @@
-//! Access paths to numbers in fields: `m`, `a[i][j]`, `link[i].c[0]`.
+//! Access paths to entries of fields: `m`, `a[i][j]`, `link[i].c[0]`.
 
 use super::lowering::Lowering;
 use super::scope::Entity;
@@ -8,7 +8,7 @@ use crate::syntax::{Expression, Kind, Name, arrays};
 
 pub(super) const NO_ELEMENTS: &str = "this is a scalar: it has no elements";
 
-/// A field, and what stands after its name.
+/// A field, and the indices and members after its name.
 pub(super) struct Access<'e> {
     pub(super) field: usize,
     pub(super) name: &'e Name,
@@ -20,10 +20,10 @@ pub(super) enum AccessPart<'e> {
     Member(&'e Name),
 }
 
-/// What an expression has named, up to one of its parts.
+/// Prefix of an access path that is resolved so far.
 pub(super) struct Reached<'e> {
     pub(super) root: usize,
-    /// The first field behind the members.
+    /// First field whose path begins with these members.
     pub(super) field: usize,
     pub(super) members: Vec<&'e Name>,
     pub(super) indices: Vec<usize>,
@@ -33,15 +33,15 @@ pub(super) struct Reached<'e> {
 const NO_MEMBERS: &str =
     "only fields that are structs have members (a component of a vector is written `r[0]`)";
 
-/// The members of a pose.
+/// Names of the two members of a pose.
 fn pose(place: Place) -> [Name; 2] {
     ["translation", "rotation"].map(|text| Name { text: text.to_owned(), place })
 }
 
-/// The name that an expression begins with, and what stands after it.
+/// Splits an expression into its base and the indices and members after it.
 fn apart(mut expression: &Expression) -> (&Expression, Vec<AccessPart<'_>>) {
     let mut parts = Vec::new();
-    // As many may follow one another as there is room for: no recursion.
+    // A loop, not recursion: the number of indices and members is unlimited.
     loop {
         let (base, part) = match &expression.kind {
             Kind::Index(base, index) => (base, AccessPart::Index(index)),
@@ -64,7 +64,7 @@ impl<'e> Access<'e> {
 }
 
 impl Lowering<'_> {
-    /// The field, and its parts, where an expression is one or of one.
+    /// Splits an expression that names a field, or a part of one, into the field and the parts.
     pub(super) fn access<'e>(&self, expression: &'e Expression) -> Option<Access<'e>> {
         let (base, parts) = apart(expression);
         let Kind::Name(name) = &base.kind else { return None };
@@ -77,13 +77,13 @@ impl Lowering<'_> {
         }
     }
 
-    /// The field, or the member of one, whose numbers an expression names, whatever the indices are.
+    /// Field, or member of a struct, whose entries an expression names, whatever its indices.
     pub(super) fn field_in(&self, expression: &Expression) -> Option<usize> {
         let access = self.access(expression)?;
         self.parameters.behind(access.field, &access.members())
     }
 
-    /// The translation and the rotation of a field that is a pose, or of a member that is.
+    /// Translation and rotation of a field, or of a member, that is a pose.
     pub(super) fn parts_of_pose(&self, expression: &Expression) -> Option<[Expression; 2]> {
         let access = self.access(expression)?;
         let parts = pose(expression.place);
@@ -94,7 +94,7 @@ impl Lowering<'_> {
         self.parameters.has_members(access.field, &access.members(), &parts).then(|| parts.map(part))
     }
 
-    /// `base.member`
+    /// Lowers `base.member`.
     pub(super) fn member(&mut self, expression: &Expression) -> Option<Value> {
         if let Some(access) = self.access(expression) {
             return self.field_value(&access);
@@ -110,7 +110,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Of a large field only the elements in use may cost.
+    /// Lowers an access path. Only the elements of a large field that are used become parameters.
     pub(super) fn field_value(&mut self, access: &Access<'_>) -> Option<Value> {
         let Reached { field, indices, .. } = self.numbers_of(access)?;
         self.parameters.value(field, &indices, access.name.place, &mut self.graph, self.diagnostics)
@@ -139,7 +139,7 @@ impl Lowering<'_> {
         if self.is_struct(&reached) { self.struct_alone(&reached) } else { Some(reached) }
     }
 
-    /// Whether further members may follow.
+    /// Returns whether the path ends at a struct, so that a member must follow.
     fn is_struct(&self, reached: &Reached<'_>) -> bool {
         self.parameters.fields[reached.field].members.len() > reached.members.len()
     }
@@ -157,7 +157,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The first field behind the last member.
+    /// First field below the last member of the path.
     fn behind(&mut self, reached: &Reached<'_>) -> Option<usize> {
         let Some(next) = self.parameters.behind(reached.root, &reached.members) else {
             return self.no_member(reached);

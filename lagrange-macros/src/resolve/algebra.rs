@@ -9,7 +9,7 @@ use crate::diagnostics::Place;
 use crate::symbolic::{Fault, Id, Rational};
 use crate::syntax::{Expression, Kind, LENGTH_LIMIT, Operator, Sign, SumOver};
 
-/// The derivatives of a product have the square of its length.
+/// Maximum number of factors: the derivatives of a product have the square of its length.
 const FACTOR_LIMIT: usize = 1000;
 
 impl Lowering<'_> {
@@ -42,7 +42,7 @@ impl Lowering<'_> {
         (!failed).then(|| Value::combination(&values, &mut self.graph))
     }
 
-    /// Scalar factors commute with everything: they are gathered, and multiplied once.
+    /// Lowers a product. Scalar factors commute, so they are multiplied into one scalar, applied once.
     pub(super) fn product(&mut self, factors: &[(Operator, Expression)]) -> Option<Value> {
         if let Some((_, factor)) = factors.get(FACTOR_LIMIT) {
             let message = format!("a product has at most {FACTOR_LIMIT} factors: name parts of it");
@@ -117,8 +117,8 @@ impl Lowering<'_> {
         Some(Value::Vector(values))
     }
 
-    /// Whether the range is empty because of an index outside: `sum(j in 0..i, …)` where i = 0. An empty range
-    /// that is written as such is a mistake.
+    /// Returns whether an outer index makes the range empty, as in `sum(j in 0..i, …)` at i = 0. An empty range without
+    /// an outer index is an error.
     fn is_first_of_triangle(&mut self, sum: &SumOver) -> Option<bool> {
         let (from, to) = (self.integer(&sum.from), self.integer(&sum.to));
         Some(from? == to? && !self.locals.is_empty())
@@ -148,7 +148,7 @@ impl Lowering<'_> {
     }
 }
 
-/// What keeps the terms of a sum apart.
+/// Describes why two terms of a sum have incompatible shapes.
 fn differing(first: &Shape, other: &Shape) -> Option<&'static str> {
     if first.is_turned_to(other) {
         return Some(

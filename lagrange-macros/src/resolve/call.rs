@@ -109,7 +109,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The arguments, if they are as many as the function takes.
+    /// The arguments, if their number is right; reports it otherwise.
     fn arguments<'e, const K: usize>(
         &mut self,
         name: &Name,
@@ -130,7 +130,7 @@ impl Lowering<'_> {
         if name == "max" { graph.add(y, beyond) } else { graph.sub(y, beyond) }
     }
 
-    /// A scalar at which the function has a real value, as far as it is a number.
+    /// Lowers a scalar argument. Reports a constant outside the real domain of the function.
     fn inside_domain(&mut self, name: &Name, argument: &Expression) -> Option<Id> {
         let x = self.scalar(argument)?;
         let Some(Scaled { fraction: value, exponent }) = self.graph.as_scaled(x) else { return Some(x) };
@@ -170,7 +170,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Quaternions are (w, x, y, z); nothing is divided by their length.
+    /// Lowers a function of a quaternion (w, x, y, z), which is not normalized.
     fn quaternion(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
         let [q, x] = self.arguments(name, arguments, place)?;
         let (q, v) = (self.quaternion_of(name, q), self.vector_of(x));
@@ -211,7 +211,7 @@ impl Lowering<'_> {
         }
         let values = self.lower_all(arguments)?;
         let bound = formals.iter().map(|formal| formal.text.clone()).zip(values).collect();
-        // The body sees its own formals and nothing that is local where it is called.
+        // The body of a function sees its formal arguments, but no locals of the caller.
         let outer = std::mem::replace(&mut self.locals, bound);
         self.calls.push(place);
         let value = self.lower(&define.body);
@@ -221,7 +221,7 @@ impl Lowering<'_> {
         Some(value.map(&mut |id| self.graph.defined(id)))
     }
 
-    /// `lambda(no_slip)` or `lambda(rod[3])`
+    /// Lowers `lambda(no_slip)` or `lambda(rod[3])`.
     fn lambda(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
         if self.setting != Setting::Observable {
             return self.report(
@@ -237,7 +237,7 @@ impl Lowering<'_> {
         self.multiplier(constraint, &indices.into_iter().collect::<Option<Vec<i128>>>()?)
     }
 
-    /// The first indices are those of a family's element, what follows are the element's own.
+    /// Multiplier of a constraint: the first indices select an element of the family, the rest index into its value.
     fn multiplier(&mut self, constraint: &Name, indices: &[i128]) -> Option<Value> {
         let Some(group) = self.multipliers.iter().find(|group| group.name == constraint.text) else {
             let names = || self.multipliers.iter().map(|group| group.name.as_str());

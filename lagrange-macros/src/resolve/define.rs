@@ -11,7 +11,7 @@ use crate::diagnostics::Place;
 use crate::syntax::Name;
 
 impl Lowering<'_> {
-    /// Gives the definitions their values, in the order written.
+    /// Lowers all definitions in the order written.
     pub(super) fn define_all(&mut self) {
         self.progress = Progress::default();
         self.frames_after(0);
@@ -31,7 +31,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether a definition belongs to the family, or the value, whose first definition this is.
+    /// Returns whether definition `index` belongs to the family, or the value, that definition `first` begins.
     fn is_part_of(&self, index: usize, first: usize) -> bool {
         let [one, other] = [index, first].map(|index| &self.defines[index]);
         let is_one = one.target.name.text == other.target.name.text;
@@ -58,7 +58,7 @@ impl Lowering<'_> {
         self.definitions[index] = if sound { Definition::Function } else { Definition::Wrong };
     }
 
-    /// A function's body has a value only where it is called, but its names are checked at once.
+    /// Checks the names in the body of a function; the body itself is lowered at each call.
     fn names_are_known(&mut self, index: usize) -> bool {
         let define = &self.defines[index];
         let mut local: Vec<String> =
@@ -97,7 +97,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The indices that a definition stands for; what is local where it is needed is none of its business.
+    /// Element indices of a definition. They do not depend on the locals of the expression that needs them.
     fn elements_of(&mut self, index: usize) -> Rc<[Vec<usize>]> {
         if let Some(known) = self.progress.elements.get(&index) {
             return known.clone();
@@ -142,7 +142,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// An element of a family, or an array of those whose indices begin so.
+    /// Element of a family, or an array of the elements whose indices begin with `path`.
     pub(super) fn element(&mut self, first: usize, name: &str, path: &[i128], place: Place) -> Option<Value> {
         let indices = path.iter().map(|&i| usize::try_from(i).ok()).collect::<Option<Vec<usize>>>();
         let found = match (&self.definitions[first], &indices) {
@@ -175,7 +175,8 @@ impl Lowering<'_> {
         self.report(place, format!("`{text}` has no value here: {missing}"))
     }
 
-    /// Elements of families may use each other: the definition in turn, or one further down, that gives this one.
+    /// Finds the definition, the current one or a later one, that will give this element. Elements of families may use
+    /// each other in any order.
     fn coming(&mut self, first: usize, element: &[usize]) -> Option<usize> {
         let turn = self.progress.current.first().filter(|(_, element)| !element.is_empty())?.0;
         let last = self.defines.len();
@@ -209,7 +210,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The elements of a family whose indices begin so, if they are an array without gaps.
+    /// Array of the elements whose indices begin with `indices`. Reports gaps and unequal shapes.
     fn array(&mut self, first: usize, indices: &[usize], value: Value, place: Place) -> Option<Value> {
         let Definition::Family(family) = &self.definitions[first] else { return Some(value) };
         if let Some(gap) = family.gap(indices) {
@@ -220,7 +221,7 @@ impl Lowering<'_> {
         self.even(value, place)
     }
 
-    /// The value of a definition that is used as a whole.
+    /// Value of a definition that is named without indices.
     pub(super) fn definition(&mut self, first: usize, name: &Name) -> Option<Value> {
         let value = match &self.definitions[first] {
             Definition::Value(value) => return Some(value.clone()),
@@ -232,7 +233,7 @@ impl Lowering<'_> {
         self.array(first, &[], value, name.place)
     }
 
-    /// A definition used before its turn: in a circle, or merely out of order.
+    /// Reports a definition used before its turn: it is circular, or out of order.
     pub(super) fn too_early<T>(&mut self, index: usize, name: &Name) -> Option<T> {
         let text = &name.text;
         let message = match self.circle(index) {
@@ -242,7 +243,7 @@ impl Lowering<'_> {
         self.report(name.place, message)
     }
 
-    /// A chain of definitions from `start` back to itself, by name.
+    /// Spells a chain of definitions from `start` back to itself, if there is one.
     fn circle(&self, start: usize) -> Option<String> {
         let mut chains = vec![vec![start]];
         let mut seen = vec![start];
@@ -263,7 +264,7 @@ impl Lowering<'_> {
         None
     }
 
-    /// The definitions that one mentions.
+    /// Definitions whose names occur in the body of definition `index`.
     fn mentioned(&self, index: usize) -> Vec<usize> {
         let mut found = Vec::new();
         self.defines[index].body.names(&mut |name| {

@@ -1,4 +1,4 @@
-//! Random values for what is checked at random points: parameters that their fields' types admit.
+//! Random parameter values for tests at random points. They respect the types of the fields.
 
 use super::parameters::Parameters;
 use super::problem::Problem;
@@ -7,14 +7,14 @@ use crate::syntax::{FieldShape, Inside, Property};
 use crate::variables::Variable;
 
 impl Problem {
-    /// Random value of a symbol, the same for the same draw.
+    /// Random value of a symbol, reproducible for each draw.
     pub(crate) fn drawn(&self, symbol: Symbol, draw: u64) -> Approximate {
         self.parameters.value_of(symbol, draw)
     }
 }
 
 impl Parameters {
-    /// The value of any symbol in this draw.
+    /// Value of any symbol in this draw.
     pub(super) fn value_of(&self, symbol: Symbol, draw: u64) -> Approximate {
         match Variable::of(symbol) {
             Variable::Parameter(k) => self.drawn(k, symbol, draw),
@@ -26,7 +26,7 @@ impl Parameters {
         let entry = self.entries[k];
         let plain = || Approximate::exact(drawn(symbol, self.ranges[entry.field], draw));
         let Ok(FieldShape { layout, .. }) = &self.fields[entry.field].shape else { return plain() };
-        // The numbers of one rotation come from one place, whichever of them is asked for.
+        // The entries of one rotation share their random angles, whichever entry is asked for.
         let angles = |rotation: usize| {
             move |k: usize| {
                 let place = (entry.field << 20 | rotation << 8 | k) as u64;
@@ -44,21 +44,21 @@ impl Parameters {
     }
 }
 
-/// Of the families of random numbers, one that neither symbols nor unknown functions have.
+/// Stream of random numbers for angles, used neither for symbols nor for unknown functions.
 const ANGLES: u64 = 253;
 
-/// A number at most 1 that a few sines and products make.
+/// A number of magnitude at most 1, computed by a few sines and products, with its rounding error.
 fn rounded(value: f64) -> Approximate {
     Approximate { value, error: 32.0 * f64::EPSILON }
 }
 
-/// By Hopf's angles: (cos α cos β, cos α sin β, sin α cos γ, sin α sin γ).
+/// Unit quaternion by Hopf's angles: (cos α cos β, cos α sin β, sin α cos γ, sin α sin γ).
 fn unit(angle: impl Fn(usize) -> f64) -> [f64; 4] {
     let [(s, c), (t, d), (u, e)] = [0, 1, 2].map(|k| angle(k).sin_cos());
     [c * d, c * t, s * e, s * u]
 }
 
-/// A turn in the plane of each two axes, one after the other.
+/// Rotation matrix: product of one rotation in the plane of each pair of axes.
 fn turn(size: usize, angle: impl Fn(usize) -> f64) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> =
         (0..size).map(|i| (0..size).map(|j| if i == j { 1.0 } else { 0.0 }).collect()).collect();

@@ -1,4 +1,4 @@
-//! Elements that the indices of a target stand for.
+//! Elements of a family: the ranges of its indices written out.
 
 use std::ops::Range;
 
@@ -6,11 +6,12 @@ use super::lowering::Lowering;
 use super::value::Value;
 use crate::syntax::{Expression, TargetIndex};
 
-/// Maximum length of a range, and number of elements of a family: each is written out.
+/// Maximum end of a range and maximum number of elements of a family, because each element is written out.
 const RANGE_LIMIT: i128 = 10_000;
 
 impl Lowering<'_> {
-    /// The indices that stand for a target's, in order: one of none without brackets, nothing where they are wrong.
+    /// Element indices that a target stands for, in order. A target without brackets has one element without indices;
+    /// after an error there are none.
     pub(super) fn elements(&mut self, indices: &[TargetIndex]) -> Vec<Vec<usize>> {
         let mut elements = vec![Vec::new()];
         for (level, index) in indices.iter().enumerate() {
@@ -37,7 +38,7 @@ impl Lowering<'_> {
         ))
     }
 
-    /// What an index stands for, behind others.
+    /// Range of one index of a target, whose earlier indices `before` are bound.
     fn index_range(&mut self, index: &TargetIndex, before: &[TargetIndex]) -> Option<Range<usize>> {
         match index {
             TargetIndex::Element(index) => match usize::try_from(self.integer(index)?) {
@@ -50,14 +51,14 @@ impl Lowering<'_> {
                 if before.iter().any(is_it) {
                     return self.report(index.place, format!("the index `{}` is given twice", index.text));
                 }
-                // The first row of a triangle, `j in 0..i` where i = 0, has nothing in it.
+                // An inner range `j in 0..i` is empty at i = 0, the first row of a triangle.
                 let (low, high) = (self.integer(from)?, self.integer(to)?);
                 if low == high && low >= 0 && !before.is_empty() { Some(0..0) } else { self.range(from, to) }
             }
         }
     }
 
-    /// Runs `f` with a target's running indices bound to these values.
+    /// Runs `f` with the running indices of a target bound to these values.
     pub(super) fn with_indices<T>(
         &mut self,
         indices: &[TargetIndex],
@@ -76,7 +77,7 @@ impl Lowering<'_> {
         result
     }
 
-    /// `from..to` with its ends in numbers; an empty one is an error.
+    /// Evaluates the range `from..to`. Reports an empty range.
     pub(super) fn range(&mut self, from: &Expression, to: &Expression) -> Option<Range<usize>> {
         let (low, high) = (self.integer(from), self.integer(to));
         let (low, high) = (low?, high?);

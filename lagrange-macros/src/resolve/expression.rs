@@ -1,4 +1,4 @@
-//! Expressions into the graph: names bound, shapes checked.
+//! Lowers expressions to the graph: binds names and checks shapes.
 
 use num_traits::Zero;
 
@@ -11,15 +11,15 @@ use crate::symbolic::{Fault, Id, Rational};
 use crate::syntax::{Expression, Kind, Name};
 use crate::variables::Variable;
 
-/// Expressions deeper than this, calls of definitions included, would exhaust the compiler's stack.
+/// Maximum depth of an expression, including calls of definitions. Deeper ones would overflow the compiler's stack.
 const DEPTH_LIMIT: usize = 600;
-/// Expressions lowered in all: what asks for more is a runaway definition.
+/// Maximum number of lowered expressions in total. Only a runaway definition needs more.
 const STEP_LIMIT: usize = 1 << 20;
-/// Numbers in all values lowered: vectors of vectors can run away too.
+/// Maximum number of scalars in all lowered values together: nested vectors can grow without bound too.
 const NUMBER_LIMIT: usize = 1 << 24;
 
 impl Lowering<'_> {
-    /// The value of an expression. Where it has none, everything wrong with it has been reported.
+    /// Lowers an expression to its value. `None` means that every error in it has been reported.
     pub(super) fn lower(&mut self, expression: &Expression) -> Option<Value> {
         self.steps += 1;
         if self.steps > STEP_LIMIT || self.depth > DEPTH_LIMIT || self.numbers > NUMBER_LIMIT {
@@ -59,12 +59,12 @@ impl Lowering<'_> {
         }
     }
 
-    /// A value that must be a scalar.
+    /// Lowers an expression that must be a scalar.
     pub(super) fn scalar(&mut self, expression: &Expression) -> Option<Id> {
         self.of_kind(expression, "scalar", Value::as_scalar)
     }
 
-    /// A value that must be a vector of numbers.
+    /// Lowers an expression that must be a vector of scalars.
     pub(super) fn vector_of(&mut self, expression: &Expression) -> Option<Vec<Id>> {
         self.of_kind(expression, "vector", Value::as_vector)
     }
@@ -90,19 +90,19 @@ impl Lowering<'_> {
         part(value).or_else(|| self.report(place, wrong(value.shape())))
     }
 
-    /// The entries of a value that must be a vector of numbers.
+    /// Entries of a value that must be a vector of scalars.
     pub(super) fn vector_in(&mut self, value: &Value, place: Place) -> Option<Vec<Id>> {
         self.part(value, place, "vector", Value::as_vector)
     }
 
-    /// The values of several expressions, if all have one.
+    /// Values of several expressions; `None` if one of them has none.
     pub(super) fn lower_all(&mut self, expressions: &[Expression]) -> Option<Vec<Value>> {
-        // Every one is read, so that all errors are found.
+        // All expressions are lowered before the result is checked, so that all errors are reported.
         let values: Vec<_> = expressions.iter().map(|expression| self.lower(expression)).collect();
         values.into_iter().collect()
     }
 
-    /// Evaluates an expression that must be an integer.
+    /// Evaluates an expression that must be an integer constant.
     pub(super) fn integer(&mut self, expression: &Expression) -> Option<i128> {
         let id = self.scalar(expression)?;
         let value = self.graph.as_number(id).filter(Rational::is_integer).map(|value| value.to_integer());
@@ -112,7 +112,7 @@ impl Lowering<'_> {
     }
 
     fn runaway<T>(&mut self, place: Place) -> Option<T> {
-        // Said once; everything that follows from it would only repeat it.
+        // Report this once: later reports would only repeat it.
         let first = self.steps <= STEP_LIMIT + 1;
         self.steps = STEP_LIMIT + 2;
         if !first {
@@ -185,7 +185,7 @@ impl Lowering<'_> {
         None
     }
 
-    /// d/dt of every number in `value`; `place` is to blame for accelerations where there must be none.
+    /// d/dt of every scalar in `value`. Reports accelerations at `place` where the setting forbids them.
     pub(super) fn rate_of(&mut self, value: &Value, place: Place) -> Option<Value> {
         let rate = value.map(&mut |id| self.rate.of(&mut self.graph, id));
         let accelerations = |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_));
@@ -198,7 +198,7 @@ impl Lowering<'_> {
         Some(rate)
     }
 
-    /// Formals and indices may shadow anything but time and π.
+    /// Checks the name of a formal argument or a running index: it may shadow any name but `t` and `pi`.
     pub(super) fn declare_local(&mut self, name: &Name) -> Option<()> {
         match name.text.as_str() {
             "t" | "pi" => {

@@ -1,4 +1,4 @@
-//! Families: what has indices, and the values that it is made of.
+//! Families: values keyed by indices.
 
 use std::collections::BTreeMap;
 
@@ -23,13 +23,13 @@ impl Family {
         self.0.iter().map(|(indices, value)| (&indices[..], value))
     }
 
-    /// The elements whose indices begin so.
+    /// Elements whose indices begin with `first`.
     fn under<'f>(&'f self, first: &'f [usize]) -> impl Iterator<Item = (&'f [usize], &'f Value)> {
         let from = self.0.range(first.to_vec()..).map(|(indices, value)| (&indices[..], value));
         from.take_while(move |(indices, _)| indices.starts_with(first))
     }
 
-    /// The element of these indices, or arrays of those whose indices begin so, whatever is missing between them.
+    /// Element with these indices, or nested arrays of the elements whose indices begin with them. Gaps are skipped.
     pub(super) fn part(&self, first: &[usize]) -> Option<Value> {
         if let Some(value) = self.0.get(first) {
             return Some(value.clone());
@@ -45,7 +45,7 @@ impl Family {
             .map(Value::Vector)
     }
 
-    /// The first indices that are missing before those of another element whose indices begin so.
+    /// First missing indices that precede an existing element, among those that begin with `first`.
     pub(super) fn gap(&self, first: &[usize]) -> Option<Vec<usize>> {
         let mut before: &[usize] = first;
         for (indices, _) in self.under(first) {

@@ -31,7 +31,7 @@ impl Lowering<'_> {
         forces
     }
 
-    /// What a force acts on instead of a coordinate, and what is meant.
+    /// Describes the target of a force that is no coordinate, and suggests a coordinate.
     fn no_coordinate(&self, name: &str) -> String {
         let coordinates = || self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
         let near = match self.scope.get(name) {
@@ -85,7 +85,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Forces, and the velocities that they act along, number by number.
+    /// Pairs of scalar components: force, and velocity that it acts along.
     pub(super) fn powers(&mut self, declaration: &Declaration) -> Vec<(Id, Id)> {
         let mut powers = Vec::new();
         for power in &declaration.powers {
@@ -128,13 +128,13 @@ impl Lowering<'_> {
         Some(force.flat().into_iter().zip(velocities).collect())
     }
 
-    /// ∂v/∂q̇ of each of several numbers, by all velocities.
+    /// Gradients ∂v/∂q̇ of several scalars by all velocities.
     fn slopes(&mut self, of: &[Id]) -> Vec<Vec<Id>> {
         let symbols = symbols(self.count, Variable::Velocity);
         of.iter().map(|&one| self.graph.gradient(one, &symbols)).collect()
     }
 
-    /// `jacobian(v)`: ∂v/∂q̇, a row for each number of v and a column for each coordinate.
+    /// Lowers `jacobian(v)`: ∂v/∂q̇, with a row for each component of v and a column for each coordinate.
     pub(super) fn jacobian(&mut self, velocity: &Expression, place: Place) -> Option<Value> {
         if self.setting != Setting::Observable {
             return self.report(place, "a Jacobian is for observables: what a force does by it, Jᵀ·force, is `#[power(force, velocity)]`");

@@ -1,4 +1,4 @@
-//! Functions that the user supplies: fields that are called.
+//! Functions supplied by the user: fields that expressions call.
 
 use super::label::entry_names;
 use super::lowering::Lowering;
@@ -10,27 +10,27 @@ use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::External;
 use crate::syntax::{Coordinate, Declaration, Expression, FunctionDeclaration, Name, numbers};
 
-/// A function as generated code calls it.
+/// A user-supplied function, as generated code calls it.
 pub(crate) struct Supplied {
-    /// The name in the expressions.
+    /// Name in expressions.
     pub(crate) name: String,
     pub(crate) field: syn::Ident,
-    /// The type of the function itself, where the field is a reference to it.
+    /// Type of the function, without the reference if the field is one.
     pub(crate) ty: syn::Type,
     pub(crate) is_reference: bool,
-    /// Where the attribute names it.
+    /// Source position of the name in the attribute.
     pub(crate) place: Place,
-    /// Its arguments as declared, with the lengths of those that are arrays.
+    /// Name and array lengths of each declared argument.
     pub(crate) formals: Vec<(String, Vec<usize>)>,
-    /// How many numbers it takes, all arguments together.
+    /// Number of scalars in all arguments together.
     pub(crate) inputs: usize,
-    /// How many numbers it gives.
+    /// Number of scalars in the result.
     pub(crate) outputs: usize,
-    /// What they are called: `A[0]`, `A[1]`.
+    /// Names of the scalars in the result: `A[0]`, `A[1]`.
     pub(crate) names: Vec<String>,
 }
 
-/// The functions, each with its field found.
+/// Finds the field of each declared function.
 pub(super) fn supplied(
     declaration: &Declaration,
     scope: &Scope,
@@ -77,7 +77,7 @@ fn no_such_field(
     field.place.error(format!("there is no field `{}`: {advice}", field.text))
 }
 
-/// A formal takes the shape it says, else that of the coordinate of its name, else it is a scalar.
+/// Shape of a formal argument: its declared shape, else that of the coordinate of the same name, else a scalar.
 fn formal_lengths(
     (name, lengths): &(Name, Vec<usize>),
     coordinates: &[Coordinate],

@@ -1,9 +1,10 @@
-//! Whether positions are differentiated that frames are meant for.
+//! Detects whether a formulation in frames would be cheaper than the differentiation of positions.
 //!
-//! Where several angles turn a vector one after another, products of as many sines and cosines are in it. Each factor
-//! of them is differentiated twice, and what comes of it cancels for the most part; frames differentiate none of it. From
-//! three angles on they took an eighth to 0.6 of the operations wherever both were counted: arms, tops, springs between
-//! points, planar chains of products. With two they may take more, as they do where every link turns from the fixed axes.
+//! If several angles turn a vector one after another, its components contain products of that many sines and cosines.
+//! Lagrange's equations differentiate each factor twice, and most of the resulting terms cancel. Frames differentiate
+//! none of these products. From three angles on, frames took between an eighth and 0.6 of the operations wherever both
+//! were counted: arms, tops, springs between points, planar chains of products. With two angles they may take more, as
+//! they do if every link turns from the fixed axes.
 
 use rustc_hash::FxHashMap;
 
@@ -12,19 +13,19 @@ use super::value::Value;
 use crate::symbolic::{Function, Graph, Id, Node};
 use crate::variables::Variable;
 
-/// From as many angles on.
+/// Minimum number of successive angles for which frames are recommended.
 const ANGLES: usize = 3;
 
-/// What is known of a number.
+/// Time dependence of a scalar, and the angles in its products.
 #[derive(Clone, Default)]
 struct AngleUse {
     moves: bool,
-    /// The arguments that change in time of the sines and cosines that are multiplied with each other, as many as count.
+    /// Distinct time-dependent angles whose sines and cosines are multiplied with each other; at most [`ANGLES`].
     by: Vec<Id>,
 }
 
 impl Lowering<'_> {
-    /// Keeps in mind that vectors in space, or matrices, are differentiated.
+    /// Records the entries of vectors in space, or of matrices with three rows, whose time derivative is asked for.
     pub(super) fn note_differentiated(&mut self, value: &Value) {
         let is_in_space = value.length() == Some(3);
         if self.setting == Setting::Equations && is_in_space {
@@ -32,7 +33,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether vectors that are turned by several angles in turn are differentiated, without a frame.
+    /// Returns whether a system without frames differentiates vectors that several successive angles turn.
     pub(super) fn frames_are_cheaper(&self) -> bool {
         let is_by_turns = !self.turns.is_empty() && self.declared_frames.is_empty();
         is_by_turns && turned_in_turn(&self.graph, &self.differentiated)

@@ -8,7 +8,7 @@ use crate::diagnostics::Place;
 use crate::symbolic::Rational;
 use crate::syntax::{Expression, Kind, Name, Slice};
 
-/// What is indexed, and an index of it.
+/// Indexed expression, and the index.
 type Indexed<'e> = (&'e Expression, &'e Expression);
 
 impl Lowering<'_> {
@@ -37,7 +37,7 @@ impl Lowering<'_> {
         value.item(i)
     }
 
-    /// `base[from..to]`, element by element: what is left out of a large field costs nothing.
+    /// Lowers `base[from..to]` element by element, so that unused elements of a large field cost nothing.
     pub(super) fn slice(&mut self, Slice { base, from, to }: &Slice) -> Option<Value> {
         let range = self.range(from, to)?;
         let element = |i: usize| {
@@ -48,7 +48,7 @@ impl Lowering<'_> {
         self.even(Value::Vector(elements), from.place.to(to.place))
     }
 
-    /// `i` where it is one of the indices 0 to `length` − 1.
+    /// Converts `i` to an index from 0 to `length` − 1, or reports it.
     pub(super) fn checked(&mut self, i: i128, length: usize, place: Place) -> Option<usize> {
         let found = usize::try_from(i).ok().filter(|&i| i < length);
         let last = length.saturating_sub(1);
@@ -56,7 +56,7 @@ impl Lowering<'_> {
         found.or_else(|| self.report(place, wrong()))
     }
 
-    /// As many indices as the family has are those of an element, what follows are the element's own.
+    /// Lowers an indexed family: the first indices select an element of the family, the rest index into its value.
     fn family_element(&mut self, first: usize, name: &Name, indices: &[Indexed<'_>]) -> Option<Value> {
         let rank = self.defines[first].target.indices.len().min(indices.len());
         let mut path = Vec::new();
@@ -70,7 +70,7 @@ impl Lowering<'_> {
         Some(value)
     }
 
-    /// An array whose parts have one shape, as all that is made of them relies on.
+    /// Returns the array if all items have one shape, as later operations assume; reports it otherwise.
     pub(super) fn even(&mut self, value: Value, place: Place) -> Option<Value> {
         match value.uneven() {
             Some([first, other]) => {
@@ -81,7 +81,8 @@ impl Lowering<'_> {
     }
 }
 
-/// `base[index]` index by index, from the left: as many may follow one another as there is room for.
+/// Splits nested `base[index]` into its indices, leftmost first. Iterates, so that no number of indices overflows the
+/// stack.
 fn chain<'e>(base: &'e Expression, index: &'e Expression) -> Vec<Indexed<'e>> {
     let mut chain = vec![(base, index)];
     while let Kind::Index(base, index) = &chain[chain.len() - 1].0.kind {

@@ -1,4 +1,4 @@
-//! All that is known while expressions are lowered.
+//! State of the lowering of expressions to the graph.
 
 use std::rc::Rc;
 
@@ -15,56 +15,56 @@ use crate::symbolic::{Forward, Graph, Id};
 use crate::syntax::{Coordinate, Declaration, Define, FrameDeclaration, FunctionDeclaration};
 use crate::variables::total_time_derivative;
 
-/// What the expression at hand may contain beside coordinates, velocities and time.
+/// Symbols that the current expression may contain besides coordinates, velocities and time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Setting {
-    /// The Lagrangian, constraints, forces and what defines them.
+    /// No others: the Lagrangian, constraints, forces and their definitions.
     Equations,
-    /// Observables: accelerations and multipliers too.
+    /// Accelerations and multipliers too: observables.
     Observable,
 }
 
-/// A definition as far as it has been read.
+/// State of a definition during lowering.
 #[derive(Debug)]
 pub(super) enum Definition {
-    /// Its turn has not come.
+    /// Not lowered yet.
     Pending,
     Value(Value),
     Family(Family),
     Function,
-    /// Something was wrong with it, and reported.
+    /// An error in the definition has been reported.
     Wrong,
 }
 
-/// The multipliers of one `constraint` attribute or family.
+/// Multiplier symbols of one `constraint` attribute or family.
 #[derive(Debug)]
 pub(super) struct MultiplierGroup {
     pub(super) name: String,
     pub(super) elements: Family,
 }
 
-/// An element of a definition: the definition's index, and the element's.
+/// Index of a definition, and the indices of one of its elements.
 type Element = (usize, Vec<usize>);
 
-/// How far the definitions are.
+/// Progress of lowering the definitions.
 #[derive(Default)]
 pub(super) struct Progress {
-    /// The elements that are being defined, each because the one before it needs it.
+    /// Stack of elements being defined; each is needed by the one before it.
     pub(super) current: Vec<Element>,
-    /// Those that were needed before their turn.
+    /// Elements defined before their turn, because an earlier definition needs them.
     pub(super) early: FxHashSet<Element>,
-    /// The indices that a definition stands for, in order.
+    /// Element indices of each definition, in order, keyed by the index of the definition.
     pub(super) elements: FxHashMap<usize, Rc<[Vec<usize>]>>,
 }
 
-/// Everything needed to give an expression its meaning.
+/// Symbol tables, graph and progress needed to lower expressions.
 pub(super) struct Lowering<'a> {
     pub(super) graph: Graph,
     pub(super) scope: Scope,
     pub(super) parameters: Parameters,
     pub(super) diagnostics: &'a mut Diagnostics,
     pub(super) coordinates: &'a [Coordinate],
-    /// The first flat index of each coordinate, and how many there are.
+    /// First flat index of each coordinate; `count` is the number of scalar coordinates.
     pub(super) offsets: Vec<usize>,
     pub(super) count: usize,
     pub(super) functions: &'a [FunctionDeclaration],
@@ -72,25 +72,26 @@ pub(super) struct Lowering<'a> {
     pub(super) declared_frames: &'a [FrameDeclaration],
     pub(super) frames: Frames,
     pub(super) turns: Turns,
-    /// Vectors and matrices of which rates were asked.
+    /// Entries of vectors and matrices in space whose time derivative was asked for.
     pub(super) differentiated: Vec<Id>,
-    /// What `der` gave, and the velocities in frames, by components.
+    /// Components of each result of `der`, and of each velocity of a point in a frame.
     pub(super) rates: Vec<Vec<Id>>,
-    /// Where `min`, `max` or `clamp` was written last, by the argument of the function that it is made of.
+    /// Source position of the last `min`, `max` or `clamp`, keyed by the argument of the ramp function that represents
+    /// it.
     pub(super) kinks: FxHashMap<Id, Place>,
-    /// By the index of the first `define` of the name.
+    /// State of each definition, at the index of the first `define` of its name.
     pub(super) definitions: Vec<Definition>,
     pub(super) progress: Progress,
     pub(super) multipliers: Vec<MultiplierGroup>,
     pub(super) observables: Vec<(String, Value)>,
     pub(super) setting: Setting,
-    /// Whether something stands in for what is wrong.
+    /// True while the outline is read: an erroneous expression gets a stand-in value.
     pub(super) is_guessing: bool,
-    /// For how many values something does.
+    /// Number of stand-in values so far.
     pub(super) guesses: usize,
-    /// Formals and indices, the innermost last.
+    /// Formal arguments and running indices in scope, innermost last.
     pub(super) locals: Vec<(String, Value)>,
-    /// The calls of definitions around the expression at hand, the outermost first.
+    /// Calls of user definitions that enclose the current expression, outermost first.
     pub(super) calls: Vec<Place>,
     pub(super) rate: Forward,
     pub(super) depth: usize,

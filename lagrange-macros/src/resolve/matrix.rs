@@ -1,4 +1,4 @@
-//! Matrices: their products, and the functions that make them or take them apart.
+//! Matrices: products, constructors and accessors.
 
 use super::lowering::Lowering;
 use super::turns::Turn;
@@ -16,7 +16,7 @@ impl Value {
 }
 
 impl Lowering<'_> {
-    /// The product of two arrays, of which one is a matrix: a vector on its left is a row, one on its right a column.
+    /// Product of two arrays, at least one of them a matrix: a left vector is a row, a right vector a column.
     pub(super) fn times(&mut self, x: &Value, y: &Value, place: Place) -> Option<Value> {
         let (row, column) = (x.as_vector(), y.as_vector());
         if row.is_some() && column.is_some() {
@@ -43,12 +43,12 @@ impl Lowering<'_> {
                 self.turns.remember_product(&self.graph, x, y, &product);
                 product
             }
-            // A matrix in the axes of its vector.
+            // A matrix times a vector has components along the axes of the vector.
             _ => Value::vector(product.into_iter().flatten()).along(x.axes().or(y.axes())),
         })
     }
 
-    /// `transpose(A)`, `trace(A)`, `identity(3)`, `skew(v)`.
+    /// Lowers `transpose(A)`, `trace(A)`, `identity(3)` or `skew(v)`.
     pub(super) fn matrix(&mut self, name: &Name, argument: &Expression) -> Option<Value> {
         match name.text.as_str() {
             "identity" => self.identity(argument),
@@ -89,7 +89,8 @@ impl Lowering<'_> {
         ))
     }
 
-    /// `rot_x(angle)` and its kin turn a vector about an axis of the frame, by the right-hand rule.
+    /// Lowers `rot_x(angle)`, `rot_y(angle)` or `rot_z(angle)`: rotates a vector about that axis by the right-hand
+    /// rule.
     pub(super) fn rotation_about_axis(&mut self, name: &Name, angle: &Expression) -> Option<Value> {
         let angle = self.scalar(angle)?;
         let axis = match name.text.as_str() {
@@ -100,7 +101,7 @@ impl Lowering<'_> {
         Some(self.turn_about(axis, angle))
     }
 
-    /// `rot(axis, angle)`: the axis may be of any length but zero.
+    /// Lowers `rot(axis, angle)`, with an axis of any nonzero length.
     pub(super) fn rotation(&mut self, name: &Name, axis: &Expression, angle: &Expression) -> Option<Value> {
         let (unit, angle) = (self.unit(name, axis), self.scalar(angle));
         Some(self.turn_about(unit?, angle?))
@@ -112,7 +113,7 @@ impl Lowering<'_> {
         Value::matrix(matrix)
     }
 
-    /// A vector in space of length 1, along one of any length but zero.
+    /// Lowers an axis of any nonzero length and normalizes it.
     pub(super) fn unit(&mut self, name: &Name, axis: &Expression) -> Option<[Id; 3]> {
         let vector = self.three(name, axis)?;
         let square = self.graph.dot(&vector, &vector);
@@ -123,7 +124,7 @@ impl Lowering<'_> {
         Some(vector.map(|x| self.graph.div(x, length)))
     }
 
-    /// A value that must be a vector in space.
+    /// Lowers an expression that must be a vector of three entries.
     fn three(&mut self, name: &Name, argument: &Expression) -> Option<[Id; 3]> {
         let vector = self.vector_of(argument)?;
         let wrong = || format!("`{}` takes a vector of 3", name.text);
@@ -135,14 +136,14 @@ fn transposed(rows: MatrixRows) -> MatrixRows {
     (0..rows[0].len()).map(|j| rows.iter().map(|row| row[j]).collect()).collect()
 }
 
-/// S with S v = x × v for every v: its columns are x × eⱼ.
+/// Skew-symmetric matrix S with S v = x × v for every v: its columns are x × eⱼ.
 fn skew(x: [Id; 3], graph: &mut Graph) -> MatrixRows {
     let unit = |j: usize| std::array::from_fn(|i| if i == j { Id::ONE } else { Id::ZERO });
     transposed((0..3).map(|j| cross(x, unit(j), graph).to_vec()).collect())
 }
 
-/// cos α 1 + sin α S + (1 − cos α) n nᵀ, with S v = n × v (Rodrigues' formula; Goldstein, Poole and Safko, *Classical
-/// Mechanics*, 4.62).
+/// Rotation matrix cos α 1 + sin α S + (1 − cos α) n nᵀ, with S v = n × v (Rodrigues' formula; Goldstein, Poole and
+/// Safko, *Classical Mechanics*, 4.62).
 pub(super) fn rotation(axis: [Id; 3], angle: Id, graph: &mut Graph) -> [[Id; 3]; 3] {
     let (sin, cos) = (graph.function(Function::Sin, angle), graph.function(Function::Cos, angle));
     let versine = graph.sub(Id::ONE, cos);

@@ -1,4 +1,4 @@
-//! Fields that are structs: each of the members that are declared is a field of its own among the parameters.
+//! Fields that are structs: each declared member becomes a field of its own among the parameters.
 
 use syn::{GenericArgument, Type};
 
@@ -11,7 +11,7 @@ use crate::syntax::{
 };
 
 impl Parameters {
-    /// The members of fields whose type says them.
+    /// Adds the members of fields whose type is a known struct, such as an isometry.
     pub(super) fn add_known_structures(&mut self) {
         for index in 0..self.fields.len() {
             if let Some((structure, scalar)) = Structure::known(&self.fields[index]) {
@@ -35,7 +35,7 @@ impl Parameters {
             let message = format!("`{name}` is made of numbers, without members: its type is `{}`", text(ty));
             return Err(place.error(message));
         }
-        // A type of another name may be an alias of an array.
+        // A type with another name may be an alias of an array.
         if !structure.lengths.starts_with(&lengths) {
             let message = format!("the type of `{name}` says another shape: `{lengths:?} {{…}}`");
             return Err(place.error(message));
@@ -54,7 +54,7 @@ impl Parameters {
         }
     }
 
-    /// What is said of numbers is not said of a struct.
+    /// Rejects a shape or a matrix property on a struct: only its members accept it.
     pub(super) fn reject_struct(&self, index: usize, place: Place) -> syn::Result<()> {
         if !self.is_struct(index) {
             return Ok(());
@@ -65,7 +65,7 @@ impl Parameters {
         )))
     }
 
-    /// The members of a field that is a struct, by their indices.
+    /// Indices of the members of a field; none if the field is no struct.
     pub(super) fn members_of(&self, index: usize) -> impl Iterator<Item = usize> {
         let name = &self.fields[index].name.text;
         let is_member = move |field: &Field| !field.members.is_empty() && field.name.text == *name;
@@ -76,7 +76,7 @@ impl Parameters {
         self.members_of(index).next().is_some()
     }
 
-    /// The first of the fields behind these members of one; of a field without members, itself.
+    /// First field whose path begins with these members; the field itself if it has no members and none are given.
     pub(super) fn behind(&self, index: usize, members: &[&Name]) -> Option<usize> {
         let is_behind = |&k: &usize| {
             let path = &self.fields[k].members;
@@ -87,12 +87,12 @@ impl Parameters {
         itself.or_else(|| self.members_of(index).find(is_behind))
     }
 
-    /// Whether these may follow as many members of one.
+    /// Returns whether each of the wanted members exists below this path.
     pub(super) fn has_members(&self, index: usize, members: &[&Name], wanted: &[Name]) -> bool {
         wanted.iter().all(|member| self.behind(index, &[members, &[member]].concat()).is_some())
     }
 
-    /// The end of a message about what may follow as many members of a field: what is nearest to a name, or all.
+    /// Ends a message about an unknown member: suggests the nearest member of the struct, or lists all members.
     pub(super) fn member_meant(&self, field: usize, members: usize, name: Option<&str>) -> String {
         let path = &self.fields[field].members[..members];
         let is_same = |(one, other): (&Segment, &Segment)| one.name.text == other.name.text;
@@ -119,7 +119,7 @@ impl Parameters {
         text
     }
 
-    /// Whether its type shows that a field consists of numbers.
+    /// Returns whether the type of a field shows that it consists of numbers.
     pub(super) fn is_made_of_numbers(&self, index: usize) -> bool {
         let Field { ty, shape, .. } = &self.fields[index];
         let (lengths, element) = arrays(ty);
@@ -127,14 +127,15 @@ impl Parameters {
         is_nalgebra || is_float(&text(element))
     }
 
-    /// What a struct's type is over, `T` of `Link<T>`: where nothing else says of what numbers its members are made.
+    /// Scalar argument of the type of a struct, such as `T` in `Link<T>`. It decides if no other field names a scalar
+    /// type.
     pub(super) fn scalar_argument(&self, field: usize, declaration: &Declaration) -> Option<Type> {
         let Field { members, ty, .. } = &self.fields[field];
         let is_scalar = |ty: &&Type| is_scalar_name(&text(ty), declaration);
         if members.is_empty() { None } else { all_arguments(ty).into_iter().find(is_scalar).cloned() }
     }
 
-    /// An entry among those of its field as it is declared, structs one after the other.
+    /// Sort key of an entry: fields as declared, then the elements of arrays of structs one after the other.
     pub(super) fn rank(&self, Entry { field, number }: Entry) -> (usize, Vec<usize>, usize, usize) {
         let Field { name, members, .. } = &self.fields[field];
         let declared = self.fields.iter().position(|other| other.name.text == name.text).unwrap_or(field);
@@ -143,7 +144,7 @@ impl Parameters {
         (declared, outer, field, number)
     }
 
-    /// Whether a number can be given another value where nothing but its field is known.
+    /// Returns whether a setter can assign this entry through its field alone.
     pub(crate) fn is_settable(&self, Entry { field, .. }: Entry) -> bool {
         let Field { members, ty, shape, .. } = &self.fields[field];
         let Ok(shape) = shape else { return false };
@@ -156,7 +157,7 @@ impl Parameters {
     }
 }
 
-/// Whether what is in a field of this type belongs to it alone.
+/// Returns whether a field of this type owns its contents, unlike `Rc`, `Arc` or `Cow`.
 fn owns(ty: &Type) -> bool {
     match ty {
         Type::Paren(inner) => owns(&inner.elem),
@@ -170,7 +171,7 @@ fn owns(ty: &Type) -> bool {
     }
 }
 
-/// The types that a type is made of, from the outside in.
+/// Type arguments of a type, outermost first, including nested ones.
 fn all_arguments(ty: &Type) -> Vec<&Type> {
     let Type::Path(path) = arrays(ty).1 else { return Vec::new() };
     let arguments = path.path.segments.last().map(arguments).unwrap_or_default();
@@ -181,7 +182,7 @@ fn all_arguments(ty: &Type) -> Vec<&Type> {
     types.flat_map(|ty| [vec![ty], all_arguments(ty)].concat()).collect()
 }
 
-/// The members that are numbers, with what is said of them.
+/// Members that are numbers, with the layout and the matrix property of each.
 fn flattened(
     structure: &Structure,
     whole: &Field,

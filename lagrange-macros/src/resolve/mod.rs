@@ -1,4 +1,4 @@
-//! From a [`Declaration`] to a [`Problem`]: every name bound, every expression a scalar in the graph.
+//! Resolves a [`Declaration`] into a [`Problem`]: binds every name and lowers every expression to scalars of the graph.
 
 mod access;
 mod algebra;
@@ -44,7 +44,7 @@ use scope::Scope;
 pub(crate) use scope::is_built_in;
 pub(crate) use value::cross;
 
-/// Gives every expression its meaning; `None` where something was wrong, which is then reported.
+/// Resolves a declaration into a graph and a problem; returns `None` after reporting any error.
 pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<(Graph, Problem)> {
     let scope = Scope::new(declaration, diagnostics);
     let functions = function::supplied(declaration, &scope, diagnostics);
@@ -72,7 +72,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let Lowering { mut graph, parameters, diagnostics, frames, mut rates, .. } = lowering;
     rates.sort_unstable();
     rates.dedup();
-    // Where shapes are wrong, it may be that a type is taken for a number.
+    // Scalar types are checked after the shapes: a shape error may come from a type mistaken for a number.
     let scalar = parameters.scalar(declaration, diagnostics);
     let (place, lagrangian) = (declaration.lagrangian.as_ref()?.place, lagrangian?);
     let dissipation = match dissipation {

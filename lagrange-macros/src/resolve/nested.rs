@@ -1,11 +1,12 @@
-//! Named sums by one another: `vx[i] = sum(j in 0..i+1, …)` is `vx[i-1]` and a term more, however it is spelled.
+//! Shares partial sums of definitions: `vx[i] = sum(j in 0..i+1, …)` becomes `vx[i-1]` plus one term, however it is
+//! spelled.
 
 use super::problem::Problem;
 use crate::symbolic::{Graph, Id};
 
 impl Problem {
-    /// Writes the sums in L by what they have in common, in L and wherever else they are used. What frames are lowered to is
-    /// so already.
+    /// Rewrites the sums in L by their common partial sums, in L and in every other expression. Systems with frames are
+    /// skipped: their lowered form already shares sums.
     pub(super) fn nest_sums(&mut self, graph: &mut Graph) {
         if self.frames.len() > 1 {
             return;
@@ -15,7 +16,7 @@ impl Problem {
         let Some((nested, new)) = graph.nested(self.lagrangian, &roots) else { return };
         *graph = nested;
         self.visit(|id| *id = new[id]);
-        // Of names of one value the first stays.
+        // If several names have one value, the first name stays.
         let mut names: Vec<(Id, String)> = self.names.drain().collect();
         names.sort_unstable();
         for (id, name) in names {
@@ -23,7 +24,7 @@ impl Problem {
         }
     }
 
-    /// Visits every expression.
+    /// Visits every expression of the system.
     fn visit(&mut self, mut visit: impl FnMut(&mut Id)) {
         visit(&mut self.lagrangian);
         self.terms.iter_mut().chain(&mut self.forces).for_each(&mut visit);

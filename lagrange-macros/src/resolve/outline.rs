@@ -1,5 +1,5 @@
-//! What the rest of a program relies on: how many of what there is, and which methods. It is found where something is
-//! wrong too, as far as it can be, so that one error does not bring others about.
+//! Outline of a system: the counts and methods that the rest of a program relies on. The outline is read as far as
+//! possible even after errors, so that one error does not cause others in the code that uses the system.
 
 use super::label::Label;
 use super::lowering::{Lowering, Setting};
@@ -12,36 +12,37 @@ use crate::symbolic::Id;
 use crate::syntax::{Constraint, Coordinate, Declaration, Expression, Kind, Name};
 use crate::variables::Variable;
 
-/// As many wrong values are looked into: each is read twice, and so is what is wrong in it.
+/// Maximum number of erroneous values that get a stand-in from their parts. Each is lowered twice, and so are its
+/// erroneous parts.
 const GUESSES: usize = 1000;
 
-/// A system seen from outside.
+/// Counts and observables of a system.
 pub(crate) struct Outline {
-    /// The number type.
+    /// Scalar type of the system.
     pub(crate) scalar: syn::Type,
-    /// How many coordinates there are; `None` where not all could be read.
+    /// Number of scalar coordinates; `None` if a coordinate could not be parsed.
     pub(crate) coordinates: Option<usize>,
     pub(crate) constraints: usize,
     pub(crate) parameters: usize,
     pub(crate) observables: Vec<Observable>,
 }
 
-/// An observable seen from outside.
+/// Name and shape of an observable.
 pub(crate) struct Observable {
     pub(crate) name: Name,
-    /// The lengths of the arrays that it is.
+    /// Array lengths of its value; none for a scalar.
     pub(crate) lengths: Vec<usize>,
     pub(crate) needs_solution: bool,
 }
 
-/// Reads the expressions for what they are outside. Errors are not reported.
+/// Lowers all expressions to find the outline. Errors are not reported here.
 pub(crate) fn outline(declaration: &Declaration) -> Outline {
     let diagnostics = &mut Diagnostics::default();
     let scope = Scope::new(declaration, diagnostics);
     let parameters = Parameters::new(declaration, diagnostics);
     let mut lowering = Lowering::new(scope, parameters, declaration, diagnostics);
     lowering.is_guessing = true;
-    // Once more for what is defined further down than where it is used.
+    // The second pass resolves definitions that are used above the line that defines them.
     lowering.define_all();
     lowering.define_all();
     let alone = declaration.lagrangian.iter().chain(&declaration.dissipation).map(|alone| (&[][..], alone));
@@ -59,7 +60,7 @@ pub(crate) fn outline(declaration: &Declaration) -> Outline {
         label.text.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
     };
     let count = |constraint: &Constraint| match constraint.is_implied {
-        // Another constraint may say the same already.
+        // An implied constraint has no row of its own if a declared constraint already states it.
         true => rows.iter().filter(|(label, _)| is_row_of(label, &constraint.target.name.text)).count(),
         false => lowering.rows(constraint),
     };
@@ -78,7 +79,9 @@ pub(crate) fn outline(declaration: &Declaration) -> Outline {
 }
 
 impl Lowering<'_> {
-    /// How many equations a constraint is; all elements of a family are as many, and what cannot be told is one.
+    /// Number of scalar equations of a constraint. All elements of a family count as the first does; an unknown value
+    /// counts
+    /// 1.
     fn rows(&mut self, constraint: &Constraint) -> usize {
         let indices = &constraint.target.indices;
         let elements = self.elements(indices);
@@ -107,7 +110,8 @@ impl Lowering<'_> {
         seen
     }
 
-    /// In place of a value that is wrong: one of the shape that it seems to have, with all in it that is in its parts.
+    /// Stand-in for an erroneous value: has the shape that the expression suggests, and depends on all symbols of its
+    /// parts.
     pub(super) fn stand_in(&mut self, expression: &Expression) -> Value {
         self.guesses += 1;
         let is_simple = self.guesses <= GUESSES;
@@ -117,7 +121,7 @@ impl Lowering<'_> {
             .filter(|_| is_simple)
             .filter_map(|part| self.lower(part))
             .collect();
-        // Time for what is not known: it is neither zero nor any other number.
+        // Time stands for an unknown value, because it is neither zero nor any other number.
         let mut contents = vec![self.graph.symbol(Variable::Time.symbol())];
         contents.extend(parts.iter().flat_map(Value::flat));
         let vector = parts.iter().find_map(Value::length);
@@ -137,7 +141,7 @@ impl Lowering<'_> {
             Kind::Number(_) | Kind::Name(_) | Kind::Index(..) | Kind::Member(..) | Kind::Power(..) => None,
         };
         let sum = self.graph.total(contents);
-        // No array is empty, as all that is made of them relies on.
+        // Later operations assume that no array is empty.
         length.map_or(Value::Scalar(sum), |length| Value::vector(vec![sum; length.max(1)]))
     }
 }

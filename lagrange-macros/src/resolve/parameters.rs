@@ -1,4 +1,4 @@
-//! The parameters: which numbers in which fields the expressions use.
+//! Parameters: the entries of fields that expressions use.
 
 use indexmap::IndexSet;
 use quote::ToTokens;
@@ -12,31 +12,31 @@ use crate::syntax::{
 };
 use crate::variables::Variable;
 
-/// Each number in use is a parameter with a name and a place of its own in what is emitted.
+/// Maximum number of parameters. Each one has a name and a place in the generated code.
 const NUMBER_LIMIT: usize = 10_000;
 
-/// A number in a field: the field's index, and which of its numbers that is, counted row by row.
+/// An entry of a field: index of the field, and index of the entry in row-major order.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Entry {
     pub(crate) field: usize,
     pub(crate) number: usize,
 }
 
-/// The fields as the expressions see them.
+/// Fields as expressions see them, members of structs included.
 pub(crate) struct Parameters {
     pub(crate) fields: Vec<Field>,
-    /// The numbers in use; the parameter variable k is entry k.
+    /// Entries of fields that expressions use; `Variable::Parameter(k)` is entry k.
     pub(crate) entries: IndexSet<Entry>,
-    /// For each field, where random values for tests are drawn from.
+    /// Interval of each field from which random test values are drawn.
     pub(crate) ranges: Vec<(f64, f64)>,
-    /// What is said beside them of the matrices that they are.
+    /// Matrix property of each field, as given by a `parameter` attribute.
     pub(super) properties: Vec<Option<Property>>,
     /// Fields with a reported error.
     reported: Vec<usize>,
 }
 
 impl Parameters {
-    /// Which entry is which, in the order of the fields and not in that of their first use.
+    /// Indices of the entries, sorted by the order of the fields instead of first use.
     pub(crate) fn by_field(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.entries.len()).collect();
         order.sort_by_cached_key(|&k| self.rank(self.entries[k]));
@@ -52,7 +52,7 @@ impl Parameters {
         parameters.add_known_structures();
         let is_struct = |(_, parameter): &(usize, &Parameter)| matches!(parameter.fact, Fact::Struct(_));
         let said = || declaration.parameters.iter().enumerate();
-        // What members there are comes before what is said of them all.
+        // The members of a struct must be known before a range applies to all of them.
         let (structs, others) = (said().filter(is_struct), said().filter(|said| !is_struct(said)));
         for (position, parameter) in structs.chain(others) {
             let name = &parameter.name;
@@ -93,7 +93,7 @@ impl Parameters {
         let field = &mut self.fields[index];
         match &field.shape {
             Ok(FieldShape { layout, .. }) if *layout == Layout::array(lengths) => Ok(()),
-            // A type of another name may be an alias of an array.
+            // A type with another name may be an alias of an array.
             Ok(FieldShape { layout, scalar: Some(scalar), .. })
                 if layout.is_scalar() && is_float(&text(scalar)) =>
             {
@@ -111,7 +111,7 @@ impl Parameters {
         }
     }
 
-    /// The value of a field, or of its element at `path`; only what is asked for is entered among the numbers in use.
+    /// Value of a field, or of its element at `path`. Only the requested entries become parameters.
     pub(super) fn value(
         &mut self,
         index: usize,
@@ -133,7 +133,7 @@ impl Parameters {
         Some(value)
     }
 
-    /// Arrays of these lengths of the numbers of a field from one on.
+    /// Nested arrays of these lengths, from the entries of a field that begin at `first`.
     fn array(&mut self, field: usize, first: usize, lengths: &[usize], graph: &mut Graph) -> Value {
         let Some((&length, inner)) = lengths.split_first() else {
             let entry = self.representative(Entry { field, number: first });
@@ -152,7 +152,7 @@ impl Parameters {
         self.report_once(index, error, diagnostics)
     }
 
-    /// Of everything that is wrong with a field, the first.
+    /// Reports the first error of a field only.
     fn report_once<T>(
         &mut self,
         index: usize,
@@ -166,7 +166,7 @@ impl Parameters {
         None
     }
 
-    /// How the numbers of a field in use are laid out; that it has none is reported once.
+    /// Layout of the entries of a field in use. A field without a layout is reported once.
     pub(super) fn layout(
         &mut self,
         index: usize,
@@ -183,30 +183,30 @@ impl Parameters {
         }
     }
 
-    /// Entry `k` as an expression names it.
+    /// Name of entry `k`, as written in an expression.
     pub(crate) fn name(&self, k: usize) -> String {
         let entry = self.entries[k];
         self.element(entry.field, &self.indices(entry))
     }
 
-    /// An element of a field as an expression names it.
+    /// Name of an element of a field, as written in an expression.
     pub(super) fn element(&self, field: usize, indices: &[usize]) -> String {
         self.spelled(field, self.fields[field].members.len(), indices)
     }
 
-    /// The indices of a number in its field.
+    /// Indices of an entry in its field.
     pub(crate) fn indices(&self, Entry { field, number }: Entry) -> Vec<usize> {
         self.fields[field].shape.as_ref().map_or_else(|_| Vec::new(), |shape| shape.layout.indices(number))
     }
 
-    /// How many of these indices are those of arrays of what the field, or the member, holds.
+    /// Number of leading indices that select one item of an array, such as a matrix, a quaternion or a struct.
     pub(crate) fn arrays(&self, field: usize) -> usize {
         let Field { members, shape, .. } = &self.fields[field];
         let of_shape = || shape.as_ref().map_or(0, |shape| shape.layout.arrays());
         members.last().map_or_else(of_shape, |member| member.after)
     }
 
-    /// The number type: what the fields in use are made of, else `f64`.
+    /// Scalar type: the one asked for, else that of the fields in use, else `f64`.
     pub(super) fn scalar(&self, declaration: &Declaration, diagnostics: &mut Diagnostics) -> syn::Type {
         let mut found: Option<(syn::Type, usize)> =
             declaration.options.scalar.clone().map(|scalar| (scalar, usize::MAX));
@@ -249,7 +249,7 @@ impl Parameters {
         found.map(|(scalar, _)| scalar).or_else(of_structs).unwrap_or_else(|| syn::parse_quote!(f64))
     }
 
-    /// The number type as far as it can be told: the one asked for or used, or a type parameter, or `f64`.
+    /// Best guess of the scalar type after errors: the one asked for or used, else a type parameter, else `f64`.
     pub(super) fn likely_scalar(&self, declaration: &Declaration) -> syn::Type {
         let used = self.scalar(declaration, &mut Diagnostics::default());
         let is_given = declaration.options.scalar.is_some() && !is_no_number(&text(&used));
@@ -276,14 +276,14 @@ pub(super) fn is_float(name: &str) -> bool {
     ["f64", "f32"].contains(&name.rsplit("::").next().unwrap_or(name))
 }
 
-/// What is surely not a scalar, and well known.
+/// Returns whether a well-known type surely is no scalar type.
 fn is_no_number(name: &str) -> bool {
     let types = ["String", "str", "bool", "char"];
     let integers = ["i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128", "usize"];
     types.contains(&name) || integers.contains(&name)
 }
 
-/// Two ranges, or two shapes, of one field.
+/// Rejects a second range, shape or property of one field.
 fn reject_repeated(parameter: &Parameter, earlier: &[Parameter]) -> syn::Result<()> {
     let name = &parameter.name;
     let what = |fact: &Fact| match fact {
@@ -313,7 +313,7 @@ fn not_a_scalar(field: &Field, name: &str) -> String {
     )
 }
 
-/// `low..high` of a `parameter` attribute, in numbers.
+/// Evaluates the range `low..high` of a `parameter` attribute.
 fn bounds(low: &Expression, high: &Expression) -> syn::Result<(f64, f64)> {
     let (from, to) = (literal(low)?, literal(high)?);
     if from < to { Ok((from, to)) } else { Err(low.place.to(high.place).error("this range is empty")) }

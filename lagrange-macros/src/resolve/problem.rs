@@ -1,4 +1,4 @@
-//! What a mechanical system is made of.
+//! A resolved mechanical system.
 
 use rustc_hash::FxHashMap;
 
@@ -9,49 +9,50 @@ use super::parameters::Parameters;
 use crate::diagnostics::Place;
 use crate::symbolic::Id;
 
-/// A mechanical system: what it is made of are nodes of a graph beside it.
+/// A mechanical system, resolved. Its expressions are nodes of a graph that is held separately.
 pub(crate) struct Problem {
-    /// The number type.
+    /// Scalar type of the system.
     pub(crate) scalar: syn::Type,
     pub(crate) coordinates: Vec<Label>,
     pub(crate) lagrangian: Id,
-    /// The terms of the sum that the Lagrangian is, as written.
+    /// Terms of the Lagrangian, as written.
     pub(crate) terms: Vec<Id>,
-    /// Where the Lagrangian stands.
+    /// Source position of the Lagrangian.
     pub(crate) place: Place,
-    /// Q of each coordinate without the dissipation.
+    /// Generalized force Q on each coordinate, without dissipation.
     pub(crate) forces: Vec<Id>,
-    /// Forces by the velocities that they act along: each does their product of virtual work.
+    /// Force components, and the velocities that they act along. The virtual work of each pair is force · ∂velocity/∂q̇
+    /// · δq.
     pub(crate) powers: Vec<(Id, Id)>,
     pub(crate) dissipation: Option<(Id, Place)>,
-    /// Φ or F q̇ + b as written: left − right.
+    /// Residual of each constraint as written, left − right: Φ or F q̇ + b.
     pub(crate) constraints: Vec<(Label, Id)>,
     pub(crate) observables: Vec<Observed>,
-    /// The observables that are said to be conserved, and where.
+    /// Indices of the observables declared as conserved, with the source position of each.
     pub(crate) conserved: Vec<(usize, Place)>,
     pub(crate) parameters: Parameters,
     pub(crate) functions: Vec<Supplied>,
-    /// Each after the one that it comes from; the first is at rest.
+    /// Frames, each after the one that it lies in; the first is the fixed frame.
     pub(crate) frames: Vec<Frame>,
     pub(crate) bodies: Vec<Body>,
-    /// Total time derivatives as written, and velocities in frames, by components.
+    /// Components of each total time derivative as written, and of each velocity in a frame.
     pub(crate) rates: Vec<Vec<Id>>,
-    /// Whether it could be stated in frames, and would cost less.
+    /// True if the system could be stated in frames at lower cost.
     pub(crate) frames_are_cheaper: bool,
     /// Names of nodes that are definitions.
     pub(crate) names: FxHashMap<Id, String>,
 }
 
-/// What is observed: a number, a vector or a matrix.
+/// An observable: a scalar, a vector or a matrix.
 pub(crate) struct Observed {
     pub(crate) label: Label,
     pub(crate) lengths: Vec<usize>,
-    /// Row by row.
+    /// Entries in row-major order.
     pub(crate) values: Vec<Id>,
 }
 
 impl Observed {
-    /// Of every number, as it is asked for.
+    /// Name of each entry, as a caller asks for it.
     pub(crate) fn names(&self) -> Vec<String> {
         entry_names(&self.label.text, &self.lengths)
     }

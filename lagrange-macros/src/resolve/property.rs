@@ -1,4 +1,4 @@
-//! What matrices among the parameters are said to be.
+//! Properties of matrix parameters: symmetric, or a rotation.
 
 use super::parameters::{Entry, Parameters};
 use crate::diagnostics::Place;
@@ -7,7 +7,7 @@ use crate::syntax::{Field, FieldShape, Inside, Property};
 impl Parameters {
     pub(super) fn set_property(&mut self, index: usize, property: Property, place: Place) -> syn::Result<()> {
         let Field { name, shape, .. } = &self.fields[index];
-        // Of a field without a shape that is said where it is used.
+        // A field without a known shape is reported where an expression uses it.
         let Ok(FieldShape { layout, .. }) = shape else { return Ok(()) };
         if !matches!(layout.inside, Inside::Array | Inside::Matrix) {
             return Err(place.error(format!("the type of `{}` says what it is", name.text)));
@@ -21,29 +21,29 @@ impl Parameters {
         Ok(())
     }
 
-    /// What the matrices of a field are said to be, by its type or beside it.
+    /// Property of the matrices in a field, by the type of the field or by a `parameter` attribute.
     pub(crate) fn property(&self, field: usize) -> Option<Property> {
         let is_rotation = |shape: &FieldShape| shape.layout.inside == Inside::Rotation;
         let by_type = self.fields[field].shape.as_ref().is_ok_and(is_rotation).then_some(Property::Rotation);
         by_type.or(self.said(field))
     }
 
-    /// What is said of them beside their type.
+    /// Property of the matrices in a field by a `parameter` attribute.
     pub(crate) fn said(&self, field: usize) -> Option<Property> {
         self.properties[field]
     }
 
-    /// Whether the numbers of a field are quaternions of length 1 by its type.
+    /// Returns whether the type of a field says that its entries form unit quaternions.
     pub(super) fn is_unit_quaternion(&self, field: usize) -> bool {
         self.fields[field].shape.as_ref().is_ok_and(|shape| shape.layout.inside == Inside::UnitQuaternion)
     }
 
-    /// The length of the innermost arrays of a field.
+    /// Length of the innermost arrays of a field.
     pub(crate) fn size(&self, field: usize) -> usize {
         self.fields[field].shape.as_ref().map_or(1, |shape| shape.layout.size())
     }
 
-    /// The matrix that a number is in, as an expression names it.
+    /// Name, as written in an expression, of the matrix that contains an entry.
     pub(crate) fn matrix_name(&self, entry: Entry) -> String {
         let indices = self.indices(entry);
         self.element(entry.field, &indices[..indices.len().saturating_sub(2)])
@@ -56,7 +56,7 @@ impl Parameters {
         Entry { field, number: (matrix * size + column) * size + row }
     }
 
-    /// The number that stands for it: of two across the diagonal of a symmetric matrix the upper one.
+    /// Entry whose symbol stands for this one: in a symmetric matrix, the one in the upper triangle.
     pub(super) fn representative(&self, entry: Entry) -> Entry {
         match self.property(entry.field) {
             Some(Property::Symmetric) => entry.min(self.mirrored(entry)),

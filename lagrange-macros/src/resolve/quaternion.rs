@@ -2,31 +2,31 @@
 
 use crate::symbolic::{Graph, Id, Rational};
 
-/// The vector part of q v q̄: v turned by a unit quaternion.
+/// Vector part of q v q̄: rotates v by a unit quaternion.
 pub(super) fn rotate(q: [Id; 4], [x, y, z]: [Id; 3], graph: &mut Graph) -> [Id; 3] {
     let turned = product(q, [Id::ZERO, x, y, z], graph);
     let conjugate = conjugate(q, graph);
     vector_part(product(turned, conjugate, graph))
 }
 
-/// The vector part of 2 q̇ q̄: the angular velocity in the fixed frame.
+/// Vector part of 2 q̇ q̄: the angular velocity along the fixed axes.
 pub(super) fn rate(q: [Id; 4], q_dot: [Id; 4], graph: &mut Graph) -> [Id; 3] {
     let conjugate = conjugate(q, graph);
     twice(vector_part(product(q_dot, conjugate, graph)), graph)
 }
 
-/// The vector part of 2 q̄ q̇: the angular velocity in the frame of the body.
+/// Vector part of 2 q̄ q̇: the angular velocity along the axes of the body.
 pub(super) fn rate_in_body(q: [Id; 4], q_dot: [Id; 4], graph: &mut Graph) -> [Id; 3] {
     twice(half_rate_in_body(q, q_dot, graph), graph)
 }
 
-/// The vector part of q̄ q̇.
+/// Vector part of q̄ q̇.
 pub(super) fn half_rate_in_body(q: [Id; 4], q_dot: [Id; 4], graph: &mut Graph) -> [Id; 3] {
     let conjugate = conjugate(q, graph);
     vector_part(product(conjugate, q_dot, graph))
 }
 
-/// The rotation by q/|q|, row by row, where `scale` is 2/|q|²: 1 + s w S + s S², with S v = (x, y, z) × v.
+/// Rows of the rotation matrix of q/|q|, where `scale` is 2/|q|²: 1 + s w S + s S², with S v = (x, y, z) × v.
 pub(super) fn matrix(q: [Id; 4], scale: Id, graph: &mut Graph) -> [[Id; 3]; 3] {
     let [w, v @ ..] = q;
     let one = Rational::from_integer(1);
@@ -68,9 +68,9 @@ fn twice(v: [Id; 3], graph: &mut Graph) -> [Id; 3] {
     v.map(|x| graph.sum([(x, Rational::from_integer(2))]))
 }
 
-/// Hamilton's product.
+/// Hamilton's product of two quaternions.
 pub(super) fn product(p: [Id; 4], q: [Id; 4], graph: &mut Graph) -> [Id; 4] {
-    // For each result the pairs of factors: the index into p, the index into q, the sign.
+    // Terms of each component of the product: index into p, index into q, sign.
     const ROWS: [[(usize, usize, i128); 4]; 4] = [
         [(0, 0, 1), (1, 1, -1), (2, 2, -1), (3, 3, -1)],
         [(0, 1, 1), (1, 0, 1), (2, 3, 1), (3, 2, -1)],

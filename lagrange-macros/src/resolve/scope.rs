@@ -1,4 +1,4 @@
-//! Names: what each one means.
+//! Name resolution: the meaning of each name.
 
 use indexmap::IndexMap;
 
@@ -6,7 +6,7 @@ use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic;
 use crate::syntax::{Declaration, FunctionDeclaration, Name, normal_form};
 
-/// What a name in an expression may refer to.
+/// Meaning of a name in an expression.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Entity {
     Field(usize),
@@ -14,35 +14,35 @@ pub(super) enum Entity {
     Coordinate(usize),
     Velocity(usize),
     Acceleration(usize),
-    /// The first of the definitions of that name.
+    /// Index of the first definition of that name.
     Definition(usize),
-    /// A function that the user supplies.
+    /// Index of a user-supplied function.
     Function(usize),
-    /// A frame, or several.
+    /// A frame, or a family of frames.
     Frame,
 }
 
-/// What expressions may call beside the functions of one argument that the graph knows.
+/// Built-in functions besides those of one argument that the graph has.
 const CALLS: &str = "atan2 sqrt quat_rotate quat_rate quat_rate_body quat_mul quat_conj dot cross norm transpose trace \
     identity skew rot rot_x rot_y rot_z min max clamp sum der lambda in";
 
-/// Functions that expressions may call.
+/// All built-in functions.
 pub(super) fn functions() -> impl Iterator<Item = &'static str> {
     symbolic::Function::callable().map(|(name, _)| name).chain(CALLS.split(' '))
 }
 
-/// Names with a fixed meaning that are not functions.
+/// Built-in names that are not functions.
 pub(super) const CONSTANTS: [&str; 2] = ["t", "pi"];
 
-/// The one namespace of fields, coordinates and definitions.
+/// Single namespace of fields, coordinates, definitions, functions and frames.
 #[derive(Debug)]
 pub(super) struct Scope {
     pub(super) entities: IndexMap<String, (Entity, Place)>,
-    /// Fields that bear a built-in's name, which is fine while no expression uses it.
+    /// Fields with the name of a built-in: an error only if an expression uses that name.
     shadowing: IndexMap<String, Place>,
-    /// Fields that are functions, by the functions' names.
+    /// Names of user-supplied functions, keyed by the field that holds each.
     pub(super) functions: IndexMap<String, String>,
-    /// How many elements coordinates and fields have, if they have any.
+    /// Outermost array length of coordinates and fields that are arrays.
     pub(super) lengths: IndexMap<String, usize>,
 }
 
@@ -63,7 +63,7 @@ impl Scope {
             scope.declare(&function.name, Entity::Function(index), diagnostics);
         }
         for (index, field) in declaration.fields.iter().enumerate() {
-            // The field of a function may bear the function's name.
+            // The field of a function may have the same name as the function.
             if scope.functions.contains_key(&field.name.text) {
                 continue;
             }
@@ -102,7 +102,7 @@ impl Scope {
         }
     }
 
-    /// `x_dot` and `ẋ`, `x_ddot` and `ẍ`.
+    /// Declares the names `x_dot` and `ẋ` of a velocity, `x_ddot` and `ẍ` of an acceleration.
     fn declare_rates(&mut self, name: &Name, index: usize, diagnostics: &mut Diagnostics) {
         let text = &name.text;
         let rates = [
@@ -156,7 +156,7 @@ impl Scope {
         self.entities.get(name).map(|(entity, _)| *entity)
     }
 
-    /// The field that makes a built-in's name ambiguous.
+    /// Field that makes the name of a built-in ambiguous.
     pub(super) fn shadowing(&self, name: &str) -> Option<Place> {
         self.shadowing.get(name).copied()
     }
@@ -166,7 +166,7 @@ fn indices(rank: usize) -> String {
     if rank == 1 { "one index".to_owned() } else { format!("{rank} indices") }
 }
 
-/// The arrays among coordinates and fields.
+/// Coordinates and fields that are arrays, with their outermost length.
 fn lengths(declaration: &Declaration) -> impl Iterator<Item = (&Name, usize)> {
     let coordinates =
         declaration.coordinates.iter().filter_map(|known| Some((&known.name, *known.lengths.first()?)));

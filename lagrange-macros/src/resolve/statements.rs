@@ -1,4 +1,4 @@
-//! Constraints and observables: what is said of the system beside its Lagrangian and the forces.
+//! Constraints, observables and conserved quantities.
 
 use indexmap::IndexMap;
 use rustc_hash::FxHashMap;
@@ -15,11 +15,11 @@ use crate::symbolic::{Id, Rational};
 use crate::syntax::{Constraint, Declaration, Expression, Name, Named, Sign};
 use crate::variables::Variable;
 
-/// As many as coordinates, beyond which some would have to be dependent.
+/// Maximum number of constraints. It equals the limit on coordinates: more constraints would be dependent.
 const CONSTRAINT_LIMIT: usize = 1000;
 
 impl Lowering<'_> {
-    /// The Lagrangian term by term, once it is known to be right.
+    /// Signed terms of the Lagrangian; empty after any error.
     pub(super) fn terms(&mut self, declaration: &Declaration) -> Vec<Id> {
         let Some(lagrangian) = declaration.lagrangian.as_ref().filter(|_| self.diagnostics.is_empty()) else {
             return Vec::new();
@@ -31,7 +31,7 @@ impl Lowering<'_> {
         lagrangian.terms().into_iter().filter_map(lower).collect()
     }
 
-    /// What is differentiated to get the equations has slopes everywhere.
+    /// Rejects `min`, `max` and `clamp` in expressions whose derivatives enter the equations of motion.
     pub(super) fn reject_kink(&mut self, what: &str, value: Id, place: Place) {
         if let Some(argument) = self.graph.kink(value) {
             let place = self.kinks.get(&argument).copied().unwrap_or(place);
@@ -42,7 +42,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// A conserved quantity has a rate of change, so it contains no accelerations and no multipliers.
+    /// Conserved observables. Their time derivative must exist, so they contain no accelerations and no multipliers.
     pub(super) fn conserved(
         &mut self,
         declaration: &Declaration,
@@ -132,13 +132,14 @@ impl Lowering<'_> {
         self.multipliers[group].elements.insert(element.to_vec(), symbols);
     }
 
-    /// Whether |q|² = 1 is of a quaternion that turns a frame. Where something is wrong, that may not be known.
+    /// Returns whether the residual |q|² − 1 belongs to a quaternion that turns a frame. After an error this may be
+    /// unknown, so the outline assumes it.
     fn is_of_frame(&mut self, residual: &Value) -> bool {
         let square = residual.as_scalar().map(|residual| self.graph.add(residual, Id::ONE));
         self.is_guessing || square.is_some_and(|square| self.frames.squares.contains(&square))
     }
 
-    /// Whether a constraint says the same in as many words.
+    /// Returns whether the residual times ±1 or ±½ is already a constraint.
     fn is_among(&mut self, residual: &Value, rows: &[(Label, Id)]) -> bool {
         let Some(residual) = residual.as_scalar() else { return false };
         let factors = [(1, 1), (-1, 1), (1, 2), (-1, 2)].map(|(above, below)| Rational::new(above, below));
@@ -146,7 +147,7 @@ impl Lowering<'_> {
         rows.iter().any(|(_, row)| multiples.contains(row))
     }
 
-    /// left − right
+    /// Residual of a constraint: left side − right side.
     pub(super) fn residual(&mut self, constraint: &Constraint) -> Option<Value> {
         let (left, right) = (self.lower(&constraint.left), self.lower(&constraint.right));
         let (left, right) = (left?, right?);
@@ -193,7 +194,7 @@ impl Lowering<'_> {
         observables
     }
 
-    /// The value of an observable; those of a family in an array.
+    /// Value of an observable; the elements of a family form an array.
     pub(super) fn observed(&mut self, Named { target, value, .. }: &Named) -> Option<Value> {
         let mut family = Family::default();
         for element in self.elements(&target.indices) {
@@ -208,7 +209,7 @@ impl Lowering<'_> {
         self.even(family.part(&[])?, value.place)
     }
 
-    /// The names that definitions give to nodes; of two for one node, the first.
+    /// Names that definitions give to nodes; the first name wins.
     pub(super) fn names(&self, declaration: &Declaration) -> FxHashMap<Id, String> {
         let mut names = FxHashMap::default();
         for (define, definition) in declaration.defines.iter().zip(&self.definitions) {

@@ -1,5 +1,5 @@
-//! Rotation matrices are known by the turns that they are written as, so that a frame that is turned by a product is turned
-//! step by step: nothing is then differentiated, and what a turn about one axis leaves as it is costs nothing.
+//! Rotation matrices with the elementary turns that they are products of. A frame rotated by such a product is then
+//! rotated turn by turn: no matrix is differentiated, and components that one turn leaves unchanged cost nothing.
 
 use rustc_hash::FxHashMap;
 
@@ -7,23 +7,23 @@ use super::value::Value;
 use crate::symbolic::{Graph, Id, Node};
 use crate::variables::Variable;
 
-/// Three rows of three.
+/// Rows of a 3 × 3 rotation matrix.
 pub(super) type Rotation = [[Id; 3]; 3];
 
-/// A part of a rotation.
+/// Factor of a rotation.
 #[derive(Clone, Debug)]
 pub(super) enum Turn {
-    /// About an axis of length 1, by an angle.
+    /// Rotation about a unit axis by an angle.
     About([Id; 3], Id),
-    /// By a matrix that does not change in time.
+    /// Rotation by a matrix that is constant in time.
     Placed(Rotation),
 }
 
-/// Rotations behind matrices, keyed by the entries of the matrix.
+/// Elementary turns of rotation matrices, keyed by the entries of the matrix.
 #[derive(Default)]
 pub(super) struct Turns(FxHashMap<Rotation, Vec<Turn>>);
 
-/// Products of more turns take their squares: their lengths double from one definition to the next.
+/// Maximum number of turns kept for a product. Repeated squares in definitions double the number each time.
 const TURN_LIMIT: usize = 100;
 
 impl Turns {
@@ -31,8 +31,8 @@ impl Turns {
         self.0.is_empty()
     }
 
-    /// The turns that a matrix is a product of, from the left; none where it is not known to be one. Whether what is
-    /// placed is a rotation is left open.
+    /// Elementary turns whose product is the matrix, leftmost first; `None` if they are not known. Constant matrices
+    /// are returned as placements without a check that they are rotations.
     pub(super) fn of(&self, graph: &Graph, matrix: Rotation) -> Option<Vec<Turn>> {
         let known = self.0.get(&bare(graph, matrix));
         known
@@ -40,14 +40,14 @@ impl Turns {
             .or_else(|| (!move_in_time(graph, &matrix.concat())).then(|| vec![Turn::Placed(matrix)]))
     }
 
-    /// What is known of two matrices, of their product.
+    /// Records the turns of a product, if those of both factors are known.
     pub(super) fn remember_product(&mut self, graph: &Graph, x: &Value, y: &Value, product: &Value) {
         let [Some(x), Some(y), Some(product)] = [x, y, product].map(Value::as_map_of_space) else { return };
         let (Some(x), Some(y)) = (self.of(graph, x), self.of(graph, y)) else { return };
         self.remember(graph, product, [x, y].concat());
     }
 
-    /// What is known of a matrix, of its transpose.
+    /// Records the turns of a transpose, if those of the matrix are known.
     pub(super) fn remember_transpose(&mut self, graph: &mut Graph, matrix: &Value, transpose: &Value) {
         let [Some(matrix), Some(transpose)] = [matrix, transpose].map(Value::as_map_of_space) else { return };
         let Some(turns) = self.of(graph, matrix) else { return };
@@ -59,7 +59,8 @@ impl Turns {
         self.remember(graph, transpose, back);
     }
 
-    /// What rests is one placement, however it is written.
+    /// Records the turns of a matrix that changes in time. A constant matrix is a single placement, however it is
+    /// written.
     pub(super) fn remember(&mut self, graph: &Graph, matrix: Rotation, turns: Vec<Turn>) {
         if turns.len() <= TURN_LIMIT && move_in_time(graph, &matrix.concat()) {
             self.0.insert(bare(graph, matrix), turns);
@@ -72,7 +73,7 @@ pub(super) fn move_in_time(graph: &Graph, numbers: &[Id]) -> bool {
     graph.symbols(numbers).any(|symbol| !matches!(Variable::of(symbol), Variable::Parameter(_)))
 }
 
-/// Without the boundaries that definitions are.
+/// Strips the definition nodes around each entry.
 fn bare(graph: &Graph, matrix: Rotation) -> Rotation {
     let bare = |mut id: Id| {
         while let &Node::Defined(inner) = graph.node(id) {

@@ -1,9 +1,9 @@
-//! Names that mean nothing here: what was probably meant.
+//! Errors for unknown names, with a suggestion of the name probably meant.
 
 use super::scope::{CONSTANTS, Entity, Scope, functions};
 use crate::syntax::{GREEK, Name};
 
-/// Names of fixed quantities elsewhere, one beside the other, and what to write here.
+/// Names of common quantities in other tools, separated by spaces, and the advice for each group.
 const NAMES: [(&str, &str); 8] = [
     ("fixed", "it is the frame at rest, and stands where a frame is asked for: `express(v, fixed)`"),
     ("time Time", "the time is `t`"),
@@ -18,7 +18,7 @@ const NAMES: [(&str, &str); 8] = [
     ),
 ];
 
-/// What is called by a letter here and by a word there.
+/// Groups of synonyms, such as a letter and a word for the same quantity.
 const SYNONYMS: [&str; 8] = [
     "m mass",
     "g gravity gravitation",
@@ -30,7 +30,7 @@ const SYNONYMS: [&str; 8] = [
     "omega w frequency angular_velocity",
 ];
 
-/// Functions of other tools, and what to write here.
+/// Names of functions in other tools, separated by spaces, and the advice for each group.
 const CALLS: [(&str, &str); 29] = [
     (
         "Min minimum Max maximum saturate sat",
@@ -81,12 +81,12 @@ const CALLS: [(&str, &str); 29] = [
     ),
 ];
 
-/// How the rates of a coordinate are written elsewhere, the longer ones first.
+/// Suffixes for velocities and accelerations in other tools, longest first, and the suffix used here.
 const RATE_SUFFIXES: [(&str, &str); 2] =
     [("_dot_dot _dotdot dotdot _ddot ddot", "_ddot"), ("_dot dot _prime _d _t", "_dot")];
 const RATE_PREFIXES: [(&str, &str); 2] = [("dd d2", "_ddot"), ("dot_ d v_ v", "_dot")];
 
-/// Every word of a table, and what stands beside it.
+/// Pairs every word of a table with the advice beside it.
 fn words<'t>(table: &[(&'t str, &'t str)]) -> impl Iterator<Item = (&'t str, &'t str)> {
     table.iter().flat_map(|&(words, beside)| words.split(' ').map(move |word| (word, beside)))
 }
@@ -96,7 +96,7 @@ fn listed(table: &[(&'static str, &'static str)], name: &str) -> Option<&'static
 }
 
 impl Scope {
-    /// An error for a name that means nothing, with what was probably meant.
+    /// Error for an unknown name, with a suggestion.
     pub(super) fn unknown(&self, name: &Name, more: &[String]) -> syn::Error {
         let text = &name.text;
         if let Some(error) = self.is_field_of_function(name).or_else(|| self.is_no_velocity(name)) {
@@ -114,7 +114,7 @@ impl Scope {
         name.place.error(format!("nothing is called `{text}`: {advice}"))
     }
 
-    /// An error for a function that does not exist.
+    /// Error for an unknown function, with a suggestion.
     pub(super) fn unknown_function(&self, name: &Name) -> syn::Error {
         let text = &name.text;
         if let Some(error) = self.is_field_of_function(name) {
@@ -129,7 +129,7 @@ impl Scope {
         name.place.error(format!("there is no function `{text}`: {advice}"))
     }
 
-    /// The field of a function does not stand in expressions: the function does.
+    /// Error for the field that holds a supplied function: expressions name the function, not the field.
     fn is_field_of_function(&self, name: &Name) -> Option<syn::Error> {
         let function = self.functions.get(&name.text)?;
         let message =
@@ -137,7 +137,7 @@ impl Scope {
         Some(name.place.error(message))
     }
 
-    /// `z_dot` where z is no coordinate.
+    /// Error for `z_dot` where `z` is a field or a definition, not a coordinate.
     fn is_no_velocity(&self, name: &Name) -> Option<syn::Error> {
         let text = &name.text;
         let base = text.strip_suffix("_dot").or_else(|| text.strip_suffix("_ddot"))?;
@@ -150,7 +150,7 @@ impl Scope {
         })
     }
 
-    /// `m1`, `theta2_dot`, `theta_dot_2` of an array.
+    /// Suggests elements of an array for names such as `m1`, `theta2_dot` or `theta_dot_2`.
     fn element(&self, text: &str) -> Option<String> {
         let (base, rate) = self.rate(text).unwrap_or((text, ""));
         let name = without_number(base);
@@ -162,7 +162,7 @@ impl Scope {
         ))
     }
 
-    /// `xdot`, `dx`, `x_dot_dot`, `vel`: what may be meant for the rate of a coordinate.
+    /// Suggests a velocity for names such as `xdot`, `dx`, `x_dot_dot` or `vel`.
     fn velocity(&self, text: &str) -> Option<String> {
         if let Some((base, rate)) = self.rate(text).filter(|(base, _)| self.is_coordinate(base)) {
             return Some(did_you_mean(&format!("{base}{rate}")));
@@ -172,7 +172,7 @@ impl Scope {
         is_velocity.then(|| format!("the velocity of `{first}` is `{first}_dot`"))
     }
 
-    /// What a coordinate, or an element of one, is called in `text`, and which of its rates that is.
+    /// Splits a name into a coordinate, or an element of one, and the suffix `_dot` or `_ddot` of its derivative.
     fn rate<'t>(&self, text: &'t str) -> Option<(&'t str, &'static str)> {
         let suffixed = words(&RATE_SUFFIXES).map(|(suffix, rate)| (text.strip_suffix(suffix), rate));
         let prefixed = words(&RATE_PREFIXES).map(|(prefix, rate)| (text.strip_prefix(prefix), rate));
@@ -184,7 +184,7 @@ impl Scope {
         matches!(self.get(name), Some(Entity::Coordinate(_)))
     }
 
-    /// Another name for the same thing, if there is one that is known.
+    /// A known name for the same quantity, such as a Greek letter for its Latin spelling.
     fn synonym(&self, text: &str) -> Option<&str> {
         let plain = latin(text);
         if let Some(same) = self.known().find(|known| latin(known) == plain) {
@@ -203,7 +203,7 @@ fn did_you_mean(name: &str) -> String {
     format!("did you mean `{name}`?")
 }
 
-/// The end of a message about a name that none of these is: the nearest, or else all of them.
+/// Ends a message about an unknown name: suggests the nearest name, or lists all names.
 pub(super) fn or_meant<'n>(near: Option<&str>, kind: &str, names: impl Iterator<Item = &'n str>) -> String {
     if let Some(near) = near {
         return format!(": {}", did_you_mean(near));
@@ -219,16 +219,16 @@ pub(super) fn or_meant<'n>(near: Option<&str>, kind: &str, names: impl Iterator<
     }
 }
 
-/// So many names are listed in a message.
+/// Maximum number of names listed in a message.
 const NAMED: usize = 8;
 
-/// `Sin` where a value belongs.
+/// Advice for the name of a function in the place of a value, such as `Sin`.
 fn is_function(text: &str) -> Option<String> {
     let function = functions().find(|function| function.eq_ignore_ascii_case(text))?;
     Some(format!("functions are written `{function}(x)`"))
 }
 
-/// `y_dot` where nothing is called `y`.
+/// Advice for `y_dot` if nothing is called `y`.
 fn rate_of_none(text: &str) -> Option<String> {
     let rates = [("_dot", "velocity"), ("_ddot", "acceleration")];
     let (base, rate) = rates.iter().find_map(|(suffix, rate)| Some((text.strip_suffix(suffix)?, rate)))?;
@@ -236,19 +236,19 @@ fn rate_of_none(text: &str) -> Option<String> {
         .then(|| format!("it would be the {rate} of `{base}`: add `{base}` to the `#[coordinates(…)]`"))
 }
 
-/// `m` of `m2` and of `m_2`.
+/// Strips a trailing number: `m` from `m2` and from `m_2`.
 fn without_number(text: &str) -> &str {
     let name = text.trim_end_matches(|c: char| c.is_ascii_digit());
     if name.len() < text.len() { name.trim_end_matches('_') } else { text }
 }
 
-/// With Greek letters and dots by their names.
+/// Spells out Greek letters and combining dots in Latin letters.
 fn latin(text: &str) -> String {
     let text = GREEK.iter().fold(text.to_owned(), |text, (latin, greek)| text.replace(greek, latin));
     text.replace("var", "").replace('\u{307}', "_dot").replace('\u{308}', "_ddot")
 }
 
-/// The candidate that differs by the least, if it differs by little; in capital letters least of all.
+/// Nearest candidate within the allowed distance. A difference in capitals alone counts as distance 0.
 pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let near = candidates.filter(|candidate| *candidate != name && !are_apart(name, candidate));
     near.map(|candidate| (distance(name, candidate), candidate))
@@ -257,7 +257,7 @@ pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>)
         .map(|(_, candidate)| candidate)
 }
 
-/// How far from a name what was meant by it may be.
+/// Maximum distance of a suggestion from a name, in units of [`distance`].
 fn allowed(name: &str) -> usize {
     match name.chars().count() {
         0..=2 => 0,
@@ -267,7 +267,7 @@ fn allowed(name: &str) -> usize {
     }
 }
 
-/// `m1` is not a slip for `m2`, nor `psi` for `phi`, nor `y_dot` for `x_dot`.
+/// Returns whether two names are surely distinct, as `m1` and `m2`, `psi` and `phi`, or `x_dot` and `y_dot` are.
 fn are_apart(name: &str, other: &str) -> bool {
     let digits = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>();
     let numbers = [digits(name), digits(other)];
@@ -284,7 +284,7 @@ fn are_other_words(word: &str, other: &str) -> bool {
         || distance(word, other) > allowed(word)
 }
 
-/// Twice the number of slips between two names. Letters in another order, `tetha`, are less than one.
+/// Twice the Damerau–Levenshtein distance. Permuted letters, as in `tetha`, count 1, and capitals 0.
 fn distance(name: &str, other: &str) -> usize {
     let sorted = |text: &str| {
         let mut letters: Vec<char> = text.chars().collect();

@@ -1,4 +1,4 @@
-//! What an expression stands for: a number, or an array of such.
+//! Values of expressions: scalars, and arrays of scalars.
 
 use std::borrow::Borrow;
 use std::fmt;
@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use crate::symbolic::{Graph, Id, Rational};
 
-/// A scalar, a vector, or rows of vectors; or a vector in space by its components along the axes of a frame.
+/// A scalar, a vector, nested vectors such as the rows of a matrix, or a vector in space by its components in a frame.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Value {
     Scalar(Id),
@@ -14,14 +14,14 @@ pub(crate) enum Value {
     Spatial(Axes, [Id; 3]),
 }
 
-/// The axes of a frame, which has a number and a name.
+/// Axes of a frame, identified by the index and the name of the frame.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Axes {
     pub(super) frame: usize,
     pub(super) name: Rc<str>,
 }
 
-/// Lengths from the outside in: none for a scalar. A vector in space is along some axes.
+/// Array lengths from the outermost to the innermost, none for a scalar, and the axes of a vector in space.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Shape {
     pub(super) lengths: Vec<usize>,
@@ -33,7 +33,7 @@ impl Shape {
         Self { lengths, axes: None }
     }
 
-    /// The shape of what is made of both: numbers alone take the axes of the vector that they meet.
+    /// Common shape of two operands. A vector without axes takes the axes of the other.
     pub(super) fn with(&self, other: &Self) -> Option<Self> {
         let is_one = self.lengths == other.lengths;
         let axes = match (&self.axes, &other.axes) {
@@ -43,7 +43,7 @@ impl Shape {
         is_one.then(|| Self { lengths: self.lengths.clone(), axes })
     }
 
-    /// Whether only the axes differ.
+    /// Returns whether two shapes differ in their axes only.
     pub(super) fn is_turned_to(&self, other: &Self) -> bool {
         self.lengths == other.lengths && self.with(other).is_none()
     }
@@ -73,7 +73,7 @@ impl Value {
         }
     }
 
-    /// From the outside in; an array of one number is that number.
+    /// Array lengths from the outermost to the innermost; an array with a single entry counts as a scalar.
     pub(super) fn lengths(&self) -> Vec<usize> {
         if self.count() == 1 { Vec::new() } else { self.shape().lengths }
     }
@@ -85,7 +85,7 @@ impl Value {
         }
     }
 
-    /// The entries of a vector of numbers.
+    /// Entries, if this is a vector of scalars.
     pub(super) fn as_vector(&self) -> Option<Vec<Id>> {
         match self {
             Self::Scalar(_) => None,
@@ -94,7 +94,7 @@ impl Value {
         }
     }
 
-    /// The rows of a matrix.
+    /// Rows, if this is a matrix.
     pub(super) fn as_matrix(&self) -> Option<Vec<Vec<Id>>> {
         match self {
             Self::Vector(rows) if !rows.is_empty() => rows.iter().map(Self::as_vector).collect(),
@@ -102,14 +102,14 @@ impl Value {
         }
     }
 
-    /// The rows of a matrix that maps vectors in space.
+    /// Rows, if this is a 3 × 3 matrix, which maps vectors in space.
     pub(super) fn as_map_of_space(&self) -> Option<[[Id; 3]; 3]> {
         let rows: Option<Vec<[Id; 3]>> =
             self.as_matrix()?.into_iter().map(|row| row.try_into().ok()).collect();
         rows?.try_into().ok()
     }
 
-    /// The axes of a vector in space.
+    /// Axes, if this is a vector in space.
     pub(super) fn axes(&self) -> Option<&Axes> {
         match self {
             Self::Spatial(axes, _) => Some(axes),
@@ -117,7 +117,7 @@ impl Value {
         }
     }
 
-    /// A vector of three along these axes, if there are any.
+    /// Attaches axes, if given, to a vector of three entries.
     pub(super) fn along(self, axes: Option<&Axes>) -> Self {
         let entries = self.as_vector().and_then(|entries| <[Id; 3]>::try_from(entries).ok());
         match (axes, entries) {
@@ -126,7 +126,7 @@ impl Value {
         }
     }
 
-    /// Arrays of these lengths of numbers that come row by row.
+    /// Builds nested arrays of these lengths from entries in row-major order.
     pub(super) fn array(lengths: &[usize], entries: &[Id]) -> Self {
         match lengths {
             [] => Self::Scalar(entries[0]),
@@ -141,7 +141,7 @@ impl Value {
         Self::Vector(entries.into_iter().map(Self::Scalar).collect())
     }
 
-    /// All numbers in order.
+    /// All scalars in row-major order.
     pub(crate) fn flat(&self) -> Vec<Id> {
         match self {
             Self::Scalar(id) => vec![*id],
@@ -150,7 +150,7 @@ impl Value {
         }
     }
 
-    /// How many numbers there are.
+    /// Number of scalars.
     pub(super) fn count(&self) -> usize {
         match self {
             Self::Scalar(_) => 1,
@@ -159,8 +159,8 @@ impl Value {
         }
     }
 
-    /// Σ coefficient · value, where all have one shape. In one go: term by term, long sums would take the
-    /// square of their length.
+    /// Σ coefficient · value of values of one shape. The sum is built at once: term by term, the cost would be
+    /// quadratic in the number of terms.
     pub(super) fn combination<V: Borrow<Self>>(terms: &[(V, Rational)], graph: &mut Graph) -> Self {
         let Some(length) = terms.first().and_then(|(value, _)| value.borrow().length()) else {
             let scalars = terms.iter().filter_map(|(value, c)| Some((value.borrow().as_scalar()?, *c)));
@@ -173,7 +173,7 @@ impl Value {
         Self::Vector((0..length).map(|i| Self::combination(&column(i), graph)).collect()).along(axes)
     }
 
-    /// The shapes of two parts of an array that differ in their lengths.
+    /// Shapes of two items of an array with different lengths, if there are any.
     pub(super) fn uneven(&self) -> Option<[Shape; 2]> {
         let Self::Vector(items) = self else { return None };
         let shapes: Vec<Shape> = items.iter().map(Self::shape).collect();
@@ -181,7 +181,7 @@ impl Value {
         odd.map(|odd| [shapes[0].clone(), odd.clone()])
     }
 
-    /// How many parts it has; a scalar has none.
+    /// Number of items; `None` for a scalar.
     pub(super) fn length(&self) -> Option<usize> {
         match self {
             Self::Scalar(_) => None,
@@ -198,7 +198,7 @@ impl Value {
         }
     }
 
-    /// The same shape with `f` of every number.
+    /// Applies `f` to every scalar and keeps the shape.
     pub(super) fn map(&self, f: &mut impl FnMut(Id) -> Id) -> Self {
         match self {
             Self::Scalar(id) => Self::Scalar(f(*id)),
@@ -208,7 +208,7 @@ impl Value {
     }
 }
 
-/// x × y
+/// Cross product x × y.
 pub(crate) fn cross(x: [Id; 3], y: [Id; 3], graph: &mut Graph) -> [Id; 3] {
     [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
         let (forth, back) = (graph.mul(x[i], y[j]), graph.mul(x[j], y[i]));

@@ -1,4 +1,4 @@
-//! Frames: each lies in one that is declared before it, and everything said in its axes is lowered to scalars.
+//! Frames: each lies in a frame declared before it. Quantities along its axes are lowered to scalars.
 
 mod pose;
 mod registry;
@@ -25,7 +25,7 @@ fn name_of(declared: &FrameDeclaration, element: &[usize]) -> Rc<str> {
 }
 
 impl Lowering<'_> {
-    /// The frames that are declared after as many definitions.
+    /// Declares the frames that the source places after this number of definitions.
     pub(super) fn frames_after(&mut self, definitions: usize) {
         let frames = self.declared_frames;
         let of_now = |declared: &&FrameDeclaration| declared.definitions == definitions;
@@ -35,7 +35,7 @@ impl Lowering<'_> {
             }
             let indices = &declared.target.indices;
             let mut elements = self.elements(indices).into_iter();
-            // What is wrong with one of a family is wrong with those after it.
+            // An error in one element of a family would repeat in the following ones.
             let mut declare = |element: Vec<usize>| {
                 self.with_indices(indices, &element, |lowering| lowering.declare_frame(index, &element))
             };
@@ -53,7 +53,7 @@ impl Lowering<'_> {
             if self.frames.early.remove(&name) {
                 return known;
             }
-            // Guessing reads all declarations twice.
+            // Guessing mode lowers every declaration twice, so a known name is no error.
             let message = || format!("the frame `{name}` is declared twice");
             return if self.is_guessing {
                 Some(())
@@ -71,7 +71,7 @@ impl Lowering<'_> {
             }
             None => Some(0),
         };
-        // Every step is read, so that all errors are found.
+        // All steps are lowered before the result is checked, so that all errors are reported.
         let first = self.frames.all.len() - 1;
         let lies = declared.steps.iter().fold(parent, |before, step| {
             let lies = self.step(before.unwrap_or(0), first, step);
@@ -83,8 +83,8 @@ impl Lowering<'_> {
         lies.map(|_| ())
     }
 
-    /// Elements of families may lie in each other's, whichever is declared first: this one, if a frame lies in it and its turn
-    /// is to come.
+    /// Declares a frame before its turn, if another frame lies in it. Elements of families may lie in each other,
+    /// whatever the order of declaration.
     fn declare_early(&mut self, name: &Name, text: &str, element: &[i128]) {
         let Some(&(turn, _)) = self.frames.asked.first() else { return };
         let is_asked = self.frames.asked.iter().any(|(_, asked)| **asked == *text);
@@ -107,7 +107,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// An expression that must name a frame.
+    /// Resolves an expression that must name a frame.
     pub(super) fn frame(&mut self, expression: &Expression) -> Option<Axes> {
         let Some((name, indices)) = expression.element() else { return self.no_frame(expression) };
         match self.scope.get(&name.text) {
@@ -133,7 +133,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether an expression can only be meant as a frame.
+    /// Returns whether an expression can only mean a frame.
     pub(super) fn frame_is_meant(&self, expression: &Expression) -> bool {
         let Some((name, _)) = expression.element() else { return false };
         let entity = self.scope.get(&name.text);
@@ -161,7 +161,7 @@ impl Lowering<'_> {
         self.report(expression.place, message)
     }
 
-    /// A frame where a value belongs.
+    /// Reports a frame in the place of a value.
     pub(super) fn frame_alone<T>(&mut self, name: &Name) -> Option<T> {
         let text = &name.text;
         let message = format!(
@@ -178,7 +178,7 @@ impl Lowering<'_> {
         names
     }
 
-    /// Reports a frame that is declared only later, or whose family lacks this element.
+    /// Reports a frame that is declared later, or whose family lacks this element.
     fn unknown_frame<T>(&mut self, expression: &Expression, name: &Name, text: &str) -> Option<T> {
         let declared = self.declared_frames.iter().filter(|frame| frame.target.name.text == name.text);
         let wanted = declared.map(|frame| frame.target.indices.len()).max().unwrap_or(0);

@@ -1,8 +1,8 @@
-//! How a frame lies and moves, from how the one that it is in does.
+//! Pose and twist of a frame, derived from those of the frame that it lies in.
 //!
-//! A frame's twist is the angular velocity ω and the velocity v of its origin, both relative to the fixed frame and by
-//! their components along its own axes. A step moves the origin or turns the axes (Featherstone, *Rigid Body Dynamics
-//! Algorithms*, 2.8 and 5.3, with vectors of three in place of six):
+//! The twist of a frame is its angular velocity ω and the velocity v of its origin, both relative to the fixed frame,
+//! by components along the axes of the frame itself. A step displaces the origin or rotates the axes (Featherstone,
+//! *Rigid Body Dynamics Algorithms*, 2.8 and 5.3, with vectors of three in place of six):
 //!
 //! ```text
 //! moved by s:             ω' = ω        v' = v + ω × s + ṡ
@@ -14,41 +14,41 @@ use crate::symbolic::{Graph, Id};
 
 pub(crate) type Triple = [Id; 3];
 
-/// A frame, and the step that has led to it.
+/// A frame, and the displacement or rotation that leads to it from the frame before.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
-    /// The frame before the step, by its number; the fixed frame is 0 and has none.
+    /// Index of the frame before the step. The fixed frame, index 0, has none.
     pub(crate) before: usize,
     pub(crate) step: Step,
     pub(crate) angular_velocity: Triple,
     pub(crate) velocity: Triple,
-    /// The components of the fixed axes along its own, one row for each.
+    /// Row i holds the components of fixed axis i along the axes of this frame.
     pub(crate) axes: [Triple; 3],
-    /// Where its origin is, along the fixed axes.
+    /// Position of the origin, along the fixed axes.
     pub(crate) origin: Triple,
 }
 
-/// What leads from one frame to the next.
+/// Step from one frame to the next.
 #[derive(Clone, Debug)]
 pub(crate) enum Step {
-    /// The fixed frame.
+    /// No step: the fixed frame.
     None,
     Moved(Moved),
     Turned(Turned),
 }
 
-/// By a vector s, in the axes before.
+/// Displacement by a vector s, along the axes of the frame before.
 #[derive(Clone, Debug)]
 pub(crate) struct Moved {
     pub(crate) by: Triple,
     pub(crate) rate: Triple,
 }
 
-/// By a rotation E, row by row.
+/// Rotation by a matrix E, by rows.
 #[derive(Clone, Debug)]
 pub(crate) struct Turned {
     pub(crate) by: [Triple; 3],
-    /// The angular velocity, in the axes before and after alike: along those after.
+    /// Angular velocity relative to the frame before, along the axes after the rotation.
     pub(crate) rate: Triple,
 }
 
@@ -59,7 +59,7 @@ impl Frame {
         Self { before: 0, step: Step::None, angular_velocity: zero, velocity: zero, axes, origin: zero }
     }
 
-    /// This frame, number `before`, moved.
+    /// Frame after a displacement of this one, whose index is `before`.
     pub(super) fn moved(&self, before: usize, moved: Moved, graph: &mut Graph) -> Self {
         let velocity = self.velocity_of(moved.by, moved.rate, graph);
         let origin = self.position_of(moved.by, graph);
@@ -72,7 +72,7 @@ impl Frame {
         }
     }
 
-    /// This frame, number `before`, turned.
+    /// Frame after a rotation of this one, whose index is `before`.
     pub(super) fn turned(&self, before: usize, turned: Turned, graph: &mut Graph) -> Self {
         let step = Step::Turned(turned.clone());
         let carried = step.forth(self.angular_velocity, graph);
@@ -89,13 +89,13 @@ impl Frame {
         }
     }
 
-    /// v + ω × r + ṙ: the velocity of what is at r and has the velocity ṙ, both as seen from the frame.
+    /// Velocity v + ω × r + ṙ of a point at r that moves at ṙ relative to the frame, along the axes of the frame.
     pub(super) fn velocity_of(&self, r: Triple, rate: Triple, graph: &mut Graph) -> Triple {
         let carried = cross(self.angular_velocity, r, graph);
         sum([self.velocity, carried, rate], graph)
     }
 
-    /// Where what is at r in the frame is, along the fixed axes.
+    /// Position, along the fixed axes, of a point at r in the frame.
     pub(super) fn position_of(&self, r: Triple, graph: &mut Graph) -> Triple {
         let shift = self.axes.map(|row| graph.dot(&row, &r));
         sum([self.origin, shift], graph)
@@ -103,7 +103,7 @@ impl Frame {
 }
 
 impl Step {
-    /// A vector along the axes before it, along those after.
+    /// Converts the components of a vector from the axes before the step to those after it.
     pub(crate) fn forth(&self, vector: Triple, graph: &mut Graph) -> Triple {
         match self {
             Self::Turned(turned) => columns(turned.by).map(|axis| graph.dot(&axis, &vector)),
@@ -111,7 +111,7 @@ impl Step {
         }
     }
 
-    /// A vector along the axes after it, along those before.
+    /// Converts the components of a vector from the axes after the step to those before it.
     pub(crate) fn back(&self, vector: Triple, graph: &mut Graph) -> Triple {
         match self {
             Self::Turned(turned) => turned.by.map(|row| graph.dot(&row, &vector)),
@@ -121,12 +121,13 @@ impl Step {
 }
 
 impl Turned {
-    /// Whether the axes are at rest in those before, and turned about none of them.
+    /// Returns whether the rotation is constant in time and leaves no entry of the matrix zero, as a rotation about one
+    /// of the axes would.
     pub(super) fn is_placement(&self) -> bool {
         self.rate == [Id::ZERO; 3] && self.by.iter().flatten().all(|&entry| entry != Id::ZERO)
     }
 
-    /// First by this rotation, which does not change, and then by another.
+    /// Composes this constant rotation with the one that follows it.
     pub(super) fn then(&self, next: &Self, graph: &mut Graph) -> Self {
         let axes = columns(next.by);
         let by = self.by.map(|row| axes.map(|axis| graph.dot(&row, &axis)));
@@ -142,14 +143,14 @@ pub(crate) fn sum<const K: usize>(vectors: [Triple; K], graph: &mut Graph) -> Tr
     std::array::from_fn(|i| graph.total(vectors.map(|vector| vector[i])))
 }
 
-/// A symmetric matrix from its upper triangle.
+/// Symmetric matrix from its upper triangle.
 pub(crate) fn symmetric(mut entry: impl FnMut(usize, usize) -> Id) -> [Triple; 3] {
     let [a, b, c] = [entry(0, 0), entry(0, 1), entry(0, 2)];
     let [d, e, f] = [entry(1, 1), entry(1, 2), entry(2, 2)];
     [[a, b, c], [b, d, e], [c, e, f]]
 }
 
-/// Boundaries, so that what builds on them is not multiplied out.
+/// Wraps each component in a definition node, so that later products do not expand it.
 pub(crate) fn named(vector: Triple, graph: &mut Graph) -> Triple {
     vector.map(|component| graph.defined(component))
 }

@@ -1,4 +1,4 @@
-//! Frames and rigid bodies known so far.
+//! Registry of frames and rigid bodies.
 
 use std::rc::Rc;
 
@@ -8,35 +8,35 @@ use super::super::value::Axes;
 use super::pose::{Frame, Triple};
 use crate::symbolic::Id;
 
-/// The name of the frame that all others lie in, in the end.
+/// Name of the fixed frame, the root of all others.
 pub(super) const FIXED: &str = "fixed";
 
-/// What is known of frames.
+/// Frames declared so far.
 pub(crate) struct Frames {
-    /// One a step: those that have a name, and those on the way to them.
+    /// One frame for each step: named frames, and the unnamed ones between them.
     pub(crate) all: Vec<Frame>,
     pub(crate) bodies: Vec<Body>,
-    /// |q|² of the quaternions that turn them.
+    /// |q|² of each quaternion that turns a frame.
     pub(crate) squares: Vec<Id>,
-    /// By name and index; none where something was wrong with one, which is then reported.
+    /// Axes of each named frame, keyed by name and index; `None` after a reported error.
     pub(super) named: Vec<(Rc<str>, Option<Axes>)>,
-    /// The one that is being declared.
+    /// Name of the frame being declared.
     pub(super) current: Option<Rc<str>>,
-    /// Those of which it is asked what they lie in, by their declarations: each lies in the next.
+    /// Stack of frames whose parent is being resolved, each with the index of its declaration: each lies in the next.
     pub(super) asked: Vec<(usize, Rc<str>)>,
-    /// Those that were declared before their turn, because others lie in them.
+    /// Frames declared before their turn, because others lie in them.
     pub(super) early: FxHashSet<Rc<str>>,
 }
 
-/// A rigid body, by what it is in the axes of its frame and about the frame's origin.
+/// A rigid body, by components along the axes of its frame and about the origin of the frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     pub(crate) frame: usize,
     pub(crate) mass: Id,
-    /// Mass times the position of its centre.
+    /// Mass times the position of the centre of mass.
     pub(crate) moment: Triple,
     pub(crate) inertia: [Triple; 3],
-    /// The node of its kinetic energy.
+    /// Graph node of the kinetic energy.
     pub(crate) energy: Id,
 }
 

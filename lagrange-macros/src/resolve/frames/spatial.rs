@@ -1,4 +1,4 @@
-//! Vectors in space, and what is asked of a frame: `position(frame, point)` and its kin.
+//! Vectors in space, and functions of a frame such as `position(frame, point)`.
 
 use super::super::lowering::Lowering;
 use super::super::value::{Axes, Shape, Value, cross};
@@ -9,7 +9,7 @@ use crate::symbolic::{Id, Rational, Symbol, Verdict, to_f64};
 use crate::syntax::{Expression, Name};
 use crate::variables::Variable;
 
-/// What a frame is asked for. The names are free where no frame is asked.
+/// Functions of a frame. Their names stay free for other uses if no frame is the argument.
 const CALLS: [&str; 7] =
     ["position", "velocity", "angular_velocity", "jacobian", "kinetic", "vector", "express"];
 
@@ -18,7 +18,7 @@ pub(crate) fn is_of_frames(name: &str) -> bool {
 }
 
 impl Lowering<'_> {
-    /// A call of one of [`CALLS`].
+    /// Lowers a call of one of [`CALLS`].
     pub(crate) fn of_frame(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
         match (name.text.as_str(), arguments) {
             ("position", [frame, point @ ..]) if point.len() <= 1 => {
@@ -87,7 +87,7 @@ impl Lowering<'_> {
         Some((axes, self.components(&value)?))
     }
 
-    /// A vector of three as one in these axes, if it is in no others.
+    /// Attaches axes to a vector of three entries. Reports a vector that has other axes.
     fn along(&mut self, axes: Axes, value: &Value, place: Place) -> Option<Value> {
         let Some(components) = self.components(value) else {
             let inertia = value.as_map_of_space().is_some();
@@ -105,8 +105,9 @@ impl Lowering<'_> {
         }
     }
 
-    /// ½ m u² + ½ ω·Iω, u the velocity of the centre. Where m, c and I are parameters it is written by the twist alone:
-    /// ½ m v² + v·(ω × h) + ½ ω·Jω, with h = m c and J = I + m (c² 1 − c cᵀ) about the origin.
+    /// Kinetic energy ½ m u² + ½ ω·Iω, with u the velocity of the centre of mass. If m, c and I are parameters, the
+    /// energy is written by the twist alone: ½ m v² + v·(ω × h) + ½ ω·Jω, with h = m c and J = I + m (c² 1 − c cᵀ)
+    /// about the origin.
     fn kinetic(&mut self, frame: &Expression, mass: &Expression, more: &[Expression]) -> Option<Value> {
         let (centre, inertia) = (&more[..more.len().min(1)], more.get(1));
         let (point, mass) = (self.point(frame, centre), self.scalar(mass));
@@ -132,7 +133,8 @@ impl Lowering<'_> {
         Some(Value::Scalar(self.graph.sum([(moving, half), (turning, half)])))
     }
 
-    /// Newton's and Euler's equations of a rigid body have no term in ṁ, ċ or İ, nor in their slopes by coordinates.
+    /// Returns whether mass, centre and inertia contain parameters only. Newton's and Euler's equations then have no
+    /// term in ṁ, ċ or İ, nor in their derivatives by coordinates.
     fn is_rigid(&self, mass: Id, centre: Triple, inertia: [Triple; 3]) -> bool {
         let parts: Vec<Id> = [mass].into_iter().chain(centre).chain(inertia.into_iter().flatten()).collect();
         self.graph.symbols(&parts).all(|symbol| matches!(Variable::of(symbol), Variable::Parameter(_)))
@@ -146,7 +148,7 @@ impl Lowering<'_> {
         let entry = |i: usize, j: usize| {
             let product = graph.mul(moment[i], centre[j]);
             let shift = if i == j { graph.sub(square, product) } else { graph.neg(product) };
-            // What is not symmetric about an inertia matrix has no effect.
+            // The antisymmetric part of an inertia matrix does not contribute.
             let half = Rational::new(1, 2);
             let own = graph.sum([(inertia[i][j], half), (inertia[j][i], half)]);
             let entry = graph.add(own, shift);
@@ -185,7 +187,7 @@ impl Lowering<'_> {
         Some(rows)
     }
 
-    /// Reports entries across the diagonal that differ whatever the parameters are.
+    /// Reports an inertia matrix with entries across the diagonal that differ for all parameter values.
     fn reject_unsymmetric(&mut self, rows: [Triple; 3], at: &Expression) -> Option<()> {
         let mut pairs = [(0, 1), (0, 2), (1, 2)].into_iter();
         let Some((i, j)) = pairs.find(|&(i, j)| self.surely_differ(rows[i][j], rows[j][i])) else {
@@ -212,7 +214,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether two expressions, or their slopes by what moves, differ by something without parameters that is not zero.
+    /// Returns whether the difference of two expressions, or its derivative by a variable other than a parameter, is
+    /// free of parameters and not zero.
     fn surely_differ(&mut self, x: Id, y: Id) -> bool {
         let difference = self.graph.sub(x, y);
         let is_parameter = |symbol| matches!(Variable::of(symbol), Variable::Parameter(_));
@@ -237,12 +240,12 @@ impl Lowering<'_> {
         Axes { frame: 0, name: FIXED.into() }
     }
 
-    /// A vector in the axes of one frame, in those of another: up to the frame that both come from, and down.
+    /// Converts the components of a vector between frames: up to their common ancestor, then down.
     fn turned_into(&mut self, mut vector: Triple, mut from: usize, to: usize) -> Triple {
         let mut down = Vec::new();
         let mut to = to;
         while from != to {
-            // Of two frames the later one cannot be on the other's way.
+            // A frame has a larger index than its ancestors, so the later of two frames is no ancestor of the other.
             if from > to {
                 let frame = self.frames.all[from].clone();
                 vector = frame.step.back(vector, &mut self.graph);
@@ -259,8 +262,8 @@ impl Lowering<'_> {
         vector
     }
 
-    /// `der(v)` of a vector in the axes of a frame, as seen from the fixed one or from another: (dr/dt)_B = dr/dt − ω_B × r
-    /// (Goldstein, Poole and Safko, *Classical Mechanics*, 4.86).
+    /// Lowers `der(v)` of a vector in the axes of a frame, as seen from the fixed frame or from another: (dr/dt)_B =
+    /// dr/dt − ω_B × r (Goldstein, Poole and Safko, *Classical Mechanics*, 4.86).
     pub(crate) fn rate_seen_from(
         &mut self,
         value: &Value,
@@ -287,7 +290,7 @@ impl Lowering<'_> {
         Some(Value::Spatial(axes, sum([rate, carried], &mut self.graph)))
     }
 
-    /// The shape of what is made of both, or what is wrong with that.
+    /// Common shape of two operands; reports incompatible ones.
     pub(crate) fn meeting(
         &mut self,
         first: &Shape,
@@ -306,7 +309,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Numbers alone take the axes of the vector that they meet: that of coordinates these are meant is not known.
+    /// Common axes of several operands. A vector without axes takes those of the others, unless it contains coordinates
+    /// or their derivatives: its axes are then ambiguous, which is reported.
     pub(crate) fn along_what_axes(&mut self, values: &[(&Value, Place)]) -> Option<Option<Axes>> {
         let axes = values.iter().find_map(|(value, _)| value.axes().cloned());
         let Some(known) = &axes else { return Some(None) };

@@ -1,5 +1,5 @@
-//! The steps that lead from a frame to the next: `translate(v)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)`,
-//! `rotate(R)` and `pose(P)`.
+//! Steps from a frame to the next: `translate(v)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)`, `rotate(R)`
+//! and `pose(P)`.
 
 use super::super::lowering::Lowering;
 use super::super::matrix::rotation;
@@ -11,7 +11,7 @@ use crate::symbolic::{Id, Sample, Symbol};
 use crate::syntax::{Expression, Kind};
 use crate::variables::Variable;
 
-/// As many random values are tried.
+/// Number of random draws that test whether a matrix is a rotation.
 const DRAWS: u64 = 3;
 const NO_ROTATION: &str = "this matrix is no rotation, whose columns are of length 1, across each other and right-handed: say of a field that it is one, `#[parameter(R: rotation)]`, or make it a `Rotation3`";
 const STEPS: &str = "a frame comes from the one that it is in by `translate(v)`, `rotate_x(angle)`, `rotate_y(angle)`, `rotate_z(angle)`, `rotate(axis, angle)`, `rotate(q)` with a quaternion, `rotate(R)` with a matrix and `pose(P)` with an isometry";
@@ -22,7 +22,7 @@ pub(crate) fn is_step(name: &str) -> bool {
 }
 
 impl Lowering<'_> {
-    /// The frame that this step leads to from the last of several, of which those after `first` have no name.
+    /// Adds the frame that this step leads to from frame `before`. Frames with an index above `first` have no name.
     pub(super) fn step(&mut self, before: usize, first: usize, expression: &Expression) -> Option<usize> {
         let Kind::Call(name, arguments) = &expression.kind else {
             return self.report(expression.place, STEPS);
@@ -56,7 +56,7 @@ impl Lowering<'_> {
         Some(turns.iter().fold(before, |before, turned| self.turn(before, first, turned)))
     }
 
-    /// A placement and the turn after it are one rotation: every vector is then turned once.
+    /// Adds a rotation. A constant placement before it is merged with it, so that each vector is rotated once.
     fn turn(&mut self, before: usize, first: usize, turned: &Turned) -> usize {
         let graph = &mut self.graph;
         let next = match &self.frames.all[before] {
@@ -96,7 +96,7 @@ impl Lowering<'_> {
         Some(Moved { by: vector, rate })
     }
 
-    /// About an axis of length 1.
+    /// Rotation about a unit axis.
     fn turned_about(&mut self, axis: Triple, angle: Id, at: &Expression) -> Option<Turned> {
         if move_in_time(&self.graph, &axis) {
             let rows = rotation(axis, angle, &mut self.graph);
@@ -125,7 +125,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Turn by turn where these are known: of a product of matrices that are none alone, the whole may still be a rotation.
+    /// Splits a product of rotations into its known turns. If a factor alone is no rotation, the whole product may
+    /// still be.
     fn turned_by_product(&mut self, matrix: [Triple; 3], at: &Expression) -> Option<Vec<Turned>> {
         let turns = self.turns.of(&self.graph, matrix).unwrap_or_default();
         let is_rotation = |turn: &Turn| !matches!(turn, &Turn::Placed(rows) if self.is_no_rotation(rows));
@@ -142,7 +143,8 @@ impl Lowering<'_> {
         Some(vec![self.turned_by_matrix(matrix, at)?])
     }
 
-    /// At random values of all that it is made of, unless that is functions of which nothing is known.
+    /// Tests at random values whether a matrix surely is no rotation. User-supplied functions make the answer `false`,
+    /// since nothing is known of them.
     fn is_no_rotation(&mut self, rows: [Triple; 3]) -> bool {
         let graph = &mut self.graph;
         let [a, b, c] = columns(rows);
@@ -161,7 +163,7 @@ impl Lowering<'_> {
         })
     }
 
-    /// S ω of a rotation is Eᵀ Ė.
+    /// Rotation by a matrix E, whose angular velocity ω follows from S(ω) = Eᵀ Ė.
     fn turned_by_matrix(&mut self, by: [Triple; 3], at: &Expression) -> Option<Turned> {
         let rates = self.rates(by.concat().try_into().unwrap_or([Id::ZERO; 9]), at)?;
         let rates = std::array::from_fn(|i| [rates[3 * i], rates[3 * i + 1], rates[3 * i + 2]]);
@@ -194,12 +196,12 @@ impl Lowering<'_> {
         Turned { by, rate }
     }
 
-    /// A field whose type says that its length is 1.
+    /// Returns whether the type of a field says that it is a unit quaternion.
     fn is_unit_parameter(&self, at: &Expression) -> bool {
         self.field_in(at).is_some_and(|field| self.parameters.is_unit_quaternion(field))
     }
 
-    /// d/dt of what may depend on coordinates and time, and on nothing else that changes.
+    /// d/dt of expressions that may depend on coordinates, parameters and time only.
     fn rates<const K: usize>(&mut self, of: [Id; K], at: &Expression) -> Option<[Id; K]> {
         let has_rates = self.graph.symbols(&of).any(|symbol| {
             !matches!(Variable::of(symbol), Variable::Coordinate(_) | Variable::Parameter(_) | Variable::Time)
@@ -214,7 +216,7 @@ impl Lowering<'_> {
         rates.try_into().ok()
     }
 
-    /// Three components of a spatial vector, along any axes.
+    /// Components of a vector in space, along any axes.
     pub(super) fn components(&self, value: &Value) -> Option<Triple> {
         value.as_vector()?.try_into().ok()
     }
