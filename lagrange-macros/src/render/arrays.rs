@@ -1,11 +1,11 @@
-//! Which names stand for arrays: vectors, matrices, and arrays of them.
+//! Names of arrays: vectors, matrices, and arrays of them.
 
 use rustc_hash::FxHashSet;
 
 use super::formula::Formula;
 use crate::resolve::Problem;
 
-/// Names of arrays, with empty brackets for each index: `r`, `p[]`, `link[].c`.
+/// Set of array names, with empty brackets for each index: `r`, `p[]`, `link[].c`.
 pub(super) struct Arrays(FxHashSet<String>);
 
 impl Arrays {
@@ -21,7 +21,7 @@ impl Arrays {
         arrays
     }
 
-    /// All arrays that an entry is in.
+    /// Adds every array that contains an entry.
     fn add(&mut self, entry: &str) {
         let mut key = key(&Formula::labelled(entry, 0)).unwrap_or_default();
         while key.ends_with("[]") {

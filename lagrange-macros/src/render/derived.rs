@@ -1,4 +1,4 @@
-//! Nodes of the graph, as formulas. Definitions appear by name.
+//! Converts nodes of the graph to formulas. Definitions appear by name.
 
 use num_traits::{One, Signed};
 
@@ -9,7 +9,7 @@ use crate::symbolic::{Function, Id, Node, Rational, Scaled};
 use crate::variables::Variable;
 
 impl Page<'_> {
-    /// Sums of nodes as they are computed, or how many symbols these would take together where that is too many.
+    /// Sums of nodes as they are computed, or the total number of symbols if that exceeds [`READABLE`].
     pub(super) fn computed<const K: usize>(&self, sums: [&[Id]; K]) -> Result<[Formula; K], u64> {
         let read = |id: &Id| self.derived.read.get(id).copied().unwrap_or(*id);
         let symbols = sums
@@ -30,7 +30,7 @@ impl Page<'_> {
             Node::Sum(terms) => {
                 let mut terms: Vec<_> = terms.iter().map(|&(term, c)| self.derived_term(term, c)).collect();
                 terms.sort_by_key(Formula::is_negative);
-                // Not as one list with sums in it: parentheses show what definitions keep together.
+                // Nested sums are not flattened: parentheses show the terms that a definition groups.
                 if terms.len() == 1 { terms.remove(0) } else { Formula::Sum(terms) }
             }
             Node::Product(_) => self.derived_term(id, Rational::one()),
@@ -47,7 +47,7 @@ impl Page<'_> {
         }
     }
 
-    /// coefficient · term
+    /// Product coefficient · term.
     fn derived_term(&self, term: Id, coefficient: Rational) -> Formula {
         let graph = self.graph;
         let Node::Product(factors) = graph.node(term) else {
@@ -66,7 +66,8 @@ impl Page<'_> {
         Formula::product(coefficient, above, below)
     }
 
-    /// Parameters come first, then multipliers, definitions, coordinates, velocities, accelerations, functions.
+    /// Sort key of factors: parameters, then multipliers, definitions, coordinates, velocities, accelerations,
+    /// functions.
     fn reading_order(&self, factor: Id) -> (u8, u32) {
         match self.graph.node(factor) {
             Node::Symbol(symbol) => match Variable::of(*symbol) {
@@ -94,13 +95,13 @@ impl Page<'_> {
             Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
             Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
             Variable::Momentum(i) => Formula::momentum(&self.problem.coordinates[i].text, 0),
-            // Emitted functions take it, and no equation has it.
+            // All other variables occur in generated functions only, never in an equation.
             only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),
         }
     }
 }
 
-/// f(x)
+/// The call f(x).
 pub(super) fn function(function: Function, x: Formula) -> Formula {
     match function {
         Function::Ramp => Formula::Call("max".to_owned(), vec![x, Formula::sum(Vec::new())]),

@@ -1,13 +1,13 @@
-//! Numbers as digits.
+//! Decimal digits of numbers.
 
 use crate::symbolic::{Rational, finite_decimal};
 
-/// A finite decimal such as 9.81; simple fractions are read better as such.
+/// A finite decimal such as 9.81. Fractions with a denominator below 16 are easier to read as fractions.
 pub(super) fn decimal(value: Rational) -> Option<String> {
     if *value.denom() < 16 { None } else { finite_decimal(value).map(point) }
 }
 
-/// Digits, with so many of them after the point.
+/// Digits with a decimal point before the last `places` of them.
 pub(super) fn point((digits, places): (i128, u32)) -> String {
     let places = places as usize;
     let text = format!("{digits:0>width$}", width = places + 1);

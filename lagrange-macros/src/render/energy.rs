@@ -1,4 +1,4 @@
-//! The energy function, and what it is: T + U only where that is certain.
+//! Renders the energy function, and identifies it as T + U only if that is certain.
 
 use super::formula::Formula;
 use super::length::length;
@@ -8,7 +8,7 @@ use super::remark::{Fragment, Remark};
 use crate::mechanics::{ConservedKind, EnergyChange, EnergyForm, Evidence};
 use crate::symbolic::Id;
 
-/// A potential energy of more signs is not repeated beside the energy that it is a part of.
+/// Longest potential energy, in symbols, that is repeated in the remark on the energy.
 const LONG: usize = 30;
 
 fn name(text: &str) -> Formula {
@@ -20,7 +20,7 @@ fn sum(terms: [Formula; 2]) -> Fragment {
 }
 
 impl Page<'_> {
-    /// The line of an energy that is conserved.
+    /// Line of a conserved energy.
     pub(super) fn conserved_energy(&self, evidence: Evidence) -> Line {
         let mut remark = self.energy_form();
         if let Evidence::Held(_) = evidence {
@@ -29,7 +29,7 @@ impl Page<'_> {
         self.energy_line(remark)
     }
 
-    /// The line of one that changes, as far as is known.
+    /// Line of an energy that changes, with the rate of change if it is known.
     pub(super) fn changing_energy(&self) -> Vec<Line> {
         let facts = &self.derived.facts;
         if facts.conserved.iter().any(|conserved| conserved.quantity == ConservedKind::Energy) {
@@ -74,7 +74,7 @@ impl Page<'_> {
         }
     }
 
-    /// T + U if U is −L at rest: L does not tell.
+    /// T + U on the condition that U is −L at rest, which L alone cannot decide.
     fn if_potential(&self, t_plus_u: Fragment) -> Vec<Fragment> {
         let is = [Fragment::words(" if "), Fragment::Formula(name("U")), Fragment::words(" is ")];
         let potential = self.derived.potential;
@@ -88,7 +88,7 @@ impl Page<'_> {
     }
 }
 
-/// −∂L/∂t, Q·q̇ and −λ·b
+/// Contribution to the rate of change of the energy: −∂L/∂t, Q·q̇ or −λ·b.
 fn change(part: EnergyChange) -> Formula {
     let product = |one, other| Formula::Call("dot".to_owned(), vec![one, other]);
     match part {

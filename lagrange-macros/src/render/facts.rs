@@ -1,4 +1,4 @@
-//! The conserved quantities and the total time derivatives, as they are to be read.
+//! Renders conserved quantities and total time derivatives.
 
 use super::formula::Formula;
 use super::lines::{Equation, Line};
@@ -8,7 +8,7 @@ use crate::mechanics::{Conserved, ConservedKind, Evidence};
 use crate::syntax::{Expression, Sign};
 
 impl Page<'_> {
-    /// A line for each conserved quantity.
+    /// One line for each conserved quantity.
     pub(super) fn conserved(&self) -> Vec<Line> {
         self.derived
             .facts
@@ -22,7 +22,7 @@ impl Page<'_> {
         let line = match *quantity {
             ConservedKind::Momentum(a) => self.conserved_momentum(name, a)?,
             ConservedKind::Energy => return Some(self.conserved_energy(*evidence)),
-            // A vector is written as such, once.
+            // A conserved vector is written once, at its first component.
             ConservedKind::Observable(observable, 0) => {
                 let name = &*self.problem.observables[observable].label.text;
                 let mut said = self.declaration.observables.iter().filter(|known| known.is_conserved);
@@ -34,7 +34,7 @@ impl Page<'_> {
         Some(Line { remark: Remark::of(held(*evidence)), ..line })
     }
 
-    /// A vector of momenta that are all conserved is written as such, once.
+    /// A vector of momenta that are all conserved is written once, at its first component.
     fn conserved_momentum(&self, name: &str, a: usize) -> Option<Line> {
         let (rows, line) = self.all_momenta().into_iter().find(|(rows, _)| rows.contains(&a))?;
         if self.are_conserved(&rows) {
@@ -44,7 +44,7 @@ impl Page<'_> {
         Some(Line::known(Formula::labelled(name, 0), momentum))
     }
 
-    /// The terms of the Lagrangian that are total time derivatives, as formulas.
+    /// Terms of the Lagrangian that are total time derivatives.
     pub(super) fn total_derivatives(&self) -> Vec<Formula> {
         let terms = self.declaration.lagrangian.as_ref().map(Expression::terms).unwrap_or_default();
         let term = |index: &usize| {

@@ -1,5 +1,5 @@
-//! A formula as it is to be read: names, fractions, powers. It comes from what the user [wrote](mod@super::written) or
-//! from the [graph](mod@super::derived), and goes to a [`notation`](super::notation).
+//! A formula for readers: names, fractions, powers. It is built from the user's [input](mod@super::written) or from the
+//! [graph](mod@super::derived), and written by a [`notation`](super::notation).
 
 use num_traits::{One, Signed, Zero};
 
@@ -20,19 +20,19 @@ pub(super) enum Formula {
     },
     /// A member of a struct: the struct, and the member's name with its indices.
     Member(Box<Self>, Box<Self>),
-    /// An entry of what is no name.
+    /// Entry of a formula that is not a name.
     Entry(Box<Self>, Box<Self>),
-    /// An index that runs from the first to before the last; of a slice it has no name.
+    /// Range of an index, `to` excluded. In a slice, the index has no name.
     Running {
         index: Option<String>,
         from: Box<Self>,
         to: Box<Self>,
     },
-    /// λ with the constraint's name.
+    /// Multiplier λ of the constraint with this name.
     Multiplier(String),
     Negative(Box<Self>),
     Sum(Vec<Self>),
-    /// Numerators over denominators.
+    /// Factors of the numerator, and of the denominator.
     Product(Vec<Self>, Vec<Self>),
     Power(Box<Self>, Box<Self>),
     Root(Box<Self>),
@@ -45,13 +45,13 @@ pub(super) enum Formula {
         body: Box<Self>,
     },
     Vector(Vec<Self>),
-    /// A derivative of a function of one argument, and where it is taken.
+    /// Derivative of a function of one argument, evaluated at an argument.
     Derivative {
         function: Box<Self>,
         order: usize,
         argument: Box<Self>,
     },
-    /// A partial derivative, and where it is taken unless that is clear.
+    /// Partial derivative, evaluated at these arguments; the list is empty if they are clear from the context.
     Partial {
         function: Box<Self>,
         by: Vec<Self>,
@@ -60,7 +60,8 @@ pub(super) enum Formula {
 }
 
 impl Formula {
-    /// `r_dot[2]`, given the flat name of a coordinate and the number of dots; or a parameter, `link[2].c[0]`.
+    /// Parses the flat name of a coordinate, such as `r[2]`, with a number of dots, or of a parameter, such as
+    /// `link[2].c[0]`.
     pub(super) fn labelled(text: &str, dots: usize) -> Self {
         if let Some((of, member)) = text.rsplit_once('.') {
             return Self::Member(Box::new(Self::labelled(of, 0)), Box::new(Self::labelled(member, dots)));
@@ -71,7 +72,7 @@ impl Formula {
         Self::Name { base, dots, indices }
     }
 
-    /// p, with dots, of a coordinate.
+    /// Generalized momentum p of a coordinate, with dots.
     pub(super) fn momentum(text: &str, dots: usize) -> Self {
         Self::labelled(&format!("p_{text}"), dots)
     }
@@ -83,7 +84,7 @@ impl Formula {
         }
     }
 
-    /// An element of it.
+    /// Element of this formula at an index.
     pub(super) fn indexed(self, index: Self) -> Self {
         match self {
             Self::Name { base, dots, mut indices } => {
@@ -95,7 +96,7 @@ impl Formula {
         }
     }
 
-    /// The sum of the parts, as one list of terms.
+    /// Sum of the parts, flattened into one list of terms.
     pub(super) fn sum(parts: Vec<Self>) -> Self {
         let mut terms: Vec<Self> = Vec::new();
         for part in parts {
@@ -111,7 +112,7 @@ impl Formula {
         }
     }
 
-    /// Whether a minus sign stands in front of it.
+    /// Returns whether the formula begins with a minus sign.
     pub(super) fn is_negative(&self) -> bool {
         match self {
             Self::Number(value) => value.is_negative(),
@@ -120,7 +121,7 @@ impl Formula {
         }
     }
 
-    /// Whether it is subtracted, and what.
+    /// Sign of the formula (true for minus), and its magnitude.
     pub(super) fn sign_and_magnitude(&self) -> (bool, Self) {
         if self.is_negative() { (true, self.clone().negated()) } else { (false, self.clone()) }
     }
@@ -137,7 +138,7 @@ impl Formula {
         if negative { self.negated() } else { self }
     }
 
-    /// With a power of ten where there are many zeros before or behind its digits.
+    /// Formula of a number. Many zeros before or after the digits become a power of ten.
     pub(super) fn number(value: Scaled) -> Self {
         const ZEROS: u32 = 12;
         let Scaled { fraction, exponent } = value;
@@ -152,10 +153,10 @@ impl Formula {
         apart.map_or(Self::Number(magnitude.fraction), Self::Scaled).signed(is_negative)
     }
 
-    /// number · above / below
+    /// Product number · above / below.
     pub(super) fn product(number: Scaled, mut above: Vec<Self>, mut below: Vec<Self>) -> Self {
         let Scaled { mut fraction, exponent } = number;
-        // p²/(2 m), and not ½ p²/m.
+        // p²/(2 m) instead of ½ p²/m.
         if !below.is_empty() && !fraction.is_integer() && decimal(fraction).is_none() {
             below.insert(0, Self::Number(Rational::from_integer(*fraction.denom())));
             fraction = Rational::from_integer(*fraction.numer());

@@ -1,4 +1,4 @@
-//! The Hamiltonian side, as it is to be read.
+//! Renders the Hamiltonian and Hamilton's equations.
 
 use std::ops::Range;
 
@@ -8,14 +8,14 @@ use super::lines::{Equation, Line};
 use super::page::Page;
 use crate::mechanics::{Conserved, ConservedKind, Hamilton, NoHamiltonian};
 
-/// Longer ones, in the signs that they take, say nothing to a reader.
+/// Longest Hamiltonian, in symbols, that is written out. A longer one is illegible.
 const LONG: usize = 100;
 
-/// Momenta of more coordinates are not read to see whether they are short.
+/// Maximum number of coordinates whose momenta are expanded to find out whether they are short.
 const MANY: usize = 8;
 
 impl Page<'_> {
-    /// p = ∂L/∂q̇ of those that are not among the conserved quantities already.
+    /// Lines p = ∂L/∂q̇ of the momenta that are not listed as conserved.
     pub(super) fn momenta(&self) -> Vec<Line> {
         let has_hamiltonian = self.legible().is_ok();
         if !has_hamiltonian && self.derived.equations.momentum.len() > MANY {
@@ -32,7 +32,7 @@ impl Page<'_> {
         if is_short { others } else { Vec::new() }
     }
 
-    /// With the coordinates, one or those of a vector, that each is of.
+    /// Line of each momentum, or vector of momenta, with the range of its coordinates.
     pub(super) fn all_momenta(&self) -> Vec<(Range<usize>, Line)> {
         self.by_vector(&self.derived.equations.momentum, Self::momentum, |text| Formula::momentum(text, 0))
     }
@@ -42,7 +42,7 @@ impl Page<'_> {
         rows.clone().all(|i| self.derived.facts.conserved.iter().any(is_it(i)))
     }
 
-    /// H(t, q, p)
+    /// Line of the Hamiltonian H(t, q, p).
     pub(super) fn hamiltonian(&self) -> Vec<Line> {
         let hamilton = self.legible().into_iter();
         let line = |hamilton: &Hamilton| {
@@ -51,7 +51,7 @@ impl Page<'_> {
         hamilton.map(line).collect()
     }
 
-    /// What is said in place of an H that is not written.
+    /// Explains why H is not written out.
     pub(super) fn why_no_hamiltonian(&self) -> Option<String> {
         let why = match self.legible().err()? {
             NoHamiltonian::NotQuadratic => "L is not quadratic in the velocities",
@@ -69,7 +69,7 @@ impl Page<'_> {
         Some(format!("not written out, as {why}: `hamiltonian` computes it"))
     }
 
-    /// Where H is short enough for a reader.
+    /// Hamilton's equations, if H is short enough for a reader.
     fn legible(&self) -> Result<&Hamilton, NoHamiltonian> {
         let hamilton = self.derived.hamilton.as_ref().map_err(|why| *why)?;
         match self.expression(hamilton.hamiltonian) {
@@ -78,7 +78,7 @@ impl Page<'_> {
         }
     }
 
-    /// q̇ = ∂H/∂p, ṗ = −∂H/∂q + Q + Fᵀλ
+    /// Hamilton's equations q̇ = ∂H/∂p, ṗ = −∂H/∂q + Q + Fᵀλ.
     pub(super) fn canonical(&self) -> Vec<Line> {
         let Ok(hamilton) = self.legible() else { return Vec::new() };
         let velocities = self.by_coordinate(&hamilton.velocities, |text| Formula::labelled(text, 1));

@@ -1,27 +1,27 @@
-//! The page as HTML, its formulas in MathML.
+//! Renders the page as HTML, with its formulas in MathML.
 //!
-//! Of MathML Core no line ends by itself. So every part of an equation that may begin a line is a formula of its own, and they
-//! stand side by side as words do: the equation then takes as many lines as the page needs. Short left sides stand below each
-//! other; long ones begin their line.
+//! MathML Core does not break lines. So each part of an equation that may begin a line is a formula of its own, and the
+//! formulas follow each other like words: the equation takes as many lines as the width of the page requires. Short
+//! left sides are aligned in a column; long ones begin their own line.
 
 use super::lines::{Equation, Line, Section};
 use super::notation::Notation;
 use super::remark::{Fragment, Remark};
 
-/// A left side wider than this begins its line, in points at 10 point.
+/// Widest left side in the column, in points at a font size of 10 points. A wider one begins its line.
 const LEFT: f64 = 60.0;
 
-// No style sheet is known where this stands.
+// Styles are inline, because the surrounding page provides no style sheet.
 const PAGE: &str = "overflow-x:auto";
 const ROWS: &str =
     "display:grid;grid-template-columns:auto minmax(0,1fr);gap:.5em .25em;align-items:baseline";
 const SHORT: &str = "text-align:right";
 const LONG: &str = "grid-column:1/-1;padding-left:2em;text-indent:-2em";
 const WRAPPED: &str = "padding-left:1em;text-indent:-1em";
-// On a line of its own where it does not fit behind the equation.
+// A remark moves to its own line if it does not fit after the equation.
 const REMARK: &str = "display:inline-block;text-indent:0;opacity:.75;margin-left:1em";
 
-/// One element, without an empty line in it: so it stands in the documentation that is written in Markdown.
+/// Writes a single HTML element without empty lines, so that Markdown documentation can contain it.
 pub(super) fn html(notation: Notation, sections: &[Section]) -> String {
     let page = HtmlRows { notation };
     let sections = sections.iter().filter(|section| !section.is_empty());
@@ -67,7 +67,7 @@ impl HtmlRows<'_> {
         format!("<div style=\"{SHORT}\">{left}</div><div style=\"{WRAPPED}\">{right}{remark}</div>\n")
     }
 
-    /// The name of a constraint, and what it is.
+    /// Remark with the name and the kind of a constraint.
     fn remark(&self, label: Option<&str>, remark: &Remark) -> String {
         let part = |part| match part {
             Fragment::Words(words) => text(&words),
@@ -79,7 +79,7 @@ impl HtmlRows<'_> {
     }
 }
 
-/// Side by side.
+/// MathML formulas side by side, with optional line breaks between them.
 fn formulas(pieces: &[String]) -> String {
     let formulas = pieces.iter().map(|piece| format!("<math displaystyle=\"true\">{piece}</math>"));
     formulas.collect::<Vec<_>>().join("<wbr/>")

@@ -1,4 +1,4 @@
-//! What kind of constraint it is, in words.
+//! Describes the kind of a constraint in words.
 
 use super::page::Page;
 use super::remark::{Fragment, Remark};
@@ -7,7 +7,7 @@ use crate::symbolic::Node;
 use crate::variables::Variable;
 
 impl Page<'_> {
-    /// The remark behind a constraint that stands for `rows`: each kind among them, once.
+    /// Remark on a constraint with these rows. Each kind among them is named once.
     pub(super) fn kinds(&self, rows: impl Iterator<Item = usize>) -> Remark {
         let mut remark = Remark::default();
         for row in rows {
@@ -45,7 +45,7 @@ impl Page<'_> {
         }
     }
 
-    /// Whether the time occurs in it.
+    /// Returns whether the constraint depends on time explicitly.
     fn is_rheonomic(&self, row: usize) -> bool {
         let nodes = self.graph.reachable(&[self.problem.constraints[row].1]);
         let is_time = |node: &Node| *node == Node::Symbol(Variable::Time.symbol());
@@ -53,7 +53,7 @@ impl Page<'_> {
     }
 }
 
-/// What the verdicts on the single constraints do not say: that some combinations are integrable.
+/// Note on integrable combinations of velocity constraints, which the remarks on single constraints do not mention.
 pub(super) fn note(integrals: Integrals) -> Option<String> {
     let Integrals { count, of, evidence } = integrals;
     let is = if count == 1 { "is" } else { "are" };

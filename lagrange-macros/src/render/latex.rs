@@ -1,4 +1,5 @@
-//! The page as LaTeX: numbered equations below headings, aligned, with labels and remarks, long ones broken before a sign.
+//! Renders the page as LaTeX: headings, and aligned, numbered equations with labels and remarks. Long equations break
+//! before a sign.
 
 use unicode_normalization::UnicodeNormalization;
 
@@ -9,20 +10,20 @@ use super::remark::{Fragment, Remark};
 use super::spelling::WIDE;
 use crate::syntax::GREEK;
 
-/// What fits between the margins of `article` beside the number of an equation, in points.
+/// Width, in points, that `article` leaves between its margins beside an equation number.
 const LINE: f64 = 310.0;
 
-/// A left side wider than this stands on a line of its own.
+/// Widest left side, in points, that shares a line with the right side.
 const LEFT: f64 = 110.0;
 
-/// A remark narrower than this stands on one line, in points: half of it.
+/// Widest remark, in points, that is kept on one line: about half of [`LINE`].
 const REMARK: f64 = 150.0;
 
-/// What begins a heading. The paragraph is not parted from the equations below it: the penalty before a display is infinite.
+/// Start of a heading. TeX keeps the heading with the equations below: the penalty before a display is infinite.
 const HEADING: &str = r"\par\medskip\noindent\textbf";
 
-/// A heading and an `align` environment for each section; `\eqref{eq:Pendulum-theta}` is the equation of `theta`. Pages may end
-/// between equations. `Equations` of lagrange-core takes it apart again.
+/// Writes a heading and an `align` environment for each section; `\eqref{eq:Pendulum-theta}` refers to the equation of
+/// `theta`. Pages may break between equations. `Equations` of lagrange-core parses this text.
 pub(super) fn latex(notation: Notation, name: &str, sections: &[Section]) -> String {
     let page = Lines { notation };
     let mut labels = Vec::new();
@@ -62,7 +63,7 @@ impl Lines<'_> {
         self.notation.spelling.width(text)
     }
 
-    /// The pieces of both sides, with the remark behind them.
+    /// Pieces of the left side, and of the right side with the remark after it.
     fn sides(&self, line: &Line) -> [Vec<String>; 2] {
         let notation = self.notation;
         let [left, right] = match &line.equation {
@@ -82,7 +83,7 @@ impl Lines<'_> {
         [left, [right, self.remark(&line.remark)].concat()]
     }
 
-    /// Lines may end in a long one behind punctuation, and in long formulas.
+    /// Splits a remark into pieces: a long one may break after punctuation and in long formulas.
     fn remark(&self, remark: &Remark) -> Vec<String> {
         let (mut pieces, mut is_new): (Vec<String>, bool) = (Vec::new(), true);
         for part in remark.in_parentheses() {
@@ -109,13 +110,13 @@ impl Lines<'_> {
         pieces
     }
 
-    /// Where it is not too wide for that.
+    /// Keeps a formula in one piece, unless it is too wide.
     fn held_together(&self, formula: &Formula) -> Vec<String> {
         let pieces = self.notation.pieces(formula);
         if self.width(&pieces.concat()) < WIDE { vec![pieces.concat()] } else { pieces }
     }
 
-    /// The lines of an equation.
+    /// Lines of an equation.
     fn equation(&self, left: &[String], right: &[String], column: f64) -> Vec<String> {
         let rest = LINE - column;
         if left.is_empty() {
@@ -125,14 +126,15 @@ impl Lines<'_> {
         if self.width(&whole) <= LEFT {
             return self.filled(right, &format!("{whole} &= "), r"&\quad", rest);
         }
-        // Of no width, so that it does not move the others to the right.
+        // `\lefteqn` has no width, so a long left side does not shift the other equations to the right.
         let mut lines = self.filled(left, "", r"\quad", LINE);
         lines.iter_mut().for_each(|line| *line = format!(r"\lefteqn{{{line}}} &"));
         lines.extend(self.filled(right, "&= ", r"&\quad", rest));
         lines
     }
 
-    /// Pieces in lines that are no longer than `room`, the first line and the others with what they begin with.
+    /// Fills lines up to the width `room` with pieces. The first line begins with `first`, the following ones with
+    /// `others`.
     fn filled(&self, pieces: &[String], first: &str, others: &str, room: f64) -> Vec<String> {
         let mut lines = vec![first.to_owned()];
         let mut used = 15.0;
@@ -153,7 +155,7 @@ impl Lines<'_> {
     }
 }
 
-/// A sentence as plain words, its code in the letters of code.
+/// Escapes plain text for LaTeX, and sets code in a typewriter font.
 fn prose(plain: &str) -> String {
     let escaped = |sign: char| match sign {
         '#' | '_' | '&' | '%' | '{' | '}' => format!("\\{sign}"),
@@ -168,7 +170,7 @@ fn prose(plain: &str) -> String {
     parts.collect()
 }
 
-/// Words between which a line may end: behind punctuation.
+/// Splits words after punctuation, where a line may break.
 fn clauses(words: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(words);
     std::iter::from_fn(move || {
@@ -179,7 +181,7 @@ fn clauses(words: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// What a line is called in labels: `theta` of an equation of motion, and otherwise its left side.
+/// Label of a line: `theta` for an equation of motion, else the left side.
 fn label(line: &Line) -> String {
     let name = match (&line.label, &line.equation) {
         (Some(label), _) => label.clone(),
@@ -199,7 +201,7 @@ fn label(line: &Line) -> String {
     words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
 }
 
-/// The label, with a number where another has it already.
+/// The label, with a number appended if an earlier label is equal.
 fn unique(label: String, labels: &mut Vec<String>) -> String {
     let count = labels.iter().filter(|known| **known == label).count();
     labels.push(label.clone());

@@ -1,13 +1,13 @@
-//! How long a formula is to a reader.
+//! Length of a formula, as a measure of its legibility.
 
 use super::formula::Formula;
 use crate::resolve::Problem;
 use crate::symbolic::Graph;
 
-/// What takes more signs than this is not for reading.
+/// Longest formula, in symbols, that is legible.
 pub(super) const READABLE: u64 = 250;
 
-/// How many signs it takes: a name, a number or an operator is one, and so is an exponent or a pair of parentheses.
+/// Number of symbols in a formula. A name, a number, an operator, an exponent or a pair of parentheses counts as one.
 pub(super) fn length(formula: &Formula) -> usize {
     let all = |parts: &[Formula]| parts.iter().map(length).sum::<usize>();
     match formula {
@@ -36,7 +36,7 @@ pub(super) fn length(formula: &Formula) -> usize {
     }
 }
 
-/// How many symbols each node takes written out, where what is shared is written again.
+/// Number of symbols of each node written out. Shared nodes count at each use.
 pub(super) fn symbols(graph: &Graph, problem: &Problem) -> Vec<u64> {
     let mut symbols = Vec::with_capacity(graph.len());
     for id in graph.ids() {

@@ -1,10 +1,10 @@
-//! Headings and lines, and the plain text that is put together from them.
+//! Headings and lines of a page, and its plain text.
 
 use super::formula::Formula;
 use super::notation::Notation;
 use super::remark::Remark;
 
-/// A heading and the lines below it: a label, an equation and a remark. The note says what concerns all lines.
+/// A heading, the lines below it, and a note on all of the lines. Each line has a label, an equation and a remark.
 pub(super) struct Section {
     pub(super) heading: &'static str,
     pub(super) lines: Vec<Line>,
@@ -28,7 +28,7 @@ impl Line {
         Self { label: None, equation, remark: Remark::default() }
     }
 
-    /// left = right, or its left side as the label of what is not written out.
+    /// The equation left = right; if the right side is too long, the left side becomes a label.
     pub(super) fn known(left: Formula, right: Result<Formula, u64>) -> Self {
         match right {
             Ok(right) => Self::of(Equation::Known(left, right)),
@@ -42,9 +42,9 @@ impl Line {
 
 pub(super) enum Equation {
     Known(Formula, Formula),
-    /// No equation but a single expression.
+    /// A single expression without an equals sign.
     Term(Formula),
-    /// Why it is not written out.
+    /// Not written out: the number of symbols it would take.
     TooLong(u64),
 }
 

@@ -1,4 +1,4 @@
-//! The system and its equations as text, as LaTeX and as MathML. Nothing else writes any.
+//! Renders a system and its equations as text, LaTeX and MathML.
 
 mod arrays;
 mod binding;
@@ -35,22 +35,22 @@ use notation::Notation;
 use page::Page;
 use reading::Names;
 
-/// What is said of positions that three angles turn, one after another, and that are differentiated.
+/// Advice on a system that differentiates positions turned by three or more successive angles.
 const IN_FRAMES: &str =
     "`der` differentiates here what three angles or more turn, one after another: say how the parts lie
   by `#[frame(…)]`, and what they do by `position(…)`, `velocity(…)` and `kinetic(…)`, and the accelerations
   take fewer operations (see lagrange_core::language#frames).";
 
-/// The same system, written down.
+/// Written forms of a system.
 pub(crate) struct Rendered {
-    /// With definitions by their names or written out as is shorter, always by their names, and always written out; each as
-    /// text, as LaTeX and as HTML with MathML.
+    /// Outer index: definitions as is shorter (by name or written out), always by name, always written out. Inner
+    /// index: text, LaTeX, HTML with MathML.
     pub(crate) forms: [[String; 3]; 3],
-    /// The total time derivatives in the Lagrangian, in the order of the facts.
+    /// Terms of the Lagrangian that are total time derivatives, in the order of the facts.
     pub(crate) total_derivatives: Vec<String>,
 }
 
-/// Writes the system down.
+/// Renders a system in all forms.
 pub(crate) fn render(
     declaration: &Declaration,
     graph: &Graph,
@@ -70,7 +70,7 @@ pub(crate) fn render(
 }
 
 impl Page<'_> {
-    /// As text, as LaTeX and as HTML.
+    /// Renders the page as text, as LaTeX and as HTML.
     fn forms(&self) -> [String; 3] {
         let Self { problem, derived, .. } = self;
         let term = |formula| Line::of(Equation::Term(formula));

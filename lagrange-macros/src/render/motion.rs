@@ -1,4 +1,4 @@
-//! Equations of motion and constraint forces: a line for each coordinate, or for each vector of coordinates.
+//! Renders equations of motion and constraint forces, one line for each coordinate or vector of coordinates.
 
 use std::ops::Range;
 
@@ -11,7 +11,7 @@ use crate::resolve::Label;
 use crate::symbolic::Id;
 
 impl Page<'_> {
-    /// Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, a row for each coordinate, or for a vector of coordinates.
+    /// Rows Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, one for each coordinate or vector of coordinates.
     pub(super) fn motion(&self) -> Vec<Line> {
         let Derived { equations, inertia, .. } = self.derived;
         let right = |i: usize| {
@@ -40,7 +40,7 @@ impl Page<'_> {
         lines.collect()
     }
 
-    /// The coordinates, with the components of each vector together.
+    /// Coordinates in groups: the components of each vector together, all others alone.
     fn vectors(&self) -> impl Iterator<Item = &[Label]> {
         let are_together = |one: &Label, other: &Label| {
             vector(&one.text).is_some() && vector(&one.text) == vector(&other.text)
@@ -48,7 +48,7 @@ impl Page<'_> {
         self.problem.coordinates.chunk_by(are_together)
     }
 
-    /// Fᵀλ of each coordinate that a constraint acts on.
+    /// Constraint force Fᵀλ on each coordinate that a constraint acts on.
     pub(super) fn constraint_forces(&self) -> Vec<Line> {
         let forces = &self.derived.equations.constraint_force;
         let mut lines = self.by_coordinate(forces, |text| Formula::labelled(&format!("R_{text}"), 0));
@@ -57,7 +57,7 @@ impl Page<'_> {
         lines
     }
 
-    /// An equation for each coordinate, or for each vector of coordinates whose equations are those of one.
+    /// One equation for each coordinate, or for each vector whose components form one vector equation.
     pub(super) fn by_coordinate(&self, values: &[Id], left: impl Fn(&str) -> Formula) -> Vec<Line> {
         self.by_vector(values, Self::expression, left).into_iter().map(|(_, line)| line).collect()
     }
@@ -73,7 +73,7 @@ impl Page<'_> {
         for labels in self.vectors() {
             let rows = first..first + labels.len();
             first = rows.end;
-            // Without constraints there are no forces of them.
+            // Without constraints there are no constraint forces.
             let Some(parts) = values.get(rows.clone()) else { break };
             let whole = vector(&labels[0].text).filter(|_| labels.len() > 1);
             let whole = whole.and_then(|text| Some([left(text), self.vector_expression(parts)?]));
@@ -89,7 +89,7 @@ impl Page<'_> {
     }
 }
 
-/// `r` of `r[0]`, `r[1]` of `r[1][0]`.
+/// Name without its last index: `r` for `r[0]`, `r[1]` for `r[1][0]`.
 fn vector(text: &str) -> Option<&str> {
     text.strip_suffix(']')?.rsplit_once('[').map(|(vector, _)| vector)
 }

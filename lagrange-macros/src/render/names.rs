@@ -1,11 +1,11 @@
-//! Names in formulas: letters with what stands above and below them.
+//! Writes names: letters with dots above them and subscripts.
 
 use super::formula::Formula;
 use super::notation::Notation;
 use crate::syntax::GREEK;
 
 impl Notation<'_> {
-    /// Greek by their names; dots above the letter; indices below.
+    /// Writes a name: spelled-out Greek letters become Greek, dots stand above the letter, and indices below it.
     pub(super) fn name(self, name: &Formula) -> String {
         let Formula::Name { base, dots, indices } = name else { return self.write(name) };
         let (letter, below) = letter_and_below(base);
@@ -18,7 +18,7 @@ impl Notation<'_> {
         indices.iter().map(|index| self.write(index)).collect()
     }
 
-    /// What stands below a letter: digits, a letter with what is below that, or words, upright side by side.
+    /// Writes a subscript: digits, a letter with its own subscript, or upright words side by side.
     fn below(self, name: &str) -> String {
         let (first, tail) = letter_and_below(name);
         let part = match name.chars().all(|sign| sign.is_ascii_digit()) {
@@ -37,7 +37,8 @@ impl Notation<'_> {
         self.spelling.below(part)
     }
 
-    /// On a line `link[2].m`; else the member's letter, with all else below: the mass of `link[2]` is mₗᵢₙₖ,₂.
+    /// Writes a member. Flat text keeps `link[2].m`; otherwise all but the letter of the member becomes a subscript, so
+    /// that the mass of `link[2]` is mₗᵢₙₖ,₂.
     pub(super) fn member(self, of: &Formula, member: &Formula) -> String {
         if self.spelling.is_flat() {
             return format!("{}.{}", self.write(of), self.write(member));
@@ -50,7 +51,7 @@ impl Notation<'_> {
         self.spelling.indexed(self.spelling.dotted(letter, *dots), &below, &[])
     }
 
-    /// A name, and what stands below it.
+    /// Splits a formula into a letter and its subscripts.
     fn apart(self, formula: &Formula) -> Vec<String> {
         match formula {
             Formula::Name { base, indices, .. } => {
@@ -64,7 +65,7 @@ impl Notation<'_> {
         }
     }
 
-    /// λ with the constraint's name below it.
+    /// Writes λ with the name of the constraint as a subscript.
     pub(super) fn multiplier(self, constraint: &str) -> String {
         let letter = self.spelling.sign("λ");
         match Formula::labelled(constraint, 0) {
@@ -76,7 +77,7 @@ impl Notation<'_> {
     }
 }
 
-/// `theta` and `1` of `theta_1`.
+/// Splits a name at its first underscore: `theta_1` into `theta` and `1`.
 fn with_tail(name: &str) -> (&str, Option<&str>) {
     match name.split_once('_') {
         Some((base, tail)) if !base.is_empty() && !tail.is_empty() => (base, Some(tail)),
@@ -84,7 +85,8 @@ fn with_tail(name: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// `theta` and `1` of `theta_1`, `m` and `1` of `m1`, `m`, `1` and `x` of `m1_x`.
+/// Splits a name into a letter and its subscripts: `theta_1` into `theta` and `1`, `m1` into `m` and `1`, `m1_x` into
+/// `m`, `1` and `x`.
 fn letter_and_below(name: &str) -> (&str, Vec<&str>) {
     let (base, tail) = with_tail(name);
     let letter = base.trim_end_matches(|sign: char| sign.is_ascii_digit());
@@ -92,7 +94,7 @@ fn letter_and_below(name: &str) -> (&str, Vec<&str>) {
     (letter, [digits].into_iter().filter(|digits| !digits.is_empty()).chain(tail).collect())
 }
 
-/// A single one, or a Greek one by its name.
+/// Returns whether a name is a single letter, or a Greek letter by its name.
 fn is_letter(name: &str) -> bool {
     name.chars().count() == 1 || GREEK.iter().any(|(latin, greek)| *latin == name || *greek == name)
 }

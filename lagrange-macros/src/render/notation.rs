@@ -1,5 +1,4 @@
-//! Ways to write a [`Formula`] down, by one set of rules: where signs and parentheses stand. How the parts look is a
-//! [`Spelling`]'s.
+//! Writes a [`Formula`] by one set of rules for signs and parentheses. A [`Spelling`] provides the parts.
 
 use num_traits::{One, Signed};
 
@@ -11,7 +10,7 @@ use super::spelling::{Latex, MathMl, Spelling, Unicode, WIDE};
 use crate::resolve::{is_built_in, is_of_frames, is_step};
 use crate::symbolic::{Rational, Scaled, finite_decimal};
 
-/// A way to write, in which the names of arrays are bold.
+/// A spelling, and the names of arrays, which are bold.
 #[derive(Clone, Copy)]
 pub(super) struct Notation<'a> {
     pub(super) spelling: &'static dyn Spelling,
@@ -25,7 +24,7 @@ impl Notation<'static> {
 }
 
 impl<'a> Notation<'a> {
-    /// The same, where these names stand for arrays.
+    /// The same notation with these names as arrays.
     pub(super) fn with(self, arrays: &'a Arrays) -> Self {
         Self { arrays: Some(arrays), ..self }
     }
@@ -67,7 +66,7 @@ impl<'a> Notation<'a> {
         }
     }
 
-    /// left = right
+    /// Writes left = right.
     pub(super) fn equation(self, left: &Formula, right: &Formula) -> String {
         self.write(left) + &self.spelling.sign(" = ") + &self.write(right)
     }
@@ -85,7 +84,7 @@ impl<'a> Notation<'a> {
         self.between(["(", ")"], inner)
     }
 
-    /// As high as what is inside.
+    /// Encloses text in brackets as tall as the text.
     fn between(self, bounds: [&str; 2], inner: &str) -> String {
         self.spelling.between(bounds, inner, self.spelling.is_tall(inner))
     }
@@ -94,7 +93,7 @@ impl<'a> Notation<'a> {
         items.iter().map(|item| self.write(item)).collect::<Vec<_>>().join(&self.spelling.sign(", "))
     }
 
-    /// One whose items are vectors is a matrix.
+    /// Writes a vector. A vector of vectors is a matrix.
     fn vector(self, items: &[Formula]) -> String {
         let row = |item: &Formula| match item {
             Formula::Vector(row) => Some(row.iter().map(|entry| self.write(entry)).collect::<Vec<_>>()),
@@ -132,7 +131,7 @@ impl<'a> Notation<'a> {
 
     fn on_a_line(self, above: &[Formula], below: &[Formula]) -> String {
         let below = match below {
-            // a/2/3 could be read in two ways.
+            // a/2/3 is ambiguous.
             [number @ Formula::Number(value)] if !value.is_integer() => self.parentheses(&self.write(number)),
             [number @ Formula::Scaled(_)] => self.parentheses(&self.write(number)),
             [single] => self.at_least(single, Binding::Power),
@@ -141,10 +140,11 @@ impl<'a> Notation<'a> {
         self.spelling.fraction(&self.factors(above, true), &below)
     }
 
-    /// Where it is too wide for a line, with sums beside it, or on one line that may be broken.
+    /// Writes a built-up fraction. One that is too wide for a line is written with its sums beside it, or on one line
+    /// that may break.
     fn fraction(self, above: &[Formula], below: &[Formula]) -> String {
         let [over, under] = [above, below].map(|factors| match factors {
-            // The line holds it together.
+            // The fraction bar groups a single sum, so it needs no parentheses.
             [sum @ Formula::Sum(_)] => self.at_least(sum, Binding::Sum),
             factors => self.factors(factors, false),
         });
@@ -163,12 +163,12 @@ impl<'a> Notation<'a> {
         }
     }
 
-    /// Side by side; with a dot between where a number would run into the next.
+    /// Writes factors side by side, with a dot where a number would run into the next factor.
     fn factors(self, factors: &[Formula], is_followed: bool) -> String {
         let mut text = String::new();
         for (position, factor) in factors.iter().enumerate() {
             let factor = match (factor, factors.get(position + 1)) {
-                // What follows must not be taken for part of the dot product.
+                // A factor after a dot product would be read as part of it.
                 (Formula::Call(name, arguments), None) if name == "dot" && !is_followed => {
                     self.call(name, arguments)
                 }
@@ -182,7 +182,7 @@ impl<'a> Notation<'a> {
         text
     }
 
-    /// What follows must not be taken for part of the argument of a sine, or of what a root is taken of.
+    /// Writes a factor. A following factor must not be read as part of the argument of a sine, or of a root.
     fn factor(self, factor: &Formula, is_followed: bool) -> String {
         match factor {
             Formula::Call(name, arguments) if is_prefixed(factor) => {
@@ -210,7 +210,7 @@ impl<'a> Notation<'a> {
         self.spelling.power(&self.at_least(base, Binding::Atom), &exponent)
     }
 
-    /// ∂U/∂x, ∂²U/∂x∂y
+    /// Writes a partial derivative: ∂U/∂x, ∂²U/∂x∂y.
     fn partial(self, function: &Formula, by: &[Formula], arguments: &[Formula]) -> String {
         let spelling = self.spelling;
         let below: String =
@@ -236,7 +236,7 @@ impl<'a> Notation<'a> {
         }
     }
 
-    /// The name of a function: upright if it has a fixed meaning.
+    /// Writes the name of a function, upright for a built-in.
     fn function(self, name: &str) -> String {
         match is_built_in(name) || is_of_frames(name) || is_step(name) {
             true => self.spelling.function(name),
@@ -244,7 +244,7 @@ impl<'a> Notation<'a> {
         }
     }
 
-    /// sin x, sin² x, sin(2 x)
+    /// Writes a function before its argument: sin x, sin² x, sin(2 x).
     fn prefix(self, name: &str, exponent: Option<Rational>, x: &Formula, is_followed: bool) -> String {
         let name = self.spelling.function(name);
         let function = match exponent {
@@ -270,7 +270,7 @@ impl<'a> Notation<'a> {
         self.spelling.sum_over(&index, &self.write(from), &self.last(to), &body)
     }
 
-    /// i = 0 … 2
+    /// Writes the range of a running index: i = 0 … 2.
     fn running(self, index: Option<&str>, from: &Formula, to: &Formula) -> String {
         let index = index.map_or(String::new(), |index| {
             self.write(&Formula::labelled(index, 0)) + &self.spelling.sign(" = ")
@@ -278,7 +278,7 @@ impl<'a> Notation<'a> {
         index + &self.write(from) + &self.spelling.sign(" … ") + &self.last(to)
     }
 
-    /// The whole number before `end`.
+    /// Writes the integer before `end`, the last value of a range.
     fn last(self, end: &Formula) -> String {
         match end {
             Formula::Number(value) => self.number(value - Rational::one()),
@@ -296,7 +296,7 @@ impl<'a> Notation<'a> {
         sign + &magnitude
     }
 
-    /// 6.62607015×10⁻³⁴
+    /// Writes a number with a power of ten: 6.62607015×10⁻³⁴.
     fn scaled(self, Scaled { fraction, exponent }: Scaled) -> String {
         let exponent = self.number(Rational::from_integer(exponent.into()));
         let power = self.spelling.power(&self.spelling.digits("10"), &exponent);

@@ -1,4 +1,4 @@
-//! The system, its equations and their readings, from which every section is written.
+//! Shared state of the sections of a page: the system, its equations and their readings.
 
 use rustc_hash::FxHashSet;
 
@@ -10,17 +10,17 @@ use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use crate::syntax::Declaration;
 
-/// Equations of a system while they are typeset.
+/// A system whose equations are rendered.
 pub(super) struct Page<'a> {
     pub(super) declaration: &'a Declaration,
     pub(super) graph: &'a Graph,
     pub(super) problem: &'a Problem,
     pub(super) derived: &'a Derived,
-    /// How many each node takes.
+    /// Number of symbols of each node, written out.
     pub(super) symbols: Vec<u64>,
-    /// Where each parameter stands among the fields.
+    /// Rank of each parameter in the order of the fields.
     pub(super) ranks: Vec<usize>,
-    /// The definitions that neither the time nor the state changes.
+    /// Definitions that depend on neither time nor state.
     pub(super) constants: FxHashSet<Id>,
     pub(super) names: Names,
     pub(super) readings: Vec<Reading<'a>>,

@@ -1,12 +1,12 @@
-//! Where a line may end in a formula.
+//! Line breaks in formulas.
 
 use super::formula::Formula;
 use super::notation::Notation;
 use super::spelling::WIDE;
 
 impl Notation<'_> {
-    /// A formula in parts between which a line may end: before its signs and behind its commas, of wide parts between words, but
-    /// not inside of what is held together.
+    /// Splits a formula into pieces between which a line may break: before signs and after commas, and in wide pieces
+    /// between words, but never inside a group that is held together.
     pub(super) fn pieces(self, formula: &Formula) -> Vec<String> {
         let signs = [" + ", " − "].map(|sign| self.spelling.sign(sign));
         let comma = self.spelling.sign(", ");
@@ -24,7 +24,7 @@ impl Notation<'_> {
         pieces.into_iter().flat_map(narrow).collect()
     }
 
-    /// Split outside of what is held together, given what stands before and behind.
+    /// Splits text outside such groups, where `may_end` accepts the text before and after the break.
     fn parted(self, text: &str, may_end: impl Fn(&str, &str) -> bool) -> Vec<String> {
         let (mut parts, mut depth, mut start) = (Vec::new(), 0, 0);
         for (place, _) in text.char_indices() {

@@ -1,9 +1,9 @@
-//! What is said of an equation beside it.
+//! Remarks on equations.
 
 use super::formula::Formula;
 use super::notation::Notation;
 
-/// Words with formulas between them.
+/// Parts of a remark, each of words with formulas between them.
 #[derive(Default)]
 pub(super) struct Remark(Vec<Vec<Fragment>>);
 
@@ -26,7 +26,7 @@ impl Remark {
         remark
     }
 
-    /// Says this too, unless it is said already.
+    /// Adds a part, unless it is empty or already present.
     pub(super) fn and(&mut self, parts: Vec<Fragment>) {
         if !parts.is_empty() && !self.0.contains(&parts) {
             self.0.push(parts);
@@ -37,7 +37,7 @@ impl Remark {
         self.0.is_empty()
     }
 
-    /// Its parts in a row, words with words.
+    /// All parts in sequence between the bounds, with adjacent words joined.
     fn parts(&self, bounds: [&str; 2]) -> Vec<Fragment> {
         let mut all: Vec<Fragment> = Vec::new();
         let [open, close] = bounds.map(Fragment::words);
@@ -50,12 +50,12 @@ impl Remark {
         all
     }
 
-    /// Nothing where nothing is said.
+    /// The remark in parentheses; nothing if it is empty.
     pub(super) fn in_parentheses(&self) -> Vec<Fragment> {
         if self.is_empty() { Vec::new() } else { self.parts(["(", ")"]) }
     }
 
-    /// The text, given what becomes of words and of formulas in it.
+    /// Spells the remark, with functions that write words and formulas.
     pub(super) fn spelled(
         &self,
         notation: Notation,

@@ -1,4 +1,4 @@
-//! Functions that the user supplies, as formulas.
+//! Converts calls of user-supplied functions to formulas.
 
 use super::formula::Formula;
 use super::page::Page;
@@ -7,7 +7,7 @@ use crate::symbolic::{External, Rational};
 use crate::syntax::{Layout, numbers};
 
 impl Page<'_> {
-    /// `A[0](r)`, `U′(s)`, `∂U/∂r[0]`
+    /// A call or a derivative: `A[0](r)`, `U′(s)`, `∂U/∂r[0]`.
     pub(super) fn supplied(&self, external: &External, flat: Vec<Formula>) -> Formula {
         let function = &self.problem.functions[external.function as usize];
         let name = match function.outputs {
@@ -30,13 +30,13 @@ impl Page<'_> {
     }
 }
 
-/// Every number that a function takes, by the names in its declaration.
+/// Entries of all formal arguments, by their declared names.
 fn formal_entries(function: &Supplied) -> Vec<Formula> {
     let names = function.formals.iter().flat_map(|(name, lengths)| entry_names(name, lengths));
     names.map(|name| Formula::labelled(&name, 0)).collect()
 }
 
-/// Numbers put together into the arguments that the function takes: all entries of a vector are the vector.
+/// Groups flat entries into the arguments of the function: all entries of a vector become the vector.
 fn grouped(flat: &[Formula], function: &Supplied) -> Vec<Formula> {
     let mut rest = flat;
     let mut arguments = Vec::new();
@@ -48,7 +48,7 @@ fn grouped(flat: &[Formula], function: &Supplied) -> Vec<Formula> {
     arguments
 }
 
-/// Writes arrays of these lengths, by a name where the name covers all of their entries.
+/// Nested arrays of these lengths. A name replaces an array if its entries are exactly those of the name.
 fn array(entries: &[Formula], lengths: &[usize]) -> Formula {
     let [length, inner @ ..] = lengths else { return entries[0].clone() };
     whole(entries, lengths).unwrap_or_else(|| {
@@ -57,7 +57,7 @@ fn array(entries: &[Formula], lengths: &[usize]) -> Formula {
     })
 }
 
-/// What has these entries and no others.
+/// Name of the array that has exactly these entries, if there is one.
 fn whole(entries: &[Formula], lengths: &[usize]) -> Option<Formula> {
     let Formula::Name { base, dots, indices } = &entries[0] else { return None };
     let outer = &indices[..indices.len().checked_sub(lengths.len())?];

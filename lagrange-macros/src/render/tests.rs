@@ -1,4 +1,4 @@
-//! What is written means what was meant, and reads as the chapter prints it.
+//! Written formulas keep their value, and read as textbooks print them.
 
 mod everywhere;
 mod excerpts;
@@ -16,7 +16,7 @@ use super::formula::Formula;
 use super::notation::Notation;
 use crate::symbolic::Rational;
 
-/// Where x, y and z are.
+/// Values of x, y and z at which formulas are evaluated.
 const POINT: [(&str, f64); 3] = [("x", 1.3), ("y", -0.7), ("z", 2.1)];
 
 fn number(numerator: i128, denominator: i128) -> Formula {
@@ -35,7 +35,7 @@ fn power(base: Formula, exponent: Formula) -> Formula {
     Formula::Power(base.into(), exponent.into())
 }
 
-/// The value of a formula, for comparison with the one that [`reader`] reads off the text.
+/// Value of a formula, for comparison with the value that [`reader`] reads from the text.
 fn value(formula: &Formula) -> f64 {
     let float = |rational: &Rational| *rational.numer() as f64 / *rational.denom() as f64;
     match formula {
@@ -89,7 +89,7 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// A reader who knows the usual precedence, and takes nothing that is ambiguous, reads the same value.
+    /// A reader who knows the usual precedence, and rejects ambiguous text, reads the same value.
     #[test]
     fn what_is_written_is_read_as_it_was_meant(formula in formulas()) {
         let text = Notation::UNICODE.write(&formula);

@@ -1,4 +1,4 @@
-//! What the user wrote: the Lagrangian, definitions, forces and constraints, as formulas.
+//! Converts the user's input to formulas: the Lagrangian, definitions, forces and constraints.
 
 use num_traits::One;
 
@@ -43,13 +43,13 @@ impl Page<'_> {
         lines
     }
 
-    /// A frame by the one that it is in and the steps from there.
+    /// Line of a frame: its parent, and the steps from there.
     fn frame(&self, FrameDeclaration { target, parent, steps, .. }: &FrameDeclaration) -> Line {
         let steps = parent.iter().chain(steps).map(|part| self.written(part)).collect();
         Line::of(Equation::Known(self.target(target), Formula::Product(steps, Vec::new())))
     }
 
-    /// The left side of a definition.
+    /// Left side of a definition.
     fn defined(&self, define: &Define) -> Formula {
         match &define.formals {
             Some(formals) => {
@@ -82,7 +82,7 @@ impl Page<'_> {
             let rows = self.problem.constraints.iter().enumerate();
             let rows = rows.filter(|(_, (label, _))| is_it(&label.text)).map(|(row, _)| row);
             let rows: Vec<usize> = rows.collect();
-            // Another constraint may say the same already.
+            // A declared constraint may already state the implied one, which then has no row.
             if *is_implied && rows.is_empty() {
                 return None;
             }
@@ -127,7 +127,7 @@ impl Page<'_> {
         }
     }
 
-    /// A leading `m/2` is read as ½ m: numbers gather in front.
+    /// Collects numeric factors in front: `m/2` reads as ½ m.
     fn product(&self, factors: &[(Operator, Expression)]) -> Formula {
         let (mut above, mut below, mut number) = (Vec::new(), Vec::new(), Scaled::from(Rational::one()));
         for (operator, factor) in factors {
@@ -147,7 +147,7 @@ impl Page<'_> {
         Formula::product(number, above, below)
     }
 
-    /// `x_dot` is x with a dot if x is a coordinate.
+    /// Formula of a name. `x_dot` becomes x with a dot if x is a coordinate.
     fn named(&self, text: &str) -> Formula {
         let coordinates = || self.problem.coordinates.iter().map(|label| label.text.as_str());
         let is_coordinate =

@@ -1,4 +1,4 @@
-//! Products of sines and cosines put together: sin² + cos², sums and differences of angles, double angles, halves of angles.
+//! Merges products of sines and cosines: sin² + cos², sums and differences of angles, double angles, half angles.
 
 use num_traits::{One, Signed};
 
@@ -6,17 +6,17 @@ use super::atoms::{Atoms, Meaning};
 use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::symbolic::{self, Function, Rational};
 
-/// A sine or cosine.
+/// A sine or cosine in a monomial.
 struct Wave {
     atom: Atom,
     is_sine: bool,
-    /// The cosine of a sine, and the sine of a cosine.
+    /// Atom of the cosine for a sine, and of the sine for a cosine.
     other: Atom,
     angle: Polynomial,
     is_squared: bool,
 }
 
-/// Terms, and the one that they are together.
+/// Terms to remove, and the terms that replace them.
 struct Merger {
     parts: Vec<Monomial>,
     factors: Polynomial,
@@ -24,11 +24,11 @@ struct Merger {
 
 type Rule = fn(&mut Atoms, &Polynomial, &Monomial, Rational, [&Wave; 2]) -> Option<Merger>;
 
-/// The first that applies anywhere goes first, and each takes a term away, or fractions of angles.
+/// Rules in order of priority: the first that applies to any term is used. Each removes a term, or fractions of angles.
 const RULES: [Rule; 4] = [pythagoras, complement, addition, halves];
 
 impl Atoms {
-    /// Merges terms until none merges any more.
+    /// Merges terms until no rule applies.
     pub(super) fn merged(&mut self, polynomial: Polynomial) -> Option<Polynomial> {
         let mut merged = polynomial;
         while let Some(Merger { parts, factors }) = RULES.iter().find_map(|rule| self.merger(&merged, *rule))
@@ -75,7 +75,7 @@ impl Atoms {
     }
 }
 
-/// What is left of a term without the square of a wave, and that with the square of the other.
+/// Term without the square of a sine or cosine, and the same term with the square of the other function.
 fn other_square(one: &Monomial, [a, b]: [&Wave; 2]) -> Option<[Monomial; 2]> {
     let square = |atom| Monomial::of(atom, Rational::from_integer(2));
     (a.atom == b.atom && a.is_squared).then_some(())?;

@@ -1,4 +1,4 @@
-//! What polynomials are made of: every atom, with what it stands for.
+//! Atoms of polynomials, and the meaning of each.
 
 use std::collections::BTreeSet;
 
@@ -11,35 +11,36 @@ use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::symbolic::{External, Function, Id, Parity, Rational, power, square_root};
 use crate::variables::Variable;
 
-/// What an atom stands for. Two that are written alike are one atom.
+/// Meaning of an atom. Equal meanings share one atom.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Meaning {
     Variable(Variable),
     Pi,
-    /// A number, of which a root is taken or that is too long for a coefficient.
+    /// A number under a root, or with too many digits for a coefficient.
     Number(Rational),
     /// A definition that keeps its name.
     Definition(Id),
     Function(Function, Polynomial),
     Atan2(Polynomial, Polynomial),
-    /// A power whose exponent is no number.
+    /// A power whose exponent is not a number.
     Power(Polynomial, Polynomial),
-    /// A sum to a power that cannot be multiplied out.
+    /// A sum, the base of a power that cannot be multiplied out.
     Sum(Polynomial),
-    /// A function of which nothing is known, with its arguments.
+    /// A user-supplied function, with its arguments.
     External(External, Vec<Polynomial>),
-    /// A vector as it is written, and the variable that its first component is; or a product of vectors and those of them.
+    /// A vector as written, with the variable of its first component; or a product of vectors, with the variables of
+    /// all.
     Vector(Formula, Vec<Variable>),
 }
 
 #[derive(Default)]
 pub(super) struct Atoms {
     meanings: IndexSet<Meaning, FxBuildHasher>,
-    /// How many names and numbers each takes written out.
+    /// Number of names and numbers that each atom takes written out.
     sizes: Vec<u64>,
-    /// The node that a sum was.
+    /// Graph node of each sum.
     sources: FxHashMap<Atom, Id>,
-    /// How many products were asked for.
+    /// Number of products computed so far.
     #[cfg(test)]
     products: usize,
 }
@@ -61,7 +62,7 @@ impl Atoms {
         Atom(index as u32)
     }
 
-    /// How many names and numbers a polynomial takes written out: what is shared is written again.
+    /// Number of names and numbers that a polynomial takes written out. Shared parts count at each use.
     pub(super) fn size(&self, polynomial: &Polynomial) -> u64 {
         let atoms = polynomial.terms().flat_map(|(monomial, _)| monomial.factors());
         atoms
@@ -76,7 +77,7 @@ impl Atoms {
         self.sources.get(&atom).copied()
     }
 
-    /// `function` of a polynomial, the sign taken out of odd and even functions.
+    /// Applies a function to a polynomial, with the sign taken out of odd and even functions.
     pub(super) fn function(&mut self, function: Function, x: &Polynomial) -> Polynomial {
         let parity = function.parity();
         match function {
@@ -90,7 +91,7 @@ impl Atoms {
         if is_turned && parity == Parity::Odd { value.negated() } else { value }
     }
 
-    /// A power of what stands at `source`; `None` of zero, or where numbers get too long.
+    /// Power of a polynomial that the node `source` stands for; `None` for a power of zero, or if numbers overflow.
     pub(super) fn power(&mut self, base: &Polynomial, exponent: Rational, source: Id) -> Option<Polynomial> {
         if exponent.is_integer() && exponent.is_positive() {
             return self.natural_power(base, exponent.to_integer());
@@ -129,8 +130,8 @@ impl Atoms {
         Some(Polynomial::term(monomial.power(exponent)?.times(&Monomial::of(sum, exponent))?, number))
     }
 
-    /// The factor of a sum that its power is taken of by itself: of roots a square, as what is not known to be
-    /// positive stays.
+    /// Factor of a sum that is raised to the power by itself. Under a square root it is a square number, since other
+    /// factors are not known to be positive.
     fn taken_out(&self, base: &Polynomial, exponent: Rational) -> (Rational, Monomial) {
         let (number, monomial) = base.content();
         if exponent.is_integer() {
@@ -145,7 +146,7 @@ impl Atoms {
         Polynomial::term(Monomial::of(ten, exponent), Rational::one())
     }
 
-    /// By squares, of which there are as few for any exponent as it has binary digits.
+    /// Power by repeated squaring, with a number of products that grows with the binary digits of the exponent.
     pub(super) fn natural_power(&mut self, base: &Polynomial, exponent: i128) -> Option<Polynomial> {
         if exponent == 1 {
             return Some(base.clone());
@@ -155,7 +156,7 @@ impl Atoms {
         if exponent % 2 == 0 { Some(square) } else { self.product(&square, base) }
     }
 
-    /// The product, where it has no more than [`LIMIT`] terms. Of sums in the result no power is natural.
+    /// Product, if it has at most [`LIMIT`] terms. Natural powers of sums in it are multiplied out.
     pub(super) fn product(&mut self, x: &Polynomial, y: &Polynomial) -> Option<Polynomial> {
         #[cfg(test)]
         (self.products += 1);
@@ -181,7 +182,7 @@ impl Atoms {
         self.product(&rest, &Polynomial::number(Rational::one()))
     }
 
-    /// Without sums that are divided by themselves: x²/(x² + y²) + y²/(x² + y²) = 1.
+    /// Cancels sums that are divided by themselves: x²/(x² + y²) + y²/(x² + y²) = 1.
     pub(super) fn cancelled(&mut self, polynomial: Polynomial) -> Option<Polynomial> {
         let factors = polynomial.terms().flat_map(|(monomial, _)| monomial.factors().to_vec());
         let divisors: BTreeSet<(Atom, Rational)> =
@@ -204,7 +205,7 @@ impl Atoms {
     }
 }
 
-/// The most terms that a product may take to multiply out.
+/// Maximum number of terms of a product before like terms are collected.
 pub(super) const LIMIT: usize = 1000;
 
 #[cfg(test)]
@@ -215,7 +216,7 @@ mod tests {
         Polynomial::atom(atoms.atom(Meaning::Variable(Variable::Coordinate(index))))
     }
 
-    /// A power of x, of zero, of 2 x and of x + y.
+    /// Powers of x, of zero, of 2 x and of x + y.
     #[test]
     fn powers_take_as_few_products_as_their_exponents_have_digits() {
         for exponent in [1, 2, 7, 1_000, 1_000_000, i128::MAX] {
@@ -240,7 +241,7 @@ mod tests {
         }
     }
 
-    /// 2ⁿ sinⁿ(x/2) cosⁿ(x/2) is sinⁿ x where 2ⁿ is no longer than a coefficient may be, and else is left as it is.
+    /// 2ⁿ sinⁿ(x/2) cosⁿ(x/2) becomes sinⁿ x if 2ⁿ fits into a coefficient, and is left unchanged otherwise.
     #[test]
     fn waves_of_half_an_angle_are_put_together_at_once() {
         for (exponent, is_short) in [(1, true), (100, true), (1_000, false), (i128::MAX, false)] {

@@ -1,4 +1,4 @@
-//! Polynomials as formulas: what many terms have in common is taken out of them where that is shorter.
+//! Converts polynomials to formulas. Common factors of several terms are taken out where that is shorter.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -16,35 +16,35 @@ use super::polynomial::{Atom, Monomial, Polynomial, common};
 use crate::symbolic::{self, Id, Rational, Scaled};
 use crate::variables::Variable;
 
-/// Writes polynomials down.
+/// Writes polynomials as formulas.
 pub(super) struct Collector<'a, 'p> {
     pub(super) page: &'a Page<'p>,
     pub(super) expansion: &'a Expansion<'a>,
-    /// The definitions that neither the time nor the state changes.
+    /// Definitions that depend on neither time nor state.
     pub(super) constants: &'a FxHashSet<Id>,
     pub(super) written: RefCell<FxHashMap<Atom, Formula>>,
 }
 
-/// number · monomial · quotient, which are these terms of a sum.
+/// Product number · monomial · quotient that equals the `members`, which are terms of a sum.
 struct Group {
     members: Vec<Monomial>,
     number: Rational,
     monomial: Monomial,
     quotient: Polynomial,
-    /// How many signs it takes less than they do.
+    /// Number of symbols that the product saves compared with the sum of the members.
     saving: isize,
-    /// Of number and monomial.
+    /// Number of symbols of number and monomial.
     size: isize,
 }
 
 impl Group {
-    /// Of two that save as much, the longer factor.
+    /// Sort key: the saving, then the length of the common factor.
     fn worth(&self) -> (isize, isize) {
         (self.saving, self.size)
     }
 }
 
-/// The place of a term in a sum: multipliers last, minus signs behind plus signs, fast motion first.
+/// Sort key of a term in a sum: multipliers last, plus signs before minus signs, higher degree in the velocities first.
 type TermOrder = (bool, bool, Option<Rational>, Monomial);
 
 impl Collector<'_, '_> {
@@ -69,7 +69,7 @@ impl Collector<'_, '_> {
         (has_multiplier, number.is_negative() && !has_multiplier, speed, monomial.clone())
     }
 
-    /// Those that it is made of, of a product of vectors all.
+    /// Variable of an atom, or all variables in a product of vectors.
     fn variables(&self, atom: Atom) -> &[Variable] {
         match self.expansion.atoms.meaning(atom) {
             Meaning::Variable(variable) => std::slice::from_ref(variable),
@@ -100,7 +100,7 @@ impl Collector<'_, '_> {
         }
     }
 
-    /// Whether neither the time nor the state is in it.
+    /// Returns whether an atom depends on neither time nor state.
     pub(super) fn is_constant(&self, atom: Atom) -> bool {
         let all = |polynomial: &Polynomial| self.are_constant(polynomial);
         match self.expansion.atoms.meaning(atom) {
@@ -126,7 +126,7 @@ impl Collector<'_, '_> {
         monomial.filtered(|atom| !self.is_constant(atom))
     }
 
-    /// The terms that it saves most to write as one product.
+    /// Terms that save the most symbols when written as one product.
     fn group(&self, polynomial: &Polynomial) -> Option<Group> {
         let monomials: Vec<&Monomial> = polynomial.terms().map(|(monomial, _)| monomial).collect();
         if monomials.len() < 2 || monomials.len() > LONG {
@@ -146,7 +146,7 @@ impl Collector<'_, '_> {
         groups.reduce(|best, next| if next.worth() > best.worth() { next } else { best })
     }
 
-    /// The members as a product, if that is worth it.
+    /// Product of the members, if it saves enough symbols.
     fn candidate(&self, polynomial: &Polynomial, members: Vec<&Monomial>) -> Option<Group> {
         if members.len() < 2 {
             return None;
@@ -165,7 +165,7 @@ impl Collector<'_, '_> {
         (saving >= least).then_some(Group { members, number, monomial, quotient, saving, size })
     }
 
-    /// Constants with one denominator: (a m + b)/m for a + b/m.
+    /// Combines constants over a common denominator: (a m + b)/m for a + b/m.
     fn over_common(
         &self,
         mut monomial: Monomial,
@@ -186,8 +186,8 @@ impl Collector<'_, '_> {
         Some((monomial, quotient))
     }
 
-    /// What parentheses around a quotient cost, and how much must be saved: those around constants and differences are easier to
-    /// read than others, fractions in fractions harder, and factors that move are not to be hidden.
+    /// Cost of parentheses around a quotient, and minimum saving, both in symbols. Parentheses around constants and
+    /// differences are easier to read than others, and nested fractions harder. Moving factors should stay visible.
     fn parentheses(&self, monomial: &Monomial, quotient: &Polynomial) -> (isize, isize) {
         let has_fraction =
             |(monomial, _): (&Monomial, _)| monomial.factors().iter().any(|(_, e)| e.is_negative());
@@ -203,21 +203,21 @@ impl Collector<'_, '_> {
         }
     }
 
-    /// Whether its terms are of one degree in the velocities.
+    /// Returns whether all terms have the same degree in the velocities.
     fn are_alike(&self, quotient: &Polynomial) -> bool {
         let mut degrees = quotient.terms().map(|(monomial, _)| self.degree(monomial, is_velocity));
         let first = degrees.next();
         degrees.all(|degree| Some(degree) == first)
     }
 
-    /// Whether nothing but coordinates moves in it.
+    /// Returns whether the polynomial contains coordinates and constants only.
     fn is_of_coordinates(&self, quotient: &Polynomial) -> bool {
         let is_it =
             |atom| matches!(self.variable(atom), Some(Variable::Coordinate(_))) || self.is_constant(atom);
         quotient.terms().all(|(monomial, _)| monomial.factors().iter().all(|&(atom, _)| is_it(atom)))
     }
 
-    /// Whether it is made of coordinates, or of their squares, without numbers before them: x₁ − x₂.
+    /// Returns whether all terms are products of coordinates of one degree with coefficients ±1, such as x₁ − x₂.
     fn are_differences(&self, quotient: &Polynomial) -> bool {
         let is_coordinate = |variable| matches!(variable, Variable::Coordinate(_));
         let mut degrees = quotient.terms().map(|(monomial, c)| {
@@ -229,7 +229,7 @@ impl Collector<'_, '_> {
         first.is_some() && degrees.all(|degree| degree == first)
     }
 
-    /// `None` where exponents are too long.
+    /// Degree of a monomial in the variables that `counts` selects; `None` if the exponents overflow.
     fn degree(&self, monomial: &Monomial, counts: impl Fn(Variable) -> bool) -> Option<Rational> {
         let count = |atom| self.variables(atom).iter().filter(|variable| counts(**variable)).count();
         monomial.factors().iter().try_fold(Rational::default(), |degree, &(atom, exponent)| {
@@ -243,7 +243,7 @@ impl Collector<'_, '_> {
         sizes.sum::<usize>() as isize
     }
 
-    /// number · monomial · quotient
+    /// Product number · monomial · quotient.
     pub(super) fn product(
         &self,
         number: Rational,
@@ -260,7 +260,7 @@ impl Collector<'_, '_> {
             let power = self.power(atom, exponent.abs());
             let before = if exponent.is_negative() { &mut below } else { &mut above };
             before.push(power);
-            // Before what moves fast, and before functions.
+            // The quotient goes before velocities, accelerations and functions.
             place = if self.reading_order(atom) < (MOVING, 0) { above.len() } else { place };
         }
         if let Some(quotient) = quotient {
@@ -274,7 +274,8 @@ impl Collector<'_, '_> {
         *self.expansion.atoms.meaning(atom) == Meaning::Number(Rational::from_integer(10))
     }
 
-    /// Parameters come first, then multipliers, definitions, coordinates, velocities, accelerations, functions.
+    /// Sort key of factors: parameters, then multipliers, definitions, coordinates, velocities, accelerations,
+    /// functions.
     fn reading_order(&self, atom: Atom) -> (u8, usize) {
         let first = atom.0 as usize;
         match (self.expansion.atoms.meaning(atom), self.variable(atom)) {
@@ -294,7 +295,9 @@ impl Collector<'_, '_> {
         }
     }
 
-    /// A power of an atom, its exponent positive; |r|³ is one of the sum of squares that |r|² is.
+    /// Power of an atom with a positive exponent. A half-integer power of a sum of squares becomes a power of a norm,
+    /// as in
+    /// |r|³.
     fn power(&self, atom: Atom, exponent: Rational) -> Formula {
         if let Meaning::Sum(sum) = self.expansion.atoms.meaning(atom)
             && let Some(norm) = self.squared_norm(sum)
@@ -330,7 +333,7 @@ impl Collector<'_, '_> {
             Meaning::Vector(written, _) => written.clone(),
             Meaning::Sum(terms) => {
                 let collected = self.sum(terms);
-                // Squares of differences are shorter as they were.
+                // Squares of differences are shorter as written.
                 let source = self.expansion.atoms.source(atom).filter(|&id| self.keeps_names_of(id));
                 let source = source.map(|id| page.derived(id));
                 source.filter(|source| length(source) < length(&collected)).unwrap_or(collected)
@@ -338,7 +341,7 @@ impl Collector<'_, '_> {
         }
     }
 
-    /// Whether all names in it are those that are kept.
+    /// Returns whether every name in an expression is a definition that keeps its name.
     fn keeps_names_of(&self, id: Id) -> bool {
         let Page { graph, problem, .. } = self.page;
         let mut pending = vec![id];
@@ -358,13 +361,13 @@ fn is_velocity(variable: Variable) -> bool {
     matches!(variable, Variable::Velocity(_) | Variable::Momentum(_))
 }
 
-/// The place of velocities among factors; after it come accelerations and functions.
+/// Rank of velocities in [`Collector::reading_order`]; accelerations and functions follow.
 const MOVING: u8 = 7;
 
-/// Of a sum of more terms than this nothing is taken out.
+/// Longest sum, in terms, from which common factors are taken out.
 const LONG: usize = 40;
 
-/// The common factor of all terms, as far as `may_go` lets it.
+/// Common factor of all terms, restricted to atoms that `may_go` accepts.
 pub(super) fn shared(polynomial: &Polynomial, may_go: impl Fn(Atom) -> bool) -> (Rational, Monomial) {
     let (_, monomial) = polynomial.content();
     (common(polynomial.terms().map(|(_, &c)| c)), monomial.filtered(may_go))

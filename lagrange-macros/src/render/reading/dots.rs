@@ -1,4 +1,4 @@
-//! Scalars that are products of vectors, where an expression has all of their components: p·p for p₀² + p₁² + p₂².
+//! Recognizes scalars that are products of vectors from their components: p·p in p₀² + p₁² + p₂².
 
 use std::collections::BTreeMap;
 
@@ -12,14 +12,14 @@ use super::vectors::{Components, Vector, VectorTerm};
 use crate::symbolic::{self, Rational};
 use crate::variables::Variable;
 
-/// Sums of products of components.
+/// Sum of products of components, with a coefficient for each product.
 type ComponentProducts = BTreeMap<Components, Rational>;
 
-/// The components in a term, the whole of it, and its coefficient.
+/// Components in a term, the entire monomial, and its coefficient.
 type ComponentTerm = (Components, Monomial, Rational);
 
 impl Collector<'_, '_> {
-    /// The terms with products of vectors for sums over components; `None` where there are no such sums.
+    /// Replaces sums over components by products of vectors; `None` if there are no such sums.
     pub(super) fn dotted_terms(&self, all: &Polynomial) -> Option<Vec<VectorTerm>> {
         let mut known: Vec<Vector> = Vec::new();
         let mut groups: BTreeMap<(Monomial, Vec<usize>), Vec<ComponentTerm>> = BTreeMap::new();
@@ -43,7 +43,7 @@ impl Collector<'_, '_> {
         is_any.then_some(terms)
     }
 
-    /// a·b, a·(b×c), (a·a) (b·b), (a·b)², (a×b)·(a×b) where the sum is one of these, or of the two before the last.
+    /// Recognizes a·b, a·(b×c), (a·a) (b·b), (a·b)² or (a×b)·(a×b), or a combination of (a·a) (b·b) and (a·b)².
     fn product_of(
         &self,
         vectors: &[usize],
@@ -97,7 +97,7 @@ impl Collector<'_, '_> {
     }
 }
 
-/// Ω·(r×p), Ω×r: what moves stands behind.
+/// Orders vectors as texts do, with moving ones last: Ω·(r×p), Ω×r.
 fn moving_last<const N: usize>(vectors: [usize; N], known: &[Vector]) -> [usize; N] {
     let mut sorted = vectors;
     sorted.sort_by_key(|&i| match known[i].of {
@@ -118,7 +118,7 @@ fn dotted(a: usize, b: usize, n: usize) -> ComponentProducts {
     (0..n).map(|k| (product(&[(a, k), (b, k)]), Rational::from_integer(1))).collect()
 }
 
-/// a·(b×c)
+/// Triple product a·(b×c) by components.
 fn mixed(a: usize, b: usize, c: usize) -> ComponentProducts {
     let sign = Rational::from_integer;
     let cyclic = (0..3).flat_map(|k| {

@@ -1,4 +1,4 @@
-//! Expansion of nodes of the graph into polynomials.
+//! Expands nodes of the graph into polynomials.
 
 use std::cell::RefCell;
 
@@ -12,16 +12,16 @@ use crate::resolve::Problem;
 use crate::symbolic::{External, Graph, Id, Node, Rational};
 use crate::variables::Variable;
 
-/// How many polynomials of nodes are worked out in all, counted in terms: what is beyond stays as it is.
+/// Maximum total number of terms in all expanded polynomials. Nodes beyond it are not expanded.
 const WORK: usize = 10_000;
 
-/// Expressions as polynomials, of which definitions are parts by their names, or what these stand for.
+/// Polynomials of nodes, in which some definitions keep their names and the others are written out.
 pub(super) struct Expansion<'a> {
     graph: &'a Graph,
-    /// The definitions that keep their names.
+    /// Definitions that keep their names.
     pub(super) names: FxHashSet<Id>,
     pub(super) atoms: Atoms,
-    /// Definitions without a name whose sines and cosines are put together.
+    /// Entries of the mass matrix: unnamed definitions whose sines and cosines are merged by trigonometric identities.
     entries: FxHashSet<Id>,
     done: FxHashMap<Id, Option<Polynomial>>,
     work: usize,
@@ -32,7 +32,7 @@ impl<'a> Expansion<'a> {
         let entries = derived.hamilton.iter().flat_map(|hamilton| &hamilton.entries).copied().collect();
         let (atoms, done) = (Atoms::default(), FxHashMap::default());
         let mut expansion = Self { graph, names, atoms, entries, done, work: WORK };
-        // The order in which signs are taken out: φ₁ − φ₂, and not the other way about.
+        // Registration order decides the sign taken out of a sum: φ₁ − φ₂ instead of φ₂ − φ₁.
         let n = problem.coordinates.len();
         let parameters = problem.parameters.by_field().into_iter().map(Variable::Parameter);
         let kinds = [Variable::Coordinate, Variable::Velocity, Variable::Acceleration, Variable::Momentum];
@@ -42,7 +42,7 @@ impl<'a> Expansion<'a> {
         expansion
     }
 
-    /// A node as a polynomial; `None` where that takes too many terms.
+    /// Polynomial of a node; `None` if it takes too many terms.
     pub(super) fn of(&mut self, root: Id) -> Option<Polynomial> {
         let mut pending = vec![root];
         while let Some(&id) = pending.last() {
@@ -79,7 +79,7 @@ impl<'a> Expansion<'a> {
         ids.iter().map(|&id| self.known(id)).collect()
     }
 
-    /// A node whose operands are done.
+    /// Polynomial of a node whose operands are expanded.
     fn polynomial(&mut self, id: Id) -> Option<Polynomial> {
         let meaning = match self.graph.node(id) {
             Node::Number(value) => return Some(Polynomial::number(*value)),
@@ -112,7 +112,7 @@ impl<'a> Expansion<'a> {
         let mut product = Polynomial::number(Rational::one());
         for &(factor, exponent) in factors {
             let power = match self.graph.is_power_of_ten((factor, exponent)) {
-                // Its digits do not fit into a coefficient.
+                // The digits of this power of ten do not fit into a coefficient.
                 true => self.atoms.power_of_ten(exponent),
                 false => self.atoms.power(&self.known(factor)?, exponent, factor)?,
             };
@@ -122,10 +122,10 @@ impl<'a> Expansion<'a> {
     }
 }
 
-/// The same expressions with some of the definitions by their names.
+/// Expansion in which a certain set of definitions keeps its names.
 pub(crate) struct Reading<'a>(pub(super) RefCell<Expansion<'a>>);
 
-/// With all definitions by their names, with those that are constant, and with none: as far as these differ.
+/// Readings with all definitions by name, with only constant ones by name, and with none, without repetitions.
 pub(crate) fn readings<'a>(
     graph: &'a Graph,
     problem: &Problem,
@@ -146,16 +146,16 @@ pub(crate) fn readings<'a>(
         .collect()
 }
 
-/// Whether definitions appear by their names.
+/// Whether definitions appear by name or written out.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Names {
-    /// By whichever is shorter.
+    /// Whichever is shorter.
     Shortest,
     Kept,
     WrittenOut,
 }
 
-/// The definitions that neither the time nor the state changes.
+/// Definitions that depend on neither time nor state.
 pub(crate) fn constants(graph: &Graph, problem: &Problem) -> FxHashSet<Id> {
     let mut is_constant = Vec::with_capacity(graph.len());
     for id in graph.ids() {

@@ -1,9 +1,9 @@
-//! Equations as a person would print them. Nothing is computed with this form.
+//! Rewrites equations as a person would print them. Nothing is computed with this form.
 //!
-//! An expression is multiplied out into a [polynomial] in [atoms], whose like terms are collected and cancel exactly;
-//! sines and cosines are [put together](angles); a [row] is divided by what its terms have in common; and common factors are
-//! [taken out](collect) where that is shorter. All that is done once with the names of definitions and once with what they
-//! stand for, and the [shortest](mod@super::length) form is taken, the one that is computed with among them.
+//! An expression is expanded into a [polynomial] in [atoms], whose like terms are collected and cancel exactly. Sines
+//! and cosines are [merged](angles), a [row] is divided by the common factor of its terms, and common factors are
+//! [taken out](collect) where that is shorter. This is done with definitions by name and with definitions written out.
+//! The [shortest](mod@super::length) form is taken; the form used in the computation is also a candidate.
 
 mod angles;
 mod atoms;
@@ -29,14 +29,14 @@ pub(super) use expand::{Names, Reading, constants, readings};
 use polynomial::{Monomial, Polynomial};
 use vectors::VectorTerm;
 
-/// Of polynomials of more terms than this sines and cosines are not put together.
+/// Longest polynomial, in terms, whose sines and cosines are merged.
 const TERMS: usize = 100;
 
-/// Nor is a polynomial written down of more names and numbers, those in the arguments of functions counted.
+/// Largest polynomial that is written, in names and numbers, those in arguments of functions included.
 const SIZE: u64 = 2000;
 
 impl Page<'_> {
-    /// Σ inertia = Σ forces
+    /// Equation Σ inertia = Σ forces.
     pub(super) fn row(&self, inertia: Id, forces: &[Id]) -> Equation {
         let sides = |reading: &Reading| {
             let all = self.polynomial(reading, &[(inertia, 1)], forces)?;
@@ -48,7 +48,8 @@ impl Page<'_> {
         self.chosen(read, computed, size, false).into()
     }
 
-    /// The shortest reading, or what is computed with where that is shorter: or as short, and it is asked for first.
+    /// Chooses the shortest reading, or the computed form if that is shorter. With `is_first`, the computed form also
+    /// wins ties.
     fn chosen<T>(
         &self,
         read: impl Iterator<Item = T>,
@@ -58,12 +59,12 @@ impl Page<'_> {
     ) -> Result<T, u64> {
         let Some(read) = shortest(read, &length) else { return computed };
         let most = length(&read) + usize::from(is_first);
-        // That has names.
+        // The computed form contains names of definitions.
         let computed = computed.ok().filter(|_| self.names != Names::WrittenOut);
         Ok(computed.filter(|computed| length(computed) < most).unwrap_or(read))
     }
 
-    /// The same of rows that are the components of one equation of vectors, where they are that.
+    /// Vector equation of several rows, if these are its components.
     pub(super) fn vector_row(&self, rows: &[(Id, Vec<Id>)]) -> Option<[Formula; 2]> {
         let sides = |reading: &Reading| {
             let parts =
@@ -74,7 +75,7 @@ impl Page<'_> {
         shortest(self.readings.iter().filter_map(sides), |[left, right]| length(left) + length(right))
     }
 
-    /// Nodes that are the components of one vector.
+    /// Vector formula of several nodes, if these are its components.
     pub(super) fn vector_expression(&self, components: &[Id]) -> Option<Formula> {
         let formula = |reading: &Reading| {
             let parts = components.iter().map(|&id| self.polynomial(reading, &[(id, 1)], &[]));
@@ -84,7 +85,7 @@ impl Page<'_> {
         shortest(self.readings.iter().filter_map(formula), length)
     }
 
-    /// The rows as one polynomial, of which each term has a vector.
+    /// Combines rows into one polynomial whose terms each contain a vector.
     fn vector(&self, reading: &Reading, rows: &[Polynomial]) -> Option<Polynomial> {
         let terms = self.collected(reading, |collector| collector.vector_terms(rows))?;
         Self::assembled(reading, terms)
@@ -103,19 +104,19 @@ impl Page<'_> {
         Some(all)
     }
 
-    /// A node as it is read.
+    /// Shortest formula of a node.
     pub(super) fn expression(&self, id: Id) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
         self.chosen(self.read(id), computed, length, false)
     }
 
-    /// A node as it was written, where that is as short.
+    /// Shortest formula of a node; the computed form wins ties.
     pub(super) fn quantity(&self, id: Id) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
         self.chosen(self.read(id), computed, length, true)
     }
 
-    /// By components, and by the products of vectors that it has.
+    /// Readings of a node by components, and by products of vectors if it has any.
     fn read(&self, id: Id) -> impl Iterator<Item = Formula> {
         let formulas = move |reading: &Reading| {
             let all = self.polynomial(reading, &[(id, 1)], &[])?;
@@ -128,7 +129,7 @@ impl Page<'_> {
         formulas.filter(|formula| length(formula) <= READABLE as usize)
     }
 
-    /// A momentum as it was written, where that is as short, or else with its velocities collected.
+    /// Formula of a momentum: with velocities collected, or the computed form if that is no longer.
     pub(super) fn momentum(&self, id: Id) -> Result<Formula, u64> {
         let collected = |reading: &Reading| {
             let all = self.polynomial(reading, &[(id, 1)], &[])?;
@@ -171,7 +172,7 @@ impl Page<'_> {
     }
 }
 
-/// The first of the shortest.
+/// First of the shortest candidates.
 fn shortest<T>(candidates: impl Iterator<Item = T>, length: impl Fn(&T) -> usize) -> Option<T> {
     candidates.reduce(|best, next| if length(&next) < length(&best) { next } else { best })
 }

@@ -1,4 +1,4 @@
-//! Polynomials with rational coefficients, their exponents rational too.
+//! Polynomials with rational coefficients and rational exponents.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -7,11 +7,11 @@ use num_traits::{One, Signed, Zero};
 
 use crate::symbolic::{Rational, plus, times};
 
-/// What is not taken apart: a name, or a function of something. What it is the [`Atoms`](super::atoms::Atoms) know.
+/// Indivisible factor: a name, or a function of an argument. Its meaning is stored in [`Atoms`](super::atoms::Atoms).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(super) struct Atom(pub(super) u32);
 
-/// Π atom ^ exponent, sorted by atom, no exponent zero.
+/// Π atom ^ exponent, sorted by atom, without zero exponents.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub(super) struct Monomial(Vec<(Atom, Rational)>);
 
@@ -54,7 +54,7 @@ impl Monomial {
         self.times(&other.power(-Rational::one())?)
     }
 
-    /// What is a factor of both: of each atom that is above, or below, in both, the lower power.
+    /// Common factor of two monomials: for each atom with exponents of the same sign in both, the smaller power.
     pub(super) fn shared(&self, other: &Self) -> Self {
         let factors = self.0.iter().filter_map(|&(atom, one)| {
             let two = other.exponent(atom);
@@ -64,7 +64,7 @@ impl Monomial {
         Self(factors.collect())
     }
 
-    /// By the powers of one atom after the other: an order that products keep.
+    /// Lexicographic order of the exponents, which multiplication preserves.
     fn by_powers(&self, other: &Self) -> Ordering {
         let atoms = self.0.iter().chain(&other.0).map(|&(atom, _)| atom);
         let differ = |atom: &Atom| self.exponent(*atom) != other.exponent(*atom);
@@ -72,13 +72,13 @@ impl Monomial {
         first.map_or(Ordering::Equal, |atom| self.exponent(atom).cmp(&other.exponent(atom)))
     }
 
-    /// Those factors for which `keep` holds.
+    /// Product of the factors whose atoms `keep` accepts.
     pub(super) fn filtered(&self, keep: impl Fn(Atom) -> bool) -> Self {
         Self(self.0.iter().copied().filter(|&(atom, _)| keep(atom)).collect())
     }
 }
 
-/// Σ coefficient · monomial, no coefficient zero.
+/// Σ coefficient · monomial, without zero coefficients.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub(super) struct Polynomial(BTreeMap<Monomial, Rational>);
 
@@ -107,7 +107,7 @@ impl Polynomial {
         self.0.is_empty()
     }
 
-    /// Its monomial and coefficient, if it has but one.
+    /// Monomial and coefficient, if the polynomial has a single term.
     pub(super) fn single(&self) -> Option<(&Monomial, Rational)> {
         self.0.iter().next().filter(|_| self.len() == 1).map(|(monomial, &c)| (monomial, c))
     }
@@ -116,7 +116,7 @@ impl Polynomial {
         self.0.get(monomial).copied()
     }
 
-    /// Adds a term.
+    /// Adds a term; `None` if the coefficient overflows.
     pub(super) fn push(&mut self, monomial: Monomial, coefficient: Rational) -> Option<()> {
         let sum = plus(self.coefficient(&monomial).unwrap_or_default(), coefficient)?;
         if sum.is_zero() {
@@ -131,7 +131,7 @@ impl Polynomial {
         self.0.remove(monomial);
     }
 
-    /// self + factor · other
+    /// Adds factor · other; `None` if a coefficient overflows.
     pub(super) fn add(&mut self, other: &Self, factor: Rational) -> Option<()> {
         other.0.iter().try_for_each(|(monomial, &c)| self.push(monomial.clone(), times(c, factor)?))
     }
@@ -140,7 +140,7 @@ impl Polynomial {
         Self(self.0.iter().map(|(monomial, &c)| (monomial.clone(), -c)).collect())
     }
 
-    /// Times one term.
+    /// Multiplies by one term.
     pub(super) fn scaled(&self, monomial: &Monomial, coefficient: Rational) -> Option<Self> {
         let terms = self.0.iter().map(|(own, &c)| Some((own.times(monomial)?, times(c, coefficient)?)));
         terms.collect::<Option<_>>().map(Self)
@@ -154,13 +154,13 @@ impl Polynomial {
         Some(product)
     }
 
-    /// Whether its first term that is no number is negative: of p and −p one is.
+    /// Returns whether the first nonconstant term is negative. This holds for exactly one of p and −p.
     pub(super) fn leads_negative(&self) -> bool {
         let lead = self.0.iter().find(|(monomial, _)| !monomial.is_one()).or_else(|| self.0.iter().next());
         lead.is_some_and(|(_, c)| c.is_negative())
     }
 
-    /// What is a factor of all coefficients and of all monomials; positive.
+    /// Positive common factor of all coefficients, and common factor of all monomials.
     pub(super) fn content(&self) -> (Rational, Monomial) {
         let number = common(self.0.values().copied());
         let mut monomials = self.0.keys();
@@ -168,13 +168,13 @@ impl Polynomial {
         (number, monomials.fold(first, |shared, monomial| shared.shared(monomial)))
     }
 
-    /// The term with the greatest monomial.
+    /// Term with the greatest monomial.
     fn lead(&self) -> Option<(&Monomial, Rational)> {
         let greatest = self.0.iter().max_by(|(one, _), (two, _)| one.by_powers(two));
         greatest.map(|(monomial, &c)| (monomial, c))
     }
 
-    /// The quotient, where the division leaves nothing: by the greatest monomials, one after the other.
+    /// Quotient, if the division is exact: long division by the greatest monomials.
     pub(super) fn divided(&self, divisor: &Self) -> Option<Self> {
         let (lead, by) = divisor.lead()?;
         let (mut rest, mut quotient) = (self.clone(), Self::default());
@@ -189,21 +189,21 @@ impl Polynomial {
 }
 
 impl FromIterator<(Monomial, Rational)> for Polynomial {
-    /// Of monomials that differ.
+    /// The monomials must differ from each other.
     fn from_iter<I: IntoIterator<Item = (Monomial, Rational)>>(terms: I) -> Self {
         Self(terms.into_iter().collect())
     }
 }
 
-/// The positive number that all are multiples of without needing larger numbers than they have: 2 of 4 and 6, ½ of ½ and 3/2,
-/// 1 of ½ and 1.
+/// Greatest common divisor of the numerators over that of the denominators: all coefficients are multiples of it, with
+/// no larger numerators or denominators than before. Examples: 2 for 4 and 6, ½ for ½ and 3/2, 1 for ½ and 1.
 pub(super) fn common(coefficients: impl Iterator<Item = Rational>) -> Rational {
     let (above, below) = coefficients
         .fold((0, 0), |(above, below), c| (divisor(*c.numer(), above), divisor(*c.denom(), below)));
     if above == 0 { Rational::one() } else { Rational::new(above, below) }
 }
 
-/// The greatest common divisor.
+/// Greatest common divisor by Euclid's algorithm.
 fn divisor(x: i128, y: i128) -> i128 {
     if y == 0 { x.abs() } else { divisor(y, x % y) }
 }

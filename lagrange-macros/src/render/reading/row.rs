@@ -1,5 +1,5 @@
-//! A row of the equations of motion: accelerations to the left, everything else to the right, what all terms have in common
-//! divided away.
+//! Arranges a row of the equations of motion: accelerations on the left, all other terms on the right, divided by the
+//! common factor.
 
 use std::collections::BTreeMap;
 
@@ -11,11 +11,11 @@ use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::symbolic::Rational;
 use crate::variables::Variable;
 
-/// The index of an atom that is one of them.
+/// Maps an atom to the index of its variable if the variable is of a certain kind, such as an acceleration.
 type Variables<C> = fn(&C, Atom) -> Option<usize>;
 
 impl Collector<'_, '_> {
-    /// Left and right side of Σ = 0, where Σ has accelerations.
+    /// Left and right side of the equation Σ = 0, whose terms contain accelerations.
     pub(super) fn row(&self, all: &Polynomial) -> Option<[Formula; 2]> {
         let all = self.divided(all)?;
         let (mut left, mut right) = (Polynomial::default(), Polynomial::default());
@@ -30,12 +30,12 @@ impl Collector<'_, '_> {
         self.moved(monomial, Self::acceleration).is_some()
     }
 
-    /// Its first factor that is one of these variables.
+    /// First factor of a monomial that is a variable of this kind.
     fn moved(&self, monomial: &Monomial, variables: Variables<Self>) -> Option<Atom> {
         monomial.factors().iter().map(|&(atom, _)| atom).find(|&atom| variables(self, atom).is_some())
     }
 
-    /// What is linear in accelerations, or in velocities: Σ coefficient · q̈
+    /// Collects the terms of a linear polynomial by acceleration or by velocity: Σ coefficient · q̈.
     pub(super) fn collected(&self, linear: &Polynomial, variables: Variables<Self>) -> Option<Formula> {
         let coefficients = self.coefficients(linear, variables)?;
         let terms = coefficients.iter().map(|(atom, coefficient)| self.multiplied(*atom, coefficient));
@@ -44,7 +44,7 @@ impl Collector<'_, '_> {
         Some(Formula::sum(terms))
     }
 
-    /// p = Σ coefficient · q̇ + b
+    /// Momentum p = Σ coefficient · q̇ + b.
     pub(super) fn momentum(&self, all: &Polynomial) -> Option<Formula> {
         let (mut moving, mut rest) = (Polynomial::default(), Polynomial::default());
         for (monomial, &c) in all.terms() {
@@ -56,7 +56,7 @@ impl Collector<'_, '_> {
         Some(Formula::sum(parts.into_iter().filter(|part| *part != zero).collect()))
     }
 
-    /// coefficient · q̈
+    /// Product coefficient · q̈.
     fn multiplied(&self, atom: Atom, coefficient: &Polynomial) -> Option<Formula> {
         let (number, monomial) = coefficient.content();
         let is_negative = coefficient.terms().all(|(_, c)| c.is_negative());
@@ -66,7 +66,7 @@ impl Collector<'_, '_> {
         Some(self.product(number, &monomial, Some(&quotient).filter(|quotient| quotient.len() > 1)))
     }
 
-    /// Of each of these variables that there is, in their order.
+    /// Coefficient of each variable of this kind that occurs, in the order of the variables.
     fn coefficients(
         &self,
         linear: &Polynomial,
@@ -85,8 +85,8 @@ impl Collector<'_, '_> {
         Some(coefficients)
     }
 
-    /// Without what is common to all terms. Where an acceleration is multiplied by it too, that may be a coordinate: nothing
-    /// is lost but an identity where it vanishes.
+    /// Divides by the common factor of all terms. In a row with accelerations the factor may contain coordinates: the
+    /// division loses only the identity 0 = 0 at the zeros of the factor.
     fn divided(&self, all: &Polynomial) -> Option<Polynomial> {
         let coefficients = self.coefficients(all, Self::acceleration)?;
         let may_go = |atom| match self.variable(atom) {
@@ -107,7 +107,8 @@ impl Collector<'_, '_> {
         Some(all)
     }
 
-    /// The sum that may be a factor of all terms: the shortest of those that constants and coordinates make with all else equal.
+    /// Candidate for a sum that divides all terms: the shortest sum of constants and coordinates among terms with equal
+    /// other factors.
     fn divisor(&self, all: &Polynomial) -> Option<Polynomial> {
         let has_inertia = all.terms().any(|(monomial, _)| self.is_inertia(monomial));
         let is_kept = |atom| match self.variable(atom) {

@@ -1,4 +1,4 @@
-//! Rows that are the components of one equation of vectors.
+//! Recognizes rows that are the components of one vector equation.
 
 use std::collections::BTreeMap;
 
@@ -11,20 +11,20 @@ use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::symbolic::Rational;
 use crate::variables::Variable;
 
-/// A vector as it is written, and the variable that its first component is.
+/// A vector as written, and the variable of its first component.
 #[derive(Clone, PartialEq)]
 pub(super) struct Vector {
     pub(super) written: Formula,
     pub(super) of: Option<Variable>,
 }
 
-/// Components that are multiplied: which of the vectors known, and which component; sorted.
+/// Product of vector components, sorted: index of each vector, and index of its component.
 pub(super) type Components = Vec<(usize, usize)>;
 
-/// For each scalar factor and each set of vectors multiplied, the products of their components in every row.
+/// Products of components in every row, keyed by their scalar factor and the set of vectors multiplied.
 type Groups = BTreeMap<(Monomial, Vec<usize>), Vec<BTreeMap<Components, Rational>>>;
 
-/// A term of an equation of vectors: coefficient, scalar factors, and what these multiply.
+/// Term of a vector equation: coefficient, scalar factors, and vector factors.
 pub(super) struct VectorTerm {
     pub(super) coefficient: Rational,
     pub(super) scalar: Monomial,
@@ -32,7 +32,8 @@ pub(super) struct VectorTerm {
 }
 
 impl Collector<'_, '_> {
-    /// The rows as one equation; `None` where they are not what scalars, dot products and cross products make of vectors.
+    /// Vector equation of these rows; `None` if scalars, dot products and cross products of vectors do not produce
+    /// them.
     pub(super) fn vector_terms(&self, rows: &[Polynomial]) -> Option<Vec<VectorTerm>> {
         let mut known: Vec<Vector> = Vec::new();
         let mut groups = Groups::new();
@@ -56,7 +57,7 @@ impl Collector<'_, '_> {
         Some(terms.collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
     }
 
-    /// Scalar factors, and components of vectors.
+    /// Splits a monomial into its scalar factors and the components of vectors.
     pub(super) fn parted(&self, monomial: &Monomial, known: &mut Vec<Vector>) -> (Monomial, Components) {
         let mut components = Components::new();
         let mut found = Vec::new();
@@ -74,14 +75,14 @@ impl Collector<'_, '_> {
         (monomial.filtered(|atom| !found.contains(&atom)), components)
     }
 
-    /// The vector that an atom is a component of, and which.
+    /// Vector that an atom is a component of, and index of the component.
     fn component(&self, atom: Atom) -> Option<(Vector, usize)> {
         let (written, place) = component(&self.atom(atom))?;
         let of = self.variable(atom).map(|variable| first(variable, place));
         Some((Vector { written, of }, place))
     }
 
-    /// |a|² or |a − b|², where a sum is that of components squared.
+    /// Norm |a| or |a − b| whose square this sum of squared components is, if there is one.
     pub(super) fn squared_norm(&self, sum: &Polynomial) -> Option<Formula> {
         let mut known: Vec<Vector> = Vec::new();
         let mut products: BTreeMap<Components, Rational> = BTreeMap::new();
@@ -106,7 +107,7 @@ impl Collector<'_, '_> {
         (expected.collect::<BTreeMap<_, _>>() == products).then_some(norm)
     }
 
-    /// Whether a vector of coordinates, velocities or momenta is known to have so many components.
+    /// Returns whether a vector of coordinates, velocities or momenta is known to have `n` components.
     pub(super) fn has_length(&self, vector: &Vector, n: usize) -> bool {
         match vector.of {
             Some(Variable::Coordinate(i) | Variable::Velocity(i) | Variable::Momentum(i)) => {
@@ -116,7 +117,7 @@ impl Collector<'_, '_> {
         }
     }
 
-    /// How many components the vector of coordinates has of which this is the first.
+    /// Number of components of the vector of coordinates that begins at `first`.
     fn length_from(&self, first: usize) -> usize {
         let labels = &self.page.problem.coordinates[first..];
         let Some((base, _)) = labels[0].text.rsplit_once('[') else { return 1 };
@@ -127,7 +128,7 @@ impl Collector<'_, '_> {
     }
 }
 
-/// The vector, and which of its components a formula is.
+/// Vector that a formula is a component of, and index of the component.
 fn component(formula: &Formula) -> Option<(Formula, usize)> {
     match formula {
         Formula::Name { base, dots, indices } => {
@@ -166,19 +167,20 @@ fn first(variable: Variable, place: usize) -> Variable {
         Variable::Velocity(i) => Variable::Velocity(i - place),
         Variable::Acceleration(i) => Variable::Acceleration(i - place),
         Variable::Momentum(i) => Variable::Momentum(i - place),
-        // Only its kind counts.
+        // For parameters, only the kind of the variable matters.
         Variable::Parameter(_) => Variable::Parameter(0),
         other => other,
     }
 }
 
-/// What products of components are, row by row: coefficients and vectors, with the dot products that multiply these.
+/// Writes products of components, given row by row, as terms with a coefficient, a vector, and dot products that scale
+/// it.
 fn in_vectors(
     vectors: &[usize],
     rows: &[BTreeMap<Components, Rational>],
     known: &[Vector],
 ) -> Option<Vec<(Rational, Vec<Meaning>)>> {
-    // Accelerations stand by themselves on the left side.
+    // Accelerations must stand alone on the left side, outside of products of vectors.
     let is_accelerated = vectors.iter().any(|&i| matches!(known[i].of, Some(Variable::Acceleration(_))));
     (vectors.len() == 1 || !is_accelerated).then_some(())?;
     let whole = |i: usize| Meaning::Vector(known[i].written.clone(), known[i].of.into_iter().collect());
@@ -225,7 +227,7 @@ fn in_vectors(
     Some(candidates.into_iter().map(|(c, factors, _)| (c, factors)).collect())
 }
 
-/// A product of vectors that is one.
+/// A product of vectors whose value is a vector.
 enum Product {
     /// a, or a (b·c)
     Along(usize, Vec<usize>),
@@ -234,7 +236,7 @@ enum Product {
 }
 
 impl Product {
-    /// Takes a multiple of it from products of components.
+    /// Subtracts a multiple of this product from the products of components.
     fn subtract(&self, coefficient: Rational, rows: &mut [BTreeMap<Components, Rational>]) {
         let n = rows.len();
         for (k, row) in rows.iter_mut().enumerate() {

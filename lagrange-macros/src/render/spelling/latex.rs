@@ -1,4 +1,4 @@
-//! Mathematics of LaTeX, with the package `amsmath`.
+//! LaTeX mathematics with the package `amsmath`.
 
 use super::parts::{Spelling, WIDE, greek};
 
@@ -41,7 +41,7 @@ impl Spelling for Latex {
 
     fn letter(&self, name: &str, is_array: bool) -> String {
         let latin = greek(name).map(|(latin, _)| match latin {
-            // Their names in LaTeX are those of other shapes than the letters have in print.
+            // The standard commands of these letters give other shapes than texts print.
             "phi" => r"\varphi".to_owned(),
             "varphi" => r"\phi".to_owned(),
             "epsilon" => r"\varepsilon".to_owned(),
@@ -100,7 +100,7 @@ impl Spelling for Latex {
 
     fn between(&self, [open, close]: [&str; 2], inner: &str, is_tall: bool) -> String {
         match is_tall {
-            // Between these no line can end.
+            // TeX does not break lines between `\left` and `\right`.
             true if self.width(inner) < WIDE => {
                 format!(r"\left{open} {inner} \right{close}")
             }
@@ -133,7 +133,7 @@ impl Spelling for Latex {
     }
 
     fn beside(&self, before: &str, after: &str) -> &'static str {
-        // Words would run into each other.
+        // Two words side by side would run into each other.
         let has_word = |text: &str| text.contains(r"\mathit");
         match after.starts_with(|first: char| first.is_ascii_digit()) {
             true => r" \cdot ",
@@ -143,12 +143,12 @@ impl Spelling for Latex {
     }
 }
 
-/// As the argument of `^` and `_`: a single sign needs no braces.
+/// Argument of `^` or `_`: a single character or command needs no braces.
 fn braced(text: &str) -> String {
     if text.chars().count() == 1 || is_command(text) { text.to_owned() } else { format!("{{{text}}}") }
 }
 
-/// Whether it is a command without arguments, such as `\theta`.
+/// Returns whether the text is a command without arguments, such as `\theta`.
 fn is_command(text: &str) -> bool {
     text.strip_prefix('\\')
         .is_some_and(|name| !name.is_empty() && name.chars().all(|c| c.is_ascii_alphabetic()))
@@ -167,7 +167,7 @@ impl<'a> Measure<'a> {
         sum
     }
 
-    /// The width of the next sign or command, with its arguments.
+    /// Width of the next character or command, with its arguments.
     fn next(&mut self) -> Option<f64> {
         let sign = self.rest.chars().next()?;
         self.rest = &self.rest[sign.len_utf8()..];
@@ -185,7 +185,7 @@ impl<'a> Measure<'a> {
         })
     }
 
-    /// What is left of a group that has been opened.
+    /// Rest of a group whose opening brace has been read.
     fn group(&mut self) -> &'a str {
         let mut depth = 1;
         let end = self.rest.find(|sign| {

@@ -1,12 +1,12 @@
-//! MathML, as browsers show it without a script: the elements and attributes of MathML Core.
+//! MathML Core, which browsers show without a script.
 
 use super::parts::{Spelling, WIDE, greek};
 
 pub(crate) struct MathMl;
 
-/// Between a function and its argument, for those who hear a formula.
+/// Invisible operator between a function and its argument, for screen readers.
 const APPLIED: &str = "<mo>\u{2061}</mo>";
-/// Between factors, for them too.
+/// Invisible multiplication sign between factors, for screen readers.
 const TIMES: &str = "<mo>\u{2062}</mo>";
 const SPACE: &str = "<mspace width=\".17em\"></mspace>";
 const TIMES_AND_SPACE: &str = "<mo>\u{2062}</mo><mspace width=\".17em\"></mspace>";
@@ -48,7 +48,7 @@ impl Spelling for MathMl {
     fn letter(&self, name: &str, is_array: bool) -> String {
         let letters = greek(name).map_or(name, |(_, greek)| greek);
         let letters: String = if is_array { letters.chars().map(bold).collect() } else { letters.to_owned() };
-        // As in LaTeX, capitals stand upright.
+        // Capital Greek letters are upright, as in LaTeX.
         let is_upright = letters.chars().all(|letter| ('Α'..='Ω').contains(&letter));
         let variant = if is_upright { " mathvariant=\"normal\"" } else { "" };
         format!("<mi{variant}>{}</mi>", letters.replace('_', "\u{a0}"))
@@ -75,7 +75,7 @@ impl Spelling for MathMl {
     }
 
     fn power(&self, base: &str, exponent: &str) -> String {
-        // Above what stands below it, and not behind.
+        // The exponent goes above an existing subscript, not after it.
         if let Some(parts) = whole(base).strip_prefix("<msub>").and_then(|rest| rest.strip_suffix("</msub>"))
         {
             return format!("<msubsup>{parts}{}</msubsup>", whole(exponent));
@@ -97,13 +97,13 @@ impl Spelling for MathMl {
     }
 
     fn between(&self, [open, close]: [&str; 2], inner: &str, is_tall: bool) -> String {
-        // In a line that may end they stretch to what is beside them.
+        // On a line that may break, stretchy brackets grow with all content beside them, so low ones must not stretch.
         let stretchy = if is_tall { "" } else { " stretchy=\"false\"" };
         let (open, close) = (
             format!("<mo form=\"prefix\"{stretchy}>{open}</mo>"),
             format!("<mo form=\"postfix\"{stretchy}>{close}</mo>"),
         );
-        // Between bars no line is to end.
+        // No line may break between bars.
         let is_whole = is_tall && self.width(inner) < WIDE || open.contains('|');
         if is_whole { format!("<mrow>{open}{inner}{close}</mrow>") } else { open + inner + &close }
     }
@@ -151,17 +151,17 @@ impl Spelling for MathMl {
     }
 }
 
-/// Whether more than a letter stands before the end of an element.
+/// Returns whether the text before the end of an element is longer than one letter.
 fn is_word(rest: &str) -> bool {
     rest.chars().take_while(|sign| *sign != '<').count() > 1
 }
 
-/// Of what are single elements.
+/// A fraction of two single elements.
 fn fraction(above: &str, below: &str) -> String {
     format!("<mfrac>{above}{below}</mfrac>")
 }
 
-/// As one element.
+/// Wraps several elements into one.
 fn whole(text: &str) -> String {
     let (mut depth, mut count) = (0, 0);
     for (place, _) in text.match_indices('<') {
@@ -171,7 +171,7 @@ fn whole(text: &str) -> String {
     if count == 1 { text.to_owned() } else { format!("<mrow>{text}</mrow>") }
 }
 
-/// The letter among those that Unicode has for vectors and matrices.
+/// Bold letter of Unicode for vectors and matrices.
 fn bold(letter: char) -> char {
     let among = |first: char, of: char| char::from_u32(of as u32 + (letter as u32 - first as u32));
     let found = match letter {

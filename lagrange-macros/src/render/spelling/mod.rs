@@ -1,6 +1,7 @@
-//! What differs between the ways to write formulas down: signs, letters, and what stands above and below what.
+//! Spellings: the signs, letters, fractions and scripts of each output format.
 //!
-//! A [`Notation`](super::notation::Notation) puts a formula together from these parts, so that all are written by the same rules.
+//! A [`Notation`](super::notation::Notation) composes formulas from these parts, so that all formats follow the same
+//! rules.
 
 mod latex;
 mod mathml;

@@ -1,94 +1,94 @@
-//! Signs, letters, fractions, roots and powers, as every way of writing provides them.
+//! Interface of a spelling: signs, letters, fractions, roots and powers.
 
 use crate::syntax::GREEK;
 
-/// What is wider than that, in points at 10 point, is not held together between two lines.
+/// Widest group, in points at a font size of 10 points, that is kept on one line.
 pub(crate) const WIDE: f64 = 155.0;
 
-/// The parts that a formula is put together from. What is given to them is written already.
+/// Parts from which a notation composes formulas. Arguments are already written in this spelling.
 pub(crate) trait Spelling: Sync {
-    /// Whether all stands on one line: fractions, roots and powers then need parentheses to hold them together.
+    /// Returns whether formulas stand on a single line, so that fractions, roots and powers need parentheses.
     fn is_flat(&self) -> bool {
         false
     }
 
-    /// About how wide it is set, in points at 10 point.
+    /// Approximate width in points, at a font size of 10 points.
     fn width(&self, text: &str) -> f64;
 
-    /// Whether parentheses around it must be higher than a line.
+    /// Returns whether parentheses around this text must be taller than a line.
     fn is_tall(&self, inner: &str) -> bool;
 
-    /// By how much deeper than before what follows is in parts between which no line can end.
+    /// Change in nesting depth at the start of `rest`, counting groups that no line break may split.
     fn nesting(&self, rest: &str) -> i32;
 
-    /// A sign, given as it stands in a line of text, with its spaces.
+    /// A sign, given as in plain text with the spaces around it.
     fn sign(&self, sign: &str) -> String;
 
     /// An integer or a decimal.
     fn digits(&self, digits: &str) -> String;
 
-    /// A fraction of integers, as small as a letter.
+    /// A fraction of integers in the size of a letter.
     fn small_fraction(&self, above: i128, below: i128) -> String;
 
-    /// A letter or a word for a quantity.
+    /// A letter or a word that names a quantity.
     fn letter(&self, name: &str, is_array: bool) -> String;
 
-    /// A word that stands for no quantity: below a letter, or for a function.
+    /// A word that names no quantity: a subscript or a function.
     fn word(&self, word: &str) -> String;
 
-    /// The name of a function of mathematics.
+    /// Name of a mathematical function.
     fn function(&self, name: &str) -> String;
 
-    /// A letter with dots above, and below it what belongs to its name, and indices.
+    /// A letter with dots above it, with the subscripts of its name, and with indices.
     fn symbol(&self, letter: String, dots: usize, below: &[String], indices: &[String]) -> String {
         self.indexed(self.dotted(letter, dots), below, indices)
     }
 
     fn dotted(&self, letter: String, dots: usize) -> String;
 
-    /// A letter with what belongs to its name below it, and indices.
+    /// A letter with the subscripts of its name, and with indices.
     fn indexed(&self, letter: String, below: &[String], indices: &[String]) -> String;
 
-    /// What numbers, Greek letters and words belong to a name, below it.
+    /// A subscript of a name: a number, a Greek letter or a word.
     fn below(&self, part: String) -> String {
         part
     }
 
-    /// Both as they are to stand, in parentheses where they need them.
+    /// Base and exponent. Both already have the parentheses that they need.
     fn power(&self, base: &str, exponent: &str) -> String;
 
-    /// f″, without its argument.
+    /// Derivative of a function by primes, such as f″, without its argument.
     fn primes(&self, function: &str, order: usize) -> String;
 
     fn root(&self, inner: &str) -> String;
 
     fn fraction(&self, above: &str, below: &str) -> String;
 
-    /// Between parentheses, brackets or bars that are as high as a line, or as what is inside.
+    /// Text between parentheses, brackets or bars, as tall as a line or as the text.
     fn between(&self, bounds: [&str; 2], inner: &str, is_tall: bool) -> String;
 
     /// A matrix by its rows.
     fn matrix(&self, rows: &[Vec<String>]) -> String;
 
-    /// Writes a function and its argument, in parentheses or bare.
+    /// A function and its argument, in parentheses or bare.
     fn applied(&self, function: &str, argument: &str, is_bare: bool) -> String;
 
-    /// ∂x, ∂²U
+    /// A differential: ∂x, ∂²U.
     fn differential(&self, order: usize, of: &str) -> String;
 
-    /// Σ from the first to the last.
+    /// A sum Σ from the first to the last value of an index.
     fn sum_over(&self, index: &str, from: &str, last: &str, body: &str) -> String;
 
-    /// What stands between factors that would run into each other: words.
+    /// Separator between words, which would run into each other.
     fn between_words(&self) -> &'static str {
         " "
     }
 
-    /// What stands between two factors.
+    /// Separator between two factors.
     fn beside(&self, before: &str, after: &str) -> &'static str;
 }
 
-/// The name of a Greek letter in Latin, and the letter, given one of them.
+/// Latin name and character of a Greek letter, given either.
 pub(super) fn greek(name: &str) -> Option<(&'static str, &'static str)> {
     GREEK.iter().copied().find(|(latin, greek)| *latin == name || *greek == name)
 }

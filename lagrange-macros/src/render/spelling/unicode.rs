@@ -1,4 +1,4 @@
-//! Plain text, on one line.
+//! Plain Unicode text, on one line.
 
 use super::parts::{Spelling, greek};
 use crate::syntax::normal_form;
@@ -46,7 +46,7 @@ impl Spelling for Unicode {
         name.to_owned()
     }
 
-    /// Above a word there is no room for dots: `pitch_dot`, as it is written in attributes.
+    /// Words cannot have dots above them: `pitch_dot`, as in attributes.
     fn symbol(&self, letter: String, dots: usize, below: &[String], indices: &[String]) -> String {
         match letter.chars().count() {
             1 => self.indexed(self.dotted(letter, dots), below, indices),

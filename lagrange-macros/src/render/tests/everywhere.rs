@@ -1,5 +1,5 @@
-//! What is printed is what is computed: on every system that any test, example or page of documentation derives, the printed
-//! equations are read off the text and compared with the graph at random states.
+//! Printed equations agree with the computed ones. For every system that any test, example or page of documentation
+//! derives, the equations are read from the text and compared with the graph at random states.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -24,7 +24,7 @@ impl System {
         Sample::new(all.map(Variable::symbol), draw, |symbol, draw| self.problem.drawn(symbol, draw))
     }
 
-    /// The same state with other accelerations and multipliers.
+    /// Redraws the accelerations and multipliers of a sample, and keeps its state.
     fn moved(&self, sample: &mut Sample, draw: u64) {
         let solved = [(Variable::Acceleration as fn(usize) -> Variable, self.problem.coordinates.len())];
         let solved = solved
@@ -34,7 +34,7 @@ impl System {
         sample.set(solved.map(|symbol| (symbol, self.problem.drawn(symbol, draw))).collect::<Vec<_>>());
     }
 
-    /// The lines below a heading.
+    /// Lines below a heading.
     fn lines(&self, heading: &str) -> Vec<&str> {
         let section = self.text.split("\n\n").find(|section| section.starts_with(heading));
         let lines = section.into_iter().flat_map(|section| section.lines().skip(1));
@@ -42,7 +42,7 @@ impl System {
     }
 }
 
-/// The names of a system at a state.
+/// Values of the names of a system at a state.
 struct State<'a> {
     system: &'a System,
     names: BTreeMap<String, Value>,
@@ -93,7 +93,7 @@ impl<'a> State<'a> {
         read_with(text, self)
     }
 
-    /// Whether what is written like this is the entry, or an array that it is in.
+    /// Returns whether a written name is this entry, or an array that contains it.
     fn is_in(&self, written: &str, entry: &str) -> bool {
         let entry = Formula::labelled(entry, 0);
         let mut all = outer(&entry);
@@ -101,7 +101,7 @@ impl<'a> State<'a> {
         all.iter().any(|formula| self.system.written(formula) == written)
     }
 
-    /// All results of a function, or the one that is named.
+    /// All results of a function, or the named one.
     fn external(&self, function: &str, derivatives: &[u32], arguments: &[f64]) -> Value {
         let functions = self.system.problem.functions.iter().enumerate();
         let outputs = functions.flat_map(|(index, function)| {
@@ -129,7 +129,7 @@ fn value(sample: &Sample, variable: Variable) -> f64 {
     sample.get(variable.symbol()).value
 }
 
-/// The arrays that an entry is in: `r` of `r[0]`, and so on.
+/// Arrays that contain an entry, such as `r` for `r[0]`.
 fn outer(formula: &Formula) -> Vec<Formula> {
     match formula {
         Formula::Name { base, dots, indices } => {
@@ -189,18 +189,19 @@ impl Meanings for State<'_> {
 }
 
 const STATES: u64 = 40;
-/// Beside the greatest of the values compared.
+/// Tolerance relative to the greatest of the compared values.
 const CLOSE: f64 = 1e-8;
 
-/// At so many states: one tells two formulas apart, more see more branches. `LAGRANGE_STATES` says how many otherwise.
+/// Number of states to compare at. One distinguishes two formulas; more reach more branches. The environment variable
+/// `LAGRANGE_STATES` overrides it.
 fn wanted() -> usize {
     static WANTED: LazyLock<usize> =
         LazyLock::new(|| std::env::var("LAGRANGE_STATES").ok().and_then(|n| n.parse().ok()).unwrap_or(1));
     *WANTED
 }
 
-/// Each row, or vector of rows, is proportional to what is computed, in accelerations and multipliers: it may have been
-/// divided.
+/// Checks that each row, or vector of rows, is proportional to the computed one in accelerations and multipliers: the
+/// printed row may be divided by a factor.
 fn check_motion(system: &System) {
     let mut first = 0;
     for row in system.lines("Equations of motion\n") {
@@ -255,7 +256,7 @@ fn check_rows(system: &System, rows: std::ops::Range<usize>, sides: [&str; 2]) {
     assert!(states > 0, "no state for {sides:?} in {}", system.text);
 }
 
-/// M q̈ − h − Fᵀλ
+/// Residual M q̈ − h − Fᵀλ.
 fn left_over(system: &System, sample: &mut Sample, rows: std::ops::Range<usize>) -> Vec<f64> {
     let Derived { equations, inertia, .. } = &system.derived;
     let row = |i: usize| {
@@ -266,7 +267,7 @@ fn left_over(system: &System, sample: &mut Sample, rows: std::ops::Range<usize>)
     rows.map(row).collect()
 }
 
-/// Energies, momenta and constraint forces are what is computed.
+/// Checks energies, momenta and constraint forces against the computed ones.
 fn check_quantities(system: &System) {
     let equations = &system.derived.equations;
     let conserved = system.lines("Conserved\n");
@@ -285,7 +286,7 @@ fn check_quantities(system: &System) {
     }
 }
 
-/// With p = ∂L/∂q̇ of a state, H is its energy, ∂H/∂p its velocity and ṗ its forces.
+/// Checks that at p = ∂L/∂q̇ of a state, H is the energy, ∂H/∂p the velocity and ṗ the forces.
 fn check_hamilton(system: &System) {
     let equations = &system.derived.equations;
     let n = system.problem.coordinates.len();
@@ -309,7 +310,7 @@ fn momentum(system: &System, i: usize) -> String {
     format!("p_{}", system.problem.coordinates[i].text)
 }
 
-/// Lines whose left side is a name made of a coordinate's, or of that of a vector of coordinates; others are passed over.
+/// Checks the lines whose left side is a name formed from a coordinate or a vector of coordinates; skips others.
 fn check_by_coordinate(
     system: &System,
     lines: &[&str],
@@ -332,7 +333,7 @@ fn check_by_coordinate(
     }
 }
 
-/// The right side of a line has the value that is computed, to the rounding of both.
+/// Checks that the right side of a line has the computed value, within the rounding errors of both.
 fn check_line(system: &System, line: &str, computed: impl Fn(&mut Sample) -> Value) {
     let Some((_, text)) = line.split_once(" = ") else { return };
     let text = text.split("   (").next().expect("a formula");
@@ -358,7 +359,8 @@ fn check_line(system: &System, line: &str, computed: impl Fn(&mut Sample) -> Val
     assert!(states > 0, "no state for {text} in {}", system.text);
 }
 
-/// There are at least so many: a search that finds none would check nothing.
+/// Checks all systems in these folders. There must be at least `least`, because a search that finds none checks
+/// nothing.
 fn check_all(folders: &'static [&str], least: usize) {
     let checked = of_all(folders, |mut system| {
         for [text, _, html] in system.forms.clone() {

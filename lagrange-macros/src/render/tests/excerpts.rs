@@ -1,4 +1,4 @@
-//! The page comes apart again: lagrange-core finds as many rows in each of its forms, and nothing is left over.
+//! Parses the rendered page: lagrange-core finds the same number of rows in each form, and leaves nothing over.
 
 use super::systems::FORMS;
 use excerpt::Excerpt;
@@ -55,7 +55,7 @@ fn latex_rows(latex: &str) -> usize {
     latex.matches(r"\label{eq:").count()
 }
 
-/// And not a note.
+/// Returns whether a line is a row, not a note.
 fn is_row(line: &str) -> bool {
     let notes =
         ["velocity constraints, or", "take fewer operations", "not written out, as", "three angles or more"];

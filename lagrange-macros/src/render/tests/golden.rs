@@ -1,4 +1,4 @@
-//! Whole systems, as they are to be read. `UPDATE_EXPECT=1 cargo test` accepts a change.
+//! Entire systems as rendered. `UPDATE_EXPECT=1 cargo test` accepts a change.
 
 use expect_test::{Expect, expect};
 
@@ -477,7 +477,7 @@ fn functions_families_and_vectors() {
     );
 }
 
-/// What frames would be cheaper for is told so, where the equations stand.
+/// Systems for which frames are cheaper get that advice beside their equations.
 #[test]
 fn positions_by_turns_are_told_of_frames() {
     let source = "#[coordinates(a, b, c)]
@@ -494,7 +494,7 @@ fn positions_by_turns_are_told_of_frames() {
         take fewer operations (see lagrange_core::language#frames)."#]].assert_eq(&note.join("\n"));
 }
 
-/// Products are multiplied out, sin² + cos² and what all terms have in common are gone.
+/// Products are expanded, and sin² + cos² and the common factor of all terms are removed.
 #[test]
 fn a_mass_on_a_wedge_by_cartesian_coordinates() {
     let source = "#[coordinates(x)] #[define(px = x*cos(alpha))] #[define(py = -x*sin(alpha))]
@@ -508,7 +508,7 @@ fn a_mass_on_a_wedge_by_cartesian_coordinates() {
     );
 }
 
-/// The lines of a system between a heading and an empty line.
+/// Lines of a system between a heading and an empty line.
 fn lines(source: &str, heading: &str) -> String {
     let [[text, ..], ..] = rendered(source).forms;
     let (_, lines) = text.split_once(heading).unwrap_or_else(|| panic!("no {heading} in {text}"));
@@ -553,7 +553,7 @@ fn halves_of_angles_are_put_together() {
     assert_eq!(lines(half, "Equations of motion\n"), "θ: l θ̈ = −g sin θ");
 }
 
-/// The suspension of the pendulum is moved; the second constraint is one on velocities that cannot be integrated.
+/// The suspension of the pendulum moves; the second constraint is a velocity constraint that is not integrable.
 #[test]
 fn constraints_say_their_kinds_in_every_form() {
     let source = "#[coordinates(x, y, z)] #[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 - g*y)]
@@ -567,8 +567,8 @@ fn constraints_say_their_kinds_in_every_form() {
     }
 }
 
-/// Goldstein, Poole and Safko, *Classical Mechanics*, 2.7: E is T + U where coordinates do not move with time. From
-/// L alone that cannot be told, and it is told only where it is certain.
+/// Goldstein, Poole and Safko, *Classical Mechanics*, 2.7: E is T + U if the coordinates do not move with time. L alone
+/// cannot decide this, and the remark appears only if it is certain.
 #[test]
 fn the_energy_is_called_t_plus_u_where_that_is_certain() {
     let cases = [
@@ -585,7 +585,7 @@ fn the_energy_is_called_t_plus_u_where_that_is_certain() {
             "Energy\n",
             "E = ½ m ẋ²   (T if U is 0; d/dt E is Q·q̇)",
         ),
-        // Its U is 0: E is not T + U, and nothing says so.
+        // Here U is 0 and E is not T + U, so the remark must not claim it.
         (
             "bead on a wire that is turned",
             "#[coordinates(r)] #[lagrangian(m/2*(r_dot^2 + w^2*r^2))] struct S { m: f64, w: f64 }",
@@ -643,7 +643,7 @@ fn the_energy_is_called_t_plus_u_where_that_is_certain() {
             "Conserved\n",
             "E = ½ k r² + ½ m (ṙ² + r² ȧ²)   (T + U)",
         ),
-        // A gauge term moves nothing.
+        // A gauge term does not change the motion.
         (
             "total derivative",
             "#[coordinates(x)] #[lagrangian(m/2*x_dot^2 - k/2*x^2 + c*der(x*t))]

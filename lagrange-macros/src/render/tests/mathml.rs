@@ -1,4 +1,4 @@
-//! Reads MathML: as XML, and then as the line of text that it says.
+//! Parses MathML as XML, and converts it to a line of text.
 
 use unicode_normalization::UnicodeNormalization;
 
@@ -6,14 +6,14 @@ use crate::render::arrays::Arrays;
 use crate::render::formula::Formula;
 use crate::render::notation::Notation;
 
-/// An element with what is in it, or text.
+/// An XML element with its contents, or text.
 #[derive(Debug)]
 enum Xml {
     Element { name: String, attributes: String, inside: Vec<Self> },
     Text(String),
 }
 
-/// The elements of HTML and of MathML Core that are written.
+/// Elements of HTML and MathML Core that the pages use.
 const ELEMENTS: [&str; 23] = [
     "div",
     "h5",
@@ -40,11 +40,11 @@ const ELEMENTS: [&str; 23] = [
     "root",
 ];
 
-/// How many elements these have in them.
+/// Required number of children of these elements.
 const PARTS: [(&str, usize); 6] =
     [("mfrac", 2), ("msub", 2), ("msup", 2), ("msubsup", 3), ("mover", 2), ("munderover", 3)];
 
-/// All of a text, which must be well-formed.
+/// Parses a text, which must be well-formed.
 fn parsed(text: &str) -> Vec<Xml> {
     let mut open: Vec<(String, String, Vec<Xml>)> = vec![("root".into(), String::new(), Vec::new())];
     let mut rest = text;
@@ -100,7 +100,7 @@ impl Xml {
         }
     }
 
-    /// All its text.
+    /// All text inside.
     fn text(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),
@@ -108,7 +108,7 @@ impl Xml {
         }
     }
 
-    /// The text that it says, by itself.
+    /// Line of text that an element stands for by itself.
     fn said(&self) -> String {
         let (Self::Element { name, inside, .. }, text) = (self, || self.text().nfkc().collect::<String>())
         else {
@@ -141,7 +141,7 @@ impl Xml {
         }
     }
 
-    /// Of an operator.
+    /// Sign of an operator; empty for other elements.
     fn sign(&self) -> &str {
         match self.inside() {
             [Self::Text(text)] if self.is("mo") => text,
@@ -170,7 +170,7 @@ fn is_differential(above: &Xml) -> bool {
     first.is_some_and(|first| !first.is("mfrac") && first.text().starts_with('∂'))
 }
 
-/// `∂²U`, `∂x∂y`
+/// Reads a differential: `∂²U`, `∂x∂y`.
 fn differential(row: &Xml) -> String {
     let part = |part: &Xml| match part.inside() {
         [sign, order] if part.is("msup") && sign.text() == "∂" => {
@@ -192,7 +192,7 @@ fn operator(sign: &Xml) -> String {
     }
 }
 
-/// Side by side: a bare argument gets parentheses, and a dot before a number is no product of vectors.
+/// Joins elements side by side. A bare argument gets parentheses, and a dot before a number is no product of vectors.
 fn line<'a>(all: impl Iterator<Item = &'a Xml>) -> String {
     let all: Vec<&Xml> = all.collect();
     let mut text = String::new();
@@ -213,12 +213,12 @@ fn line<'a>(all: impl Iterator<Item = &'a Xml>) -> String {
     text
 }
 
-/// What a formula is in the lines that are read.
+/// Formula as it appears in the lines that are read.
 pub(super) fn written(arrays: &Arrays, formula: &Formula) -> String {
     line(parsed(&Notation::MATHML.with(arrays).write(formula)).iter())
 }
 
-/// A page of text with its equations as the HTML has them, whose letters and digits must be those of the text.
+/// The text of a page with its equations replaced by those of the HTML. Letters and digits must be equal in both.
 pub(super) fn read(text: &str, html: &str) -> String {
     assert!(!html.contains("\n\n"), "an empty line");
     let page = parsed(html);
@@ -232,7 +232,7 @@ pub(super) fn read(text: &str, html: &str) -> String {
     read
 }
 
-/// And not a note.
+/// Returns whether a line is a row, not a note.
 fn is_row(plain: &str) -> bool {
     plain.starts_with("  ")
         && !plain.contains('`')
@@ -245,7 +245,7 @@ struct Row {
     symbols: String,
 }
 
-/// The rows of a part of the page.
+/// Rows of a part of the page.
 fn rows(part: &Xml) -> Vec<Row> {
     let (mut rows, mut left) = (Vec::new(), Vec::new());
     for cell in part.inside() {
@@ -255,7 +255,7 @@ fn rows(part: &Xml) -> Vec<Row> {
             let parts = || cells.iter().flat_map(|cell| cell.inside());
             let formulas = parts().filter(|part| part.is("math")).flat_map(Xml::inside);
             let symbols: String = parts().filter(|part| !part.is("span")).map(Xml::text).collect();
-            // Roots of what is too wide for a root are powers.
+            // A formula too wide for a root sign is written as a power with exponent 1/2.
             let symbols = symbols.replace("1/2", "");
             rows.push(Row { equation: line(formulas), symbols });
         }
@@ -264,7 +264,7 @@ fn rows(part: &Xml) -> Vec<Row> {
 }
 
 impl Row {
-    /// The line of text with this equation.
+    /// Line of text with this equation in place of its own.
     fn instead_of(&self, plain: &str) -> String {
         let (label, said) = plain.split_once(": ").unwrap_or(("", plain));
         let said = said.trim();
@@ -280,7 +280,7 @@ impl Row {
     }
 }
 
-/// All that is no sign of how the formula is put together, sorted. A 1 may stand above a line by itself.
+/// Sorted symbols without those that show how a formula is composed. A 1 may stand alone above a fraction bar.
 fn symbols(text: &str) -> String {
     let text = text.replace('∑', "Σ").replace("_ddot", "\u{308}").replace("_dot", "\u{307}");
     let is_symbol = |sign: &char| !sign.is_whitespace() && !"1()[]/_,.^√⁄…·\u{2061}\u{2062}".contains(*sign);

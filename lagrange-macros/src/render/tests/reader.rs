@@ -1,22 +1,22 @@
-//! Reads formulas in Unicode as a person would, and refuses what could be read in two ways.
+//! Reads formulas in Unicode as a person would, and rejects ambiguous ones.
 
 use super::POINT;
 
-/// A number, or a vector.
+/// A number (one entry) or a vector.
 pub(super) type Value = Vec<f64>;
 
-/// What the names in a text stand for.
+/// Values of the names in a text.
 pub(super) trait Meanings {
     fn name(&self, name: &str) -> Option<Value>;
 
-    /// f(…), f′(…), where the numbers of all arguments follow each other.
+    /// f(…) or f′(…), given the numbers of all arguments in sequence.
     fn call(&self, function: &str, primes: usize, arguments: &[f64]) -> Value;
 
-    /// ∂f/∂x∂y, at its own arguments if none are given.
+    /// ∂f/∂x∂y, at the formal arguments if none are given.
     fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> Value;
 }
 
-/// The point where the formulas of these tests are evaluated.
+/// Point at which the formulas of these tests are evaluated.
 struct Point;
 
 impl Meanings for Point {
@@ -33,12 +33,12 @@ impl Meanings for Point {
     }
 }
 
-/// The value of the text at [`POINT`].
+/// Value of a text at [`POINT`].
 pub(super) fn read(text: &str) -> f64 {
     number(read_with(text, &Point))
 }
 
-/// The value of the text.
+/// Value of a text, given the values of its names.
 pub(super) fn read_with(text: &str, meanings: &dyn Meanings) -> Value {
     let mut reader = Reader { text: text.chars().collect(), at: 0, meanings };
     let value = reader.sum();
@@ -52,7 +52,7 @@ pub(super) fn apply(function: &str, arguments: &[f64]) -> f64 {
         ("exp", [x]) => x.exp(),
         ("asin", [x]) => x.sin() + 3.0,
         ("abs", [x]) => x.abs(),
-        // Of numbers, as if they were vectors of one.
+        // Dot products of numbers, as if they were vectors of one component.
         ("dot", [x, y]) => x * y,
         ("atan2", [y, x]) => y.atan2(*x),
         ("f", [x, y]) => x - 2.0 * y,
@@ -71,7 +71,7 @@ fn plus(x: &Value, y: &Value, sign: f64) -> Value {
     x.iter().zip(y).map(|(x, y)| x + sign * y).collect()
 }
 
-/// Of which one is a number.
+/// Product of two values, at least one of them a number.
 fn times(x: &Value, y: &Value) -> Value {
     match (&x[..], &y[..]) {
         ([x], y) => y.iter().map(|y| x * y).collect(),
@@ -116,7 +116,7 @@ const FRACTIONS: [(char, f64); 15] = [
     ('⅞', 7.0 / 8.0),
 ];
 
-/// Functions that have the names of functions of mathematics.
+/// Names of mathematical functions.
 const KNOWN: [&str; 12] =
     ["sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "ln", "abs"];
 
@@ -151,7 +151,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Factors side by side, a product of vectors as the last of them, or one fraction.
+    /// Reads factors side by side, with a product of vectors as the last of them at most, or one fraction.
     fn product(&mut self) -> Value {
         let mut value = self.power();
         let mut before = vec![1.0];
@@ -172,7 +172,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether a factor comes next, and not a sign.
+    /// Returns whether a factor comes next instead of a sign.
     fn continues(&self) -> bool {
         self.peek() == Some(' ') && !matches!(self.text.get(self.at + 1), Some('+' | '−' | '·'))
     }
@@ -238,7 +238,7 @@ impl Reader<'_> {
         }
     }
 
-    /// `∂²f/∂x∂y` without a place: the function, and what it is differentiated by.
+    /// Reads `∂²f/∂x∂y` without arguments: the function, and the variables of differentiation.
     fn partial(&mut self) -> (String, Vec<String>) {
         self.expect("∂");
         self.superscript();
@@ -251,7 +251,7 @@ impl Reader<'_> {
         (function, by)
     }
 
-    /// `(∂f/∂x)(a, b)` after its first parenthesis, or a product that begins with a derivative.
+    /// Reads `(∂f/∂x)(a, b)` after its first parenthesis, or a product that begins with a derivative.
     fn partial_in_parentheses(&mut self) -> Value {
         let start = self.at;
         let (function, by) = self.partial();
@@ -265,7 +265,7 @@ impl Reader<'_> {
         self.meanings.partial(&function, &by, arguments.as_deref())
     }
 
-    /// All numbers up to the closing parenthesis.
+    /// Reads all numbers up to the closing parenthesis.
     fn arguments(&mut self) -> Vec<f64> {
         let mut arguments = self.sum();
         while self.take(", ") {
@@ -275,7 +275,7 @@ impl Reader<'_> {
         arguments
     }
 
-    /// `[a, b, c]`
+    /// Reads `[a, b, c]`.
     fn list(&mut self) -> Value {
         self.expect("[");
         let mut items = self.sum();
@@ -286,7 +286,7 @@ impl Reader<'_> {
         items
     }
 
-    /// `12`, `9.81`, `10/7`, `6.6×10⁻³⁴`
+    /// Reads `12`, `9.81`, `10/7` or `6.6×10⁻³⁴`.
     fn digits_or_fraction(&mut self) -> f64 {
         let above = self.digits();
         let digit_follows = self.text.get(self.at + 1).is_some_and(char::is_ascii_digit);
@@ -316,7 +316,7 @@ impl Reader<'_> {
         digits.parse().expect("a number")
     }
 
-    /// A name with its indices and members.
+    /// Reads a name with its indices and members.
     fn name(&mut self) -> String {
         let start = self.at;
         let mut is_in_index = false;
@@ -342,7 +342,7 @@ impl Reader<'_> {
         self.text[start..self.at].iter().collect()
     }
 
-    /// A name, or a function with what it is taken of.
+    /// Reads a name, or a function with its argument.
     fn word(&mut self) -> Value {
         let word = self.name();
         let is_called = matches!(self.peek(), Some('(' | '′'));
@@ -355,7 +355,7 @@ impl Reader<'_> {
             primes += 1;
         }
         let arguments = if KNOWN.contains(&&*word) && self.take(" ") {
-            // After a bare argument nothing may follow that could belong to it.
+            // Text after a bare argument must not be readable as part of it.
             let argument = self.word();
             let next: String = self.text[self.at..].iter().take(4).collect();
             let free = ["", " + ", " − ", " sin", " cos", " tan", " exp", ")", "|", ", ", "]"];
@@ -375,7 +375,7 @@ impl Reader<'_> {
     }
 }
 
-/// Braces pair up, and every `\left` has its `\right`.
+/// Asserts that braces pair up, and that every `\left` has its `\right`.
 #[track_caller]
 pub(super) fn assert_balanced(latex: &str) {
     let mut depth = 0_i32;

@@ -1,4 +1,4 @@
-//! The systems that any test, example or page of documentation derives.
+//! Systems that any test, example or page of documentation derives.
 
 use std::path::Path;
 use std::sync::LazyLock;
@@ -22,7 +22,7 @@ pub(super) struct System {
     pub(super) derived: Derived,
     pub(super) text: String,
     pub(super) forms: [[String; 3]; 3],
-    /// How names are written in `text`.
+    /// Writes a name as `text` spells it.
     pub(super) written: fn(&Arrays, &Formula) -> String,
     pub(super) arrays: Arrays,
 }
@@ -36,7 +36,7 @@ impl System {
         (self.written)(&self.arrays, formula)
     }
 
-    /// `None` where something is wrong with it.
+    /// Resolves and derives a system; `None` after any error.
     pub(super) fn new(tokens: TokenStream) -> Option<Self> {
         let mut diagnostics = Diagnostics::default();
         let declaration = syntax::declaration(syn::parse2(tokens).ok()?, &mut diagnostics);
@@ -50,7 +50,7 @@ impl System {
     }
 }
 
-/// All structs that derive a Lagrangian in these tokens, and in the strings among them.
+/// Finds all structs that derive a Lagrangian in these tokens, and in string literals among them.
 fn structs(tokens: TokenStream, found: &mut Vec<TokenStream>) {
     let mut item: Vec<TokenTree> = Vec::new();
     let mut derives = false;
@@ -89,7 +89,7 @@ fn is_attribute(item: &[TokenTree]) -> bool {
     matches!(item.last(), Some(TokenTree::Punct(punct)) if punct.as_char() == '#')
 }
 
-/// The code in a file, and the code in its comments.
+/// Code in a file, and code in its comments.
 fn sources(text: &str) -> Vec<String> {
     let mut sources = vec![text.to_owned()];
     let comments = text.lines().map(str::trim).filter_map(|line| {
@@ -122,9 +122,9 @@ fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
     }
 }
 
-/// What `ask` says of every system in these folders in which nothing is wrong.
+/// Applies `ask` to every system without errors in these folders.
 pub(super) fn of_all<T: Send + 'static>(folders: &'static [&str], ask: fn(System) -> T) -> Vec<T> {
-    // Some tests nest very deep.
+    // Some tests nest deeply, so the thread needs a large stack.
     let derive = move || {
         let systems = tokens(folders).into_iter().filter_map(System::new);
         systems.map(ask).collect()
@@ -133,7 +133,7 @@ pub(super) fn of_all<T: Send + 'static>(folders: &'static [&str], ask: fn(System
     thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
-/// The equations of the systems of the crates, in three forms each.
+/// Equations of the systems of the crates, in three forms each.
 pub(super) static FORMS: LazyLock<Vec<[[String; 3]; 3]>> = LazyLock::new(|| {
     of_all(&["tests", "examples", "lagrange-core/src", "lagrange-core/benches"], |system| system.forms)
 });

@@ -1,12 +1,13 @@
-//! Equations as texts print them: what is printed here has the same terms, and is not longer by half.
+//! Compares equations with those that textbooks print: they have the same terms, and are not longer by half.
 //!
-//! Both sides are compared together, as a set of terms whose factors have no order. An equation that a text prints divided by a
-//! factor, θ̈ = −(g/l) sin θ, is stated multiplied by it. Letters are those of the text, velocities in the place of their letters
-//! for them. Works that are not open are cited by their chapters: editions number sections and equations differently.
+//! Both sides are compared together, as a set of terms whose factors have no order. An equation that a text prints
+//! divided by a factor, θ̈ = −(g/l) sin θ, is stated here multiplied by it. Letters are those of the text, except that
+//! velocities replace the letters that a text introduces for them. Works that are not open are cited by chapter:
+//! editions number sections and equations differently.
 
 use super::systems::System;
 
-/// Where it stands, the system, and lines that the text prints.
+/// Source, system, and lines that the text prints.
 struct Entry {
     text: &'static str,
     system: &'static str,
@@ -230,7 +231,8 @@ const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// Longer than the text's equation by this is not as a person writes.
+/// Largest accepted ratio of a length to that of the equation in the text. A longer equation is not what a person
+/// writes.
 const LONGER: f64 = 1.5;
 
 #[test]
@@ -259,7 +261,7 @@ fn texts_print_the_same_equations() {
     assert!(missed.is_empty(), "{}", missed.join("\n\n"));
 }
 
-/// The terms of both sides, those of the right with the opposite sign, each a sorted list of factors.
+/// Terms of both sides, those of the right with the opposite sign, each as a sorted list of factors.
 fn terms(equation: &str) -> Vec<String> {
     let (left, right) = equation.split_once(" = ").expect("an equation");
     let [one, other] = [false, true].map(|sign| {
@@ -271,7 +273,7 @@ fn terms(equation: &str) -> Vec<String> {
     one.min(other)
 }
 
-/// Split at signs outside of parentheses.
+/// Splits a sum at the signs outside parentheses.
 fn sum(text: &str, is_negative: bool) -> Vec<String> {
     let text = text.trim();
     let (first, text) = text.strip_prefix('−').map_or((false, text), |rest| (true, rest));
@@ -286,7 +288,7 @@ fn sum(text: &str, is_negative: bool) -> Vec<String> {
     parts.into_iter().map(|(sign, part)| product(part, sign != is_negative)).collect()
 }
 
-/// Where one of these stands outside of parentheses first.
+/// First position of one of these signs outside parentheses.
 fn split<'a>(text: &str, signs: &[&'a str]) -> Option<(usize, &'a str)> {
     let mut depth = 0;
     for (place, sign) in text.char_indices() {
@@ -299,7 +301,7 @@ fn split<'a>(text: &str, signs: &[&'a str]) -> Option<(usize, &'a str)> {
     None
 }
 
-/// The sign, and sorted factors over sorted factors.
+/// Normal form of a product: sign, and sorted factors over sorted factors.
 fn product(text: &str, is_negative: bool) -> String {
     let (above, below) = split(text, &["/"]).map_or((text, ""), |(end, _)| (&text[..end], &text[end + 1..]));
     let below = below.strip_prefix('(').and_then(|inner| inner.strip_suffix(')')).unwrap_or(below);
@@ -308,7 +310,7 @@ fn product(text: &str, is_negative: bool) -> String {
     format!("{}{above}/{below}", if is_negative != is_turned { '−' } else { '+' })
 }
 
-/// Sorted, and whether the sign of a sum among them was turned.
+/// Sorted factors, and whether the sign of a sum among them was reversed.
 fn factors(text: &str) -> (String, bool) {
     let (mut rest, mut factors, mut is_turned) = (text, Vec::new(), false);
     while !rest.is_empty() {
@@ -327,7 +329,8 @@ fn factors(text: &str) -> (String, bool) {
     (factors.join(" "), is_turned)
 }
 
-/// `cos(θ)` is `cos θ`, and a sum is taken with the sign that comes first.
+/// Normal form of a factor, and whether its sign was reversed: `cos(θ)` becomes `cos θ`, and a sum takes the sign that
+/// sorts first.
 fn factor(text: &str) -> (String, bool) {
     let inner = text.strip_prefix('(').and_then(|rest| rest.rsplit_once(')'));
     if let Some((inner, power)) = inner {

@@ -1,10 +1,10 @@
-//! LaTeX takes the equations of all systems, and no line is too long.
+//! LaTeX accepts the equations of all systems, and no line is too long.
 
 use std::process::Command;
 
 use super::systems::FORMS;
 
-/// As much of them as the tests of the crates derive, in one document.
+/// Typesets the systems that the tests of the crates derive, in one document.
 #[test]
 fn latex_sets_all_systems_without_an_overfull_line() {
     if Command::new("pdflatex").arg("--version").output().is_err() {
@@ -20,7 +20,7 @@ fn latex_sets_all_systems_without_an_overfull_line() {
     );
     let systems = FORMS.iter().flatten().map(|[_, latex, _]| latex);
     for (number, latex) in systems.enumerate() {
-        // Labels of systems that have one name would be equal.
+        // Systems of the same name would have equal labels.
         let latex = latex.replace("\\label{eq:", &format!("\\label{{eq:{number}-"));
         document += &format!("% {number}\n\\typeout{{system {number}}}\n{latex}\n\n");
     }
