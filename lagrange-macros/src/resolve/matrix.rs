@@ -9,12 +9,6 @@ use crate::syntax::{Expression, LENGTH_LIMIT, Name};
 
 type MatrixRows = Vec<Vec<Id>>;
 
-impl Value {
-    fn matrix(rows: impl IntoIterator<Item: IntoIterator<Item = Id>>) -> Self {
-        Self::Vector(rows.into_iter().map(Self::vector).collect())
-    }
-}
-
 impl Lowering<'_> {
     /// Product of two arrays, at least one of them a matrix: a left vector is a row, a right vector a column.
     pub(super) fn times(&mut self, x: &Value, y: &Value, place: Place) -> Option<Value> {

@@ -34,10 +34,8 @@ impl Turns {
     /// Elementary turns whose product is the matrix, leftmost first; `None` if they are not known. Constant matrices
     /// are returned as placements without a check that they are rotations.
     pub(super) fn of(&self, graph: &Graph, matrix: Rotation) -> Option<Vec<Turn>> {
-        let known = self.0.get(&bare(graph, matrix));
-        known
-            .cloned()
-            .or_else(|| (!move_in_time(graph, &matrix.concat())).then(|| vec![Turn::Placed(matrix)]))
+        let known = self.0.get(&bare(graph, matrix)).cloned();
+        known.or_else(|| (!move_in_time(graph, &matrix.concat())).then(|| vec![Turn::Placed(matrix)]))
     }
 
     /// Records the turns of a product, if those of both factors are known.

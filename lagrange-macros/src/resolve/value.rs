@@ -141,6 +141,10 @@ impl Value {
         Self::Vector(entries.into_iter().map(Self::Scalar).collect())
     }
 
+    pub(super) fn matrix(rows: impl IntoIterator<Item: IntoIterator<Item = Id>>) -> Self {
+        Self::Vector(rows.into_iter().map(Self::vector).collect())
+    }
+
     /// All scalars in row-major order.
     pub(crate) fn flat(&self) -> Vec<Id> {
         match self {
