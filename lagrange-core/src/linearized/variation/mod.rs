@@ -40,7 +40,7 @@ pub(crate) struct Block<W, const N: usize, const P: usize> {
     pub(crate) y: PhaseVector<W, N>,
     /// Rates of change of the parameters; `None` if no lane varies a parameter.
     pub(crate) rates: Option<SVector<W, P>>,
-    /// Reciprocal of the size of the varied quantity: that of a parameter, else 1.
+    /// Reciprocal scale of each lane: 1/|p| if the lane varies a parameter p ≠ 0, else 1.
     pub(crate) unit: W,
     /// Number of lanes in use.
     pub(crate) lanes: usize,

@@ -37,7 +37,7 @@ type Sums<L, const N: usize, const M: usize> = <PackedDuals<L, N, M> as TaylorSe
 /// A motion with one variation per lane, as a system and a series over dual numbers.
 #[derive(Debug)]
 pub struct Varied<S, U, W, const N: usize> {
-    /// The system; its parameters change at the rates of the block.
+    /// System over dual numbers; the slope of each parameter is its rate of change in [`Block::rates`].
     system: S,
     series: Expansion<U, Dual<W>, N>,
 }

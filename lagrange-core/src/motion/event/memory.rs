@@ -91,9 +91,9 @@ const FIRST: usize = 16;
 /// An interval is short below this fraction of the longest: √ε of `f64`, 2⁻²⁶.
 const SHORT: f64 = 1.0 / 67_108_864.0;
 
-/// Number of short intervals in a row after which crossings accumulate; half of it if the state or system is changed at
-/// each crossing. Functions may have a few zeros close together, but a motion is not changed again and again without a
-/// reason.
+/// Crossings count as accumulating after this many consecutive short intervals. Half as many suffice if the state or
+/// system changes at each crossing: a function may have a few close zeros, but repeated changes indicate
+/// accumulation.
 const ACCUMULATED: usize = 6;
 
 impl<T: Real> EventState<T> {

@@ -35,7 +35,7 @@ impl Lowering<'_> {
             }
             let indices = &declared.target.indices;
             let mut elements = self.elements(indices).into_iter();
-            // An error in one element of a family would repeat in the following ones.
+            // Stops at the first element of a family that has an error: the following ones would repeat it.
             let mut declare = |element: Vec<usize>| {
                 self.with_indices(indices, &element, |lowering| lowering.declare_frame(index, &element))
             };
