@@ -1,7 +1,7 @@
-//! Conserved quantities: momenta of cyclic coordinates, the energy, and what the user says is conserved.
+//! Conserved quantities: momenta of cyclic coordinates, the energy, and observables declared as conserved.
 //!
-//! What symbols do not settle is put to the test on random states: there the rate of change along the motion is
-//! a number with an error bound.
+//! A quantity that symbols do not prove conserved is tested on random states. There its rate of change along the
+//! motion is a number with an error bound.
 
 use super::constraints::ConstraintKind;
 use super::equations::Equations;
@@ -13,11 +13,13 @@ use crate::resolve::Problem;
 use crate::symbolic::{Approximate, Forward, Graph, Id};
 use crate::variables::{Variable, nodes};
 
-/// States at which a quantity must be seen to be conserved.
+/// Number of random states at which a quantity must pass the test to count as conserved.
 const STATES: u32 = 8;
-/// Of systems beyond this many coordinates and constraints no motion is tried but where the user asks for it.
+/// Largest number of coordinates plus constraints for which random states are tried unasked. Quantities declared as
+/// conserved are always tested.
 const LARGE: usize = 120;
-/// A rate that is zero within an error larger than this, as a fraction of what it is made of, says nothing.
+/// Largest error bound of a rate that is zero within it, relative to the sum of magnitudes of its terms. A less
+/// accurate rate is not counted.
 const INFORMATIVE: f64 = 1e-6;
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -25,7 +27,7 @@ pub(crate) enum ConservedKind {
     /// Generalized momentum of this coordinate.
     Momentum(usize),
     Energy,
-    /// An entry of an observable.
+    /// One entry of an observable: indices of the observable and of the entry.
     Observable(usize, usize),
 }
 
@@ -36,27 +38,27 @@ pub(crate) struct Conserved {
     pub(crate) evidence: Evidence,
 }
 
-/// A part of the rate at which the energy changes.
+/// A term of dE/dt.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum EnergyChange {
     /// −∂L/∂t
     Time,
     /// Q·q̇
     Forces,
-    /// −λ·b, with b the part of the constraints F q̇ + b that moves with time
+    /// −λ·b, with b the inhomogeneous part of the constraints F q̇ + b = 0
     Constraints,
 }
 
-/// What the trial of a quantity on random motions gave.
+/// Result of the test of a quantity on random states.
 enum Trial {
     Held(u32),
-    /// At the moment of this index it has this value and this rate.
+    /// The rate is not zero: index of the state, value of the quantity and its rate of change.
     Broken(usize, Approximate, Approximate),
-    /// There are not enough moments at which the rate says anything.
+    /// The rate is accurate enough at too few states.
     Undecided,
 }
 
-/// Whether random motions conserve `quantity`, for systems that are not too large to try.
+/// Evidence that random motions conserve `quantity`; `None` if they do not, or if the system exceeds [`LARGE`].
 pub(super) fn found(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Option<Evidence> {
     if moments.problem.coordinates.len() + moments.problem.constraints.len() > LARGE {
         return None;
@@ -67,7 +69,7 @@ pub(super) fn found(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> O
     }
 }
 
-/// The energy, or the parts of its rate that do not vanish by themselves where they are not seen to cancel.
+/// The energy as a conserved quantity; otherwise the terms of its rate that do not vanish individually.
 pub(super) fn of_energy(graph: &mut Graph, moments: &mut Moments) -> Result<Conserved, Vec<EnergyChange>> {
     let &mut Moments { problem, equations, .. } = moments;
     let changes = energy_changes(graph, problem, equations);
@@ -109,7 +111,7 @@ fn energy_changes(graph: &mut Graph, problem: &Problem, equations: &Equations) -
     ]
 }
 
-/// Checks the quantities declared as conserved and reports those that are not, or that cannot be checked.
+/// Tests the quantities declared as conserved. Reports those that are not conserved or cannot be tested.
 pub(super) fn of_observables(
     graph: &mut Graph,
     moments: &mut Moments,
@@ -143,7 +145,7 @@ pub(super) fn of_observables(
     conserved
 }
 
-/// dX/dt = ∂X/∂t + ∂X/∂q·q̇ + ∂X/∂q̇·q̈ on states that satisfy the constraints.
+/// Tests dX/dt = ∂X/∂t + ∂X/∂q·q̇ + ∂X/∂q̇·q̈ = 0 on random states that satisfy the constraints.
 fn trial(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Trial {
     let n = moments.problem.coordinates.len();
     let state = (0..n).map(Variable::Coordinate).chain((0..n).map(Variable::Velocity));
@@ -162,7 +164,7 @@ fn trial(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Trial {
         if rate.excludes_zero() {
             return Trial::Broken(index, value, rate);
         }
-        // Where nothing changes at all, what could have changed is the measure.
+        // Rates below 1 count as 1, so that a state at rest has a scale, too.
         let size: f64 = slopes.iter().zip(&rates).map(|(s, r)| s.value.abs() * r.value.abs().max(1.0)).sum();
         if rate.error <= INFORMATIVE * size {
             held += 1;
@@ -174,7 +176,7 @@ fn trial(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Trial {
     Trial::Undecided
 }
 
-/// The state and the parameters, as far as a message has room for them.
+/// The state and the parameters as text for a message, at most `ROOM` coordinates and parameters.
 fn written(moment: &Moment, problem: &Problem) -> String {
     const ROOM: usize = 4;
     let coordinates = problem.coordinates.iter().take(ROOM).enumerate().flat_map(|(i, label)| {
@@ -190,7 +192,7 @@ fn written(moment: &Moment, problem: &Problem) -> String {
     all.collect::<Vec<_>>().join(", ")
 }
 
-/// Four digits of a number.
+/// Formats a number with four digits.
 fn short(number: Approximate) -> String {
     let value = number.value;
     match value.abs() {
@@ -199,7 +201,7 @@ fn short(number: Approximate) -> String {
     }
 }
 
-/// What in this system breaks conservation laws.
+/// Lists the parts of the system that may break a conservation law, as text for a message.
 fn suspects(graph: &Graph, problem: &Problem) -> String {
     let has_time = |roots: &[Id]| graph.symbols(roots).any(|symbol| Variable::of(symbol) == Variable::Time);
     let mut suspects = Vec::new();

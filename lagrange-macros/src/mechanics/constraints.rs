@@ -1,4 +1,4 @@
-//! The constraints and their derivatives: F, γ and the kind of each.
+//! The constraints and their derivatives: the Jacobian F, the bias γ and the kind of each constraint.
 
 use ConstraintKind::{Holonomic, Velocity};
 
@@ -9,7 +9,7 @@ use crate::resolve::{Label, Problem};
 use crate::symbolic::{Function, Graph, Id};
 use crate::variables::{Variable, has_velocity, nodes, symbols};
 
-/// How a constraint acts.
+/// Level at which a constraint is stated: position or velocity.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum ConstraintKind {
     /// Φ(q, t) = 0
@@ -28,7 +28,7 @@ pub(super) struct Constraints {
 }
 
 impl Constraints {
-    /// Adds a constraint with its derivatives, and says what is wrong with it.
+    /// Adds a constraint with its derivatives. Returns the error message if the constraint is malformed.
     fn push(
         &mut self,
         graph: &mut Graph,
@@ -59,8 +59,8 @@ impl Constraints {
         (0..coordinates).map(|i| graph.dot(&multipliers, &column(i))).collect()
     }
 
-    /// Σ_i |F_αi x_i| for each constraint α of these kinds, x the coordinates or their velocities: the size of the terms of
-    /// which Φ or F q̇ + b is the difference. Zero for the others.
+    /// Σ_i |F_αi x_i| for each constraint α of the kinds that `counts` accepts, zero for the other kinds. With x the
+    /// coordinates or the velocities, it is the scale of the terms that cancel in Φ or F q̇ + b.
     pub(super) fn magnitude(
         &self,
         graph: &mut Graph,
@@ -72,7 +72,7 @@ impl Constraints {
             let entries = row.iter().enumerate().filter(|&(_, &entry)| counts(kind) && entry != Id::ZERO);
             let terms = entries.map(|(i, &entry)| {
                 let x = graph.symbol(x(i).symbol());
-                // Of what several terms share, the magnitude is taken once.
+                // The magnitude of each factor, not of the product: terms that share a factor share its magnitude.
                 let [entry, x] = [entry, x].map(|factor| graph.function(Function::Abs, factor));
                 graph.mul(entry, x)
             });
@@ -83,7 +83,7 @@ impl Constraints {
     }
 }
 
-/// Differentiates the constraints; `None` where one of them is none, which is then reported.
+/// Differentiates the constraints. Reports malformed ones, and then returns `None`.
 pub(super) fn derive(
     graph: &mut Graph,
     problem: &Problem,
@@ -100,12 +100,12 @@ pub(super) fn derive(
     diagnostics.is_empty().then_some(constraints)
 }
 
-/// Of several constraints that are written as one, the message says which it is.
+/// Prefixes a message with the name of the constraint if it is one of an indexed family.
 fn named(label: &Label, message: String) -> String {
     if label.text.contains('[') { format!("`{}`: {message}", label.text) } else { message }
 }
 
-/// How the other constraints are written that are written as one with it.
+/// Advice how to remove one constraint and keep the others of its indexed family.
 fn without(label: &Label) -> String {
     match label.text.split_once('[') {
         Some((name, _)) => format!("write the others alone, as in `{name}[k in 0..2]: a[k] = b[k]`"),
@@ -130,7 +130,7 @@ fn malformed(
         };
         return Some(message);
     }
-    // A velocity constraint is F q̇ + b: its Jacobian holds no velocity.
+    // The Jacobian of a velocity constraint F(q, t) q̇ + b(q, t) must be free of velocities.
     let entries = if kind == Velocity { jacobian } else { &[] };
     let velocity = entries.iter().find_map(|&entry| {
         let slopes = graph.gradient(entry, &symbols(problem.coordinates.len(), Variable::Velocity));

@@ -1,4 +1,4 @@
-//! Lagrange's equations in plain coordinates: L differentiated as it stands.
+//! Lagrange's equations in plain coordinates: L is differentiated as written.
 
 use super::euler_lagrange::{Momenta, hessian};
 use super::form::Form;

@@ -6,7 +6,7 @@ use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Node, Rational};
 use crate::variables::{Variable, directions};
 
-/// A part of a sum: coefficient and term, and the term's degree in the velocities.
+/// A term of a sum, with its coefficient and its degree in the velocities.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GradedTerm {
     pub(super) coefficient: Rational,
@@ -15,16 +15,16 @@ pub(super) struct GradedTerm {
 }
 
 impl GradedTerm {
-    /// What the part is multiplied by in the energy; `None` where exact numbers have no room for it.
+    /// Coefficient of the term in the energy, (degree − 1) times its own; `None` if the exact number overflows.
     pub(super) fn energy(&self) -> Option<Rational> {
         self.degree.checked_sub(&Rational::one())?.checked_mul(&self.coefficient)
     }
 }
 
-/// Definitions that sum up one another can have more parts than anybody needs.
+/// Largest number of terms of a sum: nested definitions can multiply them.
 const LIMIT: usize = 1 << 14;
 
-/// The parts of `root`, where each can be seen to have a degree.
+/// The terms of `root` by degree; `None` if a term is not visibly homogeneous, or beyond [`LIMIT`] terms.
 pub(super) fn parts(graph: &Graph, root: Id) -> Option<Vec<GradedTerm>> {
     let degrees = degrees(graph, root);
     let mut parts = Vec::new();
@@ -47,7 +47,8 @@ pub(super) fn parts(graph: &Graph, root: Id) -> Option<Vec<GradedTerm>> {
     Some(parts)
 }
 
-/// The degree of homogeneity in the velocities of all that `root` is made of, by index, as far as it shows.
+/// Degree of homogeneity in the velocities of each node below `root`, by index; `None` for nodes that are not visibly
+/// homogeneous.
 fn degrees(graph: &Graph, root: Id) -> Vec<Option<Rational>> {
     let order = graph.reachable(&[root]);
     let mut degrees: Vec<Option<Rational>> = vec![None; root.index() + 1];
@@ -77,7 +78,7 @@ fn degrees(graph: &Graph, root: Id) -> Vec<Option<Rational>> {
     degrees
 }
 
-/// Σ q̇ ∂/∂q̇, which multiplies each part by its degree in the velocities.
+/// Σ q̇ ∂/∂q̇ of an expression: multiplies each term by its degree in the velocities (Euler's theorem).
 pub(super) fn by_degree(graph: &mut Graph, problem: &Problem, expression: Id) -> Id {
     let n = problem.coordinates.len();
     let rates = directions(graph, n, &[(Variable::Velocity, Variable::Velocity)]);

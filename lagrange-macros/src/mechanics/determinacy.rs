@@ -1,8 +1,8 @@
-//! Is every acceleration determined by something?
+//! Checks by structural rank that the equations determine every acceleration.
 //!
-//! The system is solvable only where the stacked matrix [M; F] has full column rank. Its pattern of zeros
-//! already rules that out where no matching gives every coordinate an equation of its own (the structural
-//! rank: Duff, Erisman and Reid, *Direct Methods for Sparse Matrices*, chapter 6).
+//! The system is solvable only if the stacked matrix [M; F] has full column rank. Its pattern of zeros rules that out
+//! if no matching gives every coordinate an equation of its own (structural rank: Duff, Erisman and Reid, *Direct
+//! Methods for Sparse Matrices*, chapter 6).
 
 use super::constraints::Constraints;
 use crate::diagnostics::Diagnostics;
@@ -39,10 +39,10 @@ fn undetermined(name: &str, column: usize, rows: &[&Vec<Id>]) -> String {
     format!("nothing determines the acceleration of `{name}`: {why}")
 }
 
-/// Finds a row for `column`, moving other columns to other rows where needed (Kuhn's augmenting paths, by a
-/// stack of its own).
+/// Matches `column` with a row, and reassigns other columns where needed (Kuhn's augmenting paths, with an explicit
+/// stack).
 fn assign(column: usize, rows: &[&Vec<Id>], owner: &mut [Option<usize>], visited: &mut [bool]) -> bool {
-    // Each frame: a column looking for a row, and the row it looks at next.
+    // Each stack entry: a column without a row, and the next row to try for it.
     let mut path = vec![(column, 0)];
     while let Some((column, row)) = path.last_mut() {
         let candidate = (*row..rows.len()).find(|&r| rows[r][*column] != Id::ZERO && !visited[r]);

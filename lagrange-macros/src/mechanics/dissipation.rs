@@ -1,4 +1,4 @@
-//! What Rayleigh's dissipation function is for: to take the power q̇·∂D/∂q̇ from the motion.
+//! Checks that a Rayleigh dissipation function D dissipates: it must take the power q̇·∂D/∂q̇ from the motion.
 
 use num_traits::Signed;
 
@@ -8,9 +8,9 @@ use crate::resolve::Problem;
 use crate::symbolic::{Function, Graph, Id, Node, Rational};
 use crate::variables::{Variable, has_velocity, nodes};
 
-/// Reports a dissipation function that certainly takes no power: free of velocities, odd in them, or with a power that is
-/// nowhere positive as long as no parameter is negative. What takes power at some velocities alone is accepted, as the drag
-/// of a moving belt does.
+/// Reports a dissipation function that certainly dissipates nothing: free of velocities, odd in them, or with a power
+/// that is nowhere positive for nonnegative parameters. A power that is positive at some velocities only is accepted:
+/// the drag of a moving belt is an example.
 pub(super) fn check(graph: &mut Graph, problem: &Problem, diagnostics: &mut Diagnostics) {
     let Some((function, place)) = problem.dissipation else { return };
     if !has_velocity(graph, &[function]) {
@@ -32,7 +32,7 @@ pub(super) fn check(graph: &mut Graph, problem: &Problem, diagnostics: &mut Diag
     diagnostics.error(place, format!("this dissipation function {fault}; {advice}"));
 }
 
-/// Whether it changes its sign with all velocities, by its canonical form.
+/// True if the power is odd in the velocities, by its canonical form.
 fn is_odd(graph: &mut Graph, problem: &Problem, power: Id) -> bool {
     let velocities = nodes(graph, problem.coordinates.len(), Variable::Velocity);
     let reversed: Vec<Id> = velocities.into_iter().map(|velocity| graph.neg(velocity)).collect();
@@ -47,9 +47,9 @@ fn is_odd(graph: &mut Graph, problem: &Problem, power: Id) -> bool {
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum PowerSign {
-    /// Or zero.
+    /// Nonnegative.
     Positive,
-    /// Or zero.
+    /// Nonpositive.
     Negative,
     Unknown,
 }
@@ -68,13 +68,13 @@ impl PowerSign {
     }
 
     fn power(self, exponent: Rational) -> Self {
-        // Roots are those of positive numbers.
+        // A power with a fraction as exponent has a nonnegative base.
         let is_odd = exponent.is_integer() && exponent.numer() % 2 != 0;
         if is_odd { self } else { Self::Positive }
     }
 }
 
-/// The sign that an expression has wherever no parameter is negative.
+/// Sign of an expression at every state, for nonnegative parameters.
 fn sign(graph: &Graph, root: Id) -> PowerSign {
     let mut signs = vec![PowerSign::Unknown; root.index() + 1];
     for id in graph.reachable(&[root]) {

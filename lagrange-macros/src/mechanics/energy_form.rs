@@ -1,9 +1,9 @@
-//! What the energy function E = p·q̇ − L is made of, by degree in the velocities: with L = L₀ + L₁ + L₂ it is L₂ − L₀.
+//! Form of the energy function E = p·q̇ − L by degree in the velocities: with L = L₀ + L₁ + L₂ it is L₂ − L₀.
 //!
-//! A Lagrangian does not tell T from U: m ω² r²/2 is kinetic energy of a bead on a wire that is turned, and −U of a spring
-//! that pushes. So E is called T + U only where T is known, as the sum of `kinetic(…)`, and E is denied to be T + U only
-//! where a velocity is seen to have a part that no coordinate's velocity gives it. With T = T₀ + T₁ + T₂ the
-//! energy function is T₂ − T₀ + U (Goldstein, Poole and Safko, *Classical Mechanics*, 2.7).
+//! A Lagrangian does not tell T from U: the term m ω² r²/2 is kinetic energy for a bead on a rotating wire, but −U for
+//! a repelling spring. So E is called T + U only if T is known as the sum of `kinetic(…)`. E is said to differ from T
+//! + U only if a velocity visibly has a component of degree zero. With T = T₀ + T₁ + T₂ the energy function is T₂ − T₀
+//! + U (Goldstein, Poole and Safko, *Classical Mechanics*, 2.7).
 
 use num_traits::{One, Zero};
 
@@ -15,22 +15,22 @@ use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational, Verdict};
 use crate::variables::{Variable, has_velocity, nodes};
 
-/// What E is, as far as it is known.
+/// Known form of the energy function E.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum EnergyForm {
-    /// T + U: T is the sum of `kinetic(…)`, of degree two, and holds all velocities; U = T − L.
+    /// T + U: T, the sum of `kinetic(…)`, is of degree two and contains all velocities; U = T − L.
     Sum(Evidence),
-    /// L₂ − L₀, and L₁ = 0: T + U if −L₀ is U.
+    /// L₂ − L₀, with L₁ = 0: T + U if −L₀ is U.
     Even(Evidence),
-    /// Not T + U: T has a part of degree one or zero, as positions move with time.
+    /// Not T + U: T has a part of degree one or zero, because positions depend explicitly on time.
     Moving,
-    /// L₂ − L₀, while L₁ ≠ 0 or is not known to vanish.
+    /// L₂ − L₀, with L₁ ≠ 0 or not known to vanish.
     Quadratic,
     /// p·q̇ − L, and L is not quadratic in the velocities.
     General,
 }
 
-/// The form of E, and how sure it is that L has no parts but of degree zero and two.
+/// Returns the form of E, and the evidence that L has parts of degree zero and two only.
 pub(super) fn find(
     graph: &mut Graph,
     problem: &Problem,
@@ -46,7 +46,7 @@ pub(super) fn find(
     (form, even)
 }
 
-/// −L at rest, the potential energy if E of this form is T + U.
+/// Returns −L at q̇ = 0 for an even L. It is the potential energy if E is T + U.
 pub(super) fn potential(graph: &mut Graph, problem: &Problem, form: EnergyForm) -> Option<Id> {
     let EnergyForm::Even(_) = form else { return None };
     let velocities = nodes(graph, problem.coordinates.len(), Variable::Velocity);
@@ -55,7 +55,7 @@ pub(super) fn potential(graph: &mut Graph, problem: &Problem, form: EnergyForm) 
     graph.take_fault().is_none().then_some(potential)
 }
 
-/// D(E) = D(L) with D = Σ q̇ ∂/∂q̇.
+/// Tests that L has parts of degree zero and two only: D(E) = D(L) with D = Σ q̇ ∂/∂q̇.
 fn is_even(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Option<Evidence> {
     let is_even = |part: &GradedTerm| part.degree.is_zero() || part.degree == Rational::from_integer(2);
     if degree::parts(graph, problem.lagrangian).is_some_and(|parts| parts.iter().all(is_even)) {
@@ -67,7 +67,7 @@ fn is_even(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Optio
     vanishes(graph, problem, difference)
 }
 
-/// Where L has bodies: their kinetic energy is of degree two unless the time moves their frames.
+/// Form of E if L contains kinetic energies of bodies: they are of degree two unless a frame moves with time.
 fn of_bodies(graph: &mut Graph, problem: &Problem) -> Option<EnergyForm> {
     let (energies, others) = kinetic_energies(graph, problem)?;
     let kinetic = graph.total(energies);
@@ -87,7 +87,7 @@ fn of_bodies(graph: &mut Graph, problem: &Problem) -> Option<EnergyForm> {
     }
 }
 
-/// Whether a velocity, by `der` or of a frame, has a component that is not zero where all q̇ are, and L is not linear in it.
+/// True if L is nonlinear in a velocity (from `der` or of a frame) that does not vanish with q̇.
 fn is_carried(graph: &mut Graph, problem: &Problem) -> bool {
     let is_of_degree_one = |part: &GradedTerm| part.degree.is_one();
     let moving = problem.rates.iter().filter(|components| has_velocity(graph, components)).flatten();

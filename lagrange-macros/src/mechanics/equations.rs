@@ -1,4 +1,5 @@
-//! The equations of motion, and with them all that a system is asked for while it moves.
+//! The equations of motion in symbols, with the momenta, the energy and the constraint residuals that a simulation
+//! evaluates.
 
 use super::constraints::ConstraintKind;
 use super::coordinates::Coordinates;
@@ -22,37 +23,38 @@ pub(crate) struct Equations {
     pub(crate) momenta_are_linear: bool,
     /// M = ∂p/∂q̇, row by row
     pub(crate) mass: Vec<Vec<Id>>,
-    /// ∂L/∂q + Q: dp/dt without constraints
+    /// ∂L/∂q + Q: equals dp/dt if there are no constraints
     pub(crate) momentum_rate: Vec<Id>,
-    /// h = ∂L/∂q + Q − (dp/dt where q̈ = 0)
+    /// h = ∂L/∂q + Q − (dp/dt at q̈ = 0)
     pub(crate) forcing: Vec<Id>,
     /// E = p·q̇ − L
     pub(crate) energy: Id,
     pub(crate) kinds: Vec<ConstraintKind>,
-    /// What is integrable
+    /// Which constraints are integrable
     pub(crate) integrability: Kinds,
-    /// Φ of holonomic constraints, zero for the others
+    /// Φ of holonomic constraints, zero for velocity constraints
     pub(crate) residual: Vec<Id>,
-    /// F q̇ + b
+    /// F q̇ + b of each constraint
     pub(crate) rate: Vec<Id>,
-    /// Σ |F_αi q_i| of holonomic constraints, and Σ |F_αi q̇_i| of all
+    /// Scales of the constraint residuals: Σ |F_αi q_i| of holonomic constraints, and Σ |F_αi q̇_i| of all
     pub(crate) magnitudes: [Vec<Id>; 2],
-    /// F, row by row
+    /// Constraint Jacobian F, row by row
     pub(crate) jacobian: Vec<Vec<Id>>,
-    /// γ
+    /// γ of F q̈ + γ = 0
     pub(crate) bias: Vec<Id>,
-    /// Fᵀλ, in the multipliers' symbols
+    /// Fᵀλ, with the multipliers λ as symbols
     pub(crate) constraint_force: Vec<Id>,
-    /// d/dt p − ∂L/∂q − Q − Fᵀλ, in the symbols of accelerations and multipliers
+    /// d/dt p − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols
     pub(crate) balance: Vec<Id>,
-    /// d/dt (F q̇ + b), in the symbols of accelerations
+    /// d/dt (F q̇ + b), with accelerations as symbols
     pub(crate) constraint_acceleration: Vec<Id>,
-    /// M and h as quadratic forms, completed where M is singular: the first over the accelerations alone
+    /// Equivalent quadratic forms of M and h, completed by constraints where M is singular. The first has the
+    /// accelerations as its only variables.
     pub(crate) forms: Vec<Form>,
 }
 
 impl Equations {
-    /// Derives the equations of motion; `None` where they do not exist, which is then reported.
+    /// Derives the equations of motion. Reports why they do not exist, and then returns `None`.
     pub(super) fn derive(
         graph: &mut Graph,
         problem: &Problem,
@@ -99,7 +101,7 @@ impl Equations {
         })
     }
 
-    /// Every entry.
+    /// All expressions of the equations, as roots in the graph.
     pub(crate) fn roots(&self) -> Vec<Id> {
         let matrices = self.mass.iter().chain(&self.jacobian).flatten();
         let vectors =

@@ -5,7 +5,7 @@ use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id};
 use crate::variables::{Variable, has_velocity, nodes, symbols};
 
-/// p and what changes it.
+/// Momenta p and their rates.
 pub(super) struct Momenta {
     pub(super) momentum: Vec<Id>,
     /// ∂L/∂q + Q
@@ -24,8 +24,8 @@ impl Momenta {
     }
 }
 
-/// E = p·q̇ − L, Milton (8.17). A part of L of degree d in the velocities adds (d − 1) times itself (Euler's
-/// theorem): so the energy reads as T + U where it is that.
+/// E = p·q̇ − L, Milton (8.17). By Euler's theorem a part of L of degree d in the velocities contributes (d − 1) times
+/// itself. Summed this way, the energy reads as T + U if it is T + U.
 pub(super) fn energy(graph: &mut Graph, problem: &Problem, momentum: &[Id]) -> Id {
     let parts = degree::parts(graph, problem.lagrangian).unwrap_or_default();
     let terms = parts.iter().map(|part| Some((part.term, part.energy()?))).collect::<Option<Vec<_>>>();
@@ -37,14 +37,14 @@ pub(super) fn energy(graph: &mut Graph, problem: &Problem, momentum: &[Id]) -> I
     graph.sub(vis_viva, problem.lagrangian)
 }
 
-/// Q: the forces given, force · ∂velocity/∂q̇ of those that act along a velocity, and −∂D/∂q̇ of Rayleigh's dissipation
-/// function.
+/// Generalized forces Q: the given forces, force · ∂velocity/∂q̇ of forces along a velocity, and −∂D/∂q̇ of Rayleigh's
+/// dissipation function.
 pub(super) fn generalized_forces(graph: &mut Graph, problem: &Problem) -> Vec<Id> {
     let velocities = nodes(graph, problem.coordinates.len(), Variable::Velocity);
     forces_along(graph, problem, &velocities)
 }
 
-/// The same for these velocities, of which the generalized ones are the first.
+/// Generalized forces along `velocities`, which begin with the generalized velocities.
 pub(super) fn forces_along(graph: &mut Graph, problem: &Problem, velocities: &[Id]) -> Vec<Id> {
     let mut forces = graph.pulled_back(&problem.powers, velocities);
     for (sum, &given) in forces.iter_mut().zip(&problem.forces) {
@@ -57,7 +57,7 @@ pub(super) fn forces_along(graph: &mut Graph, problem: &Problem, velocities: &[I
     forces
 }
 
-/// M_ij = ∂p_i/∂v_j, of which the lower triangle is differentiated.
+/// M_ij = ∂p_i/∂v_j. Only the lower triangle is differentiated.
 pub(super) fn hessian(graph: &mut Graph, momenta: &[Id], velocities: &[Id]) -> Vec<Vec<Id>> {
     let n = momenta.len();
     let mut mass = vec![vec![Id::ZERO; n]; n];

@@ -1,14 +1,14 @@
-//! How sure a statement about a system is.
+//! Certainty of a statement about a system.
 
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Verdict};
 
-/// Proved, or only tried.
+/// How a statement was established: by proof or by random tests.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Evidence {
-    /// What must vanish vanishes by its canonical form, and what must not has a value whose error bound excludes 0.
+    /// Zeros vanish in canonical form; nonzeros have a value whose error bound excludes 0.
     Proved,
-    /// It held at this many random points, to rounding.
+    /// The statement held at this many random points, to rounding.
     Held(u32),
 }
 
@@ -22,7 +22,7 @@ impl Evidence {
     }
 }
 
-/// Whether an expression is zero everywhere, and why one may think so.
+/// Evidence that an expression is zero everywhere; `None` if it is not zero or cannot be decided.
 pub(super) fn vanishes(graph: &mut Graph, problem: &Problem, root: Id) -> Option<Evidence> {
     match graph.is_zero(root, |symbol, draw| problem.drawn(symbol, draw)) {
         Verdict::Zero => Some(Evidence::Proved),

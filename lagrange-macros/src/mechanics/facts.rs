@@ -1,4 +1,4 @@
-//! What can be said of a system before it moves.
+//! Statements about a system that need no simulation: cyclic coordinates, conserved quantities, form of the energy.
 
 use super::conservation;
 use super::conservation::{Conserved, ConservedKind, EnergyChange, found};
@@ -11,21 +11,21 @@ use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 
-/// Statements about the system as a whole. What is not among them is false or could not be decided.
+/// Statements about the system as a whole. A statement that is missing is false or undecided.
 #[derive(Debug)]
 pub(crate) struct Facts {
-    /// Coordinates that occur in neither L nor forces nor constraint forces, but by their velocities.
+    /// Indices of cyclic coordinates: L, the forces and the constraint forces depend on their velocities at most.
     pub(crate) cyclic: Vec<usize>,
     pub(crate) conserved: Vec<Conserved>,
     pub(crate) energy_form: EnergyForm,
-    /// What dE/dt may consist of, where E is not known to be conserved.
+    /// Terms that dE/dt may have, if E is not known to be conserved.
     pub(crate) energy_changes: Vec<EnergyChange>,
     pub(crate) total_derivatives: Vec<TotalDerivative>,
     pub(crate) linear_part: LinearPart,
 }
 
 impl Facts {
-    /// Finds what there is to find, and reports what is said to be conserved and is not.
+    /// Derives the statements, and reports quantities declared as conserved that are not.
     pub(super) fn find(
         graph: &mut Graph,
         problem: &Problem,
@@ -54,8 +54,8 @@ impl Facts {
     }
 }
 
-/// The cyclic coordinates, and the momenta that are conserved because L and the forces do not depend on their
-/// coordinates and no constraint acts along them.
+/// Returns the cyclic coordinates and the conserved momenta. A momentum is conserved if L and the forces do not depend
+/// on its coordinate and no constraint force acts along it.
 fn momenta(graph: &mut Graph, moments: &mut Moments) -> (Vec<usize>, Vec<Conserved>) {
     let &mut Moments { problem, equations, .. } = moments;
     let (mut cyclic, mut conserved) = (Vec::new(), Vec::new());
@@ -67,7 +67,7 @@ fn momenta(graph: &mut Graph, moments: &mut Moments) -> (Vec<usize>, Vec<Conserv
                 cyclic.push(a);
                 Some(free.and(constrained))
             }
-            // A constraint that could act along the coordinate may do so in no motion.
+            // The constraint force along the coordinate is not zero in symbols, but it may vanish in every motion.
             None => found(graph, moments, equations.momentum[a]),
         };
         let (name, quantity) = (format!("p_{}", problem.coordinates[a].text), ConservedKind::Momentum(a));

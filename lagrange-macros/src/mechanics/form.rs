@@ -1,31 +1,31 @@
-//! Quadratic forms that accelerations make least.
+//! Quadratic forms whose minimum gives the accelerations.
 
 use crate::symbolic::Id;
 
-/// The most variables that a form has: each is differentiated by each.
+/// Largest number of variables of a form: the Hessian costs the square of it.
 pub(super) const LIMIT: usize = 500;
 
-/// ½ xᵀHx − bᵀx, where x is the accelerations and then, in the order of their definitions, the rates of the named
-/// velocities that they cause.
+/// ½ xᵀHx − bᵀx. The variables x are the accelerations, followed by the parts of the rates of named velocities that
+/// are linear in the accelerations, in order of definition.
 #[derive(Debug)]
 pub(crate) struct Form {
     /// H, by rows.
     pub(crate) matrix: Vec<Vec<Id>>,
     /// b
     pub(crate) linear: Vec<Id>,
-    /// For each named velocity its rate as a sum over the x before it: which, and its coefficient.
+    /// For each named velocity, its rate as a sum over earlier variables: index and coefficient of each term.
     pub(crate) definitions: Vec<Vec<(usize, Id)>>,
-    /// F over x, if it is not that over the accelerations alone.
+    /// Constraint Jacobian F over x; `None` if F over the accelerations alone applies.
     pub(crate) rows: Option<Vec<Vec<Id>>>,
-    /// b_i/H_ii of an acceleration that is tied to nothing else.
+    /// b_i/H_ii of each acceleration that is coupled to no other variable.
     pub(crate) alone: Vec<Option<Id>>,
-    /// The constraints a with σ_a F_aᵀF_a in H and −σ_a γ_a F_a in b, each with its σ: a solve for other h and γ takes
-    /// the same from its h.
+    /// Each constraint a, with its weight σ_a, that adds σ_a F_aᵀF_a to H and −σ_a γ_a F_a to b. A solve for another h
+    /// and γ must likewise subtract σ_a γ_a F_a from that h.
     pub(crate) completing: Vec<(usize, Id)>,
 }
 
 impl Form {
-    /// With each variable after the accelerations as a sum over those before it.
+    /// Form with one row per variable beyond the accelerations: its coefficients over the earlier variables.
     pub(super) fn over(matrix: Vec<Vec<Id>>, linear: Vec<Id>, rows: &[Vec<Id>]) -> Self {
         let entries =
             |row: &Vec<Id>| row.iter().copied().enumerate().filter(|&(_, entry)| entry != Id::ZERO).collect();
@@ -37,7 +37,7 @@ impl Form {
         Self { matrix, linear, definitions, rows: None, alone, completing: Vec::new() }
     }
 
-    /// The same with constraints on all its variables.
+    /// Adds the constraint Jacobian over all variables of the form.
     pub(super) fn with(self, rows: Vec<Vec<Id>>) -> Self {
         Self { rows: Some(rows), ..self }
     }

@@ -4,18 +4,19 @@ use super::form::Form;
 use crate::symbolic::{Forward, Graph, Id};
 
 pub(super) trait Formulation {
-    /// M and h, over the accelerations alone.
+    /// M and h, with the accelerations as the only variables.
     fn mass_and_forcing(&self, graph: &mut Graph) -> (Vec<Vec<Id>>, Vec<Id>);
 
-    /// dp/dt − ∂L/∂q − Q, with accelerations as symbols: not by the entries of M, so that it costs as much as the Lagrangian.
+    /// dp/dt − ∂L/∂q − Q, with accelerations as symbols. It is derived without the entries of M, so that its cost is
+    /// that of the Lagrangian.
     fn balance(&self, graph: &mut Graph) -> Vec<Id>;
 
-    /// d/dt where q̈ = 0
+    /// Time derivative at q̈ = 0
     fn drift(&self, graph: &mut Graph) -> Forward;
 
-    /// F of a constraint
+    /// Row of the constraint Jacobian F that belongs to a constraint
     fn jacobian_row(&self, graph: &mut Graph, constraint: Id) -> Vec<Id>;
 
-    /// The forms over more variables than the accelerations.
+    /// Equivalent quadratic forms with more variables than the accelerations.
     fn forms(&self, graph: &mut Graph) -> Vec<Form>;
 }

@@ -1,6 +1,6 @@
-//! What in the Lagrangian does not act: total time derivatives d/dt f(q, t).
+//! Total time derivatives d/dt f(q, t) in the Lagrangian, which do not affect the motion.
 //!
-//! An expression is one exactly where its own Euler–Lagrange equations say 0 = 0.
+//! An expression is a total time derivative exactly if its Euler–Lagrange equations are identically zero.
 
 use super::degree::by_degree;
 use super::equations::Equations;
@@ -9,31 +9,31 @@ use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Rational};
 use crate::variables::{Variable, directions, has_velocity, symbols, total_time_derivative};
 
-/// A total time derivative: one term of the Lagrangian as written, or several that are one together.
+/// One term, or several terms together, of the Lagrangian as written that form a total time derivative.
 #[derive(Debug)]
 pub(crate) struct TotalDerivative {
-    /// The indices of the terms.
+    /// Indices of the terms in the Lagrangian.
     pub(crate) terms: Vec<usize>,
     pub(crate) evidence: Evidence,
 }
 
-/// What the part of L that is linear in the velocities, A(q,t)·q̇, does.
+/// Effect of A(q,t)·q̇, the part of L that is linear in the velocities.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum LinearPart {
-    /// There is none.
+    /// L has no linear part.
     Absent,
-    /// ∂A_i/∂q_j = ∂A_j/∂q_i: no force depends on the velocities because of it.
+    /// ∂A_i/∂q_j = ∂A_j/∂q_i: the linear part adds no velocity-dependent force.
     Closed(Evidence),
-    /// It adds gyroscopic forces; or L has parts of other degrees than 0, 1 and 2.
+    /// The linear part adds gyroscopic forces, or L has parts of degrees other than 0, 1 and 2.
     Open,
 }
 
-/// Lagrangians of more terms, a `sum` being one, are written by programs and not searched: there are as many
-/// pairs as the square of it.
+/// Largest number of terms, with a `sum` as one, of a Lagrangian that is searched: pairs grow with its square. Longer
+/// Lagrangians are written by programs.
 const TERMS: usize = 100;
 
-/// The terms that are total derivatives by themselves; of the others, those two that are one together, or all
-/// that are linear in the velocities.
+/// Returns the terms that are total time derivatives individually. Of the remaining terms, returns one pair that is,
+/// or else all terms linear in the velocities if together they are.
 pub(super) fn total_derivatives(graph: &mut Graph, problem: &Problem) -> Vec<TotalDerivative> {
     let terms = &problem.terms;
     if terms.len() > TERMS {
@@ -67,12 +67,12 @@ pub(super) fn total_derivatives(graph: &mut Graph, problem: &Problem) -> Vec<Tot
 struct Search<'a> {
     graph: &'a mut Graph,
     problem: &'a Problem,
-    /// The Euler–Lagrange expressions of each term.
+    /// The Euler–Lagrange expressions of each term, one per coordinate.
     variations: Vec<Vec<Id>>,
 }
 
 impl Search<'_> {
-    /// A term with a velocity, and another one that makes it a total derivative.
+    /// Finds a total time derivative of two terms, of which one at least is linear in the velocities.
     fn pair(&mut self, linear: &[usize], potentials: &[usize]) -> Option<TotalDerivative> {
         let mut pairs = linear.iter().enumerate().flat_map(|(i, &first)| {
             let others = linear[i + 1..].iter().chain(potentials);
@@ -81,7 +81,7 @@ impl Search<'_> {
         pairs.find_map(|pair| self.cancelled(&pair))
     }
 
-    /// The terms as a total derivative, if their Euler–Lagrange expressions sum to zero.
+    /// Returns the terms as a total derivative if their Euler–Lagrange expressions sum to zero.
     fn cancelled(&mut self, terms: &[usize]) -> Option<TotalDerivative> {
         let mut coordinates = 0..self.problem.coordinates.len();
         let evidence = coordinates.try_fold(Evidence::Proved, |evidence, i| {
@@ -91,7 +91,8 @@ impl Search<'_> {
         Some(TotalDerivative { terms: terms.to_vec(), evidence })
     }
 
-    /// Whether a term has no parts but those of degree 0 and 1 in the velocities: D(D − 1) makes them zero.
+    /// True if a term has parts of degree 0 and 1 in the velocities only: then D(D − 1) = 0 on it, with D = Σ q̇
+    /// ∂/∂q̇.
     fn is_linear(&mut self, term: Id) -> bool {
         let first = by_degree(self.graph, self.problem, term);
         let second = by_degree(self.graph, self.problem, first);
@@ -119,8 +120,9 @@ fn variation_along(graph: &mut Graph, problem: &Problem, term: Id, mut rate: For
     momentum.iter().zip(force).map(row).collect()
 }
 
-/// With D L = L₁ + 2 L₂ the linear part is L₁ = 2 D L − D² L, if there are no parts of other degrees. Its own
-/// Euler–Lagrange equations with the time held fixed are (∂A_i/∂q_j − ∂A_j/∂q_i) q̇_j = 0.
+/// Examines the linear part L₁ = A_i q̇_i of a Lagrangian of degree 2 in the velocities. With D = q̇_i ∂/∂q̇_i, D L =
+/// L₁ + 2 L₂, hence L₁ = 2 D L − D² L. At fixed time its Euler–Lagrange equations are (∂A_i/∂q_j − ∂A_j/∂q_i) q̇_j =
+/// 0.
 pub(super) fn linear_part(graph: &mut Graph, problem: &Problem, equations: &Equations) -> LinearPart {
     let (one, two) = (Rational::from_integer(1), Rational::from_integer(2));
     let vis_viva = graph.add(equations.energy, problem.lagrangian);

@@ -1,9 +1,9 @@
-//! Gauss's principle of least constraint: the accelerations make ½ aᵀMa − hᵀa least, subject to F a + γ = 0.
+//! Gauss's principle of least constraint: the accelerations minimize ½ aᵀMa − hᵀa, subject to F a + γ = 0.
 //!
-//! Where velocities are named by definitions, `vx[i] = vx[i-1] + …`, the same form over the rates of those
-//! velocities as well is sparse: M of a chain is dense, but its kinetic energy is a sum of squares of link
-//! velocities. Eliminating an acceleration as soon as it occurs in no definition that is left is then the
-//! articulated-body algorithm (Featherstone, *Rigid Body Dynamics Algorithms*, chapter 7), found from the definitions.
+//! If definitions name velocities, as in `vx[i] = vx[i-1] + …`, the rates of these velocities become variables of the
+//! form, too. That form is sparse: M of a chain is dense, but its kinetic energy is a sum of squares of link
+//! velocities. Eliminating each acceleration as soon as it occurs in no remaining definition then yields the
+//! articulated-body algorithm (Featherstone, *Rigid Body Dynamics Algorithms*, chapter 7).
 
 use super::completion;
 use super::constraints::Constraints;
@@ -13,8 +13,8 @@ use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 
 impl Form {
-    /// Over the accelerations alone, and over the velocities that definitions name as well where there are any and
-    /// exact arithmetic can write it.
+    /// Returns the form over the accelerations alone. If definitions name velocities and exact arithmetic can write
+    /// it, adds the form over their rates as well.
     pub(super) fn all(
         graph: &mut Graph,
         problem: &Problem,
@@ -34,7 +34,8 @@ impl Form {
         forms
     }
 
-    /// H + FᵀσF and b − Fᵀσγ, of the constraints given with their σ; as it is where exact arithmetic cannot write that.
+    /// Replaces H by H + FᵀσF and b by b − Fᵀσγ, for the given constraints and their σ. Leaves the form unchanged if
+    /// exact arithmetic cannot write the result.
     fn complete(&mut self, graph: &mut Graph, constraints: &Constraints, completing: &[(usize, Id)]) {
         let (mut matrix, mut linear) = (self.matrix.clone(), self.linear.clone());
         for &(a, weight) in completing {
@@ -71,7 +72,7 @@ impl Form {
     }
 }
 
-/// The same without the boundaries of definitions, where those hide that terms cancel.
+/// Inlines definitions if that makes the expression shorter because terms cancel; returns it unchanged otherwise.
 pub(super) fn shorter(graph: &mut Graph, entry: Id) -> Id {
     const LONG: usize = 100;
     let length = |graph: &Graph, root| graph.reachable(&[root]).len();

@@ -1,5 +1,5 @@
-//! The Hamiltonian and Hamilton's equations in symbols, to be read: they are computed with by the Legendre transform of
-//! numbers.
+//! The Hamiltonian and Hamilton's equations in symbols, for display. Computations use the numerical Legendre transform
+//! instead.
 
 use super::equations::Equations;
 use super::euler_lagrange::generalized_forces;
@@ -16,11 +16,11 @@ pub(crate) struct Hamilton {
     pub(crate) velocities: Vec<Id>,
     /// ṗ = −∂H/∂q + Q + Fᵀλ
     pub(crate) rates: Vec<Id>,
-    /// Of M: H is the shorter for having them simplified.
+    /// Entries of M, row by row, kept as definitions: simplifying them shortens H.
     pub(crate) entries: Vec<Id>,
 }
 
-/// Why H is not written in symbols.
+/// Reason why H is not written in symbols.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum NoHamiltonian {
     /// The momenta are not linear in the velocities.
@@ -30,14 +30,15 @@ pub(crate) enum NoHamiltonian {
     Long,
 }
 
-/// Of more coordinates nobody would read it.
+/// Largest number of coordinates: H of more would be too long to read.
 const COORDINATES: usize = 8;
 
-/// M is inverted by Cramer's rule, block by block: a block of four has inverses of hundreds of terms.
+/// Largest block of M that is inverted by Cramer's rule: the inverse of a block of four has hundreds of terms.
 const BLOCK: usize = 3;
 
 impl Hamilton {
-    /// H = ½ (p − b)ᵀM⁻¹(p − b) − L₀, where p = M q̇ + b and L₀ is L at rest; or why that is not written.
+    /// Derives H = ½ (p − b)ᵀM⁻¹(p − b) − L₀, where p = M q̇ + b and L₀ is L at q̇ = 0. Returns the reason if H is not
+    /// written.
     pub(super) fn derive(
         graph: &mut Graph,
         problem: &Problem,
@@ -101,7 +102,7 @@ fn rates(
     slopes.into_iter().zip(forces).enumerate().map(rate).collect()
 }
 
-/// The coordinates that entries beside the diagonal tie together.
+/// Groups the coordinates into the diagonal blocks of M: the coordinates that off-diagonal entries couple.
 fn blocks(mass: &[Vec<Id>]) -> Vec<Vec<usize>> {
     let mut blocks: Vec<Vec<usize>> = Vec::new();
     for (i, row) in mass.iter().enumerate() {
@@ -143,7 +144,7 @@ fn inverse(
     Ok(rows.collect())
 }
 
-/// Whether a matrix is seen to be regular at none of a few random points.
+/// True if the matrix has full rank at none of a few random points.
 fn is_singular(graph: &Graph, problem: &Problem, matrix: &[Vec<Id>]) -> bool {
     const DRAWS: u64 = 16;
     const POINTS: usize = 3;
@@ -167,7 +168,7 @@ fn without(matrix: &[Vec<Id>], row: usize, column: usize) -> Vec<Vec<Id>> {
         .collect()
 }
 
-/// By the entries of the first row.
+/// Determinant by expansion along the first row.
 fn determinant(graph: &mut Graph, matrix: &[Vec<Id>]) -> Id {
     let Some(first) = matrix.first() else { return Id::ONE };
     let terms: Vec<(Id, Rational)> = first

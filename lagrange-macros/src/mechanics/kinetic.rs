@@ -1,9 +1,9 @@
-//! Kinetic energies of rigid bodies that are terms of L.
+//! Kinetic energies of rigid bodies as terms of L.
 
 use crate::resolve::{Body, Problem};
 use crate::symbolic::{Graph, Id};
 
-/// Splits L into the bodies whose kinetic energies are terms of it, and the rest.
+/// Splits L into the bodies whose kinetic energies are terms of L, and the remaining terms.
 pub(super) fn apart(graph: &mut Graph, problem: &Problem) -> (Vec<Body>, Id) {
     let mut bodies: Vec<Body> = Vec::new();
     for body in &problem.bodies {
@@ -19,7 +19,7 @@ pub(super) fn apart(graph: &mut Graph, problem: &Problem) -> (Vec<Body>, Id) {
     (bodies, others)
 }
 
-/// The kinetic energies of the bodies that are terms of L, and L without them; `None` where there is none.
+/// Returns the kinetic energies of bodies that are terms of L, and L without them; `None` if there are none.
 pub(super) fn kinetic_energies(graph: &mut Graph, problem: &Problem) -> Option<(Vec<Id>, Id)> {
     if problem.bodies.is_empty() {
         return None;

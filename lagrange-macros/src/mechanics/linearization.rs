@@ -1,50 +1,50 @@
-//! How the equations of motion change along a direction in time, state and parameters.
+//! Directional derivatives of the equations of motion in time, state and parameters.
 //!
-//! The residual is written as the textbook does, dp/dt − ∂L/∂q − Q − Fᵀλ and d/dt(F q̇ + b), and not with the entries
-//! of M: so it costs as much as the Lagrangian, and its derivative along one direction a small multiple of that
-//! (forward mode; Griewank and Walther, *Evaluating Derivatives*, 3.1). The whole Jacobian as formulas would
-//! be N² entries, each with second derivatives of M.
+//! The residual is written as dp/dt − ∂L/∂q − Q − Fᵀλ and d/dt(F q̇ + b), without the entries of M. It then costs as
+//! much as the Lagrangian, and its derivative along one direction a small multiple of that (forward mode; Griewank and
+//! Walther, *Evaluating Derivatives*, 3.1). The whole Jacobian as formulas would have N² entries, each with second
+//! derivatives of M.
 
 use super::equations::Equations;
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Symbol};
 use crate::variables::{Variable, symbols};
 
-/// How the residual changes, at given accelerations and multipliers.
+/// Derivatives of the residual at fixed accelerations and multipliers.
 pub(crate) struct Linearization {
-    /// Along a direction in time and state.
+    /// Derivatives along a direction in time and state.
     pub(crate) by_state: Changes,
-    /// With the parameters.
+    /// Derivatives along a direction in the parameters.
     pub(crate) by_parameters: Changes,
 }
 
-/// Derivatives of …
+/// Directional derivatives of the residuals.
 pub(crate) struct Changes {
-    /// … M q̈ − h − Fᵀλ,
+    /// Derivatives of M q̈ − h − Fᵀλ.
     pub(crate) motion: Vec<Id>,
-    /// F q̈ + γ,
+    /// Derivatives of F q̈ + γ.
     pub(crate) acceleration: Vec<Id>,
-    /// F q̇ + b,
+    /// Derivatives of F q̇ + b.
     pub(crate) rate: Vec<Id>,
-    /// Φ of holonomic constraints, zero for the others.
+    /// Derivatives of Φ of holonomic constraints, zero for velocity constraints.
     pub(crate) position: Vec<Id>,
 }
 
 impl Linearization {
-    /// Every entry.
+    /// All expressions, as roots in the graph.
     pub(crate) fn roots(&self) -> Vec<Id> {
         [self.by_state.roots(), self.by_parameters.roots()].concat()
     }
 }
 
 impl Changes {
-    /// Every entry.
+    /// All expressions, as roots in the graph.
     pub(crate) fn roots(&self) -> Vec<Id> {
         [&self.motion, &self.acceleration, &self.rate, &self.position].map(Vec::as_slice).concat()
     }
 }
 
-/// What the equations depend on, each with the symbol of its change: the time, coordinates, velocities, parameters.
+/// Arguments of the equations, each with the symbol of its change: the time, coordinates, velocities, parameters.
 pub(crate) fn changes(problem: &Problem) -> Vec<(Symbol, Symbol)> {
     let state = state_arguments(problem).into_iter().enumerate();
     let parameters = problem.parameters.by_field().into_iter().enumerate();

@@ -1,4 +1,4 @@
-//! From a [`Problem`] to its equations of motion and what they tell, as the textbook does it.
+//! Derives the equations of motion of a [`Problem`] and statements about them.
 
 mod completion;
 mod conservation;
@@ -47,24 +47,24 @@ pub(crate) use integrability::{Classification, Integrability, Integrals};
 use linearization::linearize;
 pub(crate) use linearization::{Changes, Linearization, changes};
 
-/// What follows from a problem. Its expressions are nodes of the problem's graph.
+/// Results derived from a problem. Their expressions are nodes of the graph of the problem.
 pub(crate) struct Derived {
     pub(crate) equations: Equations,
     pub(crate) facts: Facts,
-    /// U of an [`EnergyForm::Even`], if that is the potential energy; `None` where L cannot be written for a system at rest
+    /// U of an [`EnergyForm::Even`], if U is the potential energy; `None` if L cannot be written at q̇ = 0
     pub(crate) potential: Option<Id>,
-    /// M q̈, as it is read
+    /// M q̈, for display
     pub(crate) inertia: Vec<Id>,
-    /// What is read in place of an expression, where boundaries that nobody named make that longer.
+    /// Shorter expression to display in place of each key, found by inlining definitions that frames introduce.
     pub(crate) read: FxHashMap<Id, Id>,
-    /// In symbols, or why not
+    /// Hamilton's equations in symbols, or the reason why they are missing
     pub(crate) hamilton: Result<Hamilton, NoHamiltonian>,
-    /// `None` where exact arithmetic cannot write it
+    /// `None` if exact arithmetic cannot write it
     pub(crate) linearization: Option<Linearization>,
 }
 
-/// All that follows from a problem; `None` where it has no equations of motion or something said of it is wrong,
-/// which is then reported.
+/// Derives the equations of motion and the statements about them. Reports missing equations and wrong declarations,
+/// and then returns `None`.
 pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Diagnostics) -> Option<Derived> {
     let equations = Equations::derive(graph, problem, diagnostics)?;
     let facts = Facts::find(graph, problem, &equations, diagnostics);

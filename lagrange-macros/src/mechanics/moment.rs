@@ -1,4 +1,5 @@
-//! Random states that satisfy the constraints, with what the equations of motion give there.
+//! Random states that satisfy the constraints, with the accelerations and multipliers that the equations of motion
+//! give.
 
 use super::constraints::ConstraintKind;
 use super::equations::Equations;
@@ -6,10 +7,10 @@ use crate::resolve::Problem;
 use crate::symbolic::{Approximate, Graph, Id, Sample, solve};
 use crate::variables::{Variable, symbols};
 
-/// How often a state is drawn anew where no motion is found from it.
+/// Largest number of random draws. A draw fails if no state on the constraints, or no acceleration, is found from it.
 const DRAWS: u64 = 48;
 
-/// Moments of random motions, drawn when first asked for.
+/// Random states with their accelerations, drawn on demand.
 pub(super) struct Moments<'a> {
     pub(super) problem: &'a Problem,
     pub(super) equations: &'a Equations,
@@ -22,7 +23,7 @@ impl<'a> Moments<'a> {
         Self { problem, equations, found: Vec::new(), draws: 0 }
     }
 
-    /// The moment of this index, unless states become too hard to find before.
+    /// State number `index`; `None` if the draws are used up before.
     pub(super) fn get(&mut self, index: usize, graph: &Graph) -> Option<&mut Moment> {
         while self.found.len() <= index && self.draws < DRAWS {
             self.draws += 1;
@@ -32,7 +33,7 @@ impl<'a> Moments<'a> {
     }
 }
 
-/// Parameters, time, coordinates, velocities, accelerations and multipliers.
+/// Values of parameters, time, coordinates, velocities, accelerations and multipliers at one instant of a motion.
 pub(super) struct Moment(Sample);
 
 impl Moment {
@@ -62,7 +63,7 @@ impl Moment {
         self.0.values(graph, roots)
     }
 
-    /// M q̈ − Fᵀλ = h, F q̈ = −γ
+    /// Solves M q̈ − Fᵀλ = h, F q̈ = −γ for the accelerations and multipliers.
     fn accelerate(&mut self, graph: &Graph, problem: &Problem, equations: &Equations) -> Option<()> {
         let (n, m) = (problem.coordinates.len(), problem.constraints.len());
         let roots =

@@ -1,4 +1,4 @@
-//! Velocities that definitions name, as variables beside the generalized ones.
+//! Velocities named by definitions, as variables besides the generalized velocities.
 
 use super::euler_lagrange::generalized_forces;
 use super::form::{Form, LIMIT};
@@ -6,16 +6,17 @@ use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Node, Rational};
 use crate::variables::{Variable, drift, nodes};
 
-/// The velocities that definitions name, as variables beside the generalized ones.
+/// Generalized velocities q̇, and the velocities that definitions name, as variables of a form.
 pub(super) struct Velocities {
     /// q̇, then the named velocities.
     pub(super) nodes: Vec<Id>,
-    /// ∂(named velocity)/∂(each of the nodes before it)
+    /// For each named velocity, its partial derivatives by each earlier node
     pub(super) rows: Vec<Vec<Id>>,
 }
 
 impl Velocities {
-    /// The definitions in L that are linear in the velocities; none where very many contain a velocity.
+    /// Collects the definitions in L that are linear in the velocities. Collects none if more than [`LIMIT`] variables
+    /// would result.
     pub(super) fn named(graph: &mut Graph, problem: &Problem) -> Self {
         let n = problem.coordinates.len();
         let mut named = Self { nodes: nodes(graph, n, Variable::Velocity), rows: Vec::new() };
@@ -42,16 +43,16 @@ impl Velocities {
         named
     }
 
-    /// L is ℓ(q, q̇, w), the named velocities w are f(q, q̇, w) one after the other, and the adjoints of those are
-    /// μ = ∂ℓ/∂w + Σ μ ∂f/∂w. Then p = ∂ℓ/∂q̇ + Σ μ ∂f/∂q̇, and the parts of d/dt p = ∂L/∂q + Q go to the x that
-    /// they are the coefficients of.
+    /// Form over the rates of q̇ and w. Let L = ℓ(q, q̇, w), with named velocities w = f(q, q̇, w), each in terms of
+    /// earlier ones. The adjoints of w are μ = ∂ℓ/∂w + Σ μ ∂f/∂w. Then p = ∂ℓ/∂q̇ + Σ μ ∂f/∂q̇. Each term of d/dt p =
+    /// ∂L/∂q + Q is assigned to the variable x whose coefficient it is.
     pub(super) fn form(&self, graph: &mut Graph, problem: &Problem) -> Form {
         let local = graph.gradient_to(problem.lagrangian, &self.nodes);
         let linear = self.linear(graph, problem, &local);
         self.form_of(graph, &local, linear)
     }
 
-    /// From the momenta ∂ℓ/∂(q̇, w) and b.
+    /// Form from the momenta ∂ℓ/∂(q̇, w) and the linear part b.
     pub(super) fn form_of(&self, graph: &mut Graph, local: &[Id], linear: Vec<Id>) -> Form {
         let matrix = self.hessian(graph, local);
         Form::over(matrix, linear, &self.rows)
@@ -89,7 +90,7 @@ impl Velocities {
         linear.into_iter().map(|terms| graph.sum(terms)).collect()
     }
 
-    /// μ: named velocities that build on others hand theirs on.
+    /// Adjoints μ, from the last named velocity to the first: each adds its share to the velocities it is defined by.
     fn adjoints(&self, graph: &mut Graph, local: &[Id]) -> Vec<Id> {
         let n = local.len() - self.rows.len();
         let one = Rational::from_integer(1);
@@ -106,7 +107,7 @@ impl Velocities {
         adjoints
     }
 
-    /// ∂L/∂q + Q by its parts: ∂ℓ/∂q, Q and Σ μ ∂f/∂q.
+    /// ∂L/∂q + Q by its terms: ∂ℓ/∂q, Q and Σ μ ∂f/∂q.
     fn forces(&self, graph: &mut Graph, problem: &Problem, adjoints: &[Id]) -> Vec<Vec<Id>> {
         let n = problem.coordinates.len();
         let q = nodes(graph, n, Variable::Coordinate);
@@ -128,7 +129,7 @@ impl Velocities {
     }
 }
 
-/// What contains a velocity, of all nodes so far.
+/// For each node of the graph, by index: true if it contains a velocity.
 #[derive(Default)]
 struct Moving(Vec<bool>);
 

@@ -1,10 +1,11 @@
-//! Where M is singular and the constraints make up for it: the length of a quaternion has no inertia, nor has a
-//! coordinate that only a constraint ties to others.
+//! Completion of a singular M by constraints. Examples: the length of a quaternion has no inertia, nor has a
+//! coordinate that only a constraint couples to others.
 //!
-//! With F q̈ = −γ, what FᵀσF q̈ = −Fᵀσγ adds to M q̈ − Fᵀλ = h changes neither q̈ nor λ. M + FᵀσF is definite where M is
-//! along the constraints, if σ is large enough; about |M|/|F|² is best for its condition (Golub and Greif, "On solving
-//! block-structured indefinite linear systems", *SIAM Journal on Scientific Computing* 24, 2003). Which rows of F that
-//! takes is found at random states. Were it found wrong, the pivot would tell at run time.
+//! Because F q̈ = −γ, adding FᵀσF q̈ = −Fᵀσγ to M q̈ − Fᵀλ = h changes neither q̈ nor λ. If M is definite along the
+//! constraints, M + FᵀσF is definite for large enough σ. About |M|/|F|² is best for its condition number (Golub and
+//! Greif, "On solving block-structured indefinite linear systems", *SIAM Journal on Scientific Computing* 24, 2003).
+//! The rows of F that are needed are found at random states. If that choice is wrong, a bad pivot reveals it at run
+//! time.
 
 mod pivots;
 mod positive;
@@ -20,11 +21,12 @@ use states::State;
 use system::System;
 use weight::Weights;
 
-/// What is looked for, in turn, and with how many times the natural σ: an indefinite M may take more. Parameters at
-/// random may be such that nothing is definite; M is then made regular.
+/// Property that the completed M must have, and factor on the natural σ, in the order tried. An indefinite M may need
+/// a larger σ. At random parameters M may not become definite at all; a regular matrix is then enough.
 const ATTEMPTS: [(Wanted, i32); 3] = [(Wanted::Definite, 1), (Wanted::Definite, 16), (Wanted::Regular, 1)];
 
-/// The fewest constraints that complete M, each with its σ; none where M needs none, or none help.
+/// Returns the fewest constraints that complete M, each with its σ. Returns none if M is definite, or if no
+/// constraints help.
 pub(super) fn completing(
     graph: &mut Graph,
     problem: &Problem,
@@ -36,9 +38,10 @@ pub(super) fn completing(
     if graph.take_fault().is_none() { found } else { Vec::new() }
 }
 
-/// So many states are looked at where M is singular at the first; …
+/// Number of states at which a completion is tested if M is singular at the first state.
 const FEW: usize = 3;
-/// … and where it is not, but indefinite: there it must be no whim of the parameters that constraints make it definite.
+/// Number of states if M is indefinite but regular at the first state. More tests are needed, as constraints may make
+/// such an M definite for some parameters only.
 const MANY: usize = 12;
 
 impl System<'_> {
@@ -54,7 +57,8 @@ impl System<'_> {
         })
     }
 
-    /// A state at which M is not definite, and how many others are to be looked at; `None` where M needs nothing.
+    /// Returns a state at which M is not definite, and the number of states for the test; `None` if M needs no
+    /// completion.
     fn first(&self, graph: &Graph) -> Option<(State, usize)> {
         let is = |state: &State, wanted| pivots(&state.mass, wanted) == self.mass.len();
         let is_definite = |state: &State| is(state, Wanted::Definite);
@@ -66,8 +70,8 @@ impl System<'_> {
         (!is_left_alone).then_some((first, if is_singular { FEW } else { MANY }))
     }
 
-    /// Row after row that takes M further, if they take it all the way. Of a semidefinite M these are the fewest, and
-    /// those that fill in least (a greedy choice from a matroid).
+    /// Adds row after row that increases the number of pivots. Returns the rows if they complete M. For a semidefinite
+    /// M these are the fewest rows, with the least fill-in (greedy choice from a matroid).
     fn rows(&self, state: &State, wanted: Wanted, factor: i32) -> Option<Vec<usize>> {
         let n = self.mass.len();
         let (mut matrix, mut rows) = (state.mass.clone(), Vec::new());
@@ -87,7 +91,7 @@ impl System<'_> {
         (reached == n).then_some(rows)
     }
 
-    /// The rows with their σ, if they complete M at other states on these constraints.
+    /// Returns the rows with their σ, if they complete M at all of `states`, which satisfy these constraints.
     fn weighted(
         &self,
         graph: &mut Graph,

@@ -2,10 +2,10 @@
 
 pub(super) type Matrix = Vec<Vec<f64>>;
 
-/// What is smaller than this beside its row is zero.
+/// Largest pivot, relative to the largest entry of its row, that counts as zero.
 const SMALL: f64 = 1e-8;
 
-/// What a pivot must be.
+/// Condition on every pivot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Wanted {
     /// Positive.
@@ -14,7 +14,7 @@ pub(super) enum Wanted {
     Regular,
 }
 
-/// The number of pivots that LDLᵀ finds, always the largest on the diagonal.
+/// Counts the pivots of an LDLᵀ factorization that always takes the largest diagonal entry.
 pub(super) fn pivots(matrix: &Matrix, wanted: Wanted) -> usize {
     let mut a = matrix.clone();
     let scales: Vec<f64> = a.iter().map(|row| row.iter().fold(0.0, |most, x| x.abs().max(most))).collect();
@@ -56,9 +56,9 @@ mod tests {
     fn pivots_are_counted_by_what_they_must_be() {
         let cases: [(&[&[f64]], usize, usize); 5] = [
             (&[&[2.0, 1.0], &[1.0, 2.0]], 2, 2),
-            // Semidefinite: the last pivot is a rounding.
+            // Semidefinite: the last pivot is a rounding error.
             (&[&[0.01, 0.03], &[0.03, 0.09]], 1, 1),
-            // Indefinite, and without a diagonal to start from.
+            // Indefinite; the second one has a zero diagonal.
             (&[&[1.0, 2.0], &[2.0, 1.0]], 1, 2),
             (&[&[0.0, 1.0], &[1.0, 0.0]], 0, 0),
             (&[&[1.0, 0.0, 0.0], &[0.0, 0.0, 0.0], &[0.0, 0.0, f64::NAN]], 1, 1),

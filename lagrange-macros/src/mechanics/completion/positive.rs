@@ -1,20 +1,22 @@
-//! Sums of what is positive for every mass, inertia and length, whatever its direction.
+//! Sums of terms that are positive for all masses, inertias and lengths, in all directions.
 //!
-//! A mass and a moment of inertia are positive, and a component of a vector may have any sign: so what is multiplied out
-//! may count on m c² and I, each odd in one number alone, and not on m c s, which is odd in three.
+//! A mass or a moment of inertia is positive, while a component of a vector may have either sign. So a product that is
+//! odd in at most one number, such as m c² or I, counts as positive. A product that is odd in three numbers, such as m
+//! c s, does not.
 
 use num_traits::{One, Signed};
 use rustc_hash::FxHashMap;
 
 use crate::symbolic::{Function, Graph, Id, Node, Rational};
 
-/// An expression multiplied out to more products than that is not looked at.
+/// Largest number of products of an expanded expression that is examined.
 const LONG: usize = 64;
 
-/// The factors of a product that it is odd in, in order, and whether it has a minus.
+/// Factors with an odd exponent in a product, sorted, and whether the product has a minus sign.
 type OddFactors = (Vec<Id>, bool);
 
-/// The terms of a sum that are surely positive, taken out of definitions where these are not as a whole.
+/// Collects the terms of a sum that are surely positive. Definitions that are not surely positive as a whole are
+/// searched for such terms.
 pub(super) fn positive_terms(graph: &mut Graph, sum: Id) -> Vec<Id> {
     let products = products(graph, sum);
     let is_positive = |id: Id| {
@@ -33,7 +35,7 @@ pub(super) fn positive_terms(graph: &mut Graph, sum: Id) -> Vec<Id> {
     found.into_iter().map(|term| graph.sum([term])).collect()
 }
 
-/// Of everything in an expression the different products that it is a sum of; `None` where these are very many.
+/// For each node of an expression, the distinct products of its expansion; `None` for more than [`LONG`].
 fn products(graph: &Graph, root: Id) -> FxHashMap<Id, Option<Vec<OddFactors>>> {
     let mut products: FxHashMap<Id, Option<Vec<OddFactors>>> = FxHashMap::default();
     for id in graph.reachable(&[root]) {
@@ -67,7 +69,7 @@ fn products(graph: &Graph, root: Id) -> FxHashMap<Id, Option<Vec<OddFactors>>> {
     products
 }
 
-/// Odd in nothing.
+/// A number: one product without odd factors.
 fn number() -> Vec<OddFactors> {
     vec![(Vec::new(), false)]
 }
@@ -79,7 +81,7 @@ fn multiplied(one: &[OddFactors], other: &[OddFactors]) -> Vec<OddFactors> {
     products.collect()
 }
 
-/// What is odd in both is even in the product.
+/// Odd factors of a product: factors that are odd in both operands become even.
 fn in_one_alone(one: &[Id], other: &[Id]) -> Vec<Id> {
     let without = |these: &[Id], those: &[Id]| -> Vec<Id> {
         these.iter().copied().filter(|id| !those.contains(id)).collect()

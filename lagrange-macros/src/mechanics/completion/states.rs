@@ -1,4 +1,4 @@
-//! Random states, and what M and F are there.
+//! Random states, with the values of M and F.
 
 use super::pivots::{Matrix, add_square};
 use super::system::System;
@@ -6,19 +6,19 @@ use crate::mechanics::ConstraintKind;
 use crate::symbolic::{Graph, Id, Sample, Symbol};
 use crate::variables::{Variable, has_velocity, symbols};
 
-/// So many draws are made to find states.
+/// Largest number of random draws in the search for states.
 const DRAWS: u64 = 32;
 
 pub(super) struct State {
     sample: Sample,
     pub(super) mass: Matrix,
-    /// F
+    /// Value of F, row by row
     pub(super) jacobian: Matrix,
 }
 
 impl System<'_> {
-    /// States with Φ = 0 and, where M depends on velocities, F q̇ + b = 0 for these constraints. Those that do not
-    /// matter to M are spared: a long chain of joints is hard to close.
+    /// Random states with Φ = 0 and, if M depends on velocities, F q̇ + b = 0, for the constraints `rows` only. The
+    /// constraints that do not complete M are ignored, because a long chain of joints is hard to close.
     pub(super) fn states<'a>(
         &'a self,
         graph: &'a Graph,
@@ -39,7 +39,7 @@ impl System<'_> {
         })
     }
 
-    /// All that M, F and the constraints depend on.
+    /// All symbols that M, F and the constraints depend on.
     fn symbols(&self, graph: &Graph) -> Vec<Symbol> {
         let (n, constraints) = (self.mass.len(), self.constraints);
         let matrices = self.mass.iter().chain(&constraints.jacobian).flatten();
@@ -48,7 +48,7 @@ impl System<'_> {
         graph.symbols(&roots).chain(symbols(n, Variable::Coordinate)).collect()
     }
 
-    /// Moves the sample to where `rows` of `equations` hold.
+    /// Projects the sample onto the states where `rows` of `equations` hold.
     fn settle(
         &self,
         graph: &Graph,
@@ -62,7 +62,7 @@ impl System<'_> {
         sample.project(graph, &equations, &slopes, &symbols(self.mass.len(), unknown))
     }
 
-    /// `None` where an entry is no number.
+    /// Evaluates M and F; `None` if an entry is not finite.
     fn state(&self, graph: &Graph, mut sample: Sample) -> Option<State> {
         let mut matrix = |rows: &[Vec<Id>]| {
             let values = |row: &Vec<Id>| sample.values(graph, row).iter().map(|x| x.value).collect();

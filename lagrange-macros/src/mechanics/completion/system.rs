@@ -11,7 +11,8 @@ pub(super) struct System<'e> {
 }
 
 impl System<'_> {
-    /// The constraints, those first that make few entries of M that were zero, and of these those that tie few.
+    /// Indices of the constraints, sorted by the number of zeros of M that they fill in, then by the number of
+    /// coordinates that they couple.
     pub(super) fn by_fill(&self) -> Vec<usize> {
         let jacobian = &self.constraints.jacobian;
         let fill = |row: &[Id]| {
@@ -25,7 +26,7 @@ impl System<'_> {
     }
 }
 
-/// The coordinates that a constraint ties.
+/// The coordinates that a constraint couples.
 pub(super) fn tied(row: &[Id]) -> Vec<usize> {
     (0..row.len()).filter(|&i| row[i] != Id::ZERO).collect()
 }

@@ -1,4 +1,5 @@
-//! σ of a constraint in its own units: the inertia of what it ties, over the square of its row.
+//! Weight σ of a constraint in its own units: the inertia of the coordinates that it couples, over the square of its
+//! row of F.
 
 use num_traits::One;
 
@@ -8,15 +9,16 @@ use super::system::{System, tied};
 use crate::symbolic::{Function, Graph, Id, Rational, Symbol};
 use crate::variables::Variable;
 
-/// Values that differ by less are those of one expression of the parameters.
+/// Relative tolerance at which values of two expressions of the parameters count as the same.
 const SAME: f64 = 1e-9;
-/// A weight may be so many times another, or as small a part: either completes M as well.
+/// Largest ratio, either way, between σ and a simpler expression that replaces it. Only the order of magnitude of σ
+/// matters.
 const ABOUT: f64 = 8.0;
-/// What cancels in a trace must leave so much of it.
+/// Smallest trace that is used, relative to the sum of magnitudes of its terms.
 const LEFT: f64 = 0.1;
 
 impl System<'_> {
-    /// About the value of σ at a state.
+    /// Order of magnitude of σ at a state.
     pub(super) fn size(&self, state: &State, a: usize) -> f64 {
         let heavy = self.heavy(a);
         let inertia =
@@ -24,7 +26,8 @@ impl System<'_> {
         inertia / state.jacobian[a].iter().map(|x| x * x).sum::<f64>()
     }
 
-    /// The coordinates with a mass that a row ties. Where it ties none, those that other rows tie to these.
+    /// The coordinates with inertia that a row couples. If there are none, the search continues with the coordinates
+    /// that other rows couple to these.
     fn heavy(&self, a: usize) -> Vec<usize> {
         let jacobian = &self.constraints.jacobian;
         let mut near = tied(&jacobian[a]);
@@ -49,12 +52,13 @@ pub(super) struct Weights<'e> {
 }
 
 impl Weights<'_> {
-    /// What makes M diagonal over the coordinates that the row ties, as for a sphere, or about as much.
+    /// Returns the σ that makes M diagonal over the coordinates of the row, as for a sphere. If there is none, returns
+    /// the natural σ.
     pub(super) fn of(&mut self, system: &System, a: usize) -> Id {
         self.separating(system, a).unwrap_or_else(|| self.natural(system, a))
     }
 
-    /// −M_ij/(F_i F_j), if that is the same expression of the parameters for all i ≠ j.
+    /// −M_ij/(F_i F_j), if it is the same expression of the parameters for all i ≠ j.
     fn separating(&mut self, system: &System, a: usize) -> Option<Id> {
         let row = &system.constraints.jacobian[a];
         let tied = tied(row);
@@ -75,7 +79,7 @@ impl Weights<'_> {
         self.graph.symbols(&[weight]).all(|symbol| !is_moving(&symbol)).then_some(weight)
     }
 
-    /// tr M/|F|², over the coordinates that the row ties.
+    /// tr M/|F|², over the coordinates that the row couples.
     fn natural(&mut self, system: &System, a: usize) -> Id {
         let diagonal: Vec<Id> = system.heavy(a).iter().map(|&i| system.mass[i][i]).collect();
         let inertia = if diagonal.is_empty() { Id::ONE } else { self.trace(&diagonal) };
@@ -87,7 +91,7 @@ impl Weights<'_> {
         self.at_a_fixed_state(quotient)
     }
 
-    /// Of an indefinite M the absolute values, where else too little is left.
+    /// Trace of M, or the sum of magnitudes if much of the trace of an indefinite M cancels.
     fn trace(&mut self, diagonal: &[Id]) -> Id {
         let trace = sum(self.graph, diagonal);
         let sizes: Vec<Id> = diagonal.iter().map(|&mass| self.graph.function(Function::Abs, mass)).collect();
@@ -99,8 +103,9 @@ impl Weights<'_> {
         if self.states.iter_mut().all(is_large) { trace } else { size }
     }
 
-    /// The same where one coordinate is 1 and all else is 0, if that is its value at every state, or about: then it is an
-    /// expression of the parameters. The trace of a body's inertia is the same in all orientations.
+    /// Replaces an expression by its value at a fixed state, with one coordinate 1 and all others 0. Valid if both
+    /// agree, at least in order of magnitude, at every state: the result depends on the parameters only. An example is
+    /// the trace of the inertia of a body, which is the same in all orientations.
     fn at_a_fixed_state(&mut self, root: Id) -> Id {
         let moving: Vec<Symbol> = self.graph.symbols(&[root]).filter(is_moving).collect();
         let candidates = moving.iter().filter_map(|&one| {
@@ -115,8 +120,8 @@ impl Weights<'_> {
         exact.or_else(|| candidates.into_iter().find_map(|sum| self.part(root, sum, about))).unwrap_or(root)
     }
 
-    /// As many terms of a sum as it takes, the largest ones: of those that are positive at other parameters as well, or
-    /// else all.
+    /// Returns the sum of the fewest, largest terms whose value agrees with `root`. Terms that are positive for all
+    /// parameters are tried first, then the whole sum.
     fn part(&mut self, root: Id, sum: Id, goes: impl Fn(f64, f64) -> bool) -> Option<Id> {
         let terms = positive_terms(self.graph, sum);
         let first = self.states.first_mut()?;
@@ -129,7 +134,7 @@ impl Weights<'_> {
         self.with(root, &parts, goes)
     }
 
-    /// The first of these whose value goes with that of the root at every state.
+    /// Returns the first candidate whose value agrees with that of `root`, by `goes`, at every state.
     fn with(&mut self, root: Id, candidates: &[Id], goes: impl Fn(f64, f64) -> bool) -> Option<Id> {
         candidates.iter().copied().find(|&candidate| {
             self.states.iter_mut().all(|state| {

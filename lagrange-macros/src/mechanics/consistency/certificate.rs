@@ -1,30 +1,32 @@
-//! Proofs that a row of F is a combination of others: coefficients that have a value wherever the rows have one.
+//! Proofs that a row of F is a combination of others, with coefficients that are finite wherever the rows are.
 //!
-//! A row that is a combination of others with coefficients that have poles, as of the rods of a braced frame, may be needed
-//! at a pole. Such rows are no mistake, and the numbers at run time tell.
+//! Coefficients may have poles, as for the rods of a braced frame. The dependent row may then be needed at a pole, and
+//! the constraint is not reported as redundant. Such cases are left to the numerical solution at run time.
 
 use num_traits::{One, Zero};
 
 use crate::symbolic::{ExactPolynomial, Polynomials, Rational, plus, times};
 
-/// Largest number of rows that a row is made of with coefficients that are functions; with numbers there is no limit.
+/// Largest number of rows in a combination whose coefficients are functions. Combinations with numbers as coefficients
+/// have no limit.
 const FUNCTIONS: usize = 4;
 
-/// Row `index` is Σ coefficient · row over the others, in all columns but the last.
+/// Row `index` equals Σ coefficient · row over the other rows, in all columns but the last.
 pub(super) struct RowCombination {
     pub(super) index: usize,
-    /// Those of functions are times something that is nowhere zero; the one of the row itself is zero.
+    /// Coefficients of the rows, zero for row `index`. Functions as coefficients have a common factor that is nowhere
+    /// zero.
     pub(super) coefficients: Vec<ExactPolynomial>,
     pub(super) numbers: Option<Vec<Rational>>,
-    /// Whether the same holds in the last column.
+    /// True if the combination holds in the last column, too.
     pub(super) is_complete: bool,
 }
 
-/// A combination that is one of the rows, the last one if there is a choice; `None` where none is found.
+/// Finds a combination of rows that equals another row, the last one if possible; `None` if none is found.
 pub(super) fn find(ring: &Polynomials, columns: &[Vec<ExactPolynomial>]) -> Option<RowCombination> {
     let count = columns.first()?.len();
     let one = ExactPolynomial::number(Rational::one());
-    // Behind the entries, what they are multiplied by: it has no zero where the rows have values.
+    // The last entry is the common denominator: it has no zero where the rows have values.
     let mut entries = ring.cleared(&[&columns.concat()[..], std::slice::from_ref(&one)].concat())?;
     let unit = entries.pop()?;
     let columns: Vec<Vec<ExactPolynomial>> = entries.chunks(count).map(<[_]>::to_vec).collect();
@@ -67,7 +69,7 @@ fn numbers(columns: &[Vec<ExactPolynomial>], last: usize) -> Option<Vec<Rational
                 reduce(&mut equation, known, pivot)?;
             }
             let Some(pivot) = equation.iter().position(|c| !c.is_zero()) else { continue };
-            // 0 = c is no equation for the coefficients.
+            // The equation 0 = c, with c ≠ 0, has no solution.
             (pivot < last).then_some(())?;
             let reciprocal = equation[pivot].recip();
             for c in &mut equation {
@@ -95,15 +97,15 @@ fn reduce(equation: &mut [Rational], known: &[Rational], pivot: usize) -> Option
     Some(())
 }
 
-/// By Cramer's rule, with the rows' minors in some columns: Σ ν_k row_k = 0. A row whose ν divides all the others is
-/// a combination of them.
+/// Cramer's rule: the minors ν of the rows in some columns satisfy Σ ν_k row_k = 0. A row whose ν divides all others
+/// is a combination of them.
 fn functions(
     ring: &Polynomials,
     columns: &[Vec<ExactPolynomial>],
     last: usize,
     unit: &ExactPolynomial,
 ) -> Option<(usize, Vec<ExactPolynomial>)> {
-    // Short entries make short minors.
+    // Columns with few terms first: short entries have short minors.
     let mut candidates: Vec<usize> = (0..columns.len()).collect();
     candidates
         .sort_by_key(|&column| columns[column].iter().map(|entry| entry.terms().count()).sum::<usize>());
@@ -139,7 +141,7 @@ fn functions(
     })
 }
 
-/// The determinant of some rows in as many columns, by its last row.
+/// Minor of `rows` in the columns `chosen`, by expansion along the last row.
 fn minor(
     ring: &Polynomials,
     columns: &[Vec<ExactPolynomial>],

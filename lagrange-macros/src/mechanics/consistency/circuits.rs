@@ -1,7 +1,7 @@
-//! Which rows of F may be combinations of others, by their values at a random point.
+//! Rows of F that may be linearly dependent, by their values at random points.
 //!
-//! A rank is at most what it is at a general point: rows that are independent at one point, on the constraints or off
-//! them, are no combinations of each other with functions as coefficients.
+//! A rank is largest at a general point. Rows that are independent at one point, on the constraints or off them, are
+//! therefore not combinations of each other, even with functions as coefficients.
 
 use std::collections::BTreeMap;
 
@@ -9,17 +9,18 @@ use crate::mechanics::constraints::Constraints;
 use crate::resolve::Problem;
 use crate::symbolic::{Approximate, Graph, Id, Sample, Symbol};
 
-/// Random points that are tried for independent rows, and the draws made to find points with values.
+/// Number of random points at which the rank is computed, and largest number of draws in the search for points with
+/// finite values.
 const POINTS: usize = 3;
 const DRAWS: u64 = 64;
 
-/// A row that depends on earlier ones at a point, and last the row itself.
+/// Indices of a minimal set of dependent rows: earlier rows, then the row that depends on them.
 pub(super) type Circuit = Vec<usize>;
 
 type Row = BTreeMap<usize, Approximate>;
 
-/// The rows of F, in this order, that depend on earlier ones at each of a few points: those of the point where they are
-/// the fewest.
+/// Finds rows of F, taken in this order, that depend on earlier ones. Returns the result of the point, of a few, with
+/// the fewest dependent rows.
 pub(super) fn find(
     graph: &Graph,
     problem: &Problem,
@@ -49,7 +50,7 @@ pub(super) fn find(
     fewest.unwrap_or_default()
 }
 
-/// Eliminates row by row. Behind the coordinates each row has a column of its own, which tells what it is made of.
+/// Eliminates row by row. A unit column per row, after the coordinates, records the combination of original rows.
 fn at_point<'a>(rows: impl Iterator<Item = &'a [Approximate]>, order: &[usize]) -> Vec<Circuit> {
     let mut pivots: Vec<(usize, Row)> = Vec::new();
     let mut circuits = Vec::new();

@@ -1,9 +1,9 @@
-//! Do the constraints say different things, and can all of them hold?
+//! Checks that the constraints are independent and do not contradict each other.
 //!
-//! A constraint is one too many where its row of F q̇ + b = 0 is a combination of the others' rows at every state, on the
-//! constraints or off them, and for all values of the parameters. It then follows from the others, and multipliers are not
-//! unique, or it contradicts them. Rows that depend on one another on the constraints alone, as those of a closed
-//! spatial linkage do, are left to the numbers at run time: their mechanism may need all of them.
+//! A constraint is redundant if its row of F q̇ + b = 0 is a combination of the rows of others at every state, on the
+//! constraints or off them, and for all parameters. It then either follows from the others, so that the multipliers
+//! are not unique, or contradicts them. Rows that are dependent on the constraints only, as in a closed spatial
+//! linkage, are left to the numerical solution at run time: the mechanism may need all of them.
 
 mod certificate;
 mod circuits;
@@ -18,11 +18,11 @@ use crate::symbolic::{ExactPolynomial, Graph, Id, Node, Polynomials, Rational, S
 use crate::variables::{Variable, symbols};
 use certificate::RowCombination;
 
-/// Random points that are tried for a value that is not zero.
+/// Number of random points at which an expression is tested for a nonzero value.
 const DRAWS: u64 = 8;
 
-/// Reports every constraint that follows from others or contradicts them. A velocity constraint is said to follow from a
-/// holonomic one, not the other way round, since that one fixes the position, too.
+/// Reports every constraint that follows from others or contradicts them. A velocity constraint is reported as
+/// following from a holonomic one, not the reverse: the holonomic one fixes the position, too.
 pub(super) fn check(
     graph: &Graph,
     problem: &Problem,
@@ -45,36 +45,36 @@ pub(super) fn check(
     diagnostics.is_empty().then_some(())
 }
 
-/// A constraint that is one too many beside others, and why.
+/// A redundant constraint, the constraints it depends on, and the error message.
 struct Redundancy {
     index: usize,
     others: Vec<usize>,
     message: String,
 }
 
-/// What is left of a constraint without what the others say.
+/// Remainder of a constraint after the combination of the others is subtracted.
 enum Rest {
     Nothing,
-    /// This is zero, in which there is no coordinate.
+    /// An expression without coordinates that the constraints require to be zero.
     Equation(Id),
-    /// Some function of time and parameters is zero.
+    /// A function of time and parameters, not known in symbols, that the constraints require to be zero.
     Unknown,
 }
 
-/// Some constraints in a graph of their own, without the boundaries of definitions.
+/// Constraints of a circuit in a graph of their own, with definitions inlined.
 struct ConstraintRows<'a> {
     graph: Graph,
     ring: Polynomials,
     problem: &'a Problem,
     constraints: &'a Constraints,
     circuit: &'a [usize],
-    /// What is zero by each of them, and its terms without a velocity.
+    /// Expression that each constraint sets to zero; in `bias`, its terms without velocities.
     written: Vec<Id>,
     bias: Vec<Id>,
 }
 
 impl<'a> ConstraintRows<'a> {
-    /// What is wrong with these constraints, where that is certain.
+    /// Returns the redundancy of these constraints if it is proved.
     fn proved(
         graph: &Graph,
         problem: &'a Problem,
@@ -121,7 +121,8 @@ impl<'a> ConstraintRows<'a> {
         expressions.iter().map(|&expression| self.ring.of(&mut self.graph, expression)).collect()
     }
 
-    /// `None` where it has a coordinate in it: then all of the constraints may hold, and another one with them.
+    /// Remainder of a combination; `None` if it contains a coordinate. The constraints may then all hold, together
+    /// with another one.
     fn rest(&mut self, combination: &RowCombination, others: &[usize]) -> Option<Rest> {
         let rows = others.iter().chain([&self.circuit[combination.index]]);
         let are_holonomic = rows.into_iter().all(|&row| self.constraints.kinds[row] == Holonomic);
@@ -197,7 +198,7 @@ impl<'a> ConstraintRows<'a> {
         }
     }
 
-    /// The parameters and supplied functions in an expression.
+    /// Names of the parameters and supplied functions in an expression.
     fn unknown(&self, root: Id) -> Vec<String> {
         let named = |id: &Id| match self.graph.node(*id) {
             Node::Symbol(symbol) => match Variable::of(*symbol) {
@@ -212,7 +213,7 @@ impl<'a> ConstraintRows<'a> {
         self.graph.reachable(&[root]).iter().filter_map(named).collect()
     }
 
-    /// Whether a value of it has an error bound that excludes 0.
+    /// True if a value of the expression has an error bound that excludes 0.
     fn is_surely_something(&self, root: Id) -> bool {
         (0..DRAWS).any(|draw| {
             let drawn = |symbol, draw| self.problem.drawn(symbol, draw);

@@ -1,4 +1,4 @@
-//! The directions in (q, t) that a set of constraints allows, and those that their motions reach.
+//! The directions in (q, t) that constraints allow, and the directions reachable by their Lie brackets.
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -6,27 +6,27 @@ use super::space::{OneForm, Space};
 use crate::mechanics::Evidence;
 use crate::symbolic::{Forward, Id, Symbol};
 
-/// Vector fields that span the directions in which every form vanishes. Each is 1 along a free variable of its
-/// own and has parts along the pivots; time is always free, as along every motion.
+/// Vector fields that span the directions in which every form vanishes. Each field is 1 along one free variable and
+/// has components along the pivots. Time is always free, because it increases along every motion.
 pub(super) struct Distribution {
     pivots: Vec<usize>,
-    /// How many of the pivots the holonomic constraints take.
+    /// Number of pivots that belong to holonomic constraints.
     holonomic: usize,
     fields: Vec<(usize, Vec<Id>)>,
-    /// Whether it is only seen at points that constraints depend on others.
+    /// Evidence that the constraints without a pivot depend on the others.
     evidence: Evidence,
 }
 
-/// What the allowed directions generate by their Lie brackets, beside themselves.
+/// Directions that the allowed fields generate by their Lie brackets, in addition to themselves.
 pub(super) struct Closure {
-    /// Independent further directions, their parts along the pivots.
+    /// Lie brackets independent of the fields and of each other, by their components along the pivots.
     pub(super) reached: Vec<Vec<Id>>,
-    /// How sure it is that there are no more.
+    /// Evidence that there are no further directions.
     pub(super) evidence: Evidence,
 }
 
 impl Distribution {
-    /// `None` where the constraints contradict each other or have no values.
+    /// Solves the forms for the allowed directions; `None` if the constraints contradict each other or have no values.
     pub(super) fn new(space: &mut Space, velocity: &[OneForm]) -> Option<Self> {
         let (holonomic, rows) = (space.holonomic.len(), [&space.holonomic, velocity].concat());
         let mut elimination = Elimination { space, rows, pivots: Vec::new() };
@@ -48,12 +48,12 @@ impl Distribution {
         dependent.then_some(Self { pivots: columns, holonomic, fields, evidence })
     }
 
-    /// How many constraints there are beside the holonomic ones, those that depend on others not counted.
+    /// Number of independent constraints besides the holonomic ones.
     pub(super) fn independent(&self) -> usize {
         self.pivots.len() - self.holonomic
     }
 
-    /// ω of each field.
+    /// ω(X) for each field X.
     pub(super) fn applied(&self, space: &mut Space, form: &OneForm) -> Vec<Id> {
         let applied = self.fields.iter().map(|(free, parts)| {
             let along = self.along_pivots(space, form, parts);
@@ -62,14 +62,14 @@ impl Distribution {
         applied.collect()
     }
 
-    /// ω of a direction along the pivots.
+    /// ω of a direction given by its components along the pivots.
     pub(super) fn along_pivots(&self, space: &mut Space, form: &OneForm, parts: &[Id]) -> Id {
         let along: Vec<Id> = self.pivots.iter().map(|&pivot| form[pivot]).collect();
         space.graph.dot(&along, parts)
     }
 
-    /// dω(X, Y) = X(ω(Y)) − Y(ω(X)) for every two fields: these are coordinate fields on each Φ = constant, so
-    /// that [X, Y] = 0. Only for the holonomic constraints alone.
+    /// dω(X, Y) = X(ω(Y)) − Y(ω(X)) for every two fields. The term ω([X, Y]) vanishes: the fields are coordinate
+    /// fields on each Φ = constant, so that [X, Y] = 0. Valid for the holonomic constraints alone only.
     pub(super) fn curl(&self, space: &mut Space, form: &OneForm) -> Vec<Id> {
         let applied = self.applied(space, form);
         let active = self.active(space, &applied);
@@ -86,8 +86,8 @@ impl Distribution {
         curl
     }
 
-    /// Closes the fields under Lie brackets: X, Y, [X, Y], [X, [X, Y]] and so on, until nothing new comes or
-    /// everything that the holonomic constraints leave is reached.
+    /// Closes the fields under Lie brackets: X, Y, [X, Y], [X, [X, Y]] and so on. Ends when no bracket is independent,
+    /// or when all directions that the holonomic constraints allow are reached.
     pub(super) fn closure(&self, space: &mut Space) -> Option<Closure> {
         let active = self.active(space, &[]);
         let (free, mut parts): (Vec<usize>, Vec<Vec<Id>>) =
@@ -123,7 +123,8 @@ impl Distribution {
             parts.push(bracket);
         }
         let reached = parts.split_off(generators);
-        // No more can be reached than the parts that any bracket has, nor than is left to reach.
+        // The number of reachable directions is bounded by the components that occur in any bracket, and by the number
+        // of independent constraints.
         if touched.len() == reached.len() || reached.len() == self.independent() {
             evidence = self.evidence;
         }
@@ -131,8 +132,8 @@ impl Distribution {
         Some(Closure { reached, evidence: evidence.and(seen) })
     }
 
-    /// The fields that can have brackets: those that are more than a constant along their own variable, and
-    /// those along a variable on which something depends.
+    /// Indices of the fields that can have nonzero brackets: fields with components along the pivots, and fields along
+    /// a variable on which an expression depends.
     fn active(&self, space: &Space, values: &[Id]) -> Vec<usize> {
         let mut roots = values.to_vec();
         roots.extend(self.fields.iter().flat_map(|(_, parts)| parts));
@@ -146,7 +147,7 @@ impl Distribution {
         (0..self.fields.len()).filter(is_active).collect()
     }
 
-    /// Along a free variable, if any, and the pivots.
+    /// Derivative along a direction: a free variable, if any, and components along the pivots.
     fn direction(&self, space: &Space, free: Option<usize>, parts: &[Id]) -> Forward {
         let along = self.pivots.iter().map(|&pivot| space.symbols[pivot]).zip(parts.iter().copied());
         Forward::along(along.chain(free.map(|free| (space.symbols[free], Id::ONE))))
@@ -158,16 +159,17 @@ fn rates(space: &mut Space, along: &mut Forward, parts: &[Id]) -> Vec<Id> {
     parts.iter().map(|&part| along.of(&mut space.graph, part)).collect()
 }
 
-/// Forms that are being solved for the directions that they allow, each for a variable.
+/// One-forms during Gauss–Jordan elimination, each solved for one variable.
 struct Elimination<'a> {
     space: &'a mut Space,
     rows: Vec<OneForm>,
-    /// Row and column of each.
+    /// Row and column of each pivot.
     pivots: Vec<(usize, usize)>,
 }
 
 impl Elimination<'_> {
-    /// Gauss–Jordan elimination with pivots in the first `count` rows, none in time's column, as far as there are pivots.
+    /// Gauss–Jordan elimination with pivots in the first `count` rows, never in the column of time, until no pivot is
+    /// left.
     fn pivot_all(&mut self, count: usize) {
         while let Some((row, column)) = self.best_pivot(count) {
             let graph = &mut self.space.graph;
@@ -190,7 +192,7 @@ impl Elimination<'_> {
         self.pivots.iter().any(|&(used, _)| used == row)
     }
 
-    /// A number where there is one, else what is not zero at the most points.
+    /// Returns the best pivot: a number if possible, else the entry that is nonzero at the most points.
     fn best_pivot(&mut self, count: usize) -> Option<(usize, usize)> {
         let mut best = None;
         for row in (0..count).filter(|&row| !self.is_pivot(row)).collect::<Vec<_>>() {

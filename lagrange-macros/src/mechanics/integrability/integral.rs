@@ -1,4 +1,4 @@
-//! The function whose rate of change an integrable constraint is.
+//! Integral of an integrable constraint: the function whose time derivative the constraint sets to zero.
 
 use num_traits::One;
 
@@ -7,8 +7,8 @@ use super::space::{OneForm, Space};
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational, Symbol, Verdict};
 
-/// I(q, t) with dI = ω, or dI = μ ω for some simple factors μ, in the problem's graph; `None` where none is
-/// found by integrating term by term.
+/// Finds I(q, t) with dI = ω, or dI = μ ω for a simple integrating factor μ, in the graph of the problem; `None` if
+/// termwise integration finds none.
 pub(super) fn of(
     graph: &mut Graph,
     problem: &Problem,
@@ -44,7 +44,7 @@ fn divided(graph: &mut Graph, form: &OneForm) -> Vec<OneForm> {
         .collect()
 }
 
-/// Integrates along one variable after the other what the earlier ones have left.
+/// Integrates along one variable after the other what the earlier integrals leave of the form.
 fn potential(graph: &mut Graph, symbols: &[Symbol], form: &OneForm) -> Option<Id> {
     let mut rest = form.clone();
     let mut integral = Id::ZERO;
@@ -59,7 +59,7 @@ fn potential(graph: &mut Graph, symbols: &[Symbol], form: &OneForm) -> Option<Id
     Some(integral)
 }
 
-/// Whether the gradient of `integral` is the form.
+/// True if the gradient of `integral` is the form.
 fn is_potential(space: &mut Space, form: &OneForm, integral: Id, problem: &Problem) -> bool {
     let Space { graph, symbols, .. } = space;
     let gradient = graph.gradient(integral, symbols);

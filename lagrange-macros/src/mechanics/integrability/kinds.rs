@@ -1,9 +1,9 @@
-//! The verdicts on constraints.
+//! Results of the classification of constraints.
 
 use crate::mechanics::Evidence;
 use crate::symbolic::Id;
 
-/// As the enumeration of the same name in lagrange-core, which documents it.
+/// Class of a constraint, as documented for the enumeration of the same name in lagrange-core.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Integrability {
     Holonomic,
@@ -20,14 +20,14 @@ impl Integrability {
     }
 }
 
-/// The verdict on one constraint.
+/// Class of one constraint.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Classification {
     pub(crate) integrability: Integrability,
     pub(crate) evidence: Evidence,
 }
 
-/// The verdict on the velocity constraints as a set.
+/// Number of integrals of the velocity constraints as a set: `count` of `of` independent constraints are integrable.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Integrals {
     pub(crate) count: usize,
@@ -35,12 +35,13 @@ pub(crate) struct Integrals {
     pub(crate) evidence: Evidence,
 }
 
-/// The verdicts on all constraints.
+/// Classes of all constraints, and their integrals.
 #[derive(Clone, Debug)]
 pub(crate) struct Kinds {
     pub(crate) classes: Vec<Classification>,
-    /// `None` where it could not be decided.
+    /// `None` if undecided.
     pub(crate) integrals: Option<Integrals>,
-    /// For each constraint the function whose rate it is, as written or times a factor, where it was found.
+    /// For each constraint, the function whose time derivative it is, as written or times a factor; `None` if not
+    /// found.
     pub(crate) functions: Vec<Option<Id>>,
 }

@@ -1,12 +1,11 @@
-//! What kind of constraint it is: holonomic, integrable, or truly nonholonomic.
+//! Classification of constraints: holonomic, integrable, or truly nonholonomic.
 //!
-//! A velocity constraint F q̇ + b = 0 is a form ω = F dq + b dt in the space of (q, t), and the motions that it
-//! allows are curves along which ω = 0 and t increases. So the allowed directions are spanned by vector fields
-//! X with ω(X) = 0, one of which goes along t and is never left out. Functions that are constant along every
-//! motion are those that no X changes, hence no bracket [X, Y], [X, [X, Y]] … either: of r constraints, as many
-//! are integrable as the brackets leave directions unreached (Frobenius; Chow; the derived flag of Bryant et
-//! al., *Exterior Differential Systems*, II.1 and II.4). Holonomic constraints enter by dΦ, and everything is
-//! evaluated on Φ = 0.
+//! A velocity constraint F q̇ + b = 0 is a one-form ω = F dq + b dt in the space of (q, t). The allowed motions are
+//! curves along which ω = 0 and t increases. So vector fields X with ω(X) = 0 span the allowed directions; one of them
+//! goes along t and is never left out. A function that is constant along every motion is constant along every X, hence
+//! along every bracket [X, Y], [X, [X, Y]] … too. So the number of integrable constraints is the number of directions
+//! that the brackets leave unreached (Frobenius; Chow; the derived flag of Bryant et al., *Exterior Differential
+//! Systems*, II.1 and II.4). Holonomic constraints enter by dΦ, and all expressions are evaluated on Φ = 0.
 
 mod distribution;
 mod integral;
@@ -22,7 +21,7 @@ use distribution::{Closure, Distribution};
 pub(crate) use kinds::{Classification, Integrability, Integrals, Kinds};
 use space::{OneForm, Space};
 
-/// Classifies every constraint and the set of them.
+/// Classifies every constraint, and the velocity constraints as a set.
 pub(super) fn classify(graph: &mut Graph, problem: &Problem, constraints: &Constraints) -> Kinds {
     let classes = constraints.kinds.iter().map(|kind| match kind {
         ConstraintKind::Holonomic => verdict(Integrability::Holonomic, Evidence::Proved),
@@ -44,7 +43,7 @@ fn verdict(integrability: Integrability, evidence: Evidence) -> Classification {
 
 fn fill(graph: &mut Graph, problem: &Problem, space: &mut Space, kinds: &mut Kinds) {
     let rows = space.velocity.clone();
-    // First what is cheap: the brackets of a large set may grow out of hand.
+    // First the cheap tests: the brackets of a large set may exceed the size limit of the graph.
     let alone: Vec<_> = rows.iter().map(|(_, form)| classify_alone(space, form)).collect();
     let forms: Vec<OneForm> = rows.iter().map(|(_, form)| form.clone()).collect();
     let set = Distribution::new(space, &forms);
@@ -66,7 +65,7 @@ fn fill(graph: &mut Graph, problem: &Problem, space: &mut Space, kinds: &mut Kin
     }
 }
 
-/// The verdict on a constraint without the other velocity constraints.
+/// Classifies a constraint without the other velocity constraints.
 fn classify_alone(space: &mut Space, form: &OneForm) -> Option<Classification> {
     let manifold = Distribution::new(space, &[])?;
     let curl = manifold.curl(space, form);
@@ -82,7 +81,8 @@ fn classify_alone(space: &mut Space, form: &OneForm) -> Option<Classification> {
     })
 }
 
-/// The verdict on a constraint that is not integrable alone: whether the directions that the set reaches obey it.
+/// Classifies a constraint that is not integrable alone: it is integrable with the set if it holds along all
+/// directions that the brackets reach.
 fn classify_in(
     space: &mut Space,
     set: &Distribution,

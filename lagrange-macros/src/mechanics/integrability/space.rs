@@ -1,4 +1,4 @@
-//! The space of (q, t), the constraints as forms on it, and the points at which they are judged.
+//! The space of (q, t), with the constraints as one-forms and the random points at which they are evaluated.
 
 use crate::mechanics::ConstraintKind;
 use crate::mechanics::Evidence;
@@ -8,30 +8,31 @@ use crate::symbolic::{Approximate, Graph, Id, Sample};
 use crate::symbolic::{Symbol, rank};
 use crate::variables::{Variable, symbols};
 
-/// So many points are looked at, and so many draws made to find them.
+/// Number of random points on Φ = 0, and largest number of draws in the search for them.
 const POINTS: usize = 8;
 const DRAWS: u64 = 64;
 
-/// Beyond this error, relative to the largest of the values beside it, a value says nothing.
+/// Largest error bound of a usable value, relative to the largest value evaluated with it (at least 1).
 const BLUR: f64 = 1e-6;
 
-/// ω = Σ F_a dq_a + b dt: the coefficients, time's the last.
+/// Coefficients of ω = Σ F_a dq_a + b dt, that of time last.
 pub(super) type OneForm = Vec<Id>;
 
-/// A graph of its own, without the boundaries of definitions, so that what vanishes is seen to.
+/// Constraint forms in a graph of their own. Definitions are inlined, so that canonical forms show which expressions
+/// vanish.
 pub(super) struct Space {
     pub(super) graph: Graph,
-    /// The coordinates and, last, time.
+    /// The coordinates, then time.
     pub(super) symbols: Vec<Symbol>,
     /// dΦ of the holonomic constraints.
     pub(super) holonomic: Vec<OneForm>,
-    /// Velocity constraints with their indices.
+    /// Forms of the velocity constraints, with the indices of these.
     pub(super) velocity: Vec<(usize, OneForm)>,
     samples: Vec<Sample>,
 }
 
 impl Space {
-    /// `None` where the forms are at fault or no point was found on Φ = 0.
+    /// `None` if the arithmetic fails or no point on Φ = 0 is found.
     pub(super) fn new(graph: &Graph, problem: &Problem, constraints: &Constraints) -> Option<Self> {
         let n = problem.coordinates.len();
         let mut symbols = symbols(n, Variable::Coordinate);
@@ -59,11 +60,11 @@ impl Space {
         (!space.samples.is_empty()).then_some(space)
     }
 
-    /// The coefficients of what is affine in the velocities.
+    /// Coefficients of an expression affine in the velocities.
     fn form(&mut self, rate: Id, n: usize) -> OneForm {
         let velocities = symbols(n, Variable::Velocity);
         let mut form = self.graph.gradient(rate, &velocities);
-        // Where every velocity is 0 there is only b.
+        // At q̇ = 0 only b remains.
         let at_rest = self.graph.substituted(rate, |symbol| velocities.contains(&symbol).then_some(Id::ZERO));
         form.push(at_rest);
         form
@@ -86,19 +87,19 @@ impl Space {
         self.samples = samples.take(POINTS).collect();
     }
 
-    /// `None` where arithmetic failed or the expressions have grown out of hand.
+    /// `None` if the arithmetic failed or the graph exceeds its size limit.
     pub(super) fn settled(&mut self) -> Option<()> {
         const LIMIT: usize = 100_000;
         (self.graph.take_fault().is_none() && self.graph.len() < LIMIT).then_some(())
     }
 
-    /// The values at the points where all of `roots` have one.
+    /// Values of `roots` at each point where all of them are usable.
     pub(super) fn values(&mut self, roots: &[Id]) -> Vec<Vec<Approximate>> {
         let values = self.samples.iter_mut().map(|sample| sample.values(&self.graph, roots));
         values.filter_map(usable).collect()
     }
 
-    /// Whether all of `roots` vanish, and how sure that is; `None` where they have no values.
+    /// Tests whether all of `roots` vanish, and with which evidence; `None` if they have no values.
     pub(super) fn vanish(&mut self, roots: &[Id]) -> Option<(bool, Evidence)> {
         let (mut evidence, mut decided) = (Evidence::Proved, true);
         for &root in roots.iter().filter(|&&root| root != Id::ZERO) {
@@ -112,7 +113,7 @@ impl Space {
         decided.then_some((true, evidence))
     }
 
-    /// The greatest rank of `rows` at any point, and the number of points; `None` where they have no values.
+    /// Largest rank of `rows` at any point, and the number of points; `None` if they have no values.
     pub(super) fn rank(&mut self, rows: &[&[Id]]) -> Option<(usize, u32)> {
         let width = rows.first()?.len();
         let values = self.values(&rows.concat());
@@ -120,13 +121,14 @@ impl Space {
         Some((ranks.max()?, values.len() as u32))
     }
 
-    /// How sure it is that a value is not zero: on Φ = 0 the points are only computed.
+    /// Evidence that a value is not zero. Points on Φ = 0 are known only approximately, so that nothing is proved
+    /// there.
     pub(super) fn seen(&self) -> Evidence {
         if self.holonomic.is_empty() { Evidence::Proved } else { Evidence::Held(self.samples.len() as u32) }
     }
 }
 
-/// `None` where one of the values is none, or too inaccurate.
+/// `None` if a value is not finite or too inaccurate.
 fn usable(values: Vec<Approximate>) -> Option<Vec<Approximate>> {
     let scale = values.iter().fold(1.0, |scale: f64, value| scale.max(value.value.abs()));
     let usable = |value: &Approximate| value.value.is_finite() && value.error <= BLUR * scale;

@@ -1,25 +1,26 @@
-//! How fast frames turn and accelerate, along a motion with given accelerations or with none.
+//! Angular and linear accelerations of frames, along a motion with given accelerations q̈ or with q̈ = 0.
 
 use super::components::Twists;
 use crate::resolve::{Frame, Step, Triple, cross, named, sum};
 use crate::symbolic::{Forward, Graph, Id, Rational};
 
-/// d/dt along a motion of so many coordinates.
+/// Time derivative along a motion, for this number of coordinates.
 pub(super) type InTime = fn(&mut Graph, usize) -> Forward;
 
-/// Of a frame, in its own axes.
+/// Acceleration of a frame, in its own axes.
 #[derive(Clone, Copy)]
 pub(super) struct Acceleration {
-    /// ω̇
+    /// Angular acceleration ω̇
     pub(super) turning: Triple,
-    /// The acceleration of the origin as seen from the fixed frame.
+    /// Acceleration of the origin relative to the fixed frame.
     pub(super) moving: Triple,
-    /// r ↦ ω̇ × r + ω × (ω × r), row by row: what the turning adds to the acceleration of what is at r.
+    /// Matrix of r ↦ ω̇ × r + ω × (ω × r), row by row: acceleration of a point at r due to the rotation.
     pub(super) by_turning: [Triple; 3],
 }
 
 impl Twists<'_> {
-    /// Of every frame, where the fixed one accelerates so: against gravity, which then need not be looked at further.
+    /// Accelerations of all frames, if the fixed frame has the acceleration `fixed`. An acceleration opposite to
+    /// gravity replaces uniform gravity.
     pub(super) fn accelerations(
         &self,
         graph: &mut Graph,
@@ -63,7 +64,7 @@ impl Acceleration {
         }
     }
 
-    /// The acceleration of what is at r and rests in the frame.
+    /// Acceleration of a point fixed in the frame at r.
     fn of_point(&self, r: Triple, graph: &mut Graph) -> Triple {
         let carried = self.by_turning.map(|row| graph.dot(&row, &r));
         sum([self.moving, carried], graph)
@@ -79,7 +80,7 @@ fn by_turning(w: Triple, turning: Triple, graph: &mut Graph) -> [Triple; 3] {
             let [b, c] = [(i + 1) % 3, (i + 2) % 3];
             graph.sum([(product[b][b], -one), (product[c][c], -one)])
         } else {
-            // ω̇ × e_j has the component ω̇_k along e_i where i, k, j follow one another, or −ω̇_k.
+            // For i ≠ j, ω̇ × e_j has the component ω̇_k along e_i if (i, k, j) is cyclic, else −ω̇_k.
             let k = 3 - i - j;
             let sign = if (k + 1) % 3 == j { one } else { -one };
             graph.sum([(product[i][j], one), (turning[k], sign)])

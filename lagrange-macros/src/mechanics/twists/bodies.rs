@@ -1,7 +1,8 @@
-//! Rigid bodies by Newton's and Euler's equations, in the axes of their frames and about the origins of these.
+//! Newton–Euler equations of rigid bodies, in the axes of their frames and about the origins of these.
 //!
-//! With the mass m, the moment h = m c and the inertia J about the origin, whose acceleration is a, the force is
-//! m a + ω̇ × h + ω × (ω × h), and the torque J ω̇ + ω × Jω + h × a. In uniform gravity a is the acceleration against it.
+//! Let m be the mass, h = m c the first moment, J the inertia about the origin, and a the acceleration of the origin.
+//! The force is m a + ω̇ × h + ω × (ω × h), and the torque J ω̇ + ω × Jω + h × a. Uniform gravity g enters as the
+//! contribution −g to a.
 
 use super::accelerations::InTime;
 use super::components::Twists;
@@ -11,7 +12,7 @@ use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
 
 impl Twists<'_> {
-    /// The forces of inertia, where the fixed frame accelerates so.
+    /// Adds the inertial forces of the bodies, if the fixed frame has the acceleration `fixed`.
     pub(super) fn of_bodies(
         &self,
         graph: &mut Graph,
@@ -32,7 +33,7 @@ impl Twists<'_> {
             let torque = sum([change, gyroscopic, arm], graph);
             self.along(graph, force.map(|component| (minus, component)), velocity, parts);
             self.along(graph, torque.map(|component| (minus, component)), angular_velocity, parts);
-            // What the origin takes is the same along whatever axes, also those from before it is turned.
+            // The force m a at the origin is independent of the axes: use the first frame with this origin.
             let first = self.unturned(frame);
             let own = accelerations[first].moving.map(|component| graph.neg(component));
             self.along(
@@ -52,8 +53,8 @@ impl Twists<'_> {
         frame
     }
 
-    /// Takes from the slopes of L by where frames are what uniform gravity makes of them, and gives the acceleration that
-    /// does the same: mass for mass and moment for moment, whatever the rest is.
+    /// Removes uniform gravity from the slopes of L by the frame positions. Returns the equivalent acceleration of the
+    /// fixed frame. Only contributions proportional to masses and first moments are removed.
     pub(super) fn without_gravity(&self, graph: &mut Graph, places: &[Id], slopes: &mut [Id]) -> Triple {
         let slope = |node: Id| places.iter().position(|place| *place == node);
         let mut fixed = [Id::ZERO; 3];

@@ -1,4 +1,4 @@
-//! Components of the frames' twists as velocities beside the generalized ones.
+//! Components of the twists of frames, as velocities besides the generalized ones.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -8,23 +8,24 @@ use crate::resolve::{Body, Frame, Problem, Step, Triple};
 use crate::symbolic::{Graph, Id, Node};
 use crate::variables::{Variable, has_velocity, nodes};
 
-/// The components of the frames' twists as velocities beside the generalized ones.
+/// Twist components of all frames, as velocities besides the generalized ones.
 pub(crate) struct Twists<'p> {
     pub(super) problem: &'p Problem,
-    /// q̇, then the rates of rotations by more coordinates than three, then all others.
+    /// q̇, then the rates of rotations by more than three coordinates, then all other twist components.
     pub(super) velocities: Velocities,
-    /// How many of these matrices and vectors are over: q̇ and those rates.
+    /// Number of outer velocities, the first of `velocities`: q̇ and the rates of rotations by more than three
+    /// coordinates. The mass matrix is first derived over these.
     pub(super) outer: usize,
-    /// Which of the velocities a node is.
+    /// Index of each node among the velocities.
     pub(super) numbers: FxHashMap<Id, usize>,
-    /// Whose components the velocities are that are no generalized ones, each once.
+    /// Frame, part and axis of each velocity beyond the generalized ones, each once.
     pub(super) components: Vec<Component>,
     /// The bodies whose kinetic energies are terms of L, and L without them.
     pub(super) bodies: Vec<Body>,
     pub(super) others: Id,
 }
 
-/// A component of the twist of a frame, and which of the velocities it is.
+/// A component of the twist of a frame, and its index `number` among the velocities.
 #[derive(Clone, Copy)]
 pub(super) struct Component {
     pub(super) frame: usize,
@@ -40,7 +41,7 @@ pub(super) enum TwistPart {
 }
 
 impl<'p> Twists<'p> {
-    /// `None` where no frame moves.
+    /// `None` if no frame moves.
     pub(crate) fn of(graph: &mut Graph, problem: &'p Problem) -> Option<Self> {
         let n = problem.coordinates.len();
         let nodes = nodes(graph, n, Variable::Velocity);
@@ -76,7 +77,7 @@ impl<'p> Twists<'p> {
         }
     }
 
-    /// A named number that contains a velocity is one.
+    /// Adds `node` to the velocities if it is a definition that contains a velocity.
     fn add(&mut self, graph: &mut Graph, node: Id) {
         let &Node::Defined(inner) = graph.node(node) else { return };
         if self.numbers.contains_key(&node) || !has_velocity(graph, &[node]) {
@@ -88,7 +89,7 @@ impl<'p> Twists<'p> {
         self.velocities.rows.push(row);
     }
 
-    /// ∂(vector)/∂(velocity) for each of the outer velocities that it depends on.
+    /// ∂(vector)/∂(velocity), with the index of the velocity, for each outer velocity that the vector depends on.
     pub(super) fn columns(&self, graph: &mut Graph, vector: Triple) -> Vec<(usize, Triple)> {
         let outer = &self.velocities.nodes[..self.outer];
         let rows = vector.map(|component| graph.gradient_to(component, outer));

@@ -1,13 +1,14 @@
-//! The mass matrix of rigid bodies: what a frame carries moves as one body as long as no joint beyond it does (Walker and
-//! Orin, *Journal of Dynamic Systems, Measurement, and Control* 104, 1982; Featherstone, *Rigid Body Dynamics Algorithms*,
-//! chapter 6).
+//! Mass matrix of rigid bodies by the composite-rigid-body algorithm: all bodies beyond a joint move as one while the
+//! later joints are at rest (Walker and Orin, *Journal of Dynamic Systems, Measurement, and Control* 104, 1982;
+//! Featherstone, *Rigid Body Dynamics Algorithms*, chapter 6).
 
 use super::super::euler_lagrange::hessian;
 use super::components::Twists;
 use crate::resolve::{Frame, Step, Triple, cross, symmetric};
 use crate::symbolic::{Graph, Id, Rational};
 
-/// Mass, mass times the position of the centre, and inertia about the origin, in the axes of a frame.
+/// Composite body of a frame, in its axes: mass, first moment (mass times position of the centre), and inertia about
+/// the origin.
 #[derive(Clone, Copy)]
 struct Carried {
     mass: Id,
@@ -15,7 +16,7 @@ struct Carried {
     inertia: [Triple; 3],
 }
 
-/// A momentum and an angular momentum about a frame's origin.
+/// Momentum, and angular momentum about the origin of a frame.
 #[derive(Clone, Copy)]
 struct Momentum {
     moving: Triple,
@@ -23,7 +24,8 @@ struct Momentum {
 }
 
 impl Twists<'_> {
-    /// The matrix over the outer velocities: of the bodies it is found from frame to frame.
+    /// Mass matrix over the outer velocities. Bodies contribute by the recursion from frame to frame, all other terms
+    /// of L by differentiation.
     pub(super) fn mass(&self, graph: &mut Graph) -> Vec<Vec<Id>> {
         let momenta = graph.gradient_to(self.others, &self.velocities.nodes[..self.outer]);
         let mut mass = hessian(graph, &momenta, &self.velocities.nodes[..self.outer]);
@@ -36,7 +38,7 @@ impl Twists<'_> {
         mass
     }
 
-    /// For each frame what it and all that come from it carry.
+    /// Composite body of each frame: its own bodies and those of all frames after it.
     fn carried_by_frames(&self, graph: &mut Graph) -> Vec<Option<Carried>> {
         let frames = &self.problem.frames;
         let mut carried: Vec<Option<Carried>> = vec![None; frames.len()];
@@ -53,7 +55,8 @@ impl Twists<'_> {
         carried
     }
 
-    /// What belongs to the coordinates that move a frame, with those that move the frames before it.
+    /// Adds the entries that couple the coordinates of this frame with each other and with the coordinates of earlier
+    /// frames.
     fn add_columns(&self, graph: &mut Graph, frame: usize, carried: &Carried, mass: &mut [Vec<Id>]) {
         let own = self.columns_of(graph, frame);
         for &(j, column) in &own {
@@ -70,7 +73,7 @@ impl Twists<'_> {
                 let step = &self.problem.frames[at].step;
                 for (k, other) in self.columns_of(graph, at) {
                     let entry = momentum.along(other, step, graph);
-                    // A coordinate that moves both is there twice.
+                    // A coordinate that moves both frames contributes to its diagonal entry twice.
                     let twice = Rational::from_integer(if j == k { 2 } else { 1 });
                     let entry = graph.sum([(entry, twice)]);
                     add(graph, mass, (j, k), entry);
@@ -79,7 +82,7 @@ impl Twists<'_> {
         }
     }
 
-    /// What the step to a frame adds to the twist, for each of the outer velocities that it depends on.
+    /// Twist that a unit rate of each outer velocity causes by the step to a frame, with the index of the velocity.
     fn columns_of(&self, graph: &mut Graph, frame: usize) -> Vec<(usize, Triple)> {
         match &self.problem.frames[frame].step {
             Step::None => Vec::new(),
@@ -108,7 +111,7 @@ impl Carried {
         }
     }
 
-    /// The same in the frame before.
+    /// Transforms the composite body to the preceding frame.
     fn before(self, step: &Step, graph: &mut Graph) -> Self {
         match step {
             Step::None => self,
@@ -117,7 +120,8 @@ impl Carried {
         }
     }
 
-    /// Every position r becomes s + r: ∫ r² 1 − r rᵀ grows by what is in p_i = s_i (h + h')_i and s hᵀ + h' sᵀ.
+    /// Shifts every position r to s + r. The tensor ∫ r² 1 − r rᵀ grows by the terms in p_i = s_i (h + h')_i and s hᵀ
+    /// + h' sᵀ.
     fn moved(self, s: Triple, graph: &mut Graph) -> Self {
         let moment = pairs(self.moment, s).map(|(h, s)| {
             let shift = graph.mul(self.mass, s);
@@ -144,7 +148,7 @@ impl Carried {
         Self { mass: self.mass, moment, inertia }
     }
 
-    /// h becomes E h, J becomes E J Eᵀ.
+    /// Rotates h to E h, and J to E J Eᵀ.
     fn turned(self, by: [Triple; 3], graph: &mut Graph) -> Self {
         let moment = by.map(|row| graph.dot(&row, &self.moment)).map(|entry| graph.defined(entry));
         // J Eᵀ, by the rows of E.
@@ -161,7 +165,7 @@ impl Carried {
         Self { mass: self.mass, moment, inertia }
     }
 
-    /// Of what moves at the rate of a step's column.
+    /// Momentum of the body that moves at the rate `rate` of a step.
     fn momentum(&self, rate: Triple, step: &Step, graph: &mut Graph) -> Momentum {
         let momentum = match step {
             Step::Turned(_) => Momentum {
@@ -183,7 +187,7 @@ impl Momentum {
         Self { moving: named(self.moving), turning: named(self.turning) }
     }
 
-    /// The same in the frame before.
+    /// Transforms the momentum to the preceding frame.
     fn before(self, step: &Step, graph: &mut Graph) -> Self {
         let before = match step {
             Step::None => self,
@@ -200,7 +204,7 @@ impl Momentum {
         before.named(graph)
     }
 
-    /// How much of it goes with the rate of a step's column.
+    /// Component of the momentum along the rate `rate` of a step.
     fn along(&self, rate: Triple, step: &Step, graph: &mut Graph) -> Id {
         match step {
             Step::Turned(_) => graph.dot(&rate, &self.turning),

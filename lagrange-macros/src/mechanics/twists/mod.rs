@@ -1,8 +1,8 @@
-//! Lagrange's equations where L is stated in frames, without differentiating what moves the frames.
+//! Lagrange's equations of a Lagrangian stated in frames, without differentiating the transformations of frames.
 //!
-//! Displacements are handed from frame to frame as velocities are, and what belongs to them is handed back: the recursions of
-//! Newton and Euler (Featherstone, *Rigid Body Dynamics Algorithms*, chapter 5). Of rigid bodies the forces are known in
-//! closed form, of everything else in L by Poincaré's equations.
+//! Velocities propagate from frame to frame, and forces propagate back: the recursive Newton–Euler algorithm
+//! (Featherstone, *Rigid Body Dynamics Algorithms*, chapter 5). The forces of rigid bodies are known in closed form;
+//! those of all other terms in L follow from Poincaré's equations.
 
 mod accelerations;
 mod bodies;
@@ -44,7 +44,8 @@ impl Formulation for Twists<'_> {
         self.row(graph, constraint, self.problem.coordinates.len())
     }
 
-    /// The form over the rates of the outer velocities, where there are others than q̇, and that over the rates of all.
+    /// Returns the form over the rates of all velocities. If some outer velocities are not generalized ones, returns
+    /// the form over the rates of the outer velocities first.
     fn forms(&self, graph: &mut Graph) -> Vec<Form> {
         let n = self.problem.coordinates.len();
         let mut forms = Vec::new();
@@ -63,7 +64,8 @@ impl Formulation for Twists<'_> {
 }
 
 impl Twists<'_> {
-    /// The last variable of a form as a sum over those before it: H_ij + g_i H_kj + H_ik g_j + g_i H_kk g_j.
+    /// Eliminates the last variable of a form, which is the sum g over the variables before it: the matrix becomes
+    /// H_ij + g_i H_kj + H_ik g_j + g_i H_kk g_j.
     fn put_in(&self, graph: &mut Graph, matrix: &mut Vec<Vec<Id>>, row: &[Id]) {
         let last = matrix.pop().unwrap_or_default();
         let Some((&own, beside)) = last.split_last() else { return };
@@ -83,7 +85,7 @@ impl Twists<'_> {
         self.problem.constraints.iter().map(|&(_, constraint)| self.row(graph, constraint, first)).collect()
     }
 
-    /// What belongs to each of the velocities.
+    /// Generalized forces, inertial ones included, conjugate to each velocity.
     fn parts(&self, graph: &mut Graph, in_time: InTime) -> TwistParts {
         let mut parts = self.nothing();
         let places = self.places(graph);
@@ -95,13 +97,14 @@ impl Twists<'_> {
         parts
     }
 
-    /// What belongs to the first velocities, with all that the others hand back to them.
+    /// Generalized forces conjugate to the first velocities, including those of the other velocities that depend on
+    /// them.
     fn handed_back(&self, graph: &mut Graph, in_time: InTime, first: usize) -> Vec<Id> {
         let parts = self.parts(graph, in_time);
         self.hand_back(graph, parts, first)
     }
 
-    /// Parts of the first velocities, from those of all.
+    /// Propagates the generalized forces of all velocities back to the first ones, and sums them.
     fn hand_back(&self, graph: &mut Graph, mut parts: TwistParts, first: usize) -> Vec<Id> {
         let n = self.problem.coordinates.len();
         for k in (first - n..self.velocities.rows.len()).rev() {
@@ -116,7 +119,7 @@ impl Twists<'_> {
         parts.sums(graph)
     }
 
-    /// F of a constraint, over the first velocities.
+    /// Row of F of a constraint, over the first velocities.
     fn row(&self, graph: &mut Graph, constraint: Id, first: usize) -> Vec<Id> {
         let mut parts = self.nothing();
         if has_velocity(graph, &[constraint]) {

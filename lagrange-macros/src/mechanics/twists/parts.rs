@@ -1,10 +1,10 @@
-//! Sums of what belongs to each velocity.
+//! Sums of generalized forces conjugate to each velocity.
 
 use super::components::Twists;
 use crate::resolve::Triple;
 use crate::symbolic::{Graph, Id, Rational};
 
-/// For each velocity what belongs to it, as a sum.
+/// For each velocity, the generalized force conjugate to it, as a sum of terms.
 pub(super) struct TwistParts(pub(super) Vec<Vec<(Id, Rational)>>);
 
 impl TwistParts {
@@ -24,7 +24,7 @@ impl Twists<'_> {
         TwistParts(vec![Vec::new(); self.velocities.nodes.len()])
     }
 
-    /// `weight` times the component `axis` of `vector` × the displacement that goes with the velocity `of`.
+    /// Adds the component `axis` of `vector` × ξ, times `weight`, where ξ is the displacement with the rate `of`.
     pub(super) fn across(
         &self,
         graph: &mut Graph,
@@ -42,7 +42,7 @@ impl Twists<'_> {
         }
     }
 
-    /// A product for each component of the displacement that goes with the velocity `of`.
+    /// Adds the product for each component of the displacement with the rate `of`.
     pub(super) fn along(
         &self,
         graph: &mut Graph,

@@ -1,4 +1,4 @@
-//! Named numbers that say where frames are.
+//! Definitions that hold the positions and orientations of frames.
 
 use indexmap::IndexMap;
 
@@ -6,17 +6,17 @@ use super::components::Twists;
 use crate::resolve::Frame;
 use crate::symbolic::{Graph, Id, Node};
 
-/// Of the rows of a frame's axes or of its origin.
+/// A component of an axis row or of the origin of a frame.
 #[derive(Clone, Copy)]
 pub(super) struct RowOrOrigin {
     pub(super) frame: usize,
     pub(super) row: usize,
-    /// Which component of the row; `None` for the origin.
+    /// Component of the row; `None` for the origin.
     pub(super) of: Option<usize>,
 }
 
 impl Twists<'_> {
-    /// The named numbers that say where frames are, each once.
+    /// Definitions that hold positions and orientations of frames, each once.
     pub(super) fn places(&self, graph: &Graph) -> IndexMap<Id, RowOrOrigin> {
         let mut places = IndexMap::new();
         let mut add = |node: Id, place: RowOrOrigin| {

@@ -1,13 +1,13 @@
-//! What belongs to a displacement of the frames, of any Lagrangian.
+//! Poincaré's equations: generalized forces conjugate to displacements of frames, for any Lagrangian.
 //!
-//! Of a frame with the twist ω, v in its own axes a displacement of the coordinates is a turn ξ and a shift η, δω = ξ̇ + ω × ξ
-//! and δv = η̇ + ω × η + v × ξ: so the parts of dp/dt = ∂L/∂q + Q that belong to ξ and η are, with the momenta
-//! μ = ∂L/∂ω and π = ∂L/∂v (Poincaré, *Comptes rendus* 132, 1901; Marsden and Ratiu, *Introduction to Mechanics and Symmetry*,
-//! 13.5),
+//! Let a frame have the twist (ω, v) in its own axes. A displacement of the coordinates is a rotation ξ and a translation η
+//! of the frame, with δω = ξ̇ + ω × ξ and δv = η̇ + ω × η + v × ξ. With the momenta μ = ∂L/∂ω and π = ∂L/∂v, the terms of
+//! dp/dt = ∂L/∂q + Q that are conjugate to ξ and η are (Poincaré, *Comptes rendus* 132, 1901; Marsden and Ratiu,
+//! *Introduction to Mechanics and Symmetry*, 13.5)
 //!
 //! ```text
-//! −μ̇ + μ × ω + π × v + the torque of what depends on where the frame is,
-//! −π̇ + π × ω + the force of it.
+//! ξ: −μ̇ + μ × ω + π × v + torque due to the position and orientation of the frame
+//! η: −π̇ + π × ω + force due to the position and orientation of the frame
 //! ```
 
 use indexmap::IndexMap;
@@ -21,7 +21,8 @@ use crate::symbolic::{Forward, Graph, Id, Node};
 use crate::variables::{Variable, nodes};
 
 impl Twists<'_> {
-    /// What belongs to the velocities of all in L that is no body; gravity, which is given, is left to the bodies.
+    /// Adds the generalized forces of all terms of L that are not bodies. Returns uniform gravity as an acceleration,
+    /// which the equations of the bodies include.
     pub(super) fn others_of(
         &self,
         graph: &mut Graph,
@@ -38,7 +39,8 @@ impl Twists<'_> {
         gravity
     }
 
-    /// ∂(expression)/∂(velocities), and by the coordinates and what says where the frames are, all others held.
+    /// Returns ∂(expression)/∂(velocities), and the slopes by the coordinates and frame positions, each with all
+    /// others held.
     pub(super) fn slopes(
         &self,
         graph: &mut Graph,
@@ -54,7 +56,8 @@ impl Twists<'_> {
         (of_velocities, slopes)
     }
 
-    /// ∂L/∂q where the velocities and what says where the frames are are held, and forces and torques by the latter.
+    /// Adds ∂L/∂q at fixed velocities and frame positions, and the forces and torques of the slopes by frame
+    /// positions.
     pub(super) fn at_rest(
         &self,
         graph: &mut Graph,
@@ -68,15 +71,15 @@ impl Twists<'_> {
             let Frame { axes, angular_velocity, velocity, .. } = &self.problem.frames[place.frame];
             let row = axes[place.row];
             match place.of {
-                // A row r of the axes changes by r × ξ.
+                // A displacement ξ changes an axis row r by r × ξ.
                 Some(axis) => self.across(graph, slope, (axis, row), *angular_velocity, parts),
-                // The origin by the rows times η.
+                // A displacement η changes the origin by the rows times η.
                 None => self.along(graph, row.map(|entry| (slope, entry)), *velocity, parts),
             }
         }
     }
 
-    /// −d/dt of the momenta, and μ × ω, π × v and π × ω component by component.
+    /// Adds −d/dt of the momenta, and μ × ω, π × v and π × ω component by component.
     fn in_motion(&self, graph: &mut Graph, in_time: InTime, momenta: &[Id], parts: &mut TwistParts) {
         if momenta.iter().all(|&momentum| momentum == Id::ZERO) {
             return;
@@ -101,7 +104,7 @@ impl Twists<'_> {
         }
     }
 
-    /// d/dt, by what is known of frames: of where they are the second rate too, which is an acceleration.
+    /// Time derivative by known frame rates. Frame positions have known second rates, too: the accelerations.
     pub(super) fn rates(&self, graph: &mut Graph, in_time: InTime) -> Forward {
         let accelerations = self.accelerations(graph, in_time, [Id::ZERO; 3]);
         let mut rates: Vec<(Id, Id)> = Vec::new();
