@@ -1,4 +1,4 @@
-//! Antiderivatives where a term is a constant times f(u) ∂u/∂x; none elsewhere.
+//! Antiderivatives of terms that are a constant times f(u) ∂u/∂x. No other terms are integrated.
 
 use num_traits::{One, Signed};
 use rustc_hash::FxHashMap;
@@ -7,17 +7,18 @@ use super::differentiate::Forward;
 use super::graph::{External, Function, Graph, Id, Node, Symbol};
 use super::rational::{Rational, plus};
 
-/// The greatest power of a sum that is multiplied out.
+/// Largest exponent of a sum that is expanded.
 const EXPANDED: i128 = 4;
 
-/// Products of more factors that vary are left: each is tried, and what it costs is a power of their number.
+/// Largest number of nonconstant factors of a product that is integrated. Each factor is tried, so that the cost is a
+/// power of their number.
 const FACTORS: usize = 16;
 
-/// The most terms to which a product is multiplied out: there are exponentially many in the number of its factors.
+/// Largest number of terms of an expanded product: it grows exponentially with the number of factors.
 const TERMS: u64 = 256;
 
 impl Graph {
-    /// A function whose derivative by `symbol` is `root`, if it is found.
+    /// Finds a function whose derivative by `symbol` is `root`.
     pub(crate) fn antiderivative(&mut self, root: Id, symbol: Symbol) -> Option<Id> {
         if !self.depends(root, symbol) {
             let variable = self.symbol(symbol);
@@ -57,7 +58,7 @@ impl Graph {
         Some(self.mul(constant, integral))
     }
 
-    /// Tries the antiderivative of each factor, as a function of what is inside of it, in turn.
+    /// Tries substitution: for each factor in turn, its antiderivative as a function of its argument.
     fn substitute(&mut self, factors: &[(Id, Rational)], integrand: Id, symbol: Symbol) -> Option<Id> {
         for &(base, exponent) in factors {
             for candidate in self.candidates(base, exponent) {
@@ -104,7 +105,7 @@ impl Graph {
         (0..external.derivatives.len()).map(|position| self.external(lower(position))).collect()
     }
 
-    /// (Σ term) ^ n · rest = Σ term · (Σ term) ^ (n − 1) · rest
+    /// Expands one factor: (Σ term) ^ n · rest = Σ term · (Σ term) ^ (n − 1) · rest
     fn multiply_out(&mut self, factors: &[(Id, Rational)], symbol: Symbol) -> Option<Id> {
         let position = factors.iter().position(|&factor| self.expands(factor))?;
         if self.terms_multiplied_out(factors) > TERMS {
@@ -123,7 +124,7 @@ impl Graph {
         is_power && matches!(self.node(factor), Node::Sum(terms) if terms.len() > 1)
     }
 
-    /// How many terms a product has where nothing is left to multiply out, counted without doing it.
+    /// Number of terms of the fully expanded product, counted without expanding.
     fn terms_multiplied_out(&self, factors: &[(Id, Rational)]) -> u64 {
         let mut counts: FxHashMap<Id, u64> = FxHashMap::default();
         let of_product = |factors: &[(Id, Rational)], counts: &FxHashMap<Id, u64>| {
@@ -146,7 +147,7 @@ impl Graph {
     }
 }
 
-/// The function whose derivative is `function`, but for the sign.
+/// The function whose derivative is ±`function`.
 fn primitive(function: Function) -> Option<Function> {
     match function {
         Function::Sin => Some(Function::Cos),

@@ -1,7 +1,8 @@
-//! Products in a sum that differ in one factor, put together where the sum of these is no longer: (u + v) u s − u v s is u² s.
+//! Combines products in a sum that differ in one factor, if the sum of the differing factors is no longer than each:
+//! (u + v) u s − u v s is u² s.
 //!
-//! dp/dt and ∂L/∂q of a Lagrangian with cos(q₁ − q₂) have such products of velocities in common, and what they leave is
-//! what a textbook writes.
+//! For a Lagrangian with cos(q₁ − q₂), dp/dt and ∂L/∂q have such products of velocities in common. Their combined
+//! difference is the form in textbooks.
 
 use num_traits::One;
 use rustc_hash::FxHashMap;
@@ -9,24 +10,24 @@ use rustc_hash::FxHashMap;
 use super::graph::{Graph, Id, Node};
 use super::rational::{Rational, plus};
 
-/// Sums of more terms stay as they are.
+/// Largest number of terms of a sum that is searched.
 const TERMS: usize = 1000;
 
-/// A product, and its coefficient in the sum.
+/// A product and its coefficient in the sum.
 pub(super) type Term = (Id, Rational);
 type FactorPowers = Vec<(Id, Rational)>;
 
-/// The products of a sum, by what each is without one of its factors.
+/// The products of a sum, indexed by the rest that remains without one factor.
 #[derive(Default)]
 struct CommonFactors {
-    /// `None` for those that others have taken in.
+    /// `None` for products that were combined into others.
     terms: Vec<Option<Term>>,
-    /// The places of terms, and the factor that each has besides.
+    /// For each rest, the indices of the terms that contain it, each with its remaining factor.
     by_rest: FxHashMap<FactorPowers, Vec<(usize, Id)>>,
 }
 
 impl Graph {
-    /// A sum with its products put together; as it is where none can be.
+    /// Combines the products of a sum; returns the sum unchanged if it becomes no shorter.
     pub(crate) fn combined(&mut self, sum: Id) -> Id {
         let fault = self.take_fault();
         let combined = self.combine(sum).filter(|_| self.take_fault().is_none());
@@ -45,11 +46,11 @@ impl Graph {
             }
         }
         let combined = self.sum(products.terms.into_iter().flatten());
-        // What a product comes to may be a sum.
+        // A combined product may itself be a sum.
         (self.length(combined) < before).then_some(combined)
     }
 
-    /// Each factor of a product, and what is left without it.
+    /// Each factor of a product with a positive integer exponent, and the product without it.
     fn rests(&self, product: Id) -> Vec<(Id, FactorPowers)> {
         let Node::Product(factors) = self.node(product) else { return Vec::new() };
         let without = |k: usize| {
@@ -64,7 +65,7 @@ impl Graph {
         (0..factors.len()).filter(is_whole).filter_map(without).collect()
     }
 
-    /// c x + d y, where that is exact and no longer than x and y are.
+    /// Returns c x + d y if it is exact and no longer than the longer of x and y.
     fn no_longer(&mut self, [x, y]: [Term; 2]) -> Option<Id> {
         let longest = self.length(x.0).max(self.length(y.0));
         let roundings = self.roundings.len();
@@ -73,7 +74,7 @@ impl Graph {
         (self.take_fault().is_none() && is_exact && self.length(sum) <= longest).then_some(sum)
     }
 
-    /// Of how many terms a factor is the sum.
+    /// Number of terms of a factor; 1 if it is not a sum.
     fn length(&self, factor: Id) -> usize {
         match self.node(factor) {
             Node::Sum(terms) => terms.len(),
@@ -90,7 +91,7 @@ impl CommonFactors {
         self.terms.push(Some(term));
     }
 
-    /// The product in the place of this one and one of those before, which is taken out.
+    /// Combines the product with an earlier one, which is removed. `None` if there is no such product.
     fn taken_in(&mut self, graph: &mut Graph, (product, coefficient): Term) -> Option<Term> {
         for (factor, rest) in graph.rests(product) {
             for &(place, other) in self.by_rest.get(&rest).into_iter().flatten() {

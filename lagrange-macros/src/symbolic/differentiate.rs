@@ -1,5 +1,5 @@
-//! Derivatives on the graph: forward along a direction, reverse for a gradient.
-//! (Griewank and Walther, *Evaluating Derivatives*, chapter 3.)
+//! Derivatives on the graph: forward mode along a direction, reverse mode for gradients (Griewank and Walther,
+//! *Evaluating Derivatives*, chapter 3).
 
 use num_traits::One;
 use rustc_hash::FxHashMap;
@@ -7,8 +7,8 @@ use rustc_hash::FxHashMap;
 use super::graph::{External, Fault, Function, Graph, Id, Node, Symbol};
 use super::rational::{Rational, plus};
 
-/// The derivative along one direction in the space of symbols. It remembers every node it has met, so
-/// one value serves all roots.
+/// Derivative along one direction in the space of symbols. The rates of all visited nodes are cached, so that one
+/// value serves all roots.
 #[derive(Debug)]
 pub(crate) struct Forward {
     seeds: FxHashMap<Symbol, Id>,
@@ -16,12 +16,12 @@ pub(crate) struct Forward {
 }
 
 impl Forward {
-    /// The direction in which each given symbol changes at the given rate, and no other changes.
+    /// Direction in which the given symbols change at the given rates, and all others are constant.
     pub(crate) fn along(seeds: impl IntoIterator<Item = (Symbol, Id)>) -> Self {
         Self { seeds: seeds.into_iter().collect(), known: Vec::new() }
     }
 
-    /// The same, with the rates of some nodes given, whatever these are made of.
+    /// Sets the rates of some nodes, regardless of their operands.
     pub(crate) fn through(mut self, graph: &Graph, rates: impl IntoIterator<Item = (Id, Id)>) -> Self {
         self.known.resize(graph.len(), None);
         for (node, rate) in rates {
@@ -30,7 +30,7 @@ impl Forward {
         self
     }
 
-    /// Rate of change of `root`.
+    /// Derivative of `root` along the direction.
     pub(crate) fn of(&mut self, graph: &mut Graph, root: Id) -> Id {
         self.known.resize(graph.len(), None);
         let mut pending = vec![root];
@@ -57,7 +57,7 @@ impl Forward {
         self.known[id.index()].unwrap_or(Id::ZERO)
     }
 
-    /// The rate of a node whose operands' rates are known.
+    /// Rate of a node, from the known rates of its operands.
     fn step(&self, graph: &mut Graph, id: Id) -> Id {
         match graph.node(id) {
             Node::Number(_) | Node::Pi => Id::ZERO,
@@ -88,12 +88,12 @@ impl Graph {
         self.gradient_to(root, &variables)
     }
 
-    /// The same for nodes of any kind, each a variable of its own whatever it is made of.
+    /// Gradient with respect to nodes of any kind: each is an independent variable, regardless of its operands.
     pub(crate) fn gradient_to(&mut self, root: Id, variables: &[Id]) -> Vec<Id> {
         self.pulled_back(&[(Id::ONE, root)], variables)
     }
 
-    /// Σ weight · ∂root/∂variable, whatever the weights depend on.
+    /// Σ weight · ∂root/∂variable, for pairs (weight, root). The weights are not differentiated.
     pub(crate) fn pulled_back(&mut self, roots: &[(Id, Id)], variables: &[Id]) -> Vec<Id> {
         let mut found: FxHashMap<Id, Id> = variables.iter().map(|&variable| (variable, Id::ZERO)).collect();
         let mut adjoints: FxHashMap<Id, Vec<(Id, Rational)>> = FxHashMap::default();
@@ -121,7 +121,8 @@ impl Graph {
                     adjoints.entry(term).or_default().push((adjoint, coefficient));
                 }
             }
-            // The adjoint of a definition is a partial sum in its turn: the forces on a chain.
+            // The adjoint of a definition becomes a definition, too: it is a partial sum, like the forces on the links
+            // of a chain.
             &Node::Defined(inner) => {
                 let adjoint = self.defined(adjoint);
                 adjoints.entry(inner).or_default().push((adjoint, Rational::one()));
@@ -135,7 +136,7 @@ impl Graph {
         }
     }
 
-    /// Distinct operands of a product, a power or a function, without constants: one for xˣ.
+    /// Distinct nonconstant operands of a product, a power or a function: one for xˣ.
     fn distinct_operands(&self, id: Id) -> Vec<Id> {
         let mut operands = Vec::new();
         self.operands(id, |operand| operands.push(operand));
@@ -160,7 +161,7 @@ impl Graph {
         }
     }
 
-    /// d(xᵉ …) = e xᵉ⁻¹ … dx, and not e (xᵉ …) / x, which has no value where x = 0.
+    /// d(xᵉ …) = e xᵉ⁻¹ … dx. The form e (xᵉ …)/x would be undefined at x = 0.
     fn factor_partial(&mut self, id: Id, operand: Id, weight: Id) -> Id {
         let Node::Product(factors) = self.node(id) else { return weight };
         let mut factors = factors.to_vec();
@@ -177,7 +178,7 @@ impl Graph {
         self.sum([(part, slope)])
     }
 
-    /// Σ ∂f/∂x_i over the positions i at which the operand stands.
+    /// Σ ∂f/∂x_i over all positions i of the operand among the arguments.
     fn external_partial(&mut self, id: Id, operand: Id, weight: Id) -> Id {
         let Node::External(external) = self.node(id).clone() else { return weight };
         let mut slope = Id::ZERO;
@@ -204,7 +205,7 @@ impl Graph {
         self.product([(weight, one), (arm, one), (radius2, -one)])
     }
 
-    /// d bᵉ = e bᵉ⁻¹ db + bᵉ ln b de, and not e bᵉ/b, which has no value where b = 0.
+    /// d bᵉ = e bᵉ⁻¹ db + bᵉ ln b de. The form e bᵉ/b would be undefined at b = 0.
     fn power_partial(&mut self, id: Id, base: Id, exponent: Id, operand: Id, weight: Id) -> Id {
         let mut slope = Id::ZERO;
         if operand == base {
@@ -220,7 +221,7 @@ impl Graph {
         self.mul(weight, slope)
     }
 
-    /// The derivative of `function` at `x`, given `id = function(x)`.
+    /// Derivative of `function` at `x`, where `id` is the node `function(x)`.
     fn slope(&mut self, function: Function, x: Id, id: Id) -> Id {
         let one = Rational::one();
         let half = Rational::new_raw(1, 2);

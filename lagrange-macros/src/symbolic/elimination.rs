@@ -1,15 +1,15 @@
-//! Gauss and Jordan's elimination on numbers with bounds on their errors.
+//! Gauss–Jordan elimination on numbers with error bounds.
 
 use super::evaluate::Approximate;
 
 /// A solution of A x = b.
 pub(crate) struct Solution {
     pub(crate) values: Vec<Approximate>,
-    /// Whether the equations leave this unknown open; its value is zero then.
+    /// True for each unknown that the equations leave undetermined; its value is then zero.
     pub(crate) free: Vec<bool>,
 }
 
-/// Solves equations that are rows of A with their entry of b behind; `None` where they contradict one another.
+/// Solves A x = b, with rows of A followed by the entry of b; `None` if the equations contradict each other.
 pub(crate) fn solve(mut rows: Vec<Vec<Approximate>>, unknowns: usize) -> Option<Solution> {
     let pivots = eliminate(&mut rows, unknowns);
     if rows[pivots.len()..].iter().any(|row| row[unknowns].excludes_zero()) {
@@ -24,14 +24,14 @@ pub(crate) fn solve(mut rows: Vec<Vec<Approximate>>, unknowns: usize) -> Option<
     Some(solution)
 }
 
-/// The rank that the exact matrix has at least; no more is seen in its values.
+/// Lower bound of the rank of the exact matrix: entries within their error bounds count as zero.
 pub(crate) fn rank(mut rows: Vec<Vec<Approximate>>) -> usize {
     let columns = rows.first().map_or(0, Vec::len);
     eliminate(&mut rows, columns).len()
 }
 
-/// Eliminates with complete pivoting among the first `columns`, each pivot an entry that is surely not zero. Gives
-/// the column of each pivot, whose row is then the one of its number.
+/// Eliminates with complete pivoting among the first `columns`. Every pivot is surely nonzero. Returns the column of
+/// each pivot; pivot k is in row k.
 fn eliminate(rows: &mut [Vec<Approximate>], columns: usize) -> Vec<usize> {
     let mut pivots: Vec<usize> = Vec::new();
     while let Some((row, column)) = largest(rows, &pivots, columns) {
@@ -45,7 +45,7 @@ fn eliminate(rows: &mut [Vec<Approximate>], columns: usize) -> Vec<usize> {
     pivots
 }
 
-/// Row and column of the largest entry that is surely not zero.
+/// Row and column of the largest entry that is surely nonzero.
 fn largest(rows: &[Vec<Approximate>], pivots: &[usize], columns: usize) -> Option<(usize, usize)> {
     let columns = || (0..columns).filter(|column| !pivots.contains(column));
     let entries = (pivots.len()..rows.len()).flat_map(|row| columns().map(move |column| (row, column)));
@@ -55,7 +55,7 @@ fn largest(rows: &[Vec<Approximate>], pivots: &[usize], columns: usize) -> Optio
         .max_by(|x, y| size(x).total_cmp(&size(y)))
 }
 
-/// Takes off as much of `pivot` as makes the entry in `column` zero.
+/// Subtracts the multiple of `pivot` that makes the entry in `column` zero.
 fn subtract(row: &mut [Approximate], pivot: &[Approximate], column: usize) {
     if row[column].is_zero() {
         return;
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn the_bounds_of_a_solution_contain_it() {
-        // Hilbert's matrix, whose condition is 5e5, times (1, −1, 2, 3, −4).
+        // Hilbert matrix, with condition number 5e5, times (1, −1, 2, 3, −4).
         let exact = [1.0, -1.0, 2.0, 3.0, -4.0];
         let hilbert = |i: usize| -> Vec<f64> { (0..5).map(|j| 1.0 / (i + j + 1) as f64).collect() };
         let system: Vec<Vec<f64>> = (0..5)
@@ -116,7 +116,7 @@ mod tests {
         assert_eq!(exact(&[&[0.0, 2.0], &[3.0, 0.0]]), 2);
         assert_eq!(exact(&[&[1.0, 2.0, 3.0], &[4.0, 5.0, 6.0], &[7.0, 8.0, 9.0]]), 2);
         assert_eq!(exact(&[&[0.1, 0.3], &[0.2, 0.6], &[0.3, 0.9]]), 1);
-        // A hundred times the spacing of the numbers is not rounding.
+        // 1e-13 is well above rounding: hundreds of units in the last place.
         assert_eq!(exact(&[&[1.0, 1.0], &[1.0, 1.0 + 1e-13]]), 2);
     }
 
@@ -128,8 +128,8 @@ mod tests {
         assert_eq!(rank(vec![vec![one, one], vec![one, entry(1.1, 0.05)]]), 2);
     }
 
-    /// Of an unknown that is 0 ± 0.1 times another, whose value is 1, nothing closer is known: be it in the row that is
-    /// subtracted or in the one that it is subtracted from.
+    /// An unknown that is 0 ± 0.1 times another one, of value 1, has an error bound of 0.1 at least. This must hold
+    /// both if the uncertain entry is in the pivot row and if it is in the eliminated row.
     #[test]
     fn what_may_be_zero_is_not_taken_for_zero() {
         let blurred = Approximate { value: 0.0, error: 0.1 };

@@ -1,4 +1,4 @@
-//! Values of expressions, with a bound on their rounding errors.
+//! Values of expressions with bounds on their rounding errors.
 
 use num_traits::ToPrimitive;
 
@@ -6,8 +6,8 @@ use super::graph::{External, Function, Graph, Id, Node, Symbol};
 use super::rational::Rational;
 use super::wide::to_f64;
 
-/// A value and how far the exact one may be from it (running error analysis: Higham, *Accuracy and
-/// Stability of Numerical Algorithms*, 3.3).
+/// A value and a bound on its distance from the exact value (running error analysis: Higham, *Accuracy and Stability
+/// of Numerical Algorithms*, 3.3).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Approximate {
     pub(crate) value: f64,
@@ -15,23 +15,23 @@ pub(crate) struct Approximate {
 }
 
 impl Approximate {
-    /// A freshly rounded value: its own rounding, which may be a denormal's, on top of what its operands
-    /// brought along.
+    /// A rounded result: adds the rounding error of the operation, also of a subnormal result, to the error inherited
+    /// from the operands.
     fn rounded(value: f64, inherited: f64) -> Self {
         Self { value, error: inherited + 4.0 * f64::EPSILON * value.abs() + f64::MIN_POSITIVE }
     }
 
-    /// Taken as it is, without an error.
+    /// A value with error bound 0.
     pub(crate) fn exact(value: f64) -> Self {
         Self { value, error: 0.0 }
     }
 
-    /// Whether it is zero and nothing else.
+    /// True if the value is exactly zero.
     pub(crate) fn is_zero(self) -> bool {
         self.value == 0.0 && self.error == 0.0
     }
 
-    /// Whether the error bound excludes zero. False where there is no value or no bound.
+    /// True if the error bound excludes zero; false if the value or the bound is not finite.
     pub(crate) fn excludes_zero(self) -> bool {
         self.error.is_finite() && self.value.abs() > self.error
     }
@@ -66,7 +66,7 @@ impl Approximate {
         pairs.fold(Self::exact(0.0), |sum, (x, y)| sum.plus(x.times(y)))
     }
 
-    /// The least and the greatest absolute value that the exact one may have.
+    /// Lower and upper bound of the absolute value of the exact value.
     fn magnitudes(self) -> (f64, f64) {
         (self.value.abs() - self.error, self.value.abs() + self.error)
     }
@@ -81,14 +81,14 @@ impl From<Rational> for Approximate {
 }
 
 impl Graph {
-    /// The value of a number, with the error that it was rounded with.
+    /// Value of a constant, with the error bound of its rounding.
     fn number_value(&self, value: Rational) -> Approximate {
         let Approximate { value: nearest, error } = value.into();
         Approximate { value: nearest, error: error + self.roundings.error(value.into()) * nearest.abs() }
     }
 
-    /// The value of a node whose operands have the values that `at` gives. Where the error has no bound, because the
-    /// exact argument of some function may lie beyond a pole or a cut, it is infinite or NaN.
+    /// Value of a node, from the values `at` of its operands. The error is infinite or NaN if it has no bound: the
+    /// exact argument of a function may lie beyond a pole or a branch cut.
     pub(super) fn value_of(
         &self,
         id: Id,
@@ -119,7 +119,7 @@ impl Graph {
     }
 }
 
-/// |x^e − x̃^e| ≤ |e| · greatest |x|^(e − 1) · |x − x̃|
+/// |x^e − x̃^e| ≤ |e| · max |x|^(e − 1) · |x − x̃|
 fn power(x: Approximate, exponent: Rational) -> Approximate {
     let e = to_f64(exponent);
     let value = match exponent.numer().to_i32().filter(|_| exponent.is_integer()) {
@@ -133,7 +133,7 @@ fn power(x: Approximate, exponent: Rational) -> Approximate {
         _ if least > 0.0 => least.powf(e - 1.0),
         _ => f64::INFINITY,
     };
-    // `powi` multiplies |e| times at most, and the exponent of `powf` is rounded.
+    // `powi` takes at most |e| multiplications; for `powf` the exponent is rounded.
     let roundings = e.abs() * (4.0 + x.value.abs().max(f64::MIN_POSITIVE).ln().abs());
     let own = if exponent.is_integer() { 4.0 * e.abs() } else { roundings };
     Approximate::rounded(value, e.abs() * steepest * x.error + own * f64::EPSILON * value.abs())
@@ -145,7 +145,7 @@ fn general_power(base: Approximate, exponent: Approximate) -> Approximate {
     Approximate::rounded(base.value.powf(exponent.value), apply(Function::Exp, logarithm).error)
 }
 
-/// The angle of (x, y) turns by 1/r at most; at the cut it jumps.
+/// The angle of (x, y) has a slope of at most 1/r; it jumps at the branch cut.
 fn angle(y: Approximate, x: Approximate) -> Approximate {
     let blur = y.error.hypot(x.error);
     let nearest = y.value.hypot(x.value) - blur;
@@ -154,7 +154,7 @@ fn angle(y: Approximate, x: Approximate) -> Approximate {
     Approximate::rounded(y.value.atan2(x.value), slope * blur)
 }
 
-/// |f(x) − f(x̃)| ≤ greatest |f′| · |x − x̃|, with the greatest slope between x and x̃.
+/// |f(x) − f(x̃)| ≤ max |f′| · |x − x̃|, with the largest slope between x and x̃.
 pub(super) fn apply(function: Function, x: Approximate) -> Approximate {
     let v = x.value;
     let (least, greatest) = x.magnitudes();
@@ -173,12 +173,12 @@ pub(super) fn apply(function: Function, x: Approximate) -> Approximate {
         Function::Ln => (v.ln(), inverse(least)),
         Function::Abs => (v.abs(), 1.0),
         Function::Ramp => (v.max(0.0), 1.0),
-        // Beside its jump it does not change.
+        // Constant on both sides of the jump.
         Function::Step => (
             0.5 + 0.5 * if v == 0.0 { 0.0 } else { v.signum() },
             if least > 0.0 { 0.0 } else { f64::INFINITY },
         ),
     };
-    // Twice, for the roundings of the slope.
+    // The factor 2 covers the rounding errors of the slope.
     Approximate::rounded(value, if x.error == 0.0 { 0.0 } else { 2.0 * slope * x.error })
 }

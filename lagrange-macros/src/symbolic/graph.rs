@@ -1,4 +1,4 @@
-//! The expression graph: equal expressions are one node.
+//! Expression graph with hash-consing: equal expressions are one node.
 
 use indexmap::IndexSet;
 use num_traits::{One, Zero};
@@ -8,7 +8,7 @@ use super::rational::{self, Rational};
 use super::rounded::Roundings;
 use super::scaled::Scaled;
 
-/// A node of one [`Graph`].
+/// Index of a node in its [`Graph`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Id(pub(super) u32);
 
@@ -23,14 +23,14 @@ impl Id {
     }
 }
 
-/// A free variable. What `family` and `index` stand for is the caller's business.
+/// A free variable. The caller defines the meaning of `family` and `index`.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) struct Symbol {
     pub(crate) family: u8,
     pub(crate) index: u32,
 }
 
-/// Functions of one argument. Powers and roots are factors of a product instead.
+/// Functions of one argument. Powers and roots are not functions, but exponents of factors in a product.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) enum Function {
     Sin,
@@ -45,14 +45,15 @@ pub(crate) enum Function {
     Exp,
     Ln,
     Abs,
-    /// The larger of the argument and 0, which `max` and `min` are made of.
+    /// max(x, 0), from which `max` and `min` are built.
     Ramp,
-    /// Its slope: 0 below zero, 1 above it.
+    /// Derivative of `Ramp`: 0 for x < 0, 1 for x > 0.
     Step,
 }
 
 impl Function {
-    /// Every function with the name it has in expressions, in formulas and in emitted code; the last two are in no expression.
+    /// Every function, with its name in expressions, formulas and emitted code. The last two cannot be called in
+    /// expressions.
     const NAMES: [(&'static str, Self); 14] = [
         ("sin", Self::Sin),
         ("cos", Self::Cos),
@@ -70,7 +71,7 @@ impl Function {
         ("step", Self::Step),
     ];
 
-    /// Those that expressions may call.
+    /// Functions that expressions may call: all but `ramp` and `step`.
     pub(crate) fn callable() -> impl Iterator<Item = (&'static str, Self)> {
         Self::NAMES.into_iter().filter(|(_, function)| !matches!(function, Self::Ramp | Self::Step))
     }
@@ -84,26 +85,26 @@ impl Function {
     }
 }
 
-/// One expression over earlier ones.
+/// An operation on earlier nodes.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Node {
     Number(Rational),
     Pi,
     Symbol(Symbol),
-    /// Σ coefficient · term, sorted by term, no term twice; a constant is a multiple of [`Id::ONE`].
+    /// Σ coefficient · term, sorted by term, each term once; a constant is a multiple of [`Id::ONE`].
     Sum(Box<[(Id, Rational)]>),
-    /// Π factor ^ exponent, sorted by factor, no factor twice; never a number but for its roots and for a power of 10
-    /// that with the coefficient before it does not fit into 128 bits.
+    /// Π factor ^ exponent, sorted by factor, each factor once. A factor is a number in two cases only: as the base of
+    /// a root, or as a power of 10 that does not fit into 128 bits together with the coefficient.
     Product(Box<[(Id, Rational)]>),
     Function(Function, Id),
-    /// The angle of the point (second, first).
+    /// Angle of the point (x, y), stored as (y, x).
     Atan2(Id, Id),
-    /// A power whose exponent is not a number.
+    /// (base, exponent), where the exponent is not a number.
     Power(Id, Id),
-    /// A named intermediate: equal to what it holds, but nothing is collected or flattened through it, so
-    /// that recursive definitions keep their partial sums.
+    /// A named intermediate, equal to the expression it holds. Simplification does not cross its boundary, so that
+    /// recursive definitions keep their partial sums.
     Defined(Id),
-    /// A function of which nothing is known here, or a partial derivative of it.
+    /// A function supplied by the user, unknown to the graph, or a partial derivative of it.
     External(Box<External>),
 }
 
@@ -112,17 +113,17 @@ pub(crate) enum Node {
 pub(crate) struct External {
     pub(crate) function: u32,
     pub(crate) output: u32,
-    /// The positions i ≤ j ≤ … of the arguments differentiated by.
+    /// Positions i ≤ j ≤ … of the arguments of differentiation.
     pub(crate) derivatives: Box<[u32]>,
     pub(crate) arguments: Box<[Id]>,
 }
 
-/// What exact arithmetic could not do. The first one stays until it is [taken](Graph::take_fault).
+/// Failure of exact arithmetic. The first fault stays until it is [taken](Graph::take_fault).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Fault {
-    /// A number beyond the range of `f64`, or an exponent of too many digits.
+    /// A number beyond the range of `f64`, or an exponent with too many digits.
     Overflow,
-    /// Division by what is identically zero.
+    /// Division by an expression that is identically zero.
     DivisionByZero,
     /// More than [`Graph::LIMIT`] nodes.
     TooLarge,
@@ -132,9 +133,9 @@ pub(crate) enum Fault {
 #[derive(Debug)]
 pub(crate) struct Graph {
     nodes: IndexSet<Node, FxBuildHasher>,
-    /// The number 10, once a power of it stands in a product.
+    /// Node of the number 10, once a product has a power of it as a factor.
     pub(super) ten: Option<Id>,
-    /// Rounding errors of constants with more digits than an exact fraction holds.
+    /// Rounding errors of constants with more digits than an exact fraction can hold.
     pub(super) roundings: Roundings,
     fault: Option<Fault>,
 }
@@ -150,7 +151,7 @@ impl Default for Graph {
 }
 
 impl Graph {
-    /// The number of nodes past which expressions are taken for runaway definitions.
+    /// Largest number of nodes: larger graphs come from runaway definitions.
     pub(crate) const LIMIT: usize = 1 << 20;
 
     pub(crate) fn node(&self, id: Id) -> &Node {
@@ -177,7 +178,7 @@ impl Graph {
         self.intern(Node::Pi)
     }
 
-    /// The value of a node that is a number of any size.
+    /// Value of a constant of any magnitude; `None` if the node is not constant.
     pub(crate) fn as_scaled(&self, id: Id) -> Option<Scaled> {
         let (term, fraction) = match self.node(id) {
             Node::Number(value) => return Some((*value).into()),
@@ -192,18 +193,18 @@ impl Graph {
         }
     }
 
-    /// The exponent of 10 in a product.
+    /// Exponent of 10 in a product, or 0.
     pub(crate) fn power_of_ten(&self, factors: &[(Id, Rational)]) -> i32 {
         let ten = factors.iter().find(|factor| self.is_power_of_ten(**factor));
         ten.and_then(|(_, exponent)| i32::try_from(exponent.to_integer()).ok()).unwrap_or(0)
     }
 
-    /// Whether a factor is 10 to a whole power.
+    /// True if a factor is an integer power of 10.
     pub(crate) fn is_power_of_ten(&self, (factor, exponent): (Id, Rational)) -> bool {
         Some(factor) == self.ten && exponent.is_integer()
     }
 
-    /// The value of a node that is a number.
+    /// Value of a node that is an exact number; `None` otherwise.
     pub(crate) fn as_number(&self, id: Id) -> Option<Rational> {
         match self.node(id) {
             Node::Number(value) => Some(*value),
@@ -211,7 +212,7 @@ impl Graph {
         }
     }
 
-    /// A boundary around `inner`; what has no parts needs none.
+    /// Makes `inner` a definition, unless it is a number or a symbol.
     pub(crate) fn defined(&mut self, inner: Id) -> Id {
         match self.node(inner) {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Defined(_) => inner,
@@ -224,7 +225,7 @@ impl Graph {
         self.fault.take()
     }
 
-    /// Notes a fault; the value that stands in for the result is never used.
+    /// Records a fault. The returned placeholder is never used.
     pub(super) fn fail(&mut self, fault: Fault) -> Id {
         self.fault.get_or_insert(fault);
         Id::ZERO
@@ -252,7 +253,7 @@ impl Graph {
         }
     }
 
-    /// What is multiplied in `id`, without numbers and exponents.
+    /// Factors of `id`, without numbers and exponents.
     pub(crate) fn factors(&self, id: Id) -> Vec<Id> {
         match self.node(id) {
             Node::Number(_) => Vec::new(),
@@ -262,17 +263,17 @@ impl Graph {
         }
     }
 
-    /// Every node, operands before what uses them.
+    /// All nodes, operands before the nodes that use them.
     pub(crate) fn ids(&self) -> impl Iterator<Item = Id> + use<> {
         (0..self.len() as u32).map(Id)
     }
 
-    /// All nodes that `roots` are made of, operands before what uses them.
+    /// All nodes below `roots`, operands before the nodes that use them.
     pub(crate) fn reachable(&self, roots: &[Id]) -> Vec<Id> {
         self.reachable_to(roots, &[])
     }
 
-    /// The same down to `leaves`, whatever those are made of.
+    /// All nodes below `roots`, but not those below `leaves`.
     pub(super) fn reachable_to(&self, roots: &[Id], leaves: &[Id]) -> Vec<Id> {
         let mut seen = vec![false; self.len()];
         let mut is_leaf = vec![false; self.len()];
@@ -291,7 +292,7 @@ impl Graph {
         found
     }
 
-    /// The first argument of [`Function::Ramp`] in `root`, also where its slope alone is there.
+    /// Argument of the first [`Function::Ramp`] or [`Function::Step`] in `root`.
     pub(crate) fn kink(&self, root: Id) -> Option<Id> {
         self.reachable(&[root]).into_iter().find_map(|id| match self.node(id) {
             Node::Function(Function::Ramp | Function::Step, argument) => Some(*argument),
@@ -299,12 +300,12 @@ impl Graph {
         })
     }
 
-    /// Whether a function of which nothing is known is in one of `roots`.
+    /// True if one of `roots` contains a user-supplied function.
     pub(crate) fn has_external(&self, roots: &[Id]) -> bool {
         self.reachable(roots).iter().any(|id| matches!(self.node(*id), Node::External(_)))
     }
 
-    /// The free variables of `root`, each once.
+    /// Free variables of `roots`, each once.
     pub(crate) fn symbols(&self, roots: &[Id]) -> impl Iterator<Item = Symbol> {
         self.reachable(roots).into_iter().filter_map(|id| match self.node(id) {
             Node::Symbol(symbol) => Some(*symbol),

@@ -1,7 +1,7 @@
-//! Mathematics without mechanics: a hash-consed graph of expressions, its derivatives and its values.
+//! Symbolic mathematics without mechanics: a hash-consed graph of expressions, with derivatives and values.
 //!
-//! Nothing here knows a token or a Lagrangian. Nodes are only ever added, children before parents, so a
-//! walk in order of [`Id`] is a walk from the leaves up, and no algorithm needs recursion.
+//! This module is independent of tokens and Lagrangians. Nodes are only ever added, operands before the nodes that use
+//! them. A loop in order of [`Id`] therefore visits leaves first, and no algorithm needs recursion.
 
 mod antiderivative;
 mod combined;

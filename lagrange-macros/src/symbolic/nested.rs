@@ -1,9 +1,10 @@
-//! Sums with terms in common, each written as what it begins with and the rest.
+//! Nests sums that have terms in common: each is written as a shared prefix and its remaining terms.
 //!
-//! Of a, a + b, a + b + c, … each is the one before and a term more: so it is differentiated, and solved, at a cost linear in
-//! their number, where it costs the square written out. Terms are ordered by how many sums they are in, and the sums are ways
-//! from the root of a tree by their terms in that order (Han, Pei and Yin, *Mining frequent patterns without candidate
-//! generation*, 2000). A place where ways part, or at which one ends and others go on, is a sum that all of those begin with.
+//! In a, a + b, a + b + c, … each sum is the one before plus one term. Nested, these sums are differentiated and
+//! solved at a cost linear in their number; expanded, the cost is quadratic. Terms are sorted by the number of sums
+//! that contain them, and each sum is a path from the root of a prefix tree (Han, Pei and Yin, *Mining frequent
+//! patterns without candidate generation*, 2000). A tree node where paths diverge, or where one path ends and others
+//! continue, is a prefix shared by all of them.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -15,33 +16,33 @@ use super::combined::Term;
 use super::graph::{Graph, Id, Node};
 use super::rational::Rational;
 
-/// Sums as ways through a tree.
+/// Sums as paths in a prefix tree.
 #[derive(Default)]
 struct Ways {
-    /// The first is the root.
+    /// Tree nodes; the first is the root.
     places: Vec<Nesting>,
-    /// By a place and the term after it.
+    /// Child of a tree node by its term.
     next: FxHashMap<(usize, Term), usize>,
-    /// Where the way of a sum ends.
+    /// Tree node at which the path of a sum ends.
     ends: FxHashMap<Id, usize>,
 }
 
 #[derive(Default)]
 struct Nesting {
     before: usize,
-    /// The last term on the way to it.
+    /// Last term of the prefix; `None` for the root.
     term: Option<Term>,
     depth: usize,
-    /// How many ways lead on from it, or end.
+    /// Number of paths that continue from here or end here.
     ways: usize,
     is_named: bool,
-    /// The sum of all terms on the way to it, written anew.
+    /// The prefix as a node of the new graph.
     value: Option<Id>,
 }
 
 impl Graph {
-    /// A graph in which the sums that are in `from` are written by what they have in common, with a boundary around each such
-    /// part, and what the nodes that `roots` are made of are there; `None` where nothing is in common.
+    /// Builds a graph in which the sums of `from` share prefixes, each prefix a definition. Also returns the new node
+    /// of every node below `roots`; `None` if there are no shared prefixes.
     pub(crate) fn nested(&self, from: Id, roots: &[Id]) -> Option<(Self, FxHashMap<Id, Id>)> {
         let mut ways = Ways::of(self, from);
         (0..ways.places.len()).any(|place| ways.is_shared(place)).then_some(())?;
@@ -88,13 +89,13 @@ impl Ways {
         self.ends.insert(sum, at);
     }
 
-    /// Whether several sums begin with one that has a name, or with what saves more than one addition.
+    /// True if several sums share a prefix that is named or saves more than one addition.
     fn is_shared(&self, place: usize) -> bool {
         let Nesting { depth, ways, is_named, .. } = self.places[place];
         ways > 1 && depth > 0 && (is_named || (ways - 1) * (depth - 1) > 1)
     }
 
-    /// The sum of the terms on the way to a place.
+    /// Builds the sum of the terms on the path to a tree node.
     fn written(&mut self, graph: &mut Graph, end: usize, new: &FxHashMap<Id, Id>) -> Id {
         let mut way = vec![end];
         while let Some(&at) = way.last().filter(|at| self.places[**at].before != 0) {
@@ -116,7 +117,7 @@ impl Ways {
     }
 }
 
-/// The sums in an expression that have a name, or are factors: each once, whether it has one, and its terms.
+/// All sums in an expression that are definitions or factors: node, whether it is a definition, and its terms.
 fn sums(graph: &Graph, from: Id) -> Vec<(Id, bool, Vec<Term>)> {
     let mut found: BTreeMap<Id, bool> = BTreeMap::new();
     for id in graph.reachable(&[from]) {

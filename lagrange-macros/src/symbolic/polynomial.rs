@@ -1,8 +1,8 @@
-//! Polynomials with exact coefficients: a normal form in which equal expressions of a constraint's length are the same.
+//! Polynomials with exact coefficients: a normal form for expressions as long as a constraint.
 //!
-//! Symbols, functions, roots and reciprocals are the generators. A square of a sine, a power of a root and the like
-//! are rewritten by what they equal, so that sin² + cos² is 1. Identities between generators of different arguments,
-//! such as those of double angles, are not seen: what differs here may be equal, what is equal here is equal.
+//! The generators are symbols, functions, roots and reciprocals. A square of a sine, a power of a root and the like
+//! are rewritten by identities, so that sin² + cos² is 1. Identities between generators of different arguments, such
+//! as double angles, are not applied. Equal polynomials therefore mean equal expressions, but not the reverse.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -16,10 +16,10 @@ use super::rational::{Rational, plus, times};
 /// Largest number of terms of a polynomial.
 const TERMS: usize = 2000;
 
-/// Largest number of products of terms: an unoptimised macro takes a second or two for them.
+/// Largest number of multiplications of terms, which take an unoptimised macro one or two seconds.
 const WORK: usize = 100_000;
 
-/// Largest exponent that is multiplied out, and largest number of reciprocals that a row is rid of.
+/// Largest exponent that is expanded, and largest number of distinct reciprocals that are cleared from a row.
 const POWER: u32 = 16;
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -31,21 +31,21 @@ enum Generator {
     Reciprocal(Id, u32),
 }
 
-/// Generators in falling order with their exponents: compared as vectors these are in lexicographic order, which is
-/// one that products keep.
+/// Generators in descending order, with their exponents. As vectors they compare lexicographically, a monomial order
+/// that products preserve.
 type PowerProduct = Vec<(Generator, u32)>;
 
-/// Σ coefficient · monomial, no coefficient zero.
+/// Σ coefficient · monomial, all coefficients nonzero.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
 pub(crate) struct ExactPolynomial(BTreeMap<PowerProduct, Rational>);
 
-/// Expressions as polynomials, and what powers of their generators equal.
+/// Cache of expressions as polynomials, and rewriting rules for powers of generators.
 #[derive(Default)]
 pub(crate) struct Polynomials {
     known: FxHashMap<Id, Option<ExactPolynomial>>,
-    /// generator^exponent, for the least exponent that is rewritten.
+    /// For each generator, the least exponent that is rewritten, and the polynomial that equals this power.
     relations: FxHashMap<Generator, (u32, ExactPolynomial)>,
-    /// Products of terms so far.
+    /// Number of multiplications of terms so far.
     work: Cell<usize>,
 }
 
@@ -78,7 +78,7 @@ impl ExactPolynomial {
         self.0.iter().map(|(monomial, &c)| (monomial, c))
     }
 
-    /// self + factor · other; `None` beyond exact arithmetic, and where it becomes too long.
+    /// self + factor · other; `None` if exact arithmetic overflows or the sum is too long.
     pub(crate) fn plus(&self, other: &Self, factor: Rational) -> Option<Self> {
         let mut sum = self.clone();
         sum.add(other, factor)?;
@@ -96,7 +96,7 @@ impl ExactPolynomial {
         (self.0.len() <= TERMS).then_some(())
     }
 
-    /// The generators, each with its greatest exponent.
+    /// The generators, each with its largest exponent.
     fn generators(&self) -> BTreeMap<Generator, u32> {
         let mut greatest = BTreeMap::new();
         for &(generator, exponent) in self.0.keys().flatten() {
@@ -106,7 +106,7 @@ impl ExactPolynomial {
         greatest
     }
 
-    /// p and r of p + r g.
+    /// Splits p + r g into p and r.
     fn split(&self, by: Generator) -> (Self, Self) {
         let (mut without, mut with) = (Self::default(), Self::default());
         for (monomial, &c) in &self.0 {
@@ -127,7 +127,7 @@ impl ExactPolynomial {
 }
 
 impl Polynomials {
-    /// Expands an expression without boundaries into a polynomial; `None` if that is too long.
+    /// Expands an expression without definitions into a polynomial; `None` if it is too long.
     pub(crate) fn of(&mut self, graph: &mut Graph, root: Id) -> Option<ExactPolynomial> {
         for id in graph.reachable(&[root]) {
             if !self.known.contains_key(&id) {
@@ -166,7 +166,7 @@ impl Polynomials {
                     _ => (Function::Sinh, 1),
                 };
                 let other = graph.function(other, x);
-                // 1 ± other²
+                // sin² and cosh² are rewritten as 1 ± other², with `other` the cofunction.
                 let other = ExactPolynomial::generator(Generator::Node(other), 2);
                 let square = ExactPolynomial::number(Rational::one()).plus(&other, sign.into())?;
                 self.relations.insert(Generator::Node(id), (2, square));
@@ -195,7 +195,7 @@ impl Polynomials {
         }
     }
 
-    /// The product; `None` where it is too long.
+    /// Product of two polynomials; `None` if it is too long.
     pub(crate) fn times(&self, x: &ExactPolynomial, y: &ExactPolynomial) -> Option<ExactPolynomial> {
         let mut product = ExactPolynomial::default();
         self.work.set(self.work.get() + x.0.len() * y.0.len());
@@ -208,7 +208,7 @@ impl Polynomials {
         Some(product)
     }
 
-    /// A monomial with its powers rewritten.
+    /// Applies the rewriting rules to the powers in a monomial.
     fn reduced(&self, monomial: PowerProduct) -> Option<ExactPolynomial> {
         let rewritten = monomial.iter().enumerate().find_map(|(place, &(generator, exponent))| {
             let (power, equal) = self.relations.get(&generator)?;
@@ -223,10 +223,11 @@ impl Polynomials {
         self.times(&ExactPolynomial::term(rest, Rational::one()), equal)
     }
 
-    /// The polynomials times what rids all of them of reciprocals, which is nowhere zero where they have a value.
+    /// Multiplies all polynomials by a common factor that clears their reciprocals. The factor is nonzero wherever the
+    /// polynomials have values.
     pub(crate) fn cleared(&self, row: &[ExactPolynomial]) -> Option<Vec<ExactPolynomial>> {
         let mut row = row.to_vec();
-        // A base may have reciprocals in it, which come after it.
+        // A base may itself contain reciprocals, which are cleared in later passes.
         for _ in 0..POWER {
             let greatest =
                 row.iter().flat_map(|entry| entry.generators()).filter_map(|(generator, exponent)| {
@@ -243,7 +244,7 @@ impl Polynomials {
         None
     }
 
-    /// A polynomial times base^(exponent/degree).
+    /// Multiplies a polynomial by base^(exponent/degree).
     fn without_reciprocal(
         &self,
         polynomial: &ExactPolynomial,
@@ -262,10 +263,10 @@ impl Polynomials {
         Some(cleared)
     }
 
-    /// q with x = q y; `None` where there is none or it is not found.
+    /// Quotient q with x = q y; `None` if there is none or it is not found.
     pub(crate) fn quotient(&self, x: &ExactPolynomial, y: &ExactPolynomial) -> Option<ExactPolynomial> {
         let (mut x, mut y) = (x.clone(), y.clone());
-        // Both by p − r g, for y = p + r g with a known g²: what is left of y has no g.
+        // Multiply x and y by the conjugate p − r g, where y = p + r g with a known g²: this eliminates g from y.
         while let Some(square) =
             y.generators().keys().find(|g| self.relations.get(g).is_some_and(|r| r.0 == 2))
         {

@@ -1,13 +1,13 @@
-//! Numbers at random that are the same in every run.
+//! Reproducible pseudorandom numbers.
 
 use super::graph::Symbol;
 
-/// A value of `symbol` in the range given, the same in every use of one draw.
+/// Random value of `symbol` in the given range, the same for each use within one draw.
 pub(crate) fn drawn(symbol: Symbol, (low, high): (f64, f64), draw: u64) -> f64 {
     low + (high - low) * random(u64::from(symbol.family), u64::from(symbol.index), draw)
 }
 
-/// A number in [0, 1) that depends on nothing but its arguments (Steele, Lea and Flood's SplitMix64).
+/// Pseudorandom number in [0, 1), determined by the arguments alone (Steele, Lea and Flood's SplitMix64).
 pub(crate) fn random(family: u64, index: u64, draw: u64) -> f64 {
     let mut z = (family << 56) ^ (index << 16) ^ draw;
     for _ in 0..2 {

@@ -1,18 +1,18 @@
-//! Exact numbers: every literal is one until it is emitted.
+//! Exact rational numbers: every literal is exact until code is emitted.
 
 use num_rational::Ratio;
 use num_traits::{CheckedAdd, CheckedMul, One, Signed, Zero};
 
-/// A fraction of two `i128`, in lowest terms, its denominator positive.
+/// A fraction of two `i128` in lowest terms, with a positive denominator.
 pub(crate) type Rational = Ratio<i128>;
 
-/// Whether a fraction may stand in the graph. All but those of `i128::MIN` do: it has no negative, and so no
-/// absolute value and no reciprocal that could be computed without care.
+/// True if the graph can hold the fraction: its numerator must not be `i128::MIN`, whose negative, absolute value and
+/// reciprocal overflow.
 pub(super) fn fits(x: &Rational) -> bool {
     *x.numer() != i128::MIN
 }
 
-/// x + y; `None` where it does not fit.
+/// x + y; `None` on overflow.
 pub(crate) fn plus(x: Rational, y: Rational) -> Option<Rational> {
     let sum = match (x.is_integer(), y.is_integer()) {
         (true, true) => Rational::from_integer(x.numer().checked_add(y.numer())?),
@@ -21,7 +21,7 @@ pub(crate) fn plus(x: Rational, y: Rational) -> Option<Rational> {
     fits(&sum).then_some(sum)
 }
 
-/// x y; `None` where it does not fit.
+/// x y; `None` on overflow.
 pub(crate) fn times(x: Rational, y: Rational) -> Option<Rational> {
     let product = match (x.is_integer(), y.is_integer()) {
         (true, true) => Rational::from_integer(x.numer().checked_mul(y.numer())?),
@@ -30,7 +30,7 @@ pub(crate) fn times(x: Rational, y: Rational) -> Option<Rational> {
     fits(&product).then_some(product)
 }
 
-/// `base` to an integer power; `None` where it does not fit, and for zero to a negative one.
+/// `base` to an integer power; `None` on overflow, and for zero to a negative power.
 pub(crate) fn power(base: Rational, exponent: i128) -> Option<Rational> {
     if base.is_zero() && exponent != 0 {
         return (exponent > 0).then(Rational::zero);

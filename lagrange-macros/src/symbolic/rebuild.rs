@@ -1,12 +1,12 @@
-//! Expressions built anew: without boundaries, or in another graph.
+//! Rebuilds expressions: with definitions inlined, with symbols replaced, or in another graph.
 
 use rustc_hash::FxHashMap;
 
 use super::graph::{External, Graph, Id, Node, Symbol};
 
 impl Graph {
-    /// The same expression without the boundaries of definitions; itself where that expression would be at
-    /// fault: what is hidden by a boundary may be zero, and divided by.
+    /// The expression with definitions inlined. Returned unchanged if inlining causes a fault: a definition may hide a
+    /// zero that is a divisor.
     pub(crate) fn looked_through(&mut self, root: Id) -> Id {
         let fault_before = self.take_fault();
         let rebuilt = self.substituted(root, |_| None);
@@ -17,7 +17,7 @@ impl Graph {
         if faulty { root } else { rebuilt }
     }
 
-    /// The expressions `roots` of `source` in this graph, without the boundaries of definitions.
+    /// Copies the expressions `roots` of `source` into this graph, with definitions inlined.
     pub(crate) fn copied(&mut self, source: &Self, roots: &[Id]) -> Vec<Id> {
         self.roundings.extend(&source.roundings);
         let mut new: FxHashMap<Id, Id> = FxHashMap::default();
@@ -28,7 +28,7 @@ impl Graph {
         roots.iter().map(|root| new[root]).collect()
     }
 
-    /// The expression with other expressions in the place of symbols.
+    /// Replaces symbols by other expressions and inlines definitions.
     pub(crate) fn substituted(&mut self, root: Id, replacement: impl Fn(Symbol) -> Option<Id>) -> Id {
         let mut new: FxHashMap<Id, Id> = FxHashMap::default();
         for id in self.reachable(&[root]) {
@@ -43,7 +43,7 @@ impl Graph {
         new[&root]
     }
 
-    /// The expression with zero in the place of these nodes; boundaries stay.
+    /// Replaces the nodes `zeros` by zero and keeps definitions.
     pub(crate) fn without(&mut self, root: Id, zeros: &[Id]) -> Id {
         let mut new: FxHashMap<Id, Id> = FxHashMap::default();
         for id in self.reachable_to(&[root], zeros) {

@@ -1,8 +1,8 @@
-//! Arithmetic with numbers of more digits than fit.
+//! Arithmetic with numbers that have too many digits for exact fractions.
 //!
-//! Such a number is rounded once, to the nearest `f64`, and has an error bound from then on, which sums, products and powers
-//! of it inherit. A sum that its bound does not tell from zero is zero, so what cancels exactly still does. Every other number
-//! is exact, and no term of it is lost.
+//! Such a number is rounded once, to the nearest `f64`. From then on it has an error bound, which sums, products and
+//! powers inherit. A sum within its error bound is zero, so that exact cancellation is preserved. All other numbers
+//! are exact, and none of their terms is lost.
 
 use num_traits::{Signed, Zero};
 use rustc_hash::FxHashMap;
@@ -11,19 +11,20 @@ use super::rational::Rational;
 use super::scaled::Scaled;
 use super::wide::to_f64;
 
-/// Relative error of a number that was rounded: half a unit in the last place of an `f64`, and again as much between that and
-/// its shortest decimal.
+/// Relative error of a rounded number: half a unit in the last place of an `f64`, and as much again between the `f64`
+/// and its shortest decimal.
 const UNIT: f64 = f64::EPSILON;
 
-/// Numerators and denominators of up to six digits are exact: a rounded number that has so few is what was meant.
+/// Numbers with numerator and denominator below this bound, at most six digits, count as exact: a rounded number that
+/// short is taken as intended.
 const SHORT: u128 = 1_000_000;
 
-/// The relative errors of the numbers that are not exact, by their digits.
+/// Relative errors of the inexact numbers, by digits (without sign and power of ten).
 #[derive(Default, Debug)]
 pub(super) struct Roundings(FxHashMap<Rational, f64>);
 
 impl Roundings {
-    /// How many numbers are not exact.
+    /// Number of inexact numbers.
     pub(super) fn len(&self) -> usize {
         self.0.len()
     }
@@ -32,7 +33,7 @@ impl Roundings {
         other.0.iter().for_each(|(&digits, &error)| self.note_digits(digits, error));
     }
 
-    /// The relative error of a number.
+    /// Relative error of a number; 0 for exact numbers.
     pub(super) fn error(&self, number: Scaled) -> f64 {
         match self.0.is_empty() {
             true => 0.0,
@@ -40,21 +41,21 @@ impl Roundings {
         }
     }
 
-    /// Notes the relative error of a number.
+    /// Records the relative error of a number.
     fn note(&mut self, number: Scaled, error: f64) {
         if error > 0.0 {
             self.note_digits(digits(number), error);
         }
     }
 
-    /// A number that comes about again, as c (1/c) c does, is the one that it was: its error does not grow.
+    /// Records an error unless one is known: a number that occurs again, as in c (1/c) c, keeps its first error.
     fn note_digits(&mut self, digits: Rational, error: f64) {
         if digits.numer().unsigned_abs().max(digits.denom().unsigned_abs()) >= SHORT {
             self.0.entry(digits).or_insert(error);
         }
     }
 
-    /// The product, rounded where its digits do not fit.
+    /// Product, rounded if its digits do not fit; `None` beyond the range of `f64`.
     pub(super) fn times(&mut self, x: Scaled, y: Scaled) -> Option<Scaled> {
         let (product, own) = times(x, y)?;
         let error = own + self.error(x) + self.error(y);
@@ -62,7 +63,8 @@ impl Roundings {
         Some(product)
     }
 
-    /// The sum, rounded where its digits do not fit and it is not two terms; zero where its error bound does not tell.
+    /// Sum, rounded if its digits do not fit; zero if it is within its error bound. `None` if the numbers must stay
+    /// two terms.
     pub(super) fn plus(&mut self, x: Scaled, y: Scaled) -> Option<Scaled> {
         let (sum, own) = match x.plus(y) {
             Some(sum) => (sum, 0.0),
@@ -81,19 +83,19 @@ impl Roundings {
         Some(sum)
     }
 
-    /// Notes that `power` is what `value` to this exponent comes to.
+    /// Records the error of `power`, which is `value` to the given exponent.
     pub(super) fn note_power(&mut self, power: Scaled, value: Rational, exponent: Rational) {
         let error = self.error(value.into()) * to_f64(exponent).abs();
         self.note(power, error);
     }
 }
 
-/// A number without its sign and its power of ten.
+/// The number without sign and power of ten.
 fn digits(number: Scaled) -> Rational {
     number.apart().unwrap_or(number).fraction.abs()
 }
 
-/// The product and the relative error of its rounding; `None` beyond the range of `f64`.
+/// Product and the relative error of its rounding; `None` beyond the range of `f64`.
 pub(super) fn times(x: Scaled, y: Scaled) -> Option<(Scaled, f64)> {
     x.times(y).map(|product| (product, 0.0)).or_else(|| Some((x.times_rounded(y)?, UNIT)))
 }

@@ -1,4 +1,4 @@
-//! A random point, and the values of all expressions there.
+//! A random point, with the values of expressions there.
 
 use rustc_hash::FxHashMap;
 
@@ -6,8 +6,8 @@ use super::evaluate::Approximate;
 use super::graph::{Graph, Id, Symbol};
 use super::wave::superposition;
 
-/// A point in the space of the symbols, where unknown functions are those of its draw. It remembers the value of
-/// every node it was asked for, so that expressions that are built one on the other are evaluated once.
+/// A point in the space of symbols, with random functions in place of user-supplied ones. The values of all visited
+/// nodes are cached, so that common subexpressions are evaluated once.
 pub(crate) struct Sample {
     draw: u64,
     symbols: FxHashMap<Symbol, Approximate>,
@@ -15,7 +15,7 @@ pub(crate) struct Sample {
 }
 
 impl Sample {
-    /// The random point of number `draw`, where each symbol has the value that `drawn` gives it.
+    /// Random point number `draw`, where each symbol has the value given by `drawn`.
     pub(crate) fn new(
         symbols: impl IntoIterator<Item = Symbol>,
         draw: u64,
@@ -25,12 +25,12 @@ impl Sample {
         Self { draw, symbols: symbols.into_iter().map(value).collect(), values: Vec::new() }
     }
 
-    /// The value of a symbol; of one that the point does not have it is NaN.
+    /// Value of a symbol; NaN if the point does not define it.
     pub(crate) fn get(&self, symbol: Symbol) -> Approximate {
         self.symbols.get(&symbol).copied().unwrap_or(Approximate::exact(f64::NAN))
     }
 
-    /// Gives symbols values.
+    /// Sets values of symbols, and clears the cache.
     pub(crate) fn set(&mut self, values: impl IntoIterator<Item = (Symbol, Approximate)>) {
         self.values.clear();
         self.symbols.extend(values);
@@ -57,7 +57,7 @@ impl Sample {
         roots.iter().map(|&root| self.known(root)).collect()
     }
 
-    /// The value of a node whose operands have one.
+    /// Value of a node, from the known values of its operands.
     fn value(&self, graph: &Graph, id: Id) -> Approximate {
         let external = |function: &_, arguments: &[_]| superposition(function, arguments, self.draw);
         graph.value_of(id, |operand| self.known(operand), |symbol| self.get(symbol), external)
@@ -67,8 +67,8 @@ impl Sample {
         self.values[id.index()].unwrap_or(Approximate::exact(f64::NAN))
     }
 
-    /// Moves `unknowns` to a point near by at which `residual` vanishes, by Newton's method with the least step;
-    /// `slopes` are the derivatives of each by the unknowns.
+    /// Projects `unknowns` onto a nearby point at which `residual` vanishes, by Newton's method with least-norm steps.
+    /// `slopes` holds the gradient of each residual by the unknowns. `None` if the iteration does not converge.
     pub(crate) fn project(
         &mut self,
         graph: &Graph,
@@ -102,8 +102,8 @@ impl Sample {
         None
     }
 
-    /// What was still to be corrected is how far the point may be from an exact one: twice, because the correction
-    /// is that of linearized equations.
+    /// Sets the error bounds of the unknowns to twice the last correction. The factor 2 accounts for the
+    /// linearization.
     fn blur(&mut self, unknowns: &[Symbol], step: &[Approximate]) {
         self.values.clear();
         for (symbol, step) in unknowns.iter().zip(step) {
@@ -114,8 +114,8 @@ impl Sample {
     }
 }
 
-/// The shortest x with `rows` · x = `right`, by making the rows orthogonal one after the other. A row that all but
-/// depends on earlier ones is left out: where it matters, the right side that it leaves does not vanish.
+/// Least-norm solution x of `rows` · x = `right`, by orthogonalizing the rows one after the other. Nearly dependent
+/// rows are skipped; if such an equation does not hold, its residual stays nonzero.
 fn least_step(rows: &[Vec<Approximate>], right: &[Approximate]) -> Vec<Approximate> {
     const DEPENDENT: f64 = 1e-5;
     let dot =

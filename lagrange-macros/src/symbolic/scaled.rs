@@ -1,6 +1,6 @@
-//! Numbers of any size: fractions, times a power of ten where 128 bits are not enough.
+//! Numbers of any magnitude: fractions, times a power of ten if 128 bits are not enough.
 //!
-//! They are exact for as long as their digits fit. What has more is rounded once, to the nearest `f64`.
+//! Numbers are exact as long as their digits fit. A number with more digits is rounded once, to the nearest `f64`.
 
 use std::cmp::Ordering;
 
@@ -9,8 +9,9 @@ use num_traits::Zero;
 use super::rational::{Rational, plus, power, times};
 use super::wide::{self, to_f64};
 
-/// `fraction` · 10^`exponent`, within the range of `f64`. The exponent is 0 wherever the number is a fraction that fits;
-/// elsewhere the fraction is from 1 to 10 (but for fractions of very long numbers), so that equal numbers are equal.
+/// `fraction` · 10^`exponent`, within the range of `f64`. The exponent is 0 whenever the number fits into a fraction.
+/// Otherwise the fraction is from 1 to 10 (except for fractions of very long numbers), so that equal numbers have
+/// equal fields.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct Scaled {
     pub(crate) fraction: Rational,
@@ -36,7 +37,7 @@ impl Scaled {
         scaled.to_f64().is_normal().then_some(scaled)
     }
 
-    /// The same number with a fraction from 1 to 10.
+    /// Normalizes the fraction to the range from 1 to 10.
     pub(crate) fn apart(self) -> Option<Self> {
         let size = |n: i128| n.unsigned_abs().checked_ilog10().unwrap_or(0) as i32;
         let mut shift = size(*self.fraction.numer()) - size(*self.fraction.denom());
@@ -48,7 +49,7 @@ impl Scaled {
         Some(Self { fraction, exponent: self.exponent.checked_add(shift)? })
     }
 
-    /// What `operation` makes of two numbers without a power of ten, where that fits.
+    /// Applies `operation` to two numbers without powers of ten; `None` if the result does not fit.
     fn of_fractions(
         self,
         other: Self,
@@ -58,7 +59,7 @@ impl Scaled {
         operation(self.fraction, other.fraction).map(Self::from)
     }
 
-    /// The product; `None` where its digits do not fit.
+    /// Product; `None` if its digits do not fit.
     pub(crate) fn times(self, other: Self) -> Option<Self> {
         if let Some(product) = self.of_fractions(other, times) {
             return Some(product);
@@ -70,7 +71,7 @@ impl Scaled {
         Self::new(times(x.fraction, y.fraction)?, x.exponent.checked_add(y.exponent)?)
     }
 
-    /// The sum; `None` where its digits do not fit: 1 + 10⁻⁵⁰ has too many.
+    /// Sum; `None` if its digits do not fit: 1 + 10⁻⁵⁰ has too many.
     pub(super) fn plus(self, other: Self) -> Option<Self> {
         if let Some(sum) = self.of_fractions(other, plus) {
             return Some(sum);
@@ -81,14 +82,14 @@ impl Scaled {
         Self::new(plus(low.fraction, raised)?, low.exponent)
     }
 
-    /// The product rounded to the nearest `f64`, before powers of ten; `None` beyond the range of that.
+    /// Product, its fraction rounded to the nearest `f64`; `None` beyond the range of `f64`.
     pub(super) fn times_rounded(self, other: Self) -> Option<Self> {
         let product = Self::rounded(wide::product(self.fraction, other.fraction))?;
         Self::new(product.fraction, product.exponent.checked_add(self.exponent)?.checked_add(other.exponent)?)
     }
 
-    /// The sum rounded to the nearest `f64`, before a power of ten; `None` for numbers of different powers of ten, which are
-    /// two terms: neither loses more than one of its digits.
+    /// Sum, its fraction rounded to the nearest `f64`; neither addend loses more than one digit. `None` for different
+    /// powers of ten: these numbers stay two terms.
     pub(super) fn plus_rounded(self, other: Self) -> Option<Self> {
         let apart = (self.apart()?, other.apart()?);
         (apart.0.exponent == apart.1.exponent).then_some(())?;
@@ -97,12 +98,12 @@ impl Scaled {
         Self::new(sum.fraction, sum.exponent.checked_add(x.exponent)?)
     }
 
-    /// The shortest decimal that is read as this `f64`.
+    /// Shortest decimal that parses to this `f64`.
     fn rounded(value: f64) -> Option<Self> {
         parse_exactly(&format!("{value:e}"))
     }
 
-    /// The power; `None` where its digits do not fit.
+    /// Power; `None` if its digits do not fit.
     pub(crate) fn power(self, exponent: i128) -> Option<Self> {
         if self.exponent == 0
             && let Some(fraction) = power(self.fraction, exponent)
@@ -117,12 +118,12 @@ impl Scaled {
         self.exponent > 0 || self.exponent == 0 && self.fraction.is_integer()
     }
 
-    /// The value of a whole number that fits.
+    /// Value of an integer that fits into `i128`.
     pub(crate) fn to_integer(self) -> Option<i128> {
         (self.exponent == 0 && self.is_integer()).then(|| self.fraction.to_integer())
     }
 
-    /// By exponent and absolute value: any order that tells numbers apart.
+    /// Compares by exponent and absolute value. Any total order that distinguishes all numbers would do.
     pub(super) fn cmp_size(&self, other: &Self) -> Ordering {
         let key = |x: &Self| {
             (x.exponent, x.fraction.numer().unsigned_abs(), -x.fraction.denom(), *x.fraction.numer())
@@ -130,19 +131,19 @@ impl Scaled {
         key(self).cmp(&key(other))
     }
 
-    /// How many digits it has before the point, or zeros behind it.
+    /// Decimal logarithm of the absolute value.
     pub(super) fn magnitude(self) -> f64 {
         to_f64(self.fraction).abs().log10() + f64::from(self.exponent)
     }
 
-    /// The nearest `f64`, for finite decimals and numbers without a power of ten; else within two roundings.
+    /// Nearest `f64` for finite decimals and for numbers without a power of ten; otherwise within two roundings.
     pub(crate) fn to_f64(self) -> f64 {
         let Self { fraction, exponent } = self;
         let read = |text: String| text.parse::<f64>().unwrap_or(f64::NAN);
         match finite_decimal(fraction) {
             _ if exponent == 0 => to_f64(fraction),
             Some((digits, places)) => read(format!("{digits}e{}", i64::from(exponent) - i64::from(places))),
-            // The power of ten alone may be beyond the range that the number is in.
+            // The power of ten alone may be out of range although the number is not.
             None => {
                 let digits = format!("{:e}", to_f64(fraction));
                 let (digits, tens) = digits.split_once('e').unwrap_or((&digits, "0"));
@@ -156,7 +157,7 @@ fn ten_to(exponent: i32) -> Option<Rational> {
     power(Rational::from_integer(10), exponent.into())
 }
 
-/// The digits of a finite decimal, and how many of them stand after the point.
+/// Digits of a finite decimal, and the number of digits after the decimal point.
 pub(crate) fn finite_decimal(value: Rational) -> Option<(i128, u32)> {
     let (mut rest, mut places) = (*value.denom(), 0);
     while rest % 10 == 0 {
@@ -171,7 +172,7 @@ pub(crate) fn finite_decimal(value: Rational) -> Option<(i128, u32)> {
     Some((digits.to_integer(), places))
 }
 
-/// The value of a decimal literal such as `1_000`, `9.81` or `6.62607015e-34`, rounded to the nearest `f64` where its digits
+/// Value of a decimal literal such as `1_000`, `9.81` or `6.62607015e-34`, rounded to the nearest `f64` if its digits
 /// do not fit; `None` beyond the range of `f64`.
 pub(crate) fn parse_decimal(text: &str) -> Option<Scaled> {
     let text = text.replace('_', "");

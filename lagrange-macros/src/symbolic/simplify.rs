@@ -1,5 +1,5 @@
-//! Constructors that keep every expression in canonical form: like terms collected, powers merged,
-//! constants folded, products never expanded.
+//! Constructors that keep every expression in canonical form: like terms are collected, powers merged and constants
+//! folded. Products are never expanded.
 
 use num_traits::{One, Signed, Zero};
 
@@ -61,7 +61,7 @@ impl Graph {
         self.intern(Node::Atan2(y, x))
     }
 
-    /// A number of any size.
+    /// A constant of any magnitude.
     pub(crate) fn scaled(&mut self, value: Scaled) -> Id {
         self.sum_of([(Id::ONE, value)])
     }
@@ -113,8 +113,8 @@ impl Graph {
         Some(())
     }
 
-    /// Like terms added. A coefficient that needs a power of ten has it among the factors of its term; 1 and 10⁻⁵⁰, whose
-    /// sum has too many digits, are two terms.
+    /// Collects like terms. A coefficient that needs a power of ten passes it to the factors of its term. Sums with
+    /// too many digits, such as 1 + 10⁻⁵⁰, stay two terms.
     fn collected(&mut self, flat: Vec<(Id, Scaled)>) -> Option<Vec<(Id, Rational)>> {
         let mut flat = match self.ten {
             None => flat,
@@ -125,7 +125,7 @@ impl Graph {
         for (term, value) in flat {
             let start = merged.iter().rposition(|&(known, _)| known != term).map_or(0, |before| before + 1);
             let mut total = value;
-            // What it comes to with one of them may add to the next.
+            // A partial sum may be able to absorb a further coefficient of the same term.
             while let Some((place, sum)) = (start..merged.len())
                 .find_map(|place| Some((place, self.roundings.plus(merged[place].1, total)?)))
             {
@@ -150,7 +150,7 @@ impl Graph {
         terms.windows(2).all(|pair| pair[0].0 != pair[1].0).then_some(terms)
     }
 
-    /// The term and its coefficient, with a power of ten that is a factor in the coefficient.
+    /// Moves a power of ten from the factors of a term to its coefficient.
     fn without_tens(&mut self, term: Id, coefficient: Scaled) -> Option<(Id, Scaled)> {
         let Node::Product(factors) = self.node(term) else { return Some((term, coefficient)) };
         let exponent = self.power_of_ten(factors);
@@ -162,7 +162,7 @@ impl Graph {
         Some((self.factors_of(rest), coefficient.times(tens)?))
     }
 
-    /// `term` · 10^`exponent`, where that is not multiplied out.
+    /// `term` · 10^`exponent`, with the power of ten as a factor.
     fn times_ten(&mut self, term: Id, exponent: i32) -> Id {
         let ten = self.integer(10);
         self.ten = Some(ten);
@@ -176,7 +176,7 @@ impl Graph {
         self.intern(Node::Product(factors.into()))
     }
 
-    /// Factors in their order, which are not to be taken apart further.
+    /// Interns sorted factors without further simplification.
     fn factors_of(&mut self, factors: Vec<(Id, Rational)>) -> Id {
         match factors[..] {
             [] => Id::ONE,
@@ -216,7 +216,7 @@ impl Graph {
         self.sum_of([(product, coefficient)])
     }
 
-    /// Whether the numbers in a product can be multiplied in floating point, in any order.
+    /// True if floating point can multiply the numbers in a product in any order without overflow or underflow.
     fn is_in_range(&self, factors: &[(Id, Rational)], coefficient: Scaled) -> bool {
         let (mut least, mut greatest) = (0.0, 0.0);
         for &(factor, exponent) in factors {
@@ -230,7 +230,7 @@ impl Graph {
         least == 0.0 && greatest == 0.0 || least.min(magnitude) > -RANGE && greatest.max(magnitude) < RANGE
     }
 
-    /// Takes `factor ^ exponent` apart as far as that is exact; true where parts may merge anew.
+    /// Splits `factor ^ exponent` as far as that is exact. Returns true if the new factors may need merging.
     fn push_factor(
         &mut self,
         flat: &mut Vec<(Id, Rational)>,
@@ -273,7 +273,7 @@ impl Graph {
         Ok(false)
     }
 
-    /// Whether [`push_factor`](Self::push_factor) would leave `factor ^ exponent` as it is.
+    /// True if [`push_factor`](Self::push_factor) would leave `factor ^ exponent` unchanged.
     fn is_irreducible(&self, coefficient: Scaled, factor: Id, exponent: Rational) -> bool {
         match self.node(factor) {
             Node::Number(value) => {
@@ -286,7 +286,7 @@ impl Graph {
         }
     }
 
-    /// `function(x)`, folded at its exact values and with the sign taken out of odd and even functions.
+    /// `function(x)`, folded at arguments with exact values. Odd and even functions lose the sign of their argument.
     pub(crate) fn function(&mut self, function: Function, x: Id) -> Id {
         if let Some(value) = self.exact_value(function, x) {
             return value;
@@ -321,7 +321,7 @@ impl Graph {
         }
     }
 
-    /// n where x = n π/2.
+    /// n if x = n π/2.
     fn quarter_turns(&self, x: Id) -> Option<i128> {
         let (term, coefficient) = match self.node(x) {
             Node::Pi => (x, Rational::one()),
@@ -332,7 +332,7 @@ impl Graph {
         (*self.node(term) == Node::Pi && quarters.is_integer()).then(|| quarters.to_integer() % 4)
     }
 
-    /// Of x and −x, exactly one leads negative.
+    /// True if the leading coefficient is negative, which holds for exactly one of x and −x.
     fn leads_negative(&self, x: Id) -> bool {
         match self.node(x) {
             Node::Number(value) => value.is_negative(),
@@ -342,10 +342,10 @@ impl Graph {
     }
 }
 
-/// Numbers in a product are from 10^−`RANGE` to 10^`RANGE`, well inside of the range of `f64`.
+/// Largest decimal exponent, either way, of numbers in a product: half the range of `f64`.
 const RANGE: f64 = 150.0;
 
-/// What a function makes of −x.
+/// Symmetry of a function under x → −x.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Parity {
     Even,
@@ -367,8 +367,8 @@ fn is_even(exponent: Rational) -> bool {
     exponent.is_integer() && exponent.to_integer() % 2 == 0
 }
 
-/// What can be taken out of a sum as a factor: the first coefficient where all are alike but for their signs,
-/// otherwise the first one's sign. So 2 x + 2 y and y − x are multiples of x + y and x − y in every product.
+/// Factor to take out of a sum: the first coefficient if all have the same magnitude, else the sign of the first one.
+/// So in every product, 2 x + 2 y and y − x become multiples of x + y and x − y.
 fn common_coefficient(terms: &[(Id, Rational)]) -> Rational {
     let first = terms[0].1;
     let alike =
@@ -376,7 +376,7 @@ fn common_coefficient(terms: &[(Id, Rational)]) -> Rational {
     if alike { first } else { first.signum() }
 }
 
-/// value ^ exponent where that is rational and its digits fit; a number of more stays a factor.
+/// value ^ exponent if it is rational and its digits fit; otherwise the number stays a factor.
 fn number_power(value: Rational, exponent: Rational) -> Option<Scaled> {
     match *exponent.denom() {
         1 => Scaled::from(value).power(*exponent.numer()),
@@ -386,7 +386,7 @@ fn number_power(value: Rational, exponent: Rational) -> Option<Scaled> {
     }
 }
 
-/// Sorts by node and adds what stands at the same one; entries that add to zero go.
+/// Sorts by node and adds the values of equal nodes. Entries that sum to zero are dropped.
 fn merge(mut parts: Vec<(Id, Rational)>) -> Option<Vec<(Id, Rational)>> {
     parts.sort_unstable_by_key(|&(id, _)| id);
     let mut merged: Vec<(Id, Rational)> = Vec::with_capacity(parts.len());

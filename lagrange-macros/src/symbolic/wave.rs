@@ -1,7 +1,7 @@
-//! Smooth functions drawn at random stand in for functions of which nothing is known.
+//! Random smooth functions that stand in for user-supplied functions, of which no formula is known.
 //!
-//! f(x) = Σ_k a_k sin(w_k·x + φ_k): its derivatives belong together, so that an equation with f in it can be
-//! solved, and it has equal values for equal arguments, however these are written.
+//! f(x) = Σ_k a_k sin(w_k·x + φ_k). The derivatives are consistent with the function, so that equations that contain f
+//! can be solved. Equal arguments give equal values, however they are written.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -9,11 +9,11 @@ use super::evaluate::{Approximate, apply};
 use super::graph::{External, Function};
 use super::random::random;
 
-/// Enough that no relation among a function and its first derivatives holds by chance.
+/// Number of waves: enough that a function and its first derivatives satisfy no relation by chance.
 const WAVES: u64 = 6;
 
-/// The value of an unknown function, drawn at random, at arguments whose values are known:
-/// Σ_k a_k Π_j w_kj sin(w_k·x + φ_k + d π/2), where j runs over the d arguments differentiated by.
+/// Value of a random function, or of its derivative, at given arguments: Σ_k a_k Π_j w_kj sin(w_k·x + φ_k + d π/2),
+/// where j runs over the d arguments of differentiation.
 pub(crate) fn superposition(external: &External, arguments: &[Approximate], draw: u64) -> Approximate {
     let quarters = external.derivatives.len() as f64 * FRAC_PI_2;
     (0..WAVES).fold(Approximate::exact(0.0), |sum, k| {

@@ -1,10 +1,10 @@
-//! Fractions, and their products and sums that do not fit into `i128`, as the nearest `f64`.
+//! Fractions, and their products and sums, rounded to the nearest `f64` if they do not fit into `i128`.
 
 use std::cmp::Ordering;
 
 use super::rational::Rational;
 
-/// 256 bits. Of the highest one is never used: numerators and denominators have 127.
+/// An unsigned integer of 256 bits. The highest bit is never used: numerators and denominators have 127 bits.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Wide {
     high: u128,
@@ -47,7 +47,7 @@ fn denominator(x: Rational) -> u128 {
     x.denom().unsigned_abs()
 }
 
-/// Long division in binary, until there are more digits than a mantissa has. Then all that is left can only break a tie, for
+/// Quotient by binary long division, with more digits than a mantissa has. The remainder can only break a tie, for
 /// which one more digit is enough.
 fn quotient(numerator: Wide, denominator: Wide) -> f64 {
     const DIGITS: i32 = 64;
@@ -85,7 +85,7 @@ impl Wide {
         Self { high: self.high + other.high + u128::from(carry), low }
     }
 
-    /// The difference from what is not larger.
+    /// self − other, for other ≤ self.
     fn minus(self, other: Self) -> Self {
         let (low, borrow) = self.low.overflowing_sub(other.low);
         Self { high: self.high - other.high - u128::from(borrow), low }
@@ -95,7 +95,7 @@ impl Wide {
         Self { high: (self.high << 1) | (self.low >> 127), low: self.low << 1 }
     }
 
-    /// How many digits it has.
+    /// Number of significant bits.
     fn bits(self) -> u32 {
         match self.high.leading_zeros() {
             128 => 128 - self.low.leading_zeros(),

@@ -1,19 +1,19 @@
-//! Is an expression zero everywhere?
+//! Tests whether an expression is zero everywhere.
 
 use super::evaluate::Approximate;
 use super::graph::{Graph, Id, Symbol};
 use super::sample::Sample;
 
-/// Certainty of the answer.
+/// Result of the test, with its certainty.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Verdict {
     /// Zero by its canonical form.
     Zero,
     /// Zero within rounding at this many random points.
     Held(u32),
-    /// Some value's error bound excludes zero.
+    /// Nonzero: the error bound of a value excludes zero.
     NonZero,
-    /// No point was found at which the expression has a value.
+    /// No point was found at which the expression has a finite value.
     Undecided,
 }
 
@@ -21,9 +21,10 @@ const POINTS: usize = 8;
 const DRAWS: u64 = 64;
 
 impl Graph {
-    /// Whether `root` vanishes identically. Each symbol has in each draw the value that `drawn` gives it.
+    /// Tests whether `root` vanishes identically. `drawn` gives each symbol a value in each draw.
     pub(crate) fn is_zero(&mut self, root: Id, drawn: impl Fn(Symbol, u64) -> Approximate) -> Verdict {
-        // Most of what is not zero shows it at the first point, and need not be looked through.
+        // Cheap test first: most nonzero expressions are nonzero at the first point, and their definitions need not be
+        // inlined.
         if root != Id::ZERO && self.samples(root, &drawn).take(1).any(Approximate::excludes_zero) {
             return Verdict::NonZero;
         }
@@ -31,7 +32,7 @@ impl Graph {
         if root == Id::ZERO {
             return Verdict::Zero;
         }
-        // Outside its domain an expression has no value: draw again.
+        // Outside its domain an expression has no finite value: use another draw.
         let is_known = |value: &Approximate| value.value.is_finite() && value.error.is_finite();
         let mut held = 0;
         for value in self.samples(root, drawn).filter(is_known).take(POINTS) {
@@ -43,7 +44,7 @@ impl Graph {
         if held > 0 { Verdict::Held(held) } else { Verdict::Undecided }
     }
 
-    /// Its values at random points.
+    /// Values at random points, one per draw.
     fn samples(
         &self,
         root: Id,

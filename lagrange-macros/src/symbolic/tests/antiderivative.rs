@@ -1,10 +1,10 @@
-//! What is integrated has the integrand for its derivative: by central differences.
+//! Antiderivatives: their derivatives, by central differences, equal the integrands.
 
 use crate::symbolic::{Function, Graph, Id, Rational};
 
 use super::symbol;
 
-/// (x + y + 1)ᵉ (x + 2 y + 2)ᵉ …
+/// Product (x + y + 1)ᵉ (x + 2 y + 2)ᵉ … of `count` sums, e being `exponent`
 fn sums(graph: &mut Graph, count: i128, exponent: i128) -> Id {
     let one = Rational::from_integer(1);
     let [x, y] = [0, 1].map(|i| graph.symbol(symbol(i)));
@@ -14,7 +14,7 @@ fn sums(graph: &mut Graph, count: i128, exponent: i128) -> Id {
     graph.product(factors)
 }
 
-/// Thirty sums of three terms have 3³⁰ multiplied out, and the fourth powers of ten have 15¹⁰.
+/// Expanded, a product of thirty sums of three terms has 3³⁰ terms, and one of ten fourth powers has 15¹⁰.
 #[test]
 fn what_has_too_many_terms_is_not_multiplied_out() {
     let mut graph = Graph::default();
@@ -30,7 +30,7 @@ fn what_has_too_many_terms_is_not_multiplied_out() {
     }
 }
 
-/// a₀ = x + y, aₖ₊₁ = aₖ (aₖ + k): few nodes, and as many terms as 2 to the power 2ᵏ.
+/// a₀ = x + y, aₖ₊₁ = aₖ (aₖ + k): few nodes, but of the order of 2 to the power 2ᵏ terms.
 #[test]
 fn sums_within_sums_count() {
     let mut graph = Graph::default();
@@ -44,7 +44,7 @@ fn sums_within_sums_count() {
     assert_eq!(graph.antiderivative(product, symbol(0)), None);
 }
 
-/// The central difference of `root` by symbol 0 at x, with symbol 1 at 0.7.
+/// Central difference of `root` by symbol 0 at x, with symbol 1 at 0.7.
 fn slope(graph: &Graph, root: Id, x: f64) -> f64 {
     let at = |x: f64| graph.evaluate(root, |name| if name == symbol(0) { x } else { 0.7 }).value;
     let h = 1e-5;
@@ -92,6 +92,6 @@ fn the_derivative_of_an_antiderivative_is_the_integrand() {
             assert!((exact - numeric).abs() < 1e-8 * (1.0 + exact.abs()), "{exact} {numeric}");
         }
     }
-    // All but (x + y) exp(x y), which takes integration by parts.
+    // All but (x + y) exp(x y), which needs integration by parts.
     assert_eq!(found, integrands.len() - 1);
 }

@@ -1,4 +1,4 @@
-//! The error that `evaluate` states bounds its error.
+//! Error bounds of `evaluate`: the actual error is within the bound.
 
 use proptest::prelude::*;
 
@@ -6,7 +6,7 @@ use super::super::{Function, Graph, Id};
 use super::tree::{points, rational_trees, trees};
 use super::{Outcome, at, double, for_all, graph, rational, symbol};
 
-/// Values of an expression and of its derivatives, against those of twice the precision.
+/// Compares values of an expression and of its derivatives with values in twice the precision.
 #[test]
 fn bounds_hold() {
     for_all(1500, 0.6, (prop_oneof![2 => trees(), 1 => rational_trees()], points()), |(tree, point)| {
@@ -20,7 +20,7 @@ fn bounds_hold() {
         for id in [vec![root], slopes].concat() {
             let found = graph.evaluate(id, at(&point));
             let distance = double::value(&graph, id, at(&point)).distance(found.value);
-            // The judge itself errs by 1e-24 and more where arguments are huge.
+            // The reference itself has errors of 1e-24 and more for huge arguments.
             if !found.error.is_finite() || !distance.is_finite() || found.value.abs() > 1e30 {
                 outcome = Outcome::Skipped;
                 continue;
@@ -31,7 +31,7 @@ fn bounds_hold() {
     });
 }
 
-/// A bound that is always infinite would hold too.
+/// Infinite bounds would pass the test above: most bounds must be tight.
 #[test]
 fn bounds_are_close() {
     for_all(1000, 0.6, (trees(), points()), |(tree, point)| {
@@ -43,11 +43,11 @@ fn bounds_are_close() {
     });
 }
 
-/// Where rounding could have moved the argument across a pole, a kink or a cut, there is no bound.
+/// The bound is infinite if rounding could move the argument across a pole, a kink or a branch cut.
 #[test]
 fn no_bound_is_stated_across_a_singularity() {
     let (mut graph, [x, y, _]) = graph();
-    // y + x² − x² is y by its form, so a boundary keeps it from being simplified.
+    // y + x² − x² simplifies to y; the definition prevents that.
     let big = graph.pow(x, rational(2, 1));
     let big = graph.defined(big);
     let sum = graph.add(big, y);
@@ -67,7 +67,7 @@ fn no_bound_is_stated_across_a_singularity() {
     }
 }
 
-/// x^1000 underflows: the value 0 must not pass for exact.
+/// x^1000 underflows: its value 0 must not count as exact.
 #[test]
 fn underflow_is_covered() {
     let (mut graph, [x, _, _]) = graph();

@@ -6,7 +6,7 @@ use super::super::{Function, Graph, Id, Node};
 use super::tree::{Tree, trees};
 use super::{Outcome, for_all, graph, rational};
 
-/// Some operands in two orders.
+/// Operands in two random orders.
 fn shuffled(operand: impl Strategy<Value = Tree>) -> impl Strategy<Value = (Vec<Tree>, Vec<Tree>)> {
     prop::collection::vec(operand, 2..5)
         .prop_flat_map(|operands| (Just(operands.clone()), Just(operands).prop_shuffle()))
@@ -45,7 +45,8 @@ fn the_grouping_of_terms_does_not_matter() {
     });
 }
 
-/// Sums whose coefficients differ only by signs: `2 (x + 3 y)` has its 2 inside, and keeps it there.
+/// Factors, among them sums whose coefficients differ only in sign. (A product such as `2 (x + 3 y)` keeps its 2
+/// inside the sum, so that its grouping matters.)
 fn factors() -> impl Strategy<Value = Tree> {
     let leaf = prop_oneof![
         3 => (0..3_usize).prop_map(Tree::Symbol),

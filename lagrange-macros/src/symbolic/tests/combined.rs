@@ -1,4 +1,4 @@
-//! Products in a sum put together that differ in one factor.
+//! Combination of products in a sum that differ in one factor.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -18,7 +18,7 @@ fn terms(graph: &Graph, sum: Id) -> usize {
     }
 }
 
-/// Σ c x y (u + v) and Σ c x y u: much that can be put together.
+/// Sums of c x y (u + v) and c x y u, with many products that can be combined.
 fn sum(graph: &mut Graph, parts: &[Id], picks: &[(usize, usize, i8)]) -> Id {
     let products: Vec<(Id, Rational)> = picks
         .iter()
@@ -65,9 +65,9 @@ fn what_cancels_is_gone() {
     let mut product = |factors: &[Id]| factors.iter().fold(Id::ONE, |product, &x| graph.mul(product, x));
     let products = [
         ([product(&[u, v, s]), product(&[uv, u, s])], product(&[u, u, s])),
-        // Neither as it is.
+        // The differing factors are v + w and u + v + w; their difference is u.
         ([product(&[vw, u, t]), product(&[uvw, u, t])], product(&[u, u, t])),
-        // With a power.
+        // A factor with a power.
         ([product(&[v, v, s, t]), product(&[uv, v, s, t])], product(&[u, v, s, t])),
     ];
     for ([less, more], left) in products {
@@ -86,7 +86,7 @@ fn what_would_be_longer_stays() {
         let sum = graph.total(products);
         assert_eq!(graph.combined(sum), sum);
     }
-    // One product, but a sum of three terms: (u + v + w) (s + t)/s − (u + v + w) t/s.
+    // The result is one product, but it is a sum of three terms: (u + v + w) (s + t)/s − (u + v + w) t/s.
     let (uvw, over) = (graph.add(uv, w), graph.div(Id::ONE, s));
     let rest = graph.mul(uvw, over);
     let [more, less] = [st, t].map(|factor| graph.mul(rest, factor));

@@ -1,4 +1,4 @@
-//! Both modes of differentiation against dual numbers, which do neither symbolically.
+//! Forward and reverse mode, compared with dual numbers, which differentiate numerically.
 
 use num_dual::{Dual64, HyperDual64};
 
@@ -8,14 +8,14 @@ use super::{Outcome, at, for_all, graph, rational, symbol};
 
 type Point = [f64; SYMBOLS];
 
-/// The part of `tree` at `point` that is linear in a motion along `direction`, where there is a value.
+/// Derivative of `tree` at `point` along `direction`; `None` outside the domain.
 fn dual(tree: &Tree, point: &Point, direction: &Point) -> Option<Reference> {
     tree.reference(point, |value| value)?;
     let moving: Vec<_> = point.iter().zip(direction).map(|(&x, &rate)| Dual64::new(x, rate)).collect();
     tree.reference(&moving, |value| value.eps)
 }
 
-/// ∂²/∂x_i∂x_j
+/// Second derivative ∂²/∂x_i∂x_j
 fn hyper_dual(tree: &Tree, point: &Point, i: usize, j: usize) -> Option<Reference> {
     tree.reference(point, |value| value)?;
     let unit = |k, axis| if k == axis { 1.0 } else { 0.0 };

@@ -1,11 +1,11 @@
-//! Values to twice the precision of f64, as a judge of error bounds. (Dekker; Hida, Li and Bailey's
-//! double-double arithmetic; elementary functions by Taylor series and one Newton step.)
+//! Reference values in twice the precision of f64, to test error bounds (Dekker; Hida, Li and Bailey's double-double
+//! arithmetic; elementary functions by Taylor series and one Newton step).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::super::{Function, Graph, Id, Node, Rational, Symbol};
 
-/// The unevaluated sum of two f64.
+/// Unevaluated sum of two f64.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Double {
     high: f64,
@@ -89,7 +89,7 @@ impl Double {
         self.high
     }
 
-    /// How far an f64 is from this.
+    /// Absolute difference from an f64.
     pub(crate) fn distance(self, other: f64) -> f64 {
         let difference = self - Self::from(other);
         (difference.high + difference.low).abs()
@@ -121,7 +121,7 @@ impl Double {
         }
     }
 
-    /// e^(self / 2^k) − 1 by its series, then squared k times.
+    /// Exponential: e^(self / 2^k) − 1 by its series, then k squarings.
     fn exp(self) -> Self {
         let halvings = 20;
         let x = self.times_power_of_two(-halvings);
@@ -137,7 +137,7 @@ impl Double {
         rest + ONE
     }
 
-    /// The sine and the cosine, likewise by 1 − cos.
+    /// Sine and cosine: sine and 1 − cos of self / 2^k by their series, then k doublings of the angle.
     fn sin_cos(self) -> (Self, Self) {
         let (halvings, turns) = (20, (self.high / std::f64::consts::TAU).round());
         let rest = self - PI.times_power_of_two(1) * Self::from(turns);

@@ -1,4 +1,4 @@
-//! Functions of which nothing is known: their derivatives by position, and when two of them are equal.
+//! User-supplied functions: their partial derivatives by position, and equality of their values.
 
 use proptest::prelude::*;
 
@@ -6,7 +6,7 @@ use super::super::{External, Forward, Function, Graph, Id, Node, Verdict};
 use super::tree::trees;
 use super::{Outcome, for_all, graph, rational, symbol, within};
 
-/// ∂ of the result `output` of the function 0 by the positions `derivatives`.
+/// Partial derivative of result `output` of function 0 by the positions `derivatives`.
 fn partial(graph: &mut Graph, output: u32, derivatives: &[u32], arguments: &[Id]) -> Id {
     graph.external(External {
         function: 0,
@@ -99,7 +99,7 @@ fn a_function_does_not_change_with_what_it_is_not_given() {
     assert_eq!(gradient(&mut graph, f)[1..], [Id::ZERO; 2]);
     let mut along = Forward::along([(symbol(1), Id::ONE)]);
     assert_eq!(along.of(&mut graph, f), Id::ZERO);
-    // A numeric argument has no slope, but its position stays.
+    // A constant argument has no derivative, but keeps its position.
     let slope = partial(&mut graph, 0, &[0], &[x, constant]);
     assert_eq!(gradient(&mut graph, f)[0], slope);
     assert_ne!(slope, partial(&mut graph, 0, &[0], &[constant, x]));
@@ -138,7 +138,7 @@ fn equal_arguments_have_equal_values() {
     }
 }
 
-/// (f + 1)² − f² − 2f − 1 is zero whatever f is, and is not so by its form.
+/// (f + 1)² − f² − 2f − 1 is zero for every f, but not zero by its form.
 #[test]
 fn identities_hold_whatever_the_function_is() {
     let (mut graph, arguments) = graph();
@@ -174,7 +174,7 @@ fn what_may_differ_is_told_apart() {
     }
 }
 
-/// f(x (y + 1)) and f(x y + x) are two nodes and one value.
+/// f(x (y + 1)) and f(x y + x) are two nodes with the same value.
 #[test]
 fn arguments_that_are_equal_in_value_give_equal_values() {
     let (mut graph, [x, y, _]) = graph();

@@ -1,4 +1,4 @@
-//! What exact arithmetic cannot do is a fault, never a panic.
+//! Failures of exact arithmetic: each is reported as a fault and never panics.
 
 use proptest::prelude::*;
 
@@ -21,7 +21,7 @@ const EXTREMES: [i128; 12] = [
     -i128::MAX,
 ];
 
-/// One more node, of the earlier ones at the indices given.
+/// One operation to add as a node; its operands are earlier nodes, given by index.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     kind: u8,
@@ -98,7 +98,7 @@ fn what_does_not_fit_overflows() {
     assert_eq!(power(third, rational(500, 1)), Some(Fault::Overflow));
     assert_eq!(power(rational(2, 1), huge), Some(Fault::Overflow));
     assert_eq!(power(rational(10, 1), rational(309, 1)), Some(Fault::Overflow));
-    // What has too many digits alone stays as it is.
+    // A power with too many digits stays unevaluated.
     assert_eq!(power(largest, rational(2, 1)), None);
     assert_eq!(power(third, rational(200, 1)), None);
     assert_eq!(power(rational(10, 1), rational(308, 1)), None);
@@ -107,7 +107,7 @@ fn what_does_not_fit_overflows() {
     assert_eq!(fault(|graph, [x, ..]| graph.pow(x, huge)), None);
 }
 
-/// (−2)^127 fits into an i128, but its negative does not: it stays a power.
+/// (−2)^127 fits into an i128, but its negative does not: the power stays unevaluated.
 #[test]
 fn the_negative_of_a_number_fits_too() {
     let (mut graph, _) = graph();

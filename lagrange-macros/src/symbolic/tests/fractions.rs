@@ -1,13 +1,15 @@
-//! Sums, products, powers and roots of fractions of any size, against arithmetic modulo primes, which never overflows.
+//! Sums, products, powers and roots of fractions of all magnitudes, compared with arithmetic modulo primes, which
+//! never overflows.
 
 use super::super::rational::{fits, plus, power, square_root, times};
 use super::super::{Rational, Scaled, finite_decimal, parse_decimal, to_f64};
 use crate::rounds::{Random, rounds};
 
-/// The largest primes below 2⁶², 2⁶¹ and 2³¹: two numbers below 2¹⁰⁰⁰ with the same rests are the same in all but one of 10³⁰ cases.
+/// Largest primes below 2⁶², 2⁶¹ and 2³¹. Two different numbers below 2¹⁰⁰⁰ have the same residues in only one of 10³⁰
+/// cases.
 const PRIMES: [u128; 3] = [(1 << 62) - 57, (1 << 61) - 1, (1 << 31) - 1];
 
-/// Of every size, many of them at the ends of their range.
+/// Random integer of any number of bits, often at the ends of the range.
 fn whole(random: &mut Random) -> i128 {
     let bits = random.below(128) as u32;
     let any = (i128::from(random.next() as i64) << 64 | i128::from(random.next())) & i128::MAX;
@@ -33,7 +35,7 @@ fn modulo(x: Rational, prime: u128) -> [u128; 2] {
     [*x.numer(), *x.denom()].map(|n| n.rem_euclid(prime as i128) as u128)
 }
 
-/// Whether a/b is the same as x, modulo every prime.
+/// True if x equals a/b modulo every prime.
 fn is(x: Rational, expected: impl Fn(u128) -> [u128; 2]) -> bool {
     PRIMES.into_iter().all(|prime| {
         let ([n, d], [a, b]) = (modulo(x, prime), expected(prime));
@@ -41,12 +43,12 @@ fn is(x: Rational, expected: impl Fn(u128) -> [u128; 2]) -> bool {
     })
 }
 
-/// In lowest terms, its denominator positive, and of a kind that may stand in the graph.
+/// True if x is in lowest terms with a positive denominator, and the graph can hold it.
 fn is_proper(x: Rational) -> bool {
     fits(&x) && *x.denom() > 0 && Rational::new(*x.numer(), *x.denom()) == x
 }
 
-/// So small that nothing computed of two of them is too large.
+/// True if x is small enough that no operation on two such numbers overflows.
 fn is_small(x: Rational) -> bool {
     x.numer().unsigned_abs() < 1 << 40 && *x.denom() < 1 << 40
 }
@@ -90,7 +92,7 @@ fn checked(x: Rational, y: Rational, n: i128) {
     }
 }
 
-/// Read from its digits where they end, it is the same, and as an f64 where it is read by Rust.
+/// Checks that a finite decimal parses to the same fraction, and that its f64 equals the one parsed by Rust.
 fn read_again(x: Rational) {
     let Some((digits, places)) = finite_decimal(x) else { return };
     let text = format!("{}e-{places}", digits.unsigned_abs());
@@ -102,7 +104,7 @@ fn read_again(x: Rational) {
     assert_eq!(to_f64(size).to_bits(), expected.to_bits(), "{text}");
 }
 
-/// Numbers with powers of ten do not overflow either, and commute.
+/// Checks that numbers with powers of ten multiply without overflow, and commute.
 fn scaled(random: &mut Random, x: Rational, y: Rational) {
     let mut of = |x| Scaled::new(x, random.below(700) as i32 - 350);
     let (Some(x), Some(y)) = (of(x), of(y)) else { return };
@@ -113,7 +115,7 @@ fn scaled(random: &mut Random, x: Rational, y: Rational) {
     }
     if let Some(product) = x.times(y) {
         let (found, expected) = (product.to_f64(), x.to_f64() * y.to_f64());
-        // Two roundings of each factor, and of the product.
+        // Tolerance: two roundings for each factor, and two for the product.
         let is_close = (found - expected).abs() <= 8.0 * f64::EPSILON * expected.abs();
         assert!(is_close || !expected.is_normal(), "{x:?} · {y:?} is {expected:e}, not {found:e}");
     }

@@ -27,20 +27,20 @@ use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 
 use super::{Approximate, Graph, Id, Rational, Sample, Symbol, drawn};
 
-/// Each symbol from this range.
+/// Draws the value of each symbol from this range.
 fn within(range: (f64, f64)) -> impl Fn(Symbol, u64) -> Approximate {
     move |symbol, draw| Approximate::exact(drawn(symbol, range, draw))
 }
 
-/// How one random case went.
+/// Outcome of one random case.
 enum Outcome {
     Checked,
-    /// Outside of the domain, or too ill-conditioned to tell.
+    /// Outside the domain, or too ill-conditioned for a comparison.
     Skipped,
 }
 
-/// Runs `property` on `cases` random values, the same in every run unless `PROPTEST_CASES` and
-/// `PROPTEST_RNG_SEED` say otherwise. At least the given share of them must not be skipped.
+/// Runs `property` on `cases` random values, the same in every run unless `PROPTEST_CASES` and `PROPTEST_RNG_SEED` are
+/// set. At least the fraction `share` of them must not be skipped.
 fn for_all<T: Debug>(
     cases: u32,
     share: f64,
@@ -70,7 +70,7 @@ fn for_all<T: Debug>(
 }
 
 impl Graph {
-    /// The values of `roots` where symbols have the values given and unknown functions are those of this draw.
+    /// Values of `roots` for given values of the symbols, with the user-supplied functions of this draw.
     pub(crate) fn sample(
         &self,
         roots: &[Id],
@@ -83,7 +83,7 @@ impl Graph {
         sample.values(self, roots)
     }
 
-    /// The value of `root`, where each symbol has the value given.
+    /// Value of `root` for given values of the symbols.
     pub(crate) fn evaluate(&self, root: Id, value: impl Fn(Symbol) -> f64) -> Approximate {
         self.sample(&[root], 0, |symbol| Approximate::exact(value(symbol)))[0]
     }
@@ -104,7 +104,7 @@ fn graph() -> (Graph, [Id; 3]) {
     (graph, symbols)
 }
 
-/// Reads a symbol's value off a point.
+/// Looks up the value of a symbol in a point.
 fn at(point: &[f64]) -> impl Fn(Symbol) -> f64 + Copy + '_ {
     |symbol| point[symbol.index as usize]
 }

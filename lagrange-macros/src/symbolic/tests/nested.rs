@@ -1,4 +1,4 @@
-//! Sums written by what they have in common.
+//! Sums nested by shared prefixes.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -7,7 +7,7 @@ use super::super::{Graph, Id, Node};
 use super::tree::{points, trees};
 use super::{Outcome, at, for_all, symbol};
 
-/// Σ (Σ of the terms in a set)² over the sets, each by its bits.
+/// Σ (Σ of the terms in a set)² over the sets, each given by the bits of a mask.
 fn squares(graph: &mut Graph, terms: &[Id], sets: &[u32]) -> Id {
     let mut squares = Vec::new();
     for set in sets {
@@ -19,7 +19,7 @@ fn squares(graph: &mut Graph, terms: &[Id], sets: &[u32]) -> Id {
     graph.total(squares)
 }
 
-/// The most terms of a sum that has a name.
+/// Largest number of terms of a sum that is a definition.
 fn longest(graph: &Graph, root: Id) -> usize {
     let terms = |id: Id| match graph.node(id) {
         Node::Defined(inner) => match graph.node(*inner) {
@@ -59,7 +59,7 @@ fn no_value_changes() {
     });
 }
 
-/// In whatever order the sums come, and from whichever end they grow.
+/// The result is independent of the order of the sums, and of the end at which they grow.
 #[test]
 fn of_a_chain_every_sum_is_the_one_before_and_a_term() {
     let upwards: Vec<u32> = (1..=20).map(|n| (1 << n) - 1).collect();
@@ -81,7 +81,7 @@ fn branches_share_their_trunk_though_it_has_no_name() {
 #[test]
 fn sums_that_have_little_in_common_stay() {
     assert!(nested(6, &[0b000011, 0b000110, 0b001100, 0b011000]).is_none());
-    // One addition saved, and a boundary more.
+    // Sharing saves one addition, but costs one definition.
     assert!(nested(6, &[0b000111, 0b001011]).is_none());
     assert!(nested(6, &[0b000111, 0b001011, 0b000011]).is_some());
 }

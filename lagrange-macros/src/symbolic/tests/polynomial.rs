@@ -1,4 +1,4 @@
-//! Polynomials against the values of the expressions that they are made of.
+//! Polynomials, compared with the values of the expressions from which they are built.
 
 use proptest::prelude::*;
 
@@ -12,7 +12,7 @@ fn is_zero(graph: &mut Graph, root: Id) -> bool {
     ring.cleared(&[polynomial]).expect("a short one")[0].is_zero()
 }
 
-/// (x + y)² − x² − 2 x y − y² of random x and y vanishes, and with z beside it it does not, where z does not.
+/// (x + y)² − x² − 2 x y − y² vanishes for random x and y. With z added, it vanishes only if z does.
 #[test]
 fn what_is_zero_has_the_value_zero() {
     for_all(400, 0.6, (trees(), trees(), trees()), |(x, y, z)| {
@@ -35,7 +35,7 @@ fn what_is_zero_has_the_value_zero() {
         if let Some(found) = ring.of(&mut graph, more).and_then(|found| ring.cleared(&[found])) {
             prop_assert!(!(value.excludes_zero() && found[0].is_zero()), "{:?}", found[0]);
         }
-        // Roots of different degrees of one base are not compared.
+        // Roots of one base with different degrees are not compared.
         Ok(if found[0].is_zero() { Outcome::Checked } else { Outcome::Skipped })
     });
 }
@@ -54,7 +54,7 @@ fn quotients_of_products_are_their_factors() {
         else {
             return Ok(Outcome::Skipped);
         };
-        // A quotient may be too long to be found, or lead through roots that are not squares.
+        // The quotient may exceed the size limits, or need roots other than square roots.
         let Some(quotient) = ring.quotient(&product, &y) else { return Ok(Outcome::Skipped) };
         prop_assert_eq!(quotient, x);
         Ok(Outcome::Checked)
@@ -73,7 +73,7 @@ fn squares_of_sines_and_powers_of_roots_are_rewritten() {
     let hyperbola = graph.sub(cosh, sinh);
     let hyperbola = graph.sub(hyperbola, Id::ONE);
     assert!(is_zero(&mut graph, circle) && is_zero(&mut graph, hyperbola));
-    // (x + z) (x + z)^(−1/2) (z + y)^(−1) ((z + y)/√(x + z)) = 1, once the sums are multiplied out
+    // (x + z) (x + z)^(−1/2) (z + y)^(−1) ((z + y)/√(x + z)) = 1, once the sums are expanded
     let [first, second] = [(x, z), (z, y)].map(|(x, y)| graph.add(x, y));
     let expanded = [(x, second), (z, second)].map(|(x, y)| graph.mul(x, y));
     let expanded = graph.total(expanded);
@@ -86,7 +86,7 @@ fn squares_of_sines_and_powers_of_roots_are_rewritten() {
     assert!(is_zero(&mut graph, difference));
 }
 
-/// 1 − cos² by a sine, which is that sine.
+/// 1 − cos² divided by a sine is that sine.
 #[test]
 fn divisors_may_have_sines() {
     let (mut graph, [x, y, _]) = graph();

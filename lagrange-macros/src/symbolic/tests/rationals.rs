@@ -1,4 +1,4 @@
-//! Decimal literals in, the nearest f64 out.
+//! Decimal literals: each becomes the nearest f64.
 
 use proptest::prelude::*;
 
@@ -6,7 +6,7 @@ use super::super::{Graph, Id, Rational, Scaled, parse_decimal, to_f64};
 use super::{Outcome, for_all, graph, rational};
 use crate::codegen;
 
-/// `-12_345.678e9` and the like: signless, as the tokens are.
+/// Decimals such as `12_345.678e9`, without sign, as tokens have none.
 fn decimals(exponent: std::ops::Range<i32>) -> impl Strategy<Value = String> {
     let digits = |length| proptest::string::string_regex(&format!("[0-9]{{1,{length}}}")).expect("a pattern");
     (digits(20), prop::option::of(digits(14)), prop::option::of(exponent), any::<bool>()).prop_map(
@@ -19,7 +19,7 @@ fn decimals(exponent: std::ops::Range<i32>) -> impl Strategy<Value = String> {
     )
 }
 
-/// Wherever f64 holds it with all its bits.
+/// Tests all literals within the normal range of f64.
 #[test]
 fn a_literal_becomes_the_nearest_f64() {
     for_all(6000, 0.9, decimals(-330..330), |text| {
@@ -63,7 +63,7 @@ fn literals_are_exact() {
         let fraction = Rational::new(numerator, denominator);
         assert_eq!(parse_decimal(text), Some(Scaled { fraction, exponent }), "{text}");
     }
-    // With more digits than fit it is the nearest f64.
+    // Literals with more digits than fit are rounded to the nearest f64.
     assert_eq!(
         parse_decimal("170141183460469231731687303715884105728").map(Scaled::to_f64),
         Some(2.0_f64.powi(127))
@@ -74,7 +74,7 @@ fn literals_are_exact() {
     }
 }
 
-/// The decimal expansion, which ends where the denominator is a product of twos and fives.
+/// Decimal expansion; it is finite if the denominator is a product of twos and fives.
 fn expansion(numerator: i128, denominator: i128) -> String {
     let mut text = format!("{}.", numerator / denominator);
     let mut rest = numerator % denominator;
@@ -86,7 +86,7 @@ fn expansion(numerator: i128, denominator: i128) -> String {
     text
 }
 
-/// Fractions that lie by a hair beside the middle of two neighbours in f64.
+/// Fractions that differ very little from the midpoint of two adjacent f64.
 #[test]
 fn fractions_are_rounded_once() {
     let mantissa = (1_i128 << 53..1 << 54).prop_map(|m| m | 1);
@@ -102,7 +102,7 @@ fn fractions_are_rounded_once() {
     });
 }
 
-/// A hair that shows only past the fortieth digit.
+/// A difference from the midpoint that appears only after the fortieth digit.
 #[test]
 fn a_very_thin_hair_counts() {
     let (numerator, denominator) = (((1_i128 << 53) + 1) * 5_i128.pow(30) + 1, 5_i128.pow(30));
@@ -122,7 +122,7 @@ fn the_largest_fractions_have_values() {
     assert_eq!(to_f64(Rational::new(0, 1)).to_bits(), 0);
 }
 
-/// The power of ten is less than any number that f64 holds with all its digits, the number is not.
+/// The power of ten is below the normal range of f64, the number itself is not.
 #[test]
 fn what_is_in_range_is_exact_whatever_its_power_of_ten_is() {
     let fraction = Rational::new(i128::MAX, 8_160_523_013_533_753_617_575_794_477_336);
@@ -136,7 +136,7 @@ fn read(graph: &mut Graph, text: &str) -> Id {
     graph.scaled(parse_decimal(text).expect("a number"))
 }
 
-/// Planck, Boltzmann, Avogadro: powers, quotients, roots and sums of them, against f64.
+/// Planck, Boltzmann, Avogadro: powers, quotients, roots and sums of the constants, compared with f64.
 #[test]
 fn constants_of_nature() {
     let (mut graph, [x, ..]) = graph();
@@ -165,11 +165,11 @@ fn constants_of_nature() {
         (sum, 1.0),
         (root, 6.62607015e-34_f64.sqrt()),
     ] {
-        // A rounding for each of at most 20 operations.
+        // One rounding for each of at most 20 operations.
         assert!((codegen::value(&graph, id) / expected - 1.0).abs() < 20.0 * f64::EPSILON, "{expected:e}");
     }
     assert!(graph.take_fault().is_none());
-    // Exact numbers stay exact, like terms collect, and what is tiny is not zero.
+    // Exact numbers stay exact, like terms are collected, and tiny numbers are not zero.
     let twice = graph.sum([(h, rational(1, 1)), (h, rational(1, 1))]);
     assert_eq!(twice, read(&mut graph, "1.32521403e-33"));
     assert_eq!(graph.sum([(h, rational(3, 1)), (h, rational(-3, 1))]), Id::ZERO);
@@ -183,7 +183,7 @@ fn constants_of_nature() {
     assert_ne!(graph.add(sum, x), graph.add(Id::ONE, x));
 }
 
-/// Sums and products of numbers of any size, against a computation with as many digits as it takes.
+/// Sums and products of numbers of any magnitude, compared with a computation in sufficiently many digits.
 #[test]
 fn scaled_numbers_compute_as_floating_point_does() {
     let number = || (1..1_000_000_i128, -90..90_i32);
@@ -195,7 +195,7 @@ fn scaled_numbers_compute_as_floating_point_does() {
         });
         let [u, v, w] = [(a, ea), (b, eb), (c, ec)]
             .map(|(digits, exponent)| format!("{digits}e{exponent}").parse::<f64>().expect("a number"));
-        // (p + q) r = p r + q r, term by term, whatever the order.
+        // (p + q) r = p r + q r, term by term, in any order.
         let (pr, qr) = (graph.mul(p, r), graph.mul(q, r));
         let (one, other) = (graph.add(pr, qr), graph.add(qr, pr));
         prop_assert_eq!(one, other);

@@ -1,4 +1,4 @@
-//! Numbers of more digits than fit: rounded once, and never elsewhere.
+//! Numbers with too many digits for exact fractions: rounded once, and all others kept exact.
 
 use proptest::prelude::*;
 
@@ -8,7 +8,7 @@ use super::{Outcome, at, for_all, graph, rational, within};
 use crate::codegen;
 use crate::rounds::Random;
 
-/// The digits of a number, the last one first.
+/// Decimal digits of a number, least significant first.
 fn digits(mut value: u64) -> Vec<u32> {
     let mut digits = Vec::new();
     while value > 0 {
@@ -18,7 +18,7 @@ fn digits(mut value: u64) -> Vec<u32> {
     digits
 }
 
-/// As by hand.
+/// Long multiplication on decimal digits.
 fn multiplied(x: &[u32], y: &[u32]) -> Vec<u32> {
     let mut product = vec![0; x.len() + y.len()];
     for (i, a) in x.iter().enumerate() {
@@ -54,8 +54,8 @@ fn decimal(value: u64) -> Scaled {
     parse_decimal(&format!("{value}e-16")).expect("in range")
 }
 
-/// a b c x and (a b + c d e) x, the numbers of 16 and 17 digits, against a computation by hand with all digits: an f64 where it
-/// is one number that was rounded, two roundings more where the last product is left to the end.
+/// a b c x and (a b + c d e) x, with numbers of 16 and 17 digits, compared with long multiplication. The nearest f64
+/// is required if one number was rounded; two more roundings are allowed if the last product is left unevaluated.
 #[test]
 fn what_does_not_fit_is_rounded_once() {
     let number = || 1_000_000_000_000_001..99_999_999_999_999_999_u64;
@@ -76,7 +76,7 @@ fn what_does_not_fit_is_rounded_once() {
         let at_one = graph.substituted(both, |_| Some(Id::ONE));
         let found = codegen::value(&graph, at_one);
         prop_assert!((found / expected - 1.0).abs() <= 2.0 * f64::EPSILON, "{found:e}, not {expected:e}");
-        // Exact where it fits.
+        // Products that fit are exact.
         let product = codegen::value(&graph, cd);
         prop_assert_eq!(product, read(&multiplied(&w, &r), -32));
         prop_assert_eq!(graph.take_fault(), None);
@@ -84,7 +84,7 @@ fn what_does_not_fit_is_rounded_once() {
     });
 }
 
-/// A coefficient that has no room for another factor.
+/// The coefficient has no digits left for another factor.
 #[test]
 fn a_factor_before_a_sum_is_rounded_once() {
     let number = || 1_000_000_000_000_001..99_999_999_999_999_999_u64;
@@ -105,7 +105,7 @@ fn a_factor_before_a_sum_is_rounded_once() {
     });
 }
 
-/// Numbers that are rounded in different orders cancel all the same, and what never was rounded stays exact.
+/// Numbers that are rounded in different orders still cancel, and unrounded numbers stay exact.
 #[test]
 fn rounded_numbers_cancel() {
     let (mut graph, [x, y, _]) = graph();
@@ -131,7 +131,7 @@ fn number(graph: &mut Graph, text: &str) -> Id {
     graph.scaled(parse_decimal(text).expect("a number"))
 }
 
-/// Σ (a monomial times numbers of sixteen digits, some of them divided by), times such a number.
+/// Σ (a monomial times or divided by numbers of sixteen digits), times such a number.
 struct ExactPolynomial {
     terms: Vec<(Id, Vec<(Scaled, i128)>)>,
     factor: Scaled,
@@ -151,7 +151,7 @@ impl ExactPolynomial {
         Self { terms: terms.collect(), factor: decimal(random) }
     }
 
-    /// Its factors multiplied and its terms added in random order.
+    /// Multiplies the factors and adds the terms in random order.
     fn built(&self, graph: &mut Graph, random: &mut Random) -> Id {
         let is_factored = random.once_in(2);
         let by = graph.scaled(self.factor);
@@ -169,7 +169,7 @@ impl ExactPolynomial {
         if is_factored { graph.mul(by, sum) } else { sum }
     }
 
-    /// To thirty digits.
+    /// Value to thirty digits.
     fn value(&self, graph: &Graph, point: &[f64]) -> Double {
         let number = |scaled: Scaled| Double::from(scaled.fraction);
         let terms = self.terms.iter().map(|(monomial, numbers)| {
@@ -181,7 +181,7 @@ impl ExactPolynomial {
     }
 }
 
-/// Any two of them into one, until one is left.
+/// Replaces two random parts by their combination until one is left.
 fn folded(mut parts: Vec<Id>, random: &mut Random, mut both: impl FnMut(Id, Id) -> Id) -> Id {
     while parts.len() > 1 {
         let [x, y] = [0; 2].map(|_| parts.swap_remove(random.below(parts.len())));
@@ -190,7 +190,8 @@ fn folded(mut parts: Vec<Id>, random: &mut Random, mut both: impl FnMut(Id, Id) 
     parts[0]
 }
 
-/// Whatever the order of operations: error bounds hold, what is equal is never told apart, and what differs by 10⁻⁹ is.
+/// For any order of operations: the error bounds hold, equal values are never distinguished, and values that differ by
+/// 10⁻⁹ are.
 #[test]
 fn roundings_are_within_their_bounds() {
     for_all(300, 0.9, any::<u64>(), |seed| {

@@ -1,4 +1,4 @@
-//! Points on surfaces.
+//! Projection of random points onto surfaces.
 
 use crate::symbolic::{Function, Graph, Id, Rational, Sample};
 
@@ -8,7 +8,7 @@ use super::{symbol, within};
 fn a_point_is_moved_onto_a_surface() {
     let mut graph = Graph::default();
     let [x, y, z] = [0, 1, 2].map(|i| graph.symbol(symbol(i)));
-    // x² + y² = 2, twice, and z = sin x.
+    // x² + y² = 2, stated twice, and z = sin x.
     let squares = [graph.square(x), graph.square(y), graph.integer(-2)];
     let circle = squares.into_iter().reduce(|sum, term| graph.add(sum, term)).expect("terms");
     let weight = graph.add(z, squares[0]);
@@ -19,7 +19,7 @@ fn a_point_is_moved_onto_a_surface() {
     for draw in 0..20 {
         let mut sample = Sample::new([0, 1, 2].map(symbol), draw, within((0.5, 1.5)));
         let unknowns = [0, 1, 2].map(symbol);
-        // From far away the second equation of the circle can lead astray; then one draws again.
+        // Far from the circle, its second equation can make the iteration fail; another point is then drawn.
         let slopes = [circle, again, sheet].map(|root| graph.gradient(root, &unknowns));
         let slopes = slopes.each_ref().map(Vec::as_slice);
         if sample.project(&graph, &[circle, again, sheet], &slopes, &unknowns).is_none() {
@@ -27,7 +27,7 @@ fn a_point_is_moved_onto_a_surface() {
         }
         found += 1;
         let [x, y, z] = [x, y, z].map(|id| sample.values(&graph, &[id])[0]);
-        // The exact point with the same x is within the bounds that are stated.
+        // The exact point with the same x is within the error bounds.
         assert!(((2.0 - x.value * x.value).sqrt() - y.value).abs() < y.error, "{x:?} {y:?}");
         assert!((x.value.sin() - z.value).abs() < z.error, "{x:?} {z:?}");
         assert!(y.error < 1e-12 && z.error < 1e-12);
@@ -46,7 +46,7 @@ fn where_there_is_no_surface_there_is_no_point() {
     assert!(sample.project(&graph, &[root], &[&slope], &[symbol(0)]).is_none());
 }
 
-/// Where surfaces touch, what they have in common lies within the root of the rounding errors only.
+/// Where surfaces touch, the common points are determined only to the square root of the rounding error.
 #[test]
 fn where_surfaces_touch_there_is_no_point() {
     let mut graph = Graph::default();

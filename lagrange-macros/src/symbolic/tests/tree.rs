@@ -1,4 +1,4 @@
-//! Random expressions as trees, with an interpreter that knows nothing of the graph.
+//! Random expressions as trees, with an interpreter independent of the graph.
 
 use std::fmt;
 
@@ -75,7 +75,7 @@ impl Tree {
         Self::Defined(Box::new(self))
     }
 
-    /// The same tree with `f` of every subtree, the innermost first.
+    /// Applies `f` to every subtree, innermost first.
     pub(super) fn map(&self, f: &mut impl FnMut(Self) -> Self) -> Self {
         let all = |trees: &[Self], f: &mut _| trees.iter().map(|tree| tree.map(f)).collect();
         let both = |pair: &[Self; 2], f: &mut _| Box::new([pair[0].map(f), pair[1].map(f)]);
@@ -132,7 +132,7 @@ impl Tree {
         f(graph, x, y)
     }
 
-    /// The value at a point, of f64 or of dual numbers, with noise on every operation.
+    /// Value at a point, in f64 or dual numbers, with noise on every operation.
     fn interpret<D: DualNum<Primitive = f64>>(&self, point: &[D], noise: &mut Noise) -> D {
         let value = match self {
             Self::Number(value) => D::from(quotient(*value)),
@@ -159,9 +159,10 @@ impl Tree {
         noise.on(value)
     }
 
-    /// One part of the value, and a tolerance from how the result responds to small relative changes of
-    /// every intermediate (Monte Carlo arithmetic: Parker). They are far larger than rounding errors, so what is
-    /// within the tolerance may be rounding, and what is beyond is not. `None` where that tells nothing.
+    /// One component of the value, with a tolerance. The tolerance comes from the response of the result to small
+    /// random relative changes of every intermediate (Monte Carlo arithmetic: Parker). The changes are far larger than
+    /// rounding errors, so that a deviation beyond the tolerance cannot be rounding. `None` if the tolerance is too
+    /// large to be useful.
     pub(super) fn reference<D: DualNum<Primitive = f64>>(
         &self,
         point: &[D],
@@ -172,7 +173,7 @@ impl Tree {
             let noisy = part(self.interpret(point, &mut Noise { size: 1e-9, state }));
             (noisy - value).abs()
         });
-        // A `max` that keeps NaN.
+        // A maximum that propagates NaN.
         let spread = spread.fold(0.0, |worst: f64, next| if next <= worst { worst } else { next });
         let tolerance = 10.0 * spread + 1e-11 * (1.0 + value.abs());
         let tells = tolerance <= 1e-3 * (1.0 + value.abs()) && value.abs() < 1e60;
@@ -184,7 +185,7 @@ fn quotient(value: Rational) -> f64 {
     value.numer().to_f64().expect("a number") / value.denom().to_f64().expect("a number")
 }
 
-/// The function of a number of any kind.
+/// Applies the function to a number of any kind.
 pub(crate) fn apply<D: DualNum<Primitive = f64>>(function: Function, x: &D) -> D {
     match function {
         Function::Sin => x.sin(),
@@ -205,7 +206,7 @@ pub(crate) fn apply<D: DualNum<Primitive = f64>>(function: Function, x: &D) -> D
     }
 }
 
-/// What the interpreter finds, and how far off another computation may be.
+/// Value found by the interpreter, and tolerance for another computation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reference {
     pub(super) value: f64,
@@ -213,7 +214,7 @@ pub(super) struct Reference {
 }
 
 impl Reference {
-    /// Whether the graph's value is this; skipped where it is too uncertain itself.
+    /// Checks that the value of the graph agrees; skips values with a large error bound.
     pub(super) fn check(self, found: Approximate) -> Result<Outcome, TestCaseError> {
         prop_assert!(found.value.is_finite(), "{found:?} is not {self:?}");
         let is_certain = found.error <= 1e-3 * (1.0 + self.value.abs());
@@ -226,7 +227,7 @@ impl Reference {
     }
 }
 
-/// Random relative changes of a given size.
+/// Random relative changes of size `size`.
 struct Noise {
     size: f64,
     state: u64,
@@ -244,13 +245,13 @@ impl Noise {
     }
 }
 
-/// A point for the symbols, away from where functions have their poles and kinks.
+/// Random values of the symbols, away from 0, where many functions have poles and kinks.
 pub(super) fn points() -> impl Strategy<Value = [f64; SYMBOLS]> {
     let coordinate = prop_oneof![0.05..2.5_f64, -2.5..-0.05_f64];
     prop::array::uniform3(coordinate)
 }
 
-/// Expressions in all functions, some taken where they may be undefined.
+/// Expressions with all functions, some with arguments outside their domain.
 pub(super) fn trees() -> impl Strategy<Value = Tree> {
     leaves().prop_recursive(
         4,
@@ -260,7 +261,7 @@ pub(super) fn trees() -> impl Strategy<Value = Tree> {
     )
 }
 
-/// Expressions in + − × ÷, whole powers and boundaries only.
+/// Expressions with + − × ÷, integer powers and definitions only.
 pub(super) fn rational_trees() -> impl Strategy<Value = Tree> {
     leaves().prop_recursive(4, 24, 3, rational_step)
 }
@@ -289,7 +290,7 @@ fn function_step(inner: impl Strategy<Value = Tree> + Clone + 'static) -> Union<
     const ANYWHERE: [F; 9] = [F::Sin, F::Cos, F::Tan, F::Atan, F::Sinh, F::Cosh, F::Tanh, F::Exp, F::Abs];
     let everywhere = (prop::sample::select(&ANYWHERE[..]), inner.clone());
     let positive = prop_oneof![3 => inner.clone().prop_map(made_positive), 1 => inner.clone()];
-    // A tanh rounds to 1, where an inverse has no slope.
+    // A tanh may round to 1, where the slopes of asin and acos are infinite.
     let below_one = |x| Tree::Product(vec![Tree::number(15, 16), Tree::function(F::Tanh, x)]);
     let bounded = prop_oneof![3 => inner.clone().prop_map(below_one), 1 => inner.clone()];
     let inverse = (prop::sample::select(&[F::Asin, F::Acos][..]), bounded);

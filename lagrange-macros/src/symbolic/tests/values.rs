@@ -1,4 +1,4 @@
-//! Simplification changes no value.
+//! Simplification preserves values.
 
 use proptest::prelude::*;
 

@@ -1,4 +1,4 @@
-//! The functions that stand in for unknown ones are functions.
+//! Random functions that stand in for user-supplied ones: they are consistent with their derivatives.
 
 use super::{graph, symbol};
 use crate::symbolic::evaluate::Approximate;
@@ -8,7 +8,7 @@ fn unknown(graph: &mut Graph, output: u32, arguments: [Id; 2]) -> Id {
     graph.external(External { function: 0, output, derivatives: Box::new([]), arguments: arguments.into() })
 }
 
-/// The values of `roots` where x, y and z are 0.3, −0.7 and 0.3 + `shift`.
+/// Values of `roots` at x = 0.3, y = −0.7 and z = 0.3 + `shift`.
 fn values(graph: &Graph, roots: &[Id], draw: u64, shift: f64) -> Vec<Approximate> {
     graph.sample(roots, draw, |symbol| Approximate::exact([0.3, -0.7, 0.3 + shift][symbol.index as usize]))
 }
@@ -26,7 +26,8 @@ fn their_derivatives_are_theirs() {
         let [before, here, after] = [-h, 0.0, h].map(|shift| values(&graph, &all, draw, shift));
         for order in 0..3 {
             let difference = (after[order].value - before[order].value) / (2.0 * h);
-            // The next derivative but one, of waves of frequencies below 2, times h²/6 is below 1e-6.
+            // Error of the central difference: h²/6 times the third derivative, below 1e-6 for wave frequencies below
+            // 2.
             assert!((difference - here[order + 1].value).abs() < 1e-6, "{order} {difference} {here:?}");
             assert!(here[order + 1].value.abs() > 1e-3 && here[order].error < 1e-12, "{here:?}");
         }

@@ -1,4 +1,4 @@
-//! Verdicts on whether an expression vanishes.
+//! Tests whether an expression vanishes: the verdicts.
 
 use proptest::prelude::*;
 
@@ -10,7 +10,7 @@ fn verdict(graph: &mut Graph, root: Id) -> Verdict {
     graph.is_zero(root, within((-1.25, 1.75)))
 }
 
-/// The same function of x, y, z in other words: sums multiplied out, functions by their theorems.
+/// Rewrites a tree as the same function of x, y, z: sums are expanded, functions rewritten by identities.
 fn rewritten(tree: Tree) -> Tree {
     let two = || Tree::number(2, 1);
     let square = |x: Tree| x.power(rational(2, 1));
@@ -44,7 +44,7 @@ fn rewritten(tree: Tree) -> Tree {
     }
 }
 
-/// The first sum among the factors is multiplied out.
+/// Expands the first sum among the factors.
 fn multiplied_out(mut factors: Vec<Tree>) -> Tree {
     let Some(position) = factors.iter().position(|factor| matches!(factor, Tree::Sum(_))) else {
         return Tree::Product(factors);
@@ -122,7 +122,7 @@ fn verdicts_say_how_sure_they_are() {
     let negative = graph.sum([(sine2, rational(-1, 1)), (Id::ONE, rational(-1, 1))]);
     let imaginary = graph.sqrt(negative);
     assert_eq!(verdict(&mut graph, imaginary), Verdict::Undecided);
-    // Half of the draws are outside of the domain of √y.
+    // Half of the draws are outside the domain of √y.
     let root = graph.sqrt(y);
     assert_eq!(verdict(&mut graph, root), Verdict::NonZero);
     let held = graph.mul(pythagoras, root);
@@ -142,7 +142,8 @@ fn samples_come_from_the_range_of_each_symbol() {
     assert_eq!(graph.is_zero(y, signed((0.5, 2.0))), Verdict::NonZero);
 }
 
-/// 1 / (d − x·y), where d is defined as x·y: what cannot be looked through must not pass for zero.
+/// 1 / (d − x·y), where d is defined as x·y: inlining causes a division by zero, and the result must not count as
+/// zero.
 #[test]
 fn a_hidden_division_by_zero_is_not_zero() {
     let (mut graph, [x, y, _]) = graph();
