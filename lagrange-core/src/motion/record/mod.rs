@@ -100,7 +100,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         let mut crossings = Vec::new();
         let mut search = EventSearch::begin(&mut events, system, start)?;
         let (subdivisions, stopped) = (search.subdivisions, search.record_due(start, &mut crossings));
-        let count = plan.times.len();
+        let count = plan.times.capacity([start.t, end]);
         let (samples, values) =
             (Vec::with_capacity(count), Vec::with_capacity(count * plan.quantities.len()));
         let goal = if steering.is_some() { start.t } else { end };

@@ -32,6 +32,9 @@ pub(crate) enum SampleTimes<T> {
     Every(T),
 }
 
+/// Largest number of regular samples that memory is reserved for before the motion, which may end long before its end time.
+const RESERVED: usize = 1 << 16;
+
 impl<T: Real> SampleTimes<T> {
     /// Time of sample `number`; `None` after the end.
     pub(super) fn get(&self, number: usize, [start, end]: [T; 2]) -> Option<T> {
@@ -48,11 +51,14 @@ impl<T: Real> SampleTimes<T> {
         }
     }
 
-    /// Number of samples, or 0 if it is unknown: a capacity to reserve.
-    pub(super) fn len(&self) -> usize {
+    /// Number of samples to reserve memory for: all, but of regular ones at most [`RESERVED`].
+    pub(super) fn capacity(&self, [start, end]: [T; 2]) -> usize {
         match self {
             Self::At(times) => times.len(),
-            Self::Every(_) => 0,
+            Self::Every(interval) => {
+                let intervals = Scalar::abs(end - start) / *interval;
+                (intervals.to_f64() as usize).min(RESERVED - 1) + 1
+            }
         }
     }
 
