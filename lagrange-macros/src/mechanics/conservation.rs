@@ -58,7 +58,8 @@ enum Trial {
     Undecided,
 }
 
-/// Evidence that random motions conserve `quantity`; `None` if they do not, or if the system exceeds [`LARGE`].
+/// Evidence that random motions conserve `quantity`. `None` if they do not, if the test is undecided, or if the system
+/// exceeds [`LARGE`].
 pub(super) fn found(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Option<Evidence> {
     if moments.problem.coordinates.len() + moments.problem.constraints.len() > LARGE {
         return None;

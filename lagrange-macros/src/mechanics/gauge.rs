@@ -32,8 +32,8 @@ pub(crate) enum LinearPart {
 /// Lagrangians are written by programs.
 const TERMS: usize = 100;
 
-/// Returns the terms that are total time derivatives individually. Of the remaining terms, returns one pair that is,
-/// or else all terms linear in the velocities if together they are.
+/// Returns the terms that are total time derivatives individually, then pairs of remaining terms that are one
+/// together. Last come all remaining terms linear in the velocities, if their sum is one.
 pub(super) fn total_derivatives(graph: &mut Graph, problem: &Problem) -> Vec<TotalDerivative> {
     let terms = &problem.terms;
     if terms.len() > TERMS {

@@ -178,7 +178,7 @@ impl Graph {
         self.intern(Node::Pi)
     }
 
-    /// Value of a constant of any magnitude; `None` if the node is not constant.
+    /// Value of a node that is a rational number of any magnitude; `None` otherwise.
     pub(crate) fn as_scaled(&self, id: Id) -> Option<Scaled> {
         let (term, fraction) = match self.node(id) {
             Node::Number(value) => return Some((*value).into()),
@@ -212,7 +212,7 @@ impl Graph {
         }
     }
 
-    /// Makes `inner` a definition, unless it is a number or a symbol.
+    /// Makes `inner` a definition, unless it has no operands or is a definition already.
     pub(crate) fn defined(&mut self, inner: Id) -> Id {
         match self.node(inner) {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Defined(_) => inner,

@@ -342,7 +342,7 @@ impl Graph {
     }
 }
 
-/// Largest decimal exponent, either way, of numbers in a product: half the range of `f64`.
+/// Largest decimal exponent, either way, of numbers in a product: about half the range of `f64`.
 const RANGE: f64 = 150.0;
 
 /// Symmetry of a function under x → −x.

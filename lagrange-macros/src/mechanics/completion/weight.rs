@@ -47,7 +47,7 @@ impl System<'_> {
 
 pub(super) struct Weights<'e> {
     pub(super) graph: &'e mut Graph,
-    /// States on the constraints.
+    /// States that satisfy the constraints.
     pub(super) states: &'e mut [State],
 }
 
