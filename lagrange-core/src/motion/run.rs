@@ -134,7 +134,8 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     }
 
     /// Takes one accepted step. If the observer cannot follow it, undoes the step and tries a shorter one.
-    #[inline(always)]
+    // Its own frame without optimization: what looking into a step takes is not to lie below the search for events.
+    #[inline]
     fn step_with<L, F, P, O, const M: usize>(
         &mut self,
         method: &P,
