@@ -114,6 +114,24 @@ fn memory_does_not_grow_with_the_steps() {
     });
 }
 
+/// Samples of a motion, with and without derivatives, take as much memory at most after ten times as many steps.
+#[test]
+fn memory_of_samples_does_not_grow_with_the_steps() {
+    let spring = Spring { k: 2.0 };
+    let method = Dop853::default().max_step(0.01).max_steps(usize::MAX);
+    let derivatives = spring.sensitivity(&State::at_rest([1.0]), &["x", "k"]).expect("names");
+    let most = |end: f64| {
+        let never = || spring.differentiable_event("never", |s| Ok(s.coordinate("x")? + 2.0));
+        let alone = || spring.motion(State::at_rest([1.0])).by(method).every(0.1 * end).to(end);
+        let both = || {
+            spring.motion_with_derivatives(&derivatives).by(method).event(never()).every(0.1 * end).to(end)
+        };
+        let alone = measure(|| assert_eq!(alone().expect("a motion").samples.len(), 11)).bytes_max;
+        [alone, measure(|| assert_eq!(both().expect("a motion").samples.len(), 11)).bytes_max]
+    };
+    assert_eq!(most(100.0), most(10.0));
+}
+
 /// Crossings of two events, one of them by name, with a change of the state at each.
 #[test]
 fn events_allocate_nothing() {
