@@ -78,8 +78,8 @@ use crate::system::{Lagrangian, ResidualChange, Solution, State};
 /// linearization.
 ///
 /// `#[derive(Lagrangian)]` implements this trait for `N` coordinates, `M` constraints and `P` parameters. Parameters
-/// are the numbers in the fields that an expression uses. A control input is a parameter in a `#[force(…)]`, or
-/// anywhere else; the caller selects it by name.
+/// are the numbers in the fields that an expression uses. Control inputs are parameters too, mostly of a
+/// `#[force(…)]`: functions such as [`linearize`](Self::linearize) take their names.
 ///
 /// The derivatives are exact. For the residual R = (M q̈ − h − Fᵀλ, F q̈ + γ), the derivative of (q̈, λ) along a
 /// direction solves K δ(q̈, λ) = −∂R, where ∂R is taken at fixed (q̈, λ) and K is the KKT matrix of the equations of

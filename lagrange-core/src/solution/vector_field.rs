@@ -31,7 +31,7 @@ pub trait VectorField<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
         rates: &mut PhaseVector<L::Scalar, N>,
     ) -> Result<ActiveConstraints<M>, Error>;
 
-    /// Returns the state at `point`; if its velocity cannot be found, with the nearby velocity of `point`.
+    /// Returns the state at `point`. If the search for its velocity fails, uses the initial guess `point.velocity`.
     fn state(system: &L, point: &StagePoint<L::Scalar, N>) -> State<L::Scalar, N>;
 
     /// Returns the nearest state on the constraints.

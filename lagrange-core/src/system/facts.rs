@@ -35,8 +35,8 @@ pub enum LinearPart {
 
 /// Composition of the energy function E = p·q̇ − L: whether it is T + U.
 ///
-/// By degree in the velocities L = L₂ + L₁ + L₀, so E = L₂ − L₀. The kinetic energy is such a sum too, T = T₂ +
-/// T₁ + T₀. T₁ and T₀ vanish unless positions depend on time at fixed coordinates. If they do, E = T₂ − T₀ + U,
+/// Sorted by degree in the velocities, the Lagrangian is L = L₂ + L₁ + L₀, so that E = L₂ − L₀. The kinetic energy
+/// splits likewise, T = T₂ + T₁ + T₀. T₁ and T₀ vanish unless positions depend on time at fixed coordinates. If they do, E = T₂ − T₀ + U,
 /// which is not T + U (Goldstein, Poole and Safko, *Classical Mechanics*, 2.7).
 ///
 /// Without `kinetic(…)` a Lagrangian does not distinguish T from U: m ω² r²/2 is T₀ of a bead on a wire that is

@@ -6,7 +6,7 @@ use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Node, Rational};
 use crate::variables::{Variable, drift, nodes};
 
-/// Generalized velocities q̇, and the velocities that definitions name, as variables of a form.
+/// Generalized velocities q̇ and velocities w named by definitions. Their rates are the variables of a [`Form`].
 pub(super) struct Velocities {
     /// q̇, then the named velocities.
     pub(super) nodes: Vec<Id>,
@@ -52,7 +52,8 @@ impl Velocities {
         self.form_of(graph, &local, linear)
     }
 
-    /// Form from the momenta ∂ℓ/∂(q̇, w) and the linear part b.
+    /// Returns the quadratic form ½ xᵀHx − bᵀx. H is the derivative of the momenta `local` = ∂ℓ/∂(q̇, w) by (q̇, w),
+    /// and b is `linear`.
     pub(super) fn form_of(&self, graph: &mut Graph, local: &[Id], linear: Vec<Id>) -> Form {
         let matrix = self.hessian(graph, local);
         Form::over(matrix, linear, &self.rows)

@@ -140,8 +140,8 @@ impl<'a> Notation<'a> {
         self.spelling.fraction(&self.factors(above, true), &below)
     }
 
-    /// Writes a built-up fraction. One that is too wide for a line is written with its sums beside it, or on one line
-    /// that may break.
+    /// Writes a fraction with a bar. If it is too wide, moves the sums of the numerator behind it, as in (1/b)(x +
+    /// y); if that does not help, writes a / (b), where lines may break.
     fn fraction(self, above: &[Formula], below: &[Formula]) -> String {
         let [over, under] = [above, below].map(|factors| match factors {
             // The fraction bar groups a single sum, so it needs no parentheses.

@@ -152,7 +152,7 @@ impl Parameters {
         self.report_once(index, error, diagnostics)
     }
 
-    /// Reports the first error of a field only.
+    /// Reports an error of a field, unless one of the same field has been reported.
     fn report_once<T>(
         &mut self,
         index: usize,

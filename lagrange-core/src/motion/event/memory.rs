@@ -152,7 +152,8 @@ impl<T: Real> EventState<T> {
         self.samples[0] = value;
         if !goes_on {
             let noise = start.unwrap_or(T::constant(0.0));
-            // At a jump or a pole the function is not near zero, however large it is after the crossing.
+            // Limited by the noise: after a crossing at a jump or a pole, the recorded magnitude may be large, and a
+            // value below it is no zero.
             let left = smaller(self.left + self.left, noise * T::constant(16.0));
             let left = if self.last == Some(t) { left } else { T::constant(0.0) };
             let is_at_zero = start.is_some() && Scalar::abs(value) <= noise + left;

@@ -100,7 +100,7 @@ impl Taylor {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SingularStep<T> {
     pub(super) length: T,
-    /// Number of longer attempts left. A rejected step ended near the pose, and a longer one may pass it.
+    /// Number of longer attempts left. After a rejection near the singular pose, a longer step may pass the pose.
     left: usize,
     /// Length of the step by all orders.
     planned: T,

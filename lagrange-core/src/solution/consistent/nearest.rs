@@ -99,8 +99,7 @@ struct ConstrainedPoint<T, const N: usize, const M: usize> {
     /// Tangential part of q₀ − q, zero at the nearest point; with the multipliers μ.
     slip: SVector<T, N>,
     multipliers: SVector<T, M>,
-    /// Largest ratio of an entry of `slip` to its scale: |q| + |q₀| plus the distance in units of that
-    /// coordinate.
+    /// Largest |slipᵢ| / (|qᵢ| + |q₀ᵢ| + d/√Mᵢᵢ), with the distance d in the metric M.
     slip_part: T,
 }
 

@@ -79,8 +79,8 @@ mod tests {
         let (matrix, rows) = plate(6);
         let order = order(&matrix, &rows).expect("cheaper");
         let place = |variable: usize| order.iter().position(|&other| other == variable);
-        // Skip the last loop: once it alone remains, coordinates of the plate couple no more variables than its own
-        // do.
+        // Skip the last loop: once the others are eliminated, its own coordinates and those of the plate are equally
+        // cheap to eliminate.
         for k in 0..10 {
             let (coordinate, multiplier) = (place(3 + k), place(15 + k));
             assert!(

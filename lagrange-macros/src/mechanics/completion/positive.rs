@@ -81,7 +81,8 @@ fn multiplied(one: &[OddFactors], other: &[OddFactors]) -> Vec<OddFactors> {
     products.collect()
 }
 
-/// Odd factors of a product: factors that are odd in both operands become even.
+/// Factors with an odd exponent in a product, from those of its two operands. A factor in both lists gets an even
+/// exponent and is dropped.
 fn in_one_alone(one: &[Id], other: &[Id]) -> Vec<Id> {
     let without = |these: &[Id], those: &[Id]| -> Vec<Id> {
         these.iter().copied().filter(|id| !those.contains(id)).collect()

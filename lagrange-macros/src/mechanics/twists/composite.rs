@@ -165,7 +165,8 @@ impl Carried {
         Self { mass: self.mass, moment, inertia }
     }
 
-    /// Momentum of the body that moves at the rate `rate` of a step.
+    /// Momentum of the composite body if it rotates with the angular velocity `rate`, for a rotation `step`, or
+    /// translates with the velocity `rate`.
     fn momentum(&self, rate: Triple, step: &Step, graph: &mut Graph) -> Momentum {
         let momentum = match step {
             Step::Turned(_) => Momentum {

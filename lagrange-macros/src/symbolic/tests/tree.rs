@@ -159,7 +159,7 @@ impl Tree {
         noise.on(value)
     }
 
-    /// One component of the value, with a tolerance. The tolerance comes from the response of the result to small
+    /// Returns one component of the value over dual numbers, and a tolerance. The tolerance comes from the response of the result to small
     /// random relative changes of every intermediate (Monte Carlo arithmetic: Parker). The changes are far larger than
     /// rounding errors, so that a deviation beyond the tolerance cannot be rounding. `None` if the tolerance is too
     /// large to be useful.
