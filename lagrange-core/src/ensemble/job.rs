@@ -7,8 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::fingerprint::Fingerprint;
 use super::outcome::{Member, Outcome};
-use super::plan::{EnsembleProgress, Make, MemberPlan, Observer, Plan, Watch};
+use super::plan::{EnsembleProgress, Make, MemberObserver, MemberPlan, Plan, Watch};
 use crate::error::{Ending, EnsembleError, Error};
+use crate::motion::progress::unless_broken;
 use crate::motion::record::{Arrival, Moving, Recorded};
 use crate::motion::run::{Run, Watchdog};
 use crate::motion::{Batch, LagrangianVectorField, LaneMethod, LaneMotion, Method};
@@ -19,7 +20,7 @@ use crate::system::{Lagrangian, State};
 /// State of a running ensemble, shared by all threads.
 pub(super) struct Job<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
     make: Make<'a, L, T, N>,
-    observer: Option<Observer<'a, T, N>>,
+    observer: Option<MemberObserver<'a, T, N>>,
     member_plan: Arc<MemberPlan<'a, L, N, M>>,
     end: T,
     /// Fingerprint of the run, common to all members.
@@ -130,7 +131,7 @@ where
     #[cfg(feature = "mpi")]
     pub(super) fn batch(&self, list: Vec<usize>) -> Job<'_, L, T, N, M> {
         let observer = self.observer.as_ref().map(|observe| {
-            let observer: Observer<'_, T, N> = Box::new(observe);
+            let observer: MemberObserver<'_, T, N> = Box::new(observe);
             observer
         });
         let ledger = Mutex::new(Ledger { members: Vec::new(), of: list.len(), watch: None });
@@ -240,7 +241,7 @@ where
         let (mut run, _) = Run::begin::<L, LagrangianVectorField, _, M>(system, start, method)?;
         let record = self.member_plan.record(index, system, &run.state, self.end)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
-        let accept = |state: &_, _| self.observe(index, state);
+        let accept = |state: &State<T, N>, _| unless_broken(self.observe(index, state), state.t.to_f64());
         let mut recorded =
             Recorded::<_, _, _, N, M, HAS_DENSE_OUTPUT>::new(Moving::Steered(system), record, accept);
         let driven = run.drive::<L, LagrangianVectorField, P, _, M>(method, &limits, &mut recorded);

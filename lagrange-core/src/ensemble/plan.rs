@@ -25,7 +25,7 @@ pub(super) struct Plan<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, c
     pub(super) list: Option<Vec<usize>>,
     /// Rows of members taken over from earlier runs.
     pub(super) done: Vec<MemberRow<T, N>>,
-    pub(super) observer: Option<Observer<'a, T, N>>,
+    pub(super) observer: Option<MemberObserver<'a, T, N>>,
     pub(super) watch: Option<Watch<'a, T, N>>,
     pub(super) member_plan: MemberPlan<'a, L, N, M>,
     /// Name given by the user to the code that no fingerprint sees.
@@ -80,7 +80,7 @@ where
 }
 
 pub(super) type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
-pub(super) type Observer<'a, T, const N: usize> =
+pub(super) type MemberObserver<'a, T, const N: usize> =
     Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
 pub(super) type Watch<'a, T, const N: usize> =
     Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
@@ -102,11 +102,11 @@ pub(super) struct MemberPlan<'a, L: Lagrangian<N, M>, const N: usize, const M: u
     /// Events of the ensemble; each member starts with a fresh copy.
     events: Vec<Event<L, Box<Observed<'a, L, N, M>>, N, M>>,
     /// Interval between calls of the controller, in units of time, and the controller. The first call is at the start.
-    controller: Option<(L::Scalar, Box<Controller<'a, L, N, M>>)>,
+    controller: Option<(L::Scalar, Box<MemberController<'a, L, N, M>>)>,
 }
 
 /// Sets the parameters of the member with the given index; returns errors as text.
-type Controller<'a, L, const N: usize, const M: usize> = dyn Fn(usize, &mut L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<(), String>
+type MemberController<'a, L, const N: usize, const M: usize> = dyn Fn(usize, &mut L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<(), String>
     + Send
     + Sync
     + 'a;

@@ -1,39 +1,39 @@
-//! A motion with its derivatives, of which samples alone are kept.
+//! Motions with derivatives that keep samples instead of steps.
 
 use alloc::{boxed::Box, vec::Vec};
 use core::marker::PhantomData;
 
 use super::Linearized;
-use super::sensitivities::{Course, DynEvent};
+use super::sensitivities::{Course, DynDifferentiableEvent};
 use super::sensitivity::StateSensitivity;
 use super::variation::DifferentiableMethod;
 use crate::error::{Ending, Error};
 use crate::motion::builder::EventList;
 use crate::motion::event::DenseStep;
+use crate::motion::progress::{OnProgress, report};
 use crate::motion::record::{Arrival, Record, RecordPlan};
-use crate::motion::run::{Observer, Progress, Run, Watchdog, check_end};
-use crate::motion::store::OnProgress;
+use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::motion::{MotionBuilder, SamplesAlone};
 use crate::number::Real;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State};
 
-/// Where a motion ended, its samples, and how they change with entries of its start and with parameters.
+/// End and samples of a motion, and their derivatives by entries of the start and by parameters.
 #[derive(Clone, Debug)]
 pub struct SampledSensitivity<T, const N: usize> {
-    /// The motion without its derivatives.
+    /// End, samples and crossings of the motion, without derivatives.
     pub arrival: Arrival<T, N>,
-    /// Each sample of [`arrival`](Self::arrival) with its derivatives at its time.
+    /// Samples of [`arrival`](Self::arrival) with their derivatives at fixed time.
     pub samples: Vec<StateSensitivity<T, N>>,
     end: Result<StateSensitivity<T, N>, Error>,
 }
 
 impl<T: Real, const N: usize> SampledSensitivity<T, N> {
-    /// The last state and its derivatives, as by [`TrajectorySensitivity::end`](super::TrajectorySensitivity::end).
+    /// Returns the last state and its derivatives, like [`TrajectorySensitivity::end`](super::TrajectorySensitivity::end).
     ///
     /// # Errors
-    /// As there.
+    /// The errors of `TrajectorySensitivity::end`.
     pub fn end(&self) -> Result<&StateSensitivity<T, N>, Error> {
         self.end.as_ref().map_err(Error::clone)
     }
@@ -44,8 +44,8 @@ impl<'w, L, const N: usize, const M: usize, P, E>
 where
     L: Lagrangian<N, M, Scalar: Real>,
 {
-    /// Integrates the motion and its derivatives to the time `end`, or to the first [terminal](crate::Event::terminal) event. Of
-    /// the steps nothing is kept.
+    /// Integrates the motion and its derivatives to the time `end`, or to the first
+    /// [terminal](crate::Event::terminal) event, without storing the steps.
     ///
     /// ```
     /// # use lagrange_core::prelude::*;
@@ -70,15 +70,15 @@ where
     where
         L: Linearized<N, M, K>,
         P: DifferentiableMethod<L, N, M, K>,
-        E: EventList<DynEvent<'w, L, N, M, K>>,
+        E: EventList<DynDifferentiableEvent<'w, L, N, M, K>>,
     {
         let motion = self.towards(end)?;
         let ending = &motion.arrival.ending;
         if ending.is_failure() { Err(ending.clone().into()) } else { Ok(motion) }
     }
 
-    /// Integrates the motion and its derivatives towards the time `end`. Where the motion fails on the way, what was kept up to there is
-    /// returned, with the ending that says why.
+    /// Integrates the motion and its derivatives towards the time `end`. If the motion fails, the samples up to the
+    /// failure are returned, and the ending says why.
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
@@ -86,7 +86,7 @@ where
     where
         L: Linearized<N, M, K>,
         P: DifferentiableMethod<L, N, M, K>,
-        E: EventList<DynEvent<'w, L, N, M, K>>,
+        E: EventList<DynDifferentiableEvent<'w, L, N, M, K>>,
     {
         let Self { system, start, method, events, on_progress, kept } = self;
         integrate(system, &start, end, &method, &mut events.list(), &kept.plan, on_progress)
@@ -99,7 +99,7 @@ fn integrate<L, D, const N: usize, const M: usize, const P: usize>(
     start: &StateSensitivity<L::Scalar, N>,
     end: L::Scalar,
     method: &D,
-    events: &mut [Box<DynEvent<'_, L, N, M, P>>],
+    events: &mut [Box<DynDifferentiableEvent<'_, L, N, M, P>>],
     plan: &RecordPlan<'_, L, N, M>,
     on_progress: Option<OnProgress<'_>>,
 ) -> Result<SampledSensitivity<L::Scalar, N>, Error>
@@ -139,24 +139,24 @@ where
     Ok(SampledSensitivity { arrival, samples, end })
 }
 
-/// The derivatives of a motion while it is integrated and sampled.
+/// Observer that carries derivatives along a motion and samples both.
 struct SampledAlong<'a, 'o, L, D, const N: usize, const M: usize, const P: usize>
 where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
     system: &'a L,
-    /// The times of the start and of the end.
+    /// Times of the start and of the end.
     ends: [L::Scalar; 2],
     record: Record<'o, L, N, M>,
-    /// Of the last step alone.
+    /// Derivatives along the last step.
     course: Course<L, N, M, P>,
-    /// What the method needs for the next step of the derivatives.
+    /// Memory of the method for the derivatives.
     stages: D::VariationMemory,
-    /// The state at the start of the last step.
+    /// State at the start of the last step.
     before: State<L::Scalar, N>,
     samples: Vec<StateSensitivity<L::Scalar, N>>,
-    /// The interpolant of the last step, if it is looked into.
+    /// Interpolant of the last step, if events or samples need it; else empty.
     within: Vec<D::Interpolant>,
     on_progress: Option<OnProgress<'o>>,
 }
@@ -166,7 +166,7 @@ where
     L: Linearized<N, M, P, Scalar: Real>,
     D: DifferentiableMethod<L, N, M, P>,
 {
-    /// Adds the derivatives of the samples that have none yet.
+    /// Adds the derivatives of the samples that the record has taken since the last call.
     fn sample(&mut self) -> Result<(), Error> {
         for state in &self.record.samples()[self.samples.len()..] {
             self.samples.push(self.course.at(self.system, state)?);
@@ -174,7 +174,7 @@ where
         Ok(())
     }
 
-    /// Its parts that are wanted after the motion.
+    /// Returns the parts that the result is made of.
     #[allow(clippy::type_complexity, reason = "its fields")]
     fn end(
         self,
@@ -232,12 +232,7 @@ where
             self.sample().map_err(|error| Ending::of(error, run.state.t.to_f64()))?;
             ending.map_or(Ok(()), Err)?;
         }
-        let Some(look) = &mut self.on_progress else { return Ok(()) };
-        let [start, end] = self.ends.map(Real::to_f64);
-        let progress = Progress { start, time: run.state.t.to_f64(), end, steps: run.statistics.accepted };
-        match look(progress).is_break() {
-            true => Err(Ending::Cancelled { time: progress.time }),
-            false => Ok(()),
-        }
+        let [start, end] = self.ends;
+        report(&mut self.on_progress, [start, run.state.t, end], run.statistics.accepted)
     }
 }

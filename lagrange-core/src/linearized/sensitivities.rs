@@ -10,8 +10,9 @@ use super::tangent::{Tangent, WideOf};
 use super::variation::{DifferentiableMethod, Variations};
 use crate::error::{Ending, Error};
 use crate::motion::builder::EventList;
+use crate::motion::progress::OnProgress;
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
-use crate::motion::store::{OnProgress, Stored};
+use crate::motion::store::Stored;
 use crate::motion::{AnyEvent, MotionBuilder};
 use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
@@ -55,7 +56,7 @@ pub(super) struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, c
 type Between<W, const N: usize> = fn(&[PhaseVector<W, N>], W) -> PhaseVector<W, N>;
 
 /// An event of a motion with derivatives.
-pub(super) type DynEvent<'a, L, const N: usize, const M: usize, const P: usize> =
+pub(super) type DynDifferentiableEvent<'a, L, const N: usize, const M: usize, const P: usize> =
     dyn DifferentiableEvent<L, N, M, P> + 'a;
 
 impl<'a, 'w, L, const N: usize, const M: usize, P, E, J>
@@ -76,12 +77,12 @@ where
         N,
         M,
         P,
-        Vec<Box<DynEvent<'w, L, N, M, K>>>,
+        Vec<Box<DynDifferentiableEvent<'w, L, N, M, K>>>,
         J,
     >
     where
         L: Linearized<N, M, K>,
-        E: EventList<DynEvent<'w, L, N, M, K>>,
+        E: EventList<DynDifferentiableEvent<'w, L, N, M, K>>,
     {
         self.with_events(|events| {
             let mut events = events.list();
@@ -105,7 +106,7 @@ where
     where
         L: Linearized<N, M, K>,
         P: DifferentiableMethod<L, N, M, K>,
-        E: EventList<DynEvent<'w, L, N, M, K>>,
+        E: EventList<DynDifferentiableEvent<'w, L, N, M, K>>,
     {
         self.towards(end)?.finished()
     }
@@ -122,7 +123,7 @@ where
     where
         L: Linearized<N, M, K>,
         P: DifferentiableMethod<L, N, M, K>,
-        E: EventList<DynEvent<'w, L, N, M, K>>,
+        E: EventList<DynDifferentiableEvent<'w, L, N, M, K>>,
     {
         let Self { system, start, method, events, on_progress, .. } = self;
         integrate(system, &start, end, &method, &mut events.list(), on_progress)
@@ -135,7 +136,7 @@ fn integrate<'a, L, D, const N: usize, const M: usize, const P: usize>(
     start: &StateSensitivity<L::Scalar, N>,
     end: L::Scalar,
     method: &D,
-    events: &mut [Box<DynEvent<'_, L, N, M, P>>],
+    events: &mut [Box<DynDifferentiableEvent<'_, L, N, M, P>>],
     on_progress: Option<OnProgress<'_>>,
 ) -> Result<TrajectorySensitivity<'a, L, N, M, P>, Error>
 where
@@ -284,14 +285,14 @@ where
         Ok(at)
     }
 
-    /// The derivatives where the motion has ended, at an event with those of its time. `before` is a state earlier in the motion.
+    /// Returns the derivatives at the end of the motion; at an event they include those of its time. `before` is an earlier state.
     pub(super) fn end(
         &self,
         system: &L,
         state: &State<L::Scalar, N>,
         ending: &Ending,
         crossings: &[Crossing<L::Scalar, N>],
-        events: &[Box<DynEvent<'_, L, N, M, P>>],
+        events: &[Box<DynDifferentiableEvent<'_, L, N, M, P>>],
         before: &State<L::Scalar, N>,
     ) -> Result<StateSensitivity<L::Scalar, N>, Error> {
         if ending.is_failure() {
@@ -305,7 +306,7 @@ where
         }
     }
 
-    /// Forgets all steps so far, but for the derivatives at the end of the last.
+    /// Discards the steps, and keeps the derivatives at the end of the last.
     pub(super) fn forget_steps(&mut self) {
         self.steps.clear();
         self.coefficients.clear();

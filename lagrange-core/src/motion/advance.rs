@@ -83,7 +83,7 @@ where
 }
 
 /// Observer that steps to the first crossing, or to `end`.
-pub(super) struct Search<'m, 'e, L: Lagrangian<N, M>, I, const N: usize, const M: usize> {
+pub(super) struct FindCrossing<'m, 'e, L: Lagrangian<N, M>, I, const N: usize, const M: usize> {
     pub(super) system: &'m L,
     pub(super) last_step: &'m mut LastStep<I>,
     pub(super) end: L::Scalar,
@@ -93,7 +93,7 @@ pub(super) struct Search<'m, 'e, L: Lagrangian<N, M>, I, const N: usize, const M
     pub(super) found: Option<Crossing<L::Scalar, N>>,
 }
 
-impl<L, I, const N: usize, const M: usize> Search<'_, '_, L, I, N, M>
+impl<L, I, const N: usize, const M: usize> FindCrossing<'_, '_, L, I, N, M>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     I: Interpolant<L::Scalar, N>,
@@ -113,7 +113,7 @@ where
 }
 
 impl<L, F, P, const N: usize, const M: usize> Observer<L, F, P, N, M>
-    for Search<'_, '_, L, P::Interpolant, N, M>
+    for FindCrossing<'_, '_, L, P::Interpolant, N, M>
 where
     L: Lagrangian<N, M, Scalar: Real>,
     F: VectorField<L, N, M>,

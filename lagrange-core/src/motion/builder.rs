@@ -9,8 +9,9 @@ use core::ops::ControlFlow;
 
 use super::event::{AnyEvent, DynEvent};
 use super::method::{Dop853, Method};
-use super::run::{Progress, Run, Watchdog, check_end};
-use super::store::{OnProgress, Stored};
+use super::progress::{OnProgress, Progress};
+use super::run::{Run, Watchdog, check_end};
+use super::store::Stored;
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::vector_field::VectorField;

@@ -29,6 +29,7 @@ pub(crate) mod event;
 #[cfg(feature = "std")]
 mod lanes;
 pub(crate) mod method;
+pub(crate) mod progress;
 #[cfg(feature = "alloc")]
 pub(crate) mod record;
 pub(crate) mod run;
@@ -54,9 +55,9 @@ pub use method::{
     Adaptive, Dop853, Dopri5, DormandPrince54, DormandPrince853, Limits, Method, Pair, RungeKutta4, Step,
     TableauRow, runge_kutta_step,
 };
+pub use progress::Progress;
 #[cfg(feature = "alloc")]
 pub use record::Arrival;
-pub use run::Progress;
 #[cfg(feature = "alloc")]
 pub use sampled::{Kept, SamplesAlone};
 pub use simulate::Simulate;

@@ -13,19 +13,6 @@ use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 
-/// Progress of an integration, for a progress callback.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    /// Time at the start.
-    pub start: f64,
-    /// Current time.
-    pub time: f64,
-    /// Time at the end.
-    pub end: f64,
-    /// Number of accepted steps.
-    pub steps: usize,
-}
-
 /// A motion during its integration: state, working memory of the method, and statistics.
 #[derive(Debug)]
 #[cfg_attr(not(feature = "alloc"), allow(unreachable_pub, reason = "what differentiates motions allocates"))]
@@ -291,7 +278,7 @@ pub(crate) fn check_end<T: Real>(end: T) -> Result<(), Error> {
 /// Watches the limits on steps and wall-clock time, counted from its creation.
 pub(crate) struct Watchdog {
     limits: Limits,
-    /// Number of steps tried before its creation.
+    /// Number of steps tried before this watchdog was created; they do not count towards the limit.
     before: usize,
     #[cfg(feature = "std")]
     started: Option<std::time::Instant>,

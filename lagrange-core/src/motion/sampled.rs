@@ -4,13 +4,13 @@ use alloc::boxed::Box;
 use alloc::string::ToString;
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Display, Formatter};
-use core::ops::ControlFlow;
 
 use super::builder::{AllSteps, EventList, MotionBuilder, Start};
 use super::event::{DynEvent, EventValue};
 use super::method::Method;
+use super::progress::report;
 use super::record::{Arrival, Moving, Record, RecordPlan, Recorded, SampleTimes, Steering};
-use super::run::{Progress, Run, Watchdog, check_end};
+use super::run::{Run, Watchdog, check_end};
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::Sample;
@@ -230,11 +230,9 @@ where
         let mut begun = Run::begin::<L, F, P, M>(system, state, &method);
         let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
         let record = Record::begin(&plan, events.list(), steering, system, &run.state, end)?;
-        let start = run.state.t.to_f64();
-        let accept = |state: &State<L::Scalar, N>, steps| match &mut on_progress {
-            None => ControlFlow::Continue(()),
-            Some(look) => look(Progress { start, time: state.t.to_f64(), end: end.to_f64(), steps }),
-        };
+        let from = run.state.t;
+        let accept =
+            |state: &State<L::Scalar, N>, steps| report(&mut on_progress, [from, state.t, end], steps);
         let moving = own.as_mut().map_or(Moving::Fixed(system), Moving::Steered);
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let mut recorded = Recorded::<_, _, _, N, M, true>::new(moving, record, accept);

@@ -3,7 +3,7 @@
 use core::fmt::{self, Debug, Formatter};
 
 use super::Method;
-use super::advance::{GoPast, LastStep, Search};
+use super::advance::{FindCrossing, GoPast, LastStep};
 use super::event::{AnyEvent, EventSearch};
 use super::run::{Run, Watchdog, is_between, put_interpolant, resume};
 use crate::error::{Ending, Error};
@@ -244,9 +244,9 @@ where
         let mut search = EventSearch::from(events, system, at, !last_step.is_there)
             .map_err(|error| Ending::of(error, at.t.to_f64()))?;
         let found = search.due(at)?;
-        let mut search = Search { system: &*system, last_step, end, search, at, found };
+        let mut search = FindCrossing { system: &*system, last_step, end, search, at, found };
         if search.found.is_none() {
-            // Search the rest of the step within which the motion has stopped.
+            // FindCrossing the rest of the step within which the motion has stopped.
             search.look::<F>(&run.before, &run.state)?;
         }
         run.drive::<L, F, P, _, M>(method, &limits, &mut search)?;

@@ -1,12 +1,11 @@
 //! Observer that stores all steps of a motion.
 
-use alloc::boxed::Box;
 use alloc::vec::Vec;
-use core::ops::ControlFlow;
 
 use super::event::{AnyEvent, EventSearch};
 use super::method::Method;
-use super::run::{Observer, Progress, Run};
+use super::progress::{OnProgress, report};
+use super::run::{Observer, Run};
 use crate::error::{Ending, Error};
 use crate::number::Real;
 use crate::solution::Adjustment;
@@ -15,9 +14,6 @@ use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
 use crate::trajectory::{Path, Trajectory};
-
-/// Progress callback, which may cancel the motion.
-pub(crate) type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + 'a>;
 
 /// Observer that stores the steps, their dense output and the crossings of the events `W`. Without events `HAS_EVENTS`
 /// is false, and the search is not compiled.
@@ -80,17 +76,6 @@ where
         let ending = driven.err().unwrap_or(Ending::Complete { time });
         Trajectory::new(self.system, self.path.finish(), ending, statistics, adjustment)
     }
-
-    /// Calls the progress callback.
-    #[inline(always)]
-    fn look(&mut self, time: L::Scalar, steps: usize) -> Result<(), Ending> {
-        let Some(look) = &mut self.on_progress else { return Ok(()) };
-        let [start, time, end] = [self.path.start(), time, self.end].map(Real::to_f64);
-        match look(Progress { start, time, end, steps }) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(Ending::Cancelled { time }),
-        }
-    }
 }
 
 impl<L, F, P, W, const N: usize, const M: usize, const HAS_EVENTS: bool> Observer<L, F, P, N, M>
@@ -125,6 +110,7 @@ where
             let ends = [&run.before, &run.state];
             self.search.record_in::<F, _>(&mut self.path, self.system, ends).map_or(Ok(()), Err)?;
         }
-        self.look(run.state.t, run.statistics.accepted)
+        let times = [self.path.start(), run.state.t, self.end];
+        report(&mut self.on_progress, times, run.statistics.accepted)
     }
 }

@@ -12,7 +12,7 @@ use crate::number::Scalar;
     note = "`m` is a number; `c: [3]` an array or a vector; `A: [3, 3]` and `I: symmetric` an array of arrays or a matrix; \
             `R: rotation` such a matrix, or a `Rotation3`; `q: quaternion` a `UnitQuaternion`; `place: pose` an `Isometry3`"
 )]
-pub trait Member<T, Shape> {
+pub trait FieldMember<T, Shape> {
     /// Returns number `k`, counted row by row; for a quaternion in the order (w, x, y, z).
     fn number(&self, k: usize) -> T;
 
@@ -24,7 +24,7 @@ pub trait Member<T, Shape> {
 macro_rules! members {
     ($({$($length:ident),*} $shape:ty = $ty:ty, |$member:ident, $k:ident| $place:expr;)+) => {$(
         #[diagnostic::do_not_recommend]
-        impl<T: Scalar $(, const $length: usize)*> Member<T, $shape> for $ty {
+        impl<T: Scalar $(, const $length: usize)*> FieldMember<T, $shape> for $ty {
             #[inline(always)]
             fn number(&self, $k: usize) -> T {
                 let $member = self;
@@ -55,7 +55,7 @@ members! {
 macro_rules! turns {
     ($({$($length:ident)?} $shape:ty = $ty:ty, |$member:ident, $k:ident| $place:expr;)+) => {$(
         #[diagnostic::do_not_recommend]
-        impl<T: Scalar $(, const $length: usize)?> Member<T, $shape> for $ty {
+        impl<T: Scalar $(, const $length: usize)?> FieldMember<T, $shape> for $ty {
             #[inline(always)]
             fn number(&self, $k: usize) -> T {
                 let $member = self;

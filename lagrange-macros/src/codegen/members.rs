@@ -24,7 +24,10 @@ impl Emitter<'_> {
         // The function is never called; it only makes the compiler check the types.
         (!reads.is_empty()).then(|| {
             quote! {
-                #[allow(dead_code, clippy::all, clippy::pedantic, clippy::nursery)]
+                #[allow(
+                    dead_code, clippy::all, clippy::pedantic, clippy::nursery,
+                    reason = "its types are checked, and nothing calls it"
+                )]
                 fn members #impl_generics(system: &#ident #type_generics) #where_clause {
                     #(let _ = #reads;)*
                 }
@@ -43,14 +46,16 @@ impl FunctionContext<'_> {
     ) -> Option<TokenStream> {
         let MemberNumber { span, of, shape, number } = self.member(owner, entry, varying)?;
         let scalar = &self.problem.scalar;
-        Some(quote_spanned!(span=> __lagrange::generated::Member::<#scalar, #shape>::number(&#of, #number)))
+        Some(
+            quote_spanned!(span=> __lagrange::generated::FieldMember::<#scalar, #shape>::number(&#of, #number)),
+        )
     }
 
     pub(super) fn set_number_of_member(&self, entry: Entry, value: &TokenStream) -> Option<TokenStream> {
         let MemberNumber { span, of, shape, number } = self.member(&quote!(self), entry, None)?;
         let scalar = &self.problem.scalar;
         Some(quote_spanned! {span=>
-            if !__lagrange::generated::Member::<#scalar, #shape>::set(&mut #of, #number, #value) {
+            if !__lagrange::generated::FieldMember::<#scalar, #shape>::set(&mut #of, #number, #value) {
                 return false;
             }
         })

@@ -10,7 +10,7 @@ use super::{Block, DifferentiableMethod, Linearized, StateDerivatives, Variation
 use crate::error::{Ending, Error};
 use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::method::pair::{Slopes, advance, last};
-use crate::motion::method::step::PairMemory;
+use crate::motion::method::pair_memory::PairMemory;
 use crate::motion::run::Run;
 use crate::motion::{Adaptive, Pair, TableauRow};
 use crate::number::{Broadcast, Real, Scalar, Wide, exceeds, vector};

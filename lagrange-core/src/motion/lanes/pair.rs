@@ -7,7 +7,7 @@ use super::motion::LaneOutcome;
 use super::reliability::LaneReliability;
 use crate::error::Error;
 use crate::motion::method::pair::{Slopes, TableauRow, advance, check, last};
-use crate::motion::method::step::PairMemory;
+use crate::motion::method::pair_memory::PairMemory;
 use crate::motion::{Adaptive, Interpolant, Pair};
 use crate::number::{Lanes, Scalar, vector};
 use crate::room::Room;

@@ -7,7 +7,9 @@ pub(crate) mod control;
 mod dop853;
 mod dopri5;
 pub(crate) mod pair;
+pub(crate) mod pair_memory;
 mod runge_kutta;
+mod slope;
 pub(crate) mod step;
 mod stiff;
 

@@ -5,8 +5,6 @@ use alloc::vec::Vec;
 use core::array::from_fn;
 use core::fmt;
 
-use nalgebra::ComplexField;
-
 use super::adaptive::Adaptive;
 use super::clock::Clock;
 use super::contract::{Limits, Method, Step};
@@ -14,86 +12,17 @@ use super::control::{Control, StateEntry};
 use super::pair::{
     Pair, Slopes, TableauRow, advance, advance_from, check, error_needs_last, is_carried, last,
 };
+use super::pair_memory::{PairMemory, StepStart, Taken};
+use super::slope::{check_finite, entry, inlined_slope, slope};
 use crate::error::{Ending, Error, Pace};
-use crate::names::{Entry, Row, name};
 #[cfg(feature = "alloc")]
 use crate::number::larger;
 use crate::number::{Real, Scalar, entries, vector};
 use crate::room::Room;
 use crate::solution::interpolant::{Polynomial, hermite};
-use crate::solution::vector_field::{ActiveConstraints, PhaseVector, StagePoint, VectorField};
+use crate::solution::vector_field::{PhaseVector, StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State};
-
-/// State that an embedded pair carries from step to step.
-#[derive(Clone, Debug)]
-pub struct PairMemory<T, const N: usize, const M: usize> {
-    pub(crate) clock: Clock<T>,
-    pub(crate) control: Control<T>,
-    /// True once the first step length has been chosen, which requires the end.
-    is_planned: bool,
-    /// Current coordinates and velocities, or coordinates and momenta.
-    pub(crate) y: PhaseVector<T, N>,
-    /// True if `slope` holds the rates at `y`.
-    pub(crate) has_slope: bool,
-    /// Rates at `y`.
-    pub(crate) slope: PhaseVector<T, N>,
-    /// Constraints that determine the rates: a largest independent set at `y`.
-    pub(crate) active: [bool; M],
-    /// Slopes of the last step tried; the first is the slope at its start.
-    pub(super) slopes: Room<Slopes<T, N>>,
-    /// The step that led to `y`.
-    pub(super) taken: Option<Taken<T, N, M>>,
-}
-
-/// An accepted step, for its dense output or to undo it.
-#[derive(Clone, Debug)]
-pub(super) struct Taken<T, const N: usize, const M: usize> {
-    from: StepStart<T, N, M>,
-    pub(super) h: T,
-    pub(super) control: Control<T>,
-}
-
-/// Start of a step.
-#[derive(Clone, Copy, Debug)]
-struct StepStart<T, const N: usize, const M: usize> {
-    t: T,
-    y: PhaseVector<T, N>,
-    active: [bool; M],
-}
-
-impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
-    /// Returns the next step, signed, and the time after it.
-    pub(crate) fn next(&self) -> (T, T) {
-        self.clock.next(self.control.step)
-    }
-
-    /// Start, length and slopes of the last accepted step.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn last_step(&self) -> Option<(StagePoint<T, N>, T, &Slopes<T, N>)> {
-        let Taken { from: StepStart { t, y, .. }, h, .. } = self.taken.as_ref()?;
-        Some((StagePoint { t: *t, y: *y, velocity: self.slopes[0][0] }, *h, &self.slopes))
-    }
-
-    /// Evaluates the rates at the current state, unless they are known.
-    #[inline]
-    pub(crate) fn ensure_slope<L: Lagrangian<N, M, Scalar = T>, F: VectorField<L, N, M>>(
-        &mut self,
-        system: &L,
-        statistics: &mut Statistics,
-    ) -> Result<(), Error> {
-        if !self.has_slope {
-            let point = StagePoint { t: self.clock.now, y: self.y, velocity: self.slope[0] };
-            self.active = slope::<L, F, N, M>(system, &point, None, &mut self.slope, statistics)?;
-            self.has_slope = true;
-        }
-        Ok(())
-    }
-
-    fn origin(&self) -> StepStart<T, N, M> {
-        StepStart { t: self.clock.now, y: self.y, active: self.active }
-    }
-}
 
 /// Reason to reject a step.
 enum Refusal<T> {
@@ -484,54 +413,4 @@ where
         }
     }
     Ok(())
-}
-
-/// Evaluates the rates at a phase point into `rates`, and counts the evaluation. Returns the constraints that determine
-/// them. Not inlined: several callers would each compile the equations again.
-#[inline(never)]
-fn slope<L: Lagrangian<N, M, Scalar: Real>, F: VectorField<L, N, M>, const N: usize, const M: usize>(
-    system: &L,
-    point: &StagePoint<L::Scalar, N>,
-    active: Option<&[bool; M]>,
-    rates: &mut PhaseVector<L::Scalar, N>,
-    statistics: &mut Statistics,
-) -> Result<[bool; M], Error> {
-    inlined_slope::<L, F, N, M>(system, point, active, rates, statistics)
-}
-
-#[inline(always)]
-fn inlined_slope<
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    const N: usize,
-    const M: usize,
->(
-    system: &L,
-    point: &StagePoint<L::Scalar, N>,
-    active: Option<&[bool; M]>,
-    rates: &mut PhaseVector<L::Scalar, N>,
-    statistics: &mut Statistics,
-) -> Result<[bool; M], Error> {
-    statistics.evaluations += 1;
-    let ActiveConstraints { active, multipliers_are_unique } = F::evaluate(system, point, active, rates)?;
-    statistics.multipliers_are_unique &= multipliers_are_unique;
-    Ok(active)
-}
-
-fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    t: L::Scalar,
-    [q, rest]: &PhaseVector<L::Scalar, N>,
-) -> Result<(), Error> {
-    let row = |i: usize| Row::Coordinate(name(&L::COORDINATES, i));
-    match (0..N).find(|&i| !(q[i].is_finite() && rest[i].is_finite())) {
-        None => Ok(()),
-        Some(i) => Err(Error::EquationsNotFinite { row: row(i), time: t.to_f64() }),
-    }
-}
-
-fn entry<L: Lagrangian<N, M, Scalar: Real>, F: VectorField<L, N, M>, const N: usize, const M: usize>(
-    (half, index): StateEntry,
-) -> Entry {
-    let name = name(&L::COORDINATES, index);
-    if half == 0 { Entry::Coordinate(name) } else { F::entry(name) }
 }

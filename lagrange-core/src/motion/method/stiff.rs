@@ -7,7 +7,7 @@
 use super::adaptive::Adaptive;
 use super::contract::{Method, Step};
 use super::pair::{Pair, SLOPES, TableauRow, combine, last};
-use super::step::{PairMemory, Taken};
+use super::pair_memory::{PairMemory, Taken};
 use crate::number::{Real, Scalar};
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;

@@ -6,7 +6,7 @@ use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
-use core::ops::{ControlFlow, Deref};
+use core::ops::Deref;
 
 pub(crate) use plan::{RecordPlan, SampleTimes, check_interval};
 
@@ -288,7 +288,7 @@ where
     L: Lagrangian<N, M, Scalar: Real>,
     F: VectorField<L, N, M>,
     P: Method<L, N, M, F>,
-    A: FnMut(&State<L::Scalar, N>, usize) -> ControlFlow<()>,
+    A: FnMut(&State<L::Scalar, N>, usize) -> Result<(), Ending>,
 {
     fn system(&self) -> &L {
         &self.system
@@ -335,9 +335,6 @@ where
             let step = DenseStep { system: &*self.system, before, after, interpolant, field };
             self.record.keep(&step, &mut run.state).map_or(Ok(()), Err)?;
         }
-        match (self.accept)(&run.state, run.statistics.accepted) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(Ending::Cancelled { time: run.state.t.to_f64() }),
-        }
+        (self.accept)(&run.state, run.statistics.accepted)
     }
 }

@@ -1,0 +1,82 @@
+//! State that an embedded pair carries from step to step.
+
+use super::clock::Clock;
+use super::control::Control;
+use super::pair::Slopes;
+use super::slope::slope;
+use crate::error::Error;
+use crate::number::Real;
+use crate::room::Room;
+use crate::solution::vector_field::{PhaseVector, StagePoint, VectorField};
+use crate::statistics::Statistics;
+use crate::system::Lagrangian;
+
+/// State that an embedded pair carries from step to step.
+#[derive(Clone, Debug)]
+pub struct PairMemory<T, const N: usize, const M: usize> {
+    pub(crate) clock: Clock<T>,
+    pub(crate) control: Control<T>,
+    /// True once the first step length has been chosen, which requires the end.
+    pub(super) is_planned: bool,
+    /// Current coordinates and velocities, or coordinates and momenta.
+    pub(crate) y: PhaseVector<T, N>,
+    /// True if `slope` holds the rates at `y`.
+    pub(crate) has_slope: bool,
+    /// Rates at `y`.
+    pub(crate) slope: PhaseVector<T, N>,
+    /// Constraints that determine the rates: a largest independent set at `y`.
+    pub(crate) active: [bool; M],
+    /// Slopes of the last step tried; the first is the slope at its start.
+    pub(super) slopes: Room<Slopes<T, N>>,
+    /// The step that led to `y`.
+    pub(super) taken: Option<Taken<T, N, M>>,
+}
+
+/// An accepted step, for its dense output or to undo it.
+#[derive(Clone, Debug)]
+pub(super) struct Taken<T, const N: usize, const M: usize> {
+    pub(super) from: StepStart<T, N, M>,
+    pub(super) h: T,
+    pub(super) control: Control<T>,
+}
+
+/// Start of a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepStart<T, const N: usize, const M: usize> {
+    pub(super) t: T,
+    pub(super) y: PhaseVector<T, N>,
+    pub(super) active: [bool; M],
+}
+
+impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
+    /// Returns the next step, signed, and the time after it.
+    pub(crate) fn next(&self) -> (T, T) {
+        self.clock.next(self.control.step)
+    }
+
+    /// Start, length and slopes of the last accepted step.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn last_step(&self) -> Option<(StagePoint<T, N>, T, &Slopes<T, N>)> {
+        let Taken { from: StepStart { t, y, .. }, h, .. } = self.taken.as_ref()?;
+        Some((StagePoint { t: *t, y: *y, velocity: self.slopes[0][0] }, *h, &self.slopes))
+    }
+
+    /// Evaluates the rates at the current state, unless they are known.
+    #[inline]
+    pub(crate) fn ensure_slope<L: Lagrangian<N, M, Scalar = T>, F: VectorField<L, N, M>>(
+        &mut self,
+        system: &L,
+        statistics: &mut Statistics,
+    ) -> Result<(), Error> {
+        if !self.has_slope {
+            let point = StagePoint { t: self.clock.now, y: self.y, velocity: self.slope[0] };
+            self.active = slope::<L, F, N, M>(system, &point, None, &mut self.slope, statistics)?;
+            self.has_slope = true;
+        }
+        Ok(())
+    }
+
+    pub(super) fn origin(&self) -> StepStart<T, N, M> {
+        StepStart { t: self.clock.now, y: self.y, active: self.active }
+    }
+}

@@ -1,0 +1,71 @@
+//! Rates at a stage of a step, counted, and the entry at fault if they are not finite.
+
+use nalgebra::ComplexField;
+
+use super::control::StateEntry;
+use crate::error::Error;
+use crate::names::{Entry, Row, name};
+use crate::number::Real;
+use crate::solution::vector_field::{ActiveConstraints, PhaseVector, StagePoint, VectorField};
+use crate::statistics::Statistics;
+use crate::system::Lagrangian;
+
+/// Evaluates the rates at a phase point into `rates`, and counts the evaluation. Returns the constraints that determine
+/// them. Not inlined: several callers would each compile the equations again.
+#[inline(never)]
+pub(super) fn slope<
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    const N: usize,
+    const M: usize,
+>(
+    system: &L,
+    point: &StagePoint<L::Scalar, N>,
+    active: Option<&[bool; M]>,
+    rates: &mut PhaseVector<L::Scalar, N>,
+    statistics: &mut Statistics,
+) -> Result<[bool; M], Error> {
+    inlined_slope::<L, F, N, M>(system, point, active, rates, statistics)
+}
+
+#[inline(always)]
+pub(super) fn inlined_slope<
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    const N: usize,
+    const M: usize,
+>(
+    system: &L,
+    point: &StagePoint<L::Scalar, N>,
+    active: Option<&[bool; M]>,
+    rates: &mut PhaseVector<L::Scalar, N>,
+    statistics: &mut Statistics,
+) -> Result<[bool; M], Error> {
+    statistics.evaluations += 1;
+    let ActiveConstraints { active, multipliers_are_unique } = F::evaluate(system, point, active, rates)?;
+    statistics.multipliers_are_unique &= multipliers_are_unique;
+    Ok(active)
+}
+
+pub(super) fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    t: L::Scalar,
+    [q, rest]: &PhaseVector<L::Scalar, N>,
+) -> Result<(), Error> {
+    let row = |i: usize| Row::Coordinate(name(&L::COORDINATES, i));
+    match (0..N).find(|&i| !(q[i].is_finite() && rest[i].is_finite())) {
+        None => Ok(()),
+        Some(i) => Err(Error::EquationsNotFinite { row: row(i), time: t.to_f64() }),
+    }
+}
+
+pub(super) fn entry<
+    L: Lagrangian<N, M, Scalar: Real>,
+    F: VectorField<L, N, M>,
+    const N: usize,
+    const M: usize,
+>(
+    (half, index): StateEntry,
+) -> Entry {
+    let name = name(&L::COORDINATES, index);
+    if half == 0 { Entry::Coordinate(name) } else { F::entry(name) }
+}
