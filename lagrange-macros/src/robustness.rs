@@ -1,8 +1,8 @@
-//! The derive never panics: right input, wrong input, right input with something random done to it, and input made of the
-//! language's forms without regard to what they mean.
+//! The derive never panics: on correct input, wrong input, randomly changed input, and random combinations of the
+//! language's forms.
 //!
-//! What made it panic once is kept in `robustness/corpus`, with systems that between them use every attribute and every
-//! form of expression; changes at random begin at these.
+//! Inputs that once caused a panic are kept in `robustness/corpus`, with systems that together use every attribute
+//! and every form of expression. Random changes start from these.
 
 mod grammar;
 mod streams;
@@ -19,7 +19,7 @@ fn tokens(text: &str) -> TokenStream {
     text.parse().expect("these are tokens")
 }
 
-/// The sources in a folder of the corpus.
+/// Reads the sources in a folder of the corpus.
 fn corpus(folder: &str) -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/robustness/corpus").join(folder);
     let mut files: Vec<_> =
@@ -28,7 +28,7 @@ fn corpus(folder: &str) -> Vec<String> {
     files.into_iter().map(|file| std::fs::read_to_string(file).expect("a text")).collect()
 }
 
-/// Expands, and requires Rust: an implementation, or errors.
+/// Expands the input. The result must be Rust code with an implementation, or errors.
 fn check(input: &TokenStream) -> TokenStream {
     let Ok(expansion) = catch_unwind(AssertUnwindSafe(|| expand(input.clone()))) else {
         panic!("the derive panics on {input}")
@@ -42,7 +42,7 @@ fn check(input: &TokenStream) -> TokenStream {
     expansion
 }
 
-/// Whether rustc hands it to a derive: syn takes `struct Chain<_>`, too.
+/// Returns true if rustc passes the input to a derive. syn also accepts `struct Chain<_>`.
 fn is_item(input: &TokenStream) -> bool {
     let item = syn::parse2::<syn::DeriveInput>(input.clone());
     item.is_ok_and(|item| item.generics.type_params().all(|parameter| parameter.ident != "_"))
@@ -87,7 +87,7 @@ fn random_tokens_never_make_it_panic() {
     });
 }
 
-/// Some mean something: the random forms are not all turned down at the door.
+/// Random forms reach the later stages: some of the systems are accepted.
 #[test]
 fn random_forms_never_make_it_panic() {
     let (mut all, mut accepted) = (0, 0);
@@ -99,7 +99,7 @@ fn random_forms_never_make_it_panic() {
     assert!(all < 200 || 40 * accepted > all, "{accepted} of {all} are accepted");
 }
 
-/// `begin`, then `unit` of every number from 1 to `count`, then `end`, as a Lagrangian.
+/// A Lagrangian of `begin`, then `unit` of every number from 1 to `count`, then `end`.
 fn long(begin: &str, count: usize, unit: impl Fn(usize) -> String, end: &str) -> TokenStream {
     let middle: String = (1..=count).map(unit).collect();
     tokens(&format!("#[coordinates(x)] #[lagrangian(x_dot^2 {begin}{middle}{end})] struct System;"))
@@ -118,7 +118,7 @@ fn long_input_ends_in_an_answer() {
     assert!(is_error(&expand(long("+", 10_000, same("-"), "x"))));
 }
 
-/// f1(a) = f0(f0(a)), f2(a) = f1(f1(a)), …: two to the fortieth calls.
+/// f1(a) = f0(f0(a)), f2(a) = f1(f1(a)), …: 2⁴⁰ calls.
 #[test]
 fn runaway_definitions_end_in_an_error() {
     let functions: String = (1..=40).map(|i| format!("#[define(f{i}(a) = f{0}(f{0}(a)))]", i - 1)).collect();
@@ -128,7 +128,7 @@ fn runaway_definitions_end_in_an_error() {
     assert!(is_error(&expand(tokens(&input))));
 }
 
-/// v1 = [v0, v0], v2 = [v1, v1], …: two to the fortieth numbers.
+/// v1 = [v0, v0], v2 = [v1, v1], …: 2⁴⁰ numbers.
 #[test]
 fn runaway_vectors_end_in_an_error() {
     let vectors: String = (1..=40).map(|i| format!("#[define(v{i} = [v{0}, v{0}])]", i - 1)).collect();

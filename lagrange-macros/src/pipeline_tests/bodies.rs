@@ -1,4 +1,4 @@
-//! Frames and rigid bodies: the recursions against differentiation, and what they cost.
+//! Frames and rigid bodies: compares the recursions with differentiation of L, and counts operations.
 
 use expect_test::expect;
 
@@ -8,7 +8,8 @@ use crate::mechanics::Equations;
 use crate::symbolic::{Approximate, Id, Sample};
 use crate::variables::{Variable, nodes, total_time_derivative};
 
-/// Operations of the accelerations and multipliers, by each form.
+/// Operation counts of the accelerations and multipliers, one per form of the equations. `None` for a form that is
+/// solved in loops.
 fn counts(source: &str) -> Vec<Option<usize>> {
     let (graph, _, equations) = equations(source);
     let last = |counts: Vec<(_, Count)>| counts.last().map(|(_, count)| count.arithmetic);
@@ -70,8 +71,8 @@ pub(super) fn least(source: &str) -> usize {
     counts(source).into_iter().flatten().min().expect("short enough")
 }
 
-/// The articulated-body algorithm by hand, with symbolic parameters, takes 3,555 operations for the arm and 6,511 for the
-/// quadruped without what its quaternion takes (CasADi 3.8).
+/// A hand-written articulated-body algorithm with symbolic parameters takes 3,555 operations for the arm. For the
+/// quadruped it takes 6,511, without those of the quaternion (CasADi 3.8).
 #[test]
 fn machines_cost_less_than_by_hand() {
     let in_angles = QUADRUPED
@@ -97,7 +98,7 @@ fn machines_cost_less_than_by_hand() {
     .assert_eq(&counts.concat());
 }
 
-/// Bodies in arrays are the same bodies.
+/// Indexed coordinates such as `r[0]` cost as much as separate ones such as `r0`.
 #[test]
 fn bodies_in_arrays_cost_as_much_as_each_by_its_name() {
     let system = |head: &str, r: [&str; 3], q: [&str; 3]| {
@@ -123,7 +124,8 @@ fn bodies_in_arrays_cost_as_much_as_each_by_its_name() {
     assert_eq!(counts(&together), counts(&apart));
 }
 
-/// Of the form over the rates of all velocities, which is the one that long chains are solved by.
+/// The form whose unknowns include the rates of all velocities takes linearly many operations. For a long chain it
+/// is the cheapest form.
 #[test]
 fn a_long_arm_costs_as_much_as_its_length() {
     let arm = |n: usize| {
@@ -136,7 +138,8 @@ fn a_long_arm_costs_as_much_as_its_length() {
     assert_eq!(least(&arm(20)), lengths[3]);
 }
 
-/// A frame that is turned by a product, however that is written, and its turns one by one.
+/// A rotation by a product costs as much as its factors as separate steps and gives the same accelerations, however
+/// the product is written.
 #[test]
 fn a_product_of_rotations_is_its_turns() {
     let source = |definitions: &str, steps: &str| {
@@ -175,7 +178,8 @@ fn a_product_of_rotations_is_its_turns() {
     }
 }
 
-/// Each is twice as long as the one before: as many turns are not taken one by one.
+/// Each definition is twice as long as the one before: the last one, a product of 2³⁹ rotations, is not split into
+/// steps.
 #[test]
 fn rotations_that_double_come_to_an_end() {
     let definitions = "#[define(R[0] = rot_x(a))] #[define(R[i in 1..40] = R[i-1]*R[i-1])]";
@@ -186,89 +190,92 @@ fn rotations_that_double_come_to_an_end() {
     assert!(!solving(&graph, &equations).is_empty());
 }
 
-/// Systems with every kind of step, and with all that L may contain beside bodies.
+/// Systems with every kind of frame step, and with every kind of term that L may contain beside bodies.
 const SYSTEMS: [&str; 19] = [
     ARM,
     DENAVIT,
     QUADRUPED,
     STEWART,
     FOUR_BAR,
-    // Frames that are carried along by time, by functions and by each other.
+    // Frames moved by time, by functions and by each other.
     "#[coordinates(x, y, z)] #[function(Omega(t))] #[function(s(t): [3])]
      #[frame(earth: translate(s(t)), rotate_y(latitude), rotate_x(Omega(t)))]
      #[frame(cart in earth: translate([x, 2*y, x*y]), rotate([1, 2, 2], z*t), translate([0, x^2, 0]))]
      #[lagrangian(kinetic(earth, m, [x, y, z]) + kinetic(cart, m, c, I) - m*g*position(cart, [1, 0, z])[0])]
      struct Driven<F, G> { m: f64, g: f64, latitude: f64, Omega: F, s: G, c: Vector3<f64>, I: Matrix3<f64> }",
-    // A coordinate that moves two frames, one of them without a body.
+    // A coordinate in the steps of two frames, and three times in those of the second.
     "#[coordinates(a, b)]
      #[frame(one: rotate_z(a), translate([l, 0, 0]))]
      #[frame(two in one: rotate_x(2*a + b), translate([0, a, b]), rotate_z(a))]
      #[lagrangian(kinetic(one, m, c, I) + kinetic(two, m, c, I))]
      struct Geared { m: f64, l: f64, c: Vector3<f64>, I: Matrix3<f64> }",
-    // Prismatic joints, which leave the angular velocity what it is; a body's energy twice.
+    // Prismatic joints, which leave the angular velocity unchanged; a kinetic energy with a factor 2.
     "#[coordinates(phi, x, y)]
      #[frame(turning: rotate_z(phi))] #[frame(sledge in turning: translate([x, 0, h]))] #[frame(lift in sledge: translate([0, d, y]))]
      #[lagrangian(kinetic(sledge, m, c, I) + 2*kinetic(lift, m, c, I) - m*g*position(lift)[2] - k/2*(x - l)^2)]
      #[dissipation(k*dot(velocity(lift), velocity(lift))/2)] #[force(x: k*phi_dot)]
      struct Crane { m: f64, h: f64, d: f64, l: f64, g: f64, k: f64, c: Vector3<f64>, I: Matrix3<f64> }",
-    // Two frames of one motion: what they have in common counts once.
+    // Two frames with the same rotation, whose common terms are computed once.
     "#[coordinates(p, q)]
      #[frame(a: rotate_x(p), rotate_y(q))] #[frame(b: translate([1, 2, 3]), rotate_x(p), rotate_y(q))]
      #[frame(c in b: rotate_x(p))]
      #[lagrangian(kinetic(a, m, c0, I) + kinetic(b, m, c0, I) + kinetic(c, m, c0, I) + dot(angular_velocity(b), c0)*p)]
      struct Twins { m: f64, c0: Vector3<f64>, I: Matrix3<f64> }",
-    // A rotation by a matrix that moves, of which no turns are known.
+    // A rotation matrix given by entries that depend on coordinates, not as a product of elementary rotations.
     "#[coordinates(p, q)]
      #[frame(a: rotate([[cos(p*q), -sin(p*q), 0], [sin(p*q), cos(p*q), 0], [0, 0, 1]]), translate([p, 0, 0]), rotate_x(q))]
      #[lagrangian(kinetic(a, m, c, I) - m*g*position(a, c)[1])]
      struct Entries { m: f64, g: f64, c: Vector3<f64>, I: Matrix3<f64> }",
-    // By a product of a turn and of reflections, which are no rotations.
+    // A product of a rotation and two reflections, which alone are no rotations.
     "#[coordinates(p, q)] #[define(M = [[0, 1, 0], [1, 0, 0], [0, 0, 1]])]
      #[frame(a: rotate(M*rot_x(p)*M), translate([p, 0, 0]), rotate_x(q))]
      #[lagrangian(kinetic(a, m, c, I) - m*g*position(a, c)[1])]
      struct Mirrored { m: f64, g: f64, c: Vector3<f64>, I: Matrix3<f64> }",
-    // A product of turns.
+    // A product of elementary rotations.
     "#[coordinates(p, q)] #[define(R = rot_x(p)*rot_z(q))]
      #[frame(a: rotate(R), translate([p, 0, 0]))]
      #[lagrangian(kinetic(a, m, c, I) - m*g*position(a, c)[1])]
      struct Matrices { m: f64, g: f64, c: Vector3<f64>, I: Matrix3<f64> }",
-    // Parameters that turn: a unit quaternion, a rotation, an axis.
+    // Parameters that rotate a frame: a unit quaternion, an axis, a rotation matrix.
     "#[coordinates(p, q)]
      #[frame(a: rotate(tilt), rotate(axis, p), rotate(mount), rotate_y(q))]
      #[lagrangian(kinetic(a, m, c, I) - m*g*position(a, c)[1])]
      struct Mounted { m: f64, g: f64, c: Vector3<f64>, I: Matrix3<f64>, axis: Vector3<f64>, tilt: UnitQuaternion<f64>, mount: Rotation3<f64> }",
-    // L of any kind: no body at all, not quadratic, of first degree, a magnetic field, springs between points.
+    // L of any kind: no rigid body, terms not quadratic or linear in the velocities, a magnetic field, springs
+    // between points.
     "#[coordinates(r: [3], p, q)]
      #[frame(a: translate(r), rotate_z(p))] #[frame(b in a: rotate_x(q), translate([0, 0, l]))]
      #[lagrangian(-m*sqrt(9 - dot(velocity(b), velocity(b))) + m*dot(velocity(a), velocity(a)) + dot(angular_velocity(b), vector(b, [1, 2, p]))^2
         + k*dot(velocity(b), cross([0, 1, 2], vector(b, [3, 1, l]))) - k/2*norm(position(b, [1, 0, 0]) - position(a, [0, 1, 0]) - vector(fixed, [3, 2, 1]))^2)]
      struct Odd { m: f64, l: f64, k: f64 }",
-    // Velocities that definitions name as well, energies in definitions and under other terms.
+    // Velocities named by definitions; kinetic energies inside definitions and with factors that depend on
+    // coordinates.
     "#[coordinates(x, p)]
      #[define(v = x_dot*cos(p))]
      #[frame(a: translate([x, 0, 0]), rotate_z(p))]
      #[define(T = kinetic(a, m, c, I) + m*v^2)]
      #[lagrangian(T + kinetic(a, 2*m, c, I)*x^2 - m*g*position(a, c)[1])]
      struct Named { m: f64, g: f64, c: Vector3<f64>, I: Matrix3<f64> }",
-    // Vectors taken from frame to frame, rates as seen from one.
+    // Vectors expressed in the axes of other frames; time derivatives as seen from a given frame.
     "#[coordinates(x, p, q)]
      #[frame(a: translate([x, 0, 0]), rotate_z(p))] #[frame(b in a: rotate_x(q))] #[frame(c: rotate_y(x))]
      #[define(r = vector(b, [p, 1, q]))]
      #[lagrangian(kinetic(b, m, c0, I) + dot(der(r), der(r)) + dot(der(r, c), express(der(r, fixed), b))/3 + dot(express(der(r, a), c), velocity(c, [1, 1, x])))]
      struct Seen { m: f64, c0: Vector3<f64>, I: Matrix3<f64> }",
-    // Masses, centres and inertias that vary: with coordinates, time, velocities, places, by functions and definitions.
+    // Masses, centres and inertias that vary with coordinates, time, velocities and positions, by functions and
+    // definitions.
     "#[coordinates(x, p, q)] #[function(burnt(t, x))]
      #[frame(a: rotate_y(p), translate([0, x, l]))] #[frame(b in a: rotate_x(q))]
      #[define(fuel = m*(2 + sin(x*t)))] #[define(J(s) = (1 + s^2)*I)]
      #[lagrangian(kinetic(a, fuel, c, J(x)) + kinetic(b, m*exp(-t) + position(a, c)[2]^2, c, I)
         + kinetic(b, burnt(t, x), [x, t, 1], J(p)) + kinetic(a, m, c, J(q_dot)) - fuel*g*position(a, c)[2])]
      struct Burning<F> { m: f64, g: f64, l: f64, c: Vector3<f64>, I: Matrix3<f64>, burnt: F }",
-    // Quaternions, one in the other.
+    // Two quaternions, the second relative to the frame of the first.
     "#[coordinates(r: [3], p: [4], q: [4])]
      #[frame(a: translate(r), rotate(p))] #[frame(b in a: translate([l, 0, 0]), rotate(q))]
      #[lagrangian(kinetic(a, m, c, I) + kinetic(b, m, c, I) - m*g*position(b, c)[2])]
      struct Balls { m: f64, g: f64, l: f64, c: Vector3<f64>, I: Matrix3<f64> }",
-    // Tied to the ground by points and rolling.
+    // A body with a constraint on the position of a point and a rolling constraint.
     "#[coordinates(r: [3], q: [4], s)]
      #[frame(a: translate(r), rotate(q))] #[frame(b in a: rotate_x(s))]
      #[lagrangian(kinetic(a, m, c, I) + kinetic(b, m, c, I))]
@@ -276,8 +283,8 @@ const SYSTEMS: [&str; 19] = [
      struct Tied { m: f64, l: f64, c: Vector3<f64>, I: Matrix3<f64> }",
 ];
 
-/// M q̈ − h and the inverse dynamics by the recursions of the frames, and dp/dt − ∂L/∂q − Q by differentiating L, at random
-/// states, on the constraints or off them.
+/// The recursions of the frames give M q̈ − h and the inverse dynamics. Both must equal dp/dt − ∂L/∂q − Q, found by
+/// differentiating L, at random states on the constraints or off them.
 #[test]
 fn recursions_give_what_differentiation_gives() {
     for source in SYSTEMS {
@@ -318,7 +325,8 @@ fn recursions_give_what_differentiation_gives() {
     }
 }
 
-/// Joints about two axes in turn: two families that lie in each other's elements, in either order, and frame by frame.
+/// Joints about two axes in turn: two families of frames, each with its parents in the other. They may be declared
+/// in either order, or frame by frame.
 #[test]
 fn families_of_frames_may_lie_in_one_another() {
     let system = |frames: [&str; 4]| {

@@ -1,4 +1,5 @@
-//! Where M is singular, the constraints that complete it: which, with what σ, at what cost, and the same solution.
+//! Constraints that complete a singular M: which ones, with what weight σ, and at what cost. The solution stays the
+//! same.
 
 use super::{equations, systems};
 use crate::codegen::{operations, solutions, solving};
@@ -7,7 +8,8 @@ use crate::resolve::Problem;
 use crate::symbolic::{Approximate, Graph, Id, Sample, Symbol, solve};
 use crate::variables::{Variable, symbols};
 
-/// A rigid body about its centre of mass, of any inertia; `HAND` is where a term that vanishes may be added to L.
+/// A rigid body of any inertia, rotating about its centre of mass. `HAND` marks where a test may add a vanishing
+/// term to L.
 const FREE: &str = "#[coordinates(q: [4])] #[define(w = quat_rate_body(q, q_dot))]
     #[lagrangian(dot(w, J*w)/2 HAND)] #[constraint(unit: (dot(q, q) - 1)/2 = 0)] struct Free { J: [[f64; 3]; 3] }";
 
@@ -16,7 +18,8 @@ const BALL: &str = "#[coordinates(r: [3], q: [4])] #[define(J = 2/5*m*a^2)] #[de
     #[constraint(rolling: r_dot - a*cross(Omega, n) = w*cross(n, r))]
     #[constraint(unit: (dot(q, q) - 1)/2 = 0)] struct Ball { m: f64, a: f64, g: [f64; 3], n: [f64; 3], w: f64 }";
 
-/// `count` bodies in a row, each hung to the one before by a spherical joint, the last to a wall as well if `closed`.
+/// `count` bodies in a row, each joined to the one before by a spherical joint. If `closed`, the last is joined to
+/// a wall as well.
 fn joints(count: usize, closed: bool) -> String {
     let last = count - 1;
     let mut bodies = String::new();
@@ -46,7 +49,7 @@ fn joints(count: usize, closed: bool) -> String {
     )
 }
 
-/// A body with four legs of three hinges each, their feet free; velocities in the body's frame.
+/// A body with four legs of three hinges each, feet free. Velocities are along the axes of the body.
 fn quadruped() -> String {
     let mut legs = String::new();
     for k in 0..4 {
@@ -71,7 +74,7 @@ fn without(source: &str) -> String {
     source.replace("HAND", "")
 }
 
-/// Operations of the cheapest form.
+/// Operation count of the cheapest form.
 fn least(source: &str) -> usize {
     let (graph, _, equations) = equations(source);
     let counts = solving(&graph, &equations).into_iter().flatten();
@@ -95,7 +98,7 @@ fn a_quaternion_costs_what_it_does_with_a_term_that_vanishes_added_by_hand() {
     }
 }
 
-/// The names of the constraints that complete M.
+/// Returns the names of the constraints that complete M.
 fn completing(source: &str) -> Vec<String> {
     let (_, problem, equations) = equations(&without(source));
     let [first, rest @ ..] = &equations.forms[..] else { panic!("a form") };
@@ -119,14 +122,14 @@ fn where_m_needs_no_constraint_it_is_left_alone() {
     let sources = [
         systems::rods(4),
         systems::SPHERE.to_owned(),
-        // An inertia of any shape, which no random numbers make definite, in angles.
+        // General inertia in Euler angles: random parameters do not make M positive definite.
         "#[coordinates(phi, theta, psi)]
          #[define(w = [phi_dot*sin(theta)*sin(psi) + theta_dot*cos(psi), phi_dot*sin(theta)*cos(psi) - theta_dot*sin(psi),
                        phi_dot*cos(theta) + psi_dot])]
          #[lagrangian(dot(w, J*w)/2)] #[constraint(level: phi_dot*cos(theta) + psi_dot = 0)]
          struct Euler { J: [[f64; 3]; 3] }"
             .to_owned(),
-        // Singular, and no constraint helps.
+        // M is singular, and the constraint does not complete it.
         "#[coordinates(x, y, z)] #[lagrangian((x_dot + y_dot)^2/2 + z_dot^2/2)] #[constraint(c: x + y + z = 1)]
          struct Hopeless {}"
             .to_owned(),
@@ -136,39 +139,39 @@ fn where_m_needs_no_constraint_it_is_left_alone() {
     }
 }
 
-/// Systems with an M that is singular or indefinite, and which constraints complete it.
+/// Systems with a singular or indefinite M, each with the constraints that complete it.
 const SINGULAR: [(&str, &[&str]); 9] = [
-    // A coordinate without a mass, tied to one that has one, and one tied to nothing.
+    // Two massless coordinates: y is tied to x, which has a mass; z is a function of time.
     (
         "#[coordinates(x, y, z)] #[lagrangian(m*x_dot^2/2 - k*(x^2 + y^2) - z)] #[constraint(curve: y = x^2)]
          #[constraint(held: z^3 = t)] struct Massless { m: f64, k: f64 }",
         &["curve", "held"],
     ),
-    // Two without, the one tied to the other.
+    // Two massless coordinates: z is tied to y, and y to x.
     (
         "#[coordinates(x, y, z)] #[lagrangian(m*x_dot^2/2 - k*z)] #[constraint(first: 1000*(y - z) = 0)]
          #[constraint(second: y = sin(x)*l)] struct Chained { m: f64, k: f64, l: f64 }",
         &["first", "second"],
     ),
-    // Indefinite, whatever the parameters, but not along the constraint.
+    // M is indefinite for all parameters, but positive definite along the constraint.
     (
         "#[coordinates(x, y)] #[lagrangian(m*(x_dot^2/2 + 2*x_dot*y_dot + y_dot^2/2) - k*x*y)]
          #[constraint(c: x = l)] struct Indefinite { m: f64, k: f64, l: f64 }",
         &["c"],
     ),
-    // The same with a diagonal of zeros.
+    // Indefinite M with zeros on the diagonal.
     (
         "#[coordinates(x, y)] #[lagrangian(m*x_dot*y_dot - k*x^2)] #[constraint(c: x = y + l*y^3)]
          struct Light { m: f64, k: f64, l: f64 }",
         &["c"],
     ),
-    // A velocity constraint, in a mass that depends on the velocity.
+    // A velocity constraint, and a mass that depends on the velocity.
     (
         "#[coordinates(x, y)] #[lagrangian(m*x_dot^4/12 - k*x*y)] #[constraint(c: y_dot = x_dot*cos(y) + t)]
          struct Quartic { m: f64, k: f64 }",
         &["c"],
     ),
-    // The length of the quaternion in other units, and given as a rate.
+    // The norm constraint of a quaternion: in other units, and as a velocity constraint.
     (
         "#[coordinates(q: [4])] #[define(w = quat_rate(q, q_dot))] #[lagrangian(J*dot(w, w)/2 - k*q[1])]
          #[constraint(unit: s*(dot(q, q) - 1) = 0)] struct Scaled { J: f64, k: f64, s: f64 }",
@@ -179,7 +182,7 @@ const SINGULAR: [(&str, &[&str]); 9] = [
          #[constraint(unit: 10^6*dot(q, q_dot) = 0)] struct Rate { J: f64, k: f64 }",
         &["unit"],
     ),
-    // An orientation as a matrix, which takes six equations to be one.
+    // A rotation matrix as coordinates, with the six constraints that make it orthogonal.
     (
         "#[coordinates(a: [3], b: [3], c: [3])] #[define(w = [dot(c, b_dot), dot(a, c_dot), dot(b, a_dot)])]
          #[lagrangian((A*w[0]^2 + B*w[1]^2 + C*w[2]^2)/2 - k*c[2])]
@@ -188,7 +191,7 @@ const SINGULAR: [(&str, &[&str]); 9] = [
          struct Turn { A: f64, B: f64, C: f64, k: f64 }",
         &["aa", "ab", "ac", "bb", "bc", "cc"],
     ),
-    // A quaternion of any length, in a coordinate that grows.
+    // A quaternion whose norm is another coordinate.
     (
         "#[coordinates(q: [4], s)] #[define(w = quat_rate_body(q, q_dot))]
          #[lagrangian((A*w[0]^2 + B*w[1]^2 + C*w[2]^2)/2 + m*s_dot^2/2 - k*q[1])]
@@ -206,7 +209,7 @@ fn massless_coordinates_and_indefinite_masses_are_completed() {
     }
 }
 
-/// A random state on the constraints.
+/// A random state that satisfies the constraints.
 fn state(graph: &Graph, problem: &Problem, equations: &Equations, draw: u64) -> Sample {
     let n = problem.coordinates.len();
     let roots = [&equations.roots()[..], &equations.forms[0].linear].concat();
@@ -224,7 +227,8 @@ fn state(graph: &Graph, problem: &Problem, equations: &Equations, draw: u64) -> 
     sample
 }
 
-/// Accelerations and multipliers by Gauss's elimination of M q̈ − Fᵀλ = h, F q̈ = −γ with complete pivoting.
+/// Solves M q̈ − Fᵀλ = h, F q̈ = −γ for accelerations and multipliers, by Gaussian elimination with complete
+/// pivoting.
 fn pivoted(graph: &Graph, equations: &Equations, state: &mut Sample) -> Vec<f64> {
     let (n, m) = (equations.mass.len(), equations.bias.len());
     let mut values = |roots: &[Id]| state.values(graph, roots);
@@ -244,8 +248,8 @@ fn pivoted(graph: &Graph, equations: &Equations, state: &mut Sample) -> Vec<f64>
     solution.values.iter().map(|x| x.value).collect()
 }
 
-/// Accelerations, multipliers and so the forces of constraints are those of the equations as they were, and the pivot
-/// says that they can be trusted.
+/// The completed equations have the same accelerations and multipliers, hence the same constraint forces, as the
+/// original ones. Their pivot is large enough to trust the solution.
 #[test]
 fn what_is_completed_has_the_same_solution() {
     let systems = [systems::TOP, BALL].map(str::to_owned).into_iter().chain([joints(2, true)]);
@@ -267,7 +271,7 @@ fn what_is_completed_has_the_same_solution() {
     }
 }
 
-/// Whatever the orientation, the inertia of a body is what its parameters make it.
+/// The inertia of a body does not depend on its orientation, so σ depends on parameters only.
 #[test]
 fn the_weight_of_a_unit_quaternion_is_an_expression_of_the_parameters() {
     let scaled = SINGULAR[5].0;
@@ -280,7 +284,7 @@ fn the_weight_of_a_unit_quaternion_is_an_expression_of_the_parameters() {
     }
 }
 
-/// The inertia of a sphere is the same about all axes: M is diagonal with the σ that makes it so.
+/// A sphere has the same inertia about all axes. With the right σ its completed M is diagonal.
 #[test]
 fn a_sphere_is_completed_to_a_diagonal() {
     let (_, _, equations) = equations(&without(BALL));
@@ -289,8 +293,8 @@ fn a_sphere_is_completed_to_a_diagonal() {
     }
 }
 
-/// Random parameters are positive, and those of a machine are not: of the inertia of what hangs on an arm no part may be
-/// taken that changes sign with the arm.
+/// Random parameters are positive; those of a machine may be negative. σ must not contain a part of an attached
+/// arm's inertia that changes sign with the arm.
 #[test]
 fn a_weight_is_positive_whichever_way_arms_point() {
     let source =

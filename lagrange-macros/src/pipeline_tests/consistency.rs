@@ -1,4 +1,4 @@
-//! Constraints that cannot all hold, or that say the same.
+//! Constraints that contradict each other, and redundant constraints.
 
 use super::{declaration, tokens};
 use crate::diagnostics::Diagnostics;
@@ -7,7 +7,7 @@ use crate::mechanics;
 use crate::resolve;
 use crate::rounds::{Random, rounds};
 
-/// The errors for a system with these constraints, called a, b, c, ….
+/// Returns the errors for a system with these constraints, named a, b, c, ….
 fn said(constraints: &[&str]) -> Vec<String> {
     let attributes: String = ('a'..)
         .zip(constraints)
@@ -39,7 +39,7 @@ fn numbers_contradict_each_other() {
         (&["x^2 + y^2 = 1", "3*x^2 + 3*y^2 = 4"], "`b` contradicts `a`: together they say -1 = 0"),
         (&["x + y = 1", "x - y = 0", "x = 3"], "`c` contradicts `a`, `b`: together they say -5/2 = 0"),
         (&["x_dot = 0", "z = 0", "x_dot = 1"], "`c` contradicts `a`: together they say -1 = 0"),
-        // From the rates: y' = 0 and y' = 1.
+        // The rates contradict each other: y' = 0 and y' = 1.
         (&["y = 2", "y_dot = 1"], "`b` contradicts `a`: together they say -1 = 0"),
         (&["x = sin(h)^2 + cos(h)^2", "x = 2"], "`b` contradicts `a`: together they say -1 = 0"),
         (&["x*(y + z) = sqrt(2)", "x*(y + z) = 1"], "`b` contradicts `a`: together they leave an equation"),
@@ -58,7 +58,7 @@ fn what_holds_at_one_time_only_contradicts() {
     }
 }
 
-/// Whatever the parameters are, one of the two is one too many.
+/// For any parameter values, the two constraints contradict each other or are the same.
 #[test]
 fn two_that_differ_in_parameters_contradict_or_repeat() {
     for (constraints, names) in [
@@ -87,7 +87,7 @@ fn repeated_ones_are_found_under_factors() {
     }
 }
 
-/// What `a`, `b`, … say beside others, as a function of which constraints are given.
+/// A redundant constraint is an error. The message depends on which other constraints imply it.
 #[test]
 fn what_follows_from_others_is_one_too_many() {
     let too = "`b` follows from `a`, which holds for velocities, too: leave `b` out";
@@ -102,7 +102,7 @@ fn what_follows_from_others_is_one_too_many() {
         (&["x = sin(y)", "x_dot*cos(y) - y_dot*(1 - sin(y)^2) = 0"], too),
         (&["x*y = f(t)", "x*y_dot + y*x_dot = der(f(t))"], too),
         (&["(x - y)^2 + z^2 = h", "x*(x_dot - y_dot) + z*z_dot = y*(x_dot - y_dot)"], too),
-        // The holonomic one stays, wherever it stands.
+        // The holonomic constraint is kept, in either order.
         (
             &["x_dot - h*y_dot = 0", "x - h*y = 0"],
             "`a` follows from `b`, which holds for velocities, too: leave `a` out",
@@ -149,7 +149,8 @@ fn what_follows_from_others_is_one_too_many() {
     }
 }
 
-/// Constraints that depend on one another at some states or for some parameters only: the numbers at run time tell.
+/// Accepts constraints that depend on one another only at some states or for some parameters. The numerical
+/// solution at run time detects such states.
 #[test]
 fn what_may_be_needed_is_let_through() {
     for constraints in [
@@ -157,13 +158,13 @@ fn what_may_be_needed_is_let_through() {
         &["x = f(t)", "y = f(t)"],
         &["h*x = 0", "k*x = 0"],
         &["x = y", "x_dot = h*y_dot"],
-        // On the constraints alone, the last one is what the others say.
+        // Only on the constraint surface does the last constraint follow from the others.
         &["x^2 + y^2 = h^2", "(2 + x)*(x^2 + y^2 - h^2) = 0"],
         &["x^2 + y^2 = h^2", "x*x_dot + y*y_dot = (x^2 + y^2 - h^2)*x_dot"],
         &["x = 0", "y_dot = 0", "x*y_dot + (y + x)*x_dot = x*z_dot"],
-        // Each of three may be needed where the others' coefficients are zero.
+        // Each of the three is needed where the coefficients of the other two vanish.
         &["y*x_dot = x*y_dot", "z*x_dot = x*z_dot", "z*y_dot = y*z_dot"],
-        // At rest both hold, and y = 0 with them.
+        // At rest both constraints hold, together with y = 0.
         &["x_dot = 0", "x_dot = y"],
         &["x_dot = h", "x_dot*sin(z)^2 = 1 - h*cos(z)^2"],
         &["x*x_dot + y*y_dot = 1", "(x*x_dot + y*y_dot)/sqrt(x^2 + y^2) = 1"],
@@ -174,7 +175,7 @@ fn what_may_be_needed_is_let_through() {
 
 const N: usize = 6;
 
-/// What is wrong with constraints on `N` coordinates q, without the code that would be emitted.
+/// Returns the errors for these constraints on `N` coordinates q, without code generation.
 fn wrong(constraints: &[String]) -> Vec<String> {
     let attributes: String = (0..)
         .zip(constraints)
@@ -192,7 +193,8 @@ fn wrong(constraints: &[String]) -> Vec<String> {
     }
 }
 
-/// Σ c_k f_k(q_k), whose gradients are as independent as the c are; a velocity constraint where it is a rate.
+/// A constraint Σ c_k f_k(q_k), or its rate as a velocity constraint. Gradients are linearly independent if their
+/// coefficient vectors c are.
 struct Sums {
     functions: Vec<String>,
 }
@@ -224,7 +226,7 @@ impl Sums {
     }
 }
 
-/// Whether rows of small whole numbers are independent, by elimination without fractions.
+/// Returns true if rows of small integers are linearly independent, by fraction-free elimination.
 fn independent(rows: &[Vec<i64>]) -> bool {
     let mut rows: Vec<Vec<i128>> = rows.iter().map(|row| row.iter().map(|&c| c.into()).collect()).collect();
     for step in 0..rows.len() {
@@ -261,7 +263,7 @@ fn random_constraints_that_are_independent_are_let_through_and_combinations_are_
         if used.is_empty() {
             return;
         }
-        // A rate of few may be multiplied by what depends on the position.
+        // A combination of at most two rates may get a factor that depends on the position.
         let is_rate = random.once_in(2);
         let factor = if is_rate && used.len() <= 2 {
             random.one_of(&["1", "(2 + q[0]^2)", "sin(q[1] + q[2])", "k"])

@@ -1,4 +1,4 @@
-//! Definitions are boundaries: a chain defined link by link is differentiated at a cost linear in its length.
+//! Differentiation stops at definitions: a chain defined link by link takes linearly many operations.
 
 use expect_test::expect;
 
@@ -9,12 +9,12 @@ use crate::variables::Variable;
 
 const LENGTHS: [usize; 6] = [4, 8, 12, 16, 20, 24];
 
-/// What it takes to compute some expressions.
+/// Cost of computing some expressions.
 #[derive(Clone, Copy)]
 struct Cost {
-    /// + − × ÷ √ and elementary functions.
+    /// Number of + − × ÷ √ and elementary functions.
     operations: usize,
-    /// Operands of all nodes. The emitted code is shorter where sums have their first terms in common.
+    /// Number of operands of all nodes. The emitted code is shorter where sums share their first terms.
     operands: usize,
 }
 
@@ -27,7 +27,7 @@ fn cost(graph: &Graph, roots: &[Id]) -> Cost {
     Cost { operations: count.arithmetic + count.functions, operands }
 }
 
-/// Of ∂L/∂q̇ and of ∂L/∂q.
+/// Costs of ∂L/∂q̇ and of ∂L/∂q.
 fn costs(graph: &mut Graph, lagrangian: Id, n: usize) -> [Cost; 2] {
     [Variable::Velocity, Variable::Coordinate].map(|variable: fn(usize) -> Variable| {
         let symbols: Vec<Symbol> = (0..n).map(|i| variable(i).symbol()).collect();
@@ -36,7 +36,7 @@ fn costs(graph: &mut Graph, lagrangian: Id, n: usize) -> [Cost; 2] {
     })
 }
 
-/// Whether the second differences of a quantity vanish for all lengths.
+/// Returns true if the second differences of a quantity vanish over all lengths.
 fn is_linear(costs: &[[Cost; 2]], quantity: impl Fn(&[Cost; 2]) -> usize) -> bool {
     let counts: Vec<_> = costs.iter().map(quantity).collect();
     counts.windows(3).all(|c| c[2] + c[0] == 2 * c[1])
@@ -75,7 +75,7 @@ fn momenta_and_forces_of_a_chain_cost_linearly_many_operations() {
     assert!(is_linear(&bounded, |cost| cost[0].operations), "operations of ∂L/∂q̇");
     assert!(is_linear(&bounded, |cost| cost[1].operations), "operations of ∂L/∂q");
     assert!(is_linear(&bounded, |cost| cost[0].operands) && is_linear(&bounded, |cost| cost[1].operands));
-    // Were definitions no boundaries, the operands would not be linear (the emitted code may be, as sums share
-    // their first terms):
+    // With definitions expanded, the number of operands is not linear. That of the emitted code may be, since sums
+    // share their first terms.
     assert!(!is_linear(&flat, |cost| cost[0].operands) && !is_linear(&flat, |cost| cost[1].operands));
 }

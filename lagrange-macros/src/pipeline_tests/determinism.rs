@@ -1,12 +1,12 @@
-//! The same struct gives the same tokens, in one process and in two: no order of a hash map, no address and
-//! no time shows in them.
+//! The same struct expands to the same tokens, in one process and in two. Tokens depend on no order of a hash map,
+//! no address and no time.
 
 use std::process::Command;
 
 use super::{systems, tokens};
 use crate::expand;
 
-/// Marks the lines of the other process that count.
+/// Prefix of the lines of the child process that are compared.
 const MARK: &str = "expansion: ";
 
 fn sources() -> [String; 6] {
@@ -33,7 +33,7 @@ fn one_process_expands_alike() {
     }
 }
 
-/// What the other processes run.
+/// Test that the child processes run.
 #[test]
 fn prints_its_expansions() {
     for expansion in expansions() {

@@ -1,8 +1,10 @@
-//! Systems at random: accelerations and multipliers as they would be emitted, against derivatives of the Lagrangian as it is
-//! written by nilpotent numbers of twice the precision, and Gauss's elimination.
+//! Random systems: compares the accelerations and multipliers of the emitted code with an oracle. The oracle
+//! differentiates the Lagrangian as written, by nilpotent numbers of twice the precision, and solves by Gaussian
+//! elimination.
 //!
-//! Neither differentiates symbolically nor simplifies what the other one does: they share the source, and the values of
-//! time, coordinates, velocities and parameters. `LAGRANGE_FUZZ_SECONDS` and `LAGRANGE_FUZZ_SEED` say how many systems, and which.
+//! The oracle neither differentiates symbolically nor simplifies. It shares with the emitted code only the source
+//! and the values of time, coordinates, velocities and parameters. `LAGRANGE_FUZZ_SECONDS` sets the duration of the
+//! test, `LAGRANGE_FUZZ_SEED` the first seed.
 
 mod draft;
 mod drawing;
@@ -25,25 +27,27 @@ use here::Here;
 use jet::Jet;
 use oracle::Solution;
 
-/// The bound is that of one order of operations, from the top of the matrix down; what is emitted has others, and other expressions
-/// for the same entries. It may be so many times as inexact, which is a bit more than one digit.
+/// Accepted error, as a multiple of the oracle's bound: a bit more than one digit. The bound holds for elimination
+/// from the top of the matrix down. The emitted code eliminates in other orders and has other expressions for the
+/// same entries.
 const ROOM: f64 = 16.0;
 
-/// A smaller pivot leaves less than two thirds of the digits: no number is emitted then, and the general elimination takes over.
+/// Smallest trusted pivot. With a smaller one, less than two thirds of the digits are left: the emitted code gives
+/// no number, and the general elimination takes over.
 const TRUSTED: f64 = 6e-6;
 
-/// Of what is less exact than this nothing can be told.
+/// Largest relative error bound at which a comparison can detect an error.
 const TELLING: f64 = 1e-6;
 
 #[derive(Default, Debug)]
 struct Tally {
     systems: usize,
     states: usize,
-    /// States at which rounding may change anything.
+    /// States without a comparison, because rounding may change any digit.
     untold: usize,
-    /// Solutions that are said not to be right, where the general elimination takes over.
+    /// Solutions that the emitted code rejects, so that the general elimination takes over.
     doubted: usize,
-    /// Errors as parts of their bounds, and as parts of the largest entry.
+    /// Largest errors, relative to their bounds and relative to the largest entry.
     worst: f64,
     worst_relative: f64,
 }
@@ -85,7 +89,7 @@ fn checked(random: &mut Random, tally: &mut Tally) {
     }
 }
 
-/// Numbers, and such that rounding leaves something of them.
+/// Returns true for finite values whose rounding errors are small enough for a comparison.
 fn is_telling(solution: &Solution) -> bool {
     let largest = largest(solution);
     largest.is_finite() && solution.bounds.iter().all(|bound| ROOM * bound <= TELLING * largest)
@@ -131,11 +135,11 @@ fn input(
     }
 }
 
-/// What a function that is not written in the language gives, or a derivative of it.
+/// Returns a result of a user-supplied function, or its partial derivative by the arguments `by`.
 fn supplied(draft: &Draft, function: u32, by: &[u32], arguments: &[f64], output: u32) -> f64 {
     let mut arguments: Vec<Jet> = arguments.iter().copied().map(Jet::number).collect();
     for (epsilon, &position) in (0..).zip(by) {
-        // Every argument takes part, so that none is shorter than the others.
+        // Give every argument this ε, so that all jets have the same length.
         for (k, argument) in arguments.iter_mut().enumerate() {
             let rate = if k == position as usize { 1.0 } else { 0.0 };
             *argument = argument.moved(&Jet::number(rate), epsilon);

@@ -1,4 +1,4 @@
-//! Dissipation functions that certainly take no power are refused, and no others.
+//! Dissipation functions that certainly dissipate no power are errors; all others are accepted.
 
 use super::tokens;
 use crate::expand;
@@ -33,19 +33,19 @@ fn said(function: &str) -> Answer {
 fn what_may_take_power_is_accepted() {
     for function in [
         "c/2*x_dot^2",
-        // A belt or the wind, which drive what is slower.
+        // A conveyor belt or the wind, which drives a slower body.
         "c/2*(x_dot - u)^2",
         "c*x_dot^2 - u*x_dot",
         // Van der Pol: it drives small motions and brakes large ones.
         "-c/2*(1 - x^2)*x_dot^2",
-        // Negative, with a power that is not.
+        // A negative function with a positive power.
         "-c/(1 + x_dot^2)",
         "c*abs(x_dot)^3",
         "c*sqrt(x_dot^2 + u^2)",
         "x*x_dot^2",
         "f(x_dot)",
         "f(x_dot)*x_dot",
-        // The angle of the velocity: no power at all.
+        // The direction of the velocity: its power is zero.
         "atan2(y_dot, x_dot)",
         "-(x_dot - y_dot)^2 + c*y_dot^2",
     ] {
@@ -69,7 +69,7 @@ fn what_takes_no_power_is_refused() {
     }
 }
 
-/// One term s cᵖ (a ẋ + b ẏ + w)ⁿ.
+/// A term s cᵖ (a ẋ + b ẏ + w)ⁿ of a dissipation function.
 struct Term {
     sign: f64,
     power: i32,
@@ -99,7 +99,7 @@ impl Term {
         format!("({sign})*c^({power})*({a}*x_dot + ({b})*y_dot + {wind})^{degree}")
     }
 
-    /// Its part of q̇·∂D/∂q̇.
+    /// Contribution of the term to the power q̇·∂D/∂q̇.
     fn taken(&self, c: f64, [x, y]: [f64; 2]) -> f64 {
         let along = self.along[0] * x + self.along[1] * y;
         let slope = f64::from(self.degree) * (along + self.wind).powi(self.degree - 1);
@@ -107,7 +107,7 @@ impl Term {
     }
 }
 
-/// Beside the power at random velocities, by a formula.
+/// Compares the verdict on random sums with their power at random velocities, computed by a formula.
 #[test]
 fn sums_at_random_are_refused_where_they_take_no_power() {
     let mut refused = [0; 2];

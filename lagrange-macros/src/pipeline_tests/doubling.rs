@@ -1,15 +1,15 @@
-//! Definitions that use the one before twice: written out they are 2⁶⁰ times as long as the first. Wherever they
-//! stand, nothing takes them apart.
+//! Definitions that use the previous one twice: written out, the last is 2⁶⁰ times as long as the first. No stage
+//! expands them, wherever they appear.
 
 use super::tokens;
 use crate::expand;
 
 const DEPTH: usize = 60;
 
-/// aₖ₊₁ of aₖ.
+/// Each definition aₖ₊₁ as a function of aₖ, written `A`.
 const STEPS: [&str; 3] = ["A + A*sin(A)*x", "A/(1 + A^2)", "A*(A + x)"];
 
-/// What is made of the last definition.
+/// Attributes that use the last definition, written `A`.
 const USES: [&str; 7] = [
     "#[lagrangian(m/2*(x_dot^2 + y_dot^2) - A)]",
     "#[lagrangian((1 + A^2)*x_dot^2 + y_dot^2 + der(A))]",
@@ -41,7 +41,8 @@ fn what_doubles_sixty_times_is_derived() {
     }
 }
 
-/// The equations as text name the last definition, and say how long it is where its derivatives do not.
+/// The equations as text contain the last definition by name, and give the length of an expression that is too long
+/// to show.
 #[test]
 fn what_doubles_sixty_times_is_not_written_out() {
     let written = expansion(STEPS[0], USES[0]);

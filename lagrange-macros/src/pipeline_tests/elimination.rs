@@ -1,4 +1,4 @@
-//! The elimination knows what is zero: a chain costs as much as its length.
+//! The elimination skips zero entries: a chain takes linearly many operations.
 
 use expect_test::expect;
 
@@ -7,8 +7,8 @@ use crate::codegen::{Count, solutions, solving};
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
 
-/// Operations of the accelerations and multipliers before the passes and after each, by the form of M and by that over
-/// definitions.
+/// Operation counts of the accelerations and multipliers, before the passes and after each. The first form solves
+/// with M, the second over the velocities that definitions name. `None` for a form that is solved in loops.
 fn counts(source: &str) -> Vec<Option<Vec<usize>>> {
     let (graph, _, equations) = equations(source);
     let arithmetic = |counts: Vec<(_, Count)>| counts.iter().map(|(_, count)| count.arithmetic).collect();
@@ -24,12 +24,12 @@ fn a_chain_of_rods_is_solved_in_linearly_many_operations() {
     let counts: Vec<usize> =
         [5, 10, 15, 20, 25].map(|n| last(&counts(&systems::rods(n))[0]).expect("short enough")).to_vec();
     println!("operations of the accelerations and all multipliers, 5 to 25 rods: {counts:?}");
-    // But for a sign more or less, where results are added in pairs.
+    // Linear up to one sign, where results are added in pairs.
     assert!(counts.windows(3).all(|c| (c[2] + c[0]).abs_diff(2 * c[1]) <= 1), "{counts:?}");
     assert!(counts[3] <= 45 * 20, "{counts:?}");
 }
 
-/// The articulated-body algorithm, found from the definitions of the links' velocities.
+/// The derive finds the articulated-body algorithm from the definitions of the links' velocities.
 #[test]
 fn a_chain_in_angles_is_solved_in_linearly_many_operations() {
     let mut table = String::from("links: M, over definitions; before the passes and after each\n");
@@ -61,12 +61,12 @@ fn a_chain_in_angles_is_solved_in_linearly_many_operations() {
 fn a_dense_mass_matrix_is_unrolled_while_that_is_short() {
     let count = |n, form: usize| last(&counts(&systems::chain(n))[form]);
     assert!(count(10, 0).is_some_and(|count| count <= 1250), "{:?}", count(10, 0));
-    // Loops over 60 × 60 entries do many times as much as the form that is sparse.
+    // Loops over 60 × 60 entries would take many times the operations of the sparse form.
     assert_eq!(count(60, 0), None);
     assert!(count(60, 1).is_some());
 }
 
-/// Systems with velocities that definitions name, of every kind that the form has a term for.
+/// Systems whose definitions name velocities, with every kind of term that the second form contains.
 const NAMED: [&str; 8] = [
     // A tree: two arms on a trunk.
     "#[coordinates(trunk, left, right)]
@@ -75,37 +75,37 @@ const NAMED: [&str; 8] = [
      #[define(x2 = x + l/2*sin(right))] #[define(y2 = y - l/2*cos(right))]
      #[lagrangian(m/2*(der(x)^2 + der(y)^2 + der(x1)^2 + der(y1)^2 + 2*(der(x2)^2 + der(y2)^2)) - m*g*(y + y1 + 2*y2))]
      struct Tree { m: f64, l: f64, g: f64 }",
-    // Angular velocities, which are no rates of anything: the equations of Boltzmann and Hamel.
+    // Angular velocities, which are no time derivatives of coordinates: the Boltzmann–Hamel equations.
     "#[coordinates(phi, theta, psi)]
      #[define(w1 = phi_dot*sin(theta)*sin(psi) + theta_dot*cos(psi))]
      #[define(w2 = phi_dot*sin(theta)*cos(psi) - theta_dot*sin(psi))]
      #[define(w3 = phi_dot*cos(theta) + psi_dot)]
      #[lagrangian(a/2*w1^2 + b/2*w2^2 + c/2*w3^2 - m*g*cos(theta))]
      struct Top { a: f64, b: f64, c: f64, m: f64, g: f64 }",
-    // A pivot that is driven, a term of first degree, forces and dissipation of the named velocities.
+    // A driven pivot, a term linear in the velocities, forces, and dissipation by the named velocities.
     "#[coordinates(alpha, beta)]
      #[define(vx = a*w*cos(w*t) + l*cos(alpha)*alpha_dot)] #[define(vy = l*sin(alpha)*alpha_dot)]
      #[define(ux = vx + l*cos(beta)*beta_dot)] #[define(uy = vy + l*sin(beta)*beta_dot)]
      #[lagrangian(m/2*(vx^2 + vy^2) + m/2*(ux^2 + uy^2) + k*(ux*sin(alpha) - uy*beta) + m*g*l*cos(alpha)*cos(beta))]
      #[dissipation(c/2*(ux^2 + uy^2))] #[force(alpha: k*sin(t)*beta_dot)]
      struct Driven { m: f64, l: f64, g: f64, a: f64, w: f64, k: f64, c: f64 }",
-    // Coefficients that turn: a velocity that builds on another by a rotation.
+    // A velocity that contains an earlier one, rotated.
     "#[coordinates(alpha, beta, gamma)]
      #[define(u1 = l*alpha_dot*sin(beta))] #[define(u2 = l*alpha_dot*cos(beta))]
      #[define(v1 = u1*cos(gamma) - u2*sin(gamma))] #[define(v2 = u1*sin(gamma) + u2*cos(gamma) + l*(beta_dot + gamma_dot))]
      #[lagrangian(m/2*(u1^2 + (u2 + l*beta_dot)^2) + m/2*(v1^2 + v2^2) + m*gamma_dot^2/5 - m*g*cos(alpha))]
      struct Turning { m: f64, l: f64, g: f64 }",
-    // L is not quadratic.
+    // L is not quadratic in the velocities.
     "#[coordinates(x, y)]
      #[define(v = x_dot + y*y_dot)] #[define(u = v - x*y_dot)]
      #[lagrangian(-m*c^2*sqrt(1 - (v^2 + u^2)/c^2/9) + y_dot^2/2 - k*x^2)]
      struct Relativistic { m: f64, c: f64, k: f64 }",
-    // Some velocities outside of every definition, some definitions not linear.
+    // Some velocities outside all definitions; some definitions not linear in the velocities.
     "#[coordinates(x, theta)]
      #[define(v = x_dot + l*cos(theta)*theta_dot)] #[define(T = m/2*(v^2 + l^2*sin(theta)^2*theta_dot^2))]
      #[lagrangian(T + m*x_dot^2 + x_dot*v/9 + m*g*l*cos(theta))]
      struct Cart { m: f64, l: f64, g: f64 }",
-    // A chain that is tied to a point.
+    // A chain with its end tied to a point.
     "#[coordinates(q: [4])]
      #[define(x[0] = l*sin(q[0]))] #[define(x[i in 1..4] = x[i-1] + l*sin(q[i]))]
      #[define(y[0] = -l*cos(q[0]))] #[define(y[i in 1..4] = y[i-1] - l*cos(q[i]))]
@@ -120,7 +120,7 @@ const NAMED: [&str; 8] = [
      struct Vectors { m: f64, g: f64 }",
 ];
 
-/// The same accelerations and multipliers by every form, at states at random.
+/// All forms give the same accelerations and multipliers, at random states.
 #[test]
 fn every_form_has_the_same_solution() {
     for source in NAMED {
@@ -151,22 +151,22 @@ fn every_form_has_the_same_solution() {
     }
 }
 
-/// What no result may rest on shows in the pivot or in a result, even where the results that it spoils are few, or hide it.
+/// A division by zero shows in the pivot or in a result, even if it affects few results or another one hides it.
 #[test]
 fn what_is_no_number_spoils_the_pivot_or_a_result() {
     let spoilt = [
-        // A singular part beside a multiplier that is zero.
+        // A singular block, beside a multiplier that is zero.
         "#[coordinates(x, u, w)] #[lagrangian(x_dot^2/2 + u_dot*w_dot - u*w)] #[constraint(c: x = 0)] struct A {}",
         // An infinite force that shares a term with a multiplier.
         "#[coordinates(x, u)] #[lagrangian(x_dot^2/2 + u_dot^2/2)] #[force(u: exp(-t)/u)]
          #[constraint(c: t^3/6 = x)] struct B {}",
-        // An infinite acceleration that another hides.
+        // An infinite acceleration 1/x, which the other one hides in 1/(1 + 1/x) = 0.
         "#[coordinates(x, u)] #[lagrangian(x_dot^2/2 + u_dot^2/2)] #[force(x: 1/x)] #[force(u: 1/(1 + 1/x))]
          struct C {}",
         // A mass of zero, whose reciprocal makes the multiplier zero.
         "#[coordinates(x, y)] #[lagrangian(m*(x_dot^2 + y_dot^2)/2 - m*y)] #[constraint(c: x^2 + y^2 = 1)]
          struct D { m: f64 }",
-        // One that cancels.
+        // A mass of zero that cancels.
         "#[coordinates(x)] #[lagrangian(m*x_dot^2/2 - m*x)] struct E { m: f64 }",
     ];
     for source in spoilt {
@@ -179,7 +179,7 @@ fn what_is_no_number_spoils_the_pivot_or_a_result() {
     }
 }
 
-/// A lattice of rods: its Schur complement is sparse, but not sparse enough.
+/// A lattice of rods: its Schur complement is sparse, but still too long to unroll.
 #[test]
 fn what_would_be_too_long_is_left_to_loops() {
     let (n, mut rods) = (14, String::new());
@@ -200,7 +200,8 @@ fn what_would_be_too_long_is_left_to_loops() {
     assert!(solving(&graph, &equations).iter().all(Option::is_none));
 }
 
-/// h/M of x is −3⁴⁰⁰ x, which is no exact number here; the equations have it as a quotient.
+/// The acceleration h/M = −3⁴⁰⁰ x is beyond the exact arithmetic of the derive, so the equations contain a
+/// quotient.
 #[test]
 fn a_quotient_that_exact_arithmetic_cannot_write_is_left_to_run_time() {
     let source = "#[coordinates(x)] #[lagrangian(3^-200*x_dot^2/2 - 3^200*x^2/2)] struct Stiff {}";
@@ -209,12 +210,13 @@ fn a_quotient_that_exact_arithmetic_cannot_write_is_left_to_run_time() {
     let solution = &solutions(&graph, &equations, |_| 0.5)[0];
     let acceleration = solution.as_ref().expect("short")[0];
     let expected = -0.5 * 3.0_f64.powi(400);
-    // Each of the two powers is some 200 roundings off at most.
+    // Each of the two powers is off by some 200 roundings at most.
     assert!((acceleration / expected - 1.0).abs() < 1e-13, "{acceleration:e}");
     assert!(!crate::expand(super::tokens(source)).to_string().contains("compile_error"));
 }
 
-/// Each velocity is differentiated by each: of very many there is no form, and the accelerations alone are solved for.
+/// Each named velocity is differentiated by each other one. With very many of them the second form is left out, and
+/// the equations are solved for the accelerations alone.
 #[test]
 fn very_many_named_velocities_are_not_solved_over() {
     let named = |count: usize| {

@@ -1,4 +1,4 @@
-//! What the emitted code looks like.
+//! Properties of the emitted code.
 
 use std::collections::BTreeMap;
 
@@ -9,14 +9,15 @@ use quote::ToTokens;
 use super::{systems, tokens};
 use crate::expand;
 
-/// A reviewer of a change to the code generator sees here what it does. `UPDATE_EXPECT=1 cargo test` accepts it.
+/// Shows reviewers how a change of the code generator changes the emitted code. `UPDATE_EXPECT=1 cargo test`
+/// accepts the change.
 #[test]
 fn the_expansion_of_a_pendulum_is_as_reviewed() {
     let file = syn::parse2(expand(tokens(systems::PENDULUM))).expect("items");
     expect_file!["emitted/pendulum.rs"].assert_eq(&prettyplease::unparse(&file));
 }
 
-/// For each emitted function the arguments of its sines and cosines, as often as they are computed.
+/// Arguments of the sines and cosines in each emitted function, one entry per evaluation.
 #[derive(Default)]
 struct Circular {
     function: String,
@@ -45,7 +46,7 @@ impl Circular {
     }
 }
 
-/// `a` and `b` of `[a, b]`
+/// Returns `a` and `b` of `[a, b]`.
 fn angles(argument: TokenStream) -> Vec<String> {
     let array: syn::ExprArray = syn::parse2(argument).expect("an array");
     array.elems.iter().map(|angle| angle.to_token_stream().to_string()).collect()

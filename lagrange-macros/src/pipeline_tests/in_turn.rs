@@ -1,4 +1,4 @@
-//! What is said of positions that are differentiated and could be stated in frames, and what both cost.
+//! The hint that frames would be cheaper than differentiated positions, and the cost of both.
 
 use super::bodies::{ARM, least};
 use super::{equations, systems};
@@ -7,9 +7,9 @@ const FIELDS: &str =
     "struct System { place: [Rotation3<f64>; 6], arm: [Vector3<f64>; 6], centre: [Vector3<f64>; 6],
     inertia: [Matrix3<f64>; 6], m: [f64; 6], l: [f64; 6], g: f64, tau: [f64; 6] }";
 
-/// Systems by positions along the fixed axes, and the same in frames.
+/// Systems with positions along the fixed axes, each with the same system in frames.
 const IN_TURN: [[&str; 2]; 7] = [
-    // Three links with masses at points.
+    // Two point masses on an arm with three joints.
     [
         "#[coordinates(a, b, c)]
          #[define(R = rot_z(a)*rot_y(b))] #[define(x = R*centre[0])] #[define(y = R*(arm[0] + rot_y(c)*centre[1]))]
@@ -19,7 +19,7 @@ const IN_TURN: [[&str; 2]; 7] = [
          #[lagrangian(kinetic(upper, m[0], centre[0]) + kinetic(lower, m[1], centre[1])
            - g*(m[0]*position(upper, centre[0])[2] + m[1]*position(lower, centre[1])[2]))]",
     ],
-    // A double spherical pendulum, the second by angles against the first.
+    // A double spherical pendulum, the second arm by angles relative to the first.
     [
         "#[coordinates(a, b, c, d)]
          #[define(R = rot_x(a)*rot_y(b))] #[define(x = R*[0, 0, -l[0]])] #[define(y = x + R*rot_x(c)*rot_y(d)*[0, 0, -l[1]])]
@@ -29,7 +29,7 @@ const IN_TURN: [[&str; 2]; 7] = [
          #[frame(y in x: rotate_x(c), rotate_y(d), translate([0, 0, -l[1]]))]
          #[lagrangian(kinetic(x, m[0]) + kinetic(y, m[1]) - g*(m[0]*position(x)[2] + m[1]*position(y)[2]))]",
     ],
-    // A gyroscope by the rate of its rotation.
+    // A gyroscope, its angular velocity from the rate of its rotation matrix.
     [
         "#[coordinates(phi, theta, psi)]
          #[define(R = rot_z(phi)*rot_x(theta)*rot_z(psi))] #[define(S = transpose(R)*der(R))] #[define(w = [S[2][1], S[0][2], S[1][0]])]
@@ -38,7 +38,7 @@ const IN_TURN: [[&str; 2]; 7] = [
          #[frame(top: rotate_z(phi), rotate_x(theta), rotate_z(psi))]
          #[lagrangian(kinetic(top, 0, [0, 0, 0], [[m[0], 0, 0], [0, m[0], 0], [0, 0, m[1]]]) - l[0]*g*cos(theta))]",
     ],
-    // A free body of four points, tied by springs.
+    // A free rigid body of four point masses, held by springs.
     [
         "#[coordinates(r: [3], a: [3])]
          #[define(R = rot_z(a[0])*rot_y(a[1])*rot_x(a[2]))] #[define(x[i in 0..4] = r + R*arm[i])]
@@ -47,7 +47,7 @@ const IN_TURN: [[&str; 2]; 7] = [
          #[frame(body: translate(r), rotate_z(a[0]), rotate_y(a[1]), rotate_x(a[2]))]
          #[lagrangian(sum(i in 0..4, kinetic(body, m[i], arm[i]) - l[i]/2*(norm(position(body, arm[i]) - centre[i]) - 1)^2))]",
     ],
-    // A pendulum on a planet that turns.
+    // A pendulum on a rotating planet.
     [
         "#[coordinates(a, b)]
          #[define(x = rot_z(l[0]*t)*rot_y(l[1])*([0, 0, l[2]] + rot_z(a)*(rot_x(b)*[0, 0, -l[3]])))]
@@ -57,7 +57,7 @@ const IN_TURN: [[&str; 2]; 7] = [
          #[frame(x in site: rotate_z(a), rotate_x(b), translate([0, 0, -l[3]]))]
          #[lagrangian(kinetic(x, m[0]) + g*m[0]/norm(position(x)))]",
     ],
-    // A chain in a plane by products.
+    // A planar chain with products of rotations.
     [
         "#[coordinates(q: [4])]
          #[define(R[0] = rot_z(q[0]))] #[define(R[i in 1..4] = R[i-1]*rot_z(q[i]))]
@@ -67,7 +67,7 @@ const IN_TURN: [[&str; 2]; 7] = [
          #[frame(x[0]: rotate_z(q[0]), translate([l[0], 0, 0]))] #[frame(x[i in 1..4] in x[i-1]: rotate_z(q[i]), translate([l[i], 0, 0]))]
          #[lagrangian(sum(i in 0..4, kinetic(x[i], m[i]) - m[i]*g*position(x[i])[1]))]",
     ],
-    // Two bodies by angles of their own, one at a point of the other.
+    // Two bodies with orientations of their own, the second attached to a point of the first.
     [
         "#[coordinates(a: [3], b: [3])]
          #[define(R = rot_z(a[0])*rot_x(a[1])*rot_z(a[2]))] #[define(S = rot_z(b[0])*rot_x(b[1])*rot_z(b[2]))]
@@ -81,9 +81,9 @@ const IN_TURN: [[&str; 2]; 7] = [
     ],
 ];
 
-/// The same where frames cost about as much, or more.
+/// Systems of the same form where frames cost about as much, or more.
 const NOT_IN_TURN: [[&str; 2]; 3] = [
-    // Links that turn from the fixed axes, each by one angle.
+    // Links at absolute angles, one angle each.
     [
         "#[coordinates(q: [4])]
          #[define(x[0] = rot_z(q[0])*[l[0], 0, 0])] #[define(x[i in 1..4] = x[i-1] + rot_z(q[i])*[l[i], 0, 0])]
@@ -92,7 +92,7 @@ const NOT_IN_TURN: [[&str; 2]; 3] = [
          #[frame(x[0]: rotate_z(q[0]), translate([l[0], 0, 0]))] #[frame(x[i in 1..4] in x[i-1]: rotate_z(q[i] - q[i-1]), translate([l[i], 0, 0]))]
          #[lagrangian(sum(i in 0..4, kinetic(x[i], m[i]) - m[i]*g*position(x[i])[1]))]",
     ],
-    // By two.
+    // Links at absolute angles, two angles each.
     [
         "#[coordinates(a, b, c, d)]
          #[define(x = rot_z(a)*rot_x(b)*[0, 0, -l[0]])] #[define(y = x + rot_z(c)*rot_x(d)*[0, 0, -l[1]])]
@@ -102,7 +102,7 @@ const NOT_IN_TURN: [[&str; 2]; 3] = [
          #[frame(x: rotate_z(a), rotate_x(b), translate([0, 0, -l[0]]))] #[frame(y: translate(at), rotate_z(c), rotate_x(d), translate([0, 0, -l[1]]))]
          #[lagrangian(kinetic(x, m[0]) + kinetic(y, m[1]) - g*(m[0]*position(x)[2] + m[1]*position(y)[2]))]",
     ],
-    // Two links across each other.
+    // Two links with perpendicular joint axes.
     [
         "#[coordinates(a, b)]
          #[define(x = rot_z(a)*(arm[0] + rot_y(b)*arm[1]))]
@@ -113,7 +113,7 @@ const NOT_IN_TURN: [[&str; 2]; 3] = [
     ],
 ];
 
-/// [`ARM`] by the rates of positions.
+/// The system [`ARM`] with positions along the fixed axes and their rates.
 const WORLD_ARM: &str = "#[coordinates(q: [6])]
     #[define(R[0] = place[0]*rot_z(q[0]))] #[define(R[i in 1..6] = R[i-1]*place[i]*rot_z(q[i]))]
     #[define(at[0] = [0, 0, 0])] #[define(at[i in 1..6] = at[i-1] + R[i-1]*arm[i])] #[define(x[i in 0..6] = at[i] + R[i]*centre[i])]
@@ -126,7 +126,7 @@ fn is_told(source: &str) -> bool {
     equations(source).1.frames_are_cheaper
 }
 
-/// What frames take of the operations.
+/// Operation count with frames, as a fraction of the count without.
 fn share(world: &str, frames: &str) -> f64 {
     least(frames) as f64 / least(world) as f64
 }
@@ -151,7 +151,7 @@ fn where_they_are_not_nothing_is_said() {
     assert!(!is_told(&systems::chain(10)) && !is_told(&systems::rods(3)) && !is_told(systems::TOP));
 }
 
-/// A rate that only an observable asks for, and positions of which no rate is asked.
+/// A rate that only an observable contains gives no hint, nor do positions without a rate.
 #[test]
 fn what_the_equations_do_not_differentiate_is_no_matter() {
     let by_rates = "w = [phi_dot*sin(theta)*sin(psi) + theta_dot*cos(psi), phi_dot*sin(theta)*cos(psi) - theta_dot*sin(psi), phi_dot*cos(theta) + psi_dot]";

@@ -1,5 +1,5 @@
-//! The derivative of the residual along a direction is a function as long as the system: that is why it is emitted,
-//! and not the Jacobian entry by entry.
+//! The derivative of the residual along a direction takes linearly many operations. The Jacobian entry by entry
+//! takes more, so the directional derivative is emitted instead.
 
 use super::{derived, equations, systems};
 use crate::codegen::operations;
@@ -20,7 +20,7 @@ fn count(graph: &Graph, roots: &[Id]) -> usize {
     count.arithmetic + count.functions
 }
 
-/// ∂R/∂(t, q, q̇), each column a formula of its own.
+/// ∂R/∂(t, q, q̇), each column as an expression of its own.
 fn columns(graph: &mut Graph, problem: &Problem, linearization: &Linearization) -> Vec<Id> {
     let mut all = Vec::new();
     for column in 0..=2 * problem.coordinates.len() {
@@ -35,7 +35,7 @@ fn columns(graph: &mut Graph, problem: &Problem, linearization: &Linearization) 
     all
 }
 
-/// With a dense mass matrix, and with constraints.
+/// A chain in angles has a dense mass matrix, a chain of rods has constraints.
 #[test]
 fn the_change_along_a_direction_takes_linearly_many_operations() {
     for (name, system) in [("angles", systems::chain as fn(usize) -> String), ("rods", systems::rods)] {
@@ -48,8 +48,8 @@ fn the_change_along_a_direction_takes_linearly_many_operations() {
     }
 }
 
-/// Inverse dynamics by Newton and Euler's recursion, found from the definitions of the links' velocities; by the entries of M
-/// it would take quadratically many.
+/// Newton–Euler inverse dynamics, found from the definitions of the links' velocities. By the entries of M it would
+/// take quadratically many operations.
 #[test]
 fn inverse_dynamics_takes_linearly_many_operations() {
     for (name, system) in [("angles", systems::chain as fn(usize) -> String), ("rods", systems::rods)] {
@@ -77,6 +77,6 @@ fn the_columns_as_formulas_take_quadratically_many() {
         count(&graph, &columns)
     });
     println!("all columns for a chain of {LENGTHS:?} in angles: {counts:?} operations");
-    // More than half as much again as in proportion to the length.
+    // More than 3/2 of a count proportional to the length.
     assert!(2 * LENGTHS[2] * counts[4] > 3 * LENGTHS[4] * counts[2], "{counts:?}");
 }

@@ -1,11 +1,12 @@
-//! A robot as another program writes it, with sixteen digits for every number, against the same with fields for numbers.
+//! A robot as another program writes it, with sixteen digits in every literal, compared with the same robot with
+//! fields.
 
 use super::equations;
 use crate::codegen::solutions;
 use crate::rounds::Random;
 use crate::variables::Variable;
 
-/// A chain whose numbers are all written out, or are all fields.
+/// A chain of links. `numbers` returns each number as a literal or as an entry of a field.
 fn chain(numbers: &mut dyn FnMut() -> String) -> String {
     const LINKS: usize = 3;
     let (mut frames, mut terms) = (String::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! Long functions are cut into parts, and too long ones are refused.
+//! Long functions are split into parts; functions that are too long are errors.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use super::{bodies, systems, tokens};
 use crate::expand;
 
-/// Squares of long sums that have no term in common.
+/// A Lagrangian of squares of long sums without common terms.
 fn flat(n: usize) -> String {
     let arm =
         |function: &str| format!("sum(j in 0..i+1, (i + j + 1)*l[j]*{function}(theta[j])*theta_dot[j])^2");
@@ -20,7 +20,7 @@ fn flat(n: usize) -> String {
     )
 }
 
-/// The functions whose names start so, and their bodies.
+/// Bodies of the functions whose names start with `start`.
 fn functions(tokens: TokenStream, start: &str) -> Vec<TokenStream> {
     let (mut found, mut is_wanted, mut before) = (Vec::new(), false, String::new());
     for token in tokens {
@@ -39,7 +39,7 @@ fn functions(tokens: TokenStream, start: &str) -> Vec<TokenStream> {
     found
 }
 
-/// Infix operators in a body.
+/// Counts the infix operators in a function body.
 fn operations(tokens: TokenStream) -> usize {
     let count = |token| match token {
         TokenTree::Punct(sign) => usize::from("+-*/".contains(sign.as_char())),
@@ -63,7 +63,7 @@ fn a_long_function_is_cut_into_parts_of_a_thousand_operations_or_more() {
     assert_eq!(main.into_iter().map(operations).collect::<Vec<_>>(), [0]);
 }
 
-/// An arm of twice as many joints computes most of them in the same loops.
+/// Twice as many joints lengthen the code of an arm by less than a third: most are computed in the same loops.
 #[test]
 fn what_the_joints_of_an_arm_have_in_common_is_emitted_once() {
     let length = |joints: usize| {
@@ -109,7 +109,7 @@ fn too_long_functions_are_refused_with_their_counts() {
     );
 }
 
-/// A chain of links of two kinds in this turn, all lengths, axes, centres and inertias of which are fields.
+/// A chain of links of two kinds, in the order of `kinds`. All lengths, axes, centres and inertias are fields.
 fn unlike_links(kinds: &[bool]) -> String {
     let n = kinds.len();
     let frames = kinds.iter().enumerate().map(|(i, is_bent)| {
@@ -132,7 +132,8 @@ fn unlike_links(kinds: &[bool]) -> String {
     )
 }
 
-/// Locals of the generator, `r12`, `angle3` or `call4_0`, that a body uses and does not declare.
+/// Collects generated locals, such as `r12`, `angle3` or `call4_0`, that a function body uses without declaring
+/// them.
 fn undeclared(tokens: TokenStream, declared: &mut BTreeSet<String>, found: &mut BTreeSet<String>) {
     let mut is_pattern = false;
     for token in tokens {
@@ -173,8 +174,8 @@ fn assert_parts_see_their_own_locals(system: &str) {
     }
 }
 
-/// Two of three links alike, so that loops leave the sine of an angle whose cosine is taken elsewhere. `LAGRANGE_CHAINS` says how
-/// many random chains of 15 to 32 links follow.
+/// With two of three links alike, a loop and the code outside of it compute the sine and the cosine of the same
+/// angle. `LAGRANGE_CHAINS` is the number of further random chains, of 15 to 32 links.
 #[test]
 fn parts_of_a_chain_of_unlike_links_see_their_own_locals_alone() {
     assert_parts_see_their_own_locals(&unlike_links(&std::array::from_fn::<_, 15, _>(|i| i % 3 < 2)));

@@ -1,4 +1,4 @@
-//! The pipeline as a whole, outside of a compiler.
+//! Tests of the whole pipeline, outside of a compiler.
 
 mod bodies;
 mod completion;
@@ -36,14 +36,14 @@ fn tokens(source: &str) -> TokenStream {
     source.parse().expect("a struct")
 }
 
-/// The declaration and what was wrong with it.
+/// Returns the declaration, with the errors in it.
 fn declaration(source: &str) -> (Declaration, Diagnostics) {
     let mut diagnostics = Diagnostics::default();
     let input = syn::parse2(tokens(source)).expect("a struct");
     (syntax::declaration(input, &mut diagnostics), diagnostics)
 }
 
-/// The stages up to mechanics, for a source without errors.
+/// Runs the stages up to mechanics on a source without errors.
 fn derived(source: &str) -> (Graph, Problem, Derived) {
     let (declaration, mut diagnostics) = declaration(source);
     let found = resolve::problem(&declaration, &mut diagnostics).and_then(|(mut graph, problem)| {
@@ -53,7 +53,7 @@ fn derived(source: &str) -> (Graph, Problem, Derived) {
     found.unwrap_or_else(|| panic!("{source}: {}", diagnostics.into_tokens()))
 }
 
-/// The same, of which the equations are looked at.
+/// Like [`derived`], but returns only the equations of motion of the derived system.
 fn equations(source: &str) -> (Graph, Problem, Equations) {
     let (graph, problem, derived) = derived(source);
     (graph, problem, derived.equations)

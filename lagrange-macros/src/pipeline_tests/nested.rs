@@ -1,4 +1,4 @@
-//! A chain costs what it costs by a recursion, however its sums are spelled.
+//! A chain costs as much as a recursion over its links, even if its source contains sums instead.
 
 use super::bodies::least;
 use super::equations;
@@ -9,7 +9,8 @@ use crate::variables::Variable;
 const LAGRANGIAN: &str = "#[lagrangian(sum(i in 0..N, m[i]/2*(vx[i]^2 + vy[i]^2) - m[i]*g*y[i]))]";
 const OF_PLACES: &str = "#[lagrangian(sum(i in 0..N, m[i]/2*dot(der(r[i]), der(r[i])) - m[i]*g*r[i][1]))]";
 
-/// Velocities, places along two axes and places as vectors, each from the one before.
+/// Chains with each link defined from the one before: by velocities and heights, by joints and centres, by relative
+/// angles.
 const RECURSION: &str = "#[define(vx[0] = l[0]*cos(theta[0])*theta_dot[0])]
     #[define(vx[i in 1..N] = vx[i-1] + l[i]*cos(theta[i])*theta_dot[i])]
     #[define(vy[0] = l[0]*sin(theta[0])*theta_dot[0])]
@@ -29,7 +30,7 @@ fn chain(n: usize, attributes: &[&str]) -> String {
     )
 }
 
-/// Every sum term by term, in an order that is that of no recursion; the length is no multiple of 3.
+/// Writes every sum term by term, in an order that no recursion has. The length must not be a multiple of 3.
 fn written_out(n: usize) -> String {
     let order = (0..n).map(|k| (k * 3 + 1) % n);
     let sum = |name: &str, i: usize, term: &dyn Fn(usize) -> String| {
@@ -47,7 +48,7 @@ fn written_out(n: usize) -> String {
     format!("{text} #[lagrangian({})]", terms.join(" + "))
 }
 
-/// Spellings by sums, each with the recursion that it is, and how many times as much it takes at most.
+/// Chains written with sums, each with its recursion and the largest accepted ratio of operation counts.
 fn spellings(n: usize) -> Vec<(String, String, f64)> {
     let recursion = [RECURSION, LAGRANGIAN];
     let velocities = "#[define(vx[i in 0..N] = sum(j in 0..i+1, l[j]*cos(theta[j])*theta_dot[j]))]
@@ -82,7 +83,7 @@ fn sums_cost_what_recursions_cost() {
     }
 }
 
-/// The accelerations by the form of the least operations.
+/// Accelerations by the last form, which takes the fewest operations.
 fn accelerations(source: &str, n: usize, input: impl Fn(Symbol) -> f64) -> Vec<f64> {
     let (graph, _, equations) = equations(source);
     let last = solutions(&graph, &equations, input).into_iter().flatten().next_back();
@@ -103,7 +104,7 @@ fn sums_and_recursions_have_one_solution() {
                     2.0 * part - 1.0
                 }
             };
-            // The parameters are numbered in the order of their first use.
+            // Values go by name, because parameters are numbered in the order of their first use.
             let [one, other] = [&sums, &recursion].map(|source| {
                 let (_, problem, _) = equations(source);
                 let by_name = |symbol: Symbol| match Variable::of(symbol) {
@@ -123,7 +124,7 @@ fn sums_and_recursions_have_one_solution() {
     }
 }
 
-/// Two arms on a trunk of three links, each place a sum of its own, and the same from joint to joint.
+/// Two arms on a trunk of three links: positions as separate sums cost as much as positions from joint to joint.
 #[test]
 fn a_tree_is_found_by_its_branches() {
     let of = |way: &[usize]| {
@@ -148,7 +149,7 @@ fn a_tree_is_found_by_its_branches() {
     assert_eq!(least(&system(sums)), least(&system(joints.collect())));
 }
 
-/// Terms that two sums have in common, where nothing is gained: what is written stays.
+/// Common terms of two sums that would save nothing stay as written.
 #[test]
 fn what_gains_nothing_stays_as_it_is() {
     let (graph, problem, _) = equations(

@@ -1,4 +1,4 @@
-//! What costs nothing, and what is refused before it costs much.
+//! Long fields that cost nothing, and long input that is refused before it costs much.
 
 use super::tokens;
 use crate::expand;
@@ -12,7 +12,8 @@ fn expansion(length: usize, scalar: &str) -> String {
     expand(tokens(&source)).to_string()
 }
 
-/// Of the length nothing is left but the field's type, where the struct is put on lanes.
+/// Entries of a field that are not used leave no code. Its length appears only in the type of the field, for the
+/// struct over lanes.
 #[test]
 fn of_a_long_field_only_what_is_used_is_emitted() {
     for scalar in ["f64", "T"] {
@@ -23,19 +24,19 @@ fn of_a_long_field_only_what_is_used_is_emitted() {
     }
 }
 
-/// The first error says how large it is; there are no functions, and so no errors of theirs. It has as many numbers as
-/// there may be.
+/// The first error gives the size of the Lagrangian. Without functions there are no further errors. The Lagrangian
+/// uses the largest accepted number of field entries.
 #[test]
 fn a_lagrangian_that_no_function_holds_is_refused_as_a_whole() {
     let source = "#[coordinates(x)]
         #[lagrangian(x_dot^2/2 - sum(k in 0..7, sum(i in 0..9_990, eps[i]*eps[i + k]))*x + eps[9_999])]
         struct Large { eps: [f64; 10_000] }";
     let [error] = &said(source)[..] else { panic!("one error") };
-    // x_dot^2/2, a minus and a plus, 69,930 products, one sum less, and one product.
+    // Operations: x_dot^2/2, a minus and a plus, 69,930 products, one addition less, and one product.
     assert!(error.contains("the Lagrangian takes 139864 operations"), "{error}");
 }
 
-/// The errors for a system.
+/// Returns the errors for a system.
 fn said(source: &str) -> Vec<String> {
     let emitted = expand(tokens(source)).to_string();
     let errors = emitted.split("compile_error ! {").skip(1);

@@ -1,4 +1,5 @@
-//! What the stages make of one system, as the book shows it. `UPDATE_BOOK=1 cargo test stages` writes it there.
+//! Output of each stage for one system, as the book shows it. `UPDATE_BOOK=1 cargo test stages` writes it into the
+//! book.
 
 #[path = "../../../book/blocks.rs"]
 mod blocks;
@@ -33,7 +34,7 @@ fn what_was_written() {
     shows("what was written", &text);
 }
 
-/// Every operation in parentheses of its own.
+/// Text of an expression, with each operation in parentheses.
 fn tree(expression: &Expression) -> String {
     match &expression.kind {
         Kind::Number(value) => value.fraction.to_string(),
@@ -68,7 +69,7 @@ fn the_graph() {
     shows("the graph", &text);
 }
 
-/// A node by the numbers of its operands.
+/// Text of a node, with the indices of its operands.
 fn node(graph: &Graph, problem: &Problem, id: Id) -> String {
     let number = |id: Id| format!("[{}]", id.index());
     match graph.node(id) {
@@ -128,7 +129,7 @@ fn the_equations() {
     shows("the equations", &text.join("\n"));
 }
 
-/// A node written out, definitions by their names.
+/// Text of a node with its operands written out, definitions by name.
 fn infix(graph: &Graph, problem: &Problem, id: Id) -> String {
     let operand = |id: Id| match graph.node(id) {
         Node::Sum(_) => format!("({})", infix(graph, problem, id)),
@@ -165,7 +166,7 @@ fn the_passes_of_a_chain() {
     shows("the passes of a chain", &text.collect::<Vec<_>>().join("\n\n"));
 }
 
-/// What each pass leaves of the accelerations, solved by this form of the equations.
+/// Operation count of the accelerations after each pass, solved by this form of the equations.
 fn counts(graph: &Graph, equations: &Equations, form: usize) -> String {
     let counts = solving(graph, equations).swap_remove(form).expect("no loops");
     let lines: Vec<_> = counts.iter().map(|(pass, count)| format!("  {pass:<22} {count}")).collect();

@@ -1,4 +1,4 @@
-//! What stands in for a system with something wrong in it promises the rest of the program what the system would.
+//! The stub of a system with errors has the same interface as the system, so that the rest of the program compiles.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use quote::quote;
 use super::{declaration, systems, tokens};
 use crate::{expand, stub};
 
-/// Every form of expression that has a say in what there is: families, vectors, functions, fields that nothing uses.
+/// Every form of expression that affects the interface: families, vectors, functions, unused fields.
 const RICH: &str = "
     #[coordinates(r: [3], q: [4], z)]
     #[function(U(s: [3]): [2] = potential)]
@@ -37,7 +37,8 @@ const RICH: &str = "
     }
 ";
 
-/// The implementations and the signatures in them, written out; parts of long functions are nobody else's.
+/// Traits and signatures in the implementations, as text. Functions that contain parts of long functions are
+/// private.
 fn promises(expansion: TokenStream) -> BTreeSet<String> {
     let file: syn::File = syn::parse2(expansion).expect("items");
     let blocks = file.items.into_iter().filter_map(|item| match item {
@@ -63,10 +64,11 @@ fn promises(expansion: TokenStream) -> BTreeSet<String> {
             promises.insert(format!("{of} {promise}"));
         }
     }
-    // How many numbers the factor has and how many slopes there are, a system knows that is derived.
+    // Sizes that only a derived system knows: of the factorization, and of the lists of slopes, sums and series
+    // terms.
     let counted = [" Factor = ", "Slopes = ", " Sums = ", " SeriesTerms = "];
     promises.retain(|promise| !counted.iter().any(|name| promise.contains(name)));
-    // What the trait gives to a system that has nothing to say of it.
+    // Items with a default in the trait, which the stub does not replace.
     let provided = [
         "constraint_integral",
         "CONSTRAINT_CLASSES",
@@ -100,7 +102,7 @@ fn a_stub_promises_what_the_system_gives() {
     }
 }
 
-/// What is appended to an attribute: a name that means nothing, a function that does, slips in the writing.
+/// Text that makes an attribute wrong: an unknown name, an unknown function, syntax errors.
 const WRONG: [&str; 4] = [" * nothing", " * nothing(2, 3)", " nothing", " 2z"];
 
 #[test]
@@ -109,7 +111,7 @@ fn a_stub_promises_the_same_where_something_is_wrong() {
     let is_expression = |line: &str| words.iter().any(|word| line.trim().starts_with(&format!("#[{word}(")));
     let (given, lines) = (given(RICH), RICH.lines().collect::<Vec<_>>());
     for (index, line) in lines.iter().enumerate() {
-        // Nobody can tell how many were meant where a number of elements is wrong.
+        // If a number of elements is wrong, the intended number is unknown.
         if !is_expression(line) || line.contains("n = 3") {
             continue;
         }

@@ -1,9 +1,9 @@
-//! What is said of a name that means nothing.
+//! Errors for unknown names, with suggestions.
 
 use super::tokens;
 use crate::expand;
 
-/// The messages for a system in which one term of L is `term`.
+/// Returns the errors for a system with `term` as a term of L.
 fn said(term: &str) -> String {
     let source = format!(
         "#[coordinates(theta, phi, stiffening, r: [3])]
@@ -113,7 +113,7 @@ fn no_guesses() {
     }
 }
 
-/// What is near none of them is answered with all of them, as many as one reads.
+/// If no name is similar, the error lists all names, or the first eight of many.
 #[test]
 fn where_nothing_is_near_all_names_are_told() {
     let said = |constraints: usize| {

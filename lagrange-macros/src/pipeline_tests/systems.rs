@@ -1,4 +1,4 @@
-//! Systems to derive, as their users write them.
+//! Systems for the tests, as users would write them.
 
 /// A planar pendulum.
 pub(super) const PENDULUM: &str = "
@@ -7,7 +7,7 @@ pub(super) const PENDULUM: &str = "
     struct Pendulum { m: f64, l: f64, g: f64 }
 ";
 
-/// A sphere that rolls down an incline: a definition, a velocity constraint, an observable.
+/// A sphere that rolls down an incline, with a definition, a velocity constraint and an observable.
 pub(super) const SPHERE: &str = "
     #[coordinates(x, phi)]
     #[define(inertia = 2/5 * m * a^2)]
@@ -17,7 +17,7 @@ pub(super) const SPHERE: &str = "
     struct RollingSphere { m: f64, a: f64, g: f64, alpha: f64 }
 ";
 
-/// A planar chain of `n` links in angles, each place the one before plus a link.
+/// A planar chain of `n` links in absolute angles. Each position is the one before plus a link.
 pub(super) fn chain(n: usize) -> String {
     format!(
         "#[coordinates(theta: [{n}])]
@@ -32,7 +32,7 @@ pub(super) fn chain(n: usize) -> String {
     )
 }
 
-/// The same chain in Cartesian coordinates, its links rigid rods.
+/// The same chain in Cartesian coordinates, with rigid rods as constraints.
 pub(super) fn rods(n: usize) -> String {
     format!(
         "#[coordinates(x: [{n}], y: [{n}])]
@@ -43,7 +43,7 @@ pub(super) fn rods(n: usize) -> String {
     )
 }
 
-/// A heavy top, its orientation a unit quaternion: M is singular.
+/// A heavy top with a unit quaternion as orientation: M is singular.
 pub(super) const TOP: &str = "
     #[coordinates(q: [4])]
     #[define(w = quat_rate_body(q, q_dot))]

@@ -1,24 +1,25 @@
-//! What is computed of velocities is what textbooks write.
+//! Velocity-dependent terms equal those in textbooks.
 
 use super::equations;
 use crate::symbolic::{Function, Graph, Id, Rational};
 use crate::variables::Variable;
 
-/// Angles from the vertical: Landau and Lifshitz, *Mechanics*, § 5, problem 1.
+/// Double pendulum, angles from the vertical: Landau and Lifshitz, *Mechanics*, § 5, problem 1.
 const DOUBLE_PENDULUM: &str = "
     #[coordinates(a, b)]
     #[lagrangian(a_dot^2 + b_dot^2/2 + a_dot*b_dot*cos(a - b) + 2*cos(a) + cos(b))]
     struct DoublePendulum;
 ";
 
-/// The second angle from the first link: Spong, Hutchinson and Vidyasagar, *Robot Modeling and Control*, chapter 7.
+/// Two-link arm, second angle from the first link: Spong, Hutchinson and Vidyasagar, *Robot Modeling and Control*,
+/// chapter 7.
 const ARM: &str = "
     #[coordinates(a, b)]
     #[lagrangian(a_dot^2 + (a_dot + b_dot)^2/2 + a_dot*(a_dot + b_dot)*cos(b))]
     struct Arm;
 ";
 
-/// h, and dp/dt − ∂L/∂q with accelerations.
+/// Returns h, and dp/dt − ∂L/∂q as a function of the accelerations.
 fn found(source: &str) -> (Graph, [Vec<Id>; 2]) {
     let (graph, _, equations) = equations(source);
     (graph, [equations.forcing, equations.balance])

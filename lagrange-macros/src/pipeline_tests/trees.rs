@@ -1,5 +1,5 @@
-//! Trees of frames at random, with joints, bodies, loads and constraints of every kind: the accelerations and multipliers
-//! against Newton's and Euler's equations of every body, with the forces in the joints as unknowns.
+//! Random trees of frames, with joints, bodies, loads and constraints of every kind. Compares accelerations and
+//! multipliers with the Newton–Euler equations of every body, which have the joint forces as unknowns.
 
 mod algebra;
 mod draft;
@@ -20,10 +20,10 @@ use crate::variables::Variable;
 use draft::Draft;
 use oracle::Solution;
 
-/// As a part of the largest entry.
+/// Largest accepted error, relative to the largest entry.
 const TOLERANCE: f64 = 1e-10;
 
-/// `LAGRANGE_TREES` says how many.
+/// `LAGRANGE_TREES` is the number of trees, 60 by default.
 #[test]
 fn the_accelerations_are_those_of_newton_and_euler() {
     let trees = std::env::var("LAGRANGE_TREES").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
@@ -41,7 +41,7 @@ fn the_accelerations_are_those_of_newton_and_euler() {
     }
 }
 
-/// How far each form's solution is from the oracle's, as a part of the largest entry.
+/// Largest error of all forms against the oracle, relative to the largest entry.
 fn checked(number: u64, draft: &Draft) -> f64 {
     let source = draft.source();
     let (graph, problem, equations) = equations(&source);
@@ -50,7 +50,7 @@ fn checked(number: u64, draft: &Draft) -> f64 {
     let multipliers: Vec<f64> =
         problem.constraints.iter().map(|(label, _)| multipliers[draft.multiplier(&label.text)]).collect();
     let largest = |x: &[f64]| x.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    // What no force pulls at has a multiplier of zero.
+    // The multipliers may all be zero, so the accelerations enter their scale.
     let scale = largest(&accelerations).max(1e-3);
     let scales = [scale, scale.max(largest(&multipliers))];
     let found = solutions(&graph, &equations, |symbol| input(draft, &problem, symbol));

@@ -1,4 +1,4 @@
-//! The forms of the language put together at random. Names are declared, mostly, and shapes fit by chance.
+//! Random combinations of the language's forms. Most names are declared; shapes fit by chance.
 
 use crate::rounds::Random;
 
@@ -10,7 +10,7 @@ const MATRICES: [&str; 5] = ["A", "identity(3)", "skew(r)", "rot_z(x)", "transpo
 const FUNCTIONS: [&str; 14] =
     ["sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "ln", "sqrt", "abs", "der"];
 
-/// A system whose parts are as they should be more often than not.
+/// Draws a system whose parts are more often right than wrong.
 pub(super) fn system(random: &mut Random) -> String {
     let mut attributes = vec![
         "coordinates(x, y, r: [3], q: [4])".to_owned(),
@@ -49,7 +49,7 @@ fn attribute(random: &mut Random) -> String {
     }
 }
 
-/// Of the shape that is asked for, but now and then.
+/// Draws an expression of random shape, instead of the required one.
 fn any(random: &mut Random, depth: usize) -> String {
     match random.below(3) {
         0 => scalar(random, depth),

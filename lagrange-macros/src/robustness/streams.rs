@@ -1,10 +1,10 @@
-//! Streams of tokens at random: of nothing but the language's words, or an input with something done to it.
+//! Random token streams: words of the language in any order, or changed input.
 
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
 use crate::rounds::Random;
 
-/// Words and signs, in the language and out of it.
+/// Words and signs, some of the language and some not.
 const TOKENS: &str = "x y r theta x_dot r_dot x_ddot t pi m k sin sqrt norm dot cross der lambda sum in i n rod \
     0 1 2 3 7 0.5 1e30 9.81 1_000_000 170141183460469231731687303715884105727 99999999999 \
     + - * / ^ = , : . .. ( ) [ ] (x) [1] (x, y) [x, y] (0) () [] {} (i in 0..3) r#fn self _ crate as fn 'a \"x\" 2m ; # & < !";
@@ -35,7 +35,7 @@ fn delimiter(random: &mut Random) -> Delimiter {
     random.one_of(&[Delimiter::Parenthesis, Delimiter::Bracket, Delimiter::None])
 }
 
-/// Attributes of any content on a struct.
+/// A struct with attributes of random content.
 pub(super) fn arbitrary(pool: &[TokenTree], random: &mut Random) -> TokenStream {
     let attributes: String =
         (0..random.below(6)).map(|_| attribute(random.one_of(&ATTRIBUTES), pool, random)).collect();
@@ -61,7 +61,7 @@ fn sequence(pool: &[TokenTree], random: &mut Random, depth: usize) -> TokenStrea
         .collect()
 }
 
-/// Changed in one place: in the content of an attribute, or now and then outside of it.
+/// Changes the input in one place: in the content of an attribute, or sometimes outside of it.
 pub(super) fn mutated(input: TokenStream, pool: &[TokenTree], random: &mut Random) -> TokenStream {
     let mut trees: Vec<TokenTree> = input.into_iter().collect();
     let attributes: Vec<usize> = (1..trees.len())
@@ -82,7 +82,7 @@ pub(super) fn mutated(input: TokenStream, pool: &[TokenTree], random: &mut Rando
     trees.into_iter().collect()
 }
 
-/// One change somewhere in a group, or in a group inside of it.
+/// Changes one place in a group, or in a group inside of it.
 fn changed(group: &Group, pool: &[TokenTree], random: &mut Random) -> TokenTree {
     let mut trees: Vec<TokenTree> = group.stream().into_iter().collect();
     let groups: Vec<usize> = (0..trees.len()).filter(|&i| matches!(&trees[i], TokenTree::Group(_))).collect();

@@ -1,69 +1,70 @@
-//! A system at random: what it is made of, and how it is written.
+//! A random system: its parts, and its source text.
 
 use crate::symbolic::Function;
 
-/// A system as it is drawn.
+/// A random system, as a list of its parts.
 #[derive(Default)]
 pub(super) struct Draft {
-    /// Names and how many numbers they are of.
+    /// Name and length of each coordinate.
     pub(super) coordinates: Vec<(String, usize)>,
     pub(super) count: usize,
-    /// The numbers of the fields, as expressions name them, and those among them that may stand alone.
+    /// Numbers of the fields, as expressions name them. `scalars` are the indices of those that are no entries of a
+    /// vector or matrix.
     pub(super) names: Vec<String>,
     pub(super) scalars: Vec<usize>,
-    /// Vectors and inertias, by their first numbers.
+    /// Vectors and inertias, each by the index of its first number.
     pub(super) vectors: Vec<usize>,
     pub(super) inertias: Vec<usize>,
     pub(super) fields: Vec<String>,
-    /// A value, or a function of one argument.
+    /// Body of each definition; true for a function of one argument.
     pub(super) definitions: Vec<(Term, bool)>,
     pub(super) supplied: Vec<Supplied>,
     pub(super) frames: Vec<Frame>,
-    /// What stands before the steps of a frame in its declaration, which may be that of a family.
+    /// Head of each frame declaration, before the steps, and index of its frame. A head may declare a family.
     pub(super) placed: Vec<(String, usize)>,
-    /// Those that are written as they are.
+    /// Further attributes, as source text.
     pub(super) attributes: Vec<String>,
-    /// Whole numbers below the length of the coordinate that is picked from.
+    /// Integers that index a coordinate, each below its length.
     pub(super) table: Vec<usize>,
     pub(super) lagrangian: Vec<Term>,
     pub(super) dissipation: Option<Term>,
     pub(super) forces: Vec<(usize, Term)>,
-    /// Whether it constrains velocities.
+    /// Left side of each constraint, equal to 0; true for a velocity constraint.
     pub(super) constraints: Vec<(Term, bool)>,
-    /// So many of them, the last ones, come with quaternions.
+    /// Number of constraints, the last ones, that quaternions imply and the source does not contain.
     pub(super) implied: usize,
 }
 
-/// A function that is not written in the language, of s or of s and r.
+/// A user-supplied function, of s or of s and r.
 pub(super) struct Supplied {
     pub(super) results: Vec<Term>,
 }
 
-/// What is written at random.
+/// A random scalar expression.
 #[derive(Clone, Debug)]
 pub(super) enum Term {
     Number(&'static str, i128, i128),
     Pi,
     Time,
-    /// The number of an index.
+    /// Index of a sum or of a family.
     Index,
-    /// What a function is given.
+    /// Argument of a function, by its position.
     Argument(usize),
     Coordinate(usize),
     Velocity(usize),
     Parameter(usize),
-    /// An entry of the coordinate that begins there, by the table of whole numbers.
+    /// Entry `pick[i]` of the coordinate that begins at this index.
     Picked(usize),
-    /// A definition before this.
+    /// An earlier definition.
     Defined(usize),
     Applied(usize, Box<Self>),
-    /// A function that is not written in the language.
+    /// A user-supplied function.
     Supplied(usize, Box<[Self; 2]>),
     Negative(Box<Self>),
     Binary(char, Box<[Self; 2]>),
-    /// To a fixed power.
+    /// A constant power, by numerator and denominator.
     Power(Box<Self>, i128, i128),
-    /// To any power, of what is positive.
+    /// A power of a positive base with any exponent.
     Exponential(Box<[Self; 2]>),
     Function(Function, Box<Self>),
     Sqrt(Box<Self>),
@@ -71,52 +72,52 @@ pub(super) enum Term {
     Dot(Box<[Vector; 2]>),
     Norm(Box<Vector>),
     Component(Box<Vector>, usize),
-    /// Of a frame: mass, centre, and the first number of the inertia.
+    /// Kinetic energy: frame, mass and centre, and index of the first number of the inertia.
     Kinetic(usize, Box<(Self, Vector)>, usize),
     Sum(usize, Box<Self>),
     Der(Box<Self>),
 }
 
-/// Where in the order of operations what is written stands: it takes parentheses where more is needed.
+/// Operator precedence. An operand of lower precedence than needed is written in parentheses.
 pub(super) const SUM: u8 = 1;
 pub(super) const PRODUCT: u8 = 2;
 pub(super) const SIGN: u8 = 3;
 pub(super) const POWER: u8 = 4;
 pub(super) const ATOM: u8 = 5;
 
-/// A vector of three, written at random.
+/// A random expression for a vector of three.
 #[derive(Clone, Debug)]
 pub(super) enum Vector {
     Entries(Box<[Term; 3]>),
-    /// A coordinate, by its first entry.
+    /// A coordinate, by the index of its first entry.
     Coordinate(usize),
     Velocity(usize),
-    /// A field or a member of one, by its first number.
+    /// A field or a member of one, by the index of its first number.
     Parameter(usize),
     Sum(Box<[Self; 2]>),
     Scaled(Box<(Term, Self)>),
     Cross(Box<[Self; 2]>),
-    /// By a coordinate that is a quaternion.
+    /// Rotation by a coordinate that is a quaternion.
     Turned(usize, Box<Self>),
     Supplied(usize, Box<Term>),
     Der(Box<Self>),
-    /// Where a point of a frame is, along the fixed axes; the others are along those of the frame.
+    /// Position of a point of a frame, along the fixed axes. The variants below are along the axes of the frame.
     Position(usize, Box<Self>),
     Speed(usize, Box<Self>),
     Spin(usize),
     Along(usize, Box<Self>),
-    /// From the axes of one frame to those of another.
+    /// Components along the axes of the second frame, from those along the first.
     Express(Box<Self>, [usize; 2]),
 }
 
-/// A step that leads from frame to frame.
+/// A step from one frame to the next.
 #[derive(Clone, Debug)]
 pub(super) enum Step {
     Translate(Vector),
-    /// About one of its own axes.
+    /// Rotation about a coordinate axis, by the number of the axis.
     About(usize, Term),
     Rotate(Vector, Term),
-    /// By a coordinate that is a quaternion.
+    /// Rotation by a coordinate that is a quaternion.
     Quaternion(usize),
 }
 
@@ -125,7 +126,7 @@ pub(super) struct Frame {
     pub(super) name: String,
     pub(super) parent: Option<usize>,
     pub(super) steps: Vec<Step>,
-    /// Of a family.
+    /// Index of the frame in its family, or 0.
     pub(super) index: usize,
 }
 
@@ -142,17 +143,17 @@ impl Draft {
         unreachable!("there is no coordinate {i}")
     }
 
-    /// A coordinate of several numbers as a whole, by the first.
+    /// Name of a coordinate of several numbers, by the index of the first.
     pub(super) fn block(&self, first: usize, suffix: &str) -> String {
         self.coordinate(first, suffix).trim_end_matches("[0]").to_owned()
     }
 
-    /// A field or a member of several numbers as a whole, by the first.
+    /// Name of a field or member of several numbers, by the index of the first.
     pub(super) fn whole(&self, first: usize) -> String {
         self.names[first].trim_end_matches("[0]").to_owned()
     }
 
-    /// The first entries of coordinates of so many.
+    /// Indices of the first entries of all coordinates whose length satisfies `of`.
     pub(super) fn blocks(&self, of: impl Fn(usize) -> bool) -> Vec<usize> {
         let firsts = self.coordinates.iter().scan(0, |next, (_, length)| {
             *next += length;

@@ -1,4 +1,4 @@
-//! Draws a system: every matrix M definite, every function where it is smooth.
+//! Draws a random system. M is always definite, and every function is smooth where it is evaluated.
 
 use super::draft::{Draft, Frame, Step, Supplied, Term, Vector};
 use super::pen::{Pen, binary, function, half, negative, number, power};
@@ -48,7 +48,7 @@ impl Draft {
         self.count += length;
     }
 
-    /// Numbers, a vector, functions and a table.
+    /// Adds scalar fields; a vector, functions and a table to some systems.
     fn add_fields(&mut self, random: &mut Random) {
         for k in 0..2 + random.below(3) {
             self.scalars.push(self.names.len());
@@ -74,7 +74,7 @@ impl Draft {
         }
     }
 
-    /// A quaternion to turn one by, and what two bodies are, in structs.
+    /// Adds two bodies as an array of structs, and to some systems a quaternion that may rotate a frame.
     fn add_bodies(&mut self, random: &mut Random) {
         if random.once_in(2) {
             self.add_coordinate("turn".to_owned(), 4);
@@ -91,7 +91,7 @@ impl Draft {
         self.attributes.push("parameter(body: [2] {m, c: [3], I: symmetric})".to_owned());
     }
 
-    /// Two frames, or a tree of three.
+    /// Adds one or two frames, or a tree of three.
     fn place(&mut self, random: &mut Random) {
         if random.once_in(2) {
             for k in 0..1 + random.below(2) {
@@ -123,7 +123,7 @@ impl Draft {
         self.frames.push(Frame { name, parent, steps, index: 0 });
     }
 
-    /// The quaternions that turn a frame.
+    /// Quaternions that rotate a frame, each by the index of its first entry.
     fn turned(&self) -> Vec<usize> {
         let steps = || self.frames.iter().flat_map(|frame| &frame.steps);
         let is_turning =
@@ -135,8 +135,8 @@ impl Draft {
         Pen { draft: self, random, function: false, velocities: false, index: false, placing: false }
     }
 
-    /// Squares of the velocities, each with some of those before it, which makes M definite; and now and then what only adds
-    /// to it, or is linear in the velocities.
+    /// Kinetic energy: squares of the velocities, each with some of the earlier ones, so that M is definite.
+    /// Further terms either add to M or are linear in the velocities.
     fn kinetic(&self, random: &mut Random) -> Vec<Term> {
         let mut terms = Vec::new();
         for i in 0..self.count {
@@ -197,7 +197,8 @@ impl Draft {
         }
     }
 
-    /// Of coordinates, or linear in velocities. Each has a coordinate of its own, so that none says what another one does.
+    /// A constraint on coordinates, or linear in the velocities. Each has a coordinate of its own, so none follows
+    /// from another.
     fn constraint(&self, i: usize, random: &mut Random) -> (Term, bool) {
         let of_velocities = random.once_in(2);
         let own = if of_velocities { Term::Velocity(i) } else { Term::Coordinate(i) };
@@ -213,7 +214,7 @@ impl Draft {
         (binary('-', term, rest), of_velocities)
     }
 
-    /// A random time, coordinates, velocities and parameters.
+    /// Draws a time, coordinates, velocities and parameters.
     pub(super) fn numbers(&self, random: &mut Random) -> (f64, [Vec<f64>; 3]) {
         let mut several =
             |count, low, high| (0..count).map(|_| random.between(low, high)).collect::<Vec<_>>();

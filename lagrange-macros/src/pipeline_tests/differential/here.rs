@@ -1,8 +1,8 @@
-//! Where and when expressions are evaluated: time and state as jets.
+//! Time and state at which expressions are evaluated, as jets.
 
 use super::jet::Jet;
 
-/// Where and when, with so many ε in it.
+/// Time, state and parameters of an evaluation. `order` is the number of ε in use.
 #[derive(Clone)]
 pub(super) struct Here {
     pub(super) time: Jet,
@@ -36,7 +36,7 @@ impl Here {
         Self { index, ..self.clone() }
     }
 
-    /// A new ε later, by these velocities, that do not change.
+    /// Moves time and coordinates by a new ε along the motion, with constant velocities.
     pub(super) fn later(&self) -> Self {
         let mut later = self.clone();
         later.time = self.time.moved(&Jet::number(1.0), self.order);
@@ -46,7 +46,7 @@ impl Here {
         later
     }
 
-    /// With one coordinate a new ε larger.
+    /// Increases one coordinate by a new ε.
     pub(super) fn by_coordinate(&self, i: usize) -> Self {
         let mut moved = self.clone();
         moved.coordinates[i] = self.coordinates[i].moved(&Jet::number(1.0), self.order);
@@ -54,7 +54,7 @@ impl Here {
         moved
     }
 
-    /// With one velocity a new ε larger.
+    /// Increases one velocity by a new ε.
     pub(super) fn by_velocity(&self, i: usize) -> Self {
         let mut moved = self.clone();
         moved.velocities[i] = self.velocities[i].moved(&Jet::number(1.0), self.order);

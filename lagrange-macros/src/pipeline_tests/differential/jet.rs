@@ -1,4 +1,5 @@
-//! Derivatives of any order by nilpotent numbers, to twice the precision of f64, each with what rounding would make of it in f64.
+//! Derivatives of any order by nilpotent numbers, to twice the precision of f64. Each number carries the rounding
+//! error that its evaluation in f64 would have.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -6,9 +7,9 @@ use num_traits::Signed;
 
 use crate::symbolic::{Double, Function, Rational};
 
-/// A number, and the rounding errors of an evaluation of it in f64, in units of the round-off: one for each operation, each
-/// carried on by the slopes of those after it (running error analysis: Higham, *Accuracy and Stability of Numerical
-/// Algorithms*, 3.3).
+/// A number, with a bound on the rounding errors of its evaluation in f64, in units of the round-off. Each
+/// operation adds one error, which the slopes of later operations propagate (running error analysis: Higham,
+/// *Accuracy and Stability of Numerical Algorithms*, 3.3).
 #[derive(Clone, Copy)]
 pub(super) struct Running {
     pub(super) value: Double,
@@ -20,7 +21,8 @@ impl Running {
         Self { value, errors: 0.0 }
     }
 
-    /// An elementary function is taken to be right to a unit in the last place, which is two round-offs.
+    /// Adds `roundings` errors of one round-off. An elementary function is assumed accurate to one unit in the last
+    /// place, which is two round-offs.
     fn rounded(value: Double, roundings: f64, inherited: f64) -> Self {
         Self { value, errors: inherited + roundings * value.to_f64().abs() }
     }
@@ -34,18 +36,19 @@ impl Running {
     }
 }
 
-/// a + a₁ε₁ + a₂ε₂ + a₁₂ε₁ε₂ + …, where every ε² = 0: an entry for each set of ε, as bits. The coefficient of ε₁ε₂ in f(x + ε₁ + ε₂)
-/// is f″(x). (Fike and Alonso, *The Development of Hyper-Dual Numbers*, 2011)
+/// Hyper-dual number a + a₁ε₁ + a₂ε₂ + a₁₂ε₁ε₂ + …, where every ε² = 0. The bits of an index are the set of ε of
+/// that entry. The coefficient of ε₁ε₂ in f(x + ε₁ + ε₂) is f″(x). (Fike and Alonso, *The Development of Hyper-Dual
+/// Numbers*, 2011)
 #[derive(Clone)]
 pub(super) struct Jet(Vec<Running>);
 
 impl Jet {
-    /// What f64 holds.
+    /// A number that f64 represents exactly.
     pub(super) fn number(value: f64) -> Self {
         Self(vec![Running::exact(Double::from(value))])
     }
 
-    /// What f64 may round.
+    /// A number that f64 may round.
     pub(super) fn rounded(value: Double) -> Self {
         Self(vec![Running::rounded(value, 1.0, 0.0)])
     }
@@ -54,20 +57,20 @@ impl Jet {
         Self(vec![value])
     }
 
-    /// The coefficient of all ε that there are, of so many.
+    /// Coefficient of the product of the first `all` ε.
     pub(super) fn coefficient(&self, all: u32) -> Running {
         let all = (1_usize << all) - 1;
         self.0.get(all).copied().unwrap_or(Running::exact(Double::from(0.0)))
     }
 
-    /// This + `rate` ε, where ε is the one of that number.
+    /// Returns `self` + `rate` ε, where `epsilon` is the number of the ε.
     pub(super) fn moved(&self, rate: &Self, epsilon: u32) -> Self {
         let [mut rest, rate] = [self, rate].map(|jet| jet.long(1 << epsilon));
         rest.extend(rate);
         Self(rest)
     }
 
-    /// What stands before the ε of that number, the last there is.
+    /// Coefficient of the ε with number `epsilon`, which must be the last one.
     pub(super) fn rate(&self, epsilon: u32) -> Self {
         let half = 1 << epsilon;
         if self.0.len() > half { Self(self.0[half..].to_vec()) } else { Self::number(0.0) }
@@ -84,7 +87,7 @@ impl Jet {
         (Self(rest.to_vec()), Self(rates.to_vec()))
     }
 
-    /// f(a + bε) = f(a) + f′(a) b ε, of a function of which value and slope are known.
+    /// f(a + bε) = f(a) + f′(a) b ε, for a function with known value and slope.
     fn chain(&self, value: impl Fn(&Self) -> Self, slope: impl Fn(&Self) -> Self) -> Self {
         let (a, b) = self.halves();
         let (mut entries, rates) = (value(&a).long(b.0.len()), slope(&a) * b);
@@ -134,7 +137,8 @@ impl Jet {
         Self(entries)
     }
 
-    /// Most by the sine, the cosine, the exponential function, the logarithm, the arc tangent and the root.
+    /// Applies an elementary function. Most reduce to the sine, cosine, exponential, logarithm, arc tangent and
+    /// square root.
     pub(super) fn apply(&self, function: Function) -> Self {
         let one = || Self::number(1.0);
         let exponentials = || (self.apply(Function::Exp), (-self.clone()).apply(Function::Exp));
@@ -151,7 +155,7 @@ impl Jet {
             Function::Acos => leg().atan2(self),
             Function::Sinh => (exponentials().0 - exponentials().1) / Self::number(2.0),
             Function::Cosh => (exponentials().0 + exponentials().1) / Self::number(2.0),
-            // That this is a difference costs digits where it is small, in what is emitted too.
+            // The difference loses digits where it is small, as it does in the emitted code.
             Function::Tanh => self.of_functions(function, |x| {
                 Self::number(1.0) - x.apply(Function::Tanh).power(Rational::from_integer(2))
             }),

@@ -1,4 +1,4 @@
-//! Expressions of the language: how they are written, and what they are worth.
+//! Scalar expressions of the language: their text and their values.
 
 use super::draft::{ATOM, Draft, POWER, PRODUCT, SIGN, SUM, Term, Vector};
 use super::here::Here;
@@ -11,7 +11,7 @@ impl Term {
         self.written(draft).0
     }
 
-    /// In parentheses, where it stands lower than that.
+    /// Text of the term, in parentheses if its precedence is below `least`.
     pub(super) fn at(&self, least: u8, draft: &Draft) -> String {
         let (text, place) = self.written(draft);
         if place < least { format!("({text})") } else { text }
@@ -63,7 +63,7 @@ impl Term {
         }
     }
 
-    /// The value where things are as they are `here`.
+    /// Value of the term at the time, state and parameters of `here`.
     pub(super) fn value(&self, draft: &Draft, here: &Here) -> Jet {
         let of = |term: &Self| term.value(draft, here);
         let vector = |vector: &Vector| vector.value(draft, here);

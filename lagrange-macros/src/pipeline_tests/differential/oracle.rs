@@ -1,20 +1,20 @@
-//! Accelerations and multipliers by derivatives of the Lagrangian as it is written and Gauss's elimination, to twice the
-//! precision of f64; and how exact f64 can be expected to be.
+//! Accelerations and multipliers from derivatives of the Lagrangian as written and Gaussian elimination, to twice
+//! the precision of f64. Each has the error bound that a solution in f64 can be expected to meet.
 
 use super::draft::{Draft, Term};
 use super::here::Here;
 use super::jet::{Jet, Running};
 use crate::symbolic::Double;
 
-/// The accelerations, then the multipliers.
+/// Accelerations, then multipliers.
 pub(super) struct Solution {
     pub(super) values: Vec<Double>,
-    /// How far off each may be in f64, where every rounding error is as large as it can be.
+    /// Error bound of each value in f64, with every rounding error at its largest.
     pub(super) bounds: Vec<f64>,
 }
 
-/// Solves K x = r, [M −Fᵀ; F 0] (q̈, λ) = (h, −γ), with
-/// M = ∂²L/∂q̇∂q̇, h = ∂L/∂q + Q − ∂D/∂q̇ − (∂/∂t + q̇·∂/∂q) ∂L/∂q̇. None where K is singular.
+/// Solves K x = r, [M −Fᵀ; F 0] (q̈, λ) = (h, −γ), with M = ∂²L/∂q̇∂q̇, h = ∂L/∂q + Q − ∂D/∂q̇ − (∂/∂t + q̇·∂/∂q)
+/// ∂L/∂q̇. `None` if K is singular.
 pub(super) fn solve(draft: &Draft, here: &Here) -> Option<Solution> {
     let (n, constraints) = (draft.count, &draft.constraints);
     let slopes = constraints.iter().map(|(term, of_velocities)| slopes(draft, here, term, *of_velocities));
@@ -35,7 +35,7 @@ pub(super) fn solve(draft: &Draft, here: &Here) -> Option<Solution> {
     solution(&rows, &right)
 }
 
-/// A row of F.
+/// A row of the constraint Jacobian F.
 fn slopes(draft: &Draft, here: &Here, term: &Term, of_velocities: bool) -> Vec<Running> {
     let moved = |i| if of_velocities { here.by_velocity(i) } else { here.by_coordinate(i) };
     (0..draft.count).map(|i| term.value(draft, &moved(i)).coefficient(1)).collect()
@@ -45,7 +45,7 @@ fn negative(x: Running) -> Running {
     Running { value: -x.value, ..x }
 }
 
-/// The derivative of L by every ε.
+/// Derivative of L by all ε in use.
 fn lagrangian(draft: &Draft, here: &Here) -> Running {
     let terms = draft.lagrangian.iter().map(|term| term.value(draft, here));
     terms.fold(Jet::number(0.0), |sum, term| sum + term).coefficient(here.order)
@@ -64,15 +64,17 @@ fn forcing(draft: &Draft, here: &Here, i: usize) -> Running {
     sum.coefficient(0)
 }
 
-/// The second derivative along the motion, but for the accelerations.
+/// Second time derivative of a constraint, or first of a velocity constraint, without the terms of the
+/// accelerations.
 fn bias(draft: &Draft, here: &Here, term: &Term, of_velocities: bool) -> Running {
     let later = if of_velocities { here.later() } else { here.later().later() };
     term.value(draft, &later).coefficient(later.order)
 }
 
-/// |x − x̃| ≤ |K⁻¹| (δr + δK |x̃| + 3 N |L̂| |Û| |x̃|) u for a solution x̃ by elimination (Higham, *Accuracy and Stability of
-/// Numerical Algorithms*, 7.2 and theorem 9.4), with δ the errors of the entries, |L̂| |Û| those of an elimination from the top down.
-/// Of x̃ it is known that it is as near to x as that says of x: a multiplier that is zero is not zero after rounding.
+/// Error bound |x − x̃| ≤ |K⁻¹| (δr + δK |x̃| + 3 N |L̂| |Û| |x̃|) u for a solution x̃ by elimination (Higham,
+/// *Accuracy and Stability of Numerical Algorithms*, 7.2 and theorem 9.4). δ is the error of an entry; |L̂| |Û|
+/// belongs to an elimination from the top down. As |x̃| the bound takes |x| plus a first bound with |x|: a
+/// multiplier that is zero is not zero after rounding.
 fn solution(matrix: &[Vec<Running>], right: &[Running]) -> Option<Solution> {
     let size = right.len();
     let unit = |i: usize, k: usize| Double::from(f64::from(u8::from(i == k)));
@@ -99,7 +101,7 @@ fn solution(matrix: &[Vec<Running>], right: &[Running]) -> Option<Solution> {
     Some(Solution { bounds: bounds(&rounded), values })
 }
 
-/// Rows [I X] of [A B], X = A⁻¹ B, by Gauss and Jordan with partial pivoting.
+/// Reduces [A B] to [I X], X = A⁻¹ B, by Gauss–Jordan elimination with partial pivoting. `None` if A is singular.
 fn eliminated(mut rows: Vec<Vec<Double>>) -> Option<Vec<Vec<Double>>> {
     for c in 0..rows.len() {
         let size = |row: &Vec<Double>| row[c].to_f64().abs();
@@ -117,7 +119,7 @@ fn eliminated(mut rows: Vec<Vec<Double>>) -> Option<Vec<Vec<Double>>> {
     Some(rows)
 }
 
-/// |L| |U| of the matrix, without pivoting.
+/// |L| |U| of an LU factorization without pivoting. `None` if a pivot is zero.
 fn growth(matrix: &[Vec<Running>]) -> Option<Vec<Vec<f64>>> {
     let mut rows: Vec<Vec<f64>> =
         matrix.iter().map(|row| row.iter().map(|x| x.value.to_f64()).collect()).collect();
@@ -141,8 +143,8 @@ fn growth(matrix: &[Vec<Running>]) -> Option<Vec<Vec<f64>>> {
 
 #[test]
 fn the_bound_of_a_linear_system_is_that_of_its_condition() {
-    // Rows (1, 1), (1, 1 + d): the inverse is of the size 1/d, and an error in the sides as large as the round-off is
-    // as many times larger in the solution.
+    // Rows (1, 1), (1, 1 + d): the inverse is of order 1/d. An error of one round-off in the right side grows by
+    // that factor in the solution.
     let jet = |x: f64| Running { errors: 1.0, ..Jet::number(x).coefficient(0) };
     for d in [2.0_f64.powi(-7), 2.0_f64.powi(-14), 2.0_f64.powi(-20)] {
         let matrix = [vec![jet(1.0), jet(1.0)], vec![jet(1.0), jet(1.0 + d)]];

@@ -1,4 +1,4 @@
-//! Expressions at random, of what there is: each knows in what range it is, so that every function is smooth there.
+//! Random expressions from the parts of a system. Each keeps to a known range, in which every function is smooth.
 
 use super::draft::{Draft, Term, Vector};
 use crate::rounds::Random;
@@ -28,16 +28,16 @@ pub(super) fn function(name: Function, x: Term) -> Term {
     Term::Function(name, Box::new(x))
 }
 
-/// Writes terms of what there is.
+/// Draws terms from the coordinates, fields and definitions of a draft.
 pub(super) struct Pen<'d> {
     pub(super) draft: &'d Draft,
     pub(super) random: &'d mut Random,
-    /// Inside of a function.
+    /// True inside the definition of a function.
     pub(super) function: bool,
     pub(super) velocities: bool,
-    /// Inside of a sum, or of a family.
+    /// True inside a sum or a family, where an index exists.
     pub(super) index: bool,
-    /// Inside of the step of a frame, where no frame is asked for anything.
+    /// True inside the step of a frame, where expressions must not refer to frames.
     pub(super) placing: bool,
 }
 
@@ -77,7 +77,7 @@ impl Pen<'_> {
         Term::Parameter(self.random.one_of(&self.draft.scalars))
     }
 
-    /// By an index, which may be looked up in the table.
+    /// A term with the index, either alone or through the table.
     fn indexed(&mut self) -> Term {
         let several = self.draft.blocks(|length| length > 1);
         if self.draft.table.is_empty() || self.random.once_in(2) {
@@ -99,7 +99,7 @@ impl Pen<'_> {
         Box::new(self.term(depth))
     }
 
-    /// Any smooth function.
+    /// A random smooth term.
     pub(super) fn term(&mut self, depth: usize) -> Term {
         let Some(below) = depth.checked_sub(1) else { return self.atom() };
         match self.random.below(25) {
@@ -134,7 +134,7 @@ impl Pen<'_> {
         }
     }
 
-    /// What a simplifier has something to do with, and may get wrong.
+    /// A term that a simplifier can rewrite, and may get wrong.
     fn equal(&mut self, depth: usize) -> Term {
         let (x, y) = (self.term(depth), self.atom());
         let square = |name, x: &Term| power(function(name, x.clone()), 2, 1);
@@ -154,7 +154,7 @@ impl Pen<'_> {
         }
     }
 
-    /// Between -1 and 1.
+    /// A term with values between -1 and 1.
     pub(super) fn bounded(&mut self, depth: usize) -> Term {
         let Some(below) = depth.checked_sub(1) else {
             return function(Function::Sin, self.atom());
@@ -172,7 +172,7 @@ impl Pen<'_> {
         }
     }
 
-    /// Well above 0.
+    /// A term with values well above 0.
     pub(super) fn positive(&mut self, depth: usize) -> Term {
         let Some(below) = depth.checked_sub(1) else {
             return self.parameter();

@@ -1,10 +1,10 @@
-//! Vectors and steps of frames at random.
+//! Random vectors and frame steps.
 
 use super::draft::{Step, Term, Vector};
 use super::pen::Pen;
 
 impl Pen<'_> {
-    /// Along no axes in particular.
+    /// A vector whose components refer to the axes of no frame.
     pub(super) fn vector(&mut self, depth: usize) -> Vector {
         let draft = self.draft;
         let Some(below) = depth.checked_sub(1) else { return self.entries(0) };
@@ -28,13 +28,13 @@ impl Pen<'_> {
         Vector::Entries(Box::new(std::array::from_fn(|_| self.term(depth))))
     }
 
-    /// A frame that may be asked for something, where there is one.
+    /// A random frame, if expressions may refer to one.
     fn frame(&mut self) -> Option<usize> {
         let count = if self.placing || self.function { 0 } else { self.draft.frames.len() };
         (count > 0).then(|| self.random.below(count))
     }
 
-    /// Along the axes of a frame.
+    /// A vector along the axes of a frame.
     fn along(&mut self, frame: usize, depth: usize) -> Vector {
         let Some(below) = depth.checked_sub(1) else { return Vector::Along(frame, Box::new(self.vector(0))) };
         match self.random.below(6) {
@@ -44,7 +44,8 @@ impl Pen<'_> {
                 Vector::Express(Box::new(self.along(other, below)), [other, frame])
             }
             2 if self.velocities => {
-                // Where the point is, and not how fast it moves: there are no accelerations in a force.
+                // The point must not depend on velocities: its own velocity would contain accelerations, which a
+                // force must not.
                 self.velocities = false;
                 let point = self.vector(below);
                 self.velocities = true;

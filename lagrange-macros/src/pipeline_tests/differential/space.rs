@@ -1,7 +1,7 @@
-//! Vectors and frames of the language: how they are written, and what they are worth.
+//! Vectors and frames of the language: their text and their values.
 //!
-//! A frame is a rotation and an origin, multiplied out; what moves with it is differentiated along the motion. No angular velocity
-//! is carried from frame to frame, and no twist.
+//! A frame is a rotation matrix and an origin, multiplied out. Velocities are derivatives of positions and axes
+//! along the motion. No angular velocity and no twist is propagated from frame to frame.
 
 use super::draft::{ATOM, Draft, PRODUCT, SUM, Step, Vector};
 use super::here::Here;
@@ -16,7 +16,7 @@ impl Vector {
         self.written(draft).0
     }
 
-    /// In parentheses, unless it needs none before an index.
+    /// Text of the vector, in parentheses if an index cannot follow it directly.
     pub(super) fn atom(&self, draft: &Draft) -> String {
         let (text, place) = self.written(draft);
         if place < ATOM { format!("({text})") } else { text }
@@ -78,7 +78,7 @@ impl Vector {
                 let speed = rate(placed(*k, &v.value(draft, &later), draft, &later));
                 times(&transposed(&pose(*k, draft, here).0), &speed)
             }
-            // S ω = Rᵀ Ṙ
+            // Rᵀ Ṙ is the cross-product matrix of ω.
             Self::Spin(k) => {
                 let axes = transposed(&pose(*k, draft, here).0);
                 let rates = transposed(&pose(*k, draft, &here.later()).0.map(rate));
@@ -103,7 +103,7 @@ impl Step {
         }
     }
 
-    /// The images of the three axes, as columns, and by how much the origin moves.
+    /// Rotation matrix, with the images of the three axes as columns, and displacement of the origin.
     fn value(&self, draft: &Draft, here: &Here) -> (Rows, Triple) {
         let turned =
             |turn: &dyn Fn(Triple) -> Triple| transposed(&UNIT.map(|axis| turn(axis.map(Jet::number))));
@@ -128,7 +128,7 @@ impl Step {
     }
 }
 
-/// ½ m |ṙ|² + ½ tr(Ṙ J Ṙᵀ), J = ½ tr(I) 1 − I, by the rates of the centre and of the axes.
+/// ½ m |ṙ|² + ½ tr(Ṙ J Ṙᵀ), J = ½ tr(I) 1 − I, from the rates of the centre and of the axes.
 pub(super) fn kinetic(
     k: usize,
     mass: &Jet,
@@ -158,7 +158,7 @@ pub(super) fn kinetic(
 
 const UNIT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// The axes of a frame as columns, and its origin.
+/// Axes of a frame, as columns, and its origin.
 fn pose(k: usize, draft: &Draft, here: &Here) -> (Rows, Triple) {
     let frame = &draft.frames[k];
     let rest = || (UNIT.map(|row| row.map(Jet::number)), [0.0; 3].map(Jet::number));
@@ -171,7 +171,7 @@ fn pose(k: usize, draft: &Draft, here: &Here) -> (Rows, Triple) {
     })
 }
 
-/// Where a point of a frame is.
+/// Position of a point of a frame, along the fixed axes.
 fn placed(k: usize, point: &Triple, draft: &Draft, here: &Here) -> Triple {
     let (axes, origin) = pose(k, draft, here);
     sum(origin, times(&axes, point))
@@ -191,7 +191,7 @@ fn turned([w, x, y, z]: &[Jet; 4], v: Triple) -> Triple {
     sum(sum(scaled(&stay, v), scaled(&along, u)), across)
 }
 
-/// About an axis of length 1 (Rodrigues): v cos α + a × v sin α + a (a·v) (1 − cos α)
+/// Rotates v about an axis of length 1 (Rodrigues): v cos α + a × v sin α + a (a·v) (1 − cos α)
 fn about(axis: &Triple, angle: &Jet, v: &Triple) -> Triple {
     let (sine, cosine) = (angle.apply(Function::Sin), angle.apply(Function::Cos));
     let versine = Jet::number(1.0) - cosine.clone();

@@ -1,7 +1,7 @@
-//! Vectors and matrices of numbers, and equations solved by elimination.
+//! Vectors and matrices of f64, and linear equations solved by elimination.
 
 pub(super) type Vector = [f64; 3];
-/// By rows.
+/// Rows of a 3 × 3 matrix.
 pub(super) type Matrix = [Vector; 3];
 
 pub(super) const UNIT: Matrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -52,7 +52,7 @@ pub(super) fn skew([x, y, z]: Vector) -> Matrix {
     [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
 }
 
-/// About an axis of length 1: v cos φ + n × v sin φ + n (n·v)(1 − cos φ) (Rodrigues).
+/// Rotation about a unit axis n: v cos φ + n × v sin φ + n (n·v)(1 − cos φ) (Rodrigues).
 pub(super) fn turn(axis: Vector, angle: f64) -> Matrix {
     let (sin, cos) = angle.sin_cos();
     let turned = |v: Vector| {
@@ -62,7 +62,7 @@ pub(super) fn turn(axis: Vector, angle: f64) -> Matrix {
     transposed(UNIT.map(turned))
 }
 
-/// (w, x, y, z), Hamilton's product.
+/// Hamilton product of quaternions (w, x, y, z).
 pub(super) fn quaternion_product([a, p @ ..]: [f64; 4], [b, q @ ..]: [f64; 4]) -> [f64; 4] {
     let [x, y, z] = sum([scaled(a, q), scaled(b, p), cross(p, q)]);
     [a * b - dot(p, q), x, y, z]
@@ -78,8 +78,8 @@ pub(super) fn turn_by(q: [f64; 4]) -> Matrix {
     transposed(UNIT.map(turned))
 }
 
-/// A x = b by Gaussian elimination with the largest pivot of each column, of rows divided by their largest entries;
-/// and the least of these pivots.
+/// Solves A x = b by Gaussian elimination with partial pivoting, after dividing each row by its largest entry.
+/// Returns x and the smallest pivot.
 pub(super) fn solved(mut rows: Vec<Vec<f64>>, mut right: Vec<f64>) -> (Vec<f64>, f64) {
     let n = right.len();
     for (row, b) in rows.iter_mut().zip(&mut right) {

@@ -1,4 +1,4 @@
-//! A system as it is drawn: the source of the macro and the model of the oracle, word for number.
+//! A random system: the source for the macro, and the same system as a model for the oracle.
 
 use std::collections::BTreeMap;
 
@@ -21,32 +21,32 @@ impl Random {
 #[derive(Default)]
 pub(super) struct Draft {
     pub(super) model: Model,
-    /// `r: [3]`
+    /// Declarations, such as `r: [3]`.
     coordinates: Vec<String>,
-    /// Names, types and numbers, row by row.
+    /// Name, type and numbers of each field, matrices row by row.
     pub(super) fields: Vec<(String, String, Vec<f64>)>,
     frames: Vec<String>,
     terms: Vec<String>,
     attributes: Vec<String>,
     dissipation: Vec<String>,
-    /// The names of the multipliers, in the order of the model's ties.
+    /// Names of the multipliers, in the order of the model's ties.
     pub(super) multipliers: Vec<String>,
-    /// Coordinates that are angles or lengths on their own.
+    /// Coordinates that are single angles or lengths.
     pub(super) scalars: Vec<usize>,
-    /// With so many coordinates it takes no further joint of several.
+    /// Number of coordinates from which on no joint with several coordinates is added.
     pub(super) enough: usize,
-    /// How often what was drawn.
+    /// How often each feature was drawn.
     pub(super) counts: BTreeMap<&'static str, usize>,
 }
 
-/// A frame that is being declared, or is.
+/// A frame, declared or still being declared.
 #[derive(Clone)]
 pub(super) struct Frame {
     pub(super) name: String,
     pub(super) link: usize,
-    /// How many coordinates have moved it since the last frame with a body.
+    /// Number of coordinates that have moved the frame since the last frame with a body.
     pub(super) light: usize,
-    /// The steps so far.
+    /// Text of the steps so far.
     pub(super) steps: Vec<String>,
 }
 
@@ -62,7 +62,7 @@ impl Draft {
         format!("{}struct Tree {{ {} }}", self.attributes(), fields.join(", "))
     }
 
-    /// All attributes, a line each.
+    /// All attributes, one per line.
     pub(super) fn attributes(&self) -> String {
         let mut attributes = vec![format!("coordinates({})", self.coordinates.join(", "))];
         attributes.extend_from_slice(&self.frames);
@@ -74,13 +74,13 @@ impl Draft {
         attributes.iter().map(|attribute| format!("#[{attribute}]\n")).collect()
     }
 
-    /// A number of a field.
+    /// Returns a number of a field.
     pub(super) fn number(&self, field: &str, number: usize) -> f64 {
         let found = self.fields.iter().find(|(name, ..)| name == field);
         found.expect("a field").2[number]
     }
 
-    /// The place of a multiplier among those of the oracle.
+    /// Index of a multiplier in the oracle's solution.
     pub(super) fn multiplier(&self, name: &str) -> usize {
         self.multipliers.iter().position(|known| known == name).expect("a constraint")
     }
@@ -103,7 +103,7 @@ impl Draft {
         self.field("Vector3<f64>", vector)
     }
 
-    /// A coordinate of one number, of three, or of four that are a unit quaternion; and which the first is.
+    /// Adds a coordinate of `length` numbers. Returns its name and the index of its first number.
     pub(super) fn coordinate(&mut self, random: &mut Random, length: usize) -> (String, usize) {
         let first = self.model.coordinates.len();
         let name = format!("c{first}");
@@ -119,7 +119,7 @@ impl Draft {
         (name, first)
     }
 
-    /// A quaternion with a rate at right angles to it, and the constraint that its frame brings.
+    /// Adds a unit quaternion with a rate orthogonal to it, and the norm constraint that its frame implies.
     pub(super) fn ball(&mut self, random: &mut Random) -> (String, usize) {
         let (name, first) = self.coordinate(random, 4);
         let (q, model) = (random.quaternion(), &mut self.model);
@@ -132,7 +132,7 @@ impl Draft {
         (name, first)
     }
 
-    /// A tie with its multipliers.
+    /// Adds a tie and its multipliers.
     pub(super) fn tie(&mut self, tie: Tie, name: String) {
         match tie {
             Tie::Together(..) => self.multipliers.extend((0..3).map(|k| format!("{name}[{k}]"))),
@@ -141,7 +141,7 @@ impl Draft {
         self.model.ties.push(tie);
     }
 
-    /// Takes the last tie back.
+    /// Removes the last tie and its multipliers.
     pub(super) fn untie(&mut self) {
         let rows = if let Some(Tie::Together(..)) = self.model.ties.pop() { 3 } else { 1 };
         self.multipliers.truncate(self.multipliers.len() - rows);
@@ -163,7 +163,7 @@ impl Draft {
         self.model.loads.push(load);
     }
 
-    /// A step of a frame, which may be several links.
+    /// Adds a step to a frame. One step may be several links of the model.
     pub(super) fn step(&mut self, frame: &mut Frame, text: String, joints: impl IntoIterator<Item = Joint>) {
         frame.steps.push(text);
         for joint in joints {
@@ -176,7 +176,7 @@ impl Draft {
         self.frames.push(format!("frame({text})"));
     }
 
-    /// What is at rest before a joint or after it.
+    /// Adds a constant step, before or after a joint.
     pub(super) fn placed(&mut self, random: &mut Random, frame: &mut Frame) {
         match random.below(5) {
             0 | 1 => {
@@ -207,7 +207,8 @@ impl Draft {
         }
     }
 
-    /// A positive number about 1 to multiply a mass or an inertia with. One in four varies, with time or a coordinate.
+    /// Draws a positive factor about 1 for a mass or an inertia. One in four varies with time or with a coordinate;
+    /// the text of the others is `None`.
     pub(super) fn growth(&mut self, random: &mut Random) -> (Option<String>, Motion) {
         if !random.once_in(4) {
             return (None, Motion::fixed(1.0));
@@ -226,14 +227,15 @@ impl Draft {
         (Some(format!("(1 + {wave} + {}*c{i}^2)", self.number_field(c))), growth)
     }
 
-    /// A mass, which may vary.
+    /// Draws a mass, which may vary.
     pub(super) fn mass(&mut self, random: &mut Random) -> (String, Motion) {
         let mass = random.between(0.5, 2.0);
         let (field, (text, growth)) = (self.number_field(mass), self.growth(random));
         (text.map_or(field.clone(), |text| format!("{field}*{text}")), growth.times(mass))
     }
 
-    /// A field for an inertia, with what it is multiplied by. What is not symmetric about it has no effect.
+    /// Draws an inertia: its text with a factor, its matrix, and the factor. The field may have an antisymmetric
+    /// part, which has no effect.
     pub(super) fn inertia(&mut self, random: &mut Random) -> (String, Matrix, Motion) {
         let (name, own) = self.inertia_at_rest(random);
         let (text, growth) = self.growth(random);
@@ -260,14 +262,14 @@ impl Draft {
     }
 }
 
-/// Of moments between 0.2 and 1 about axes of its own.
+/// Random inertia with principal moments between 0.2 and 1 about random axes.
 pub(super) fn inertia(random: &mut Random) -> Matrix {
     let axes = turn_by(random.quaternion());
     let [a, b, c] = [0; 3].map(|_| random.between(0.2, 1.0));
     product(product(axes, [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]), transposed(axes))
 }
 
-/// An axis as it is written, of any length but nearly none, and the same with length 1.
+/// Random axis, at least 0.2 long, and the unit vector along it.
 pub(super) fn axis(random: &mut Random) -> (Vector, Vector) {
     let axis = random.vector();
     if super::algebra::norm(axis) < 0.2 { self::axis(random) } else { (axis, unit(axis)) }

@@ -1,4 +1,4 @@
-//! Trees of frames at random, with bodies, loads and ties.
+//! Random trees of frames, with bodies, loads and ties.
 
 use super::algebra::{Matrix, UNIT, Vector, scaled, turn_by};
 use super::draft::{Draft, Frame, inertia};
@@ -7,10 +7,10 @@ use super::loads::{loads, tied};
 use super::model::{Body, Joint, Motion, Point};
 use crate::rounds::Random;
 
-/// The first trees are small, so that they are derived in little time.
+/// Number of small trees at the start, which take little time to derive.
 const SMALL: u64 = 60;
 
-/// The tree of this number.
+/// Draws the tree of this number.
 pub(super) fn tree(number: u64) -> Draft {
     let mut random = Random(number);
     let random = &mut random;
@@ -31,22 +31,22 @@ pub(super) fn tree(number: u64) -> Draft {
     let more = (1 + random.below(largest)).saturating_sub(frames.len()).max(1);
     grow(&mut draft, random, &gravity, &mut frames, more);
     loads(&mut draft, random, &frames);
-    // On half of the trees.
+    // Half of the trees have a tie.
     if !random.once_in(2) {
         tied(&mut draft, random, &frames, "tie");
     }
     draft
 }
 
-/// As terms of the vector that it is, or down an axis.
+/// Gravity as a field and its value: a vector, or a magnitude down an axis.
 enum Gravity {
     None,
     Vector(String, Vector),
     Down(String, usize, f64),
 }
 
-/// A long system of this number: 15 to 32 frames with a body each, in a chain or a tree, some with closed loops. Most joints are of a
-/// few kinds in turn, so that loops are found in what is emitted.
+/// Draws the long system of this number: 15 to 32 frames with a body each, in a chain or a tree, some with closed
+/// loops. Most joints repeat a few kinds in turn, so that the emitted code contains loops.
 pub(super) fn long(number: u64) -> Draft {
     let mut random = Random(number);
     let random = &mut random;
@@ -56,7 +56,7 @@ pub(super) fn long(number: u64) -> Draft {
     draft.model.time = random.between(-1.0, 1.0);
     let gravity = gravity(&mut draft, random);
     let few: Vec<Kind> = (0..=random.below(5)).map(|_| KINDS[random.below(KINDS.len())]).collect();
-    // The mass matrix of a chain of 30 joints at any angles is longer than a function may be.
+    // The mass matrix of a chain of 30 joints at arbitrary angles exceeds the length limit of a function.
     let most = if number % 3 == 1 { 32 } else { 22 };
     for i in 0..15 + random.below(most - 14) {
         let kind = if random.once_in(8) { KINDS[random.below(KINDS.len())] } else { few[i % few.len()] };
@@ -66,7 +66,8 @@ pub(super) fn long(number: u64) -> Draft {
         };
         let name = format!("f{i}");
         let on = parent.checked_sub(1).map_or_else(Frame::fixed, |parent: usize| frames[parent].clone());
-        // Gears and masses that vary are with the coordinate before: with any, a mass matrix has no end.
+        // Gears and varying masses depend on the previous coordinate. With an arbitrary coordinate the mass matrix
+        // would be too long.
         let all = draft.scalars.len();
         scalars.extend(draft.scalars.drain(..all.saturating_sub(1)));
         let frame = framed(&mut draft, random, &on, name, Some(kind));
@@ -95,7 +96,7 @@ fn gravity(draft: &mut Draft, random: &mut Random) -> Gravity {
 }
 
 impl Gravity {
-    /// L of a mass at a point of a frame.
+    /// Term of L for a mass at a point of a frame.
     fn term(&self, mass: &str, frame: &str, centre: &str) -> Option<String> {
         match self {
             Self::None => None,
@@ -113,7 +114,7 @@ impl Gravity {
     }
 }
 
-/// A chain that is declared in one attribute, with arrays for fields.
+/// Adds a chain that is declared as a family, with arrays as fields.
 fn family(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frames: &mut Vec<Frame>) {
     draft.count("family");
     let length = 2 + random.below(3);
@@ -157,7 +158,7 @@ fn family(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frames: &mu
     }
 }
 
-/// More frames, each in one of those before it.
+/// Adds `more` frames, each inside an earlier one or the fixed one.
 fn grow(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frames: &mut Vec<Frame>, more: usize) {
     let before = frames.len();
     let parents: Vec<Option<usize>> = (before..before + more)
@@ -179,7 +180,7 @@ fn grow(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frames: &mut 
     }
 }
 
-/// A frame of this name in another one, declared.
+/// Declares a frame of this name inside another one.
 fn framed(draft: &mut Draft, random: &mut Random, on: &Frame, name: String, kind: Option<Kind>) -> Frame {
     let place = if on.name == "fixed" { String::new() } else { format!(" in {}", on.name) };
     let mut frame = Frame { name, steps: Vec::new(), ..on.clone() };
@@ -188,7 +189,8 @@ fn framed(draft: &mut Draft, random: &mut Random, on: &Frame, name: String, kind
     frame
 }
 
-/// The steps of a frame, with a joint of this kind unless it brings too many coordinates; how many they bring.
+/// Adds the steps of a frame, with a joint of this kind unless it has too many coordinates. Returns the number of
+/// new coordinates.
 fn joint(draft: &mut Draft, random: &mut Random, frame: &mut Frame, kind: Option<Kind>) -> usize {
     let start = draft.model.coordinates.len();
     let most = match frame.light {
@@ -198,7 +200,8 @@ fn joint(draft: &mut Draft, random: &mut Random, frame: &mut Frame, kind: Option
     let kinds = kind.into_iter().chain(std::iter::from_fn(|| Some(KINDS[random.below(KINDS.len())])));
     let (name, _, draw) = kinds.into_iter().find(|kind| kind.1 <= most).expect("one of many");
     draft.count(name);
-    // A light frame is moved by two coordinates that are about different axes at different places.
+    // Constant steps separate the two coordinates of a light frame, so that they act about different axes at
+    // different places.
     if random.once_in(2) || name == "fixed" || frame.light > 0 {
         (0..=random.below(2).max(frame.light)).for_each(|_| draft.placed(random, frame));
     }
@@ -209,7 +212,7 @@ fn joint(draft: &mut Draft, random: &mut Random, frame: &mut Frame, kind: Option
     draft.model.coordinates.len() - start
 }
 
-/// One body or more, so that the frame has an inertia in every direction.
+/// Adds at least one body, so that the frame has an inertia in every direction.
 fn bodies(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &mut Frame) {
     frame.light = 0;
     body(draft, random, gravity, frame);
@@ -230,7 +233,7 @@ fn bodies(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &mut
     }
 }
 
-/// A body with a centre that moves in the frame, beside others.
+/// Adds a body whose centre moves along the frame with a coordinate.
 fn slider(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frame: &Frame) {
     draft.count("body with a centre that moves");
     let ((m, mass), at) = (draft.mass(random), random.vector());

@@ -5,7 +5,7 @@ use super::draft::{Draft, Frame, axis};
 use super::model::{Joint, Motion};
 use crate::rounds::Random;
 
-/// What a joint is, and how many coordinates it brings.
+/// Each kind of joint: name, number of coordinates and function that draws it.
 pub(super) const KINDS: [Kind; 15] = [
     ("fixed", 0, |_, _, _| ()),
     ("driven", 0, driven),
@@ -29,7 +29,8 @@ type Draw = fn(&mut Draft, &mut Random, &mut Frame);
 
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Of a new coordinate, also with a factor, with time or with a coordinate that moves something else already.
+/// Draws a motion with a new coordinate: alone, with a factor, with a function of time, or geared to an earlier
+/// coordinate.
 fn motion(draft: &mut Draft, random: &mut Random) -> (String, Motion) {
     let others = draft.scalars.clone();
     let (name, i) = draft.coordinate(random, 1);
@@ -100,7 +101,7 @@ fn revolute_about(draft: &mut Draft, random: &mut Random, frame: &mut Frame) {
     draft.step(frame, text, [Joint::Turn(direction, angle)]);
 }
 
-/// By a quaternion that depends on one coordinate.
+/// A revolute joint, written as a quaternion that depends on one coordinate.
 fn half_angles(draft: &mut Draft, random: &mut Random, frame: &mut Frame) {
     let (text, angle) = motion(draft, random);
     let k = random.below(3);
@@ -147,7 +148,7 @@ fn universal(draft: &mut Draft, random: &mut Random, frame: &mut Frame) {
     turned(draft, random, frame, (k + 1) % 3);
 }
 
-/// One step that is two links.
+/// A step by a product of two rotations, which are two links of the model.
 fn matrix(draft: &mut Draft, random: &mut Random, frame: &mut Frame) {
     let k = random.below(3);
     let (other, direction) = axis(random);
@@ -157,7 +158,7 @@ fn matrix(draft: &mut Draft, random: &mut Random, frame: &mut Frame) {
     draft.step(frame, text, [Joint::Turn(UNIT[k], first.1), Joint::Turn(direction, second.1)]);
 }
 
-/// On a surface.
+/// Translation along a curved surface.
 fn curve(draft: &mut Draft, random: &mut Random, frame: &mut Frame) {
     let ((x, i), (y, j)) = (draft.coordinate(random, 1), draft.coordinate(random, 1));
     let [a, b, c] = random.vector();

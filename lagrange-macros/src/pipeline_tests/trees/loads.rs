@@ -1,11 +1,11 @@
-//! What acts on a tree beside gravity: forces, springs, friction, a magnetic field, and constraints.
+//! Loads on a tree beside gravity: forces, springs, friction, a magnetic field, and constraints.
 
 use super::algebra::{difference, norm, times, transposed};
 use super::draft::{Draft, Frame};
 use super::model::{Load, Point, Tie};
 use crate::rounds::Random;
 
-/// What acts on some of the trees, and on one in how many.
+/// Each load: name, n if one in n trees has it, and function that draws it.
 pub(super) const LOADS: [(&str, usize, Draw); 7] = [
     ("spring", 3, spring),
     ("force by its potential", 5, force),
@@ -34,7 +34,7 @@ pub(super) fn loads(draft: &mut Draft, random: &mut Random, frames: &[Frame]) {
     }
 }
 
-/// On coordinates.
+/// Adds generalized forces on coordinates and quaternions.
 fn forces(draft: &mut Draft, random: &mut Random) {
     for i in draft.scalars.clone() {
         if random.once_in(4) {
@@ -56,7 +56,7 @@ fn forces(draft: &mut Draft, random: &mut Random) {
     }
 }
 
-/// At rest in a frame, or in the fixed one.
+/// Random point, at rest in a random frame or in the fixed one.
 fn point<'f>(random: &mut Random, frames: &'f [Frame]) -> Named<'f> {
     match frames.get(random.below(frames.len() + 1)) {
         Some(frame) => of(frame, random),
@@ -64,12 +64,12 @@ fn point<'f>(random: &mut Random, frames: &'f [Frame]) -> Named<'f> {
     }
 }
 
-/// At rest in this frame.
+/// Random point, at rest in this frame.
 fn of<'f>(frame: &'f Frame, random: &mut Random) -> Named<'f> {
     (&frame.name, Point { link: frame.link, at: random.vector() })
 }
 
-/// A point as the arguments of a function.
+/// Text of a point, as the arguments of `position` or `velocity`.
 fn written(draft: &mut Draft, (frame, point): Named<'_>) -> String {
     format!("{frame}, {}", draft.vector_field(point.at))
 }
@@ -86,7 +86,7 @@ fn spring(draft: &mut Draft, random: &mut Random, frames: &[Frame]) {
     draft.load(Load::Spring(from.1, to.1, k, l));
 }
 
-/// By its potential, in the axes of any frame.
+/// Adds a constant force by its potential, written in the axes of any frame.
 fn force(draft: &mut Draft, random: &mut Random, frames: &[Frame]) {
     let (at, force) = (point(random, frames), random.vector());
     let (a, name) = (written(draft, at), draft.vector_field(force));
@@ -95,7 +95,7 @@ fn force(draft: &mut Draft, random: &mut Random, frames: &[Frame]) {
     draft.load(Load::Given(at.1, force));
 }
 
-/// A point of a frame that some coordinate moves.
+/// Random point of a frame that a coordinate moves.
 fn moving_point<'f>(draft: &Draft, random: &mut Random, frames: &'f [Frame]) -> Named<'f> {
     let frame = &frames[random.below(frames.len())];
     if draft.model.is_moved(frame.link) { of(frame, random) } else { moving_point(draft, random, frames) }
@@ -132,7 +132,7 @@ fn torque(draft: &mut Draft, random: &mut Random, frames: &[Frame]) {
     }
 }
 
-/// A unit charge: L = v·A with A = B × r/2.
+/// Adds a unit charge in a magnetic field B: L = v·A with A = B × r/2.
 fn charge(draft: &mut Draft, random: &mut Random, frames: &[Frame]) {
     let (at, field) = (point(random, frames), random.vector());
     let (a, name) = (written(draft, at), draft.vector_field(field));
@@ -140,7 +140,7 @@ fn charge(draft: &mut Draft, random: &mut Random, frames: &[Frame]) {
     draft.load(Load::Magnetic(at.1, field));
 }
 
-/// One constraint of this name that binds, if any is found.
+/// Adds a constraint of this name that is independent of the others, if eight attempts find one.
 pub(super) fn tied(draft: &mut Draft, random: &mut Random, frames: &[Frame], name: &str) {
     for _ in 0..8 {
         let (one, other) = (of(&frames[random.below(frames.len())], random), point(random, frames));
@@ -158,7 +158,7 @@ pub(super) fn tied(draft: &mut Draft, random: &mut Random, frames: &[Frame], nam
 fn tie(draft: &Draft, random: &mut Random, one: Point, other: Point) -> (&'static str, Tie) {
     match random.below(6) {
         0..3 => {
-            // Where the point is, in the other frame.
+            // Position of the point along the axes of the other frame.
             let poses = draft.model.poses();
             let (place, pose) = (draft.model.place(&poses, one).0, &poses[other.link]);
             let at = times(transposed(pose.axes), difference(place, pose.origin));
@@ -170,7 +170,7 @@ fn tie(draft: &Draft, random: &mut Random, one: Point, other: Point) -> (&'stati
     }
 }
 
-/// As it is written, with what it is at the state on its right side.
+/// Text of the constraint. Its right side is the value of the left side at the current state.
 fn equation(draft: &mut Draft, tie: &Tie, one: &str, other: &str) -> String {
     let poses = draft.model.poses();
     let place = |draft: &Draft, point: Point| draft.model.place(&poses, point).0;

@@ -1,4 +1,4 @@
-//! Long systems as source files, with what the oracle says of each, for `tests/long` to compile and to compare with.
+//! Writes long systems as source files with the oracle's solutions, for `tests/long` to compile and compare with.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -8,7 +8,7 @@ use quote::ToTokens;
 use super::draft::Draft;
 use super::{forest, oracle};
 
-/// Types of fields that become members, what the attribute says of one, and the name of the member.
+/// Types of fields that become members: type, text of the member's kind in the attribute, name of the member.
 const MEMBERS: [(&str, &str, &str); 5] = [
     ("f64", "", "x"),
     ("Vector3<f64>", ": [3]", "v"),
@@ -17,7 +17,7 @@ const MEMBERS: [(&str, &str, &str); 5] = [
     ("UnitQuaternion<f64>", ": quaternion", "u"),
 ];
 
-/// `LAGRANGE_LONG=first..last` says which, `LAGRANGE_LONG_FOLDER` where they are written.
+/// `LAGRANGE_LONG=first..last` selects the systems, `LAGRANGE_LONG_FOLDER` the folder for the files.
 #[test]
 fn long_systems_are_written() {
     let asked = |name: &str| std::env::var(name).ok();
@@ -28,7 +28,7 @@ fn long_systems_are_written() {
             parsed(&written(number, &forest::long(number), true));
             continue;
         };
-        // Of the same kind, where a mass matrix is longer than a function may be.
+        // If the mass matrix exceeds the length limit of a function, take the next system of the same kind.
         let drafts = (0..).map(|again| forest::long(number + 12_000 * again));
         let text = { drafts }.find_map(|draft| accepted(number, &draft)).expect("one that is short enough");
         std::fs::write(format!("{folder}/s{number}.rs"), text).expect("a folder");
@@ -39,7 +39,8 @@ fn parsed(text: &str) -> syn::File {
     syn::parse_file(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
-/// The module of a system that the derive accepts, which asks for Jacobians unless they are left out for their length.
+/// Source of the module of a system, `None` if the derive refuses it. The module asks for Jacobians unless the
+/// derive leaves them out for their length.
 fn accepted(number: u64, draft: &Draft) -> Option<String> {
     let file = parsed(&written(number, draft, true));
     let system =
@@ -49,7 +50,7 @@ fn accepted(number: u64, draft: &Draft) -> Option<String> {
     (!is_refused).then(|| written(number, draft, emitted.contains("StateDerivatives")))
 }
 
-/// The module of a system: its fields alone, in arrays, or in an array of structs.
+/// Source of the module of a system, with fields as they are, in arrays, or in an array of structs.
 fn written(number: u64, draft: &Draft, has_jacobians: bool) -> String {
     let solution = oracle::solve(&draft.model);
     assert!(solution.pivot > 1e-7, "system {number} is all but singular: {:e}", solution.pivot);
@@ -85,10 +86,10 @@ pub(crate) fn check() -> Result<(), String> {{
     )
 }
 
-/// How fields are declared and made.
+/// Declarations and values of the fields.
 #[derive(Default)]
 struct Layout {
-    /// What stands for a field in expressions, where that is not its name.
+    /// Expression that replaces a field, if it is not the field's name.
     names: BTreeMap<String, String>,
     parameter: String,
     fields: String,
@@ -139,7 +140,7 @@ impl Layout {
         }
     }
 
-    /// Of members that some links lack the numbers are those of the first.
+    /// A link that lacks a member gets the value of the first link.
     fn links(&mut self, members: &[Vec<String>]) {
         let used: Vec<usize> = (0..MEMBERS.len()).filter(|&k| !members[k].is_empty()).collect();
         let count = members.iter().map(Vec::len).max().unwrap_or(0);
@@ -170,12 +171,12 @@ impl Layout {
     }
 }
 
-/// The type over any number.
+/// The type with `T` for `f64`.
 fn over(ty: &str) -> String {
     ty.replace("f64", "T")
 }
 
-/// A value of this type, its numbers row by row.
+/// Rust expression for a value of this type, from its numbers row by row.
 fn value(ty: &str, numbers: &[f64]) -> String {
     let list = |numbers: &[f64]| numbers.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(", ");
     let all = list(numbers);
@@ -189,7 +190,7 @@ fn value(ty: &str, numbers: &[f64]) -> String {
     }
 }
 
-/// The text with other words for some.
+/// Replaces words of a text.
 fn renamed(text: &str, names: &BTreeMap<String, String>) -> String {
     let mut renamed = String::new();
     for piece in text.split_inclusive(|c: char| !c.is_alphanumeric() && c != '_') {

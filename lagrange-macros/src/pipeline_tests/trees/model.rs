@@ -1,4 +1,4 @@
-//! A system of rigid bodies in numbers, and where everything in it is and how it moves at one state.
+//! A system of rigid bodies with numerical parameters, and its positions and velocities at one state.
 
 use super::algebra::{
     Matrix, UNIT, Vector, cross, dot, product, quaternion_product, scaled, sum, times, turn, turn_by,
@@ -9,16 +9,16 @@ pub(super) struct Model {
     pub(super) time: f64,
     pub(super) coordinates: Vec<f64>,
     pub(super) velocities: Vec<f64>,
-    /// After the fixed one, which is number 0 and not among them: link k is `links[k - 1]`.
+    /// Links without the fixed one, which has number 0: link k is `links[k - 1]`.
     pub(super) links: Vec<Link>,
     pub(super) bodies: Vec<Body>,
     pub(super) loads: Vec<Load>,
-    /// Q of each coordinate.
+    /// Generalized force Q of each coordinate.
     pub(super) forces: Vec<f64>,
     pub(super) ties: Vec<Tie>,
 }
 
-/// What a joint leads to from the link before.
+/// A link, and the joint that connects it to the link before.
 #[derive(Clone, Debug)]
 pub(super) struct Link {
     pub(super) before: usize,
@@ -27,88 +27,88 @@ pub(super) struct Link {
 
 #[derive(Clone, Debug)]
 pub(super) enum Joint {
-    /// By a vector in the axes of the link before.
+    /// Translation by a vector along the axes of the link before.
     Slide([Motion; 3]),
-    /// About an axis of length 1.
+    /// Rotation about a unit axis.
     Turn(Vector, Motion),
-    /// At rest in the link before.
+    /// Constant rotation from the link before.
     Placed(Matrix),
-    /// By the quaternion that four coordinates from this one on are.
+    /// Rotation by a quaternion, given by the index of its first coordinate.
     Ball(usize),
 }
 
-/// A number that depends on coordinates and time: c + Σ c q + Σ c q q + Σ c tᵏ + Σ a sin(w t + p).
+/// A function of coordinates and time: c + Σ c q + Σ c q q + Σ c tᵏ + Σ a sin(w t + p).
 #[derive(Clone, Debug, Default)]
 pub(super) struct Motion {
     pub(super) constant: f64,
     pub(super) linear: Vec<(f64, usize)>,
     pub(super) products: Vec<(f64, usize, usize)>,
-    /// Of t and of t².
+    /// Coefficients of t and of t².
     pub(super) powers: [f64; 2],
     pub(super) waves: Vec<[f64; 3]>,
 }
 
-/// In the axes of its link, the inertia about the centre: a matrix that rests, times a number.
+/// A rigid body, along the axes of its link. The inertia about the centre is a constant matrix times `growth`.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub(super) mass: Motion,
     pub(super) centre: Point,
     pub(super) inertia: Matrix,
     pub(super) growth: Motion,
-    /// The acceleration of gravity, along the fixed axes.
+    /// Acceleration of gravity, along the fixed axes.
     pub(super) gravity: Vector,
 }
 
-/// At rest in a link.
+/// A point at rest in a link.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     pub(super) link: usize,
     pub(super) at: Vector,
 }
 
-/// Forces at points, in the fixed axes.
+/// Loads: forces at points, along the fixed axes, and torques.
 #[derive(Clone, Debug)]
 pub(super) enum Load {
     Given(Point, Vector),
-    /// On a link, in its own axes.
+    /// Torque on a link, along its own axes.
     Torque(usize, Vector),
-    /// k (d − l) between two points at the distance d.
+    /// Spring force k (d − l) between two points at distance d.
     Spring(Point, Point, f64, f64),
-    /// −c v
+    /// Damping force −c v
     Damper(Point, f64),
-    /// v × B
+    /// Force v × B on a unit charge
     Magnetic(Point, Vector),
 }
 
-/// Left side − right side = 0.
+/// A constraint, left side − right side = 0. Each variant names the left side.
 #[derive(Clone, Debug)]
 pub(super) enum Tie {
-    /// The one point less the other.
+    /// Position of the first point minus that of the second.
     Together(Point, Point),
-    /// The square of their distance.
+    /// Squared distance of two points.
     Distance(Point, Point),
-    /// A component along the fixed axes.
+    /// Component of a position along a fixed axis.
     Level(Point, usize),
-    /// A component of the velocity along the axes of its link.
+    /// Component of a velocity along an axis of the point's link.
     Skate(Point, usize),
-    /// The square of the length of four coordinates from this one on.
+    /// Squared norm of four coordinates, by the index of the first.
     Unit(usize),
 }
 
-/// What a motion is at a state.
+/// Value and derivatives of a motion at a state.
 pub(super) struct Jet {
     pub(super) value: f64,
     pub(super) rate: f64,
-    /// ∂/∂q of the coordinates in it.
+    /// Partial derivatives ∂/∂q, each with the index of its coordinate.
     pub(super) slopes: Vec<(usize, f64)>,
-    /// How fast the rate changes where no coordinate accelerates.
+    /// Second time derivative if no coordinate accelerates.
     pub(super) drift: f64,
 }
 
-/// How a link lies and moves, along the fixed axes.
+/// Position and velocity of a link, along the fixed axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pose {
-    /// Its axes are the columns.
+    /// Rotation matrix, with the axes of the link as columns.
     pub(super) axes: Matrix,
     pub(super) origin: Vector,
     pub(super) turning: Vector,
@@ -168,7 +168,7 @@ impl Motion {
 }
 
 impl Model {
-    /// Of every link, the fixed one first.
+    /// Poses of all links, the fixed one first.
     pub(super) fn poses(&self) -> Vec<Pose> {
         let mut poses = vec![Pose { axes: UNIT, origin: [0.0; 3], turning: [0.0; 3], moving: [0.0; 3] }];
         for Link { before, joint } in &self.links {
@@ -205,7 +205,7 @@ impl Model {
         std::array::from_fn(|k| self.coordinates[first + k])
     }
 
-    /// What the rate of each of the four numbers of q adds to the angular velocity 2 q̇ q̄, where |q| = 1.
+    /// Angular velocity 2 q̇ q̄ for a unit rate of each component of q, where |q| = 1.
     pub(super) fn ball(&self, before: &Pose, first: usize) -> [Vector; 4] {
         let [w, x, y, z] = self.quaternion(first);
         std::array::from_fn(|k| {
@@ -216,7 +216,7 @@ impl Model {
         })
     }
 
-    /// Whether any coordinate moves a link.
+    /// Returns true if a coordinate moves the link.
     pub(super) fn is_moved(&self, link: usize) -> bool {
         self.is_turned(link)
             || self.is_any(link, |joint| match joint {
@@ -225,7 +225,7 @@ impl Model {
             })
     }
 
-    /// Whether any coordinate turns it.
+    /// Returns true if a coordinate rotates the link.
     pub(super) fn is_turned(&self, link: usize) -> bool {
         self.is_any(link, |joint| match joint {
             Joint::Turn(_, angle) => angle.has_coordinates(),
@@ -234,21 +234,21 @@ impl Model {
         })
     }
 
-    /// Of the joints between a link and the fixed one.
+    /// Returns true if a joint between the link and the fixed one satisfies `is`.
     fn is_any(&self, link: usize, is: impl Fn(&Joint) -> bool) -> bool {
         let on_the_way = std::iter::successors(link.checked_sub(1), |&k| self.links[k].before.checked_sub(1));
         on_the_way.into_iter().any(|k| is(&self.links[k].joint))
     }
 
-    /// Where a point is along the fixed axes, and its velocity.
+    /// Position and velocity of a point, along the fixed axes.
     pub(super) fn place(&self, poses: &[Pose], point: Point) -> (Vector, Vector) {
         let pose = &poses[point.link];
         let arm = times(pose.axes, point.at);
         (sum([pose.origin, arm]), sum([pose.moving, cross(pose.turning, arm)]))
     }
 
-    /// Whether the rows of the ties are far from depending on each other: det of the rows' products with each other, each
-    /// row of length 1.
+    /// Returns true if the rows of the ties are far from linearly dependent: the Gram matrix of the normalized rows
+    /// has large enough pivots.
     pub(super) fn is_tied_well(&self) -> bool {
         let rows = self.tie_rows();
         let lengths: Vec<f64> =
@@ -265,7 +265,7 @@ impl Model {
         super::algebra::solved(gram, zero).1 > 0.02
     }
 
-    /// How fast each tie changes by the velocity of each coordinate.
+    /// Derivative of the rate of each tie by the velocity of each coordinate.
     fn tie_rows(&self) -> Vec<Vec<f64>> {
         let rates = |velocities: Vec<f64>| Self { velocities, ..self.clone() }.tie_rates();
         let n = self.coordinates.len();

@@ -1,9 +1,11 @@
-//! Newton's and Euler's equations of every link, with the forces and torques in the joints as unknowns.
+//! Newton–Euler equations of every link, with the forces and torques in the joints as unknowns.
 //!
-//! The unknowns are, for each link, the acceleration of its origin, its angular acceleration, and the force and the torque
-//! about its origin by which the link before acts on it, all along the fixed axes; then the accelerations of the coordinates
-//! and the multipliers. The equations are, for each link, how it accelerates after the link before, and the balance of
-//! forces and torques; for each coordinate that the forces in the joints do the work on it that is given; and the ties.
+//! Unknowns of each link are the acceleration of its origin, its angular acceleration, and the force and the torque
+//! about its origin that the link before exerts on it, all along the fixed axes. The accelerations of the
+//! coordinates and the multipliers follow.
+//!
+//! Equations of each link are its acceleration relative to the link before, and the balance of forces and torques.
+//! For each coordinate, the joint forces do the given work along it. The ties follow.
 
 use super::algebra::{
     Matrix, UNIT, Vector, cross, difference, dot, norm, product, scaled, skew, solved, sum, times, transposed,
@@ -14,7 +16,7 @@ use super::model::{Body, Jet, Joint, Link, Load, Model, Motion, Point, Pose, Tie
 pub(super) struct Solution {
     pub(super) accelerations: Vec<f64>,
     pub(super) multipliers: Vec<f64>,
-    /// The least pivot: nothing is known where it is tiny.
+    /// Smallest pivot. If it is tiny, the solution cannot be trusted.
     pub(super) pivot: f64,
 }
 
@@ -34,8 +36,8 @@ pub(super) fn solve(model: &Model) -> Solution {
     Solution { accelerations: solution[links..links + n].to_vec(), multipliers, pivot }
 }
 
-/// The unknowns of a link, three numbers each, and its equations by the same names: how it accelerates and turns after the
-/// link before, and the balance of forces and of torques.
+/// Unknowns of a link, three numbers each, and its equations by the same names: acceleration and angular
+/// acceleration relative to the link before, balance of forces and of torques.
 #[derive(Clone, Copy)]
 enum Part {
     Acceleration,
@@ -66,7 +68,7 @@ impl<'m> System<'m> {
         self.rows[row][column] += entry;
     }
 
-    /// A matrix times three unknowns of a link, in three equations. The fixed link has none of them.
+    /// Adds a matrix times three unknowns of a link to three equations. The fixed link has no unknowns.
     fn add_block(&mut self, row: usize, (link, part): (usize, Part), block: Matrix) {
         if link > 0 {
             let column = at(link, part);
@@ -86,7 +88,8 @@ impl<'m> System<'m> {
         WIDTH * self.model.links.len() + i
     }
 
-    /// a' = a + ω̇ × s + ω × (ω × s) + 2 ω × ṡ + s̈ of what slides, ω̇' = ω̇ + ω × ρ + ρ̇ of what turns at the rate ρ.
+    /// Adds the kinematics of a joint: a' = a + ω̇ × s + ω × (ω × s) + 2 ω × ṡ + s̈ for a translation s, ω̇' = ω̇ +
+    /// ω × ρ + ρ̇ for a rotation at the rate ρ.
     fn kinematics(&mut self, link: usize) {
         let Link { before, joint } = &self.model.links[link - 1];
         let (pose, own) = (self.poses[*before], self.poses[link]);
@@ -118,7 +121,7 @@ impl<'m> System<'m> {
         }
     }
 
-    /// What accelerates by a motion along an axis.
+    /// Adds the acceleration by a motion along an axis.
     fn accelerated(&mut self, row: usize, motion: &Motion, axis: Vector) {
         let jet = motion.jet(self.model);
         for (i, slope) in jet.slopes {
@@ -127,7 +130,7 @@ impl<'m> System<'m> {
         self.add_right(row, scaled(jet.drift, axis));
     }
 
-    /// The force on a link from the one before, which feels the opposite.
+    /// Adds the joint force and torque on a link, and the reaction on the link before.
     fn balance(&mut self, link: usize) {
         let before = self.model.links[link - 1].before;
         let arm = difference(self.poses[link].origin, self.poses[before].origin);
@@ -143,7 +146,7 @@ impl<'m> System<'m> {
         }
     }
 
-    /// m a of its centre and d/dt of its angular momentum where m and I are held, about the link's origin.
+    /// Adds m a of the centre and the rate of the angular momentum about the link's origin, with m and I constant.
     fn body(&mut self, body: &Body) {
         let &Body { centre, inertia, .. } = body;
         let (link, pose) = (centre.link, self.poses[centre.link]);
@@ -154,7 +157,7 @@ impl<'m> System<'m> {
         self.growing(body, per_growth, [&mass, &growth]);
         let mass = mass.value;
         let [force, torque] = [at(link, Force), at(link, Torque)];
-        // −m (a + ω̇ × c), and c × the same
+        // −m (a + ω̇ × c), and c × that force
         let (across, weight) = (skew(arm), |m: Matrix, c: f64| m.map(|line| scaled(c, line)));
         self.add_block(force, (link, Acceleration), weight(UNIT, -mass));
         self.add_block(force, (link, Turning), weight(across, mass));
@@ -168,7 +171,8 @@ impl<'m> System<'m> {
         self.push(centre, scaled(mass, body.gravity));
     }
 
-    /// ṁ u and İ ω, and the slopes of m (u²/2 + g·r) and ω·Iω/2 by the coordinates that m and I depend on.
+    /// Adds ṁ u and İ ω, and the derivatives of m (u²/2 + g·r) and ω·Iω/2 by the coordinates that m and I depend
+    /// on.
     fn growing(&mut self, body: &Body, per_growth: Matrix, [mass, growth]: [&Jet; 2]) {
         let (place, velocity) = self.place(body.centre);
         let turning = self.poses[body.centre.link].turning;
@@ -204,7 +208,7 @@ impl<'m> System<'m> {
         }
     }
 
-    /// A force at a point.
+    /// Adds a force at a point.
     fn push(&mut self, point: Point, force: Vector) {
         if point.link > 0 {
             let arm = times(self.poses[point.link].axes, point.at);
@@ -213,7 +217,7 @@ impl<'m> System<'m> {
         }
     }
 
-    /// A force at a point that is an unknown times a vector.
+    /// Adds a force at a point that is an unknown times a vector.
     fn push_by(&mut self, point: Point, force: Vector, unknown: usize) {
         if point.link > 0 {
             let arm = times(self.poses[point.link].axes, point.at);
@@ -226,7 +230,7 @@ impl<'m> System<'m> {
         self.model.place(&self.poses, point)
     }
 
-    /// The work of the forces in the joints along each coordinate.
+    /// Adds, for each coordinate, the work of the joint forces along it and the given force.
     fn works(&mut self) {
         for (k, Link { before, joint }) in self.model.links.iter().enumerate() {
             let (pose, link) = (self.poses[*before], k + 1);
@@ -299,8 +303,8 @@ impl<'m> System<'m> {
         }
     }
 
-    /// The acceleration of a point along a direction, in the equation of a tie; and the force on the point, which has the
-    /// multiplier as its unknown.
+    /// Adds the acceleration of a point along a direction to the equation of a tie, and a force along it to the
+    /// point. The multiplier is the unknown of that force.
     fn tied(&mut self, row: usize, point: Point, direction: Vector) {
         let pose = self.poses[point.link];
         let arm = times(pose.axes, point.at);
@@ -328,7 +332,7 @@ fn at(link: usize, part: Part) -> usize {
 }
 
 impl Tie {
-    /// How many multipliers it has.
+    /// Number of multipliers of the tie.
     fn rows(&self) -> usize {
         match self {
             Self::Together(..) => 3,
