@@ -7,8 +7,9 @@ use crate::codegen::{Count, solutions, solving};
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
 
-/// Operation counts of the accelerations and multipliers, before the passes and after each. The first form solves
-/// with M, the second over the velocities that definitions name. `None` for a form that is solved in loops.
+/// Operation counts of the accelerations and multipliers, before the passes and after each. The first form solves with
+/// M for the accelerations, the second also for the rates of named velocities. `None` for a form that is solved in
+/// loops.
 fn counts(source: &str) -> Vec<Option<Vec<usize>>> {
     let (graph, _, equations) = equations(source);
     let arithmetic = |counts: Vec<(_, Count)>| counts.iter().map(|(_, count)| count.arithmetic).collect();

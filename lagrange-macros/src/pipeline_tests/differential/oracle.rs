@@ -73,8 +73,8 @@ fn bias(draft: &Draft, here: &Here, term: &Term, of_velocities: bool) -> Running
 
 /// Error bound |x − x̃| ≤ |K⁻¹| (δr + δK |x̃| + 3 N |L̂| |Û| |x̃|) u for a solution x̃ by elimination (Higham,
 /// *Accuracy and Stability of Numerical Algorithms*, 7.2 and theorem 9.4). δ is the error of an entry; |L̂| |Û|
-/// belongs to an elimination from the top down. As |x̃| the bound takes |x| plus a first bound with |x|: a
-/// multiplier that is zero is not zero after rounding.
+/// belongs to an elimination from the top down. A first bound, with |x| for
+/// |x̃|, is added to |x| in place of |x̃|: a multiplier that is zero is not zero after rounding.
 fn solution(matrix: &[Vec<Running>], right: &[Running]) -> Option<Solution> {
     let size = right.len();
     let unit = |i: usize, k: usize| Double::from(f64::from(u8::from(i == k)));

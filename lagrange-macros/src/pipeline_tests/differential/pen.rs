@@ -1,4 +1,5 @@
-//! Random expressions from the parts of a system. Each keeps to a known range, in which every function is smooth.
+//! Random expressions from the parts of a system. The range of each operand is known, so that every function is smooth
+//! there.
 
 use super::draft::{Draft, Term, Vector};
 use crate::rounds::Random;

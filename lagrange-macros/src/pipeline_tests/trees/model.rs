@@ -74,9 +74,9 @@ pub(super) enum Load {
     Torque(usize, Vector),
     /// Spring force k (d − l) between two points at distance d.
     Spring(Point, Point, f64, f64),
-    /// Damping force −c v
+    /// Damping force −c v.
     Damper(Point, f64),
-    /// Force v × B on a unit charge
+    /// Force v × B on a unit charge.
     Magnetic(Point, Vector),
 }
 
@@ -247,8 +247,8 @@ impl Model {
         (sum([pose.origin, arm]), sum([pose.moving, cross(pose.turning, arm)]))
     }
 
-    /// Returns true if the rows of the ties are far from linearly dependent: the Gram matrix of the normalized rows
-    /// has large enough pivots.
+    /// Returns true if the rows of the ties are far from linearly dependent: none is short, and the Gram matrix of the
+    /// normalized rows has no small pivot.
     pub(super) fn is_tied_well(&self) -> bool {
         let rows = self.tie_rows();
         let lengths: Vec<f64> =
