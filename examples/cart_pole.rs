@@ -32,7 +32,7 @@ struct CartPole {
     gain: Vector4<f64>,
 }
 
-type Path<'a> = Trajectory<&'a CartPole, 2, 0>;
+type Path<'a> = Trajectory<&'a CartPole>;
 
 fn main() -> Result<()> {
     let (cart, m, l, g, wind) = (1.0, 0.2, 0.6, 9.81, 0.5);

@@ -23,7 +23,7 @@ struct DoublePendulum {
     g: f64,
 }
 
-type Path<'a> = Trajectory<&'a DoublePendulum, 2, 0>;
+type Path<'a> = Trajectory<&'a DoublePendulum>;
 
 const PENDULUM: DoublePendulum = DoublePendulum { m: 1.0, l: 1.0, g: 9.81 };
 /// In seconds.
@@ -66,7 +66,7 @@ fn off(state: &State<f64, 2>) -> f64 {
 }
 
 /// The least time of many runs, in which nothing is stored.
-fn measure(name: &str, method: impl Method<DoublePendulum, 2, 0> + Copy) -> Result<()> {
+fn measure(name: &str, method: impl Method<DoublePendulum> + Copy) -> Result<()> {
     let mut best = f64::INFINITY;
     let mut motion = Motion::new(PENDULUM, start(), method)?;
     for _ in 0..20 {

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use lagrange_core::ensemble::{Member, Outcome};
-use lagrange_core::{Ending, prelude::*};
+use lagrange_core::{Ending, nalgebra::Const, prelude::*};
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
@@ -61,7 +61,7 @@ fn main() -> Result<()> {
 }
 
 /// When the member flipped, to a step.
-fn flip(member: &Member<f64, 2>) -> Option<f64> {
+fn flip(member: &Member<f64, Const<2>>) -> Option<f64> {
     match member.arrival()?.ending {
         Ending::Cancelled { time } => Some(time),
         _ => None,
@@ -73,11 +73,13 @@ fn may_flip([a, b]: [f64; 2]) -> bool {
     3.0 * a.cos() + b.cos() <= 2.0
 }
 
-fn report(outcome: &Outcome<f64, 2>, seconds: f64) {
+fn report(outcome: &Outcome<f64, Const<2>>, seconds: f64) {
     let members = outcome.members();
     let flipped = members.iter().filter(|member| flip(member).is_some());
     let forbidden = flipped.clone().filter(|member| !may_flip(angles(member.index))).count();
-    let differ = |(member, mirrored): &(&Member<f64, 2>, &Member<f64, 2>)| flip(member) != flip(mirrored);
+    let differ = |(member, mirrored): &(&Member<f64, Const<2>>, &Member<f64, Const<2>>)| {
+        flip(member) != flip(mirrored)
+    };
     let asymmetric = members.iter().zip(members.iter().rev()).filter(differ).count();
     let drift = members.iter().filter_map(|member| {
         let state = member.arrival()?.state;
@@ -90,7 +92,7 @@ fn report(outcome: &Outcome<f64, 2>, seconds: f64) {
     println!("largest change of the energy:          {:.1e} J", drift.fold(0.0, f64::max));
 }
 
-fn draw(outcome: &Outcome<f64, 2>, file: &std::path::Path) -> Result<()> {
+fn draw(outcome: &Outcome<f64, Const<2>>, file: &std::path::Path) -> Result<()> {
     let root = picture::sheet(file, (1500, 750))?;
     let (left, right) = root.split_horizontally(picture::px(750));
     draw_map(outcome, &left)?;
@@ -100,7 +102,7 @@ fn draw(outcome: &Outcome<f64, 2>, file: &std::path::Path) -> Result<()> {
 }
 
 /// Each member as a square, the darker the later it flips.
-fn draw_map(outcome: &Outcome<f64, 2>, area: &picture::Area) -> Result<()> {
+fn draw_map(outcome: &Outcome<f64, Const<2>>, area: &picture::Area) -> Result<()> {
     let mut chart = Panel::new(
         "Let go at rest: when it flips; white not in 10 s",
         ["upper angle a in rad", "lower angle b in rad"],
@@ -137,7 +139,7 @@ fn late(t: f64) -> RGBAColor {
 }
 
 /// How many have not flipped yet.
-fn draw_decay(outcome: &Outcome<f64, 2>, area: &picture::Area) -> Result<()> {
+fn draw_decay(outcome: &Outcome<f64, Const<2>>, area: &picture::Area) -> Result<()> {
     let able: Vec<_> = outcome.members().iter().filter(|member| may_flip(angles(member.index))).collect();
     let left = |t: f64| able.iter().filter(|member| flip(member).is_none_or(|flip| flip > t)).count();
     let share: Points = (0..=400)

@@ -28,7 +28,7 @@ struct Body {
     inertia: Matrix3<f64>,
 }
 
-type Path<'a> = Trajectory<&'a Body, 7, 1>;
+type Path<'a> = Trajectory<&'a Body>;
 
 /// How fast it is spun, and by what angle past the middle axis, towards the third.
 const SPIN: f64 = 2.0 * TAU;

@@ -33,7 +33,7 @@ struct FoucaultPendulum {
     latitude: f64,
 }
 
-type Path<'a> = Trajectory<&'a FoucaultPendulum, 3, 1>;
+type Path<'a> = Trajectory<&'a FoucaultPendulum>;
 
 const DAY: f64 = 86_164.1;
 const PARIS: f64 = 48.846;

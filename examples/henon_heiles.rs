@@ -58,7 +58,7 @@ fn main() -> Result<()> {
 fn start(energy: f64, y: f64, y_dot: f64) -> Option<State<f64, 2>> {
     let rest = State::new([0.0, y], [0.0, y_dot]);
     let left = energy - HenonHeiles.energy(&rest);
-    (left > 0.0).then(|| State { v: [(2.0 * left).sqrt(), y_dot].into(), ..rest })
+    (left > 0.0).then(|| State::new([0.0, y], [(2.0 * left).sqrt(), y_dot]))
 }
 
 fn orbit(energy: f64, start: State<f64, 2>) -> Result<Points> {

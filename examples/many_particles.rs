@@ -61,8 +61,8 @@ struct IonsAtRest {
 }
 
 type Vectors = nalgebra::SVector<f64, 12>;
-type Path<'a> = Trajectory<&'a StirredIons, 12, 0>;
-type PathAtRest<'a> = Trajectory<&'a IonsAtRest, 12, 0>;
+type Path<'a> = Trajectory<&'a StirredIons>;
+type PathAtRest<'a> = Trajectory<&'a IonsAtRest>;
 
 fn main() -> Result<()> {
     let (m, rate, stiffness) = ([1.0, 1.0, 1.0, 2.0], 0.3, [1.0, 1.6, 3.0]);

@@ -7,7 +7,7 @@ mod picture;
 use std::f64::consts::FRAC_PI_2;
 use std::time::Instant;
 
-use lagrange_core::nalgebra::{Matrix3, SVector, Vector3};
+use lagrange_core::nalgebra::{Const, Matrix3, SVector, Vector3};
 use lagrange_core::{Method, TaylorSeries, prelude::*};
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
@@ -212,11 +212,11 @@ fn measured() -> Vec<Row> {
     ]
 }
 
-fn row<L, const N: usize, const M: usize>(known: Known<L, N>) -> Row
+fn row<L, const N: usize>(known: Known<L, N>) -> Row
 where
-    L: TaylorSeries<N, M, Scalar = f64> + Copy,
-    Dop853: Method<L, N, M>,
-    Dopri5: Method<L, N, M>,
+    L: TaylorSeries<N = Const<N>, Scalar = f64> + Copy,
+    Dop853: Method<L>,
+    Dopri5: Method<L>,
 {
     let curves = [
         curve(&known, Taylor::with_tolerance),
@@ -227,20 +227,20 @@ where
 }
 
 /// Runs that do not end are left out.
-fn curve<L, P, const N: usize, const M: usize>(known: &Known<L, N>, method: fn(f64) -> P) -> Curve
+fn curve<L, P, const N: usize>(known: &Known<L, N>, method: fn(f64) -> P) -> Curve
 where
-    L: Lagrangian<N, M, Scalar = f64> + Copy,
-    P: Method<L, N, M> + Copy,
+    L: Lagrangian<N = Const<N>, Scalar = f64> + Copy,
+    P: Method<L> + Copy,
 {
     let tolerances = (3..=15).map(|k| 10_f64.powi(-k)).chain([f64::EPSILON]);
     tolerances.filter_map(|tolerance| run(known, method(tolerance))).collect()
 }
 
 /// The error, and the least time of five runs, in which nothing is stored.
-fn run<L, P, const N: usize, const M: usize>(known: &Known<L, N>, method: P) -> Option<(f64, f64)>
+fn run<L, P, const N: usize>(known: &Known<L, N>, method: P) -> Option<(f64, f64)>
 where
-    L: Lagrangian<N, M, Scalar = f64> + Copy,
-    P: Method<L, N, M> + Copy,
+    L: Lagrangian<N = Const<N>, Scalar = f64> + Copy,
+    P: Method<L> + Copy,
 {
     let (mut error, mut best) = (f64::NAN, f64::INFINITY);
     for _ in 0..5 {

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::time::Instant;
 
 use lagrange_core::nalgebra::SVector;
-use lagrange_core::{Method, TaylorSeries, prelude::*};
+use lagrange_core::{Method, StateOf, TaylorSeries, generic::Array, prelude::*};
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
@@ -43,7 +43,7 @@ chain!(Five, 5);
 chain!(Ten, 10);
 chain!(Twenty, 20);
 
-type Path<'a> = Trajectory<&'a Twenty, 20, 0>;
+type Path<'a> = Trajectory<&'a Twenty>;
 
 fn main() -> Result<()> {
     println!(
@@ -68,10 +68,10 @@ fn main() -> Result<()> {
 }
 
 /// Taylor's method to round-off, and `Dop853` as exactly as it can and a little less so.
-fn compare<L, const N: usize>(chain: L) -> Result<()>
+fn compare<L>(chain: L) -> Result<()>
 where
-    L: TaylorSeries<N, 0, Scalar = f64> + Copy,
-    Dop853: Method<L, N, 0>,
+    L: TaylorSeries<Scalar = f64> + Copy,
+    Dop853: Method<L>,
 {
     measure(chain, "Taylor", Taylor::default())?;
     measure(chain, "Dop853 1e-12", Dop853::with_tolerance(1e-12))?;
@@ -79,12 +79,12 @@ where
 }
 
 /// The least time of some runs, in which nothing is stored.
-fn measure<L, P, const N: usize>(chain: L, name: &str, method: P) -> Result<()>
+fn measure<L, P>(chain: L, name: &str, method: P) -> Result<()>
 where
-    L: Lagrangian<N, 0, Scalar = f64> + Copy,
-    P: Method<L, N, 0> + Copy,
+    L: Lagrangian<Scalar = f64> + Copy,
+    P: Method<L> + Copy,
 {
-    let start = State::at_rest([FRAC_PI_2; N]);
+    let start = StateOf::<L>::at_rest(Array::filled(FRAC_PI_2));
     let (mut best, mut motion) = (f64::INFINITY, Motion::new(chain, start, method)?);
     for _ in 0..5 {
         motion = Motion::new(chain, start, method)?;
@@ -92,9 +92,9 @@ where
         motion.advance_to(END)?;
         best = best.min(1e6 * begun.elapsed().as_secs_f64());
     }
-    let steps = motion.statistics().accepted;
+    let (n, steps) = (L::COORDINATES.len(), motion.statistics().accepted);
     let energy = (chain.energy(motion.state()) - chain.energy(&start)).abs();
-    println!("{N:5} {name:<14} {steps:6} {:10.2} {:8.2} {energy:9.0e} J", best / steps as f64, best / 1e3);
+    println!("{n:5} {name:<14} {steps:6} {:10.2} {:8.2} {energy:9.0e} J", best / steps as f64, best / 1e3);
     Ok(())
 }
 

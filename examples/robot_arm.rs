@@ -80,7 +80,7 @@ struct Chebyshev {
     terms: Vec<SVector<f64, 6>>,
 }
 
-type Path<'a> = Trajectory<&'a Led, 6, 6>;
+type Path<'a> = Trajectory<&'a Led>;
 
 fn main() -> Result<()> {
     println!("{}", Led::equations());
@@ -183,7 +183,7 @@ fn table(led: &Led, path: &Path<'_>) -> Result<()> {
     Ok(())
 }
 
-fn checks(led: &Led, path: &Path<'_>, arm: &Arm, driven: &Trajectory<&Arm, 6, 0>) -> Result<()> {
+fn checks(led: &Led, path: &Path<'_>, arm: &Arm, driven: &Trajectory<&Arm>) -> Result<()> {
     let (mut worst, mut work, count) = ([0.0_f64; 5], 0.0, 400);
     for sample in path.samples(count + 1) {
         let (s, torques) = (sample.state(), led.torques(path, sample.time())?);
@@ -217,7 +217,7 @@ fn checks(led: &Led, path: &Path<'_>, arm: &Arm, driven: &Trajectory<&Arm, 6, 0>
     Ok(())
 }
 
-fn draw(led: &Led, path: &Path<'_>, driven: &Trajectory<&Arm, 6, 0>, file: &std::path::Path) -> Result<()> {
+fn draw(led: &Led, path: &Path<'_>, driven: &Trajectory<&Arm>, file: &std::path::Path) -> Result<()> {
     let root = picture::sheet(file, (1100, 950))?;
     let panels = root.split_evenly((2, 2));
     // From the right, a little from ahead and from above.
@@ -233,7 +233,7 @@ fn draw(led: &Led, path: &Path<'_>, driven: &Trajectory<&Arm, 6, 0>, file: &std:
 /// Darker the later.
 fn draw_poses(
     led: &Led,
-    driven: &Trajectory<&Arm, 6, 0>,
+    driven: &Trajectory<&Arm>,
     area: &picture::Area,
     [title, x, y]: [&str; 3],
     project: &dyn Fn(Vector3<f64>) -> (f64, f64),

@@ -34,7 +34,7 @@ struct Ball {
     w: f64,
 }
 
-type Path<'a> = Trajectory<&'a Ball, 7, 4>;
+type Path<'a> = Trajectory<&'a Ball>;
 
 const DURATION: f64 = 12.0;
 

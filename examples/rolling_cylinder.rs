@@ -40,8 +40,8 @@ struct ByPosition {
     k: f64,
 }
 
-type Path<'a> = Trajectory<&'a ByVelocities, 2, 1>;
-type OtherPath<'a> = Trajectory<&'a ByPosition, 2, 1>;
+type Path<'a> = Trajectory<&'a ByVelocities>;
+type OtherPath<'a> = Trajectory<&'a ByPosition>;
 
 const CYLINDER: ByVelocities = ByVelocities { m: 1.0, a: 0.1, g: 9.81, alpha: 0.3, k: 8.0 };
 const DURATION: f64 = 50.0;

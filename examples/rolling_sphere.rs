@@ -24,7 +24,7 @@ struct RollingSphere {
     alpha: f64,
 }
 
-type Path<'a> = Trajectory<&'a RollingSphere, 2, 1>;
+type Path<'a> = Trajectory<&'a RollingSphere>;
 
 fn main() -> Result<()> {
     let sphere = RollingSphere { m: 1.0, a: 0.1, g: 9.81, alpha: 0.3 };

@@ -106,7 +106,7 @@ impl Frame {
     }
 }
 
-type Path<'a> = Trajectory<&'a InFrame, 3, 0>;
+type Path<'a> = Trajectory<&'a InFrame>;
 
 const DURATION: f64 = 50.0;
 const M: f64 = 0.5;

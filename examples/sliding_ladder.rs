@@ -42,7 +42,7 @@ fn main() -> Result<()> {
     println!("{:>8} {:>12} {:>16} {:>10} {:>10}", "θ₀/rad", "leaves at/s", "θ/rad", "error", "down at/s");
     for start in [0.4, 0.8, 1.2, 1.5] {
         let trajectory = fall(start)?;
-        let leg = trajectory.leg::<Trajectory<Leaning, 3, 2>>(0).ok_or("the first leg")?;
+        let leg = trajectory.leg::<Trajectory<Leaning>>(0).ok_or("the first leg")?;
         let angle = leg.end().coordinate("theta")?;
         let error = angle - (2.0 / 3.0 * start.sin()).asin();
         let (left, down) = (leg.end().time(), trajectory.end());

@@ -30,7 +30,7 @@ struct SphericalPendulum {
     l: f64,
 }
 
-type Path<'a> = Trajectory<&'a SphericalPendulum, 3, 1>;
+type Path<'a> = Trajectory<&'a SphericalPendulum>;
 
 const PENDULUM: SphericalPendulum = SphericalPendulum { m: 1.0, g: 9.81, l: 1.0 };
 /// Orbits that the integrated motion makes.

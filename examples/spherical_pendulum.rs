@@ -23,7 +23,7 @@ struct SphericalPendulum {
     l: f64,
 }
 
-type Path<'a> = Trajectory<&'a SphericalPendulum, 3, 1>;
+type Path<'a> = Trajectory<&'a SphericalPendulum>;
 
 fn main() -> Result<()> {
     let pendulum = SphericalPendulum { m: 1.0, g: 9.81, l: 1.0 };

@@ -24,7 +24,7 @@ struct PolarPendulum {
     l: f64,
 }
 
-type Path<'a> = Trajectory<&'a PolarPendulum, 2, 0>;
+type Path<'a> = Trajectory<&'a PolarPendulum>;
 
 fn main() -> Result<()> {
     let pendulum = PolarPendulum { m: 1.0, g: 9.81, l: 1.0 };

@@ -1,7 +1,7 @@
 //! What a motion that stores nothing allocates: nothing, however many steps it takes.
 
 use allocation_counter::measure;
-use lagrange_core::{Method, prelude::*, runge_kutta_step};
+use lagrange_core::{Method, StateOf, prelude::*, runge_kutta_step};
 
 /// Two links, the second driven at the elbow.
 #[derive(Lagrangian, Clone, Copy)]
@@ -40,11 +40,7 @@ fn the_counter_counts() {
 }
 
 /// A motion that has its room, that for what lies within a step included.
-fn begun<L: Lagrangian<N, M, Scalar = f64>, P: Method<L, N, M>, const N: usize, const M: usize>(
-    system: L,
-    start: State<f64, N>,
-    method: P,
-) -> Motion<L, P, N, M> {
+fn begun<L: Lagrangian<Scalar = f64>, P: Method<L>>(system: L, start: StateOf<L>, method: P) -> Motion<L, P> {
     let mut motion = Motion::new(system, start, method).expect("a start");
     motion.advance_by(1e-3).expect("no end before");
     motion.at(motion.state().t - 1e-9).expect("within the last step");
@@ -52,7 +48,7 @@ fn begun<L: Lagrangian<N, M, Scalar = f64>, P: Method<L, N, M>, const N: usize, 
 }
 
 /// With inputs, looks into steps, states set, samples, and the way back.
-fn steer(method: impl Method<Acrobot, 2, 0> + Method<Pendulum, 2, 1> + Copy) {
+fn steer(method: impl Method<Acrobot> + Method<Pendulum> + Copy) {
     let start = State::new([0.1, 0.2], [0.0, 0.0]);
     let mut motion = begun(Acrobot { g: 9.81, u: 0.0 }, start, method);
     free(|| {

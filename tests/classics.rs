@@ -6,16 +6,16 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use lagrange_core::prelude::*;
+use lagrange_core::{nalgebra::Const, prelude::*};
 
 /// The states of a motion at given times are these, to `epsilon`.
-fn compare<L, const N: usize, const M: usize>(
+fn compare<L, const N: usize>(
     system: &L,
     start: State<f64, N>,
     reference: &[(f64, [f64; N], [f64; N])],
     epsilon: f64,
 ) where
-    L: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<N = Const<N>, Scalar = f64>,
 {
     let end = reference[reference.len() - 1].0;
     let path = system.integrate(start, end, Dop853::with_tolerance(1e-14)).unwrap();

@@ -15,7 +15,7 @@
 use core::ops::ControlFlow;
 
 use lagrange_core::motion::{Arrival, Progress};
-use lagrange_core::{Ending, linearized::TrajectorySensitivity, prelude::*};
+use lagrange_core::{Ending, linearized::TrajectorySensitivity, nalgebra::Const, prelude::*};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(x)]
@@ -99,9 +99,7 @@ fn a_motion_from_momenta_is_asked_for_everything() {
     asked!(motion_in_momenta(start), Dopri5::default(), event, |path| path);
 }
 
-fn path_of<'m, 's>(
-    motion: &'m TrajectorySensitivity<'s, Spring<f64>, 1, 0, 1>,
-) -> &'m Trajectory<&'s Spring<f64>, 1, 0> {
+fn path_of<'m, 's>(motion: &'m TrajectorySensitivity<'s, Spring<f64>>) -> &'m Trajectory<&'s Spring<f64>> {
     motion.trajectory()
 }
 
@@ -128,7 +126,7 @@ macro_rules! sampled {
             };
             let asked = SPRING.$asked($start).every(every).by($method).event(zero()).on_progress(look);
             let asked = asked.quantity("x", |s| s.coordinate("x"));
-            let arrival: Arrival<f64, 1> =
+            let arrival: Arrival<f64, Const<1>> =
                 asked.quantity("twice", |s| 2.0 * s.state().q[0]).to(end).expect("a motion");
             assert_eq!(
                 (arrival.ending.clone(), arrival.state),

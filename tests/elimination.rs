@@ -1,7 +1,7 @@
 //! The elimination that is emitted: its residuals, its signs and its limits.
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Scalar, number::FourLanes};
+use lagrange_core::{Scalar, nalgebra::Const, number::FourLanes};
 
 /// Twenty rods in a row, in Cartesian coordinates.
 #[derive(Lagrangian)]
@@ -55,7 +55,7 @@ fn in_the_plane(l: &[f64; 20], angles: &State<f64, 20>) -> State<f64, 40> {
 /// What the emitted elimination leaves of M q̈ − Fᵀλ − h and F q̈ + γ, as a part of their largest terms.
 fn residual<L, const N: usize, const M: usize>(system: &L, state: &State<f64, N>) -> f64
 where
-    L: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<N = Const<N>, M = Const<M>, Scalar = f64>,
 {
     let solution = system.accelerations_unchecked(state);
     let (a, lambda) = (solution.accelerations, solution.multipliers);

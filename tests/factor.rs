@@ -2,11 +2,13 @@
 
 use std::cell::Cell;
 
+use lagrange_core::generic::{Matrix, Vector};
 use lagrange_core::prelude::*;
 use lagrange_core::{
-    Broadcast, ConstraintKind, Hamiltonian, Lagrangian, Scalar, Solution, facts::Facts, number::FourLanes,
+    Broadcast, ConstraintKind, Hamiltonian, Lagrangian, Scalar, SolutionOf, StateOf, facts::Facts,
+    generic::Solution, number::FourLanes,
 };
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Const, SVector};
 use num_dual::Dual64;
 
 /// Six rods in a row, in Cartesian coordinates.
@@ -84,11 +86,11 @@ fn state<const N: usize>(seed: &mut u64) -> State<f64, N> {
 }
 
 /// The residual of M x − Fᵀλ = h, F x = −γ, as a part of its largest terms, with M and F as they are emitted.
-fn residual<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize>(
+fn residual<L: Lagrangian<N = Const<N>, M = Const<M>, Scalar = f64>, const N: usize, const M: usize>(
     system: &L,
     state: &State<f64, N>,
     (h, gamma): (&SVector<f64, N>, &SVector<f64, M>),
-    solution: &Solution<f64, N, M>,
+    solution: &SolutionOf<L>,
 ) -> f64 {
     let (x, lambda) = (solution.accelerations, solution.multipliers);
     let (mass, f) = (system.mass_matrix(state), system.constraint_jacobian(state));
@@ -99,7 +101,9 @@ fn residual<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize>(
     rows.iter().zip(&terms_of_rows).fold(motion / terms, |most, (row, terms)| most.max(row.abs() / terms))
 }
 
-fn check<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize>(system: &L) {
+fn check<L: Lagrangian<N = Const<N>, M = Const<M>, Scalar = f64>, const N: usize, const M: usize>(
+    system: &L,
+) {
     let mut seed = 17;
     for _ in 0..30 {
         let state = state(&mut seed);
@@ -211,91 +215,90 @@ impl<L> Counted<L> {
     }
 }
 
-impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Lagrangian<N, M> for Counted<L> {
+impl<L: Lagrangian<Scalar = f64>> Lagrangian for Counted<L> {
     type Scalar = f64;
+    type N = L::N;
+    type M = L::M;
     type Factor = L::Factor;
     const NAME: &'static str = L::NAME;
-    const COORDINATES: [&'static str; N] = L::COORDINATES;
-    const CONSTRAINTS: [&'static str; M] = L::CONSTRAINTS;
-    const CONSTRAINT_KINDS: [ConstraintKind; M] = L::CONSTRAINT_KINDS;
+    const COORDINATES: &'static [&'static str] = L::COORDINATES;
+    const CONSTRAINTS: &'static [&'static str] = L::CONSTRAINTS;
+    const CONSTRAINT_KINDS: &'static [ConstraintKind] = L::CONSTRAINT_KINDS;
     const MOMENTA_ARE_LINEAR: bool = L::MOMENTA_ARE_LINEAR;
     const OBSERVABLES: &'static [&'static str] = &[];
     const FACTS: Facts = L::FACTS;
 
-    fn mass_matrix(&self, state: &State<f64, N>) -> SMatrix<f64, N, N> {
+    fn mass_matrix(&self, state: &StateOf<L>) -> Matrix<f64, L::N, L::N> {
         self.counted(self.system.mass_matrix(state))
     }
-    fn constraint_jacobian(&self, state: &State<f64, N>) -> SMatrix<f64, M, N> {
+    fn constraint_jacobian(&self, state: &StateOf<L>) -> Matrix<f64, L::M, L::N> {
         self.counted(self.system.constraint_jacobian(state))
     }
-    fn lagrangian(&self, state: &State<f64, N>) -> f64 {
+    fn lagrangian(&self, state: &StateOf<L>) -> f64 {
         self.system.lagrangian(state)
     }
-    fn energy(&self, state: &State<f64, N>) -> f64 {
+    fn energy(&self, state: &StateOf<L>) -> f64 {
         self.system.energy(state)
     }
-    fn momentum(&self, state: &State<f64, N>) -> SVector<f64, N> {
+    fn momentum(&self, state: &StateOf<L>) -> Vector<f64, L::N> {
         self.system.momentum(state)
     }
-    fn momentum_rate(&self, state: &State<f64, N>) -> SVector<f64, N> {
+    fn momentum_rate(&self, state: &StateOf<L>) -> Vector<f64, L::N> {
         self.system.momentum_rate(state)
     }
-    fn forcing(&self, state: &State<f64, N>) -> SVector<f64, N> {
+    fn forcing(&self, state: &StateOf<L>) -> Vector<f64, L::N> {
         self.system.forcing(state)
     }
-    fn constraint_residual(&self, state: &State<f64, N>) -> SVector<f64, M> {
+    fn constraint_residual(&self, state: &StateOf<L>) -> Vector<f64, L::M> {
         self.system.constraint_residual(state)
     }
-    fn constraint_rate(&self, state: &State<f64, N>) -> SVector<f64, M> {
+    fn constraint_rate(&self, state: &StateOf<L>) -> Vector<f64, L::M> {
         self.system.constraint_rate(state)
     }
-    fn residual_magnitude(&self, state: &State<f64, N>) -> SVector<f64, M> {
+    fn residual_magnitude(&self, state: &StateOf<L>) -> Vector<f64, L::M> {
         self.system.residual_magnitude(state)
     }
-    fn rate_magnitude(&self, state: &State<f64, N>) -> SVector<f64, M> {
+    fn rate_magnitude(&self, state: &StateOf<L>) -> Vector<f64, L::M> {
         self.system.rate_magnitude(state)
     }
-    fn constraint_bias(&self, state: &State<f64, N>) -> SVector<f64, M> {
+    fn constraint_bias(&self, state: &StateOf<L>) -> Vector<f64, L::M> {
         self.system.constraint_bias(state)
     }
-    fn constraint_force(&self, state: &State<f64, N>, multipliers: &SVector<f64, M>) -> SVector<f64, N> {
+    fn constraint_force(&self, state: &StateOf<L>, multipliers: &Vector<f64, L::M>) -> Vector<f64, L::N> {
         self.system.constraint_force(state, multipliers)
     }
     fn inverse_dynamics(
         &self,
-        state: &State<f64, N>,
-        accelerations: &SVector<f64, N>,
-        multipliers: &SVector<f64, M>,
-    ) -> SVector<f64, N> {
+        state: &StateOf<L>,
+        accelerations: &Vector<f64, L::N>,
+        multipliers: &Vector<f64, L::M>,
+    ) -> Vector<f64, L::N> {
         self.system.inverse_dynamics(state, accelerations, multipliers)
     }
-    fn accelerations_unchecked(&self, state: &State<f64, N>) -> Solution<f64, N, M> {
+    fn accelerations_unchecked(&self, state: &StateOf<L>) -> SolutionOf<L> {
         self.system.accelerations_unchecked(state)
     }
-    fn factor(&self, state: &State<f64, N>) -> L::Factor {
+    fn factor(&self, state: &StateOf<L>) -> L::Factor {
         self.system.factor(state)
     }
     fn solve_with<S: Broadcast<f64>>(
         &self,
         factor: &L::Factor,
-        forcing: &SVector<S, N>,
-        bias: &SVector<S, M>,
-    ) -> Solution<S, N, M> {
+        forcing: &Vector<S, L::N>,
+        bias: &Vector<S, L::M>,
+    ) -> Solution<S, L::N, L::M> {
         self.system.solve_with(factor, forcing, bias)
     }
-    fn observable(&self, _: usize, _: &State<f64, N>, _: &Solution<f64, N, M>) -> Option<f64> {
+    fn observable(&self, _: usize, _: &StateOf<L>, _: &SolutionOf<L>) -> Option<f64> {
         None
     }
-    fn conserved(&self, _: usize, _: &State<f64, N>) -> Option<f64> {
+    fn conserved(&self, _: usize, _: &StateOf<L>) -> Option<f64> {
         None
     }
 }
 
 /// How often the steps of a motion, and its states in between, make M or F: what the start takes is left out.
-fn matrices_of_steps<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize>(
-    system: L,
-    start: State<f64, N>,
-) -> [usize; 2] {
+fn matrices_of_steps<L: Lagrangian<Scalar = f64>>(system: L, start: StateOf<L>) -> [usize; 2] {
     let counted = Counted { system, matrices: Cell::new(0) };
     let start = counted.make_consistent(&start).expect("a start").0;
     let of = |motion: &dyn Fn(f64) -> usize| {

@@ -1,7 +1,7 @@
 //! Functions that the user supplies, in every form and over every number type.
 
 use lagrange_core::function::{FunctionWithDerivatives, SmoothTable, Table};
-use lagrange_core::{function::WithDerivatives, prelude::*};
+use lagrange_core::{function::WithDerivatives, nalgebra::Const, prelude::*};
 use num_dual::Dual64;
 use simba::simd::{SimdValue, WideF64x4};
 
@@ -56,7 +56,7 @@ const INPUTS: [[f64; 7]; 4] = [
 
 fn everything<T: Scalar, F>([m, k, h, x, y, vx, vy]: [T; 7], valley: F) -> Vec<T>
 where
-    Particle<T, F>: Lagrangian<2, 1, Scalar = T>,
+    Particle<T, F>: Lagrangian<N = Const<2>, M = Const<1>, Scalar = T>,
 {
     let particle = Particle { m, k, h, valley };
     let state = State::new([x, y], [vx, vy]);
@@ -202,7 +202,7 @@ struct Tabulated<F> {
 /// the number of steps.
 fn drift<F>(potential: F) -> Result<[f64; 2], Error>
 where
-    Tabulated<F>: Lagrangian<1, 0, Scalar = f64>,
+    Tabulated<F>: Lagrangian<N = Const<1>, M = Const<0>, Scalar = f64>,
 {
     let molecule = Tabulated { potential };
     let run = molecule.integrate(State::at_rest([0.8]), 100.0, Dop853::with_tolerance(1e-12))?;

@@ -26,7 +26,7 @@ const fn proved(integrability: Integrability) -> Classification {
 #[test]
 fn cylinder_8_5() {
     // A constant of the type: known to the compiler.
-    const CLASSES: [Classification; 1] = Cylinder::CONSTRAINT_CLASSES;
+    const CLASSES: &[Classification] = Cylinder::CONSTRAINT_CLASSES;
     const INTEGRALS: Option<Integrals> = Cylinder::INTEGRALS;
     assert_eq!(CLASSES, [proved(Integrability::Exact)]);
     assert_eq!(INTEGRALS, Some(Integrals { count: 1, of: 1, evidence: Evidence::Proved }));
@@ -82,8 +82,8 @@ fn sphere_8_4() {
     assert_eq!(Sphere::CONSTRAINT_CLASSES, [proved(Integrability::Nonholonomic); 2]);
     assert_eq!(Sphere::INTEGRALS, Some(Integrals { count: 0, of: 2, evidence: Evidence::Proved }));
     assert!(Sphere::equations().text().contains("(nonholonomic)"), "{}", Sphere::equations());
-    let kinds = Ball::CONSTRAINT_CLASSES.map(|class| class.integrability);
-    assert_eq!(kinds, [Integrability::Holonomic, Integrability::Nonholonomic, Integrability::Nonholonomic]);
+    let kinds = Ball::CONSTRAINT_CLASSES.iter().map(|class| class.integrability);
+    assert!(kinds.eq([Integrability::Holonomic, Integrability::Nonholonomic, Integrability::Nonholonomic]));
     // Where |q| = 1 points are computed: a verdict of points.
     assert_eq!(Ball::CONSTRAINT_CLASSES[1].evidence, Evidence::Held(8));
     let said = [Ball::CONSTRAINT_CLASSES[0], Ball::CONSTRAINT_CLASSES[1], Classification::UNDECIDED];
@@ -156,7 +156,7 @@ impl Function<1, 1> for Swing {
 
 #[test]
 fn integrals_are_constant_along_the_motion() {
-    let [ray, driven] = Guided::CONSTRAINT_CLASSES;
+    let &[ray, driven] = Guided::CONSTRAINT_CLASSES else { panic!("a class for each") };
     assert_eq!(ray, proved(Integrability::IntegratingFactor));
     assert_eq!(driven, proved(Integrability::Exact));
     let guided = Guided { m: 1.0, h: Swing };
@@ -205,7 +205,7 @@ fn sets() {
     assert_eq!(Carried::CONSTRAINT_CLASSES, [proved(Integrability::Together); 2]);
     assert_eq!(Carried::INTEGRALS.map(Integrals::extent), Some(Extent::All));
     assert!(Carried::equations().text().contains("(integrable together with the others)"));
-    let [table, slope] = OnATable::CONSTRAINT_CLASSES;
+    let &[table, slope] = OnATable::CONSTRAINT_CLASSES else { panic!("a class for each") };
     assert_eq!(table, proved(Integrability::Holonomic));
     assert_eq!(slope.integrability, Integrability::Exact);
     assert!(slope.integrability.is_integrable());

@@ -275,7 +275,7 @@ fn structs_may_be_elsewhere() {
     assert_eq!(places.solve(&State::at_rest([0.0])).unwrap().accelerations[0], force / 6.0);
     let is_set: Vec<&str> = (0..)
         .zip(Places::PARAMETERS)
-        .filter_map(|(k, name)| places.set_parameter(k, 1.0).then_some(name))
+        .filter_map(|(k, &name)| places.set_parameter(k, 1.0).then_some(name))
         .collect();
     assert_eq!(is_set, ["listed[1].m", "boxed.m", "rows[1][2].m"]);
 }

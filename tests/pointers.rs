@@ -4,7 +4,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Lanes, Pack, facts::Classification};
+use lagrange_core::{Lanes, Pack, facts::Classification, nalgebra::Const};
 
 /// A velocity constraint with an integral, observables, conserved quantities.
 #[derive(Clone, Debug, PartialEq, Lagrangian)]
@@ -22,7 +22,7 @@ struct Sphere<T> {
 const SPHERE: Sphere<f64> = Sphere { m: 2.0, a: 0.1, g: 9.81 };
 
 /// Everything that a system says about itself and gives at a state.
-fn all<L: Lagrangian<3, 1, Scalar = f64>>(system: &L) -> String {
+fn all<L: Lagrangian<N = Const<3>, M = Const<1>, Scalar = f64>>(system: &L) -> String {
     let state = &State::new([0.4, 0.2, 0.1], [0.3, 3.0, -0.7]).at_time(0.5);
     let solution = &system.accelerations_unchecked(state);
     let constants = (

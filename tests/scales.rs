@@ -1,6 +1,6 @@
 //! Units in which numbers are huge or tiny: the answer is the same motion in those units, or a named error.
 
-use lagrange_core::{Real, Solution, linearized::Stability, prelude::*};
+use lagrange_core::{Real, generic::Solution, linearized::Stability, nalgebra::Const, prelude::*};
 
 /// A bead on an inclined line, y = −¾ x, the constraint in units of its own.
 #[derive(Lagrangian, Clone)]
@@ -32,9 +32,9 @@ const SINGLE: [f32; 9] = [1e-37, 1e-30, 1e-22, 1e-10, 1.0, 1e10, 1e20, 1e30, 1e3
 
 /// m ẍ = 0.6 s λ, m ÿ = −m g + 0.8 s λ, ẍ = −4/3 ÿ: s λ = 0.8 m g, ẍ = 0.48 g, ÿ = −0.36 g. Whether it is so; where s λ, or
 /// what `is_beyond` says, is no number, it may be an error instead.
-fn slides<L, const M: usize>(bead: &L, is_beyond: bool, tolerance: f64)
+fn slides<L>(bead: &L, is_beyond: bool, tolerance: f64)
 where
-    L: Lagrangian<2, M, Scalar: Real>,
+    L: Lagrangian<N = Const<2>, Scalar: Real>,
 {
     let state = State::at_rest([L::Scalar::constant(0.0); 2]);
     let Solution { accelerations, rank, .. } = match bead.solve(&state) {

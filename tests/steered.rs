@@ -51,7 +51,7 @@ fn held(state: (f64, f64), u: f64, c: f64, t: f64) -> (f64, f64) {
 }
 
 /// Two seconds at 100 inputs a second; how far from the solution, and the evaluations.
-fn driven<P: Method<Cart<f64>, 1, 0>>(method: P) -> (f64, usize) {
+fn driven<P: Method<Cart<f64>>>(method: P) -> (f64, usize) {
     let cart = Cart { m: 1.0, u: 0.0, c: 0.7 };
     let mut motion = Motion::new(cart, State::new([0.3], [1.0]), method).expect("a start");
     let (mut expected, mut off) = ((0.3, 1.0), 0.0_f64);
@@ -85,7 +85,7 @@ fn several_changes_cost_one_evaluation_and_none_cost_none() {
     let mut motion =
         Motion::new(Cart { m: 1.0, u: 0.0, c: 0.0 }, State::at_rest([0.0]), Dopri5::default()).unwrap();
     motion.advance_to(1.0).unwrap();
-    let evaluations = |motion: &Motion<_, Dopri5, 1, 0>| motion.statistics().evaluations;
+    let evaluations = |motion: &Motion<_, Dopri5>| motion.statistics().evaluations;
     let (before, accepted) = (evaluations(&motion), motion.statistics().accepted);
     motion.advance_to(1.0).unwrap();
     assert_eq!(evaluations(&motion), before);
@@ -105,8 +105,7 @@ fn several_changes_cost_one_evaluation_and_none_cost_none() {
 fn a_short_advance_does_not_make_the_next_steps_short() {
     let mut motion = Motion::new(Spring { omega: 1.0 }, State::at_rest([1.0]), Dop853::default()).unwrap();
     motion.advance_to(10.0).unwrap();
-    let steps =
-        |motion: &Motion<_, Dop853, 1, 0>| motion.statistics().accepted + motion.statistics().rejected;
+    let steps = |motion: &Motion<_, Dop853>| motion.statistics().accepted + motion.statistics().rejected;
     let before = steps(&motion);
     motion.advance_to(20.0).unwrap();
     let usual = steps(&motion) - before;
@@ -139,15 +138,15 @@ fn a_motion_left_alone_is_the_trajectory() {
 
 /// Steps of one size are the same to the bit whether the rates where they end are evaluated at once, for what lies within,
 /// or by the next step.
-fn same_ends<L, P, F, const N: usize, const M: usize>(
-    mut motion: Motion<L, P, N, M, F>,
-    path: &Trajectory<L, N, M, F>,
+fn same_ends<L, P, F>(
+    mut motion: Motion<L, P, F>,
+    path: &Trajectory<L, F>,
     within: usize,
     (start, left): (usize, usize),
 ) where
-    L: Lagrangian<N, M, Scalar = f64> + Clone,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
+    L: Lagrangian<Scalar = f64> + Clone,
+    F: VectorField<L>,
+    P: Method<L, F>,
 {
     assert_eq!(motion.statistics().evaluations, start);
     for k in 1..=4 {

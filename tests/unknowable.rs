@@ -1,7 +1,7 @@
 //! Where the equations determine no acceleration, or contradict one another, no function gives a number.
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Motion, Solution, runge_kutta_step};
+use lagrange_core::{Motion, SolutionOf, nalgebra::Const, runge_kutta_step};
 
 /// In polar coordinates nothing determines the angle at the pole.
 #[derive(Clone, Lagrangian)]
@@ -23,13 +23,12 @@ struct Walls {
 }
 
 /// What each function answers: whether it gives numbers, all of them finite.
-fn answers<L, const M: usize, const P: usize>(system: &L, state: State<f64, 2>) -> Vec<(&'static str, bool)>
+fn answers<L>(system: &L, state: State<f64, 2>) -> Vec<(&'static str, bool)>
 where
-    L: Linearized<2, M, P, Scalar = f64> + Clone,
+    L: Linearized<N = Const<2>, Scalar = f64> + Clone,
 {
-    let is_known =
-        |s: &Solution<f64, 2, M>| s.accelerations.iter().chain(&s.multipliers).all(|x| x.is_finite());
-    let solved = |s: Solution<f64, 2, M>| is_known(&s);
+    let is_known = |s: &SolutionOf<L>| s.accelerations.iter().chain(&s.multipliers).all(|x| x.is_finite());
+    let solved = |s: SolutionOf<L>| is_known(&s);
     let phase = system.phase_state(&state);
     let (h, gamma) = (system.forcing(&state), system.constraint_bias(&state));
     let stepped = runge_kutta_step(system, &state, 0.01);

@@ -8,7 +8,7 @@
 use std::hint::black_box;
 
 use criterion::Criterion;
-use lagrange_core::prelude::*;
+use lagrange_core::{nalgebra::Const, prelude::*};
 
 macro_rules! planar {
     ($name:ident, $n:literal) => {
@@ -74,9 +74,9 @@ fn states<const N: usize>() -> Vec<State<f64, N>> {
     (0..64).map(|_| State::new(entries(), entries())).collect()
 }
 
-fn evaluate<L, const N: usize, const M: usize>(criterion: &mut Criterion, name: &str, system: &L)
+fn evaluate<L, const N: usize>(criterion: &mut Criterion, name: &str, system: &L)
 where
-    L: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<N = Const<N>, Scalar = f64>,
 {
     let states = states::<N>();
     let mut next = 0;

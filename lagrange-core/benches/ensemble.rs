@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use lagrange_core::motion::{Adaptive, Pair};
 use lagrange_core::prelude::*;
-use lagrange_core::{Lanes, Pack};
+use lagrange_core::{Lanes, Pack, nalgebra::Const};
 
 /// Two bobs on two rods, the angles from the vertical.
 #[derive(Lagrangian, Clone, Copy)]
@@ -51,7 +51,7 @@ fn random(count: usize) -> Vec<f64> {
     (0..count).map(|_| next()).collect()
 }
 
-fn evaluate<L: Lagrangian<2, 0>>(system: &L, states: &[State<L::Scalar, 2>]) {
+fn evaluate<L: Lagrangian<N = Const<2>>>(system: &L, states: &[State<L::Scalar, 2>]) {
     for state in states {
         black_box(black_box(system).accelerations_unchecked(black_box(state)));
     }

@@ -7,7 +7,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use lagrange_core::{Crossing, prelude::*};
+use lagrange_core::{Crossing, StateOf, nalgebra::Const, prelude::*};
 
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(x, y)]
@@ -50,9 +50,9 @@ fn method() -> Dop853 {
 }
 
 /// Runs with an event over runs without, both stored; and the iterator over crossings, which stores nothing.
-fn cost<L, const N: usize, const M: usize>(name: &str, system: L, start: State<f64, N>, end: f64)
+fn cost<L>(name: &str, system: L, start: StateOf<L>, end: f64)
 where
-    L: Lagrangian<N, M, Scalar = f64> + Copy,
+    L: Lagrangian<Scalar = f64> + Copy,
 {
     let plain = || {
         black_box(system.integrate(start, end, method()).expect("a motion").end().state().q[0]);
@@ -83,13 +83,13 @@ where
 }
 
 /// All crossings, the largest |x| there as a part of the round-off of the largest within a step, and the last time.
-fn section(count: usize, method: Dop853) -> (Vec<Crossing<f64, 2>>, f64) {
+fn section(count: usize, method: Dop853) -> (Vec<Crossing<f64, Const<2>>>, f64) {
     let mut section = HenonHeiles.event("section", |s| s.state().q[0]).rising();
     let mut motion = Motion::new(HenonHeiles, start(), method).expect("a start");
     let found: Result<Vec<_>, _> = motion.crossings(1e9, &mut [&mut section]).take(count).collect();
     let found = found.expect("a motion");
     // Within a step of 0.1 or more, x moves by more than a twentieth of its velocity.
-    let part = |crossing: &Crossing<f64, 2>| {
+    let part = |crossing: &Crossing<f64, Const<2>>| {
         let State { q, v, .. } = crossing.state;
         q[0].abs() / (f64::EPSILON * 0.05 * v[0].abs())
     };
@@ -104,7 +104,7 @@ fn main() {
     let count = if is_test() { 20 } else { 10_000 };
     let (found, worst) = section(count, method());
     let (fine, _) = section(count, method().max_step(0.015));
-    let last = |crossings: &[Crossing<f64, 2>]| crossings.last().map_or(f64::NAN, |last| last.state.t);
+    let last = |crossings: &[Crossing<f64, Const<2>>]| crossings.last().map_or(f64::NAN, |last| last.state.t);
     println!(
         "{} crossings up to t = {}; with a tenth of the step up to {}; largest |g| {worst:.2} units of round-off",
         found.len(),

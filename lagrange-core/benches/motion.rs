@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Lanes, Pack};
+use lagrange_core::{Lanes, Pack, SolutionOf, StateOf, nalgebra::Const};
 
 /// One is enough to see that it runs.
 fn rounds() -> usize {
@@ -30,10 +30,7 @@ fn in_turn<const K: usize>(work: [&dyn Fn(); K]) -> [f64; K] {
 }
 
 #[inline(never)]
-fn called<L: Lagrangian<N, M>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-) -> lagrange_core::Solution<L::Scalar, N, M> {
+fn called<L: Lagrangian>(system: &L, state: &StateOf<L>) -> SolutionOf<L> {
     system.accelerations_unchecked(state)
 }
 
@@ -66,15 +63,15 @@ macro_rules! rods {
 rods!(Rods5 5, Rods10 10, Rods20 20, Rods50 50, Rods100 100, Rods200 200);
 
 /// Wall time an evaluation of a motion, over one of the emitted function; the cost of a step.
-fn rods_of<L, const N: usize, const M: usize>(system: L, start: State<f64, N>, time: f64) -> f64
+fn rods_of<L>(system: L, start: StateOf<L>, time: f64) -> f64
 where
-    L: Lagrangian<N, M, Scalar = f64> + Copy,
+    L: Lagrangian<Scalar = f64> + Copy,
 {
     let method = || Dop853::with_tolerance(1e-9);
     let path = system.integrate(start, time, method()).expect("a motion");
     let (steps, tried) =
         (path.statistics().accepted, path.statistics().accepted + path.statistics().rejected);
-    let states: Vec<State<f64, N>> = path.samples(12 * tried).map(|sample| *sample.state()).collect();
+    let states: Vec<StateOf<L>> = path.samples(12 * tried).map(|sample| *sample.state()).collect();
     let evaluate = || {
         for state in &states {
             black_box(called(black_box(&system), black_box(state)));
@@ -98,7 +95,7 @@ where
     let with_extension = stored / (12 * tried + 3 * steps) as f64;
     println!(
         "{:3} rods   accelerations {:8.1} ns   an evaluation of a motion {:5.2} of that, stored {:5.2}   a step {:8.2} us",
-        N / 2,
+        L::COORDINATES.len() / 2,
         1e9 * one,
         each / one,
         with_extension / one,
@@ -120,9 +117,12 @@ fn rods() {
     );
 }
 
-fn lanes_of<L, const N: usize, const M: usize>(system: L, start: fn(f64) -> State<f64, N>, time: f64)
+fn lanes_of<L>(system: L, start: fn(f64) -> StateOf<L>, time: f64)
 where
-    L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>> + Copy + Sync,
+    L: Lagrangian<Scalar = f64>
+        + Pack<Lanes, Packed: Lagrangian<N = L::N, M = L::M, Scalar = Lanes>>
+        + Copy
+        + Sync,
 {
     const COUNT: usize = 64;
     let ensemble = || Ensemble::from_fn(COUNT, |k| (system, start(0.3 + k as f64 / COUNT as f64)));
@@ -134,7 +134,11 @@ where
             black_box(ensemble().integrate_on_lanes(time, Dop853::with_tolerance(1e-9)).is_ok());
         },
     ]);
-    println!("{:3} rods   an ensemble on lanes is {:.2} times as fast as one by one", N / 2, alone / lanes);
+    println!(
+        "{:3} rods   an ensemble on lanes is {:.2} times as fast as one by one",
+        L::COORDINATES.len() / 2,
+        alone / lanes
+    );
 }
 
 /// Long enough that the start, which is checked one by one, counts little.
@@ -254,9 +258,9 @@ fn random_states<const N: usize>(quaternions: &[usize]) -> Vec<State<f64, N>> {
     (0..64).map(state).collect()
 }
 
-fn solved<L, const N: usize, const M: usize>(system: &L, states: &[State<f64, N>])
+fn solved<L>(system: &L, states: &[StateOf<L>])
 where
-    L: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<Scalar = f64>,
 {
     for _ in 0..100 {
         for state in states {
@@ -266,15 +270,11 @@ where
 }
 
 /// Nanoseconds of one `solve` and the time over that by hand; evaluations on lanes over those one by one.
-fn quaternion<L, H, const N: usize, const M: usize>(
-    name: &str,
-    system: L,
-    by_hand: H,
-    quaternions: &[usize],
-) -> f64
+fn quaternion<L, H, const N: usize>(name: &str, system: L, by_hand: H, quaternions: &[usize]) -> f64
 where
-    L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
-    H: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<N = Const<N>, Scalar = f64>
+        + Pack<Lanes, Packed: Lagrangian<N = Const<N>, M = L::M, Scalar = Lanes>>,
+    H: Lagrangian<N = Const<N>, M = L::M, Scalar = f64>,
 {
     let states = random_states::<N>(quaternions);
     let [own, hand] = in_turn([&|| solved(&system, &states), &|| solved(&by_hand, &states)]);

@@ -80,7 +80,7 @@ fn classical_function() -> f64 {
     state.q[0]
 }
 
-fn steered(method: impl Method<Acrobot, 2, 0>) -> f64 {
+fn steered(method: impl Method<Acrobot>) -> f64 {
     let start = State::new(START[0], START[1]);
     let mut motion = Motion::new(black_box(ACROBOT), start, method).expect("a start");
     for tick in 1..=TICKS {

@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use lagrange_core::mpi::{self, Threading, topology::SimpleCommunicator, traits::Communicator};
-use lagrange_core::{ensemble::Outcome, prelude::*};
+use lagrange_core::{ensemble::Outcome, nalgebra::Const, prelude::*};
 
 /// Two bobs on two rods, the angles from the vertical.
 #[derive(Lagrangian, Clone, Copy)]
@@ -43,7 +43,7 @@ fn member(index: usize) -> (DoublePendulum<f64>, State<f64, 2>) {
 const END: f64 = 10.0;
 
 /// Members of which samples are kept, of two coordinates and without constraints.
-type Pendulums<'a> = Ensemble<'a, DoublePendulum<f64>, f64, 2, 0, true>;
+type Pendulums<'a> = Ensemble<'a, DoublePendulum<f64>, true>;
 type Result<T, E = Box<dyn Error>> = std::result::Result<T, E>;
 
 fn main() -> Result<()> {
@@ -80,7 +80,7 @@ fn on_ranks(world: &SimpleCommunicator, pendulums: Pendulums<'_>, file: &str) ->
 fn with_file(
     pendulums: Pendulums<'_>,
     file: &str,
-    run: impl FnOnce(Pendulums<'_>) -> Result<Option<Outcome<f64, 2>>, lagrange_core::Error>,
+    run: impl FnOnce(Pendulums<'_>) -> Result<Option<Outcome<f64, Const<2>>>, lagrange_core::Error>,
 ) -> Result<()> {
     let known = match read_to_string(file) {
         Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
@@ -109,7 +109,7 @@ fn with_file(
 }
 
 /// The largest change of the energy.
-fn off(outcome: &Outcome<f64, 2>) -> Result<f64> {
+fn off(outcome: &Outcome<f64, Const<2>>) -> Result<f64> {
     let mut largest = 0.0_f64;
     for index in outcome.members().iter().map(|member| member.index) {
         let (pendulum, start) = member(index);

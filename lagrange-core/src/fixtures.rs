@@ -4,13 +4,14 @@ mod random;
 
 use core::array::from_fn;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Const, SMatrix, SVector};
 
 pub(crate) use random::Random;
 
-use crate::number::{Broadcast, vector};
-use crate::solution::eliminate::{LoopFactor, eliminate};
-use crate::system::{ConstraintKind, Facts, Lagrangian, Solution, State};
+use crate::generated::{self, LoopFactor, eliminate, vector};
+use crate::number::Broadcast;
+use crate::system::{ConstraintKind, Facts, Lagrangian};
+use crate::{Solution, State};
 
 pub(crate) type At<const N: usize> = State<f64, N>;
 
@@ -45,13 +46,15 @@ const fn kinds<const M: usize>(holonomic: usize) -> [ConstraintKind; M] {
     kinds
 }
 
-impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechanism<N, M, H> {
+impl<const N: usize, const M: usize, const H: usize> Lagrangian for Mechanism<N, M, H> {
+    type N = Const<N>;
+    type M = Const<M>;
     type Scalar = f64;
     type Factor = LoopFactor<f64, N, M>;
     const NAME: &'static str = "Mechanism";
-    const COORDINATES: [&'static str; N] = first(["x", "y", "z", "w[0]", "w[1]"]);
-    const CONSTRAINTS: [&'static str; M] = first(["c0", "c1", "c2", "c3", "c4"]);
-    const CONSTRAINT_KINDS: [ConstraintKind; M] = kinds(H);
+    const COORDINATES: &'static [&'static str] = &first::<N>(["x", "y", "z", "w[0]", "w[1]"]);
+    const CONSTRAINTS: &'static [&'static str] = &first::<M>(["c0", "c1", "c2", "c3", "c4"]);
+    const CONSTRAINT_KINDS: &'static [ConstraintKind] = &kinds::<M>(H);
     const OBSERVABLES: &'static [&'static str] = &["kinetic"];
     const FACTS: Facts = Facts::NONE;
 
@@ -117,7 +120,7 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian<N, M> for Mechan
     }
 
     fn factor(&self, state: &At<N>) -> LoopFactor<f64, N, M> {
-        LoopFactor::of((self.mass)(state), (self.jacobian)(state), [0.0; M])
+        generated::factor((self.mass)(state), (self.jacobian)(state), [0.0; M])
     }
 
     fn solve_with<S: Broadcast<f64>>(

@@ -1,8 +1,48 @@
 //! Functions that only generated code calls. They change with the derive macro, without notice.
 
-pub use crate::number::array::{matrix, vector};
+use nalgebra::{ArrayStorage, Const, SMatrix, SVector};
+
+use crate::number::Scalar;
+use crate::solution::eliminate;
+
 pub use crate::number::numeric::{only_where, sin_cos_of_small};
-pub use crate::solution::eliminate::{LoopFactor, eliminate, nan_if_ill_conditioned};
+pub use crate::solution::eliminate::nan_if_ill_conditioned;
 pub use crate::system::defect::{Defect, asymmetry, distortion};
 pub use crate::system::equations::equations;
 pub use crate::system::member::FieldMember;
+
+/// Factorizations computed in loops, for `N` coordinates and `M` constraints.
+pub type LoopFactor<T, const N: usize, const M: usize> = eliminate::LoopFactor<T, Const<N>, Const<M>>;
+
+/// Factorizes the completed mass matrix M + FᵀσF, given the rows of M and F and the weights σ.
+#[inline]
+pub fn factor<T: Scalar, const N: usize, const M: usize>(
+    m: [[T; N]; N],
+    f: [[T; N]; M],
+    weights: [T; M],
+) -> LoopFactor<T, N, M> {
+    eliminate::LoopFactor::of(m.into(), f.into(), weights.into())
+}
+
+/// Solves M q̈ − Fᵀλ = h, F q̈ = −γ without pivoting, given the rows of M and F.
+#[inline]
+pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
+    m: [[T; N]; N],
+    h: [T; N],
+    f: [[T; N]; M],
+    gamma: [T; M],
+) -> crate::Solution<T, N, M> {
+    eliminate::eliminate(m.into(), h.into(), f.into(), gamma.into())
+}
+
+/// Converts an array to a column vector, without a copy.
+#[inline]
+pub fn vector<T, const K: usize>(entries: [T; K]) -> SVector<T, K> {
+    SVector::from_array_storage(ArrayStorage([entries]))
+}
+
+/// Converts an array of columns to a matrix, without a copy.
+#[inline]
+pub fn matrix<T, const R: usize, const C: usize>(columns: [[T; R]; C]) -> SMatrix<T, R, C> {
+    SMatrix::from_array_storage(ArrayStorage(columns))
+}

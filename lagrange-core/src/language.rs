@@ -449,7 +449,7 @@
 //! #[constraint(edge: u_dot*sin(theta) - v_dot*cos(theta) = 0)]
 //! struct Pair { a: f64 }
 //!
-//! let [no_slip, edge] = Pair::CONSTRAINT_CLASSES;
+//! let [no_slip, edge] = [0, 1].map(|index| Pair::CONSTRAINT_CLASSES[index]);
 //! assert_eq!(no_slip.integrability, Integrability::Exact);
 //! assert_eq!(edge, Classification { integrability: Integrability::Nonholonomic, evidence: Evidence::Proved });
 //! assert_eq!(Pair::INTEGRALS.map(Integrals::extent), Some(Extent::Some));

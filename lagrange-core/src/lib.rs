@@ -162,6 +162,7 @@ mod fixtures;
 pub mod function;
 #[doc(hidden)]
 pub mod generated;
+pub mod generic;
 pub mod hamiltonian;
 pub mod language;
 pub mod linearized;
@@ -175,12 +176,13 @@ mod statistics;
 mod system;
 #[cfg(feature = "alloc")]
 pub mod trajectory;
+mod vector;
 
 #[cfg(feature = "std")]
 pub use ensemble::Ensemble;
 pub use error::{Ending, Error};
 pub use function::Function;
-pub use hamiltonian::{Hamiltonian, PhaseState};
+pub use hamiltonian::Hamiltonian;
 pub use lagrange_macros::Lagrangian;
 pub use linearized::{Jacobian, Linearized, StateDerivatives};
 #[cfg(feature = "alloc")]
@@ -199,11 +201,27 @@ pub use solution::Impact;
 pub use solution::Sample;
 pub use statistics::Statistics;
 pub use system::{
-    ConstraintKind, Direction, Entries, Lagrangian, Pack, Packed, ResidualChange, Shared, Solution, State,
-    TaylorSeries,
+    ConstraintKind, Entries, Lagrangian, Pack, Packed, Shared, SolutionOf, StateOf, TaylorSeries,
 };
 #[cfg(feature = "alloc")]
 pub use trajectory::{HybridTrajectory, Trajectory};
+
+/// [`State`](generic::State) of `N` coordinates.
+pub type State<T, const N: usize> = generic::State<T, nalgebra::Const<N>>;
+
+/// [`Solution`](generic::Solution) for `N` coordinates and `M` constraints.
+pub type Solution<T, const N: usize, const M: usize> =
+    generic::Solution<T, nalgebra::Const<N>, nalgebra::Const<M>>;
+
+/// [`Direction`](generic::Direction) in the space of `N` coordinates.
+pub type Direction<T, const N: usize> = generic::Direction<T, nalgebra::Const<N>>;
+
+/// [`ResidualChange`](generic::ResidualChange) for `N` coordinates and `M` constraints.
+pub type ResidualChange<T, const N: usize, const M: usize> =
+    generic::ResidualChange<T, nalgebra::Const<N>, nalgebra::Const<M>>;
+
+/// [`PhaseState`](generic::PhaseState) of `N` coordinates.
+pub type PhaseState<T, const N: usize> = generic::PhaseState<T, nalgebra::Const<N>>;
 
 /// Compiles and runs the program in the README as a doc test.
 #[cfg(doctest)]

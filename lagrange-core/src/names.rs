@@ -90,7 +90,7 @@ impl Display for Names {
 }
 
 /// Returns the name at `index`, or `?` if there is none.
-pub(crate) fn name<const K: usize>(names: &[&'static str; K], index: usize) -> &'static str {
+pub(crate) fn name(names: &'static [&'static str], index: usize) -> &'static str {
     names.get(index).copied().unwrap_or("?")
 }
 

@@ -5,7 +5,7 @@
 pub use crate::ensemble::Ensemble;
 pub use crate::error::Error;
 pub use crate::function::Function;
-pub use crate::hamiltonian::{Hamiltonian, PhaseState};
+pub use crate::hamiltonian::Hamiltonian;
 pub use crate::linearized::Linearized;
 #[cfg(feature = "alloc")]
 pub use crate::linearized::MotionDerivatives;
@@ -14,8 +14,8 @@ pub use crate::motion::Simulate;
 pub use crate::motion::Taylor;
 pub use crate::motion::{Dop853, Dopri5, Motion, RungeKutta4};
 pub use crate::number::Scalar;
-pub use crate::system::State;
 #[cfg(feature = "alloc")]
 pub use crate::trajectory::Trajectory;
 // Both the trait and the derive macro.
 pub use crate::Lagrangian;
+pub use crate::{PhaseState, State};

@@ -9,6 +9,7 @@ use lagrange_core::ensemble::{EnsembleError, ParquetTable};
 use lagrange_core::{
     Ending,
     ensemble::{Member, MemberTable, Outcome},
+    nalgebra::Const,
     prelude::*,
 };
 
@@ -31,7 +32,7 @@ fn member(index: usize) -> (Oscillators<f64>, State<f64, 2>) {
     (Oscillators { m: [1.0, x], k }, State::new([0.3 * x, -0.1], [x - 2.0, 1.0 / 3.0]))
 }
 
-type Members = Ensemble<'static, Oscillators<f64>, f64, 2, 0, true>;
+type Members = Ensemble<'static, Oscillators<f64>, true>;
 
 /// Some meet the limit on steps, and some are ended early: by the observer, by an event.
 fn members() -> Members {
@@ -52,11 +53,11 @@ fn method() -> Dop853 {
     Dop853::default().max_steps(36)
 }
 
-fn whole() -> Outcome<f64, 2> {
+fn whole() -> Outcome<f64, Const<2>> {
     let outcome = members().integrate_on_lanes(TO, method()).expect("an outcome");
     let failures = outcome.failures().count();
     let by_event =
-        |m: &&Member<f64, 2>| m.arrival().is_some_and(|a| matches!(a.ending, Ending::Event { .. }));
+        |m: &&Member<f64, Const<2>>| m.arrival().is_some_and(|a| matches!(a.ending, Ending::Event { .. }));
     let ended = outcome.members().iter().filter(by_event).count();
     assert!(
         failures > 2 && ended > 2 && outcome.completed().count() > 10,
@@ -66,8 +67,8 @@ fn whole() -> Outcome<f64, 2> {
 }
 
 /// As the table of comma-separated values has it.
-fn expected(outcome: &Outcome<f64, 2>) -> MemberTable<f64, 2> {
-    MemberTable::read::<Oscillators<f64>, 0>(&outcome.csv().to_string()).expect("a table")
+fn expected(outcome: &Outcome<f64, Const<2>>) -> MemberTable<f64, Const<2>> {
+    MemberTable::read::<Oscillators<f64>>(&outcome.csv().to_string()).expect("a table")
 }
 
 /// A directory that is removed in the end.
@@ -94,12 +95,12 @@ impl Drop for Directory {
     }
 }
 
-fn table(directory: &Directory) -> ParquetTable<'static, Oscillators<f64>, f64, 2, 0, 3> {
+fn table(directory: &Directory) -> ParquetTable<'static, Oscillators<f64>> {
     ParquetTable::open(&directory.0, member).expect("a table")
 }
 
 /// A file of each of these parts.
-fn write_parts(directory: &Directory, outcome: &Outcome<f64, 2>, members: Range<usize>, parts: usize) {
+fn write_parts(directory: &Directory, outcome: &Outcome<f64, Const<2>>, members: Range<usize>, parts: usize) {
     let mut table = table(directory);
     for part in outcome.members()[members.clone()].chunks(members.len().div_ceil(parts)) {
         part.iter().for_each(|member| table.push(member).expect("a row"));
@@ -142,7 +143,7 @@ fn single_precision_comes_back_to_the_bit() {
     let mut table = ParquetTable::open(&directory.0, member).unwrap();
     outcome.members().iter().for_each(|member| table.push(member).unwrap());
     table.flush().unwrap();
-    let expected = MemberTable::read::<Oscillators<f32>, 0>(&outcome.csv().to_string()).unwrap();
+    let expected = MemberTable::read::<Oscillators<f32>>(&outcome.csv().to_string()).unwrap();
     assert_eq!(table.read().unwrap(), expected);
 }
 
@@ -373,7 +374,7 @@ fn rows_are_compared_when_members_come_as_far() {
     );
 }
 
-fn table_of(directory: &Directory) -> MemberTable<f64, 2> {
+fn table_of(directory: &Directory) -> MemberTable<f64, Const<2>> {
     table(directory).read().expect("the table can be read")
 }
 
@@ -382,7 +383,7 @@ fn a_directory_that_cannot_be_is_an_error() {
     let directory = Directory::new("none");
     let file = directory.0.join("file");
     write(&file, "").unwrap();
-    let opened = ParquetTable::<Oscillators<f64>, _, 2, 0, 3>::open(file.join("below"), member);
+    let opened = ParquetTable::<Oscillators<f64>>::open(file.join("below"), member);
     assert!(matches!(opened, Err(Error::Ensemble(EnsembleError::Parquet { .. }))));
 }
 

@@ -85,9 +85,8 @@ impl Diagnostics {
         self.errors.is_empty()
     }
 
-    /// Converts all errors to `compile_error!` calls.
-    pub(crate) fn into_tokens(self) -> TokenStream {
-        self.errors.iter().map(Error::to_compile_error).collect()
+    pub(crate) fn into_errors(self) -> Vec<Error> {
+        self.errors
     }
 }
 

@@ -69,11 +69,7 @@ fn expand(input: TokenStream) -> TokenStream {
     let declaration = syntax::declaration(input, &mut diagnostics);
     match derive(&declaration, &mut diagnostics) {
         Some(tokens) => tokens,
-        None => {
-            let mut tokens = diagnostics.into_tokens();
-            tokens.extend(stub(&declaration));
-            tokens
-        }
+        None => stub(&declaration, diagnostics.into_errors()),
     }
 }
 
@@ -83,17 +79,20 @@ fn nests_too_deep(input: TokenStream, span: Span) -> TokenStream {
     let message = format!(
         "parentheses nest more than {limit} deep here: name parts of the expression with `#[define(…)]`"
     );
-    let mut tokens = Place::at(span).error(message).to_compile_error();
-    if let Ok(rest) = syn::parse2(syntax::shallow(input)) {
-        let declaration = syntax::declaration(rest, &mut Diagnostics::default());
-        tokens.extend(stub(&declaration));
+    let error = Place::at(span).error(message);
+    match syn::parse2(syntax::shallow(input)) {
+        Ok(rest) => stub(&syntax::declaration(rest, &mut Diagnostics::default()), vec![error]),
+        Err(_) => error.to_compile_error(),
     }
-    tokens
 }
 
-/// Returns a placeholder implementation for a system with errors.
-fn stub(declaration: &Declaration) -> TokenStream {
-    codegen::stub(declaration, &resolve::outline(declaration))
+/// Returns the errors of a system, and a placeholder implementation.
+fn stub(declaration: &Declaration, errors: Vec<syn::Error>) -> TokenStream {
+    let outline = resolve::outline(declaration);
+    let mut calls = errors.into_iter().flatten().map(syn::Error::into_compile_error);
+    let unknown = if outline.coordinates.is_none() { calls.next() } else { None };
+    let stub = codegen::stub(declaration, &outline, unknown);
+    calls.chain([stub]).collect()
 }
 
 fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<TokenStream> {

@@ -91,7 +91,7 @@ fn energy_8_24_and_angular_momentum_8_25() {
 }
 
 /// The times of the lower turning points, where θ̇ passes through zero from below, and the azimuth at them.
-fn lower_turning_points(path: &Trajectory<&Polar, 2, 0>) -> Vec<(f64, f64)> {
+fn lower_turning_points(path: &Trajectory<&Polar>) -> Vec<(f64, f64)> {
     let rate = |t: f64| path.at(t).unwrap().state().v[0];
     let times = crossings(path.steps().map(|s| s.time()), rate);
     let azimuth = |t: f64| path.at(t).unwrap().state().q[1];

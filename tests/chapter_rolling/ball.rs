@@ -159,7 +159,7 @@ fn the_mass_matrix_is_singular_without_the_constraint() {
     assert!((ball.mass_matrix(&state) * radial).norm() < 1e-14);
 }
 
-type Path<'a> = Trajectory<&'a Ball, 7, 4>;
+type Path<'a> = Trajectory<&'a Ball>;
 
 fn motion(ball: &Ball, start: State<f64, 7>) -> Result<Path<'_>, Error> {
     ball.integrate(start, 50.0, Dop853::with_tolerance(1e-12))

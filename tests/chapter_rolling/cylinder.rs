@@ -88,8 +88,8 @@ fn both_forms_have_the_same_motion_and_friction() {
 
     let apart = largest(pairs().map(|(a, b)| (a.state().q - b.state().q).norm()));
     assert!(apart < 1e-8, "{apart:e}");
-    let friction = |sample: Sample<&ByVelocities, 2, 1>| sample.multiplier("no_slip").unwrap();
-    let other = |sample: Sample<&ByPosition, 2, 1>| sample.multiplier("no_slip").unwrap();
+    let friction = |sample: Sample<&ByVelocities>| sample.multiplier("no_slip").unwrap();
+    let other = |sample: Sample<&ByPosition>| sample.multiplier("no_slip").unwrap();
     let apart = largest(pairs().map(|(a, b)| (friction(a) - other(b)).abs()));
     assert!(apart < 1e-8, "{apart:e}");
     // Enforced on velocities alone, the integral keeps its value.

@@ -12,9 +12,9 @@ struct Bead {
     rail: Table,
 }
 
-fn jacobian_of<L, const N: usize, const M: usize, const P: usize>(system: &L)
+fn jacobian_of<L>(system: &L)
 where
-    L: Linearized<N, M, P>,
+    L: Linearized,
 {
     let _ = system.parameters();
 }

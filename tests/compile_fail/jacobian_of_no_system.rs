@@ -4,9 +4,9 @@ struct System {
     m: f64,
 }
 
-fn jacobian_of<L, const N: usize, const M: usize, const P: usize>(system: &L)
+fn jacobian_of<L>(system: &L)
 where
-    L: Linearized<N, M, P>,
+    L: Linearized,
 {
     let _ = system.parameters();
 }

@@ -12,7 +12,7 @@ struct Spring {
 fn main() -> Result<(), Error> {
     let (spring, start) = (Spring { k: 1.0 }, State::at_rest([1.0]));
     // Between the steps of a motion that is stored there would be other parameters.
-    let _: Trajectory<_, 1, 0> = spring.motion(start).controlled(0.1, |_, _| Ok::<_, Error>(())).to(1.0)?;
+    let _: Trajectory<_> = spring.motion(start).controlled(0.1, |_, _| Ok::<_, Error>(())).to(1.0)?;
     // Derivatives know nothing of a controller.
     let derivatives = spring.sensitivity(&start, &["x"])?;
     spring.motion_with_derivatives(&derivatives).controlled(0.1, |_, _| Ok::<_, Error>(())).to(1.0)?;

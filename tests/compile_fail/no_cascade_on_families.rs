@@ -1,3 +1,4 @@
+use lagrange_core::nalgebra::Const;
 use lagrange_core::prelude::*;
 
 #[derive(Lagrangian)]
@@ -35,15 +36,15 @@ struct WithoutName {
     m: f64,
 }
 
-fn rows<L: Lagrangian<N, M>, const N: usize, const M: usize>(_: &L) -> usize {
+fn rows<L: Lagrangian<N = Const<2>, M = Const<M>>, const M: usize>(_: &L) -> usize {
     M
 }
 
 fn main() {
     let chain = Chain { m: 1.0 };
-    let path: Result<Trajectory<&Chain, 5, 5>, Error> =
+    let path: Result<Trajectory<&Chain>, Error> =
         chain.integrate(State::at_rest([0.0; 5]), 1.0, Dop853::default());
-    println!("{path:?} {:?}", <Chain as Lagrangian<5, 5>>::CONSTRAINTS);
-    println!("{}", rows::<_, 2, 1>(&OneRow { m: 1.0 }) + rows::<_, 2, 2>(&TwoRows { m: 1.0 }));
-    println!("{}", rows::<_, 2, 1>(&WithoutName { m: 1.0 }));
+    println!("{path:?} {:?}", <Chain as Lagrangian>::CONSTRAINTS);
+    println!("{}", rows::<_, 1>(&OneRow { m: 1.0 }) + rows::<_, 2>(&TwoRows { m: 1.0 }));
+    println!("{}", rows::<_, 1>(&WithoutName { m: 1.0 }));
 }

@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use lagrange_core::facts::{EnergyForm, LinearPart};
-use lagrange_core::{facts::Evidence, prelude::*};
+use lagrange_core::{facts::Evidence, nalgebra::Const, prelude::*};
 
 #[derive(Lagrangian)]
 #[coordinates(x, y)]
@@ -34,7 +34,7 @@ struct Relativistic {
     g: f64,
 }
 
-fn check<L: Lagrangian<2, 0, Scalar = f64>>(system: &L) {
+fn check<L: Lagrangian<N = Const<2>, M = Const<0>, Scalar = f64>>(system: &L) {
     for k in 0..20 {
         let phase = 0.6 * f64::from(k);
         let v = [0.5 * (1.7 * phase).sin(), 0.4 * (2.3 * phase).cos()];

@@ -1,6 +1,6 @@
 //! Systems written by hand, and the comparison with what the macro emits for them.
 
-use lagrange_core::nalgebra::{SMatrix, SVector};
+use lagrange_core::nalgebra::{Const, SMatrix, SVector};
 use lagrange_core::{ConstraintKind, Solution, prelude::*};
 use num_dual::{DualNum, HyperDual64};
 
@@ -22,7 +22,7 @@ impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 
 /// The system that the attributes state, once more.
 pub(crate) trait WithDerivatives<const N: usize, const M: usize>:
-    Lagrangian<N, M, Scalar = f64> + Sized
+    Lagrangian<N = Const<N>, M = Const<M>, Scalar = f64> + Sized
 {
     const KINDS: [ConstraintKind; M] = [ConstraintKind::Holonomic; M];
 
@@ -187,7 +187,7 @@ impl<S: WithDerivatives<N, M>, const N: usize, const M: usize> Derivatives<'_, S
 /// Compares everything that is emitted for a system, at random states and parameters.
 pub(crate) fn check<S, const N: usize, const M: usize, const P: usize>()
 where
-    S: WithDerivatives<N, M> + Linearized<N, M, P>,
+    S: WithDerivatives<N, M> + Linearized<P = Const<P>>,
 {
     assert_eq!(S::CONSTRAINT_KINDS, S::KINDS, "{}", S::NAME);
     let mut random = Random(1);

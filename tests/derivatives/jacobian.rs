@@ -1,6 +1,6 @@
 //! Jacobians of accelerations, multipliers and constraints against differences of them.
 
-use lagrange_core::nalgebra::{DVector, SVector};
+use lagrange_core::nalgebra::{Const, DVector, SVector};
 use lagrange_core::{
     Direction, Jacobian, Lanes, Solution, error::Entry, linearized::PartialDerivatives, prelude::*,
 };
@@ -26,9 +26,9 @@ enum Argument {
 /// q̈, λ, F q̇ + b and Φ, or how they change.
 type Blocks = [DVector<f64>; 4];
 
-fn values<S, const N: usize, const M: usize, const P: usize>(system: &S, state: &State<f64, N>) -> Blocks
+fn values<S, const N: usize, const M: usize>(system: &S, state: &State<f64, N>) -> Blocks
 where
-    S: Linearized<N, M, P, Scalar = f64>,
+    S: Linearized<N = Const<N>, M = Const<M>, Scalar = f64>,
 {
     let Solution { accelerations, multipliers, .. } = system.solve(state).expect("a regular state");
     let (rate, position) = (system.constraint_rate(state), system.constraint_residual(state));
@@ -47,7 +47,7 @@ fn shifted<S, const N: usize, const M: usize, const P: usize>(
     change: f64,
 ) -> Blocks
 where
-    S: Linearized<N, M, P, Scalar = f64>,
+    S: Linearized<N = Const<N>, M = Const<M>, P = Const<P>, Scalar = f64>,
 {
     let mut state = *state;
     match argument {
@@ -72,7 +72,7 @@ fn difference<S, const N: usize, const M: usize, const P: usize>(
     step: f64,
 ) -> Blocks
 where
-    S: Linearized<N, M, P, Scalar = f64>,
+    S: Linearized<N = Const<N>, M = Const<M>, P = Const<P>, Scalar = f64>,
 {
     let mut sum = values(system, state).map(|block| block * 0.0);
     for (k, coefficient) in (1..).zip(DIFFERENCE) {
@@ -89,11 +89,11 @@ where
 fn emitted<S, const N: usize, const M: usize, const P: usize>(
     system: &S,
     state: &State<f64, N>,
-    jacobian: &Jacobian<f64, N, M, P>,
+    jacobian: &Jacobian<f64, Const<N>, Const<M>, Const<P>>,
     argument: Argument,
 ) -> Blocks
 where
-    S: Linearized<N, M, P, Scalar = f64>,
+    S: Linearized<N = Const<N>, M = Const<M>, P = Const<P>, Scalar = f64>,
 {
     let Jacobian { solution, accelerations: a, multipliers: l } = jacobian;
     let along = |direction: Direction<f64, N>| system.residual_change(state, solution, &direction);
@@ -120,13 +120,13 @@ where
 fn check_columns<S, const N: usize, const M: usize, const P: usize>(
     system: &S,
     state: &State<f64, N>,
-    jacobian: &Jacobian<f64, N, M, P>,
+    jacobian: &Jacobian<f64, Const<N>, Const<M>, Const<P>>,
 ) where
-    S: Linearized<N, M, P, Scalar = f64>,
+    S: Linearized<N = Const<N>, M = Const<M>, P = Const<P>, Scalar = f64>,
 {
-    let mut names: Vec<String> = S::COORDINATES.map(String::from).to_vec();
-    names.extend(S::COORDINATES.map(|name| Entry::Velocity(name).to_string()));
-    names.extend(S::PARAMETERS.map(String::from));
+    let mut names: Vec<String> = S::COORDINATES.iter().copied().map(String::from).collect();
+    names.extend(S::COORDINATES.iter().map(|name| Entry::Velocity(name).to_string()));
+    names.extend(S::PARAMETERS.iter().copied().map(String::from));
     names.reverse();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let by = system.jacobian_by(state, &names).expect("a regular state");
@@ -172,7 +172,7 @@ pub(crate) fn check_jacobian<S, const N: usize, const M: usize, const P: usize>(
     state: &State<f64, N>,
 ) -> f64
 where
-    S: Linearized<N, M, P, Scalar = f64>,
+    S: Linearized<N = Const<N>, M = Const<M>, P = Const<P>, Scalar = f64>,
 {
     let jacobian = system.jacobian(state).expect("a regular state");
     let by_state = system.state_jacobian(state).expect("a regular state").accelerations;

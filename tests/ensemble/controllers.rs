@@ -3,6 +3,7 @@
 use lagrange_core::{
     Ending, Method,
     ensemble::{Arrival, Outcome},
+    generic::Length,
     prelude::*,
 };
 
@@ -48,7 +49,7 @@ fn never_fails(_: usize, cart: &mut Cart<f64>, state: &State<f64, 1>) -> Result<
     Ok(())
 }
 
-fn arrival<const N: usize>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
+fn arrival<N: Length>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
     outcome.get(index).and_then(|member| member.arrival()).expect("a motion")
 }
 
@@ -78,7 +79,7 @@ fn a_free_cart_moves_as_it_is_pushed() {
 }
 
 /// A motion alone, advanced to the same times; with its steps.
-fn alone<P: Method<Cart<f64>, 1, 0>>(index: usize, end: f64, method: P) -> (State<f64, 1>, usize) {
+fn alone<P: Method<Cart<f64>>>(index: usize, end: f64, method: P) -> (State<f64, 1>, usize) {
     let (cart, start) = sprung(index);
     let mut motion = Motion::new(cart, start, method).expect("a start");
     let direction = (end - start.t).signum();
@@ -153,8 +154,8 @@ fn a_controller_that_fails_ends_its_member_with_all_it_has() {
     };
     let method = Dop853::default();
     for run in [
-        |carts: Ensemble<'_, _, f64, 1, 0, true>, method| carts.integrate_on_lanes(2.0, method).unwrap(),
-        |carts: Ensemble<'_, _, f64, 1, 0, true>, method| carts.integrate(2.0, method).unwrap(),
+        |carts: Ensemble<'_, _, true>, method| carts.integrate_on_lanes(2.0, method).unwrap(),
+        |carts: Ensemble<'_, _, true>, method| carts.integrate(2.0, method).unwrap(),
     ] {
         let well = run(carts(|_, _| false), method);
         let outcome = run(carts(|index, t| index == 5 && t > 1.0), method);

@@ -6,26 +6,28 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lagrange_core::motion::{Adaptive, AnyEvent, Pair};
 use lagrange_core::{
-    Crossing, Ending, Sample,
+    Crossing, Ending, Sample, StateOf,
     ensemble::{Arrival, MemberEnding, MemberTable, Outcome},
+    generic::Length,
+    nalgebra::Const,
     prelude::*,
 };
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
 
-fn arrival<const N: usize>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
+fn arrival<N: Length>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
     outcome.get(index).and_then(|member| member.arrival()).expect("a motion")
 }
 
 /// A run alone has these crossings, ending and last state, bit for bit.
-fn assert_alone<L, P, const N: usize, const M: usize>(
-    arrival: &Arrival<f64, N>,
-    (system, start): (L, State<f64, N>),
+fn assert_alone<L, P>(
+    arrival: &Arrival<f64, L::N>,
+    (system, start): (L, StateOf<L>),
     end: f64,
     method: Adaptive<P>,
-    events: &mut [&mut dyn AnyEvent<L, N, M>],
+    events: &mut [&mut dyn AnyEvent<L>],
 ) where
-    L: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<Scalar = f64>,
     P: Pair + Copy,
 {
     let path = system.motion(start).by(method).events(events).towards(end).expect("a start");
@@ -107,7 +109,7 @@ fn spring(index: usize) -> (Spring<f64>, State<f64, 1>) {
 }
 
 /// What each kind of member crosses; a one where it is about something else.
-fn about(sample: &Sample<&Spring<f64>, 1, 0>, event: f64) -> f64 {
+fn about(sample: &Sample<&Spring<f64>>, event: f64) -> f64 {
     let (Spring { kind, level, .. }, State { t, q, v }) = (**sample.system(), *sample.state());
     match (kind as usize, event as usize) {
         // Ends where x falls through the level, each at another time.
@@ -140,7 +142,7 @@ fn different_events_of_sixty_four_members_are_found_as_the_rule_says() {
     let outcome = springs().integrate_on_lanes(end, method).unwrap();
     for index in 0..64 {
         let (mut ends, mut counted, mut kept) = (ends(), counted(), kept());
-        let events: &mut [&mut dyn AnyEvent<_, 1, 0>] = &mut [&mut ends, &mut counted, &mut kept];
+        let events: &mut [&mut dyn AnyEvent<_>] = &mut [&mut ends, &mut counted, &mut kept];
         let found = arrival(&outcome, index);
         assert_alone(found, spring(index), end, method, events);
         let (Spring { kind, level, .. }, _) = spring(index);
@@ -182,7 +184,7 @@ fn events_at_one_time_come_in_the_order_given() {
     let outcome = Ensemble::from_fn(5, spring).event(one).event(two).event(three);
     let outcome = outcome.integrate_on_lanes(3.0, Dop853::default()).unwrap();
     for member in outcome.members() {
-        let names = |crossing: &Crossing<f64, 1>| (crossing.event, crossing.index, crossing.rising);
+        let names = |crossing: &Crossing<f64, Const<1>>| (crossing.event, crossing.index, crossing.rising);
         let found = member.arrival().unwrap().crossings.iter().map(names);
         assert!(found.eq([("one", 0, true), ("two", 1, true)]), "{member:?}");
     }
@@ -294,7 +296,7 @@ fn members_ended_by_an_event_are_taken_over_from_a_table() {
     let run = || ensemble().event(upper()).tag("up");
     let whole = run().integrate_on_lanes(2.0, Dop853::default()).unwrap();
     let ended = MemberEnding::Event(name.into());
-    let table = MemberTable::read::<DoublePendulum<f64>, 0>(&whole.csv().to_string()).unwrap();
+    let table = MemberTable::read::<DoublePendulum<f64>>(&whole.csv().to_string()).unwrap();
     assert_eq!(table.to_string(), whole.csv().to_string());
     assert!(table.rows().iter().filter(|row| row.ending == ended).count() >= 5);
     assert!(table.rows().iter().all(|row| !row.has_failed()));

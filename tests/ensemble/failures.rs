@@ -4,6 +4,7 @@ use lagrange_core::{Ending, prelude::*};
 use lagrange_core::{
     Lanes, Pack,
     ensemble::{Member, Outcome},
+    nalgebra::Const,
 };
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
@@ -11,7 +12,7 @@ use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
 const BAD: usize = 6;
 
 /// The ensemble with another member in one place: on lanes, and one by one.
-fn with(bad: fn() -> (DoublePendulum<f64>, State<f64, 2>)) -> [Outcome<f64, 2>; 2] {
+fn with(bad: fn() -> (DoublePendulum<f64>, State<f64, 2>)) -> [Outcome<f64, Const<2>>; 2] {
     let members = move |index: usize| if index == BAD { bad() } else { member(index) };
     let ensemble = || Ensemble::from_fn(COUNT, members);
     [
@@ -21,7 +22,7 @@ fn with(bad: fn() -> (DoublePendulum<f64>, State<f64, 2>)) -> [Outcome<f64, 2>; 
 }
 
 /// All others are as without it, bit for bit; what became of it.
-fn alone_in_its_failure(outcomes: [Outcome<f64, 2>; 2]) -> [Member<f64, 2>; 2] {
+fn alone_in_its_failure(outcomes: [Outcome<f64, Const<2>>; 2]) -> [Member<f64, Const<2>>; 2] {
     let well = [
         ensemble().integrate_on_lanes(END, Dop853::default()).expect("an outcome"),
         ensemble().integrate(END, Dop853::default()).expect("an outcome"),
@@ -115,9 +116,10 @@ fn stopped<L>(
     members: impl Fn(usize) -> (L, State<f64, 1>) + Send + Sync,
     end: f64,
     bad: usize,
-    check: impl Fn(&Member<f64, 1>),
+    check: impl Fn(&Member<f64, Const<1>>),
 ) where
-    L: Lagrangian<1, 0, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<1, 0, Scalar = Lanes>>,
+    L: Lagrangian<N = Const<1>, M = Const<0>, Scalar = f64>
+        + Pack<Lanes, Packed: Lagrangian<N = Const<1>, M = Const<0>, Scalar = Lanes>>,
 {
     // Without it, another stands in its place.
     let well = |index: usize| members(if index == bad { 0 } else { index });
@@ -139,8 +141,9 @@ fn stopped<L>(
 #[test]
 fn a_limit_on_steps_ends_the_member_that_meets_it() {
     let limited = |steps| Dop853::default().max_steps(steps);
-    let steps = |outcome: &Outcome<f64, 2>| -> Vec<usize> {
-        let total = |m: &Member<f64, 2>| m.arrival().map(|a| a.statistics.accepted + a.statistics.rejected);
+    let steps = |outcome: &Outcome<f64, Const<2>>| -> Vec<usize> {
+        let total =
+            |m: &Member<f64, Const<2>>| m.arrival().map(|a| a.statistics.accepted + a.statistics.rejected);
         outcome.members().iter().filter_map(total).collect()
     };
     let free = ensemble().integrate_on_lanes(END, limited(100_000)).unwrap();

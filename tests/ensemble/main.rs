@@ -48,7 +48,7 @@ fn member(index: usize) -> (DoublePendulum<f64>, State<f64, 2>) {
 const COUNT: usize = 19;
 const END: f64 = 1.0;
 
-fn ensemble<'a>() -> Ensemble<'a, DoublePendulum<f64>, f64, 2> {
+fn ensemble<'a>() -> Ensemble<'a, DoublePendulum<f64>> {
     Ensemble::from_fn(COUNT, member)
 }
 

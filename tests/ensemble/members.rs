@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use lagrange_core::{Ending, Method, prelude::*};
+use lagrange_core::{Ending, Method, nalgebra::Const, prelude::*};
 
 use crate::{COUNT, END, ensemble, member, noise, on_threads};
 
@@ -22,9 +22,9 @@ fn one_by_one_each_member_moves_as_it_does_alone() {
 }
 
 /// The largest difference of an entry of a member on lanes from a motion alone.
-fn strays<M>(on_lanes: &lagrange_core::ensemble::Outcome<f64, 2>, method: M) -> f64
+fn strays<M>(on_lanes: &lagrange_core::ensemble::Outcome<f64, Const<2>>, method: M) -> f64
 where
-    M: Method<crate::DoublePendulum<f64>, 2, 0> + Copy,
+    M: Method<crate::DoublePendulum<f64>> + Copy,
 {
     assert_eq!(on_lanes.completed().count(), COUNT);
     on_lanes.completed().fold(0.0, |most, (index, state)| {
@@ -150,8 +150,9 @@ fn the_observer_sees_every_step_and_ends_a_member() {
         ControlFlow::Continue(())
     });
     let outcome = counting.integrate_on_lanes(END, Dop853::default()).unwrap();
-    let steps =
-        |member: &lagrange_core::ensemble::Member<f64, 2>| member.arrival().unwrap().statistics.accepted;
+    let steps = |member: &lagrange_core::ensemble::Member<f64, Const<2>>| {
+        member.arrival().unwrap().statistics.accepted
+    };
     assert_eq!(count.into_inner(), outcome.members().iter().map(steps).sum::<usize>());
 }
 
@@ -169,6 +170,6 @@ fn single_precision_and_lists_of_members_are_ensembles_too() {
         assert!((state.q[0] - (index as f32 + 1.0).cos()).abs() < 1e-4);
     }
     assert_eq!(outcome.completed().count(), 3);
-    let none: Ensemble<'_, Single, f32, 1> = Ensemble::new(&[]);
+    let none: Ensemble<'_, Single> = Ensemble::new(&[]);
     assert!(none.integrate(1.0, Dopri5::default()).unwrap().members().is_empty());
 }

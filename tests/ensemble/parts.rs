@@ -5,11 +5,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lagrange_core::ensemble::EnsembleError;
 use lagrange_core::ensemble::{Member, MemberEnding, MemberTable, Outcome};
-use lagrange_core::prelude::*;
+use lagrange_core::{nalgebra::Const, prelude::*};
 
 use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
 
-fn whole() -> Outcome<f64, 2> {
+fn whole() -> Outcome<f64, Const<2>> {
     ensemble().integrate_on_lanes(END, Dop853::default()).expect("an outcome")
 }
 
@@ -167,7 +167,7 @@ fn rows_that_ran_into_each_other_are_no_row() {
         for next in [3, 12] {
             for length in 1..rows[torn].len() {
                 let table = rows[0].clone() + &rows[torn][..length] + &rows[next] + &rows[5];
-                let read = MemberTable::read::<DoublePendulum<f64>, 0>(&table).unwrap();
+                let read = MemberTable::read::<DoublePendulum<f64>>(&table).unwrap();
                 let known = [0, 5].map(|index| whole.members()[index].row());
                 assert_eq!(read.rows(), known, "{table}");
             }
@@ -206,7 +206,7 @@ fn tables_of_several_parts_may_stand_in_one_file() {
 #[test]
 fn a_table_of_another_ensemble_is_refused() {
     let table = whole().csv().to_string();
-    let reason = |ensemble: Result<Ensemble<'_, DoublePendulum<f64>, f64, 2>, Error>| match ensemble {
+    let reason = |ensemble: Result<Ensemble<'_, DoublePendulum<f64>>, Error>| match ensemble {
         Err(Error::Ensemble(EnsembleError::Resume { line, column, reason })) => (line, column, reason),
         _ => panic!("not refused"),
     };
@@ -244,8 +244,8 @@ type Change = fn(&mut (DoublePendulum<f64>, State<f64, 2>));
 #[test]
 fn rows_of_another_run_are_refused_by_name() {
     let table = whole().csv().to_string();
-    let resumed = |ensemble: Ensemble<'static, DoublePendulum<f64>, f64, 2>| ensemble.resume(&table).unwrap();
-    let refused = |run: Result<Outcome<f64, 2>, Error>| match run {
+    let resumed = |ensemble: Ensemble<'static, DoublePendulum<f64>>| ensemble.resume(&table).unwrap();
+    let refused = |run: Result<Outcome<f64, Const<2>>, Error>| match run {
         Err(Error::Ensemble(EnsembleError::OtherRun { member, differs })) => (member, differs),
         other => panic!("{other:?}"),
     };
@@ -365,7 +365,10 @@ fn rows_of_other_equations_are_refused() {
     let reason = "the system or its equations are others";
     let table = whole().csv().to_string();
     assert_eq!(other().resume(&table).unwrap_err(), OTHER_SYSTEM);
-    assert_eq!(MemberTable::read::<upward::DoublePendulum<f64>, 0>(&table).unwrap_err(), OTHER_SYSTEM);
+    assert_eq!(
+        MemberTable::<f64, Const<2>>::read::<upward::DoublePendulum<f64>>(&table).unwrap_err(),
+        OTHER_SYSTEM
+    );
     let outcome = other().integrate_on_lanes(END, Dop853::default()).unwrap();
     assert_eq!(whole().merge(outcome).unwrap_err(), Error::Ensemble(EnsembleError::Merge { reason }));
     let coarse = ensemble().integrate_on_lanes(END, Dop853::with_tolerance(1e-8)).unwrap();
@@ -403,7 +406,7 @@ fn a_table_is_read_and_cleaned_without_a_run() {
         (system, if index == 2 { State::at_rest([f64::NAN, 0.0]) } else { start })
     };
     let bad = Ensemble::from_fn(COUNT, bad).integrate_on_lanes(END, Dop853::default()).unwrap();
-    let read = |table: &str| MemberTable::read::<DoublePendulum<f64>, 0>(table).unwrap();
+    let read = |table: &str| MemberTable::read::<DoublePendulum<f64>>(table).unwrap();
     for outcome in [&limited, &whole, &bad] {
         let table = read(&outcome.csv().to_string());
         assert_eq!(table.to_string(), outcome.csv().to_string());
@@ -432,7 +435,7 @@ fn a_table_is_read_and_cleaned_without_a_run() {
 
 #[test]
 fn a_list_of_members_is_run_alone() {
-    let of_whole = |indices: &[usize], outcome: Outcome<f64, 2>| {
+    let of_whole = |indices: &[usize], outcome: Outcome<f64, Const<2>>| {
         let whole = whole();
         let expected: Vec<_> = indices.iter().map(|&index| whole.get(index).unwrap().clone()).collect();
         assert_eq!(outcome.members(), expected);

@@ -5,6 +5,8 @@ use std::ops::ControlFlow;
 use lagrange_core::{
     Lanes, Method, Pack,
     ensemble::{Arrival, Outcome},
+    generic::Length,
+    nalgebra::Const,
     prelude::*,
 };
 
@@ -12,7 +14,7 @@ use crate::{COUNT, END, ensemble, member, on_threads};
 
 const TIMES: [f64; 9] = [0.0, 1e-9, 0.1, 0.1, 0.125, 0.5, 0.75, 0.999, END];
 
-fn arrival<const N: usize>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
+fn arrival<N: Length>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
     outcome.get(index).and_then(|member| member.arrival()).expect("a motion")
 }
 
@@ -23,7 +25,7 @@ fn one_by_one_samples_are_those_of_a_trajectory() {
     alone_and_sampled(lagrange_core::RungeKutta4::with_step(0.01));
 }
 
-fn alone_and_sampled<P: Method<crate::DoublePendulum<f64>, 2, 0> + Copy + Sync>(method: P) {
+fn alone_and_sampled<P: Method<crate::DoublePendulum<f64>> + Copy + Sync>(method: P) {
     let plain = ensemble().integrate(END, method).expect("a motion");
     let sampled = ensemble().samples_at(TIMES).integrate(END, method).expect("a motion");
     for index in 0..COUNT {
@@ -48,7 +50,8 @@ fn samples_on_lanes_change_no_bit_of_the_end_and_follow_the_motion() {
         let (plain, sampled) = (arrival(&plain, index), arrival(&sampled, index));
         assert_eq!((sampled.state, sampled.samples.last()), (plain.state, Some(&plain.state)));
         assert_eq!((sampled.samples[0], sampled.samples[2]), (start, sampled.samples[3]));
-        let steps = |arrival: &Arrival<f64, 2>| (arrival.statistics.accepted, arrival.statistics.rejected);
+        let steps =
+            |arrival: &Arrival<f64, Const<2>>| (arrival.statistics.accepted, arrival.statistics.rejected);
         assert_eq!(steps(sampled), steps(plain));
         // Three evaluations more for each step that has a sample within.
         let more = sampled.statistics.evaluations - plain.statistics.evaluations;
@@ -181,9 +184,10 @@ fn either<L>(
     times: &[f64],
     end: f64,
     observer: impl Fn(usize, &State<f64, 1>) -> ControlFlow<()> + Send + Sync + Copy,
-) -> [Outcome<f64, 1>; 2]
+) -> [Outcome<f64, Const<1>>; 2]
 where
-    L: Lagrangian<1, 0, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<1, 0, Scalar = Lanes>>,
+    L: Lagrangian<N = Const<1>, M = Const<0>, Scalar = f64>
+        + Pack<Lanes, Packed: Lagrangian<N = Const<1>, M = Const<0>, Scalar = Lanes>>,
 {
     let runs = || Ensemble::from_fn(6, make).observe(observer).samples_at(times.iter().copied());
     let method = Dop853::with_tolerance(1e-11);

@@ -8,16 +8,17 @@ use lagrange_core::prelude::*;
 use lagrange_core::{
     Ending,
     ensemble::{Arrival, Outcome},
+    generic::Length,
 };
 
 use crate::members::{Spring, driven};
 use crate::{COUNT, END, constraints, ensemble, fields, member, noise, on_threads};
 
-fn arrival<const N: usize>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
+fn arrival<N: Length>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
     outcome.get(index).and_then(|member| member.arrival()).expect("a motion")
 }
 
-fn steps<const N: usize>(arrival: &Arrival<f64, N>) -> [usize; 3] {
+fn steps<N: Length>(arrival: &Arrival<f64, N>) -> [usize; 3] {
     let statistics = &arrival.statistics;
     [statistics.accepted, statistics.rejected, statistics.evaluations]
 }

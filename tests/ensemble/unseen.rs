@@ -8,7 +8,7 @@ use lagrange_core::prelude::*;
 use crate::fields::trapped;
 use crate::{COUNT, DoublePendulum, END, ensemble, member};
 
-type Runs<'a> = Ensemble<'a, DoublePendulum<f64>, f64, 2, 0, true>;
+type Runs<'a> = Ensemble<'a, DoublePendulum<f64>, true>;
 
 fn up<'a>() -> Runs<'a> {
     with(|event| event.terminal())
@@ -18,12 +18,8 @@ fn with<'a>(about: impl FnOnce(Watched) -> Watched) -> Runs<'a> {
     ensemble().event(about(member(0).0.event("up", |sample| sample.state().q[0] - 1.0)))
 }
 
-type Watched = lagrange_core::Event<
-    DoublePendulum<f64>,
-    fn(&lagrange_core::Sample<&DoublePendulum<f64>, 2, 0>) -> f64,
-    2,
-    0,
->;
+type Watched =
+    lagrange_core::Event<DoublePendulum<f64>, fn(&lagrange_core::Sample<&DoublePendulum<f64>>) -> f64>;
 
 fn steered<'a>() -> Runs<'a> {
     ensemble().controlled(0.1, |_, pendulum, _| {

@@ -2,7 +2,7 @@
 //!
 //! `LAGRANGE_EVENTS` says how many of each kind; a failure says the number of its case.
 
-use lagrange_core::{Method, Sample, prelude::*};
+use lagrange_core::{Method, Sample, StateOf, prelude::*};
 
 use crate::random::Random;
 use crate::{Free, Spring};
@@ -17,27 +17,15 @@ fn any_length(random: &mut Random) -> f64 {
 }
 
 /// Times and directions of the crossings from `start` to `end`.
-fn found<L, G, const N: usize>(
-    system: L,
-    start: State<f64, N>,
-    end: f64,
-    method: usize,
-    g: G,
-) -> Vec<(f64, bool)>
+fn found<L, G>(system: L, start: StateOf<L>, end: f64, method: usize, g: G) -> Vec<(f64, bool)>
 where
-    L: Lagrangian<N, 0, Scalar = f64> + Copy + lagrange_core::TaylorSeries<N, 0>,
-    G: Fn(&Sample<&L, N, 0>) -> f64,
+    L: Lagrangian<Scalar = f64> + Copy + lagrange_core::TaylorSeries,
+    G: Fn(&Sample<&L>) -> f64,
 {
-    fn by<L, G, const N: usize>(
-        system: L,
-        start: State<f64, N>,
-        end: f64,
-        method: impl Method<L, N, 0>,
-        g: G,
-    ) -> Vec<(f64, bool)>
+    fn by<L, G>(system: L, start: StateOf<L>, end: f64, method: impl Method<L>, g: G) -> Vec<(f64, bool)>
     where
-        L: Lagrangian<N, 0, Scalar = f64>,
-        G: Fn(&Sample<&L, N, 0>) -> f64,
+        L: Lagrangian<Scalar = f64>,
+        G: Fn(&Sample<&L>) -> f64,
     {
         let mut event = system.event("g", g);
         let path = system.motion(start).by(method).event(&mut event).towards(end).expect("a start");
@@ -109,7 +97,7 @@ fn polynomials() {
         let (start, end) = if backwards { (length, 0.0) } else { (0.0, length) };
         let (method, factor) =
             (random.below(5), random.between(0.1, 3.0) * if random.below(2) == 0 { 1.0 } else { -1.0 });
-        let g = |sample: &Sample<&Free, 1, 0>| {
+        let g = |sample: &Sample<&Free>| {
             let t = if of_time { sample.time() } else { sample.state().q[0] };
             zeros.iter().fold(factor, |product, zero| product * (t - zero))
         };
@@ -144,8 +132,7 @@ fn sines() {
             sorted.reverse();
         }
         let (start, end) = if backwards { (length, 0.0) } else { (0.0, length) };
-        let g =
-            |sample: &Sample<&Free, 1, 0>| value(if of_time { sample.time() } else { sample.state().q[0] });
+        let g = |sample: &Sample<&Free>| value(if of_time { sample.time() } else { sample.state().q[0] });
         let found = found(Free, State::new([start], [1.0]).at_time(start), end, method, g);
         fault(&found, &sorted, value(start) < 0.0, 1e-13 * length)
     });
@@ -216,7 +203,7 @@ fn starts_on_a_zero() {
             zeros.iter().fold(start, |product, zero| product * (path - zero))
         };
         let start = State::new(origin, along.map(|v| direction * v)).at_time(time);
-        let of_state = |sample: &Sample<&Plane, 2, 0>| value(sample.state().q[0], sample.state().q[1]);
+        let of_state = |sample: &Sample<&Plane>| value(sample.state().q[0], sample.state().q[1]);
         let expected: Vec<f64> = zeros.iter().map(|zero| time + direction * zero).collect();
         let end = time + direction * length;
         let found = found(Plane, start, end, method, of_state);
@@ -232,7 +219,7 @@ fn dips() {
         let [width, depth] =
             [0.15 * 27_f64.powf(random.between(0.0, 1.0)), 10_f64.powf(random.between(-6.0, 0.5))];
         let (middle, half) = (direction * random.between(15.0, 25.0), width * depth.ln_1p().sqrt());
-        let g = |sample: &Sample<&Free, 1, 0>| {
+        let g = |sample: &Sample<&Free>| {
             1.0 - (1.0 + depth) * (-((sample.time() / step - middle) / width).powi(2)).exp()
         };
         let mut event = Free.event("dip", g);

@@ -90,11 +90,11 @@ fn stick_and_slip_over_49_events() {
         }
     }
     // The legs are there with their types, and no others.
-    assert!(trajectory.leg::<Trajectory<Sticking, 1, 1>>(0).is_some());
-    assert!(trajectory.leg::<Trajectory<Slipping, 1, 0>>(0).is_none());
-    let slip = trajectory.leg::<Trajectory<Slipping, 1, 0>>(47).expect("the last slip");
+    assert!(trajectory.leg::<Trajectory<Sticking>>(0).is_some());
+    assert!(trajectory.leg::<Trajectory<Slipping>>(0).is_none());
+    let slip = trajectory.leg::<Trajectory<Slipping>>(47).expect("the last slip");
     assert_eq!(slip.end().time(), ends[47]);
-    assert!(trajectory.leg::<Trajectory<Sticking, 1, 1>>(49).is_none());
+    assert!(trajectory.leg::<Trajectory<Sticking>>(49).is_none());
 }
 
 #[test]

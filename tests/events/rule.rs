@@ -8,20 +8,20 @@ use lagrange_core::{Crossing, Ending, Event, Method, prelude::*};
 use crate::{Ball, Free, Spring};
 
 /// A motion along x = t in steps of 1, and so in pieces of an eighth where g bends.
-fn steady(from: f64) -> Motion<Free, Dopri5, 1, 0> {
+fn steady(from: f64) -> Motion<Free, Dopri5> {
     let method = Dopri5::default().fixed_step(1.0);
     Motion::new(Free, State::new([from], [1.0]).at_time(from), method).expect("a start")
 }
 
 /// All crossings until `end`.
-fn crossings<L, P, const N: usize, const M: usize>(
-    motion: &mut Motion<L, P, N, M>,
+fn crossings<L, P>(
+    motion: &mut Motion<L, P>,
     end: f64,
-    events: &mut [&mut dyn AnyEvent<L, N, M>],
-) -> Vec<Crossing<f64, N>>
+    events: &mut [&mut dyn AnyEvent<L>],
+) -> Vec<Crossing<f64, L::N>>
 where
-    L: Lagrangian<N, M, Scalar = f64>,
-    P: Method<L, N, M>,
+    L: Lagrangian<Scalar = f64>,
+    P: Method<L>,
 {
     let mut found = Vec::new();
     while let Some(crossing) = motion.advance_to_event(end, events).expect("a motion") {
@@ -126,7 +126,7 @@ fn a_pole_is_a_crossing() {
 fn an_event_used_twice_begins_anew() {
     let mut second = Spring.event("second", place).terminal_at(2);
     for _ in 0..3 {
-        let run = |event: &mut Event<Spring, _, 1, 0>| {
+        let run = |event: &mut Event<Spring, _>| {
             let start = State::at_rest([1.0]);
             Spring.motion(start).event(event).towards(20.0).unwrap().ending().time()
         };
@@ -198,7 +198,7 @@ fn directions_are_told_apart_in_both_directions_of_time() {
         (-10.0, [-1.5 * PI, -3.5 * PI], [-0.5 * PI, -2.5 * PI]),
     ] {
         // Rising and falling as the motion goes, which is back in time in the second.
-        let found = |event: Event<Spring, _, 1, 0>| {
+        let found = |event: Event<Spring, _>| {
             let mut motion =
                 Motion::new(Spring, State::at_rest([1.0]), Dop853::with_tolerance(1e-13)).unwrap();
             let mut event = event;
@@ -220,7 +220,7 @@ fn directions_are_told_apart_in_both_directions_of_time() {
     }
 }
 
-fn place(sample: &lagrange_core::Sample<&Spring, 1, 0>) -> f64 {
+fn place(sample: &lagrange_core::Sample<&Spring>) -> f64 {
     sample.state().q[0]
 }
 
@@ -289,7 +289,7 @@ fn stopping_changes_nothing() {
 
 #[test]
 fn every_method_has_events() {
-    fn first(method: impl Method<Spring, 1, 0>) -> f64 {
+    fn first(method: impl Method<Spring>) -> f64 {
         let mut motion = Motion::new(Spring, State::at_rest([1.0]), method).unwrap();
         let mut event = Spring.event("x", place).rising();
         motion.advance_to_event(30.0, &mut [&mut event]).unwrap().expect("it swings").state.t

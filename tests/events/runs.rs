@@ -67,7 +67,7 @@ fn a_bead_leaves_the_sphere_where_its_push_ends() {
         let start = State::new([0.0, bead.a], [speed, 0.0]);
         let expected = (2.0 + speed * speed / (bead.g * bead.a)) / 3.0;
         let method = Dop853::with_tolerance(1e-13);
-        let check = |end: lagrange_core::Sample<&Bead, 2, 1>| {
+        let check = |end: lagrange_core::Sample<&Bead>| {
             let angle = (end.coordinate("y").unwrap() / bead.a).acos();
             assert!((angle - expected.acos()).abs() < 1e-11, "{angle} instead of {}", expected.acos());
         };

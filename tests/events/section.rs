@@ -1,6 +1,6 @@
 //! Poincaré sections.
 
-use lagrange_core::{Crossing, Dop853, prelude::*};
+use lagrange_core::{Crossing, Dop853, nalgebra::Const, prelude::*};
 
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(x, y)]
@@ -15,7 +15,7 @@ fn start() -> State<f64, 2> {
 }
 
 /// The crossings until `end`, in both directions.
-fn section(end: f64, method: Dop853) -> Vec<Crossing<f64, 2>> {
+fn section(end: f64, method: Dop853) -> Vec<Crossing<f64, Const<2>>> {
     let mut event = HenonHeiles.event("section", |s| s.state().q[0]);
     let path = HenonHeiles.motion(start()).by(method).event(&mut event).towards(end).expect("a start");
     path.crossings().to_vec()

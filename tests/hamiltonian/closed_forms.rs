@@ -1,6 +1,6 @@
 //! H and Hamilton's equations against their closed forms and against differences of H.
 
-use lagrange_core::prelude::*;
+use lagrange_core::{StateOf, nalgebra::Const, prelude::*};
 
 use crate::{Potential, Random, agree, gradient};
 
@@ -34,17 +34,14 @@ struct Coupled {
 }
 
 /// H(q, p(q, q̇)) = E(q, q̇), and back: q̇(q, p(q, q̇)) = q̇.
-fn check_round_trip<L: Hamiltonian<N, M, Scalar = f64>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<f64, N>,
-) {
+fn check_round_trip<L: Hamiltonian<Scalar = f64>>(system: &L, state: &StateOf<L>) {
     let phase = system.phase_state(state);
     agree(&[system.hamiltonian(&phase).unwrap()], &[system.energy(state)], 1e-12);
     agree(system.legendre(&phase).unwrap().v.as_slice(), state.v.as_slice(), 1e-12);
 }
 
 /// q̇ = ∂H/∂p and ṗ = −∂H/∂q, the derivatives by differences.
-fn check_equations<L: Hamiltonian<N, 0, Scalar = f64>, const N: usize>(
+fn check_equations<L: Hamiltonian<N = Const<N>, M = Const<0>, Scalar = f64>, const N: usize>(
     system: &L,
     phase: &PhaseState<f64, N>,
 ) {

@@ -1,6 +1,6 @@
 //! Constraints: H on the constraint manifold, a singular mass matrix off it, constraints that depend on time.
 
-use lagrange_core::nalgebra::Vector4;
+use lagrange_core::nalgebra::{Const, Vector4};
 use lagrange_core::prelude::*;
 
 use crate::{Random, agree, gradient};
@@ -41,7 +41,7 @@ pub(crate) struct Bead {
 
 /// At a consistent state and at momenta with a part along the constraints added, to which the motion is blind:
 /// q̇ = ∂H/∂p everywhere, and ṗ = −∂H/∂q + Fᵀλ where the momenta are those of a velocity.
-fn check<L: Hamiltonian<N, M, Scalar = f64>, const N: usize, const M: usize>(
+fn check<L: Hamiltonian<N = Const<N>, M = Const<M>, Scalar = f64>, const N: usize, const M: usize>(
     system: &L,
     rough: &State<f64, N>,
     random: &mut Random,

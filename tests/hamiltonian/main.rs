@@ -11,8 +11,7 @@ mod motion;
 mod random;
 mod rotating_frame;
 
-use lagrange_core::Function;
-use lagrange_core::prelude::*;
+use lagrange_core::{Function, nalgebra::Const, prelude::*};
 use random::Random;
 
 /// A smooth potential without any symmetry.
@@ -36,7 +35,7 @@ fn agree(a: &[f64], b: &[f64], bound: f64) {
 }
 
 /// The derivatives of H by the coordinates and by the momenta, by central differences of the fourth order.
-fn gradient<L: Hamiltonian<N, M, Scalar = f64>, const N: usize, const M: usize>(
+fn gradient<L: Hamiltonian<N = Const<N>, Scalar = f64>, const N: usize>(
     system: &L,
     phase: &PhaseState<f64, N>,
 ) -> [[f64; N]; 2] {

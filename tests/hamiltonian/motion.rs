@@ -1,6 +1,6 @@
 //! Motions by Hamilton's equations against those by Lagrange's, over 50 s at relative tolerance 1e-12.
 
-use lagrange_core::{Ending, hamiltonian::HamiltonianVectorField, prelude::*};
+use lagrange_core::{Ending, StateOf, hamiltonian::HamiltonianVectorField, prelude::*};
 
 use crate::closed_forms::{Polar, Relativistic};
 use crate::constrained::{Bead, Cartesian, Top};
@@ -14,10 +14,7 @@ fn method() -> Dop853 {
 
 /// The motion by Hamilton's equations, equal to that by Lagrange's to 1e-8 in coordinates, velocities and multipliers
 /// at and between the steps; and the momenta are those of the velocities.
-fn check<L: Simulate<N, M, Scalar = f64>, const N: usize, const M: usize>(
-    system: &L,
-    start: State<f64, N>,
-) -> Trajectory<&L, N, M, HamiltonianVectorField> {
+fn check<L: Simulate<Scalar = f64>>(system: &L, start: StateOf<L>) -> Trajectory<&L, HamiltonianVectorField> {
     let lagrange = system.integrate(start, END, method()).unwrap();
     let hamilton = system.motion_in_momenta(system.phase_state(&start)).by(method()).to(END).unwrap();
     assert!(hamilton.ending().is_complete(), "{}", hamilton.ending());
@@ -30,7 +27,7 @@ fn check<L: Simulate<N, M, Scalar = f64>, const N: usize, const M: usize>(
     }
     for sample in hamilton.steps() {
         let state = sample.state();
-        for a in 0..M {
+        for a in 0..L::CONSTRAINTS.len() {
             assert!(system.constraint_residual(state)[a].abs() < 1e-13);
             assert!(system.constraint_rate(state)[a].abs() < 1e-12);
         }
@@ -39,9 +36,7 @@ fn check<L: Simulate<N, M, Scalar = f64>, const N: usize, const M: usize>(
 }
 
 /// The largest change of H along a trajectory.
-fn drift<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize>(
-    path: &Trajectory<&L, N, M, HamiltonianVectorField>,
-) -> f64 {
+fn drift<L: Lagrangian<Scalar = f64>>(path: &Trajectory<&L, HamiltonianVectorField>) -> f64 {
     path.steps().fold(0.0, |most, sample| most.max((sample.energy() - path.start().energy()).abs()))
 }
 

@@ -3,7 +3,7 @@
 #[path = "../random/mod.rs"]
 pub(crate) mod random;
 
-use lagrange_core::nalgebra::{SMatrix, SVector};
+use lagrange_core::nalgebra::{Const, SMatrix, SVector};
 use lagrange_core::prelude::*;
 use random::Random;
 
@@ -33,13 +33,13 @@ pub(crate) fn one(x: f64) -> SVector<f64, 1> {
     SMatrix::from_element(x)
 }
 
-pub(crate) fn constraints<L: Lagrangian<N, M>, const N: usize, const M: usize>(_: &L) -> [&'static str; M] {
+pub(crate) fn constraints<L: Lagrangian>(_: &L) -> &'static [&'static str] {
     L::CONSTRAINTS
 }
 
-pub(crate) fn parameters<L, const N: usize, const M: usize, const P: usize>(_: &L) -> [&'static str; P]
+pub(crate) fn parameters<L>(_: &L) -> &'static [&'static str]
 where
-    L: Linearized<N, M, P>,
+    L: Linearized,
 {
     L::PARAMETERS
 }
@@ -61,12 +61,9 @@ pub(crate) fn moved<const N: usize>(
 }
 
 /// Accelerations, or no numbers.
-pub(crate) fn accelerations<L, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<f64, N>,
-) -> SVector<f64, N>
+pub(crate) fn accelerations<L, const N: usize>(system: &L, state: &State<f64, N>) -> SVector<f64, N>
 where
-    L: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<N = Const<N>, Scalar = f64>,
 {
     system.solve(state).map_or(SVector::from_element(f64::NAN), |found| found.accelerations)
 }
@@ -88,7 +85,7 @@ macro_rules! drive {
         said(close("accelerations", &solution.accelerations, &accelerations, 0.0, 1e-8))?;
         let mut multipliers = solution.multipliers;
         for (multiplier, name) in multipliers.iter_mut().zip(constraints(&$system)) {
-            *multiplier = sides.iter().find(|(known, _)| *known == name).expect("a constraint").1;
+            *multiplier = sides.iter().find(|(known, _)| known == name).expect("a constraint").1;
         }
         said(close("multipliers", &solution.multipliers, &multipliers, accelerations.amax(), 1e-8))?;
         let unchecked = $system.accelerations_unchecked(&$state).accelerations;

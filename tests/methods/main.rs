@@ -5,7 +5,7 @@ mod rosenbrock;
 mod taylor;
 mod wrong;
 
-use lagrange_core::nalgebra::SVector;
+use lagrange_core::nalgebra::{Const, SVector};
 use lagrange_core::{Method, prelude::*};
 
 /// The state at a time.
@@ -13,15 +13,15 @@ type Exact<const N: usize> = fn(f64) -> State<f64, N>;
 
 /// The mean slopes of log error over log step in four halvings from t = 0 to `end`: at the end, and of the worst error in
 /// between.
-fn orders<L, P, const N: usize, const M: usize>(
+fn orders<L, P, const N: usize>(
     (system, exact): (&L, Exact<N>),
     end: f64,
     coarsest: f64,
     method: impl Fn(f64) -> P,
 ) -> [f64; 2]
 where
-    L: Lagrangian<N, M, Scalar = f64>,
-    P: Method<L, N, M>,
+    L: Lagrangian<N = Const<N>, Scalar = f64>,
+    P: Method<L>,
 {
     let errors = |h: f64| {
         let path = system.integrate(exact(0.0), end, method(h)).expect("a start and an end");

@@ -2,8 +2,9 @@
 //! solver designed for parabolic problems*, BIT 41 (2001); the form without products of the Jacobian is that of Hairer and
 //! Wanner, *Solving Ordinary Differential Equations II*, (IV.7.25).
 
+use lagrange_core::generic::Length;
 use lagrange_core::motion::{Interpolant, Limits, PhaseVector, Polynomial, Step};
-use lagrange_core::nalgebra::{DMatrix, DVector, Dyn, LU, SVector};
+use lagrange_core::nalgebra::{Const, DMatrix, DVector, Dyn, LU, SVector};
 use lagrange_core::{Ending, Jacobian, Method, StateDerivatives, Statistics, prelude::*};
 
 use crate::orders;
@@ -51,7 +52,7 @@ struct Stages<const N: usize> {
 }
 
 impl<const N: usize> Stages<N> {
-    fn at<const M: usize>(jacobian: &Jacobian<f64, N, M, 0>, h: f64) -> Self {
+    fn at<M: Length>(jacobian: &Jacobian<f64, Const<N>, M, Const<0>>, h: f64) -> Self {
         let dense = |x: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(N, N, x);
         let a = &jacobian.accelerations;
         let (by_q, by_v, gamma_h) = (dense(&|i, j| a.q[(i, j)]), dense(&|i, j| a.v[(i, j)]), GAMMA * h);
@@ -79,14 +80,14 @@ fn moved<const N: usize>(state: &State<f64, N>, after: f64, by: &[(f64, Pair<N>)
 
 impl Rosenbrock {
     /// The three u; `None` where the matrix of the stages is singular.
-    fn stages<L, const N: usize, const M: usize>(
+    fn stages<L, const N: usize>(
         system: &L,
         from: &State<f64, N>,
         h: f64,
         statistics: &mut Statistics,
     ) -> Result<Option<[Pair<N>; 3]>, Error>
     where
-        L: StateDerivatives<N, M, Scalar = f64>,
+        L: StateDerivatives<N = Const<N>, Scalar = f64>,
     {
         let jacobian = system.state_jacobian(from)?;
         let stages = Stages::at(&jacobian, h);
@@ -106,12 +107,12 @@ impl Rosenbrock {
     }
 }
 
-impl<L, const N: usize, const M: usize> Method<L, N, M> for Rosenbrock
+impl<L, const N: usize> Method<L> for Rosenbrock
 where
-    L: StateDerivatives<N, M, Scalar = f64>,
+    L: StateDerivatives<N = Const<N>, Scalar = f64>,
 {
     type Memory = Memory<N>;
-    type Interpolant = Polynomial<f64, [PhaseVector<f64, N>; 4]>;
+    type Interpolant = Polynomial<f64, [PhaseVector<f64, Const<N>>; 4]>;
 
     fn limits(&self) -> Limits {
         Limits::default()
@@ -135,7 +136,7 @@ where
         memory: &mut Memory<N>,
         end: f64,
         statistics: &mut Statistics,
-    ) -> Step<f64, N> {
+    ) -> Step<f64, Const<N>> {
         let (from, left) = (memory.state, end - memory.state.t);
         let time =
             if left.abs() <= memory.step * (1.0 + 1e-9) { end } else { from.t + memory.step * left.signum() };
@@ -171,8 +172,8 @@ where
         _: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
         let node = |state: &State<f64, N>| {
-            let (q, v) = (state.q.into(), state.v.into());
-            Ok::<_, Error>(([q, v], [v, system.solve(state)?.accelerations.into()]))
+            let rates = PhaseVector::of(state.v, system.solve(state)?.accelerations);
+            Ok::<_, Error>((PhaseVector::of(state.q, state.v), rates))
         };
         let Memory { before, state, .. } = memory;
         Ok(Polynomial::hermite(before.t, state.t - before.t, &node(before)?, &node(state)?))

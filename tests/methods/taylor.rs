@@ -1,8 +1,8 @@
 //! Taylor's series of order 3, its derivatives by dual numbers through the emitted accelerations; its interpolant is the
 //! series itself, a type of its own.
 
-use lagrange_core::motion::{Interpolant, Limits, StagePoint, Step};
-use lagrange_core::{Dual, Method, Statistics, prelude::*};
+use lagrange_core::motion::{Interpolant, Limits, PhaseVector, StagePoint, Step};
+use lagrange_core::{Dual, Method, Statistics, nalgebra::Const, prelude::*};
 
 use crate::orders;
 
@@ -45,17 +45,18 @@ impl Series {
     }
 }
 
-impl Interpolant<f64, 1> for Series {
-    fn at(&self, t: f64) -> StagePoint<f64, 1> {
+impl Interpolant<f64, Const<1>> for Series {
+    fn at(&self, t: f64) -> StagePoint<f64, Const<1>> {
         let [x, v, a, jerk, snap] = self.derivatives;
         let h = t - self.t;
         let velocity = v + h * (a + h / 2.0 * (jerk + h / 3.0 * snap));
         let place = x + h * (v + h / 2.0 * (a + h / 3.0 * (jerk + h / 4.0 * snap)));
-        StagePoint { t, y: [[place], [velocity]], velocity: [velocity] }
+        let y = PhaseVector::new([[place].into(), [velocity].into()]);
+        StagePoint { t, y, velocity: [velocity].into() }
     }
 }
 
-impl Method<Pendulum<f64>, 1, 0> for Taylor {
+impl Method<Pendulum<f64>> for Taylor {
     /// The series of the last step, and the state.
     type Memory = (Option<Series>, State<f64, 1>);
     type Interpolant = Series;
@@ -87,13 +88,13 @@ impl Method<Pendulum<f64>, 1, 0> for Taylor {
         (last, state): &mut Self::Memory,
         end: f64,
         statistics: &mut Statistics,
-    ) -> Step<f64, 1> {
+    ) -> Step<f64, Const<1>> {
         let left = end - state.t;
         let time =
             if left.abs() <= self.step * (1.0 + 1e-9) { end } else { state.t + self.step * left.signum() };
         statistics.evaluations += 3;
         let series = Series::at(system, state);
-        let StagePoint { y: [q, v], .. } = series.at(time);
+        let [q, v] = series.at(time).y.arrays();
         (*last, *state) = (Some(series), State::new(q, v).at_time(time));
         Step::Accepted(*state)
     }
@@ -140,7 +141,7 @@ fn its_interpolant_is_the_series() {
     motion.advance_to(0.1).unwrap();
     for k in 1..10 {
         let t = 0.01 * f64::from(k);
-        let StagePoint { y: [q, v], .. } = Series::at(&PENDULUM, &sine(0.0)).at(t);
+        let [q, v] = Series::at(&PENDULUM, &sine(0.0)).at(t).y.arrays();
         let expected = State::new(q, v).at_time(t);
         assert_eq!((*path.at(t).unwrap().state(), motion.at(t).unwrap()), (expected, expected));
     }

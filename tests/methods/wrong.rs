@@ -3,7 +3,7 @@
 use core::cell::Cell;
 
 use lagrange_core::motion::{Limits, PhaseVector, Polynomial, Step};
-use lagrange_core::{Ending, Method, Statistics, prelude::*};
+use lagrange_core::{Ending, Method, Statistics, nalgebra::Const, prelude::*};
 
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(x)]
@@ -22,9 +22,9 @@ enum Fault {
 /// Takes three right steps before the wrong one.
 struct Wrong(Fault);
 
-impl Method<Spring, 1, 0> for Wrong {
+impl Method<Spring> for Wrong {
     type Memory = (State<f64, 1>, usize);
-    type Interpolant = Polynomial<f64, [PhaseVector<f64, 1>; 4]>;
+    type Interpolant = Polynomial<f64, [PhaseVector<f64, Const<1>>; 4]>;
 
     fn limits(&self) -> Limits {
         Limits::default()
@@ -48,7 +48,7 @@ impl Method<Spring, 1, 0> for Wrong {
         (state, steps): &mut Self::Memory,
         end: f64,
         _: &mut Statistics,
-    ) -> Step<f64, 1> {
+    ) -> Step<f64, Const<1>> {
         *steps += 1;
         state.t = match self.0 {
             _ if *steps <= 3 => state.t + 0.1 * (end - state.t).signum(),
@@ -66,7 +66,7 @@ impl Method<Spring, 1, 0> for Wrong {
         (state, _): &mut Self::Memory,
         _: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
-        let node = ([[state.q[0]], [state.v[0]]], [[0.0]; 2]);
+        let node = (PhaseVector::of(state.q, state.v), PhaseVector::filled(0.0));
         Ok(Polynomial::hermite(state.t - 0.1, 0.1, &node, &node))
     }
 }
@@ -90,7 +90,7 @@ fn a_step_that_leads_elsewhere_is_found_out() {
     }
 }
 
-fn ending_of(end: f64, method: impl Method<Spring, 1, 0>) -> (Ending, usize) {
+fn ending_of(end: f64, method: impl Method<Spring>) -> (Ending, usize) {
     let path = Spring.motion(State::at_rest([1.0])).by(method).towards(end).expect("a start");
     (path.ending().clone(), path.steps().count() - 1)
 }
@@ -101,9 +101,9 @@ struct Grudging {
     takes_back: bool,
 }
 
-impl Method<Spring, 1, 0> for Grudging {
-    type Memory = <Dopri5 as Method<Spring, 1, 0>>::Memory;
-    type Interpolant = <Dopri5 as Method<Spring, 1, 0>>::Interpolant;
+impl Method<Spring> for Grudging {
+    type Memory = <Dopri5 as Method<Spring>>::Memory;
+    type Interpolant = <Dopri5 as Method<Spring>>::Interpolant;
 
     fn limits(&self) -> Limits {
         Limits::default()
@@ -123,7 +123,7 @@ impl Method<Spring, 1, 0> for Grudging {
         start: &State<f64, 1>,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
-        Method::<Spring, 1, 0>::begin(&Dopri5::default(), system, start, statistics)
+        Method::<Spring>::begin(&Dopri5::default(), system, start, statistics)
     }
 
     fn step(
@@ -132,8 +132,8 @@ impl Method<Spring, 1, 0> for Grudging {
         memory: &mut Self::Memory,
         end: f64,
         statistics: &mut Statistics,
-    ) -> Step<f64, 1> {
-        Method::<Spring, 1, 0>::step(&Dopri5::default(), system, memory, end, statistics)
+    ) -> Step<f64, Const<1>> {
+        Method::<Spring>::step(&Dopri5::default(), system, memory, end, statistics)
     }
 
     fn interpolant(
@@ -146,11 +146,11 @@ impl Method<Spring, 1, 0> for Grudging {
             self.failures.set(self.failures.get() - 1);
             return Err(Error::EndNotFinite { end: f64::NAN });
         }
-        Method::<Spring, 1, 0>::interpolant(&Dopri5::default(), system, memory, statistics)
+        Method::<Spring>::interpolant(&Dopri5::default(), system, memory, statistics)
     }
 
     fn undo(&self, memory: &mut Self::Memory) -> bool {
-        self.takes_back && Method::<Spring, 1, 0>::undo(&Dopri5::default(), memory)
+        self.takes_back && Method::<Spring>::undo(&Dopri5::default(), memory)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Derivatives of a motion by differences of motions.
 
-use lagrange_core::nalgebra::DVector;
+use lagrange_core::nalgebra::{Const, DVector};
 use lagrange_core::{error::Entry, linearized::DifferentiableMethod, prelude::*};
 
 /// The coefficients of the central difference of eighth order (Fornberg 1988).
@@ -22,7 +22,7 @@ pub(crate) fn difference(step: f64, of: impl Fn(f64) -> DVector<f64>) -> DVector
 }
 
 /// The states at these times where an argument is changed, the start as near as the constraints allow.
-fn states<S, D, const N: usize, const M: usize, const P: usize>(
+fn states<S, D, const N: usize>(
     system: &S,
     start: &State<f64, N>,
     times: &[f64],
@@ -31,8 +31,8 @@ fn states<S, D, const N: usize, const M: usize, const P: usize>(
     change: f64,
 ) -> DVector<f64>
 where
-    S: Linearized<N, M, P, Scalar = f64> + Clone,
-    D: DifferentiableMethod<S, N, M, P> + Copy,
+    S: Linearized<N = Const<N>, Scalar = f64> + Clone,
+    D: DifferentiableMethod<S> + Copy,
 {
     let (mut system, mut start) = (system.clone(), *start);
     match argument {
@@ -53,33 +53,25 @@ where
 }
 
 /// [`check`]s the derivatives by pairs and by Taylor's method, which give the same.
-pub(crate) fn check_each<S, const N: usize, const M: usize, const P: usize>(
-    system: &S,
-    start: State<f64, N>,
-    end: f64,
-) where
-    S: Linearized<N, M, P, Scalar = f64> + Clone,
-    Taylor: DifferentiableMethod<S, N, M, P>,
+pub(crate) fn check_each<S, const N: usize>(system: &S, start: State<f64, N>, end: f64)
+where
+    S: Linearized<N = Const<N>, Scalar = f64> + Clone,
+    Taylor: DifferentiableMethod<S>,
 {
     check(system, start, end, crate::method());
     check(system, start, end, Taylor::default());
 }
 
 /// Compares the derivatives by everything at two times within and at the end; gives the largest error.
-pub(crate) fn check<S, D, const N: usize, const M: usize, const P: usize>(
-    system: &S,
-    start: State<f64, N>,
-    end: f64,
-    method: D,
-) -> f64
+pub(crate) fn check<S, D, const N: usize>(system: &S, start: State<f64, N>, end: f64, method: D) -> f64
 where
-    S: Linearized<N, M, P, Scalar = f64> + Clone,
-    D: DifferentiableMethod<S, N, M, P> + Copy,
+    S: Linearized<N = Const<N>, Scalar = f64> + Clone,
+    D: DifferentiableMethod<S> + Copy,
 {
     let start = system.make_consistent(&start).unwrap().0;
-    let mut names: Vec<String> = S::COORDINATES.map(String::from).to_vec();
-    names.extend(S::COORDINATES.map(|name| Entry::Velocity(name).to_string()));
-    names.extend(S::PARAMETERS.map(String::from));
+    let mut names: Vec<String> = S::COORDINATES.iter().copied().map(String::from).collect();
+    names.extend(S::COORDINATES.iter().map(|name| Entry::Velocity(name).to_string()));
+    names.extend(S::PARAMETERS.iter().copied().map(String::from));
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let motion = system.integrate_sensitivities(start, end, method, &names).unwrap();
     assert!(motion.arguments().iter().map(Entry::to_string).eq(names.iter().copied()));
@@ -103,7 +95,7 @@ where
         });
         let column = DVector::from_iterator(2 * N * times.len(), column);
         let errors = STEPS.map(|step| {
-            let shifted = |by| states::<_, _, N, M, P>(system, &start, &times, method, argument, by);
+            let shifted = |by| states(system, &start, &times, method, argument, by);
             let expected = difference(step * size, shifted);
             (&column - &expected).amax() / expected.amax().max(1e-3)
         });
@@ -112,19 +104,19 @@ where
         worst = worst.max(error);
     }
     for at in &found {
-        check_tangent::<S, N, M, P>(system, at, &names);
+        check_tangent(system, at, &names);
     }
     println!("{}: {worst:.1e}", S::NAME);
     worst
 }
 
 /// δΦ = 0 and δ(F q̇ + b) = 0, along the derivatives by the start.
-fn check_tangent<S, const N: usize, const M: usize, const P: usize>(
+fn check_tangent<S, const N: usize>(
     system: &S,
-    at: &lagrange_core::linearized::StateSensitivity<f64, N>,
+    at: &lagrange_core::linearized::StateSensitivity<f64, Const<N>>,
     names: &[&str],
 ) where
-    S: Linearized<N, M, P, Scalar = f64>,
+    S: Linearized<N = Const<N>, Scalar = f64>,
 {
     let solution = system.solve(&at.state).unwrap();
     for (j, name) in names.iter().enumerate().take(2 * N) {
@@ -136,6 +128,10 @@ fn check_tangent<S, const N: usize, const M: usize, const P: usize>(
         let change = system.residual_change(&at.state, &solution, &direction);
         let size = direction.q.amax().max(direction.v.amax()).max(1.0);
         let off = change.position.amax().max(change.rate.amax());
-        assert!(M == 0 || off < 1e-12 * size, "{} leaves the constraints by {name}: {off:e}", S::NAME);
+        assert!(
+            S::CONSTRAINTS.is_empty() || off < 1e-12 * size,
+            "{} leaves the constraints by {name}: {off:e}",
+            S::NAME
+        );
     }
 }

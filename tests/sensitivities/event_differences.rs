@@ -1,6 +1,6 @@
 //! Derivatives across events, by differences of motions.
 
-use lagrange_core::nalgebra::{DMatrix, DVector};
+use lagrange_core::nalgebra::{Const, DMatrix, DVector};
 use lagrange_core::{Dual, Ending, linearized::StateSensitivity, prelude::*};
 
 use crate::differences::{STEPS, TOLERANCE, difference};
@@ -20,7 +20,7 @@ pub(crate) fn check(what: &str, found: &DMatrix<f64>, of: impl Fn(usize, f64) ->
 }
 
 /// Time, coordinates and velocities, one below the other.
-pub(crate) fn block<const N: usize>(at: &StateSensitivity<f64, N>) -> DMatrix<f64> {
+pub(crate) fn block<const N: usize>(at: &StateSensitivity<f64, Const<N>>) -> DMatrix<f64> {
     DMatrix::from_fn(1 + 2 * N, at.t.len(), |i, j| match i {
         0 => at.t[j],
         i if i <= N => at.q[(i - 1, j)],

@@ -4,7 +4,7 @@
 //! `LAGRANGE_MIXED` says how many of each otherwise, and then every argument counts.
 
 use lagrange_core::nalgebra::DVector;
-use lagrange_core::{Dual, error::Entry, linearized::DifferentiableMethod, prelude::*};
+use lagrange_core::{Dual, StateOf, error::Entry, linearized::DifferentiableMethod, prelude::*};
 
 use crate::event_differences::{block, check, stack, values};
 use crate::random::Random;
@@ -223,26 +223,24 @@ fn a_blade_on_a_body_that_turns_in_space() {
 }
 
 /// Random systems of a family and random starts, for a time of 0.5 to 1.5, every fourth by Taylor's method.
-fn campaign<S, const N: usize, const M: usize, const P: usize>(
-    seed: u64,
-    draw: impl Fn(&mut Random) -> (S, State<f64, N>),
-) where
-    S: Linearized<N, M, P, Scalar = f64> + Clone,
-    Taylor: DifferentiableMethod<S, N, M, P>,
+fn campaign<S>(seed: u64, draw: impl Fn(&mut Random) -> (S, StateOf<S>))
+where
+    S: Linearized<Scalar = f64> + Clone,
+    Taylor: DifferentiableMethod<S>,
 {
     let count = std::env::var("LAGRANGE_MIXED").ok().and_then(|count| count.parse().ok());
     let (mut random, mut worst, mut done, mut unclear) = (Random(seed), 0.0_f64, 0, 0);
     while done < count.unwrap_or(4) {
         let (system, start) = draw(&mut random);
         let end = start.t + random.between(0.5, 1.5);
-        let all: Vec<usize> = (0..2 * N + P).collect();
+        let all: Vec<usize> = (0..2 * S::COORDINATES.len() + S::PARAMETERS.len()).collect();
         let first = random.between(0.0, all.len() as f64) as usize;
         let mut arguments = all;
         if count.is_none() {
             arguments.rotate_left(first);
             arguments.truncate(4);
         }
-        let Some(expected) = by_differences::<S, N, M, P>(&system, start, end, &arguments) else {
+        let Some(expected) = by_differences(&system, start, end, &arguments) else {
             unclear += 1;
             continue;
         };
@@ -253,7 +251,7 @@ fn campaign<S, const N: usize, const M: usize, const P: usize>(
         };
         for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
             let error = (found - expected).amax() / expected.amax().max(1e-3);
-            let name = name::<S, N, M, P>(arguments[k]);
+            let name = name::<S>(arguments[k]);
             assert!(error < 1e-6, "{} {done} by {name}: off by {error:e}\n{found}{expected}", S::NAME);
             worst = worst.max(error);
         }
@@ -263,32 +261,33 @@ fn campaign<S, const N: usize, const M: usize, const P: usize>(
     assert!(10 * unclear <= done, "{unclear} of {done}");
 }
 
-fn name<S, const N: usize, const M: usize, const P: usize>(argument: usize) -> String
+fn name<S>(argument: usize) -> String
 where
-    S: Linearized<N, M, P, Scalar = f64>,
+    S: Linearized<Scalar = f64>,
 {
+    let n = S::COORDINATES.len();
     let entry = match argument {
-        i if i < N => Entry::Coordinate(S::COORDINATES[i]),
-        i if i < 2 * N => Entry::Velocity(S::COORDINATES[i - N]),
-        i => Entry::Parameter(S::PARAMETERS[i - 2 * N]),
+        i if i < n => Entry::Coordinate(S::COORDINATES[i]),
+        i if i < 2 * n => Entry::Velocity(S::COORDINATES[i - n]),
+        i => Entry::Parameter(S::PARAMETERS[i - 2 * n]),
     };
     entry.to_string()
 }
 
 /// The derivatives of (q, q̇) at the end by each argument.
-fn by_variations<S, D, const N: usize, const M: usize, const P: usize>(
+fn by_variations<S, D>(
     system: &S,
-    start: State<f64, N>,
+    start: StateOf<S>,
     end: f64,
     method: D,
     arguments: &[usize],
 ) -> Vec<DVector<f64>>
 where
-    S: Linearized<N, M, P, Scalar = f64>,
-    D: DifferentiableMethod<S, N, M, P>,
+    S: Linearized<Scalar = f64>,
+    D: DifferentiableMethod<S>,
 {
     let start = system.make_consistent(&start).unwrap().0;
-    let names: Vec<String> = arguments.iter().map(|&argument| name::<S, N, M, P>(argument)).collect();
+    let names: Vec<String> = arguments.iter().map(|&argument| name::<S>(argument)).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let motion = system.integrate_sensitivities(start, end, method, &names).unwrap();
     let at = motion.end().unwrap();
@@ -297,26 +296,27 @@ where
 }
 
 /// The same by central differences, extrapolated once; none where two steps do not agree.
-fn by_differences<S, const N: usize, const M: usize, const P: usize>(
+fn by_differences<S>(
     system: &S,
-    start: State<f64, N>,
+    start: StateOf<S>,
     end: f64,
     arguments: &[usize],
 ) -> Option<Vec<DVector<f64>>>
 where
-    S: Linearized<N, M, P, Scalar = f64> + Clone,
+    S: Linearized<Scalar = f64> + Clone,
 {
+    let n = S::COORDINATES.len();
     let start = system.make_consistent(&start).ok()?.0;
     let moved = |argument: usize, by: f64| {
         let (mut system, mut start) = (system.clone(), start);
         match argument {
-            i if i < N => start.q[i] += by,
-            i if i < 2 * N => start.v[i - N] += by,
-            i => assert!(system.set_parameter(i - 2 * N, system.parameters()[i - 2 * N] + by)),
+            i if i < n => start.q[i] += by,
+            i if i < 2 * n => start.v[i - n] += by,
+            i => assert!(system.set_parameter(i - 2 * n, system.parameters()[i - 2 * n] + by)),
         }
         let (start, _) = system.make_consistent(&start).ok()?;
         let end = *system.integrate(start, end, method()).ok()?.end().state();
-        Some(DVector::from_iterator(2 * N, end.q.iter().chain(&end.v).copied()))
+        Some(DVector::from_iterator(2 * n, end.q.iter().chain(&end.v).copied()))
     };
     let central = |argument, h: f64| Some((moved(argument, h)? - moved(argument, -h)?) / (2.0 * h));
     let extrapolated =

@@ -40,7 +40,7 @@ fn matrices_and_families_are_matrices() {
 
 #[test]
 fn every_number_is_named_and_found_by_its_name() {
-    let names = <Shown<f64> as Lagrangian<5, 0>>::OBSERVABLES;
+    let names = <Shown<f64> as Lagrangian>::OBSERVABLES;
     assert_eq!(names[..4], ["R[0][0]", "R[0][1]", "R[0][2]", "R[1][0]"]);
     assert_eq!(
         names[9..16],

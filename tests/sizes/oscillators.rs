@@ -1,7 +1,7 @@
 //! N oscillators of which the first M are held, and all that the runtime does with a system, on one of them. Also compiled by
 //! `.ci/sizes`, for every N.
 
-use lagrange_core::{Real, prelude::*};
+use lagrange_core::{Real, nalgebra::Const, prelude::*};
 
 /// A module of this name with N oscillators on `scalar`, the first M of them held at 1.
 #[macro_export]
@@ -20,7 +20,7 @@ macro_rules! oscillators {
 
             pub(crate) fn run() -> Result<(), Error> {
                 let start = State::at_rest([1.0; $n]);
-                let end = $crate::oscillators::everything::<_, $scalar, $n, _, _>(&Oscillators { k: 4.0 }, start)?;
+                let end = $crate::oscillators::everything::<_, $scalar, $n, _>(&Oscillators { k: 4.0 }, start)?;
                 let member = |_| (Oscillators { k: 4.0_f64 }, State::at_rest([1.0; $n]));
                 let lanes = Ensemble::from_fn(5, member);
                 for (_, state) in lanes.integrate_on_lanes(0.5, Dop853::default())?.completed() {
@@ -34,12 +34,12 @@ macro_rules! oscillators {
 }
 
 /// Every part of the runtime once; the coordinates at t = 1/2 of oscillators with k = 4 that are let go at 1.
-pub(crate) fn everything<L, T, const N: usize, const M: usize, const P: usize>(
+pub(crate) fn everything<L, T, const N: usize, const M: usize>(
     system: &L,
     start: State<T, N>,
 ) -> Result<[T; N], Error>
 where
-    L: Linearized<N, M, P, Scalar = T> + Clone,
+    L: Linearized<N = Const<N>, M = Const<M>, Scalar = T> + Clone,
     T: Real,
 {
     let close = |x: T, y: f64, what: &str| assert!((x.to_f64() - y).abs() < 1e-5, "{what}: {x:?}, not {y}");

@@ -36,7 +36,7 @@ fn springs() -> (Springs, State<f64, 1000>) {
 }
 
 /// Goes on from rest by this method, the path stored, looked into and searched for an event; and step by step.
-fn move_springs(method: impl Method<Springs, 1000, 0> + Copy + Send + 'static) {
+fn move_springs(method: impl Method<Springs> + Copy + Send + 'static) {
     let is_close = |x: f64, t: f64| (x - (2.0 * t).cos()).abs() < 1e-6;
     on_a_thread(move || {
         let (springs, start) = springs();
@@ -111,7 +111,7 @@ fn the_derivatives_of_a_hundred_coordinates_on_fifty_constraints() {
 
 #[test]
 fn the_derivatives_of_a_motion_of_a_hundred_coordinates_on_fifty_constraints() {
-    fn sensitivities(method: impl DifferentiableMethod<Levers<f64>, 100, 50, 1> + Copy + Send + 'static) {
+    fn sensitivities(method: impl DifferentiableMethod<Levers<f64>> + Copy + Send + 'static) {
         on_a_thread(move || {
             let (levers, state) = levers();
             let motion =

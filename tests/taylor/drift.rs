@@ -1,6 +1,6 @@
 //! Energy over many turns on constraints: rounding errors add up as a random walk does, nearly to no side that they prefer.
 
-use lagrange_core::{TaylorSeries, prelude::*};
+use lagrange_core::{StateOf, TaylorSeries, prelude::*};
 
 #[derive(Lagrangian, Clone)]
 #[coordinates(x, y)]
@@ -49,14 +49,9 @@ impl Bound {
 }
 
 /// By how much energy changes until `end`, as a part of this kinetic energy, and the number of steps.
-fn motion<L, const N: usize, const M: usize>(
-    system: &L,
-    start: State<f64, N>,
-    end: f64,
-    kinetic: f64,
-) -> [f64; 2]
+fn motion<L>(system: &L, start: StateOf<L>, end: f64, kinetic: f64) -> [f64; 2]
 where
-    L: TaylorSeries<N, M, Scalar = f64>,
+    L: TaylorSeries<Scalar = f64>,
 {
     let (start, _) = system.make_consistent(&start).expect("near the constraints");
     let mut motion =

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lagrange_core::nalgebra::Vector2;
+use lagrange_core::nalgebra::{Const, Vector2};
 use lagrange_core::{Crossing, prelude::*};
 
 type Result<T> = std::result::Result<T, Error>;
@@ -28,10 +28,10 @@ const KNOWN: [(usize, f64); 5] = [
 
 /// The crossings of x = 0 in the order of the motion.
 fn section(
-    motion: &mut Motion<HenonHeiles, Taylor, 2, 0>,
+    motion: &mut Motion<HenonHeiles, Taylor>,
     end: f64,
     count: usize,
-) -> Result<Vec<Crossing<f64, 2>>> {
+) -> Result<Vec<Crossing<f64, Const<2>>>> {
     let mut section = HenonHeiles.event("section", |sample| sample.state().q[0]);
     let found: std::result::Result<Vec<_>, _> =
         motion.crossings(end, &mut [&mut section]).take(count).collect();

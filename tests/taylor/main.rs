@@ -15,16 +15,12 @@ mod supplied;
 mod systems;
 mod units;
 
-use lagrange_core::{Method, TaylorSeries, prelude::*};
+use lagrange_core::{Method, StateOf, TaylorSeries, nalgebra::Const, prelude::*};
 
 /// The state at the end, by Taylor's method to round-off.
-fn end<L, const N: usize, const M: usize>(
-    system: &L,
-    start: State<f64, N>,
-    end: f64,
-) -> Result<State<f64, N>, Error>
+fn end<L>(system: &L, start: StateOf<L>, end: f64) -> Result<StateOf<L>, Error>
 where
-    L: TaylorSeries<N, M, Scalar = f64>,
+    L: TaylorSeries<Scalar = f64>,
 {
     let path = system.integrate(start, end, Taylor::default())?;
     assert_eq!(path.ending().time(), end, "{:?}", path.ending());
@@ -32,14 +28,10 @@ where
 }
 
 /// The largest difference from what `Dop853` gives.
-fn difference<L, const N: usize, const M: usize>(
-    system: &L,
-    start: State<f64, N>,
-    until: f64,
-) -> Result<f64, Error>
+fn difference<L, const N: usize>(system: &L, start: State<f64, N>, until: f64) -> Result<f64, Error>
 where
-    L: TaylorSeries<N, M, Scalar = f64>,
-    Dop853: Method<L, N, M>,
+    L: TaylorSeries<N = Const<N>, Scalar = f64>,
+    Dop853: Method<L>,
 {
     let ours = end(system, start, until)?;
     let path = system.integrate(start, until, Dop853::with_tolerance(1e-14))?;

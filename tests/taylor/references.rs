@@ -1,16 +1,12 @@
 //! Motions against values of runs of another Taylor method with 113 and 170 bits, of which 20 digits agree.
 
-use lagrange_core::nalgebra::{Matrix3, SVector, Vector3};
+use lagrange_core::nalgebra::{Const, Matrix3, SVector, Vector3};
 use lagrange_core::{TaylorSeries, prelude::*};
 
 /// The largest difference from what is known at this time, between the steps.
-fn off<L, const N: usize, const M: usize>(
-    path: &Trajectory<&L, N, M>,
-    t: f64,
-    [q, v]: [[f64; N]; 2],
-) -> Result<f64, Error>
+fn off<L, const N: usize>(path: &Trajectory<&L>, t: f64, [q, v]: [[f64; N]; 2]) -> Result<f64, Error>
 where
-    L: TaylorSeries<N, M, Scalar = f64>,
+    L: TaylorSeries<N = Const<N>, Scalar = f64>,
 {
     let sample = path.at(t)?;
     let state = sample.state();

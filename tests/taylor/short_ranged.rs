@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use lagrange_core::{Lanes, Pack, TaylorSeries, prelude::*};
+use lagrange_core::{Lanes, Pack, TaylorSeries, nalgebra::Const, prelude::*};
 
 use crate::random::Random;
 
@@ -77,7 +77,8 @@ type Case<L> = (L, State<f64, 1>, Box<dyn Fn(&L, &State<f64, 1>) -> f64 + Send +
 /// Each case by Taylor's method alone and on lanes: a force that is stepped over would be off by 1.
 fn are_seen<L>(unless_told: usize, case: impl Fn(&mut Random) -> Case<L> + Sync) -> Result<(), Error>
 where
-    L: TaylorSeries<1, 0, Scalar = f64> + Pack<Lanes, Packed: TaylorSeries<1, 0, Scalar = Lanes>>,
+    L: TaylorSeries<N = Const<1>, M = Const<0>, Scalar = f64>
+        + Pack<Lanes, Packed: TaylorSeries<N = Const<1>, M = Const<0>, Scalar = Lanes>>,
 {
     let told = std::env::var("LAGRANGE_SHORT_RANGED").ok().and_then(|count| count.parse().ok());
     let count: usize = told.unwrap_or(unless_told);

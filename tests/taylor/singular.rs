@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lagrange_core::nalgebra::SVector;
+use lagrange_core::nalgebra::{Const, SVector};
 use lagrange_core::{TaylorSeries, prelude::*};
 
 /// Windows: verticals about (i, 0), between which couplers hang; rods of length and mass 1, by their ends. When all rods are
@@ -53,9 +53,9 @@ const TOLERANCES: [f64; 9] = [f64::EPSILON, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1
 const ACROSS: f64 = 1e-8;
 
 /// How long each tolerance leads from upright, and how far from what the reduced pendulum does then.
-fn windows<L, const N: usize, const M: usize>(windows: &L, n: usize, g: f64) -> Result<Vec<(f64, f64)>, Error>
+fn windows<L, const N: usize>(windows: &L, n: usize, g: f64) -> Result<Vec<(f64, f64)>, Error>
 where
-    L: TaylorSeries<N, M, Scalar = f64>,
+    L: TaylorSeries<N = Const<N>, Scalar = f64>,
 {
     let upright = core::array::from_fn(|i| if i <= n { i as f64 } else { 1.0 });
     let start = State::new(upright, core::array::from_fn(|i| if i <= n { 1.0 } else { 0.0 }));

@@ -1,6 +1,6 @@
 //! Motions far from the numbers around 1: what is tiny, huge, slow at first, or grows by high powers alone.
 
-use lagrange_core::{TaylorSeries, prelude::*};
+use lagrange_core::{TaylorSeries, nalgebra::Const, prelude::*};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(x)]
@@ -120,7 +120,10 @@ fn coefficients_far_apart_are_not_the_end_of_a_series() -> Result<(), Error> {
     #[coordinates(x)]
     #[lagrangian(x_dot^2/2 - x^10/10)]
     struct Nonic;
-    fn off<L: TaylorSeries<1, 0, Scalar = f64>>(system: &L, tolerance: f64) -> Result<f64, Error> {
+    fn off<L: TaylorSeries<N = Const<1>, M = Const<0>, Scalar = f64>>(
+        system: &L,
+        tolerance: f64,
+    ) -> Result<f64, Error> {
         let start = State::new([0.0], [1.0]);
         let exact = system.integrate(start, 5.0, Dop853::with_tolerance(1e-14))?;
         let path = system.integrate(start, 5.0, Taylor::with_tolerance(tolerance))?;

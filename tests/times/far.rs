@@ -27,7 +27,7 @@ struct Motion {
 macro_rules! motion {
     ($trajectory:expr) => {{
         let path = $trajectory.unwrap();
-        let place = |sample: Sample<&_, 1, 0>| (sample.time(), sample.state().q[0]);
+        let place = |sample: Sample<&_>| (sample.time(), sample.state().q[0]);
         Motion {
             ending: path.ending().clone(),
             accepted: path.statistics().accepted,

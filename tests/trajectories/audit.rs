@@ -21,18 +21,18 @@ fn start() -> State<f64, 2> {
     State::new([5e-31, 0.0], [-1e-30, 1.0])
 }
 
-fn path() -> Trajectory<&'static Bead, 2, 1> {
+fn path() -> Trajectory<&'static Bead> {
     let path = BEAD.integrate(start(), 1.0, Dopri5::with_tolerance(1e-6)).expect("a motion");
     assert!(path.steps().all(|step| (step.time() - 0.5).abs() > 1e-6));
     path
 }
 
-fn path_in_momenta() -> Trajectory<&'static Bead, 2, 1, HamiltonianVectorField> {
+fn path_in_momenta() -> Trajectory<&'static Bead, HamiltonianVectorField> {
     let phase = BEAD.phase_state(&start());
     BEAD.motion_in_momenta(phase).by(Dopri5::with_tolerance(1e-6)).to(1.0).expect("a motion")
 }
 
-fn knows_nothing(sample: &Sample<&Bead, 2, 1>) {
+fn knows_nothing(sample: &Sample<&Bead>) {
     assert_eq!(sample.time(), 0.5);
     let numbers =
         [sample.coordinate("x"), sample.coordinate("y"), sample.velocity("y"), sample.momentum("y")];

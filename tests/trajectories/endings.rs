@@ -124,7 +124,7 @@ fn the_caller_cancels_without_an_error() {
     assert!(matches!(error, Error::Unfinished(_)), "{error}");
 }
 
-fn stiffness(spring: &Spring, method: impl Method<Spring, 1, 0>) -> Option<f64> {
+fn stiffness(spring: &Spring, method: impl Method<Spring>) -> Option<f64> {
     let path = spring.motion(START).by(method).towards(1e9).expect("a start");
     match *path.ending() {
         Ending::StepLimit { pace, .. } => pace.stiffness,
@@ -207,7 +207,7 @@ struct Forced {
     s: f64,
 }
 
-fn forced<P: Method<Forced, 1, 0>>(s: f64, method: P) -> (usize, Ending) {
+fn forced<P: Method<Forced>>(s: f64, method: P) -> (usize, Ending) {
     let system = Forced { s };
     let path = system.motion(State::at_rest([1.0]).at_time(s)).by(method).towards(s + 3.0).expect("a start");
     (path.statistics().accepted + path.statistics().rejected, path.ending().clone())
@@ -217,7 +217,7 @@ fn forced<P: Method<Forced, 1, 0>>(s: f64, method: P) -> (usize, Ending) {
 /// the force, whose rate is at most 1, changes the velocity within one rounding of the time by half the tolerance.
 #[test]
 fn a_time_too_coarse_for_the_tolerance_is_said() {
-    fn check<P: Method<Forced, 1, 0>>(tolerance: f64, method: impl Fn(usize) -> P, blamed: &mut usize) {
+    fn check<P: Method<Forced>>(tolerance: f64, method: impl Fn(usize) -> P, blamed: &mut usize) {
         let (near, _) = forced(0.0, method(1000));
         for s in [0.0, 1e3, 1e6, 1e8, 1.7e9, 1e11] {
             let (steps, ending) = forced(s, method(1000));

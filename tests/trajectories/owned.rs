@@ -16,7 +16,7 @@ struct Plant {
     u: f64,
 }
 
-fn build(u: f64) -> Result<Trajectory<Plant, 1, 0>, Error> {
+fn build(u: f64) -> Result<Trajectory<Plant>, Error> {
     let plant = Plant { u };
     Ok(plant.integrate(State::at_rest([0.0]), 3.0, Dop853::with_tolerance(1e-12))?.into_owned())
 }
@@ -72,10 +72,9 @@ fn a_shared_system_is_not_copied() -> Result<(), Error> {
 
 #[test]
 fn a_sample_outlives_its_path_and_its_system() -> Result<(), Error> {
-    let sample: Sample<Plant, 1, 0> = {
+    let sample: Sample<Plant> = {
         let plant = Plant { u: 0.5 };
-        let borrowed: Sample<&Plant, 1, 0> =
-            plant.integrate(State::at_rest([0.0]), 3.0, Dop853::default())?.end();
+        let borrowed: Sample<&Plant> = plant.integrate(State::at_rest([0.0]), 3.0, Dop853::default())?.end();
         borrowed.into_owned()
     };
     assert!((sample.coordinate("x")? - exact(0.5, 3.0)).abs() < 1e-8);
@@ -84,7 +83,7 @@ fn a_sample_outlives_its_path_and_its_system() -> Result<(), Error> {
 
 #[test]
 fn motions_in_momenta_are_owned_too() -> Result<(), Error> {
-    let build = || -> Result<Trajectory<Plant, 1, 0, HamiltonianVectorField>, Error> {
+    let build = || -> Result<Trajectory<Plant, HamiltonianVectorField>, Error> {
         let plant = Plant { u: 0.5 };
         let path = plant.motion_in_momenta(PhaseState::new([0.0], [0.0])).to(3.0)?;
         Ok(path.into_owned())

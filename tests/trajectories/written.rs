@@ -4,7 +4,8 @@ use std::fmt::Debug;
 
 use lagrange_core::prelude::*;
 use lagrange_core::{
-    Ending, Solution, Statistics, ensemble::Arrival, hamiltonian::PhaseDerivative, trajectory::Records,
+    Ending, Solution, Statistics, ensemble::Arrival, hamiltonian::PhaseDerivative, nalgebra::Const,
+    trajectory::Records,
 };
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 
@@ -25,7 +26,7 @@ fn start() -> State<f64, 2> {
     State::at_rest([0.6, -0.8])
 }
 
-fn path() -> Trajectory<&'static Bob, 2, 1> {
+fn path() -> Trajectory<&'static Bob> {
     BOB.integrate(start(), 3.0, Dop853::default()).expect("a motion")
 }
 
@@ -43,7 +44,7 @@ fn numbers_come_back_to_the_bit() {
     assert_eq!(comes_back(&start()), json!({ "t": 0.0, "q": [0.6, -0.8], "v": [0.0, 0.0] }));
     comes_back::<State<f64, 2>>(end.state());
     comes_back::<PhaseState<f64, 2>>(&phase);
-    comes_back::<PhaseDerivative<f64, 2, 1>>(&BOB.hamilton_equations(&phase).unwrap());
+    comes_back::<PhaseDerivative<f64, Const<2>, Const<1>>>(&BOB.hamilton_equations(&phase).unwrap());
     let written = comes_back::<Solution<f64, 2, 1>>(&end.solution().unwrap());
     assert_eq!(written["multipliers"], json!([end.multiplier("rod").unwrap()]));
     comes_back::<Statistics>(path.statistics());

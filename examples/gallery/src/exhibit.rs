@@ -1,7 +1,6 @@
 //! What a system says of itself to be shown.
 
-use lagrange_core::nalgebra::SVector;
-use lagrange_core::prelude::*;
+use lagrange_core::{StateOf, generic::Vector, prelude::*};
 
 use crate::scene::{Point, Scene, View};
 
@@ -33,16 +32,16 @@ pub const fn knob(
 
 /// A moment of the motion.
 #[derive(Clone, Copy, Debug)]
-pub struct Moment<const N: usize, const M: usize> {
+pub struct Moment<L: Lagrangian> {
     /// Time, coordinates and velocities.
-    pub state: State<f64, N>,
+    pub state: StateOf<L>,
     /// The multipliers.
-    pub multipliers: SVector<f64, M>,
+    pub multipliers: Vector<L::Scalar, L::M>,
     /// The constraint force on each coordinate.
-    pub force: SVector<f64, N>,
+    pub force: Vector<L::Scalar, L::N>,
 }
 
-impl<const N: usize, const M: usize> Moment<N, M> {
+impl<L: Lagrangian<Scalar = f64>> Moment<L> {
     /// The vector that starts at this coordinate.
     pub fn place(&self, first: usize) -> Point {
         self.state.q.fixed_rows::<3>(first).into()
@@ -62,9 +61,7 @@ impl<const N: usize, const M: usize> Moment<N, M> {
 /// A system that is shown, with `K` sliders.
 ///
 /// The derive has its equations and what it conserves; here is what can be set, where it starts, and how it is drawn.
-pub trait Exhibit<const N: usize, const M: usize, const K: usize>:
-    Lagrangian<N, M, Scalar = f64> + Sized + 'static
-{
+pub trait Exhibit<const K: usize>: Lagrangian<Scalar = f64> + Sized + 'static {
     /// What it is called.
     const TITLE: &'static str;
     /// What to look at.
@@ -75,16 +72,16 @@ pub trait Exhibit<const N: usize, const M: usize, const K: usize>:
     const PACE: f64 = 1.0;
 
     /// The system and its start, by the sliders. Of the start, what violates constraints is projected away.
-    fn set(knobs: [f64; K]) -> (Self, State<f64, N>);
+    fn set(knobs: [f64; K]) -> (Self, StateOf<Self>);
 
     /// From where it is seen.
-    fn view(&self, state: &State<f64, N>) -> View;
+    fn view(&self, state: &StateOf<Self>) -> View;
 
     /// Draws it.
-    fn draw(&self, now: &Moment<N, M>, scene: &mut Scene);
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene);
 
     /// The points that leave a trail.
-    fn trails(&self, _: &State<f64, N>) -> Vec<Point> {
+    fn trails(&self, _: &StateOf<Self>) -> Vec<Point> {
         Vec::new()
     }
 }

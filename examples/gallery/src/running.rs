@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use lagrange_core::nalgebra::SVector;
-use lagrange_core::{Method, facts::EnergyForm, prelude::*};
+use lagrange_core::generic::Array;
+use lagrange_core::{Method, StateOf, facts::EnergyForm, prelude::*};
 
 use crate::exhibit::{Exhibit, Moment};
 use crate::scene::{Point, Scene, View};
@@ -42,28 +42,28 @@ pub(crate) trait Running {
 pub(crate) type Opened = Result<Box<dyn Running>, String>;
 
 /// What is kept of a frame.
-struct Frame<const N: usize> {
-    state: State<f64, N>,
+struct Frame<E: Lagrangian> {
+    state: StateOf<E>,
     values: Vec<f64>,
     trails: Vec<Point>,
 }
 
-struct Live<E, const N: usize, const M: usize, const K: usize>
+struct Live<E, const K: usize>
 where
-    E: Exhibit<N, M, K>,
-    Dop853: Method<E, N, M>,
+    E: Exhibit<K>,
+    Dop853: Method<E>,
 {
-    motion: Motion<E, Dop853, N, M>,
-    frames: VecDeque<Frame<N>>,
+    motion: Motion<E, Dop853>,
+    frames: VecDeque<Frame<E>>,
     /// How many frames came before those that are kept.
     forgotten: usize,
 }
 
 /// The exhibit with its sliders at these values, at its start.
-pub(crate) fn open<E, const N: usize, const M: usize, const K: usize>(knobs: &[f64]) -> Opened
+pub(crate) fn open<E, const K: usize>(knobs: &[f64]) -> Opened
 where
-    E: Exhibit<N, M, K>,
-    Dop853: Method<E, N, M>,
+    E: Exhibit<K>,
+    Dop853: Method<E>,
 {
     let knobs = knobs.try_into().map_err(|_| format!("{} has {K} sliders", E::NAME))?;
     let (system, start) = E::set(knobs);
@@ -75,10 +75,10 @@ where
     Ok(Box::new(live))
 }
 
-impl<E, const N: usize, const M: usize, const K: usize> Live<E, N, M, K>
+impl<E, const K: usize> Live<E, K>
 where
-    E: Exhibit<N, M, K>,
-    Dop853: Method<E, N, M>,
+    E: Exhibit<K>,
+    Dop853: Method<E>,
 {
     /// How far frames are apart.
     const STEP: f64 = E::PACE / RATE;
@@ -94,7 +94,7 @@ where
     }
 
     /// What [`quantities`](Running::quantities) names.
-    fn values(&self, state: &State<f64, N>) -> Vec<f64> {
+    fn values(&self, state: &StateOf<E>) -> Vec<f64> {
         let system = self.motion.system();
         let (energy, lagrangian) = (system.energy(state), system.lagrangian(state));
         let mut values = vec![energy];
@@ -107,10 +107,10 @@ where
     }
 
     /// Forces are not a number where they cannot be solved for.
-    fn moment(&self, state: &State<f64, N>) -> Moment<N, M> {
+    fn moment(&self, state: &StateOf<E>) -> Moment<E> {
         let system = self.motion.system();
-        let multipliers =
-            system.solve(state).map_or(SVector::repeat(f64::NAN), |solution| solution.multipliers);
+        let unknown = Array::filled(f64::NAN).into();
+        let multipliers = system.solve(state).map_or(unknown, |solution| solution.multipliers);
         Moment { state: *state, multipliers, force: system.constraint_force(state, &multipliers) }
     }
 
@@ -121,7 +121,7 @@ where
     }
 
     /// Between two frames by the cubic through both, whose error is that of a picture.
-    fn at(&self, t: f64) -> State<f64, N> {
+    fn at(&self, t: f64) -> StateOf<E> {
         let index = self.index(t);
         let before = self.frames[index].state;
         let Some(after) = self.frames.get(index + 1) else {
@@ -131,15 +131,17 @@ where
         let s = ((t - before.t) / h).clamp(0.0, 1.0);
         let rise = s * s * (3.0 - 2.0 * s);
         let [leaving, coming] = [s * (1.0 - s) * (1.0 - s) * h, s * s * (s - 1.0) * h];
-        let q = before.q.lerp(&after.q, rise) + before.v * leaving + after.v * coming;
-        State::new(q, before.v.lerp(&after.v, s)).at_time(before.t + s * h)
+        let q =
+            |i| before.q[i] * (1.0 - rise) + after.q[i] * rise + before.v[i] * leaving + after.v[i] * coming;
+        let v = |i| before.v[i] * (1.0 - s) + after.v[i] * s;
+        StateOf::<E>::new(Array::from_fn(q), Array::from_fn(v)).at_time(before.t + s * h)
     }
 }
 
-impl<E, const N: usize, const M: usize, const K: usize> Running for Live<E, N, M, K>
+impl<E, const K: usize> Running for Live<E, K>
 where
-    E: Exhibit<N, M, K>,
-    Dop853: Method<E, N, M>,
+    E: Exhibit<K>,
+    Dop853: Method<E>,
 {
     fn advance(&mut self, end: f64) -> Result<(), String> {
         loop {
@@ -176,8 +178,8 @@ where
     }
 
     fn state(&self, t: f64) -> Vec<f64> {
-        let State { q, v, .. } = self.at(t);
-        q.iter().chain(&v).copied().collect()
+        let state = self.at(t);
+        state.q.iter().chain(&state.v).copied().collect()
     }
 
     fn quantities(&self) -> Vec<Quantity> {
@@ -187,7 +189,7 @@ where
             quantities.extend(["T", "U"].map(named("energy")));
         }
         quantities.extend(E::FACTS.conserved.iter().map(|conserved| named("conserved")(conserved.name)));
-        quantities.extend(E::CONSTRAINTS.into_iter().take(PLOTTED).map(named("multiplier")));
+        quantities.extend(E::CONSTRAINTS.iter().copied().take(PLOTTED).map(named("multiplier")));
         quantities
     }
 
@@ -196,7 +198,7 @@ where
     }
 
     fn series(&self, quantity: usize, from: f64, to: f64) -> Vec<f64> {
-        let value = |frame: &Frame<N>| frame.values.get(quantity).copied().unwrap_or(f64::NAN);
+        let value = |frame: &Frame<E>| frame.values.get(quantity).copied().unwrap_or(f64::NAN);
         self.frames.range(self.index(from)..=self.index(to)).map(value).collect()
     }
 }

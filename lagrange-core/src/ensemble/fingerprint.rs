@@ -3,7 +3,7 @@
 use core::fmt::{self, Write};
 
 use crate::number::Real;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
 
 /// Identifies the run and the member of a table row by three hashes: 32-bit FNV-1a (Fowler, Noll and Vo), the same on
 /// every machine.
@@ -28,25 +28,21 @@ pub struct Fingerprint {
 
 impl Fingerprint {
     /// Hash of a system, the same for all members of all runs.
-    pub(super) fn of_system<L, const N: usize, const M: usize>() -> u32
+    pub(super) fn of_system<L>() -> u32
     where
-        L: Lagrangian<N, M, Scalar: Real>,
+        L: Lagrangian<Scalar: Real>,
     {
         let mut system = Hash::new();
-        [L::NAME].iter().chain(&L::COORDINATES).chain(&L::CONSTRAINTS).for_each(|text| system.text(text));
+        [L::NAME].iter().chain(L::COORDINATES).chain(L::CONSTRAINTS).for_each(|text| system.text(text));
         system.bytes(&L::DIGEST.to_le_bytes());
         system.number(L::Scalar::EPSILON);
         system.0
     }
 
     /// Adds the hash of a member's start and parameters to the fingerprint of its run.
-    pub(super) fn with_start<L, const N: usize, const M: usize>(
-        self,
-        system: &L,
-        start: &State<L::Scalar, N>,
-    ) -> Self
+    pub(super) fn with_start<L>(self, system: &L, start: &StateOf<L>) -> Self
     where
-        L: Lagrangian<N, M, Scalar: Real>,
+        L: Lagrangian<Scalar: Real>,
     {
         let mut hash = Hash::new();
         hash.number(start.t.to_f64());

@@ -15,14 +15,15 @@ use crate::motion::run::{Run, Watchdog};
 use crate::motion::{Batch, LagrangianVectorField, LaneMethod, LaneMotion, Method};
 use crate::number::Real;
 use crate::system::finite::check_finite;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Element, Length};
 
 /// State of a running ensemble, shared by all threads.
-pub(super) struct Job<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
-    make: Make<'a, L, T, N>,
-    observer: Option<MemberObserver<'a, T, N>>,
-    member_plan: Arc<MemberPlan<'a, L, N, M>>,
-    end: T,
+pub(super) struct Job<'a, L: Lagrangian<Scalar: Real>> {
+    make: Make<'a, L, L::Scalar, L::N>,
+    observer: Option<MemberObserver<'a, L::Scalar, L::N>>,
+    member_plan: Arc<MemberPlan<'a, L>>,
+    end: L::Scalar,
     /// Fingerprint of the run, common to all members.
     run: Fingerprint,
     part: Part,
@@ -31,7 +32,7 @@ pub(super) struct Job<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, co
     /// Number of members of this part handed out so far.
     given: AtomicUsize,
     stopped: AtomicBool,
-    ledger: Mutex<Ledger<'a, T, N>>,
+    ledger: Mutex<Ledger<'a, L::Scalar, L::N>>,
 }
 
 /// Members to integrate: all `count`, or those of `list`, divided into `shards` parts.
@@ -85,17 +86,17 @@ impl Part {
 }
 
 /// Results of finished members, and the callback that follows the progress.
-struct Ledger<'a, T, const N: usize> {
+struct Ledger<'a, T: Element, N: Length> {
     members: Vec<Member<T, N>>,
     of: usize,
     watch: Option<Watch<'a, T, N>>,
 }
 
-impl<'a, L, T: Real, const N: usize, const M: usize> Job<'a, L, T, N, M>
+impl<'a, L> Job<'a, L>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
-    pub(super) fn new(plan: Plan<'a, L, T, N, M>, end: T, run: Fingerprint) -> Result<Self, Error> {
+    pub(super) fn new(plan: Plan<'a, L>, end: L::Scalar, run: Fingerprint) -> Result<Self, Error> {
         plan.check_tag()?;
         let Plan { count, make, shard, shards, list, done, observer, watch, member_plan, tag: _ } = plan;
         member_plan.check()?;
@@ -116,7 +117,7 @@ where
         Ok(Self { make, observer, member_plan, end, run, part, done, given, stopped, ledger })
     }
 
-    pub(super) fn outcome(self) -> Outcome<T, N> {
+    pub(super) fn outcome(self) -> Outcome<L::Scalar, L::N> {
         let ledger = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
         Outcome::new(
             ledger.members,
@@ -129,9 +130,9 @@ where
     /// A job for the members of `list` alone, with its own queue and results. The caller [reports](Self::report) its
     /// results here.
     #[cfg(feature = "mpi")]
-    pub(super) fn batch(&self, list: Vec<usize>) -> Job<'_, L, T, N, M> {
+    pub(super) fn batch(&self, list: Vec<usize>) -> Job<'_, L> {
         let observer = self.observer.as_ref().map(|observe| {
-            let observer: MemberObserver<'_, T, N> = Box::new(observe);
+            let observer: MemberObserver<'_, L::Scalar, L::N> = Box::new(observe);
             observer
         });
         let ledger = Mutex::new(Ledger { members: Vec::new(), of: list.len(), watch: None });
@@ -194,7 +195,7 @@ where
 
     /// Records the result of a member, and stops the whole job if the progress callback breaks. Once the job is
     /// stopped, results are dropped: the members still running were cut short.
-    pub(super) fn report(&self, member: Member<T, N>) {
+    pub(super) fn report(&self, member: Member<L::Scalar, L::N>) {
         let mut ledger = self.ledger.lock().unwrap_or_else(PoisonError::into_inner);
         if self.is_stopped() {
             return;
@@ -210,7 +211,7 @@ where
     }
 
     /// Called after each step of a member: asks the observer whether the member goes on.
-    fn observe(&self, index: usize, state: &State<T, N>) -> ControlFlow<()> {
+    fn observe(&self, index: usize, state: &StateOf<L>) -> ControlFlow<()> {
         if self.is_stopped() {
             return ControlFlow::Break(());
         }
@@ -221,7 +222,7 @@ where
     }
 
     /// Integrates members one after the other until none is left.
-    pub(super) fn one_by_one<P: Method<L, N, M>, const HAS_DENSE_OUTPUT: bool>(&self, method: &P) {
+    pub(super) fn one_by_one<P: Method<L>, const HAS_DENSE_OUTPUT: bool>(&self, method: &P) {
         while let Some(index) = self.next() {
             let (mut system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
@@ -230,36 +231,36 @@ where
         }
     }
 
-    fn integrate<P: Method<L, N, M>, const HAS_DENSE_OUTPUT: bool>(
+    fn integrate<P: Method<L>, const HAS_DENSE_OUTPUT: bool>(
         &self,
         index: usize,
         system: &mut L,
-        start: &State<T, N>,
+        start: &StateOf<L>,
         method: &P,
-    ) -> Result<Arrival<T, N>, Error> {
+    ) -> Result<Arrival<L::Scalar, L::N>, Error> {
         check_finite(system, start)?;
-        let (mut run, _) = Run::begin::<L, LagrangianVectorField, _, M>(system, start, method)?;
+        let (mut run, _) = Run::begin::<L, LagrangianVectorField, _>(system, start, method)?;
         let record = self.member_plan.record(index, system, &run.state, self.end)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
-        let accept = |state: &State<T, N>, _| unless_broken(self.observe(index, state), state.t.to_f64());
+        let accept = |state: &StateOf<L>, _| unless_broken(self.observe(index, state), state.t.to_f64());
         let mut recorded =
-            Recorded::<_, _, _, N, M, HAS_DENSE_OUTPUT>::new(Moving::Steered(system), record, accept);
-        let driven = run.drive::<L, LagrangianVectorField, P, _, M>(method, &limits, &mut recorded);
+            Recorded::<_, _, _, HAS_DENSE_OUTPUT>::new(Moving::Steered(system), record, accept);
+        let driven = run.drive::<L, LagrangianVectorField, P, _>(method, &limits, &mut recorded);
         Ok(recorded.finish(driven, &run))
     }
 }
 
 /// Rejects a member taken over from another run, or with another start or other parameters.
-fn check_run_of<T: Real, const N: usize>(member: &Member<T, N>, expected: &Fingerprint) -> Result<(), Error> {
+fn check_run_of<T: Real, N: Length>(member: &Member<T, N>, expected: &Fingerprint) -> Result<(), Error> {
     match member.fingerprint.difference(expected) {
         Some((_, differs)) => Err(Error::Ensemble(EnsembleError::OtherRun { member: member.index, differs })),
         None => Ok(()),
     }
 }
 
-impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, L, f64, N, M> {
+impl<L: Lagrangian<Scalar = f64>> Job<'_, L> {
     /// Integrates members on SIMD lanes, one member per lane, until none is left.
-    pub(super) fn on_lanes<P: LaneMethod<L, N, M>, const HAS_DENSE_OUTPUT: bool>(&self, method: &P) {
+    pub(super) fn on_lanes<P: LaneMethod<L>, const HAS_DENSE_OUTPUT: bool>(&self, method: &P) {
         let mut next = self.next_seat::<P, HAS_DENSE_OUTPUT>(method);
         while let Some(first) = next.take() {
             let mut batch = Batch::new(method, first);
@@ -276,10 +277,10 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
 
     /// Fills free lanes with the next members. A member that cannot run beside those in the batch waits until they have
     /// ended.
-    fn fill<'j, P: LaneMethod<L, N, M>, const HAS_DENSE_OUTPUT: bool>(
+    fn fill<'j, P: LaneMethod<L>, const HAS_DENSE_OUTPUT: bool>(
         &'j self,
-        batch: &mut Batch<'j, L, P, N, M>,
-        next: &mut Option<LaneMotion<'j, L, P, N, M>>,
+        batch: &mut Batch<'j, L, P>,
+        next: &mut Option<LaneMotion<'j, L, P>>,
         method: &P,
     ) {
         while batch.has_free_lane()
@@ -293,12 +294,12 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
         }
     }
 
-    fn arrived<P: LaneMethod<L, N, M>>(
+    fn arrived<P: LaneMethod<L>>(
         &self,
-        motion: LaneMotion<'_, L, P, N, M>,
-        state: State<f64, N>,
+        motion: LaneMotion<'_, L, P>,
+        state: State<f64, L::N>,
         ending: Ending,
-    ) -> Member<f64, N> {
+    ) -> Member<f64, L::N> {
         let LaneMotion { index, start, statistics, record, .. } = motion;
         let fingerprint = Fingerprint { start, ..self.run };
         Member { index, fingerprint, result: Ok(record.arrive(state, ending, statistics)) }
@@ -306,10 +307,10 @@ impl<L: Lagrangian<N, M, Scalar = f64>, const N: usize, const M: usize> Job<'_, 
 
     /// Next member that has a motion. Members without one, because their start is at fault or they end there, are
     /// reported.
-    fn next_seat<P: LaneMethod<L, N, M>, const HAS_DENSE_OUTPUT: bool>(
+    fn next_seat<P: LaneMethod<L>, const HAS_DENSE_OUTPUT: bool>(
         &self,
         method: &P,
-    ) -> Option<LaneMotion<'_, L, P, N, M>> {
+    ) -> Option<LaneMotion<'_, L, P>> {
         loop {
             let index = self.next()?;
             let (system, start) = (self.make)(index);

@@ -7,12 +7,13 @@ use crate::error::{EnsembleError, Error};
 use crate::motion::record::Arrival;
 use crate::number::Real;
 use crate::system::State;
+use crate::vector::{Element, Length};
 
 /// Result of one member.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
-pub struct Member<T, const N: usize> {
+pub struct Member<T: Element, N: Length> {
     /// Index of the member in the ensemble.
     pub index: usize,
     /// Hashes of the member's run, start and parameters.
@@ -21,7 +22,7 @@ pub struct Member<T, const N: usize> {
     pub result: Result<Arrival<T, N>, Error>,
 }
 
-impl<T: Real, const N: usize> Member<T, N> {
+impl<T: Real, N: Length> Member<T, N> {
     /// End of the motion; `None` if the motion did not start.
     pub fn arrival(&self) -> Option<&Arrival<T, N>> {
         self.result.as_ref().ok()
@@ -39,7 +40,7 @@ impl<T: Real, const N: usize> Member<T, N> {
 }
 
 /// Prints the index and the ending: `member 17: stopped at t = 3.2: …`
-impl<T: Real, const N: usize> Display for Member<T, N> {
+impl<T: Real, N: Length> Display for Member<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "member {}: ", self.index)?;
         match &self.result {
@@ -51,18 +52,18 @@ impl<T: Real, const N: usize> Display for Member<T, N> {
 
 /// Results of the finished members, in ascending order of index.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome<T, const N: usize> {
+pub struct Outcome<T: Element, N: Length> {
     pub(super) members: Vec<Member<T, N>>,
-    pub(super) names: [&'static str; N],
+    pub(super) names: &'static [&'static str],
     quantities: Vec<&'static str>,
     end: T,
     run: Fingerprint,
 }
 
-impl<T: Real, const N: usize> Outcome<T, N> {
+impl<T: Real, N: Length> Outcome<T, N> {
     pub(super) fn new(
         mut members: Vec<Member<T, N>>,
-        names: [&'static str; N],
+        names: &'static [&'static str],
         quantities: Vec<&'static str>,
         (end, run): (T, Fingerprint),
     ) -> Self {

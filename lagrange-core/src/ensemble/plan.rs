@@ -13,34 +13,35 @@ use crate::motion::record::{CONTROLLER, Record, RecordPlan, SampleTimes, Steerin
 use crate::motion::{Event, EventFunction, Method};
 use crate::number::Real;
 use crate::solution::Sample;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Element, Length};
 
 /// Settings of an ensemble, collected before it is integrated.
-pub(super) struct Plan<'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
+pub(super) struct Plan<'a, L: Lagrangian<Scalar: Real>> {
     pub(super) count: usize,
-    pub(super) make: Make<'a, L, T, N>,
+    pub(super) make: Make<'a, L, L::Scalar, L::N>,
     pub(super) shard: usize,
     pub(super) shards: usize,
     /// Indices of the members to integrate; all if `None`.
     pub(super) list: Option<Vec<usize>>,
     /// Rows of members taken over from earlier runs.
-    pub(super) done: Vec<MemberRow<T, N>>,
-    pub(super) observer: Option<MemberObserver<'a, T, N>>,
-    pub(super) watch: Option<Watch<'a, T, N>>,
-    pub(super) member_plan: MemberPlan<'a, L, N, M>,
+    pub(super) done: Vec<MemberRow<L::Scalar, L::N>>,
+    pub(super) observer: Option<MemberObserver<'a, L::Scalar, L::N>>,
+    pub(super) watch: Option<Watch<'a, L::Scalar, L::N>>,
+    pub(super) member_plan: MemberPlan<'a, L>,
     /// Name given by the user to the code that no fingerprint sees.
     pub(super) tag: Option<String>,
 }
 
-impl<L, T: Real, const N: usize, const M: usize> Plan<'_, L, T, N, M>
+impl<L> Plan<'_, L>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Fingerprint of the run, common to all members.
-    pub(super) fn fingerprint<P: Method<L, N, M>>(
+    pub(super) fn fingerprint<P: Method<L>>(
         &self,
         method: &P,
-        end: T,
+        end: L::Scalar,
         is_on_lanes: bool,
     ) -> Fingerprint {
         let mut run = Hash::new();
@@ -55,7 +56,7 @@ where
         if let Some(tag) = self.tag.as_deref().filter(|tag| !tag.is_empty()) {
             run.text(tag);
         }
-        Fingerprint { system: Fingerprint::of_system::<L, N, M>(), run: run.0, start: 0 }
+        Fingerprint { system: Fingerprint::of_system::<L>(), run: run.0, start: 0 }
     }
 
     /// Requires a tag if rows are taken over and code that no fingerprint sees can change results.
@@ -79,15 +80,14 @@ where
     }
 }
 
-pub(super) type Make<'a, L, T, const N: usize> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
-pub(super) type MemberObserver<'a, T, const N: usize> =
+pub(super) type Make<'a, L, T, N> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
+pub(super) type MemberObserver<'a, T, N> =
     Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
-pub(super) type Watch<'a, T, const N: usize> =
-    Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
+pub(super) type Watch<'a, T, N> = Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
 
 /// Progress of an ensemble.
 #[derive(Clone, Copy, Debug)]
-pub struct EnsembleProgress<'m, T, const N: usize> {
+pub struct EnsembleProgress<'m, T: Element, N: Length> {
     /// Number of finished members, including those taken over from an earlier run.
     pub done: usize,
     /// Number of members in this [part](crate::Ensemble::shard).
@@ -97,35 +97,32 @@ pub struct EnsembleProgress<'m, T, const N: usize> {
 }
 
 /// Samples, events and controller that every member uses during its motion.
-pub(super) struct MemberPlan<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    pub(super) samples: RecordPlan<'a, L, N, M>,
+pub(super) struct MemberPlan<'a, L: Lagrangian> {
+    pub(super) samples: RecordPlan<'a, L>,
     /// Events of the ensemble; each member starts with a fresh copy.
-    events: Vec<Event<L, Box<Observed<'a, L, N, M>>, N, M>>,
+    events: Vec<Event<L, Box<Observed<'a, L>>>>,
     /// Interval between calls of the controller, in units of time, and the controller. The first call is at the start.
-    controller: Option<(L::Scalar, Box<MemberController<'a, L, N, M>>)>,
+    controller: Option<(L::Scalar, Box<MemberController<'a, L>>)>,
 }
 
 /// Sets the parameters of the member with the given index; returns errors as text.
-type MemberController<'a, L, const N: usize, const M: usize> = dyn Fn(usize, &mut L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<(), String>
-    + Send
-    + Sync
-    + 'a;
+type MemberController<'a, L> = dyn Fn(usize, &mut L, &StateOf<L>) -> Result<(), String> + Send + Sync + 'a;
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Default for MemberPlan<'_, L, N, M> {
+impl<L: Lagrangian<Scalar: Real>> Default for MemberPlan<'_, L> {
     fn default() -> Self {
         let samples = RecordPlan::of(SampleTimes::At(Vec::new()));
         Self { samples, events: Vec::new(), controller: None }
     }
 }
 
-impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> MemberPlan<'a, L, N, M> {
-    pub(super) fn event<G>(&mut self, event: Event<L, G, N, M>)
+impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
+    pub(super) fn event<G>(&mut self, event: Event<L, G>)
     where
-        G: EventFunction<L, N, M> + Send + Sync + 'a,
+        G: EventFunction<L> + Send + Sync + 'a,
     {
         self.events.push(event.map(|function| {
-            let value: Box<Observed<'a, L, N, M>> =
-                Box::new(move |sample: &Sample<&L, N, M>| function.at(sample.system, &sample.state));
+            let value: Box<Observed<'a, L>> =
+                Box::new(move |sample: &Sample<&L>| function.at(sample.system, &sample.state));
             value
         }));
     }
@@ -133,9 +130,9 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Memb
     pub(super) fn controller<E: Display>(
         &mut self,
         interval: L::Scalar,
-        controller: impl Fn(usize, &mut L, &State<L::Scalar, N>) -> Result<(), E> + Send + Sync + 'a,
+        controller: impl Fn(usize, &mut L, &StateOf<L>) -> Result<(), E> + Send + Sync + 'a,
     ) {
-        let in_words = move |index: usize, system: &mut L, state: &State<L::Scalar, N>| {
+        let in_words = move |index: usize, system: &mut L, state: &StateOf<L>| {
             controller(index, system, state).map_err(|error| error.to_string())
         };
         self.controller = Some((interval, Box::new(in_words)));
@@ -173,13 +170,13 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Memb
         &self,
         index: usize,
         system: &L,
-        start: &State<L::Scalar, N>,
+        start: &StateOf<L>,
         end: L::Scalar,
-    ) -> Result<Record<'_, L, N, M>, Error> {
+    ) -> Result<Record<'_, L>, Error> {
         let events = self
             .events
             .iter()
-            .map(|event| -> Box<DynEvent<'_, L, N, M>> { Box::new(event.anew(|function| &**function)) });
+            .map(|event| -> Box<DynEvent<'_, L>> { Box::new(event.anew(|function| &**function)) });
         let steering = self.controller.as_ref().map(|(interval, controller)| Steering {
             interval: *interval,
             controller: Box::new(move |system, state| controller(index, system, state)),

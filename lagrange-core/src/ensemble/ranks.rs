@@ -30,11 +30,11 @@ use message::MemberMessage;
 
 /// An ensemble on all ranks of an MPI communicator, from [`Ensemble::on_ranks`].
 #[must_use = "an ensemble does nothing until it is integrated"]
-pub struct OnRanks<'a, L, T, const N: usize, const M: usize = 0, const HAS_DENSE_OUTPUT: bool = false>
+pub struct OnRanks<'a, L, const HAS_DENSE_OUTPUT: bool = false>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
-    ensemble: Ensemble<'a, L, T, N, M, HAS_DENSE_OUTPUT>,
+    ensemble: Ensemble<'a, L, HAS_DENSE_OUTPUT>,
     world: SimpleCommunicator,
     batch: Duration,
 }
@@ -44,10 +44,9 @@ const PAUSE: Duration = Duration::from_millis(1);
 /// Smallest number of members in a batch, unless fewer are left.
 const LEAST: usize = 16;
 
-impl<'a, L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
-    Ensemble<'a, L, T, N, M, HAS_DENSE_OUTPUT>
+impl<'a, L, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Runs this ensemble on all ranks of the communicator. Each rank must call this and then integrate; see the
     /// [chapter](super#on-many-machines).
@@ -58,16 +57,15 @@ where
     /// ranks. The error of a member arrives as text, as in a table.
     ///
     /// With the feature `rayon` each rank integrates on all threads of rayon's global pool.
-    pub fn on_ranks(self, communicator: &impl Communicator) -> OnRanks<'a, L, T, N, M, HAS_DENSE_OUTPUT> {
+    pub fn on_ranks(self, communicator: &impl Communicator) -> OnRanks<'a, L, HAS_DENSE_OUTPUT> {
         // A duplicate keeps messages of the ensemble apart from those of the program.
         OnRanks { ensemble: self, world: communicator.duplicate(), batch: Duration::from_secs(1) }
     }
 }
 
-impl<L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
-    OnRanks<'_, L, T, N, M, HAS_DENSE_OUTPUT>
+impl<L, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Sets the approximate time that a rank works on one batch; 1 s by default. At most this much work is lost if the
     /// job is killed. Rank 0 hears from each rank about as often. Batches become shorter toward the end, so that all
@@ -86,9 +84,9 @@ where
     /// error nothing is integrated.
     ///
     /// A rank that panics aborts the whole job, because the other ranks would wait forever.
-    pub fn integrate<P>(self, end: T, method: P) -> Result<Option<Outcome<T, N>>, Error>
+    pub fn integrate<P>(self, end: L::Scalar, method: P) -> Result<Option<Outcome<L::Scalar, L::N>>, Error>
     where
-        P: Method<L, N, M> + Sync,
+        P: Method<L> + Sync,
     {
         let run = self.ensemble.plan.fingerprint(&method, end, false);
         self.run(method.check(), end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
@@ -97,10 +95,10 @@ where
     fn run(
         mut self,
         checked: Result<(), Error>,
-        end: T,
+        end: L::Scalar,
         run: Fingerprint,
-        work: impl Fn(&Job<'_, L, T, N, M>) + Sync,
-    ) -> Result<Option<Outcome<T, N>>, Error> {
+        work: impl Fn(&Job<'_, L>) + Sync,
+    ) -> Result<Option<Outcome<L::Scalar, L::N>>, Error> {
         let _guard = AbortOnPanic(&self.world);
         let is_first = self.world.rank() == 0;
         if !is_first {
@@ -123,30 +121,28 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
-    OnRanks<'_, L, f64, N, M, HAS_DENSE_OUTPUT>
+impl<L, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<Scalar = f64>,
 {
     /// Integrates all members to the time `end`, on each thread as many at once as [`Lanes`] holds, like
     /// [`Ensemble::integrate_on_lanes`]. Returns the outcome of all members on rank 0, and `None` on the others.
     ///
     /// # Errors
     /// The errors of [`integrate`](Self::integrate).
-    pub fn integrate_on_lanes<P>(self, end: f64, method: P) -> Result<Option<Outcome<f64, N>>, Error>
+    pub fn integrate_on_lanes<P>(self, end: f64, method: P) -> Result<Option<Outcome<f64, L::N>>, Error>
     where
-        L: Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
-        P: LaneMethod<L, N, M> + Sync,
+        L: Pack<Lanes, Packed: Lagrangian<N = L::N, M = L::M, Scalar = Lanes>>,
+        P: LaneMethod<L> + Sync,
     {
         let run = self.ensemble.plan.fingerprint(&method, end, true);
         self.run(method.check(), end, run, |job| job.on_lanes::<P, HAS_DENSE_OUTPUT>(&method))
     }
 }
 
-impl<L, T, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool> Debug
-    for OnRanks<'_, L, T, N, M, HAS_DENSE_OUTPUT>
+impl<L, const HAS_DENSE_OUTPUT: bool> Debug for OnRanks<'_, L, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("OnRanks").field("ensemble", &self.ensemble).field("batch", &self.batch).finish()
@@ -176,12 +172,9 @@ fn check_threads(world: &SimpleCommunicator) -> Result<(), Error> {
 }
 
 /// Checks, before any rank integrates, that all ranks can and that they agree with rank 0.
-fn agreed<'a, L, T: Real, const N: usize, const M: usize>(
-    world: &SimpleCommunicator,
-    job: Result<Job<'a, L, T, N, M>, Error>,
-) -> Result<Job<'a, L, T, N, M>, Error>
+fn agreed<'a, L>(world: &SimpleCommunicator, job: Result<Job<'a, L>, Error>) -> Result<Job<'a, L>, Error>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     let mine = job.as_ref().map_or([0; 4], |job| {
         let [run, count, members] = job.identity();
@@ -222,13 +215,13 @@ fn follow(world: &SimpleCommunicator, integrate: impl Fn(Vec<usize>) -> MemberMe
 }
 
 /// Distributes members and collects their results, while another thread integrates the batches of rank 0.
-fn lead<L, T: Real, const N: usize, const M: usize>(
+fn lead<L>(
     world: &SimpleCommunicator,
-    job: &Job<'_, L, T, N, M>,
+    job: &Job<'_, L>,
     batch: Duration,
     integrate: impl Fn(Vec<usize>) -> MemberMessage + Send,
 ) where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     thread::scope(|scope| {
         let (own, lists) = channel();
@@ -246,11 +239,11 @@ fn lead<L, T: Real, const N: usize, const M: usize>(
 }
 
 /// State of rank 0: the open batches and their timing.
-struct Desk<'w, 'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M: usize> {
+struct Desk<'w, 'a, L: Lagrangian<Scalar: Real>> {
     world: &'w SimpleCommunicator,
     /// Channel to the thread that integrates on this rank.
     own: Sender<Vec<usize>>,
-    job: &'w Job<'a, L, T, N, M>,
+    job: &'w Job<'a, L>,
     batch: Duration,
     /// For each rank, the time when it received its batch, and the number of members in it.
     open: Vec<Option<(Instant, usize)>>,
@@ -259,9 +252,9 @@ struct Desk<'w, 'a, L: Lagrangian<N, M, Scalar = T>, T, const N: usize, const M:
     time: Duration,
 }
 
-impl<L, T: Real, const N: usize, const M: usize> Desk<'_, '_, L, T, N, M>
+impl<L> Desk<'_, '_, L>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Serves ranks until all members are done, the job is stopped, or the integrating thread of this rank has
     /// panicked.

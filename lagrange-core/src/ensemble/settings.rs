@@ -12,7 +12,7 @@ use crate::error::{EnsembleError, Error};
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method};
 use crate::number::{Lanes, Real};
-use crate::system::{Lagrangian, Pack, State};
+use crate::system::{Lagrangian, Pack, StateOf};
 
 /// Many members, each a system with its initial state, that are integrated to the same time.
 ///
@@ -39,20 +39,20 @@ use crate::system::{Lagrangian, Pack, State};
 /// # Ok::<(), Error>(())
 /// ```
 #[must_use = "an ensemble does nothing until it is integrated"]
-pub struct Ensemble<'a, L, T, const N: usize, const M: usize = 0, const HAS_DENSE_OUTPUT: bool = false>
+pub struct Ensemble<'a, L, const HAS_DENSE_OUTPUT: bool = false>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
-    pub(super) plan: Plan<'a, L, T, N, M>,
+    pub(super) plan: Plan<'a, L>,
 }
 
-impl<'a, L, T: Real, const N: usize, const M: usize> Ensemble<'a, L, T, N, M>
+impl<'a, L> Ensemble<'a, L>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Makes `count` members from their indices 0, 1, …. `member` must return the same member for the same index. It is
     /// called from any thread, and from several at once.
-    pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a) -> Self {
+    pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, StateOf<L>) + Send + Sync + 'a) -> Self {
         let make = Box::new(member);
         let (list, done, observer, watch, tag) = (None, Vec::new(), None, None, None);
         let member_plan = MemberPlan::default();
@@ -62,7 +62,7 @@ where
     }
 
     /// An ensemble of these members.
-    pub fn new(members: &'a [(L, State<T, N>)]) -> Self
+    pub fn new(members: &'a [(L, StateOf<L>)]) -> Self
     where
         L: Clone + Send + Sync,
     {
@@ -71,10 +71,9 @@ where
     }
 }
 
-impl<'a, L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
-    Ensemble<'a, L, T, N, M, HAS_DENSE_OUTPUT>
+impl<'a, L, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Keeps one of `of` parts: every `of`-th member, starting at index `shard` (counted from 0). The sizes of the
     /// parts differ by one member at most. Parts may run on different machines; [`Outcome::merge`] or
@@ -110,7 +109,7 @@ where
     /// ends that member alone, with [`Ending::Cancelled`](crate::Ending::Cancelled).
     pub fn observe(
         mut self,
-        observer: impl Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a,
+        observer: impl Fn(usize, &StateOf<L>) -> ControlFlow<()> + Send + Sync + 'a,
     ) -> Self {
         self.plan.observer = Some(Box::new(observer));
         self
@@ -122,7 +121,7 @@ where
     /// called again. Unfinished members are left out of the outcome, and can be [resumed](Self::resume).
     pub fn on_progress(
         mut self,
-        watch: impl FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a,
+        watch: impl FnMut(EnsembleProgress<'_, L::Scalar, L::N>) -> ControlFlow<()> + Send + 'a,
     ) -> Self {
         self.plan.watch = Some(Box::new(watch));
         self
@@ -164,9 +163,9 @@ where
     /// Errors of the whole ensemble: [`Error::Setting`], [`Error::EndNotFinite`], [`EnsembleError::Shard`],
     /// [`EnsembleError::NoSuchMember`], [`EnsembleError::OtherRun`], [`EnsembleError::Untagged`],
     /// [`Error::SampleTime`]. The errors of single members are in the outcome.
-    pub fn integrate<P>(self, end: T, method: P) -> Result<Outcome<T, N>, Error>
+    pub fn integrate<P>(self, end: L::Scalar, method: P) -> Result<Outcome<L::Scalar, L::N>, Error>
     where
-        P: Method<L, N, M> + Sync,
+        P: Method<L> + Sync,
     {
         method.check()?;
         let run = self.plan.fingerprint(&method, end, false);
@@ -206,9 +205,9 @@ where
     /// [tag](Self::tag).
     pub fn resume(self, table: &str) -> Result<Self, Error>
     where
-        T: core::str::FromStr,
+        L::Scalar: core::str::FromStr,
     {
-        let system = Fingerprint::of_system::<L, N, M>();
+        let system = Fingerprint::of_system::<L>();
         let table = MemberTable::of(table, L::COORDINATES, system, self.plan.count)?;
         self.resume_from(table)
     }
@@ -217,7 +216,7 @@ where
     ///
     /// # Errors
     /// [`EnsembleError::NoSuchMember`] if the table contains a member that the ensemble does not have.
-    pub fn resume_from(mut self, table: MemberTable<T, N>) -> Result<Self, Error> {
+    pub fn resume_from(mut self, table: MemberTable<L::Scalar, L::N>) -> Result<Self, Error> {
         let count = self.plan.count;
         match table.rows().last() {
             Some(row) if row.index >= count => {
@@ -232,10 +231,10 @@ where
 
     pub(super) fn run(
         self,
-        end: T,
+        end: L::Scalar,
         run: Fingerprint,
-        work: impl Fn(&Job<'_, L, T, N, M>) + Sync,
-    ) -> Result<Outcome<T, N>, Error> {
+        work: impl Fn(&Job<'_, L>) + Sync,
+    ) -> Result<Outcome<L::Scalar, L::N>, Error> {
         check_end(end)?;
         let job = Job::new(self.plan, end, run)?;
         everywhere(|| work(&job));
@@ -243,10 +242,9 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
-    Ensemble<'_, L, f64, N, M, HAS_DENSE_OUTPUT>
+impl<L, const HAS_DENSE_OUTPUT: bool> Ensemble<'_, L, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<Scalar = f64>,
 {
     /// Integrates all members to the time `end` by `method`, on each thread as many at once as [`Lanes`] holds. The
     /// method is `Dop853`, `Dopri5`, [`Taylor`](crate::Taylor) or another [`LaneMethod`].
@@ -260,10 +258,10 @@ where
     ///
     /// # Errors
     /// The errors of [`integrate`](Self::integrate).
-    pub fn integrate_on_lanes<P>(self, end: f64, method: P) -> Result<Outcome<f64, N>, Error>
+    pub fn integrate_on_lanes<P>(self, end: f64, method: P) -> Result<Outcome<f64, L::N>, Error>
     where
-        L: Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
-        P: LaneMethod<L, N, M> + Sync,
+        L: Pack<Lanes, Packed: Lagrangian<N = L::N, M = L::M, Scalar = Lanes>>,
+        P: LaneMethod<L> + Sync,
     {
         method.check()?;
         let run = self.plan.fingerprint(&method, end, true);
@@ -271,10 +269,9 @@ where
     }
 }
 
-impl<L, T, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool> Debug
-    for Ensemble<'_, L, T, N, M, HAS_DENSE_OUTPUT>
+impl<L, const HAS_DENSE_OUTPUT: bool> Debug for Ensemble<'_, L, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Plan { count, shard, shards, .. } = &self.plan;

@@ -14,11 +14,13 @@ use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::record::Arrival;
 use crate::number::Real;
 use crate::system::Lagrangian;
+use crate::vector::{Element, Length};
+
 pub(super) use read::read;
 use row::{Line, header};
 pub use row::{MemberEnding, MemberRow};
 
-impl<T: Real, const N: usize> Member<T, N> {
+impl<T: Real, N: Length> Member<T, N> {
     /// The member's row of a table.
     pub fn row(&self) -> MemberRow<T, N> {
         let arrival = self.arrival();
@@ -45,7 +47,7 @@ impl<T: Real, const N: usize> Member<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> Outcome<T, N> {
+impl<T: Real, N: Length> Outcome<T, N> {
     /// Table as comma-separated values, one line per member. The columns are `member`, its [`Fingerprint`] as `system`,
     /// `run` and `start`, `t`, coordinates `x` and velocities `x_dot` of the last state, the
     /// [`Statistics`](crate::Statistics), `ending`, and `member_again`, which marks a line as complete. The fingerprint
@@ -54,7 +56,7 @@ impl<T: Real, const N: usize> Outcome<T, N> {
     /// The ending is `complete`, `cancelled`, `event: ` and the event's name, or the message of the error. Numbers have
     /// the fewest digits that read back to the same value. [`MemberTable`] reads the table.
     pub fn csv(&self) -> impl Display + '_ {
-        Lines { names: &self.names, members: &self.members, line: Member::csv }
+        Lines { names: self.names, members: &self.members, line: Member::csv }
     }
 }
 
@@ -75,7 +77,7 @@ impl<T: Real, const N: usize> Outcome<T, N> {
 /// # let springs = Ensemble::from_fn(3, |n| (Spring { k: n as f64 }, State::at_rest([1.0])));
 /// let written = springs.integrate(1.0, Dop853::default())?.csv().to_string();
 /// let torn = format!("{written}{written}2,17");
-/// let table = MemberTable::read::<Spring<f64>, 0>(&torn)?;
+/// let table = MemberTable::read::<Spring<f64>>(&torn)?;
 /// assert_eq!(table.to_string(), written);
 /// for row in table.rows() {
 ///     assert_eq!(row.ending, MemberEnding::Complete);
@@ -84,39 +86,44 @@ impl<T: Real, const N: usize> Outcome<T, N> {
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct MemberTable<T, const N: usize> {
-    names: [&'static str; N],
+pub struct MemberTable<T: Element, N: Length> {
+    names: &'static [&'static str],
     rows: Vec<MemberRow<T, N>>,
 }
 
-impl<T: Real, const N: usize> MemberTable<T, N> {
+impl<T: Real, N: Length> MemberTable<T, N> {
     /// Reads the rows of a table of systems `L`.
     ///
     /// # Errors
     /// [`EnsembleError::Resume`] if a line is no row of this system with these equations, or if the rows are of
     /// different runs.
-    pub fn read<L, const M: usize>(table: &str) -> Result<Self, Error>
+    pub fn read<L>(table: &str) -> Result<Self, Error>
     where
-        L: Lagrangian<N, M, Scalar = T>,
+        L: Lagrangian<N = N, Scalar = T>,
         T: FromStr,
     {
-        Self::of(table, L::COORDINATES, Fingerprint::of_system::<L, N, M>(), usize::MAX)
+        Self::of(table, L::COORDINATES, Fingerprint::of_system::<L>(), usize::MAX)
     }
 
     /// Reads the table of an ensemble of `count` members of a system with the coordinates `names` and the
     /// [hash](Fingerprint::system) `system`.
-    pub(super) fn of(table: &str, names: [&'static str; N], system: u32, count: usize) -> Result<Self, Error>
+    pub(super) fn of(
+        table: &str,
+        names: &'static [&'static str],
+        system: u32,
+        count: usize,
+    ) -> Result<Self, Error>
     where
         T: FromStr,
     {
         let wrong = |line, column, reason| Error::Ensemble(EnsembleError::Resume { line, column, reason });
-        Self::gather(names, system, read(table, &names, count)?, wrong)
+        Self::gather(names, system, read(table, names, count)?, wrong)
     }
 
     /// Collects rows, each with its place in the source, and checks that all are of one run. `wrong` makes the error
     /// from the place of a row, the differing column and the difference.
     pub(super) fn gather<X>(
-        names: [&'static str; N],
+        names: &'static [&'static str],
         system: u32,
         rows: impl IntoIterator<Item = (X, MemberRow<T, N>)>,
         wrong: impl Fn(X, usize, &'static str) -> Error,
@@ -155,20 +162,20 @@ impl<T: Real, const N: usize> MemberTable<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> Display for MemberTable<T, N> {
+impl<T: Real, N: Length> Display for MemberTable<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        Lines { names: &self.names, members: &self.rows, line: MemberRow::csv }.fmt(f)
+        Lines { names: self.names, members: &self.rows, line: MemberRow::csv }.fmt(f)
     }
 }
 
 /// Prints the header, then one line per member.
-struct Lines<'o, X, F, const N: usize> {
-    names: &'o [&'static str; N],
+struct Lines<'o, X, F> {
+    names: &'static [&'static str],
     members: &'o [X],
     line: F,
 }
 
-impl<'o, X, D: Display, F: Fn(&'o X) -> D, const N: usize> Display for Lines<'o, X, F, N> {
+impl<'o, X, D: Display, F: Fn(&'o X) -> D> Display for Lines<'o, X, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", header(self.names))?;
         self.members.iter().try_for_each(|member| write!(f, "{}", (self.line)(member)))

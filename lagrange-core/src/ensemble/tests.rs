@@ -17,7 +17,7 @@ struct Spring<T> {
 const END: f64 = 1.0;
 
 /// Springs with ω = 1, 2, …, whose motion is x = cos ωt.
-fn springs<'a>() -> Ensemble<'a, Spring<f64>, f64, 1> {
+fn springs<'a>() -> Ensemble<'a, Spring<f64>> {
     let omega = |index: usize| 1.0 + index as f64;
     Ensemble::from_fn(10, move |index| (Spring { k: omega(index).powi(2) }, State::at_rest([1.0])))
 }
@@ -32,7 +32,7 @@ struct Circle<T> {
     l: T,
 }
 
-fn circles<'a>() -> Ensemble<'a, Circle<f64>, f64, 2, 1> {
+fn circles<'a>() -> Ensemble<'a, Circle<f64>> {
     let radius = |index: usize| 1.0 + index as f64;
     Ensemble::from_fn(10, move |index| {
         (Circle { g: 9.81, l: radius(index) }, State::at_rest([radius(index), 0.0]))
@@ -86,12 +86,12 @@ fn lanes_count_fixed_steps_as_they_are_taken_alone() {
     count(|| springs().controlled(0.13, control), Dopri5::default());
 }
 
-fn count<L, P, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>(
-    ensemble: impl Fn() -> Ensemble<'static, L, f64, N, M, HAS_DENSE_OUTPUT>,
+fn count<L, P, const HAS_DENSE_OUTPUT: bool>(
+    ensemble: impl Fn() -> Ensemble<'static, L, HAS_DENSE_OUTPUT>,
     method: Adaptive<P>,
 ) -> usize
 where
-    L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
+    L: Lagrangian<Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N = L::N, M = L::M, Scalar = Lanes>>,
     P: Pair,
     Adaptive<P>: Copy + Sync,
 {

@@ -7,12 +7,11 @@ use crate::motion::record::SampleTimes;
 use crate::motion::{Event, EventFunction, EventValue};
 use crate::number::Real;
 use crate::solution::Sample;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
 
-impl<'a, L, T: Real, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
-    Ensemble<'a, L, T, N, M, HAS_DENSE_OUTPUT>
+impl<'a, L, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<N, M, Scalar = T>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Stores the states of each member at these times, in [`Arrival::samples`](super::Arrival::samples).
     ///
@@ -49,7 +48,7 @@ where
     /// [`integrate`](Self::integrate) returns [`Error::SampleTime`](crate::Error::SampleTime) for times that are not
     /// finite or out of order. A member whose motion does not cover the times, or runs in the other direction, has the
     /// error [`Error::OutsideTrajectory`](crate::Error::OutsideTrajectory) or `SampleTime`.
-    pub fn samples_at(self, times: impl IntoIterator<Item = T>) -> Ensemble<'a, L, T, N, M, true> {
+    pub fn samples_at(self, times: impl IntoIterator<Item = L::Scalar>) -> Ensemble<'a, L, true> {
         let mut plan = self.plan;
         plan.member_plan.samples.times = SampleTimes::At(times.into_iter().collect());
         Ensemble { plan }
@@ -58,7 +57,7 @@ where
     /// Stores the state of each member at its start and after every `interval` of time, like
     /// [`MotionBuilder::every`](crate::MotionBuilder::every). Replaces the times of [`samples_at`](Self::samples_at),
     /// whose rules hold otherwise.
-    pub fn every(self, interval: T) -> Ensemble<'a, L, T, N, M, true> {
+    pub fn every(self, interval: L::Scalar) -> Ensemble<'a, L, true> {
         let mut plan = self.plan;
         plan.member_plan.samples.times = SampleTimes::Every(interval);
         Ensemble { plan }
@@ -91,9 +90,9 @@ where
     /// If the event's function fails at the start of a member, the member has that error. If it fails later, the member
     /// ends and keeps the crossings found so far. Every step is searched for crossings. On lanes this costs about half
     /// of a step, by Taylor's method nothing, and the evaluations of the function.
-    pub fn event<G>(self, event: Event<L, G, N, M>) -> Ensemble<'a, L, T, N, M, true>
+    pub fn event<G>(self, event: Event<L, G>) -> Ensemble<'a, L, true>
     where
-        G: EventFunction<L, N, M> + Send + Sync + 'a,
+        G: EventFunction<L> + Send + Sync + 'a,
     {
         let mut plan = self.plan;
         plan.member_plan.event(event);
@@ -138,9 +137,9 @@ where
     /// [`Ending::TimeTooCoarse`](crate::Ending::TimeTooCoarse).
     pub fn controlled<E: Display>(
         self,
-        interval: T,
-        controller: impl Fn(usize, &mut L, &State<T, N>) -> Result<(), E> + Send + Sync + 'a,
-    ) -> Ensemble<'a, L, T, N, M, true> {
+        interval: L::Scalar,
+        controller: impl Fn(usize, &mut L, &StateOf<L>) -> Result<(), E> + Send + Sync + 'a,
+    ) -> Ensemble<'a, L, true> {
         let mut plan = self.plan;
         plan.member_plan.controller(interval, controller);
         Ensemble { plan }
@@ -152,10 +151,10 @@ where
     ///
     /// The function is also evaluated at the start, so that an error there is reported before the first step. If it
     /// fails later, the member ends.
-    pub fn quantity<V: EventValue<T>>(
+    pub fn quantity<V: EventValue<L::Scalar>>(
         mut self,
         name: &'static str,
-        function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'a,
+        function: impl Fn(&Sample<&L>) -> V + Send + Sync + 'a,
     ) -> Self {
         self.plan.member_plan.samples.quantity(name, function);
         self

@@ -5,27 +5,26 @@
 //! b), the linear system of the dynamics with other right-hand sides. So M may be singular if the constraints
 //! make the system regular. If L is quadratic in the velocities, one step is exact.
 
-use core::array::from_fn;
-
 use super::phase::PhaseState;
 use crate::error::Error;
 use crate::names::name;
-use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, vector};
+use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Units};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::{fault, not_finite};
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::{Lagrangian, SolutionOf, State, StateOf};
+use crate::vector::{Array, Element, Entrywise, Length, from_fn, vector};
 
 /// Returns the state with these momenta. The velocity is sought from `guess` on the constraints `active`; for
 /// `None` an independent set is chosen.
-pub(crate) fn invert<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(crate) fn invert<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    phase: &PhaseState<L::Scalar, N>,
-    guess: &[L::Scalar; N],
-    active: Option<&[bool; M]>,
-) -> Result<State<L::Scalar, N>, Error> {
-    let inversion = Inversion { system, phase, active: active.copied().unwrap_or([true; M]) };
+    phase: &PhaseState<L::Scalar, L::N>,
+    guess: &Array<L::Scalar, L::N>,
+    active: Option<&Array<bool, L::M>>,
+) -> Result<StateOf<L>, Error> {
+    let inversion = Inversion { system, phase, active: active.copied().unwrap_or(Array::filled(true)) };
     let state = State { t: phase.t, q: phase.q, v: vector(*guess) };
     match inversion.at_once(state) {
         Some(state) => Ok(state),
@@ -33,37 +32,37 @@ pub(crate) fn invert<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M:
     }
 }
 
-struct Inversion<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+struct Inversion<'a, L: Lagrangian> {
     system: &'a L,
-    phase: &'a PhaseState<L::Scalar, N>,
-    active: [bool; M],
+    phase: &'a PhaseState<L::Scalar, L::N>,
+    active: Array<bool, L::M>,
 }
 
 /// Trial velocity with its residual.
-struct VelocityTrial<T, const N: usize, const M: usize> {
+struct VelocityTrial<T: Element, N: Length, M: Length> {
     state: State<T, N>,
     /// Multipliers μ.
-    multipliers: [T; M],
+    multipliers: Array<T, M>,
     /// Momenta p(q, v).
-    momentum: [T; N],
+    momentum: Array<T, N>,
     /// F v + b of the active constraints.
-    rate: [T; M],
+    rate: Array<T, M>,
 }
 
 /// Linear system of Newton's step at a trial, and the units in which its rows are compared.
-struct Linear<'a, T, const N: usize, const M: usize> {
+struct Linear<'a, T: Element, N: Length, M: Length> {
     wanted: &'a PhaseState<T, N>,
     equations: KktSystem<T, N, M>,
     units: Units<T, N, M>,
 }
 
-impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
+impl<T: Real, N: Length, M: Length> Linear<'_, T, N, M> {
     /// Returns p(q, v) − p − Fᵀμ, and the sum of the magnitudes of its terms.
     fn momentum_residual(&self, trial: &VelocityTrial<T, N, M>, i: usize) -> (T, T) {
         let (given, wanted) = (trial.momentum[i], self.wanted.p[i]);
-        let inertia = (0..N).map(|j| self.equations.m[i][j] * trial.state.v[j]);
+        let inertia = (0..N::COUNT).map(|j| self.equations.m[i][j] * trial.state.v[j]);
         let terms = inertia.fold(Scalar::abs(given) + Scalar::abs(wanted), |sum, x| sum + Scalar::abs(x));
-        (0..M).fold((given - wanted, terms), |(residual, terms), a| {
+        (0..M::COUNT).fold((given - wanted, terms), |(residual, terms), a| {
             let along = self.equations.f[a][i] * trial.multipliers[a];
             (residual - along, terms + Scalar::abs(along))
         })
@@ -72,13 +71,14 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
     /// Returns the distance from the solution, in natural units of the dynamics, and the magnitude of its
     /// terms. Round-off of the terms of a row does not count: it must not hide another row.
     fn distance(&self, trial: &VelocityTrial<T, N, M>) -> (T, T) {
-        let momenta = (0..N).map(|i| {
+        let momenta = (0..N::COUNT).map(|i| {
             let (residual, terms) = self.momentum_residual(trial, i);
             (residual * self.units.coordinates[i], terms * self.units.coordinates[i])
         });
-        let rates = (0..M).map(|a| {
+        let rates = (0..M::COUNT).map(|a| {
             let row = &self.equations.f[a];
-            let terms = (0..N).fold(T::constant(0.0), |sum, i| sum + Scalar::abs(row[i] * trial.state.v[i]));
+            let terms =
+                (0..N::COUNT).fold(T::constant(0.0), |sum, i| sum + Scalar::abs(row[i] * trial.state.v[i]));
             (self.units.of_row(a, trial.rate[a]), self.units.of_row(a, terms))
         });
         let zero = T::constant(0.0);
@@ -89,16 +89,16 @@ impl<T: Real, const N: usize, const M: usize> Linear<'_, T, N, M> {
     }
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversion<'_, L, N, M> {
+impl<L: Lagrangian<Scalar: Real>> Inversion<'_, L> {
     /// Momenta linear in the velocities: a single solve, and a second one if the first lost a digit.
     #[inline]
-    fn at_once(&self, mut state: State<L::Scalar, N>) -> Option<State<L::Scalar, N>> {
+    fn at_once(&self, mut state: StateOf<L>) -> Option<StateOf<L>> {
         if !L::MOMENTA_ARE_LINEAR || self.active.contains(&false) {
             return None;
         }
         let factor = self.system.factor(&state);
         for _ in 0..2 {
-            let missing = self.phase.p - self.system.momentum(&state);
+            let missing = self.phase.p.minus(&self.system.momentum(&state));
             let rate = self.system.constraint_rate(&state);
             let correction = self.system.solve_with(&factor, &missing, &rate);
             if !is_trustworthy(&correction) {
@@ -114,16 +114,16 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
 
     /// Any number of Newton steps. Not inlined, since its matrices are large.
     #[inline(never)]
-    fn by_steps(mut self, state: State<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
-        let start = self.trial(state, [L::Scalar::constant(0.0); M]);
+    fn by_steps(mut self, state: StateOf<L>) -> Result<StateOf<L>, Error> {
+        let start = self.trial(state, Array::filled(L::Scalar::constant(0.0)));
         newton::find(&mut self, start).map(|(found, _)| found.state)
     }
 
     fn trial(
         &self,
-        state: State<L::Scalar, N>,
-        multipliers: [L::Scalar; M],
-    ) -> VelocityTrial<L::Scalar, N, M> {
+        state: StateOf<L>,
+        multipliers: Array<L::Scalar, L::M>,
+    ) -> VelocityTrial<L::Scalar, L::N, L::M> {
         let rate = self.system.constraint_rate(&state);
         VelocityTrial {
             momentum: self.system.momentum(&state).into(),
@@ -136,9 +136,9 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
     /// Newton's step from a state: change of the velocity, and the new μ.
     fn step(
         &self,
-        state: &State<L::Scalar, N>,
-        equations: &KktSystem<L::Scalar, N, M>,
-    ) -> Result<Solution<L::Scalar, N, M>, Error> {
+        state: &StateOf<L>,
+        equations: &KktSystem<L::Scalar, L::N, L::M>,
+    ) -> Result<SolutionOf<L>, Error> {
         if !self.active.contains(&false) {
             let (h, gamma) = (vector(equations.h), vector(equations.gamma));
             let fast = self.system.solve_with(&self.system.factor(state), &h, &gamma);
@@ -152,21 +152,21 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Inversio
         solved.map_err(|found| self.fault(&found))
     }
 
-    fn fault(&self, found: &Fault<L::Scalar, N>) -> Error {
-        match fault::<L, N, M>(found, self.phase.t.to_f64()) {
+    fn fault(&self, found: &Fault<L::Scalar, L::N>) -> Error {
+        match fault::<L>(found, self.phase.t.to_f64()) {
             Error::Singular { coordinates, time } => Error::VelocityUndetermined { coordinates, time },
             other => other,
         }
     }
 }
 
-impl<'a, L, const N: usize, const M: usize> Search for Inversion<'a, L, N, M>
+impl<'a, L> Search for Inversion<'a, L>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
     type Scalar = L::Scalar;
-    type Trial = VelocityTrial<L::Scalar, N, M>;
-    type Linear = Linear<'a, L::Scalar, N, M>;
+    type Trial = VelocityTrial<L::Scalar, L::N, L::M>;
+    type Linear = Linear<'a, L::Scalar, L::N, L::M>;
 
     const STEPS: usize = 100;
 
@@ -179,7 +179,7 @@ where
             f: from_fn(|a| from_fn(|i| if self.active[a] { jacobian[(a, i)] } else { zero })),
             gamma: trial.rate,
         };
-        if let Some(row) = not_finite::<L, N, M>(&equations) {
+        if let Some(row) = not_finite::<L>(&equations) {
             return Err(Error::EquationsNotFinite { row, time: self.phase.t.to_f64() });
         }
         let units = Units::of(&equations.m, &equations.f);
@@ -201,7 +201,7 @@ where
     ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
         let step = self.step(&from.state, &linear.equations)?;
         Ok(halvings(if converged { 1 } else { 50 }).map(move |part| {
-            let v = from.state.v + step.accelerations * part;
+            let v = from.state.v.each_with(&step.accelerations, |v, change| v + change * part);
             let change = |a: usize| (step.multipliers[a] - from.multipliers[a]) * part;
             self.trial(State { v, ..from.state }, from_fn(|a| from.multipliers[a] + change(a)))
         }))
@@ -215,9 +215,10 @@ where
         }
         let residual = |i: usize| linear.momentum_residual(trial, i).0;
         let size = |i: usize| Scalar::abs(residual(i)) * linear.units.coordinates[i];
-        let farthest = (1..N).fold(0, |worst, i| if exceeds(size(i), size(worst)) { i } else { worst });
+        let farthest =
+            (1..<L::N>::COUNT).fold(0, |worst, i| if exceeds(size(i), size(worst)) { i } else { worst });
         Error::MomentumNotReached {
-            coordinate: name(&L::COORDINATES, farthest),
+            coordinate: name(L::COORDINATES, farthest),
             residual: residual(farthest).to_f64(),
             iterations: steps,
             time: self.phase.t.to_f64(),

@@ -7,8 +7,6 @@ mod phase;
 mod tests;
 mod vector_field;
 
-use nalgebra::SVector;
-
 pub use phase::{PhaseDerivative, PhaseState};
 pub use vector_field::HamiltonianVectorField;
 
@@ -21,9 +19,10 @@ use crate::motion::{
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::system::finite::check_entries;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Trajectory;
+use crate::vector::{Array, Vector, vector};
 use phase::equations;
 
 /// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints, for every [`Lagrangian`]
@@ -63,9 +62,9 @@ use phase::equations;
     label = "not a Lagrangian system over `f64` or `f32`",
     note = "`#[derive(Lagrangian)]` gives it to every struct over `f64` or `f32`: the Legendre transform has to decide, which SIMD lanes and dual numbers cannot"
 )]
-pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Real> + Sized {
+pub trait Hamiltonian: Lagrangian<Scalar: Real> + Sized {
     /// Returns the phase state of a state, with the momenta p = ∂L/∂q̇.
-    fn phase_state(&self, state: &State<Self::Scalar, N>) -> PhaseState<Self::Scalar, N> {
+    fn phase_state(&self, state: &StateOf<Self>) -> PhaseState<Self::Scalar, Self::N> {
         PhaseState { t: state.t, q: state.q, p: self.momentum(state) }
     }
 
@@ -76,8 +75,8 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
     /// [`Error::StateNotFinite`]; [`Error::EquationsNotFinite`]; [`Error::VelocityUndetermined`] if ∂²L/∂q̇² is
     /// singular along the constraints; [`Error::MomentumNotReached`] if Newton's iteration does not converge;
     /// [`Error::Contradictory`] if dependent constraints demand different velocities.
-    fn legendre(&self, phase: &PhaseState<Self::Scalar, N>) -> Result<State<Self::Scalar, N>, Error> {
-        self.legendre_near(phase, &SVector::from([Self::Scalar::constant(0.0); N]))
+    fn legendre(&self, phase: &PhaseState<Self::Scalar, Self::N>) -> Result<StateOf<Self>, Error> {
+        self.legendre_near(phase, &vector(Array::filled(Self::Scalar::constant(0.0))))
     }
 
     /// Like [`legendre`](Self::legendre), with an initial guess of the velocity: for a Lagrangian that is
@@ -87,9 +86,9 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
     /// Those of [`legendre`](Self::legendre).
     fn legendre_near(
         &self,
-        phase: &PhaseState<Self::Scalar, N>,
-        velocity: &SVector<Self::Scalar, N>,
-    ) -> Result<State<Self::Scalar, N>, Error> {
+        phase: &PhaseState<Self::Scalar, Self::N>,
+        velocity: &Vector<Self::Scalar, Self::N>,
+    ) -> Result<StateOf<Self>, Error> {
         check_entries(self, phase.t, [&phase.q, &phase.p], Entry::Momentum)?;
         legendre::invert(self, phase, &(*velocity).into(), None)
     }
@@ -99,7 +98,7 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
     ///
     /// # Errors
     /// Those of [`legendre`](Self::legendre).
-    fn hamiltonian(&self, phase: &PhaseState<Self::Scalar, N>) -> Result<Self::Scalar, Error> {
+    fn hamiltonian(&self, phase: &PhaseState<Self::Scalar, Self::N>) -> Result<Self::Scalar, Error> {
         let state = self.legendre(phase)?;
         Ok(phase.p.dot(&state.v) - self.lagrangian(&state))
     }
@@ -111,8 +110,8 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
     /// Those of [`legendre`](Self::legendre) and [`solve`](crate::Simulate::solve).
     fn hamilton_equations(
         &self,
-        phase: &PhaseState<Self::Scalar, N>,
-    ) -> Result<PhaseDerivative<Self::Scalar, N, M>, Error> {
+        phase: &PhaseState<Self::Scalar, Self::N>,
+    ) -> Result<PhaseDerivative<Self::Scalar, Self::N, Self::M>, Error> {
         let state = self.legendre(phase)?;
         equations(self, &state, None).map(|(rate, ..)| rate)
     }
@@ -124,12 +123,12 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
     /// # Errors
     /// Those of [`integrate`](crate::Simulate::integrate) and [`legendre`](Self::legendre).
     #[cfg(feature = "alloc")]
-    fn integrate_hamiltonian<P: Method<Self, N, M, HamiltonianVectorField>>(
+    fn integrate_hamiltonian<P: Method<Self, HamiltonianVectorField>>(
         &self,
-        phase: PhaseState<Self::Scalar, N>,
+        phase: PhaseState<Self::Scalar, Self::N>,
         end: Self::Scalar,
         method: P,
-    ) -> Result<Trajectory<&Self, N, M, HamiltonianVectorField>, Error> {
+    ) -> Result<Trajectory<&Self, HamiltonianVectorField>, Error> {
         self.motion_in_momenta(phase).by(method).to(end)
     }
 
@@ -139,10 +138,10 @@ pub trait Hamiltonian<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: 
     #[cfg(feature = "alloc")]
     fn motion_in_momenta<'w>(
         &self,
-        phase: PhaseState<Self::Scalar, N>,
-    ) -> MotionFrom<'_, 'w, Self, HamiltonianVectorField, N, M> {
+        phase: PhaseState<Self::Scalar, Self::N>,
+    ) -> MotionFrom<'_, 'w, Self, HamiltonianVectorField> {
         MotionBuilder::new(self, Start::new(self.legendre(&phase)))
     }
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Hamiltonian<N, M> for L {}
+impl<L: Lagrangian<Scalar: Real>> Hamiltonian for L {}

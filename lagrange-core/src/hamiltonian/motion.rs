@@ -6,17 +6,17 @@ use crate::motion::{Method, Motion};
 use crate::number::Real;
 use crate::system::Lagrangian;
 
-impl<L, P, const N: usize, const M: usize> Motion<L, P, N, M, HamiltonianVectorField>
+impl<L, P> Motion<L, P, HamiltonianVectorField>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    P: Method<L, N, M, HamiltonianVectorField>,
+    L: Lagrangian<Scalar: Real>,
+    P: Method<L, HamiltonianVectorField>,
 {
     /// Starts a motion by Hamilton's equations at `phase`: the method integrates coordinates and momenta, and
     /// controls their errors.
     ///
     /// # Errors
     /// Those of [`legendre`](Hamiltonian::legendre), and those of [`Motion::new`] if the motion cannot start.
-    pub fn in_momenta(system: L, phase: PhaseState<L::Scalar, N>, method: P) -> Result<Self, Error> {
+    pub fn in_momenta(system: L, phase: PhaseState<L::Scalar, L::N>, method: P) -> Result<Self, Error> {
         let state = system.legendre(&phase)?;
         Self::begin(system, &state, method)
     }

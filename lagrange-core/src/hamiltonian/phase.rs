@@ -2,12 +2,11 @@
 
 use core::fmt::{self, Display, Formatter};
 
-use nalgebra::SVector;
-
 use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve_near;
-use crate::system::{Entries, Lagrangian, State, write_state};
+use crate::system::{Entries, Lagrangian, StateOf, write_state};
+use crate::vector::{Array, Element, Entrywise, Length, Vector};
 
 /// The time `t`, the generalized coordinates `q` and the generalized momenta `p` = ∂L/∂q̇.
 ///
@@ -26,19 +25,31 @@ use crate::system::{Entries, Lagrangian, State, write_state};
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
     ))
 )]
-pub struct PhaseState<T, const N: usize> {
+pub struct PhaseState<T: Element, N: Length> {
     /// Time.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::number"))]
     pub t: T,
     /// Generalized coordinates.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
-    pub q: SVector<T, N>,
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            serialize_with = "crate::system::read::write",
+            deserialize_with = "crate::system::read::numbers"
+        )
+    )]
+    pub q: Vector<T, N>,
     /// Generalized momenta.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
-    pub p: SVector<T, N>,
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            serialize_with = "crate::system::read::write",
+            deserialize_with = "crate::system::read::numbers"
+        )
+    )]
+    pub p: Vector<T, N>,
 }
 
-impl<T: Scalar, const N: usize> PhaseState<T, N> {
+impl<T: Scalar, N: Length> PhaseState<T, N> {
     /// Creates a phase state of coordinates and momenta at `t = 0`.
     pub fn new(q: impl Entries<T, N>, p: impl Entries<T, N>) -> Self {
         Self { t: T::constant(0.0), q: q.into_vector(), p: p.into_vector() }
@@ -53,7 +64,7 @@ impl<T: Scalar, const N: usize> PhaseState<T, N> {
 
 /// Formats a phase state as `t = 1.0: q = (0.1, 0.0), p = (0.0, 2e-17)`. Format options apply to each number:
 /// `{state:.3}`.
-impl<T: Scalar, const N: usize> Display for PhaseState<T, N> {
+impl<T: Scalar, N: Length> Display for PhaseState<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write_state(f, &self.t, [("q", self.q.as_slice()), ("p", self.p.as_slice())])
     }
@@ -69,30 +80,48 @@ impl<T: Scalar, const N: usize> Display for PhaseState<T, N> {
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
     ))
 )]
-pub struct PhaseDerivative<T, const N: usize, const M: usize> {
+pub struct PhaseDerivative<T: Element, N: Length, M: Length> {
     /// q̇ = ∂H/∂p.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
-    pub q: SVector<T, N>,
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            serialize_with = "crate::system::read::write",
+            deserialize_with = "crate::system::read::numbers"
+        )
+    )]
+    pub q: Vector<T, N>,
     /// ṗ = ∂L/∂q + Q + Fᵀλ.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
-    pub p: SVector<T, N>,
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            serialize_with = "crate::system::read::write",
+            deserialize_with = "crate::system::read::numbers"
+        )
+    )]
+    pub p: Vector<T, N>,
     /// Lagrange multipliers λ, in the order written.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::numbers"))]
-    pub multipliers: SVector<T, M>,
+    #[cfg_attr(
+        feature = "serde",
+        serde(
+            serialize_with = "crate::system::read::write",
+            deserialize_with = "crate::system::read::numbers"
+        )
+    )]
+    pub multipliers: Vector<T, M>,
 }
 
 /// Rates, number of independent constraints, and the constraints that determine the rates.
-pub(super) type Rates<T, const N: usize, const M: usize> = (PhaseDerivative<T, N, M>, usize, [bool; M]);
+pub(super) type Rates<T, N, M> = (PhaseDerivative<T, N, M>, usize, Array<bool, M>);
 
 /// Returns the rates by Hamilton's equations at a state that the Legendre transform gave.
-pub(super) fn equations<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(super) fn equations<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    state: &State<L::Scalar, N>,
-    active: Option<&[bool; M]>,
-) -> Result<Rates<L::Scalar, N, M>, Error> {
+    state: &StateOf<L>,
+    active: Option<&Array<bool, L::M>>,
+) -> Result<Rates<L::Scalar, L::N, L::M>, Error> {
     solve_near(system, state, active, |solution, &active| {
         let multipliers = solution.multipliers;
-        let p = system.momentum_rate(state) + system.constraint_force(state, &multipliers);
+        let p = system.momentum_rate(state).plus(&system.constraint_force(state, &multipliers));
         (PhaseDerivative { q: state.v, p, multipliers }, solution.rank, active)
     })
 }

@@ -4,10 +4,11 @@ use super::legendre;
 use super::phase::{PhaseState, equations};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Real, vector};
+use crate::number::Real;
 use crate::solution::consistent::{Level, project};
-use crate::solution::vector_field::{ActiveConstraints, PhaseVector, StagePoint, VectorField};
-use crate::system::{Lagrangian, State};
+use crate::solution::vector_field::{ActiveConstraints, StagePoint, VectorField};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Length, PhaseVector, vector};
 
 /// Hamilton's equations, in coordinates and momenta.
 ///
@@ -16,32 +17,30 @@ use crate::system::{Lagrangian, State};
 #[derive(Clone, Copy, Debug)]
 pub struct HamiltonianVectorField;
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> VectorField<L, N, M>
-    for HamiltonianVectorField
-{
+impl<L: Lagrangian<Scalar: Real>> VectorField<L> for HamiltonianVectorField {
     const HOLDS_VELOCITY: bool = false;
 
-    fn phase(system: &L, state: &State<L::Scalar, N>) -> PhaseVector<L::Scalar, N> {
-        [state.q.into(), system.momentum(state).into()]
+    fn phase(system: &L, state: &StateOf<L>) -> PhaseVector<L::Scalar, L::N> {
+        PhaseVector::<_, L::N>::of(state.q, system.momentum(state))
     }
 
     fn evaluate(
         system: &L,
-        point: &StagePoint<L::Scalar, N>,
-        active: Option<&[bool; M]>,
-        rates: &mut PhaseVector<L::Scalar, N>,
-    ) -> Result<ActiveConstraints<M>, Error> {
+        point: &StagePoint<L::Scalar, L::N>,
+        active: Option<&Array<bool, L::M>>,
+        rates: &mut PhaseVector<L::Scalar, L::N>,
+    ) -> Result<ActiveConstraints<L::M>, Error> {
         let state = legendre::invert(system, &phase_state(point), &point.velocity, active)?;
         let (rate, rank, active) = equations(system, &state, active)?;
-        *rates = [rate.q.into(), rate.p.into()];
-        Ok(ActiveConstraints { active, multipliers_are_unique: rank == M })
+        *rates = PhaseVector::<_, L::N>::of(rate.q, rate.p);
+        Ok(ActiveConstraints { active, multipliers_are_unique: rank == <L::M>::COUNT })
     }
 
-    fn state(system: &L, point: &StagePoint<L::Scalar, N>) -> State<L::Scalar, N> {
+    fn state(system: &L, point: &StagePoint<L::Scalar, L::N>) -> StateOf<L> {
         legendre::invert(system, &phase_state(point), &point.velocity, None).unwrap_or(nearby(point))
     }
 
-    fn project(system: &L, point: &StagePoint<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
+    fn project(system: &L, point: &StagePoint<L::Scalar, L::N>) -> Result<StateOf<L>, Error> {
         let mut state = nearby(point);
         project(system, &[Level::Position], &mut state)?;
         let phase = PhaseState { q: state.q, ..phase_state(point) };
@@ -53,11 +52,11 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> VectorFi
     }
 }
 
-fn phase_state<T: Real, const N: usize>(point: &StagePoint<T, N>) -> PhaseState<T, N> {
-    PhaseState { t: point.t, q: vector(point.y[0]), p: vector(point.y[1]) }
+fn phase_state<T: Real, N: Length>(point: &StagePoint<T, N>) -> PhaseState<T, N> {
+    PhaseState { t: point.t, q: vector(point.y.half(0)), p: vector(point.y.half(1)) }
 }
 
 /// Returns the state with the nearby velocity of `point`, instead of the one that belongs to the momenta.
-fn nearby<T: Real, const N: usize>(point: &StagePoint<T, N>) -> State<T, N> {
-    State { t: point.t, q: vector(point.y[0]), v: vector(point.velocity) }
+fn nearby<T: Real, N: Length>(point: &StagePoint<T, N>) -> State<T, N> {
+    State { t: point.t, q: vector(point.y.half(0)), v: vector(point.velocity) }
 }

@@ -1,13 +1,14 @@
 //! Public interface to derivatives of a motion across events.
 
+use nalgebra::Const;
+
 use super::Linearized;
 use super::dual_sample::{DualSample, OverDuals};
 use super::sensitivity::{self, StateSensitivity};
 use crate::error::Error;
 use crate::motion::{Event, EventValue, MotionBuilder};
 use crate::number::{Dual, Real};
-use crate::solution::vector_field::PhaseVector;
-use crate::system::State;
+use crate::system::StateOf;
 
 /// Derivatives of a motion of several legs, for every [`Linearized`] system over `f64` or `f32`.
 ///
@@ -55,9 +56,7 @@ use crate::system::State;
 /// A motion that touches an event without crossing it has no derivative, and gives [`Error::Grazing`]. The criterion:
 /// the rate of the event's function is less than √ε of the sum of its terms, either there or at the start of the step.
 /// Neither is there a derivative where two events coincide, which is not checked.
-pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
-    Linearized<N, M, P, Scalar: Real> + Sized
-{
+pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
     /// An initial state with its derivatives by these arguments: entries of the state and parameters, named as in
     /// [`jacobian_by`](Linearized::jacobian_by).
     ///
@@ -65,10 +64,10 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
     /// [`Error::UnknownName`] and [`Error::RepeatedName`].
     fn sensitivity(
         &self,
-        state: &State<Self::Scalar, N>,
+        state: &StateOf<Self>,
         arguments: &[&str],
-    ) -> Result<StateSensitivity<Self::Scalar, N>, Error> {
-        sensitivity::start::<Self, N, M, P>(state, arguments)
+    ) -> Result<StateSensitivity<Self::Scalar, Self::N>, Error> {
+        sensitivity::start::<Self>(state, arguments)
     }
 
     /// An event of this system, as by [`event`](crate::Simulate::event), with a differentiable function: it receives a
@@ -98,14 +97,10 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
     /// }
     /// # Ok::<(), Error>(())
     /// ```
-    fn differentiable_event<V, G>(
-        &self,
-        name: &'static str,
-        function: G,
-    ) -> Event<Self, OverDuals<G, P>, N, M>
+    fn differentiable_event<V, G>(&self, name: &'static str, function: G) -> Event<Self, OverDuals<G>>
     where
         V: EventValue<Dual<Self::Scalar>>,
-        G: Fn(&DualSample<'_, Self, N, M, P>) -> V,
+        G: Fn(&DualSample<'_, Self>) -> V,
     {
         Event::new(name, OverDuals(function))
     }
@@ -119,8 +114,8 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
     /// reached neither its end nor an event, or if the event has no derivative.
     fn motion_with_derivatives<'w>(
         &self,
-        start: &StateSensitivity<Self::Scalar, N>,
-    ) -> MotionBuilder<'_, 'w, Self, StateSensitivity<Self::Scalar, N>, N, M> {
+        start: &StateSensitivity<Self::Scalar, Self::N>,
+    ) -> MotionBuilder<'_, 'w, Self, StateSensitivity<Self::Scalar, Self::N>> {
         MotionBuilder::new(self, start.clone())
     }
 
@@ -131,10 +126,10 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
     /// The errors of [`impact`](crate::Simulate::impact); [`Error::DerivativeNotFinite`].
     fn impact_sensitivity(
         &self,
-        at: &StateSensitivity<Self::Scalar, N>,
+        at: &StateSensitivity<Self::Scalar, Self::N>,
         constraint: &str,
         restitution: (&str, Self::Scalar),
-    ) -> Result<StateSensitivity<Self::Scalar, N>, Error> {
+    ) -> Result<StateSensitivity<Self::Scalar, Self::N>, Error> {
         sensitivity::impact_sensitivity(self, at, constraint, restitution)
     }
 
@@ -170,14 +165,11 @@ pub trait MotionDerivatives<const N: usize, const M: usize, const P: usize>:
     /// The errors of `map`.
     fn push_forward<const K: usize>(
         &self,
-        at: &StateSensitivity<Self::Scalar, N>,
-        map: impl Fn(&DualSample<'_, Self, N, M, P>) -> Result<PhaseVector<Dual<Self::Scalar>, K>, Error>,
-    ) -> Result<StateSensitivity<Self::Scalar, K>, Error> {
+        at: &StateSensitivity<Self::Scalar, Self::N>,
+        map: impl Fn(&DualSample<'_, Self>) -> Result<[[Dual<Self::Scalar>; K]; 2], Error>,
+    ) -> Result<StateSensitivity<Self::Scalar, Const<K>>, Error> {
         sensitivity::push_forward(self, at, map)
     }
 }
 
-impl<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>
-    MotionDerivatives<N, M, P> for L
-{
-}
+impl<L: Linearized<Scalar: Real>> MotionDerivatives for L {}

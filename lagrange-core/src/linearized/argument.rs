@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 use super::Linearized;
 use crate::error::Error;
 use crate::names::Entry;
-use crate::system::{Direction, ResidualChange, Solution, State, lookup, unit};
+use crate::system::{Direction, ResidualChange, SolutionOf, StateOf, lookup, unit};
+use crate::vector::Length;
 
 /// A coordinate, a velocity or a parameter, by its index.
 #[derive(Clone, Copy, PartialEq)]
@@ -17,34 +18,31 @@ pub(crate) enum Argument {
 
 impl Argument {
     /// Finds the arguments of these names.
-    pub(crate) fn named<L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize>(
-        names: &[&str],
-    ) -> Result<Vec<Self>, Error> {
-        let mut known = lookup::entries::<L, N, M>();
-        known.extend(L::PARAMETERS.map(Into::into));
-        let found = lookup::indices::<L, N, M>(&known, "coordinate, velocity or parameter", names)?;
+    pub(crate) fn named<L: Linearized>(names: &[&str]) -> Result<Vec<Self>, Error> {
+        let mut known = lookup::entries::<L>();
+        known.extend(L::PARAMETERS.iter().copied().map(Into::into));
+        let found = lookup::indices::<L>(&known, "coordinate, velocity or parameter", names)?;
         let argument = |i| match i {
-            i if i < N => Self::Coordinate(i),
-            i if i < 2 * N => Self::Velocity(i - N),
-            i => Self::Parameter(i - 2 * N),
+            i if i < <L::N>::COUNT => Self::Coordinate(i),
+            i if i < 2 * <L::N>::COUNT => Self::Velocity(i - <L::N>::COUNT),
+            i => Self::Parameter(i - 2 * <L::N>::COUNT),
         };
         Ok(found.into_iter().map(argument).collect())
     }
 
     /// Finds the actuators of these names: a coordinate stands for the generalized force on it, a parameter for itself.
-    pub(crate) fn actuators<L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize>(
-        names: &[&str],
-    ) -> Result<Vec<Self>, Error> {
-        let known = [&L::COORDINATES[..], &L::PARAMETERS].concat();
-        let found = lookup::indices::<L, N, M>(&known, "coordinate or parameter", names)?;
-        let argument = |i| if i < N { Self::Coordinate(i) } else { Self::Parameter(i - N) };
+    pub(crate) fn actuators<L: Linearized>(names: &[&str]) -> Result<Vec<Self>, Error> {
+        let known = [L::COORDINATES, L::PARAMETERS].concat();
+        let found = lookup::indices::<L>(&known, "coordinate or parameter", names)?;
+        let argument =
+            |i| if i < <L::N>::COUNT { Self::Coordinate(i) } else { Self::Parameter(i - <L::N>::COUNT) };
         Ok(found.into_iter().map(argument).collect())
     }
 
     /// Name of the argument, for messages.
-    pub(crate) fn entry<L, const N: usize, const M: usize, const P: usize>(self) -> Entry
+    pub(crate) fn entry<L>(self) -> Entry
     where
-        L: Linearized<N, M, P>,
+        L: Linearized,
     {
         match self {
             Self::Coordinate(i) => Entry::Coordinate(L::COORDINATES[i]),
@@ -54,14 +52,14 @@ impl Argument {
     }
 
     /// Derivative of the residual by this argument.
-    pub(crate) fn residual_change<L, const N: usize, const M: usize, const P: usize>(
+    pub(crate) fn residual_change<L>(
         self,
         system: &L,
-        state: &State<L::Scalar, N>,
-        solution: &Solution<L::Scalar, N, M>,
-    ) -> ResidualChange<L::Scalar, N, M>
+        state: &StateOf<L>,
+        solution: &SolutionOf<L>,
+    ) -> ResidualChange<L::Scalar, L::N, L::M>
     where
-        L: Linearized<N, M, P>,
+        L: Linearized,
     {
         match self {
             Self::Coordinate(i) => system.residual_change(state, solution, &Direction::of_coordinate(i)),
@@ -72,9 +70,9 @@ impl Argument {
 }
 
 /// Index of this parameter among those of the system; `None` if the system does not have it.
-pub(crate) fn parameter<L, const N: usize, const M: usize, const P: usize>(entry: Entry) -> Option<usize>
+pub(crate) fn parameter<L>(entry: Entry) -> Option<usize>
 where
-    L: Linearized<N, M, P>,
+    L: Linearized,
 {
     match entry {
         Entry::Parameter(name) => L::PARAMETERS.iter().position(|known| *known == name),

@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Debug, Formatter};
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use super::Linearized;
 use super::argument::parameter;
@@ -13,7 +13,8 @@ use crate::names::Entry;
 use crate::number::{Dual, Real, Scalar, Wide};
 use crate::solution::solve::solve;
 use crate::system::lookup::index;
-use crate::system::{Direction, ResidualChange, Solution, State};
+use crate::system::{Direction, ResidualChange, Solution, State, StateOf};
+use crate::vector::{Array, Entrywise, Length, vector};
 
 /// State of a system over dual numbers: values, and their derivatives by one argument, for functions to be
 /// differentiated.
@@ -22,29 +23,29 @@ use crate::system::{Direction, ResidualChange, Solution, State};
 /// multipliers and constraint forces. Parameters and captured numbers must be read with [`parameter`](Self::parameter)
 /// and [`number`](Self::number): values that the function captures, or reads from the system, are constants. [`Dual`]
 /// numbers have the mathematical functions of [`Scalar`].
-pub struct DualSample<'a, L, const N: usize, const M: usize, const P: usize>
+pub struct DualSample<'a, L>
 where
-    L: Linearized<N, M, P>,
+    L: Linearized,
 {
     system: &'a L,
-    state: State<Dual<L::Scalar>, N>,
+    state: State<Dual<L::Scalar>, L::N>,
     /// Parameter of differentiation; `None` if only the value or the rate along the motion is wanted.
     argument: Option<Entry>,
 }
 
-impl<'a, L, const N: usize, const M: usize, const P: usize> DualSample<'a, L, N, M, P>
+impl<'a, L> DualSample<'a, L>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     pub(super) fn along(
         system: &'a L,
-        state: &State<L::Scalar, N>,
-        direction: &Direction<L::Scalar, N>,
+        state: &StateOf<L>,
+        direction: &Direction<L::Scalar, L::N>,
         argument: Option<Entry>,
     ) -> Self {
         let dual = |value, slope| Dual { value, slope };
-        let (t, q) = (dual(state.t, direction.t), state.q.zip_map(&direction.q, dual));
-        Self { system, state: State { t, q, v: state.v.zip_map(&direction.v, dual) }, argument }
+        let (t, q) = (dual(state.t, direction.t), state.q.each_with(&direction.q, dual));
+        Self { system, state: State { t, q, v: state.v.each_with(&direction.v, dual) }, argument }
     }
 
     /// The system.
@@ -53,7 +54,7 @@ where
     }
 
     /// Time, coordinates and velocities.
-    pub fn state(&self) -> &State<Dual<L::Scalar>, N> {
+    pub fn state(&self) -> &State<Dual<L::Scalar>, L::N> {
         &self.state
     }
 
@@ -67,7 +68,7 @@ where
     /// # Errors
     /// [`Error::UnknownName`].
     pub fn coordinate(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
-        Ok(self.state.q[index::<L, N, M>(&L::COORDINATES, "coordinate", name)?])
+        Ok(self.state.q[index::<L>(L::COORDINATES, "coordinate", name)?])
     }
 
     /// Generalized velocity of the coordinate of this name.
@@ -75,7 +76,7 @@ where
     /// # Errors
     /// [`Error::UnknownName`].
     pub fn velocity(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
-        Ok(self.state.v[index::<L, N, M>(&L::COORDINATES, "coordinate", name)?])
+        Ok(self.state.v[index::<L>(L::COORDINATES, "coordinate", name)?])
     }
 
     /// Generalized acceleration of the coordinate of this name.
@@ -83,7 +84,7 @@ where
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
     pub fn acceleration(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
-        let index = index::<L, N, M>(&L::COORDINATES, "coordinate", name)?;
+        let index = index::<L>(L::COORDINATES, "coordinate", name)?;
         Ok(self.solution()?.accelerations[index])
     }
 
@@ -92,7 +93,7 @@ where
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
     pub fn multiplier(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
-        let index = index::<L, N, M>(&L::CONSTRAINTS, "constraint", name)?;
+        let index = index::<L>(L::CONSTRAINTS, "constraint", name)?;
         Ok(self.solution()?.multipliers[index])
     }
 
@@ -101,17 +102,18 @@ where
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
     pub fn constraint_force(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
-        let i = index::<L, N, M>(&L::COORDINATES, "coordinate", name)?;
+        let i = index::<L>(L::COORDINATES, "coordinate", name)?;
         let (solution, (state, direction)) = (self.solution()?, self.parts());
         let [multipliers, changes] =
-            [solution.multipliers.map(|x| x.value), solution.multipliers.map(|x| x.slope)];
+            [solution.multipliers.each(|x| x.value), solution.multipliers.each(|x| x.slope)];
         // Slope of Fᵀλ at fixed λ: M q̈ − h − Fᵀλ changes by δFᵀ λ less than it does with λ = 0.
-        let accelerations = solution.accelerations.map(|x| x.value);
+        let accelerations = solution.accelerations.each(|x| x.value);
         let motion = |multipliers| {
-            let solution = Solution { accelerations, multipliers, pivot: solution.pivot.value, rank: M };
+            let solution =
+                Solution { accelerations, multipliers, pivot: solution.pivot.value, rank: <L::M>::COUNT };
             self.change_at(&Tangent::of(self.system, &state, solution), &direction).motion[i].lane(0)
         };
-        let by_direction = motion(multipliers.map(|_| L::Scalar::constant(0.0))) - motion(multipliers);
+        let by_direction = motion(vector(Array::filled(L::Scalar::constant(0.0)))) - motion(multipliers);
         let force = |multipliers| self.system.constraint_force(&state, multipliers)[i];
         Ok(Dual { value: force(&multipliers), slope: force(&changes) + by_direction })
     }
@@ -121,7 +123,7 @@ where
     /// # Errors
     /// [`Error::UnknownName`].
     pub fn parameter(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
-        let index = index::<L, N, M>(&L::PARAMETERS, "parameter", name)?;
+        let index = index::<L>(L::PARAMETERS, "parameter", name)?;
         Ok(self.number(L::PARAMETERS[index], self.system.parameters()[index]))
     }
 
@@ -135,7 +137,7 @@ where
     ///
     /// # Errors
     /// The errors of [`Linearized::jacobian_by`].
-    pub fn solution(&self) -> Result<Solution<Dual<L::Scalar>, N, M>, Error> {
+    pub fn solution(&self) -> Result<Solution<Dual<L::Scalar>, L::N, L::M>, Error> {
         let (state, direction) = self.parts();
         let zero = L::Scalar::constant(0.0);
         if self.argument.is_none() && direction == Direction::zero() {
@@ -152,32 +154,32 @@ where
     }
 
     /// Splits the dual state into the state and the direction of its change.
-    fn parts(&self) -> (State<L::Scalar, N>, Direction<L::Scalar, N>) {
+    fn parts(&self) -> (StateOf<L>, Direction<L::Scalar, L::N>) {
         let State { t, q, v } = self.state;
-        let state = State { t: t.value, q: q.map(|x| x.value), v: v.map(|x| x.value) };
-        (state, Direction { t: t.slope, q: q.map(|x| x.slope), v: v.map(|x| x.slope) })
+        let state = State { t: t.value, q: q.each(|x| x.value), v: v.each(|x| x.value) };
+        (state, Direction { t: t.slope, q: q.each(|x| x.slope), v: v.each(|x| x.slope) })
     }
 
     /// Derivative of the residual by the argument and along the direction.
     fn change_at(
         &self,
-        tangent: &Tangent<'_, L, N, M>,
-        direction: &Direction<L::Scalar, N>,
-    ) -> ResidualChange<WideOf<L, N, M>, N, M> {
-        tangent.change_with(direction, self.argument.and_then(parameter::<L, N, M, P>))
+        tangent: &Tangent<'_, L>,
+        direction: &Direction<L::Scalar, L::N>,
+    ) -> ResidualChange<WideOf<L>, L::N, L::M> {
+        tangent.change_with(direction, self.argument.and_then(parameter::<L>))
     }
 }
 
 /// Combines a solution and its derivatives to a solution over dual numbers.
-fn dual<T: Real, const N: usize, const M: usize>(
+fn dual<T: Real, N: Length, M: Length>(
     solution: &Solution<T, N, M>,
     acceleration: impl Fn(usize) -> T,
     multiplier: impl Fn(usize) -> T,
 ) -> Solution<Dual<T>, N, M> {
     let Solution { accelerations, multipliers, pivot, rank } = solution;
     Solution {
-        accelerations: SVector::from_fn(|i, _| Dual { value: accelerations[i], slope: acceleration(i) }),
-        multipliers: SVector::from_fn(|a, _| Dual { value: multipliers[a], slope: multiplier(a) }),
+        accelerations: vector(Array::from_fn(|i| Dual { value: accelerations[i], slope: acceleration(i) })),
+        multipliers: vector(Array::from_fn(|a| Dual { value: multipliers[a], slope: multiplier(a) })),
         pivot: Dual { value: *pivot, slope: T::constant(0.0) },
         rank: *rank,
     }
@@ -189,9 +191,9 @@ pub(super) fn slope<T: Scalar>(argument: Option<Entry>, name: &str) -> T {
     T::constant(if is_argument { 1.0 } else { 0.0 })
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Debug for DualSample<'_, L, N, M, P>
+impl<L> Debug for DualSample<'_, L>
 where
-    L: Linearized<N, M, P>,
+    L: Linearized,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut sample = f.debug_struct("DualSample");
@@ -205,15 +207,15 @@ where
 
 /// Function of an event that takes a state over dual numbers.
 #[derive(Clone, Copy, Debug)]
-pub struct OverDuals<G, const P: usize>(pub(super) G);
+pub struct OverDuals<G>(pub(super) G);
 
-impl<L, G, V, const N: usize, const M: usize, const P: usize> EventFunction<L, N, M> for OverDuals<G, P>
+impl<L, G, V> EventFunction<L> for OverDuals<G>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    G: Fn(&DualSample<'_, L, N, M, P>) -> V,
+    L: Linearized<Scalar: Real>,
+    G: Fn(&DualSample<'_, L>) -> V,
     V: EventValue<Dual<L::Scalar>>,
 {
-    fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
+    fn at(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
         Ok((self.0)(&DualSample::along(system, state, &Direction::zero(), None)).value()?.value)
     }
 }
@@ -224,9 +226,9 @@ where
     message = "`{Self}` is not an event of `{L}` that can be differentiated",
     note = "make one by `system.differentiable_event(\"name\", |sample| …)`, of the same system"
 )]
-pub trait DifferentiableEvent<L, const N: usize, const M: usize, const P: usize>: AnyEvent<L, N, M>
+pub trait DifferentiableEvent<L>: AnyEvent<L>
 where
-    L: Linearized<N, M, P>,
+    L: Linearized,
 {
     /// Derivative of the event's function along `direction` and by `argument`; an error with the event's name if it is
     /// not finite.
@@ -234,8 +236,8 @@ where
     fn change(
         &self,
         system: &L,
-        state: &State<L::Scalar, N>,
-        direction: &Direction<L::Scalar, N>,
+        state: &StateOf<L>,
+        direction: &Direction<L::Scalar, L::N>,
         argument: Option<Entry>,
     ) -> Result<L::Scalar, Error>;
 
@@ -244,18 +246,17 @@ where
     fn called(&self) -> &'static str;
 }
 
-impl<L, G, V, const N: usize, const M: usize, const P: usize> DifferentiableEvent<L, N, M, P>
-    for Event<L, OverDuals<G, P>, N, M>
+impl<L, G, V> DifferentiableEvent<L> for Event<L, OverDuals<G>>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    G: Fn(&DualSample<'_, L, N, M, P>) -> V,
+    L: Linearized<Scalar: Real>,
+    G: Fn(&DualSample<'_, L>) -> V,
     V: EventValue<Dual<L::Scalar>>,
 {
     fn change(
         &self,
         system: &L,
-        state: &State<L::Scalar, N>,
-        direction: &Direction<L::Scalar, N>,
+        state: &StateOf<L>,
+        direction: &Direction<L::Scalar, L::N>,
         argument: Option<Entry>,
     ) -> Result<L::Scalar, Error> {
         let OverDuals(function) = self.function();
@@ -271,22 +272,22 @@ where
     }
 }
 
-impl<L, W, const N: usize, const M: usize, const P: usize> DifferentiableEvent<L, N, M, P> for &mut W
+impl<L, W> DifferentiableEvent<L> for &mut W
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    W: DifferentiableEvent<L, N, M, P> + ?Sized,
+    L: Linearized<Scalar: Real>,
+    W: DifferentiableEvent<L> + ?Sized,
 {
     fn change(
         &self,
         system: &L,
-        state: &State<L::Scalar, N>,
-        direction: &Direction<L::Scalar, N>,
+        state: &StateOf<L>,
+        direction: &Direction<L::Scalar, L::N>,
         argument: Option<Entry>,
     ) -> Result<L::Scalar, Error> {
         (**self).change(system, state, direction, argument)
     }
 
     fn called(&self) -> &'static str {
-        DifferentiableEvent::<L, N, M, P>::called(&**self)
+        DifferentiableEvent::<L>::called(&**self)
     }
 }

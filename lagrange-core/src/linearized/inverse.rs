@@ -2,31 +2,31 @@
 
 use alloc::{format, string::String, vec::Vec};
 
-use nalgebra::{ComplexField, DMatrix, DVector, SVector};
+use nalgebra::{ComplexField, DMatrix, DVector};
 
 use super::Linearized;
 use super::argument::Argument;
 use super::singular::Singular;
 use crate::error::Error;
 use crate::names::Row;
-use crate::number::{Real, Scalar, larger, power_of_epsilon, vector};
+use crate::number::{Real, Scalar, larger, power_of_epsilon, sum};
 use crate::solution::kkt::Units;
 use crate::solution::solve::first_row;
-use crate::system::{Solution, State};
-use crate::system::{finite::check_finite, unit};
+use crate::system::{Solution, StateOf, finite::check_finite, unit};
+use crate::vector::{Array, Element, Length, Vector, entries, rows, vector};
 
 /// Inputs and multipliers that produce given accelerations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct InverseDynamics<T, const M: usize> {
+pub struct InverseDynamics<T: Element, M: Length> {
     /// Generalized forces on the named coordinates, and values of the named parameters.
     pub inputs: DVector<T>,
     /// Multipliers λ of the constraints. If constraints are dependent, those of least norm, in units in which the rows
     /// of F have length 1.
-    pub multipliers: SVector<T, M>,
+    pub multipliers: Vector<T, M>,
     names: Vec<String>,
 }
 
-impl<T, const M: usize> InverseDynamics<T, M> {
+impl<T: Element, M: Length> InverseDynamics<T, M> {
     /// Names of the inputs, in their order.
     pub fn names(&self) -> &[String] {
         &self.names
@@ -37,17 +37,17 @@ impl<T, const M: usize> InverseDynamics<T, M> {
 const STEPS: usize = 30;
 
 /// See [`Linearized::inputs_for`].
-pub(super) fn inputs_for<L, const N: usize, const M: usize, const P: usize>(
+pub(super) fn inputs_for<L>(
     system: &L,
-    state: &State<L::Scalar, N>,
-    accelerations: &SVector<L::Scalar, N>,
+    state: &StateOf<L>,
+    accelerations: &Vector<L::Scalar, L::N>,
     names: &[&str],
-) -> Result<InverseDynamics<L::Scalar, M>, Error>
+) -> Result<InverseDynamics<L::Scalar, L::M>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real> + Clone,
+    L: Linearized<Scalar: Real> + Clone,
 {
     check_finite(system, state)?;
-    let inputs = Argument::actuators::<L, N, M, P>(names)?;
+    let inputs = Argument::actuators::<L>(names)?;
     let mut balance = InputBalance::new(system.clone(), state, accelerations, inputs)?;
     for _ in 0..STEPS {
         let step = balance.step()?;
@@ -57,31 +57,31 @@ where
     }
     balance.check()?;
     let InputBalance { inputs, values, multipliers, .. } = balance;
-    let names = inputs.iter().map(|input| format!("{}", input.entry::<L, N, M, P>())).collect();
+    let names = inputs.iter().map(|input| format!("{}", input.entry::<L>())).collect();
     Ok(InverseDynamics { inputs: values, multipliers, names })
 }
 
 /// Solves M a = h + Fᵀλ + Σ τ and F a + γ = 0 for inputs and multipliers; holds the current guess.
-struct InputBalance<'a, L: Linearized<N, M, P>, const N: usize, const M: usize, const P: usize> {
+struct InputBalance<'a, L: Linearized> {
     /// The system, with the current values of the inputs that are parameters.
     system: L,
-    state: &'a State<L::Scalar, N>,
-    accelerations: &'a SVector<L::Scalar, N>,
+    state: &'a StateOf<L>,
+    accelerations: &'a Vector<L::Scalar, L::N>,
     inputs: Vec<Argument>,
     values: DVector<L::Scalar>,
-    multipliers: SVector<L::Scalar, M>,
+    multipliers: Vector<L::Scalar, L::M>,
     /// Units in which masses are 1 and rows of constraints have length 1.
-    units: Units<L::Scalar, N, M>,
+    units: Units<L::Scalar, L::N, L::M>,
 }
 
-impl<'a, L, const N: usize, const M: usize, const P: usize> InputBalance<'a, L, N, M, P>
+impl<'a, L> InputBalance<'a, L>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     fn new(
         mut system: L,
-        state: &'a State<L::Scalar, N>,
-        accelerations: &'a SVector<L::Scalar, N>,
+        state: &'a StateOf<L>,
+        accelerations: &'a Vector<L::Scalar, L::N>,
         inputs: Vec<Argument>,
     ) -> Result<Self, Error> {
         let (zero, parameters) = (L::Scalar::constant(0.0), system.parameters());
@@ -93,14 +93,26 @@ where
                 return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
             }
         }
-        let f = system.constraint_jacobian(state).transpose().into();
+        let f = rows(&system.constraint_jacobian(state));
         let units = Units::of(&system.mass_matrix(state).into(), &f);
-        Ok(Self { system, state, accelerations, inputs, values, multipliers: vector([zero; M]), units })
+        Ok(Self {
+            system,
+            state,
+            accelerations,
+            inputs,
+            values,
+            multipliers: vector(Array::filled(zero)),
+            units,
+        })
     }
 
     /// Converts a number of row `i` to the unit of that row. The rows of motion come first.
     fn scaled(&self, i: usize, x: L::Scalar) -> L::Scalar {
-        if i < N { x * self.units.coordinates[i] } else { self.units.of_row(i - N, x) }
+        if i < <L::N>::COUNT {
+            x * self.units.coordinates[i]
+        } else {
+            self.units.of_row(i - <L::N>::COUNT, x)
+        }
     }
 
     /// Residual of each row.
@@ -112,21 +124,27 @@ where
                 motion[i] -= *value;
             }
         }
-        let demanded = system.constraint_jacobian(state) * **accelerations + system.constraint_bias(state);
-        if let Some(row) = first_row::<L, N, M>(|i| !motion[i].is_finite(), |a| !demanded[a].is_finite()) {
+        let (f, bias) = (system.constraint_jacobian(state), system.constraint_bias(state));
+        let demanded: Array<_, L::M> =
+            entries(|a| sum(<L::N>::COUNT, |i| f[(a, i)] * accelerations[i]) + bias[a]);
+        if let Some(row) = first_row::<L>(|i| !motion[i].is_finite(), |a| !demanded[a].is_finite()) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
         let rows = motion.iter().chain(&demanded).enumerate();
-        Ok(DVector::from_iterator(N + M, rows.map(|(i, x)| self.scaled(i, *x))))
+        Ok(DVector::from_iterator(<L::N>::COUNT + <L::M>::COUNT, rows.map(|(i, x)| self.scaled(i, *x))))
     }
 
     /// Derivatives of the rows by each input and each multiplier.
     fn jacobian(&self) -> Result<DMatrix<L::Scalar>, Error> {
         let Self { system, state, multipliers, .. } = self;
         let (zero, one, count) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0), self.inputs.len());
-        let here =
-            Solution { accelerations: *self.accelerations, multipliers: *multipliers, pivot: one, rank: M };
-        let mut jacobian = DMatrix::from_element(N + M, count + M, zero);
+        let here = Solution {
+            accelerations: *self.accelerations,
+            multipliers: *multipliers,
+            pivot: one,
+            rank: <L::M>::COUNT,
+        };
+        let mut jacobian = DMatrix::from_element(<L::N>::COUNT + <L::M>::COUNT, count + <L::M>::COUNT, zero);
         for (j, input) in self.inputs.iter().enumerate() {
             if let Argument::Coordinate(i) = *input {
                 jacobian[(i, j)] = self.scaled(i, -one);
@@ -136,13 +154,13 @@ where
             for (i, x) in change.motion.iter().chain(&change.acceleration).enumerate() {
                 jacobian[(i, j)] = self.scaled(i, *x);
             }
-            let (row, entry) = (|i: usize| !jacobian[(i, j)].is_finite(), input.entry::<L, N, M, P>());
-            if let Some(row) = first_row::<L, N, M>(row, |a| !jacobian[(N + a, j)].is_finite()) {
+            let (row, entry) = (|i: usize| !jacobian[(i, j)].is_finite(), input.entry::<L>());
+            if let Some(row) = first_row::<L>(row, |a| !jacobian[(<L::N>::COUNT + a, j)].is_finite()) {
                 return Err(Error::DerivativeNotFinite { row, entry, time: state.t.to_f64() });
             }
         }
         let f = system.constraint_jacobian(state);
-        for (i, a) in (0..N).flat_map(|i| (0..M).map(move |a| (i, a))) {
+        for (i, a) in (0..<L::N>::COUNT).flat_map(|i| (0..<L::M>::COUNT).map(move |a| (i, a))) {
             jacobian[(i, count + a)] = self.scaled(i, -f[(a, i)]);
         }
         Ok(jacobian)
@@ -209,27 +227,31 @@ where
         let zero = L::Scalar::constant(0.0);
         let sum =
             |terms: &mut dyn Iterator<Item = L::Scalar>| terms.fold(zero, |sum, x| sum + Scalar::abs(x));
-        let mut terms = DVector::from_element(N + M, zero);
-        for i in 0..N {
-            let forces = sum(&mut (0..M).map(|a| f[(a, i)] * multipliers[a])) + Scalar::abs(h[i]);
-            terms[i] = self.scaled(i, forces + sum(&mut (0..N).map(|j| m[(i, j)] * accelerations[j])));
+        let mut terms = DVector::from_element(<L::N>::COUNT + <L::M>::COUNT, zero);
+        for i in 0..<L::N>::COUNT {
+            let forces = sum(&mut (0..<L::M>::COUNT).map(|a| f[(a, i)] * multipliers[a])) + Scalar::abs(h[i]);
+            terms[i] =
+                self.scaled(i, forces + sum(&mut (0..<L::N>::COUNT).map(|j| m[(i, j)] * accelerations[j])));
         }
-        for a in 0..M {
-            let demands = sum(&mut (0..N).map(|j| f[(a, j)] * accelerations[j])) + Scalar::abs(gamma[a]);
-            terms[N + a] = self.scaled(N + a, demands);
+        for a in 0..<L::M>::COUNT {
+            let demands =
+                sum(&mut (0..<L::N>::COUNT).map(|j| f[(a, j)] * accelerations[j])) + Scalar::abs(gamma[a]);
+            terms[<L::N>::COUNT + a] = self.scaled(<L::N>::COUNT + a, demands);
         }
         // In these units forces are comparable, and so are accelerations: a row small beside others may be their
         // round-off.
         let most = |numbers: &mut dyn Iterator<Item = L::Scalar>| numbers.fold(zero, larger);
-        let force = most(&mut terms.rows(0, N).iter().copied());
+        let force = most(&mut terms.rows(0, <L::N>::COUNT).iter().copied());
         let own = |i: usize| Scalar::abs(accelerations[i]) / self.units.coordinates[i];
-        let acceleration = most(&mut terms.rows(N, M).iter().copied().chain((0..N).map(own)));
+        let acceleration = most(
+            &mut terms.rows(<L::N>::COUNT, <L::M>::COUNT).iter().copied().chain((0..<L::N>::COUNT).map(own)),
+        );
         let (residual, part) = (self.residual()?, power_of_epsilon::<L::Scalar>(0.5));
-        let scale = |i: usize| if i < N { force } else { acceleration };
-        match (0..N + M).rev().find(|&i| Scalar::abs(residual[i]) > part * scale(i)) {
+        let scale = |i: usize| if i < <L::N>::COUNT { force } else { acceleration };
+        match (0..<L::N>::COUNT + <L::M>::COUNT).rev().find(|&i| Scalar::abs(residual[i]) > part * scale(i)) {
             None => Ok(()),
             Some(i) => {
-                let row = match i.checked_sub(N) {
+                let row = match i.checked_sub(<L::N>::COUNT) {
                     None => Row::Coordinate(L::COORDINATES[i]),
                     Some(a) => Row::Constraint(L::CONSTRAINTS[a]),
                 };

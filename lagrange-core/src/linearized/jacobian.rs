@@ -1,30 +1,31 @@
 //! Jacobian of the accelerations and multipliers.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::Const;
 
 use super::tangent::Tangent;
 use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, Wide};
-use crate::system::{Direction, Lagrangian, Solution, State};
+use crate::system::{Direction, Lagrangian, Solution, StateOf};
+use crate::vector::{Array, Element, Length, Matrix, Vector, matrix, vector};
 
 /// Partial derivatives of `R` quantities by the time, `N` coordinates, `N` velocities and `P` parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PartialDerivatives<T, const R: usize, const N: usize, const P: usize> {
+pub struct PartialDerivatives<T: Element, R: Length, N: Length, P: Length> {
     /// Derivatives by the time.
-    pub t: SVector<T, R>,
+    pub t: Vector<T, R>,
     /// Derivatives by the coordinates, one column each.
-    pub q: SMatrix<T, R, N>,
+    pub q: Matrix<T, R, N>,
     /// Derivatives by the velocities, one column each.
-    pub v: SMatrix<T, R, N>,
+    pub v: Matrix<T, R, N>,
     /// Derivatives by the parameters, one column each.
-    pub parameters: SMatrix<T, R, P>,
+    pub parameters: Matrix<T, R, P>,
 }
 
 /// Accelerations and multipliers at a state, with their partial derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jacobian<T, const N: usize, const M: usize, const P: usize> {
+pub struct Jacobian<T: Element, N: Length, M: Length, P: Length> {
     /// Accelerations and multipliers.
     pub solution: Solution<T, N, M>,
     /// Derivatives of the accelerations q̈.
@@ -34,12 +35,12 @@ pub struct Jacobian<T, const N: usize, const M: usize, const P: usize> {
 }
 
 /// See [`StateDerivatives::state_jacobian`].
-pub(super) fn state_jacobian<L, const N: usize, const M: usize>(
+pub(super) fn state_jacobian<L>(
     system: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<Jacobian<L::Scalar, N, M, 0>, Error>
+    state: &StateOf<L>,
+) -> Result<Jacobian<L::Scalar, L::N, L::M, Const<0>>, Error>
 where
-    L: StateDerivatives<N, M, Scalar: Real>,
+    L: StateDerivatives<Scalar: Real>,
 {
     let tangent = Tangent::at(system, state)?;
     let mut jacobian = Jacobian::of(tangent.solution);
@@ -48,19 +49,19 @@ where
 }
 
 /// See [`Linearized::jacobian`].
-pub(super) fn jacobian<L, const N: usize, const M: usize, const P: usize>(
+pub(super) fn jacobian<L>(
     system: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<Jacobian<L::Scalar, N, M, P>, Error>
+    state: &StateOf<L>,
+) -> Result<Jacobian<L::Scalar, L::N, L::M, L::P>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     let tangent = Tangent::at(system, state)?;
     let mut jacobian = Jacobian::of(tangent.solution);
     jacobian.set_by_state(&tangent)?;
     let Jacobian { accelerations, multipliers, .. } = &mut jacobian;
     tangent.by_parameters(
-        P,
+        <L::P>::COUNT,
         |k| k,
         |k, change| {
             accelerations.parameters.set_column(k, &change.accelerations);
@@ -70,18 +71,18 @@ where
     Ok(jacobian)
 }
 
-impl<T: Real, const N: usize, const M: usize, const P: usize> Jacobian<T, N, M, P> {
+impl<T: Real, N: Length, M: Length, P: Length> Jacobian<T, N, M, P> {
     /// A Jacobian with all derivatives zero.
     fn of(solution: Solution<T, N, M>) -> Self {
         Self { solution, accelerations: PartialDerivatives::zero(), multipliers: PartialDerivatives::zero() }
     }
 
     /// Computes the derivatives by the time and the state in place, because the matrices are large.
-    fn set_by_state<L>(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error>
+    fn set_by_state<L>(&mut self, tangent: &Tangent<'_, L>) -> Result<(), Error>
     where
-        L: StateDerivatives<N, M, Scalar = T>,
+        L: StateDerivatives<N = N, M = M, Scalar = T>,
     {
-        tangent.along_each(1 + 2 * N, put_argument, name_of::<L, N, M>, |k, change| {
+        tangent.along_each(1 + 2 * N::COUNT, put_argument, name_of::<L>, |k, change| {
             self.accelerations.set(k, &change.accelerations);
             self.multipliers.set(k, &change.multipliers);
         })
@@ -89,7 +90,7 @@ impl<T: Real, const N: usize, const M: usize, const P: usize> Jacobian<T, N, M, 
 }
 
 /// Sets the direction in a lane to the unit vector of argument `k`: 0 is the time, then coordinates, then velocities.
-pub(super) fn put_argument<T: Real, W: Wide<T>, const N: usize>(
+pub(super) fn put_argument<T: Real, W: Wide<T>, N: Length>(
     k: usize,
     directions: &mut Direction<W, N>,
     lane: usize,
@@ -97,31 +98,36 @@ pub(super) fn put_argument<T: Real, W: Wide<T>, const N: usize>(
     let one = T::constant(1.0);
     match k.checked_sub(1) {
         None => directions.t.put(lane, one),
-        Some(i) if i < N => directions.q[i].put(lane, one),
-        Some(i) => directions.v[i - N].put(lane, one),
+        Some(i) if i < N::COUNT => directions.q[i].put(lane, one),
+        Some(i) => directions.v[i - N::COUNT].put(lane, one),
     }
 }
 
 /// Name of argument `k`.
-pub(super) fn name_of<L: Lagrangian<N, M>, const N: usize, const M: usize>(k: usize) -> Entry {
+pub(super) fn name_of<L: Lagrangian>(k: usize) -> Entry {
     match k.checked_sub(1) {
         None => Entry::Time,
-        Some(i) if i < N => Entry::Coordinate(L::COORDINATES[i]),
-        Some(i) => Entry::Velocity(L::COORDINATES[i - N]),
+        Some(i) if i < <L::N>::COUNT => Entry::Coordinate(L::COORDINATES[i]),
+        Some(i) => Entry::Velocity(L::COORDINATES[i - <L::N>::COUNT]),
     }
 }
 
-impl<T: Real, const R: usize, const N: usize, const P: usize> PartialDerivatives<T, R, N, P> {
+fn zeros<T: Real, R: Length, C: Length>() -> Matrix<T, R, C> {
+    matrix(Array::filled(Array::filled(T::constant(0.0))))
+}
+
+impl<T: Real, R: Length, N: Length, P: Length> PartialDerivatives<T, R, N, P> {
     fn zero() -> Self {
-        Self { t: SMatrix::zeros(), q: SMatrix::zeros(), v: SMatrix::zeros(), parameters: SMatrix::zeros() }
+        let zero = T::constant(0.0);
+        Self { t: vector(Array::filled(zero)), q: zeros(), v: zeros(), parameters: zeros() }
     }
 
     /// Sets the derivatives by argument `k`.
-    fn set(&mut self, k: usize, change: &SVector<T, R>) {
+    fn set(&mut self, k: usize, change: &Vector<T, R>) {
         match k.checked_sub(1) {
             None => self.t = *change,
-            Some(i) if i < N => self.q.set_column(i, change),
-            Some(i) => self.v.set_column(i - N, change),
+            Some(i) if i < N::COUNT => self.q.set_column(i, change),
+            Some(i) => self.v.set_column(i - N::COUNT, change),
         }
     }
 }

@@ -1,21 +1,20 @@
 //! Linear system near a state, on the constraints if there are any.
 
 use alloc::{string::String, vec::Vec};
-use core::array::from_fn;
 
-use nalgebra::{DMatrix, DVector, SVector};
+use nalgebra::{DMatrix, DVector};
 
 use super::jacobian::{name_of, put_argument};
 use super::tangent::{Matrices, Tangent, WideOf};
 use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Real, Scalar, Wide, larger, largest, norm, power_of_epsilon, vector};
+use crate::number::{Real, Scalar, Wide, larger, largest, norm, power_of_epsilon};
 use crate::solution::consistent;
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::finite::check_finite;
-use crate::system::lookup;
-use crate::system::{Direction, Solution, State};
+use crate::system::{Direction, Solution, SolutionOf, StateOf, lookup};
+use crate::vector::{Array, Length, Vector, vector};
 
 /// The linear system ż = A z + B u near a state; u is the change of the inputs.
 ///
@@ -57,21 +56,21 @@ impl<T> Linearization<T> {
 }
 
 /// See [`Linearized::linearize`].
-pub(super) fn linearize<L, const N: usize, const M: usize, const P: usize>(
+pub(super) fn linearize<L>(
     system: &L,
-    state: &State<L::Scalar, N>,
+    state: &StateOf<L>,
     names: &[&str],
 ) -> Result<Linearization<L::Scalar>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
-    let parameters = lookup::indices::<L, N, M>(&L::PARAMETERS, "parameter", names)?;
+    let parameters = lookup::indices::<L>(L::PARAMETERS, "parameter", names)?;
     check_finite(system, state)?;
     consistent::check(system, state)?;
     let tangent = Tangent::at(system, state)?;
     let by_inputs = tangent.change_by(&parameters)?;
-    let (basis, a, b) = if const { M == 0 } {
-        (DMatrix::identity(2 * N, 2 * N), tangent.change()?, by_inputs)
+    let (basis, a, b) = if const { <L::M>::COUNT == 0 } {
+        (DMatrix::identity(2 * <L::N>::COUNT, 2 * <L::N>::COUNT), tangent.change()?, by_inputs)
     } else {
         let basis = tangent.space()?;
         (basis.clone(), basis.tr_mul(&tangent.change_along(&basis)?), basis.tr_mul(&by_inputs))
@@ -80,28 +79,28 @@ where
     Ok(Linearization {
         a,
         b,
-        rate: DVector::from_iterator(2 * N, rate),
-        states: lookup::entries::<L, N, M>(),
+        rate: DVector::from_iterator(2 * <L::N>::COUNT, rate),
+        states: lookup::entries::<L>(),
         inputs: parameters.iter().map(|&k| L::PARAMETERS[k].into()).collect(),
         basis,
     })
 }
 
-impl<L, const N: usize, const M: usize> Tangent<'_, L, N, M>
+impl<L> Tangent<'_, L>
 where
-    L: StateDerivatives<N, M, Scalar: Real>,
+    L: StateDerivatives<Scalar: Real>,
 {
     /// Derivatives of (q̇, q̈) by each entry of the state.
     fn change(&self) -> Result<DMatrix<L::Scalar>, Error> {
-        let mut change = DMatrix::zeros(2 * N, 2 * N);
-        change.view_mut((0, N), (N, N)).fill_with_identity();
+        let mut change = DMatrix::zeros(2 * <L::N>::COUNT, 2 * <L::N>::COUNT);
+        change.view_mut((0, <L::N>::COUNT), (<L::N>::COUNT, <L::N>::COUNT)).fill_with_identity();
         let put = |j: usize, directions: &mut _, lane: usize| put_argument(j + 1, directions, lane);
         self.along_each(
-            2 * N,
+            2 * <L::N>::COUNT,
             put,
-            |j| name_of::<L, N, M>(j + 1),
+            |j| name_of::<L>(j + 1),
             |j, solution| {
-                change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+                change.view_mut((<L::N>::COUNT, j), (<L::N>::COUNT, 1)).copy_from(&solution.accelerations);
             },
         )?;
         Ok(change)
@@ -109,33 +108,35 @@ where
 
     /// Derivatives of (q̇, q̈) along each column of the basis.
     fn change_along(&self, basis: &DMatrix<L::Scalar>) -> Result<DMatrix<L::Scalar>, Error> {
-        let mut change = DMatrix::zeros(2 * N, basis.ncols());
-        let put = |j: usize, directions: &mut Direction<WideOf<L, N, M>, N>, lane: usize| {
+        let mut change = DMatrix::zeros(2 * <L::N>::COUNT, basis.ncols());
+        let put = |j: usize, directions: &mut Direction<WideOf<L>, L::N>, lane: usize| {
             let changes = directions.q.iter_mut().chain(&mut directions.v).zip(basis.column(j));
             changes.for_each(|(wide, x)| wide.put(lane, *x));
         };
-        let entry = |j: usize| lookup::entry::<L, N, M>(basis.column(j).icamax());
-        change.view_mut((0, 0), (N, basis.ncols())).copy_from(&basis.view((N, 0), (N, basis.ncols())));
+        let entry = |j: usize| lookup::entry::<L>(basis.column(j).icamax());
+        change
+            .view_mut((0, 0), (<L::N>::COUNT, basis.ncols()))
+            .copy_from(&basis.view((<L::N>::COUNT, 0), (<L::N>::COUNT, basis.ncols())));
         self.along_each(basis.ncols(), put, entry, |j, solution| {
-            change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+            change.view_mut((<L::N>::COUNT, j), (<L::N>::COUNT, 1)).copy_from(&solution.accelerations);
         })?;
         Ok(change)
     }
 
     /// Derivatives of (q̇, q̈) by each of these parameters.
-    fn change_by<const P: usize>(&self, parameters: &[usize]) -> Result<DMatrix<L::Scalar>, Error>
+    fn change_by(&self, parameters: &[usize]) -> Result<DMatrix<L::Scalar>, Error>
     where
-        L: Linearized<N, M, P>,
+        L: Linearized,
     {
-        let mut change = DMatrix::zeros(2 * N, parameters.len());
-        if const { M > 0 } {
+        let mut change = DMatrix::zeros(2 * <L::N>::COUNT, parameters.len());
+        if const { <L::M>::COUNT > 0 } {
             parameters.iter().try_for_each(|&k| self.stays_on_constraints(k))?;
         }
         self.by_parameters(
             parameters.len(),
             |j| parameters[j],
             |j, solution| {
-                change.view_mut((N, j), (N, 1)).copy_from(&solution.accelerations);
+                change.view_mut((<L::N>::COUNT, j), (<L::N>::COUNT, 1)).copy_from(&solution.accelerations);
             },
         )?;
         Ok(change)
@@ -143,12 +144,12 @@ where
 
     /// Orthonormal basis of the changes (δq, δv) with F δq = 0 for holonomic constraints and δ(F v + b) = 0 for all.
     pub(super) fn space(&self) -> Result<DMatrix<L::Scalar>, Error> {
-        let zero = vector([L::Scalar::constant(0.0); N]);
-        let mut changes: Vec<[SVector<L::Scalar, N>; 2]> = Vec::new();
+        let zero = vector(Array::filled(L::Scalar::constant(0.0)));
+        let mut changes: Vec<[Vector<L::Scalar, L::N>; 2]> = Vec::new();
         let holonomic = Rows::of(&self.matrices().m, &self.holonomic_rows(), Rank::off_constraints());
         for q in holonomic.null_space() {
             // A change of q changes F: the velocity must follow.
-            let entry = lookup::entry::<L, N, M>(q.icamax());
+            let entry = lookup::entry::<L>(q.icamax());
             let turned = self.residual_change(&Direction { q, ..Direction::zero() }, entry)?;
             changes.push([q, self.matrices().factors.rows.least(&turned.rate.into())]);
         }
@@ -156,28 +157,28 @@ where
         let columns: Vec<_> = changes
             .iter()
             .map(|[q, v]| {
-                let change = DVector::from_iterator(2 * N, q.iter().chain(v).copied());
+                let change = DVector::from_iterator(2 * <L::N>::COUNT, q.iter().chain(v).copied());
                 let length = norm(change.as_slice());
                 change / length
             })
             .collect();
         match columns.is_empty() {
-            true => Ok(DMatrix::zeros(2 * N, 0)),
+            true => Ok(DMatrix::zeros(2 * <L::N>::COUNT, 0)),
             false => Ok(DMatrix::from_columns(&columns).qr().q()),
         }
     }
 
     /// Rejects an input that shifts a constraint: after the change, the given state or its acceleration violates the
     /// constraint.
-    fn stays_on_constraints<const P: usize>(&self, k: usize) -> Result<(), Error>
+    fn stays_on_constraints(&self, k: usize) -> Result<(), Error>
     where
-        L: Linearized<N, M, P>,
+        L: Linearized,
     {
         let (input, zero) = (L::PARAMETERS[k], L::Scalar::constant(0.0));
-        let first_shifted = |solution: &Solution<L::Scalar, N, M>| -> Result<_, Error> {
+        let first_shifted = |solution: &SolutionOf<L>| -> Result<_, Error> {
             let change = self.change_by_parameter(solution, k)?;
             let levels = |a: usize| [change.position[a], change.rate[a], change.acceleration[a]];
-            Ok((0..M).find(|&a| levels(a) != [zero; 3]))
+            Ok((0..<L::M>::COUNT).find(|&a| levels(a) != [zero; 3]))
         };
         if first_shifted(&self.solution)?.is_none() {
             return Ok(());
@@ -190,21 +191,22 @@ where
 
     /// Accelerations and multipliers at the state. Accelerations are replaced by zero if they are mere round-off: if
     /// the forces balance to √ε of their terms, in units in which masses are 1.
-    fn without_round_off(&self) -> Result<Solution<L::Scalar, N, M>, Error> {
+    fn without_round_off(&self) -> Result<SolutionOf<L>, Error> {
         let (Tangent { state, solution, .. }, Matrices { m, f, factors }) = (self, self.matrices());
         let zero = L::Scalar::constant(0.0);
         let strongest = |force: &dyn Fn(usize) -> L::Scalar| {
-            largest(&from_fn::<_, N, _>(|i| force(i) * factors.rows.units.coordinates[i]))
+            largest(&Array::<_, L::N>::from_fn(|i| force(i) * factors.rows.units.coordinates[i]))
         };
-        let mut terms =
-            (0..M).fold(zero, |most, a| larger(most, strongest(&|i| f[a][i] * solution.multipliers[a])));
+        let mut terms = (0..<L::M>::COUNT)
+            .fold(zero, |most, a| larger(most, strongest(&|i| f[a][i] * solution.multipliers[a])));
         for (j, name) in L::COORDINATES.iter().enumerate() {
             let change = self.residual_change(&Direction::of_coordinate(j), Entry::Coordinate(name))?;
             terms = larger(terms, strongest(&|i| change.motion[i] * state.q[j]));
         }
-        let left = strongest(&|i| (0..N).fold(zero, |sum, j| sum + m[i][j] * solution.accelerations[j]));
+        let left =
+            strongest(&|i| (0..<L::N>::COUNT).fold(zero, |sum, j| sum + m[i][j] * solution.accelerations[j]));
         let rests = left <= power_of_epsilon::<L::Scalar>(0.5) * terms;
-        let accelerations = if rests { vector([zero; N]) } else { solution.accelerations };
+        let accelerations = if rests { vector(Array::filled(zero)) } else { solution.accelerations };
         Ok(Solution { accelerations, ..*solution })
     }
 }

@@ -12,9 +12,10 @@ use crate::error::{Ending, Error};
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::number::{Real, Scalar};
 use crate::solution::vector_field::LagrangianVectorField;
-use crate::system::State;
+use crate::system::StateOf;
 use crate::system::finite::check_finite;
 use crate::system::lookup::entry;
+use crate::vector::{Length, from_fn, vector};
 
 /// Lyapunov exponents of a motion, with their standard errors.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,46 +34,46 @@ pub struct LyapunovSpectrum<T> {
 const PARTS: usize = 20;
 
 /// See [`Linearized::lyapunov_spectrum`].
-pub(super) fn spectrum<L, D, const N: usize, const M: usize, const P: usize>(
+pub(super) fn spectrum<L, D>(
     system: &L,
-    state: &State<L::Scalar, N>,
+    state: &StateOf<L>,
     end: L::Scalar,
     method: &D,
 ) -> Result<LyapunovSpectrum<L::Scalar>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
     check_finite(system, state)?;
     check_end(end)?;
-    let (mut run, _) = Run::begin::<L, LagrangianVectorField, _, M>(system, state, method)?;
+    let (mut run, _) = Run::begin::<L, LagrangianVectorField, _>(system, state, method)?;
     let start = run.state;
     let tangent = Tangent::at(system, &start)?;
-    let basis = match const { M == 0 } {
-        true => DMatrix::identity(2 * N, 2 * N),
+    let basis = match const { <L::M>::COUNT == 0 } {
+        true => DMatrix::identity(2 * <L::N>::COUNT, 2 * <L::N>::COUNT),
         false => tangent.space()?,
     };
-    let most = |j: usize| entry::<L, N, M>(basis.column(j).icamax());
-    let column = |j: usize| [0, N].map(|half| basis.fixed_view::<N, 1>(half, j).into_owned());
+    let most = |j: usize| entry::<L>(basis.column(j).icamax());
+    let column = |j: usize| [0, <L::N>::COUNT].map(|half| vector(from_fn(|i| basis[(half + i, j)])));
     let variations = Variations::begin(&tangent, (0..basis.ncols()).map(most).collect(), column)?;
     let stages = method.companion(system, &start, &variations)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
     let growth = vec![L::Scalar::constant(0.0); variations.count()];
     let mut exponents = Growth { system, start: start.t, end, variations, stages, growth, parts: Vec::new() };
-    run.drive::<L, LagrangianVectorField, D, _, M>(method, &limits, &mut exponents)?;
+    run.drive::<L, LagrangianVectorField, D, _>(method, &limits, &mut exponents)?;
     Ok(LyapunovSpectrum::of(&exponents.parts[1..]))
 }
 
 /// Growth of variations along a motion.
-struct Growth<'a, L, D, const N: usize, const M: usize, const P: usize>
+struct Growth<'a, L, D>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
     system: &'a L,
     start: L::Scalar,
     end: L::Scalar,
-    variations: Variations<L, N, M, P>,
+    variations: Variations<L>,
     /// Memory of the method for the next step of the variations.
     stages: D::VariationMemory,
     /// Logarithm of the growth of each variation in the current part.
@@ -81,10 +82,10 @@ where
     parts: Vec<(L::Scalar, Vec<L::Scalar>)>,
 }
 
-impl<L, D, const N: usize, const M: usize, const P: usize> Growth<'_, L, D, N, M, P>
+impl<L, D> Growth<'_, L, D>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
     /// End time of the current part.
     fn stop(&self) -> L::Scalar {
@@ -102,11 +103,10 @@ where
     }
 }
 
-impl<L, D, const N: usize, const M: usize, const P: usize> Observer<L, LagrangianVectorField, D, N, M>
-    for Growth<'_, L, D, N, M, P>
+impl<L, D> Observer<L, LagrangianVectorField, D> for Growth<'_, L, D>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
     fn system(&self) -> &L {
         self.system
@@ -115,7 +115,7 @@ where
     fn goal(
         &mut self,
         method: &D,
-        run: &mut Run<D::Memory, L::Scalar, N>,
+        run: &mut Run<D::Memory, L::Scalar, L::N>,
     ) -> Result<Option<L::Scalar>, Ending> {
         while self.parts.len() <= PARTS {
             let stop = self.stop();
@@ -128,11 +128,11 @@ where
         Ok(None)
     }
 
-    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         method.follow(self.system, run, &mut self.variations, &mut self.stages)
     }
 
-    fn keep(&mut self, _: &D, _: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &D, _: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         let Self { variations, stages, growth, .. } = self;
         let linear = &mut D::linear(stages);
         variations.orthonormalize(linear, |j, length| growth[j] += Scalar::ln(length));

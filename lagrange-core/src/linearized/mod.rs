@@ -41,8 +41,6 @@ mod variation;
 
 use core::fmt::Debug;
 
-use nalgebra::SVector;
-
 #[cfg(feature = "alloc")]
 pub use across::MotionDerivatives;
 #[cfg(feature = "alloc")]
@@ -72,7 +70,8 @@ pub use variation::DifferentiableMethod;
 
 use crate::error::Error;
 use crate::number::{Broadcast, Real};
-use crate::system::{Lagrangian, ResidualChange, Solution, State};
+use crate::system::{Lagrangian, ResidualChange, SolutionOf, StateOf};
+use crate::vector::{Length, Vector};
 
 /// A system whose equations of motion can be differentiated by parameters too: Jacobians, sensitivities, equilibria,
 /// linearization.
@@ -122,13 +121,16 @@ use crate::system::{Lagrangian, ResidualChange, Solution, State};
     label = "no `Linearized`",
     note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
 )]
-pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDerivatives<N, M> {
+pub trait Linearized: StateDerivatives {
     /// Names of the parameters in the order of the fields, such as `m`, `m[0]` or `link[2].m`: exactly the numbers that
     /// the expressions use. If they use only `a[0]` of an array, its other elements are not parameters.
-    const PARAMETERS: [&'static str; P];
+    const PARAMETERS: &'static [&'static str];
+
+    /// Number of the parameters.
+    type P: Length;
 
     /// Values of the parameters.
-    fn parameters(&self) -> SVector<Self::Scalar, P>;
+    fn parameters(&self) -> Vector<Self::Scalar, Self::P>;
 
     /// Sets the parameter [`PARAMETERS`](Self::PARAMETERS)`[index]`. Returns false if there is none, or if it cannot be
     /// set: because it is behind a reference, in a type whose shape is known from `#[parameter(…)]` alone, in a struct
@@ -142,8 +144,8 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// multipliers are held at those of `solution`.
     fn residual_slopes_by_parameters(
         &self,
-        state: &State<Self::Scalar, N>,
-        solution: &Solution<Self::Scalar, N, M>,
+        state: &StateOf<Self>,
+        solution: &SolutionOf<Self>,
     ) -> Self::ParameterSlopes;
 
     /// Derivative of the residual if the parameters change at these rates, in the order of
@@ -151,17 +153,17 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     fn residual_change_by_parameters_with<S: Broadcast<Self::Scalar>>(
         &self,
         slopes: &Self::ParameterSlopes,
-        rates: &SVector<S, P>,
-    ) -> ResidualChange<S, N, M>;
+        rates: &Vector<S, Self::P>,
+    ) -> ResidualChange<S, Self::N, Self::M>;
 
     /// Derivative of the residual if the parameters change at these rates, in the order of
     /// [`PARAMETERS`](Self::PARAMETERS). Accelerations and multipliers are held at those of `solution`.
     fn residual_change_by_parameters(
         &self,
-        state: &State<Self::Scalar, N>,
-        solution: &Solution<Self::Scalar, N, M>,
-        rates: &SVector<Self::Scalar, P>,
-    ) -> ResidualChange<Self::Scalar, N, M> {
+        state: &StateOf<Self>,
+        solution: &SolutionOf<Self>,
+        rates: &Vector<Self::Scalar, Self::P>,
+    ) -> ResidualChange<Self::Scalar, Self::N, Self::M> {
         self.residual_change_by_parameters_with(&self.residual_slopes_by_parameters(state, solution), rates)
     }
 
@@ -172,9 +174,12 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// # Errors
     /// The errors of [`solve`](crate::Simulate::solve). [`Error::DerivativeNotFinite`], even for a parameter without
     /// interest to the caller; [`linearize`](Self::linearize) differentiates only by the requested inputs.
-    fn jacobian(&self, state: &State<Self::Scalar, N>) -> Result<Jacobian<Self::Scalar, N, M, P>, Error>
+    fn jacobian(
+        &self,
+        state: &StateOf<Self>,
+    ) -> Result<Jacobian<Self::Scalar, Self::N, Self::M, Self::P>, Error>
     where
-        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+        Self: Lagrangian<Scalar: Real> + Sized,
     {
         jacobian::jacobian(self, state)
     }
@@ -205,11 +210,11 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     #[cfg(feature = "alloc")]
     fn jacobian_by(
         &self,
-        state: &State<Self::Scalar, N>,
+        state: &StateOf<Self>,
         arguments: &[&str],
-    ) -> Result<SelectedJacobian<Self::Scalar, N, M>, Error>
+    ) -> Result<SelectedJacobian<Self::Scalar, Self::N, Self::M>, Error>
     where
-        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+        Self: Lagrangian<Scalar: Real> + Sized,
     {
         columns::jacobian_by(self, state, arguments)
     }
@@ -250,15 +255,15 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// The errors of [`integrate`](crate::Simulate::integrate); [`Error::DerivativeNotFinite`]; [`Error::UnknownName`]
     /// and [`Error::RepeatedName`].
     #[cfg(feature = "alloc")]
-    fn integrate_sensitivities<D: DifferentiableMethod<Self, N, M, P>>(
+    fn integrate_sensitivities<D: DifferentiableMethod<Self>>(
         &self,
-        state: State<Self::Scalar, N>,
+        state: StateOf<Self>,
         end: Self::Scalar,
         method: D,
         arguments: &[&str],
-    ) -> Result<TrajectorySensitivity<'_, Self, N, M, P>, Error>
+    ) -> Result<TrajectorySensitivity<'_, Self>, Error>
     where
-        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+        Self: Lagrangian<Scalar: Real> + Sized,
     {
         self.motion_with_derivatives(&self.sensitivity(&state, arguments)?).by(method).to(end)
     }
@@ -298,14 +303,14 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// The errors of [`integrate`](crate::Simulate::integrate), among them [`Error::Unfinished`] if the method does not
     /// reach the end; [`Error::DerivativeNotFinite`].
     #[cfg(feature = "alloc")]
-    fn lyapunov_spectrum<D: DifferentiableMethod<Self, N, M, P>>(
+    fn lyapunov_spectrum<D: DifferentiableMethod<Self>>(
         &self,
-        state: State<Self::Scalar, N>,
+        state: StateOf<Self>,
         end: Self::Scalar,
         method: D,
     ) -> Result<LyapunovSpectrum<Self::Scalar>, Error>
     where
-        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+        Self: Lagrangian<Scalar: Real> + Sized,
     {
         lyapunov::spectrum(self, &state, end, &method)
     }
@@ -346,12 +351,12 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     #[cfg(feature = "alloc")]
     fn inputs_for(
         &self,
-        state: &State<Self::Scalar, N>,
-        accelerations: &SVector<Self::Scalar, N>,
+        state: &StateOf<Self>,
+        accelerations: &Vector<Self::Scalar, Self::N>,
         inputs: &[&str],
-    ) -> Result<InverseDynamics<Self::Scalar, M>, Error>
+    ) -> Result<InverseDynamics<Self::Scalar, Self::M>, Error>
     where
-        Self: Lagrangian<N, M, Scalar: Real> + Clone,
+        Self: Lagrangian<Scalar: Real> + Clone,
     {
         inverse::inputs_for(self, state, accelerations, inputs)
     }
@@ -381,13 +386,9 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// [`Error::Inconsistent`] if the state violates a constraint; [`Error::InputShiftsConstraint`];
     /// [`Error::UnknownName`] and [`Error::RepeatedName`]; the errors of [`jacobian`](Self::jacobian).
     #[cfg(feature = "alloc")]
-    fn linearize(
-        &self,
-        state: &State<Self::Scalar, N>,
-        inputs: &[&str],
-    ) -> Result<Linearization<Self::Scalar>, Error>
+    fn linearize(&self, state: &StateOf<Self>, inputs: &[&str]) -> Result<Linearization<Self::Scalar>, Error>
     where
-        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+        Self: Lagrangian<Scalar: Real> + Sized,
     {
         linearization::linearize(self, state, inputs)
     }
@@ -446,13 +447,9 @@ pub trait Linearized<const N: usize, const M: usize, const P: usize>: StateDeriv
     /// [`Error::DerivativeNotFinite`]; [`Error::EigenvaluesNotFound`] if the matrix of a step has an entry that is not
     /// finite.
     #[cfg(feature = "alloc")]
-    fn equilibrium(
-        &self,
-        guess: &State<Self::Scalar, N>,
-        unknowns: &[&str],
-    ) -> Result<Equilibrium<Self, N, M>, Error>
+    fn equilibrium(&self, guess: &StateOf<Self>, unknowns: &[&str]) -> Result<Equilibrium<Self>, Error>
     where
-        Self: Lagrangian<N, M, Scalar: Real> + Clone,
+        Self: Lagrangian<Scalar: Real> + Clone,
     {
         equilibrium::equilibrium(self, guess, unknowns)
     }

@@ -17,11 +17,12 @@ use crate::motion::{MotionBuilder, SamplesAlone};
 use crate::number::Real;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::finite::check_finite;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
+use crate::vector::{Element, Length};
 
 /// End and samples of a motion, and their derivatives by entries of the start and by parameters.
 #[derive(Clone, Debug)]
-pub struct SampledSensitivity<T, const N: usize> {
+pub struct SampledSensitivity<T: Element, N: Length> {
     /// End, samples and crossings of the motion, without derivatives.
     pub arrival: Arrival<T, N>,
     /// Samples of [`arrival`](Self::arrival) with their derivatives at fixed time.
@@ -29,7 +30,7 @@ pub struct SampledSensitivity<T, const N: usize> {
     end: Result<StateSensitivity<T, N>, Error>,
 }
 
-impl<T: Real, const N: usize> SampledSensitivity<T, N> {
+impl<T: Real, N: Length> SampledSensitivity<T, N> {
     /// Returns the last state and its derivatives, like [`TrajectorySensitivity::end`](super::TrajectorySensitivity::end).
     ///
     /// # Errors
@@ -39,10 +40,9 @@ impl<T: Real, const N: usize> SampledSensitivity<T, N> {
     }
 }
 
-impl<'w, L, const N: usize, const M: usize, P, E>
-    MotionBuilder<'_, 'w, L, StateSensitivity<L::Scalar, N>, N, M, P, E, SamplesAlone<'w, L, N, M>>
+impl<'w, L, P, E> MotionBuilder<'_, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E, SamplesAlone<'w, L>>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Integrates the motion and its derivatives to the time `end`, or to the first
     /// [terminal](crate::Event::terminal) event, without storing the steps.
@@ -66,11 +66,11 @@ where
     ///
     /// # Errors
     /// The errors of [`Linearized::integrate_sensitivities`], and those of samples that cannot be taken, as for a motion alone.
-    pub fn to<const K: usize>(self, end: L::Scalar) -> Result<SampledSensitivity<L::Scalar, N>, Error>
+    pub fn to(self, end: L::Scalar) -> Result<SampledSensitivity<L::Scalar, L::N>, Error>
     where
-        L: Linearized<N, M, K>,
-        P: DifferentiableMethod<L, N, M, K>,
-        E: EventList<DynDifferentiableEvent<'w, L, N, M, K>>,
+        L: Linearized,
+        P: DifferentiableMethod<L>,
+        E: EventList<DynDifferentiableEvent<'w, L>>,
     {
         let motion = self.towards(end)?;
         let ending = &motion.arrival.ending;
@@ -82,11 +82,11 @@ where
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
-    pub fn towards<const K: usize>(self, end: L::Scalar) -> Result<SampledSensitivity<L::Scalar, N>, Error>
+    pub fn towards(self, end: L::Scalar) -> Result<SampledSensitivity<L::Scalar, L::N>, Error>
     where
-        L: Linearized<N, M, K>,
-        P: DifferentiableMethod<L, N, M, K>,
-        E: EventList<DynDifferentiableEvent<'w, L, N, M, K>>,
+        L: Linearized,
+        P: DifferentiableMethod<L>,
+        E: EventList<DynDifferentiableEvent<'w, L>>,
     {
         let Self { system, start, method, events, on_progress, kept } = self;
         integrate(system, &start, end, &method, &mut events.list(), &kept.plan, on_progress)
@@ -94,31 +94,30 @@ where
 }
 
 /// Integrates a motion together with its derivatives, and samples both.
-fn integrate<L, D, const N: usize, const M: usize, const P: usize>(
+fn integrate<L, D>(
     system: &L,
-    start: &StateSensitivity<L::Scalar, N>,
+    start: &StateSensitivity<L::Scalar, L::N>,
     end: L::Scalar,
     method: &D,
-    events: &mut [Box<DynDifferentiableEvent<'_, L, N, M, P>>],
-    plan: &RecordPlan<'_, L, N, M>,
+    events: &mut [Box<DynDifferentiableEvent<'_, L>>],
+    plan: &RecordPlan<'_, L>,
     on_progress: Option<OnProgress<'_>>,
-) -> Result<SampledSensitivity<L::Scalar, N>, Error>
+) -> Result<SampledSensitivity<L::Scalar, L::N>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
     check_finite(system, &start.state)?;
     check_end(end)?;
     plan.check()?;
-    let mut begun = Run::begin::<L, LagrangianVectorField, D, M>(system, &start.state, method);
+    let mut begun = Run::begin::<L, LagrangianVectorField, D>(system, &start.state, method);
     let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
     let (course, stages) = Course::from(system, &run.state, start, method)?;
-    let lent = events
-        .iter_mut()
-        .map(|event| -> Box<crate::motion::event::DynEvent<'_, L, N, M>> { Box::new(event) });
+    let lent =
+        events.iter_mut().map(|event| -> Box<crate::motion::event::DynEvent<'_, L>> { Box::new(event) });
     let record = Record::begin(plan, lent.collect(), None, system, &run.state, end)?;
     let ends = [run.state.t, end];
-    let mut sampled = SampledAlong::<_, D, N, M, P> {
+    let mut sampled = SampledAlong::<_, D> {
         system,
         ends,
         record,
@@ -131,7 +130,7 @@ where
     };
     sampled.sample()?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
-    let driven = run.drive::<L, LagrangianVectorField, D, _, M>(method, &limits, &mut sampled);
+    let driven = run.drive::<L, LagrangianVectorField, D, _>(method, &limits, &mut sampled);
     let ending = driven.err().unwrap_or(Ending::Complete { time: end.to_f64() });
     let (record, course, before, samples) = sampled.end();
     let arrival = record.arrive(run.state, ending, run.statistics);
@@ -140,31 +139,31 @@ where
 }
 
 /// Observer that carries derivatives along a motion and samples both.
-struct SampledAlong<'a, 'o, L, D, const N: usize, const M: usize, const P: usize>
+struct SampledAlong<'a, 'o, L, D>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
     system: &'a L,
     /// Times of the start and of the end.
     ends: [L::Scalar; 2],
-    record: Record<'o, L, N, M>,
+    record: Record<'o, L>,
     /// Derivatives along the last step.
-    course: Course<L, N, M, P>,
+    course: Course<L>,
     /// Memory of the method for the derivatives.
     stages: D::VariationMemory,
     /// State at the start of the last step.
-    before: State<L::Scalar, N>,
-    samples: Vec<StateSensitivity<L::Scalar, N>>,
+    before: StateOf<L>,
+    samples: Vec<StateSensitivity<L::Scalar, L::N>>,
     /// Interpolant of the last step, if events or samples need it; else empty.
     within: Vec<D::Interpolant>,
     on_progress: Option<OnProgress<'o>>,
 }
 
-impl<'o, L, D, const N: usize, const M: usize, const P: usize> SampledAlong<'_, 'o, L, D, N, M, P>
+impl<'o, L, D> SampledAlong<'_, 'o, L, D>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
     /// Adds the derivatives of the samples that the record has taken since the last call.
     fn sample(&mut self) -> Result<(), Error> {
@@ -176,19 +175,15 @@ where
 
     /// Returns the parts that the result is made of.
     #[allow(clippy::type_complexity, reason = "its fields")]
-    fn end(
-        self,
-    ) -> (Record<'o, L, N, M>, Course<L, N, M, P>, State<L::Scalar, N>, Vec<StateSensitivity<L::Scalar, N>>)
-    {
+    fn end(self) -> (Record<'o, L>, Course<L>, StateOf<L>, Vec<StateSensitivity<L::Scalar, L::N>>) {
         (self.record, self.course, self.before, self.samples)
     }
 }
 
-impl<L, D, const N: usize, const M: usize, const P: usize> Observer<L, LagrangianVectorField, D, N, M>
-    for SampledAlong<'_, '_, L, D, N, M, P>
+impl<L, D> Observer<L, LagrangianVectorField, D> for SampledAlong<'_, '_, L, D>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
     fn system(&self) -> &L {
         self.system
@@ -197,7 +192,7 @@ where
     fn goal(
         &mut self,
         method: &D,
-        run: &mut Run<D::Memory, L::Scalar, N>,
+        run: &mut Run<D::Memory, L::Scalar, L::N>,
     ) -> Result<Option<L::Scalar>, Ending> {
         if let Some(ending) = self.record.stopped() {
             return Err(ending);
@@ -212,7 +207,7 @@ where
         Ok(Some(end))
     }
 
-    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         let Self { system, course: Course { variations, coefficients, .. }, stages, within, .. } = self;
         method.follow(system, run, variations, stages)?;
         match self.record.looks_into(run.before.t, run.state.t) {
@@ -221,7 +216,7 @@ where
         }
     }
 
-    fn keep(&mut self, _: &D, run: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &D, run: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         self.before = run.before;
         self.course.push(run.before.t, run.state.t);
         if let Some(interpolant) = self.within.first() {

@@ -17,72 +17,62 @@ use crate::motion::{AnyEvent, MotionBuilder};
 use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::solution::crossing::Crossing;
-use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
+use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::finite::check_finite;
-use crate::system::{Direction, Lagrangian, State, lookup};
+use crate::system::{Direction, Lagrangian, StateOf, lookup};
 use crate::trajectory::Trajectory;
+use crate::vector::{Entrywise, Length, PhaseVector};
 
 /// A motion with its derivatives by entries of the initial state and by parameters.
 ///
 /// The call that integrates names the arguments. With constraints, derivatives lie in the tangent space at every time.
-pub struct TrajectorySensitivity<
-    'a,
-    L: Linearized<N, M, P, Scalar: Real>,
-    const N: usize,
-    const M: usize,
-    const P: usize,
-> {
-    trajectory: Trajectory<&'a L, N, M>,
-    course: Course<L, N, M, P>,
-    end: Result<StateSensitivity<L::Scalar, N>, Error>,
+pub struct TrajectorySensitivity<'a, L: Linearized<Scalar: Real>> {
+    trajectory: Trajectory<&'a L>,
+    course: Course<L>,
+    end: Result<StateSensitivity<L::Scalar, L::N>, Error>,
 }
 
 /// Derivatives along a motion.
-pub(super) struct Course<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize>
-{
+pub(super) struct Course<L: Linearized<Scalar: Real>> {
     /// Variations at the end of the last step.
-    pub(super) variations: Variations<L, N, M, P>,
+    pub(super) variations: Variations<L>,
     /// Time at the end of the last step; the motion may have ended within this step.
     end: L::Scalar,
     /// Start and length of each step.
     steps: Vec<[L::Scalar; 2]>,
     /// Coefficients of the interpolants of the variations, step by step and block by block, the same number for each.
-    pub(super) coefficients: Vec<PhaseVector<WideOf<L, N, M>, N>>,
+    pub(super) coefficients: Vec<PhaseVector<WideOf<L>, L::N>>,
     /// Evaluates an interpolant from its coefficients.
-    between: Between<WideOf<L, N, M>, N>,
+    between: Between<WideOf<L>, L::N>,
 }
 
 /// Variations of a block at a fraction of a step, from the coefficients of the interpolant.
-type Between<W, const N: usize> = fn(&[PhaseVector<W, N>], W) -> PhaseVector<W, N>;
+type Between<W, N> = fn(&[PhaseVector<W, N>], W) -> PhaseVector<W, N>;
 
 /// An event of a motion with derivatives.
-pub(super) type DynDifferentiableEvent<'a, L, const N: usize, const M: usize, const P: usize> =
-    dyn DifferentiableEvent<L, N, M, P> + 'a;
+pub(super) type DynDifferentiableEvent<'a, L> = dyn DifferentiableEvent<L> + 'a;
 
-impl<'a, 'w, L, const N: usize, const M: usize, P, E, J>
-    MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, N>, N, M, P, E, J>
+impl<'a, 'w, L, P, E, J> MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E, J>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Adds an event made by [`differentiable_event`](crate::MotionDerivatives::differentiable_event), by value or as `&mut event`.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
-    pub fn event<const K: usize>(
+    pub fn event(
         self,
-        event: impl DifferentiableEvent<L, N, M, K> + 'w,
+        event: impl DifferentiableEvent<L> + 'w,
     ) -> MotionBuilder<
         'a,
         'w,
         L,
-        StateSensitivity<L::Scalar, N>,
-        N,
-        M,
+        StateSensitivity<L::Scalar, L::N>,
         P,
-        Vec<Box<DynDifferentiableEvent<'w, L, N, M, K>>>,
+        Vec<Box<DynDifferentiableEvent<'w, L>>>,
         J,
     >
     where
-        L: Linearized<N, M, K>,
-        E: EventList<DynDifferentiableEvent<'w, L, N, M, K>>,
+        L: Linearized,
+        E: EventList<DynDifferentiableEvent<'w, L>>,
     {
         self.with_events(|events| {
             let mut events = events.list();
@@ -92,21 +82,20 @@ where
     }
 }
 
-impl<'a, 'w, L, const N: usize, const M: usize, P, E>
-    MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, N>, N, M, P, E>
+impl<'a, 'w, L, P, E> MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Integrates the motion and its derivatives to the time `end`, or to the first [terminal](crate::Event::terminal) event.
     ///
     /// # Errors
     /// The errors of [`Linearized::integrate_sensitivities`]; [`Error::EventNotFinite`] and [`Error::UnknownName`] where the function
     /// of an event fails at the start.
-    pub fn to<const K: usize>(self, end: L::Scalar) -> Result<TrajectorySensitivity<'a, L, N, M, K>, Error>
+    pub fn to(self, end: L::Scalar) -> Result<TrajectorySensitivity<'a, L>, Error>
     where
-        L: Linearized<N, M, K>,
-        P: DifferentiableMethod<L, N, M, K>,
-        E: EventList<DynDifferentiableEvent<'w, L, N, M, K>>,
+        L: Linearized,
+        P: DifferentiableMethod<L>,
+        E: EventList<DynDifferentiableEvent<'w, L>>,
     {
         self.towards(end)?.finished()
     }
@@ -116,14 +105,11 @@ where
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
-    pub fn towards<const K: usize>(
-        self,
-        end: L::Scalar,
-    ) -> Result<TrajectorySensitivity<'a, L, N, M, K>, Error>
+    pub fn towards(self, end: L::Scalar) -> Result<TrajectorySensitivity<'a, L>, Error>
     where
-        L: Linearized<N, M, K>,
-        P: DifferentiableMethod<L, N, M, K>,
-        E: EventList<DynDifferentiableEvent<'w, L, N, M, K>>,
+        L: Linearized,
+        P: DifferentiableMethod<L>,
+        E: EventList<DynDifferentiableEvent<'w, L>>,
     {
         let Self { system, start, method, events, on_progress, .. } = self;
         integrate(system, &start, end, &method, &mut events.list(), on_progress)
@@ -131,27 +117,27 @@ where
 }
 
 /// Integrates a motion together with its derivatives.
-fn integrate<'a, L, D, const N: usize, const M: usize, const P: usize>(
+fn integrate<'a, L, D>(
     system: &'a L,
-    start: &StateSensitivity<L::Scalar, N>,
+    start: &StateSensitivity<L::Scalar, L::N>,
     end: L::Scalar,
     method: &D,
-    events: &mut [Box<DynDifferentiableEvent<'_, L, N, M, P>>],
+    events: &mut [Box<DynDifferentiableEvent<'_, L>>],
     on_progress: Option<OnProgress<'_>>,
-) -> Result<TrajectorySensitivity<'a, L, N, M, P>, Error>
+) -> Result<TrajectorySensitivity<'a, L>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
     check_finite(system, &start.state)?;
     check_end(end)?;
-    let mut begun = Run::begin::<L, LagrangianVectorField, D, M>(system, &start.state, method);
+    let mut begun = Run::begin::<L, LagrangianVectorField, D>(system, &start.state, method);
     let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
     let (course, stages) = Course::from(system, &run.state, start, method)?;
     let stored = Stored::begin(system, &run.state, end, events, on_progress)?;
     let mut along = Along { stored, course, stages, before: run.state };
     let limits = Watchdog::new(method.limits(), &run.statistics);
-    let driven = run.drive::<L, LagrangianVectorField, D, _, M>(method, &limits, &mut along);
+    let driven = run.drive::<L, LagrangianVectorField, D, _>(method, &limits, &mut along);
     let (stored, course, before) = along.end();
     let trajectory = stored.finish(driven, run.statistics, *adjustment);
     let (ending, crossings) = (trajectory.ending(), trajectory.crossings());
@@ -160,50 +146,47 @@ where
 }
 
 /// Observes a motion while it is integrated and stored, and carries its derivatives along.
-struct Along<'a, 'e, L, D, W, const N: usize, const M: usize, const P: usize>
+struct Along<'a, 'e, L, D, W>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
-    stored: Stored<'a, 'e, L, W, D::Interpolant, N, M, true>,
-    course: Course<L, N, M, P>,
+    stored: Stored<'a, 'e, L, W, D::Interpolant, true>,
+    course: Course<L>,
     /// Memory of the method for the next step of the derivatives.
     stages: D::VariationMemory,
     /// State at the start of the last step.
-    before: State<L::Scalar, N>,
+    before: StateOf<L>,
 }
 
-impl<'a, 'e, L, D, W, const N: usize, const M: usize, const P: usize> Along<'a, 'e, L, D, W, N, M, P>
+impl<'a, 'e, L, D, W> Along<'a, 'e, L, D, W>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
 {
     /// Stored motion, derivatives, and the state before the last step.
     #[allow(clippy::type_complexity, reason = "its fields")]
-    fn end(
-        self,
-    ) -> (Stored<'a, 'e, L, W, D::Interpolant, N, M, true>, Course<L, N, M, P>, State<L::Scalar, N>) {
+    fn end(self) -> (Stored<'a, 'e, L, W, D::Interpolant, true>, Course<L>, StateOf<L>) {
         (self.stored, self.course, self.before)
     }
 }
 
-impl<L, D, W, const N: usize, const M: usize, const P: usize> Observer<L, LagrangianVectorField, D, N, M>
-    for Along<'_, '_, L, D, W, N, M, P>
+impl<L, D, W> Observer<L, LagrangianVectorField, D> for Along<'_, '_, L, D, W>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
-    D: DifferentiableMethod<L, N, M, P>,
-    W: AnyEvent<L, N, M>,
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
+    W: AnyEvent<L>,
 {
     fn system(&self) -> &L {
-        Observer::<L, LagrangianVectorField, D, N, M>::system(&self.stored)
+        Observer::<L, LagrangianVectorField, D>::system(&self.stored)
     }
 
     fn goal(
         &mut self,
         method: &D,
-        run: &mut Run<D::Memory, L::Scalar, N>,
+        run: &mut Run<D::Memory, L::Scalar, L::N>,
     ) -> Result<Option<L::Scalar>, Ending> {
-        let goal = Observer::<_, LagrangianVectorField, _, N, M>::goal(&mut self.stored, method, run)?;
+        let goal = Observer::<_, LagrangianVectorField, _>::goal(&mut self.stored, method, run)?;
         if let Some(end) = goal {
             let system = self.stored.system();
             method.prepare(system, run, end, &self.course.variations, &mut self.stages)?;
@@ -211,36 +194,37 @@ where
         Ok(goal)
     }
 
-    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         let Self { stored, course: Course { variations, coefficients, .. }, stages, .. } = self;
         let system = stored.system();
         method.follow(system, run, variations, stages)?;
         method.interpolate(system, run, variations, stages, stored.interpolants(), coefficients)
     }
 
-    fn keep(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn keep(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         self.before = run.before;
         self.course.push(run.before.t, run.state.t);
-        Observer::<_, LagrangianVectorField, _, N, M>::keep(&mut self.stored, method, run)
+        Observer::<_, LagrangianVectorField, _>::keep(&mut self.stored, method, run)
     }
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Course<L, N, M, P>
+impl<L> Course<L>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     /// Derivatives at the start of a motion, and the method's memory for them.
-    pub(super) fn from<D: DifferentiableMethod<L, N, M, P>>(
+    pub(super) fn from<D: DifferentiableMethod<L>>(
         system: &L,
-        state: &State<L::Scalar, N>,
-        start: &StateSensitivity<L::Scalar, N>,
+        state: &StateOf<L>,
+        start: &StateSensitivity<L::Scalar, L::N>,
         method: &D,
     ) -> Result<(Self, D::VariationMemory), Error> {
         let tangent = Tangent::at(system, state)?;
         // Convert to derivatives at fixed time: if the start is an event, subtract the change of its time.
         let column = |j| {
             let Direction { t, q, v } = start.direction(j);
-            [q - state.v * t, v - tangent.solution.accelerations * t]
+            let back = |x: L::Scalar, rate| x - rate * t;
+            [q.each_with(&state.v, back), v.each_with(&tangent.solution.accelerations, back)]
         };
         let variations = Variations::begin(&tangent, start.arguments().to_vec(), column)?;
         let companion = method.companion(system, state, &variations)?;
@@ -258,12 +242,12 @@ where
     pub(super) fn at(
         &self,
         system: &L,
-        state: &State<L::Scalar, N>,
-    ) -> Result<StateSensitivity<L::Scalar, N>, Error> {
-        let (lanes, blocks) = (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, self.variations.blocks.len());
+        state: &StateOf<L>,
+    ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
+        let (lanes, blocks) = (<WideOf<L> as Wide<L::Scalar>>::COUNT, self.variations.blocks.len());
         let mut at = StateSensitivity::of(*state, self.variations.arguments().to_vec());
         let found = if state.t == self.end { None } else { self.step(state.t) };
-        let tangent = if const { M > 0 } { Some(Tangent::at(system, state)) } else { None };
+        let tangent = if const { <L::M>::COUNT > 0 } { Some(Tangent::at(system, state)) } else { None };
         let tangent = tangent.transpose()?;
         for block in 0..blocks {
             let mut y = match found {
@@ -271,14 +255,14 @@ where
                 Some((step, part)) => {
                     let each = self.coefficients.len() / (self.steps.len() * blocks);
                     let first = each * (step * blocks + block);
-                    (self.between)(&self.coefficients[first..first + each], WideOf::<L, N, M>::of(part))
+                    (self.between)(&self.coefficients[first..first + each], WideOf::<L>::of(part))
                 }
             };
             if let Some(tangent) = &tangent {
                 y = self.variations.projected(block, tangent, y)?;
             }
             for column in lanes * block..at.arguments().len().min(lanes * (block + 1)) {
-                let [q, v] = y.map(|half| half.map(|x| x.lane(column - lanes * block)));
+                let [q, v] = y.arrays().map(|half| half.map(|x| x.lane(column - lanes * block)));
                 at.set(column, [&q, &v]);
             }
         }
@@ -289,12 +273,12 @@ where
     pub(super) fn end(
         &self,
         system: &L,
-        state: &State<L::Scalar, N>,
+        state: &StateOf<L>,
         ending: &Ending,
-        crossings: &[Crossing<L::Scalar, N>],
-        events: &[Box<DynDifferentiableEvent<'_, L, N, M, P>>],
-        before: &State<L::Scalar, N>,
-    ) -> Result<StateSensitivity<L::Scalar, N>, Error> {
+        crossings: &[Crossing<L::Scalar, L::N>],
+        events: &[Box<DynDifferentiableEvent<'_, L>>],
+        before: &StateOf<L>,
+    ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
         if ending.is_failure() {
             return Err(ending.clone().into());
         }
@@ -321,9 +305,9 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Debug for TrajectorySensitivity<'_, L, N, M, P>
+impl<L> Debug for TrajectorySensitivity<'_, L>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut sensitivities = f.debug_struct("TrajectorySensitivity");
@@ -331,9 +315,9 @@ where
     }
 }
 
-impl<'a, L, const N: usize, const M: usize, const P: usize> TrajectorySensitivity<'a, L, N, M, P>
+impl<'a, L> TrajectorySensitivity<'a, L>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     /// Returns the motion if it reached its end or a terminal event.
     ///
@@ -345,13 +329,13 @@ where
     }
 
     /// The motion, without its derivatives.
-    pub fn trajectory(&self) -> &Trajectory<&'a L, N, M> {
+    pub fn trajectory(&self) -> &Trajectory<&'a L> {
         &self.trajectory
     }
 
     /// Takes the motion without its derivatives, for a leg of a [`HybridTrajectory`](crate::HybridTrajectory) for
     /// example.
-    pub fn into_trajectory(self) -> Trajectory<&'a L, N, M> {
+    pub fn into_trajectory(self) -> Trajectory<&'a L> {
         self.trajectory
     }
 
@@ -364,7 +348,7 @@ where
     ///
     /// # Errors
     /// The errors of [`Trajectory::at`] and of [`Linearized::jacobian`].
-    pub fn at(&self, t: L::Scalar) -> Result<StateSensitivity<L::Scalar, N>, Error> {
+    pub fn at(&self, t: L::Scalar) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
         self.course.at(self.trajectory.system(), self.trajectory.at(t)?.state())
     }
 
@@ -374,7 +358,7 @@ where
     /// # Errors
     /// [`Error::Unfinished`] if the motion reached neither; [`Error::Grazing`], and [`Error::EventNotFinite`] if the
     /// function of the event has no derivative; the errors of [`at`](Self::at).
-    pub fn end(&self) -> Result<&StateSensitivity<L::Scalar, N>, Error> {
+    pub fn end(&self) -> Result<&StateSensitivity<L::Scalar, L::N>, Error> {
         self.end.as_ref().map_err(Error::clone)
     }
 
@@ -383,9 +367,9 @@ where
     /// # Errors
     /// The errors of [`at`](Self::at); [`Error::UnknownName`].
     pub fn coordinate(&self, t: L::Scalar, coordinate: &str, argument: &str) -> Result<L::Scalar, Error> {
-        let row = lookup::index::<L, N, M>(&L::COORDINATES, "coordinate", coordinate)?;
+        let row = lookup::index::<L>(L::COORDINATES, "coordinate", coordinate)?;
         let names: Vec<String> = self.arguments().iter().map(Entry::to_string).collect();
-        let column = lookup::index::<L, N, M>(&names, "argument of these derivatives", argument)?;
+        let column = lookup::index::<L>(&names, "argument of these derivatives", argument)?;
         Ok(self.at(t)?.q[(row, column)])
     }
 }

@@ -10,7 +10,7 @@
 use alloc::string::ToString;
 use alloc::vec::Vec;
 
-use nalgebra::{DMatrix, DVector, SVector};
+use nalgebra::{Const, DMatrix, DVector};
 
 use super::Linearized;
 use super::argument::{Argument, parameter};
@@ -18,17 +18,17 @@ use super::dual_sample::{DifferentiableEvent, DualSample, slope};
 use super::tangent::Tangent;
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Broadcast, Dual, Real, Scalar, Wide, larger, power_of_epsilon, vector};
+use crate::number::{Broadcast, Dual, Real, Scalar, Wide, larger, power_of_epsilon};
 use crate::solution::impact::impact;
 use crate::solution::solve::solve;
-use crate::solution::vector_field::PhaseVector;
 use crate::system::lookup::index;
-use crate::system::{Direction, ResidualChange, Solution, State};
+use crate::system::{Direction, ResidualChange, Solution, State, StateOf};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, from_fn, vector};
 
 /// A state of a motion with its derivatives by some arguments: entries of the initial state, parameters, and numbers
 /// captured by events and resets.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StateSensitivity<T, const N: usize> {
+pub struct StateSensitivity<T: Element, N: Length> {
     /// The state.
     pub state: State<T, N>,
     /// Derivatives of the time, one for each argument: nonzero at an event, whose time depends on the arguments; zero
@@ -41,11 +41,11 @@ pub struct StateSensitivity<T, const N: usize> {
     arguments: Vec<Entry>,
 }
 
-impl<T: Real, const N: usize> StateSensitivity<T, N> {
+impl<T: Real, N: Length> StateSensitivity<T, N> {
     /// A state with all derivatives zero.
     pub(super) fn of(state: State<T, N>, arguments: Vec<Entry>) -> Self {
         let count = arguments.len();
-        let none = || DMatrix::from_element(N, count, T::constant(0.0));
+        let none = || DMatrix::from_element(N::COUNT, count, T::constant(0.0));
         Self { state, t: DVector::from_element(count, T::constant(0.0)), q: none(), v: none(), arguments }
     }
 
@@ -76,12 +76,12 @@ impl<T: Real, const N: usize> StateSensitivity<T, N> {
 
     /// Derivative of the state by argument `j`.
     pub(super) fn direction(&self, j: usize) -> Direction<T, N> {
-        let column = |x: &DMatrix<T>| x.fixed_view::<N, 1>(0, j).into_owned();
+        let column = |x: &DMatrix<T>| vector(from_fn(|i| x[(i, j)]));
         Direction { t: self.t[j], q: column(&self.q), v: column(&self.v) }
     }
 
     /// Converts column `j` to a state whose time changes by `by` more: adds `by` times the rates of the state.
-    fn delay(&mut self, j: usize, by: T, accelerations: &SVector<T, N>) {
+    fn delay(&mut self, j: usize, by: T, accelerations: &Vector<T, N>) {
         self.t[j] += by;
         let rates = [&self.state.v, accelerations];
         for (x, rate) in [&mut self.q, &mut self.v].into_iter().zip(rates) {
@@ -97,15 +97,12 @@ impl<T: Real, const N: usize> StateSensitivity<T, N> {
 }
 
 /// See [`MotionDerivatives::sensitivity`](super::MotionDerivatives::sensitivity).
-pub(super) fn start<L, const N: usize, const M: usize, const P: usize>(
-    state: &State<L::Scalar, N>,
-    names: &[&str],
-) -> Result<StateSensitivity<L::Scalar, N>, Error>
+pub(super) fn start<L>(state: &StateOf<L>, names: &[&str]) -> Result<StateSensitivity<L::Scalar, L::N>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
-    let arguments = Argument::named::<L, N, M, P>(names)?;
-    let entries = arguments.iter().map(|argument| argument.entry::<L, N, M, P>()).collect();
+    let arguments = Argument::named::<L>(names)?;
+    let entries = arguments.iter().map(|argument| argument.entry::<L>()).collect();
     let mut start = StateSensitivity::of(*state, entries);
     for (j, argument) in arguments.iter().enumerate() {
         match *argument {
@@ -122,14 +119,14 @@ where
 ///
 /// # Errors
 /// [`Error::Grazing`].
-pub(super) fn at_event<L, const N: usize, const M: usize, const P: usize>(
+pub(super) fn at_event<L>(
     system: &L,
-    mut at: StateSensitivity<L::Scalar, N>,
-    event: &dyn DifferentiableEvent<L, N, M, P>,
-    before: &State<L::Scalar, N>,
-) -> Result<StateSensitivity<L::Scalar, N>, Error>
+    mut at: StateSensitivity<L::Scalar, L::N>,
+    event: &dyn DifferentiableEvent<L>,
+    before: &StateOf<L>,
+) -> Result<StateSensitivity<L::Scalar, L::N>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     let accelerations = solve(system, &at.state)?.accelerations;
     // The event's function may have no derivative at the earlier state.
@@ -146,21 +143,21 @@ where
 }
 
 /// Rate of an event's function along the motion, and the sum of the magnitudes of its terms.
-fn rate<L, const N: usize, const M: usize, const P: usize>(
+fn rate<L>(
     system: &L,
-    state: &State<L::Scalar, N>,
-    event: &dyn DifferentiableEvent<L, N, M, P>,
+    state: &StateOf<L>,
+    event: &dyn DifferentiableEvent<L>,
 ) -> Result<(L::Scalar, L::Scalar), Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     let accelerations = solve(system, state)?.accelerations;
     let zero = Direction::zero();
     let mut sums = [L::Scalar::constant(0.0); 2];
-    for i in 0..=2 * N {
+    for i in 0..=2 * <L::N>::COUNT {
         let direction = match i {
-            i if i < N => Direction { q: only(i, &state.v), ..zero },
-            i if i < 2 * N => Direction { v: only(i - N, &accelerations), ..zero },
+            i if i < <L::N>::COUNT => Direction { q: only(i, &state.v), ..zero },
+            i if i < 2 * <L::N>::COUNT => Direction { v: only(i - <L::N>::COUNT, &accelerations), ..zero },
             _ => Direction::of_time(),
         };
         let part = event.change(system, state, &direction, None)?;
@@ -170,21 +167,21 @@ where
 }
 
 /// Vector with entry `i` of `x` alone, others zero.
-fn only<T: Real, const N: usize>(i: usize, x: &SVector<T, N>) -> SVector<T, N> {
-    SVector::from_fn(|j, _| if i == j { x[j] } else { T::constant(0.0) })
+fn only<T: Real, N: Length>(i: usize, x: &Vector<T, N>) -> Vector<T, N> {
+    vector(from_fn(|j| if i == j { x[j] } else { T::constant(0.0) }))
 }
 
 /// See [`MotionDerivatives::push_forward`](super::MotionDerivatives::push_forward).
-pub(super) fn push_forward<L, const N: usize, const M: usize, const P: usize, const K: usize>(
+pub(super) fn push_forward<L, const K: usize>(
     system: &L,
-    at: &StateSensitivity<L::Scalar, N>,
-    map: impl Fn(&DualSample<'_, L, N, M, P>) -> Result<PhaseVector<Dual<L::Scalar>, K>, Error>,
-) -> Result<StateSensitivity<L::Scalar, K>, Error>
+    at: &StateSensitivity<L::Scalar, L::N>,
+    map: impl Fn(&DualSample<'_, L>) -> Result<[[Dual<L::Scalar>; K]; 2], Error>,
+) -> Result<StateSensitivity<L::Scalar, Const<K>>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     let [q, v] = map(&DualSample::along(system, &at.state, &Direction::zero(), None))?
-        .map(|half| vector(half.map(|x| x.value)));
+        .map(|half| vector(Array(half.map(|x| x.value))));
     let mut after = StateSensitivity::of(State { t: at.state.t, q, v }, at.arguments.clone());
     after.t.copy_from(&at.t);
     for (j, argument) in at.arguments.iter().enumerate() {
@@ -201,33 +198,34 @@ where
 /// the row of the impact. Differentiation needs two terms. δM J − δFᵀΛ is the change of the residual of motion with
 /// accelerations J and multipliers Λ, less the change with both zero. δF J is the same difference for the residual of
 /// the acceleration constraints.
-pub(super) fn impact_sensitivity<L, const N: usize, const M: usize, const P: usize>(
+pub(super) fn impact_sensitivity<L>(
     system: &L,
-    at: &StateSensitivity<L::Scalar, N>,
+    at: &StateSensitivity<L::Scalar, L::N>,
     constraint: &str,
     (name, restitution): (&str, L::Scalar),
-) -> Result<StateSensitivity<L::Scalar, N>, Error>
+) -> Result<StateSensitivity<L::Scalar, L::N>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     let of = <L::Scalar as Real>::Wide::of;
     let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
-    let hit = index::<L, N, M>(&L::CONSTRAINTS, "constraint", constraint)?;
+    let hit = index::<L>(L::CONSTRAINTS, "constraint", constraint)?;
     let impact = impact(system, &at.state, hit, restitution)?;
-    let solution = |accelerations, multipliers| Solution { accelerations, multipliers, pivot: one, rank: M };
-    let none = solution(vector([zero; N]), vector([zero; M]));
-    let jumped = Tangent::of(system, &at.state, solution(impact.state.v - at.state.v, impact.impulses));
+    let solution =
+        |accelerations, multipliers| Solution { accelerations, multipliers, pivot: one, rank: <L::M>::COUNT };
+    let none = solution(vector(Array::filled(zero)), vector(Array::filled(zero)));
+    let jumped = Tangent::of(system, &at.state, solution(impact.state.v.minus(&at.state.v), impact.impulses));
     let still = Tangent::of(system, &at.state, none);
     let rate = system.constraint_rate(&at.state)[hit];
     let mut after = StateSensitivity { state: impact.state, ..at.clone() };
     for (j, &argument) in at.arguments.iter().enumerate() {
-        let along = (at.direction(j), parameter::<L, N, M, P>(argument));
+        let along = (at.direction(j), parameter::<L>(argument));
         let [with, without] = [&jumped, &still].map(|tangent| tangent.change_with(&along.0, along.1));
-        let mut acceleration = with.acceleration.zip_map(&without.acceleration, |x, y| x - y);
-        acceleration = acceleration.zip_map(&with.rate, |x, y| x + y);
+        let mut acceleration = with.acceleration.minus(&without.acceleration);
+        acceleration = acceleration.plus(&with.rate);
         let by_restitution = of(slope::<L::Scalar>(Some(argument), name) * rate);
         acceleration[hit] = acceleration[hit] + of(restitution) * with.rate[hit] + by_restitution;
-        let motion = with.motion.zip_map(&without.motion, |x, y| x - y);
+        let motion = with.motion.minus(&without.motion);
         let change = ResidualChange { motion, acceleration, ..with };
         let jump = jumped.responses(1, &change, |_| argument)?.accelerations;
         after.v.column_mut(j).iter_mut().zip(&jump).for_each(|(v, jump)| *v += jump.lane(0));

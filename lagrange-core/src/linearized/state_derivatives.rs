@@ -2,52 +2,50 @@
 
 use core::fmt::Debug;
 
+use nalgebra::Const;
+
 #[cfg(doc)]
 use super::Linearized;
 use super::jacobian::{self, Jacobian};
 use crate::error::Error;
 use crate::number::{Broadcast, Real};
 use crate::system::pointers::forward;
-use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State};
+use crate::system::{Direction, Lagrangian, ResidualChange, Solution, SolutionOf, State, StateOf};
 
 /// A system whose equations of motion can be differentiated by the time and the state, as implicit methods and
 /// sensitivities need.
 ///
 /// `#[derive(Lagrangian)]` implements it together with [`Linearized`], which adds derivatives by the `P` parameters. A
-/// method for stiff systems requires this trait, `impl<L: StateDerivatives<N, M>> Method<L, N, M> for …`.
+/// method for stiff systems requires this trait, `impl<L: StateDerivatives> Method<L> for …`.
 #[diagnostic::on_unimplemented(
     message = "the derivatives of the equations of motion of `{Self}` are not known",
     label = "no `StateDerivatives`",
     note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
 )]
-pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
+pub trait StateDerivatives: Lagrangian {
     /// Plain numbers from which the derivatives of the residual along all directions are computed.
     type Slopes: Copy + Debug;
 
     /// Computes the numbers from which the derivatives of the residual along all directions in time and state follow.
     /// Accelerations and multipliers are held at those of `solution`.
-    fn residual_slopes(
-        &self,
-        state: &State<Self::Scalar, N>,
-        solution: &Solution<Self::Scalar, N, M>,
-    ) -> Self::Slopes;
+    fn residual_slopes(&self, state: &StateOf<Self>, solution: &SolutionOf<Self>) -> Self::Slopes;
 
     /// Derivative of the residual along a direction, from the [`residual_slopes`](Self::residual_slopes) of a state; on
     /// [`Lanes`](crate::Lanes), along several directions at once.
     fn residual_change_with<S: Broadcast<Self::Scalar>>(
         &self,
         slopes: &Self::Slopes,
-        direction: &Direction<S, N>,
-    ) -> ResidualChange<S, N, M>;
+        direction: &Direction<S, Self::N>,
+    ) -> ResidualChange<S, Self::N, Self::M>;
 
     /// Derivative of the residual along one direction in time and state. Accelerations and multipliers are held at
     /// those of `solution`.
     fn residual_change(
         &self,
-        state: &State<Self::Scalar, N>,
-        solution: &Solution<Self::Scalar, N, M>,
-        direction: &Direction<Self::Scalar, N>,
-    ) -> ResidualChange<Self::Scalar, N, M> {
+        state: &StateOf<Self>,
+        solution: &SolutionOf<Self>,
+        direction: &Direction<Self::Scalar, Self::N>,
+    ) -> ResidualChange<Self::Scalar, Self::N, Self::M> {
         self.residual_change_with(&self.residual_slopes(state, solution), direction)
     }
 
@@ -69,9 +67,12 @@ pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
     ///
     /// # Errors
     /// The errors of [`solve`](crate::Simulate::solve); [`Error::DerivativeNotFinite`].
-    fn state_jacobian(&self, state: &State<Self::Scalar, N>) -> Result<Jacobian<Self::Scalar, N, M, 0>, Error>
+    fn state_jacobian(
+        &self,
+        state: &StateOf<Self>,
+    ) -> Result<Jacobian<Self::Scalar, Self::N, Self::M, Const<0>>, Error>
     where
-        Self: Lagrangian<N, M, Scalar: Real> + Sized,
+        Self: Lagrangian<Scalar: Real> + Sized,
     {
         jacobian::state_jacobian(self, state)
     }
@@ -81,18 +82,18 @@ pub trait StateDerivatives<const N: usize, const M: usize>: Lagrangian<N, M> {
 macro_rules! derivatives_behind {
     ($($pointer:ty),*) => {$(
         #[diagnostic::do_not_recommend]
-        impl<L: StateDerivatives<N, M>, const N: usize, const M: usize> StateDerivatives<N, M> for $pointer {
+        impl<L: StateDerivatives> StateDerivatives for $pointer {
             type Slopes = L::Slopes;
 
             forward! { @methods
                 fn residual_slopes(
-                    state: &State<Self::Scalar, N>,
-                    solution: &Solution<Self::Scalar, N, M>
+                    state: &State<Self::Scalar, L::N>,
+                    solution: &Solution<Self::Scalar, L::N, L::M>
                 ) -> Self::Slopes;
                 fn residual_change_with<S>(
                     slopes: &Self::Slopes,
-                    direction: &Direction<S, N>
-                ) -> ResidualChange<S, N, M>;
+                    direction: &Direction<S, L::N>
+                ) -> ResidualChange<S, L::N, L::M>;
             }
         }
     )*};

@@ -1,12 +1,10 @@
 //! Directional derivatives of accelerations and multipliers: K δ(q̈, λ) = −∂R, with one factorization for all
 //! directions.
 
-#[cfg(feature = "alloc")]
-use core::array::from_fn;
 use core::cell::OnceCell;
 use core::ops::Range;
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use super::{Linearized, StateDerivatives};
 use crate::error::Error;
@@ -18,53 +16,53 @@ use crate::solution::pivot::{is_trustworthy, least_pivot};
 use crate::solution::solve::{fault, first_row, solve};
 #[cfg(feature = "alloc")]
 use crate::system::{ConstraintKind, unit};
-use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State};
+use crate::system::{Direction, Lagrangian, ResidualChange, Solution, SolutionOf, State, StateOf};
+#[cfg(feature = "alloc")]
+use crate::vector::from_fn;
+use crate::vector::{Array, Element, Entrywise, Length, Vector, rows, vector};
 
 /// Equations of motion at a state: solved, factorized and differentiated.
-pub(crate) struct Tangent<'a, L: StateDerivatives<N, M>, const N: usize, const M: usize> {
+pub(crate) struct Tangent<'a, L: StateDerivatives> {
     pub(super) system: &'a L,
-    pub(super) state: &'a State<L::Scalar, N>,
-    pub(super) solution: Solution<L::Scalar, N, M>,
+    pub(super) state: &'a StateOf<L>,
+    pub(super) solution: SolutionOf<L>,
     factor: L::Factor,
     slopes: L::Slopes,
-    matrices: OnceCell<Matrices<L::Scalar, N, M>>,
+    matrices: OnceCell<Matrices<L::Scalar, L::N, L::M>>,
 }
 
 /// SIMD type of preferred width for the numbers of the system.
-pub(crate) type WideOf<L, const N: usize, const M: usize> = <<L as Lagrangian<N, M>>::Scalar as Real>::Wide;
+pub(crate) type WideOf<L> = <<L as Lagrangian>::Scalar as Real>::Wide;
 
 /// Mass matrix, constraint Jacobian and general factors, for use where the emitted factorization is not enough: its
 /// pivot is too small, or rows and null spaces are needed.
-pub(crate) struct Matrices<T, const N: usize, const M: usize> {
+pub(crate) struct Matrices<T: Element, N: Length, M: Length> {
     /// Mass matrix, row by row.
     #[cfg_attr(not(feature = "alloc"), allow(dead_code, reason = "what reads it allocates"))]
-    pub(super) m: Room<[[T; N]; N]>,
+    pub(super) m: Room<Array<Array<T, N>, N>>,
     /// Constraint Jacobian, row by row.
     #[cfg_attr(not(feature = "alloc"), allow(dead_code, reason = "what reads it allocates"))]
-    pub(super) f: Room<[[T; N]; M]>,
+    pub(super) f: Room<Array<Array<T, N>, M>>,
     pub(super) factors: Room<Factors<T, N, M>>,
 }
 
 // Separate functions, so that at most one of the matrices is on the stack.
 
 #[inline(never)]
-fn mass_rows<L: Lagrangian<N, M>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-) -> Room<[[L::Scalar; N]; N]> {
+fn mass_rows<L: Lagrangian>(system: &L, state: &StateOf<L>) -> Room<Array<Array<L::Scalar, L::N>, L::N>> {
     Room::of(system.mass_matrix(state).into())
 }
 
 #[inline(never)]
-fn constraint_rows<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+fn constraint_rows<L: Lagrangian>(
     system: &L,
-    state: &State<L::Scalar, N>,
-) -> Room<[[L::Scalar; N]; M]> {
-    Room::of(system.constraint_jacobian(state).transpose().into())
+    state: &StateOf<L>,
+) -> Room<Array<Array<L::Scalar, L::N>, L::M>> {
+    Room::of(rows(&system.constraint_jacobian(state)))
 }
 
-impl<T: Real, const N: usize, const M: usize> Matrices<T, N, M> {
-    fn at<L: Lagrangian<N, M, Scalar = T>>(system: &L, state: &State<T, N>) -> Self {
+impl<T: Real, N: Length, M: Length> Matrices<T, N, M> {
+    fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(system: &L, state: &State<T, N>) -> Self {
         let (m, f) = (mass_rows(system, state), constraint_rows(system, state));
         // A change that leaves the constraints may make dependent ones contradict each other: rows left out as
         // dependent are not checked.
@@ -73,37 +71,33 @@ impl<T: Real, const N: usize, const M: usize> Matrices<T, N, M> {
     }
 }
 
-impl<'a, L, const N: usize, const M: usize> Tangent<'a, L, N, M>
+impl<'a, L> Tangent<'a, L>
 where
-    L: StateDerivatives<N, M, Scalar: Real>,
+    L: StateDerivatives<Scalar: Real>,
 {
-    pub(super) fn at(system: &'a L, state: &'a State<L::Scalar, N>) -> Result<Self, Error> {
+    pub(super) fn at(system: &'a L, state: &'a StateOf<L>) -> Result<Self, Error> {
         Ok(Self::of(system, state, solve(system, state)?))
     }
 
     /// Builds the tangent from a known solution of the equations.
     #[inline]
-    pub(crate) fn of(
-        system: &'a L,
-        state: &'a State<L::Scalar, N>,
-        solution: Solution<L::Scalar, N, M>,
-    ) -> Self {
+    pub(crate) fn of(system: &'a L, state: &'a StateOf<L>, solution: SolutionOf<L>) -> Self {
         let (factor, slopes) = (system.factor(state), system.residual_slopes(state, &solution));
         Self { system, state, solution, factor, slopes, matrices: OnceCell::new() }
     }
 
     /// The general matrices and factors, computed at first use.
-    pub(super) fn matrices(&self) -> &Matrices<L::Scalar, N, M> {
+    pub(super) fn matrices(&self) -> &Matrices<L::Scalar, L::N, L::M> {
         self.matrices.get_or_init(|| Matrices::at(self.system, self.state))
     }
 
     /// Rows of F for holonomic constraints; zeros for the others.
     #[cfg(feature = "alloc")]
-    pub(super) fn holonomic_rows(&self) -> [[L::Scalar; N]; M] {
+    pub(super) fn holonomic_rows(&self) -> Array<Array<L::Scalar, L::N>, L::M> {
         let f = &self.matrices().f;
         from_fn(|a| match L::CONSTRAINT_KINDS[a] {
             ConstraintKind::Holonomic => f[a],
-            ConstraintKind::Velocity => [L::Scalar::constant(0.0); N],
+            ConstraintKind::Velocity => Array::filled(L::Scalar::constant(0.0)),
         })
     }
 
@@ -112,13 +106,13 @@ where
     pub(super) fn along_each(
         &self,
         count: usize,
-        put: impl Fn(usize, &mut Direction<WideOf<L, N, M>, N>, usize),
+        put: impl Fn(usize, &mut Direction<WideOf<L>, L::N>, usize),
         entry: impl Fn(usize) -> Entry,
-        mut give: impl FnMut(usize, &Solution<L::Scalar, N, M>),
+        mut give: impl FnMut(usize, &SolutionOf<L>),
     ) -> Result<(), Error> {
-        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+        let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
         for first in (0..count).step_by(lanes) {
-            let mut directions = Direction::<WideOf<L, N, M>, N>::zero();
+            let mut directions = Direction::<WideOf<L>, L::N>::zero();
             (first..count.min(first + lanes)).for_each(|k| put(k, &mut directions, k - first));
             let changes = self.changes(&directions);
             self.respond(first..count.min(first + lanes), &changes, &entry, &mut give)?;
@@ -127,23 +121,23 @@ where
     }
 
     /// Passes δq̈ and δλ by each of these parameters to `give`.
-    pub(super) fn by_parameters<const P: usize>(
+    pub(super) fn by_parameters(
         &self,
         count: usize,
         parameter: impl Fn(usize) -> usize,
-        mut give: impl FnMut(usize, &Solution<L::Scalar, N, M>),
+        mut give: impl FnMut(usize, &SolutionOf<L>),
     ) -> Result<(), Error>
     where
-        L: Linearized<N, M, P>,
+        L: Linearized,
     {
         if count == 0 {
             return Ok(());
         }
-        let (lanes, zero) = (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, L::Scalar::constant(0.0));
+        let (lanes, zero) = (<WideOf<L> as Wide<L::Scalar>>::COUNT, L::Scalar::constant(0.0));
         let slopes = self.system.residual_slopes_by_parameters(self.state, &self.solution);
         let entry = |k: usize| Entry::Parameter(L::PARAMETERS[parameter(k)]);
         for first in (0..count).step_by(lanes) {
-            let mut rates = SVector::<_, P>::from_element(WideOf::<L, N, M>::of(zero));
+            let mut rates = vector(Array::<_, L::P>::filled(WideOf::<L>::of(zero)));
             let block = first..count.min(first + lanes);
             block.clone().for_each(|k| rates[parameter(k)].put(k - first, L::Scalar::constant(1.0)));
             let changes = self.system.residual_change_by_parameters_with(&slopes, &rates);
@@ -156,16 +150,16 @@ where
     #[inline]
     pub(super) fn changes(
         &self,
-        directions: &Direction<WideOf<L, N, M>, N>,
-    ) -> ResidualChange<WideOf<L, N, M>, N, M> {
+        directions: &Direction<WideOf<L>, L::N>,
+    ) -> ResidualChange<WideOf<L>, L::N, L::M> {
         self.system.residual_change_with(&self.slopes, directions)
     }
 
     /// Numbers from which the derivatives of the residual by parameters are computed.
     #[cfg(feature = "alloc")]
-    pub(super) fn parameter_slopes<const P: usize>(&self) -> L::ParameterSlopes
+    pub(super) fn parameter_slopes(&self) -> L::ParameterSlopes
     where
-        L: Linearized<N, M, P>,
+        L: Linearized,
     {
         self.system.residual_slopes_by_parameters(self.state, &self.solution)
     }
@@ -173,34 +167,34 @@ where
     /// Derivatives of the residual if parameters change at these rates.
     #[cfg(feature = "alloc")]
     #[inline]
-    pub(super) fn changes_by_parameters<const P: usize>(
+    pub(super) fn changes_by_parameters(
         &self,
         slopes: &L::ParameterSlopes,
-        rates: &SVector<WideOf<L, N, M>, P>,
-    ) -> ResidualChange<WideOf<L, N, M>, N, M>
+        rates: &Vector<WideOf<L>, L::P>,
+    ) -> ResidualChange<WideOf<L>, L::N, L::M>
     where
-        L: Linearized<N, M, P>,
+        L: Linearized,
     {
         self.system.residual_change_by_parameters_with(slopes, rates)
     }
 
     /// Derivative of the residual along this direction, the same in all lanes.
     #[cfg(feature = "alloc")]
-    fn changes_alike(&self, direction: &Direction<L::Scalar, N>) -> ResidualChange<WideOf<L, N, M>, N, M> {
-        let of = WideOf::<L, N, M>::of;
+    fn changes_alike(&self, direction: &Direction<L::Scalar, L::N>) -> ResidualChange<WideOf<L>, L::N, L::M> {
+        let of = WideOf::<L>::of;
         let Direction { t, q, v } = direction;
-        self.changes(&Direction { t: of(*t), q: q.map(of), v: v.map(of) })
+        self.changes(&Direction { t: of(*t), q: q.each(of), v: v.each(of) })
     }
 
     /// Derivative of the residual along this direction and by this parameter, the same in all lanes.
     #[cfg(feature = "alloc")]
-    pub(super) fn change_with<const P: usize>(
+    pub(super) fn change_with(
         &self,
-        direction: &Direction<L::Scalar, N>,
+        direction: &Direction<L::Scalar, L::N>,
         parameter: Option<usize>,
-    ) -> ResidualChange<WideOf<L, N, M>, N, M>
+    ) -> ResidualChange<WideOf<L>, L::N, L::M>
     where
-        L: Linearized<N, M, P>,
+        L: Linearized,
     {
         let change = self.changes_alike(direction);
         let Some(k) = parameter else { return change };
@@ -214,11 +208,12 @@ where
     pub(super) fn responses(
         &self,
         lanes: usize,
-        changes: &ResidualChange<WideOf<L, N, M>, N, M>,
+        changes: &ResidualChange<WideOf<L>, L::N, L::M>,
         entry: impl Fn(usize) -> Entry,
-    ) -> Result<Solution<WideOf<L, N, M>, N, M>, Error> {
-        let mut responses = self.system.solve_with(&self.factor, &-changes.motion, &changes.acceleration);
-        if are_sound::<L::Scalar, N, M>(changes, &responses) {
+    ) -> Result<Solution<WideOf<L>, L::N, L::M>, Error> {
+        let mut responses =
+            self.system.solve_with(&self.factor, &changes.motion.negated(), &changes.acceleration);
+        if are_sound::<L::Scalar, L::N, L::M>(changes, &responses) {
             return Ok(responses);
         }
         self.respond(0..lanes, changes, &entry, &mut |lane, response| {
@@ -234,13 +229,13 @@ where
     fn respond(
         &self,
         block: Range<usize>,
-        changes: &ResidualChange<WideOf<L, N, M>, N, M>,
+        changes: &ResidualChange<WideOf<L>, L::N, L::M>,
         entry: &impl Fn(usize) -> Entry,
-        give: &mut impl FnMut(usize, &Solution<L::Scalar, N, M>),
+        give: &mut impl FnMut(usize, &SolutionOf<L>),
     ) -> Result<(), Error> {
-        let (h, gamma) = (-changes.motion, changes.acceleration);
+        let (h, gamma) = (changes.motion.negated(), changes.acceleration);
         let fast = self.system.solve_with(&self.factor, &h, &gamma);
-        let is_sound = are_sound::<L::Scalar, N, M>(changes, &fast);
+        let is_sound = are_sound::<L::Scalar, L::N, L::M>(changes, &fast);
         for k in block.clone() {
             let lane = k - block.start;
             let response = lane_of(&fast, lane);
@@ -260,13 +255,13 @@ where
     #[cold]
     fn response_in_general(
         &self,
-        change: &ResidualChange<L::Scalar, N, M>,
+        change: &ResidualChange<L::Scalar, L::N, L::M>,
         entry: Entry,
-    ) -> Result<Solution<L::Scalar, N, M>, Error> {
+    ) -> Result<SolutionOf<L>, Error> {
         let (time, factors) = (self.state.t.to_f64(), &self.matrices().factors);
         let solution = factors
-            .solve(&(-change.motion).into(), &change.acceleration.into())
-            .map_err(|found| fault::<L, N, M>(&found, time))?;
+            .solve(&change.motion.negated().into(), &change.acceleration.into())
+            .map_err(|found| fault::<L>(&found, time))?;
         self.check_finite(&solution.accelerations, &[solution.multipliers], entry)?;
         Ok(solution)
     }
@@ -276,22 +271,22 @@ where
     #[cfg(feature = "alloc")]
     pub(super) fn residual_change(
         &self,
-        direction: &Direction<L::Scalar, N>,
+        direction: &Direction<L::Scalar, L::N>,
         entry: Entry,
-    ) -> Result<ResidualChange<L::Scalar, N, M>, Error> {
+    ) -> Result<ResidualChange<L::Scalar, L::N, L::M>, Error> {
         self.checked(self.changes_alike(direction).lane(0), entry)
     }
 
     /// Derivative of the residual by parameter `k`, with these accelerations and multipliers; an error if it is not
     /// finite.
     #[cfg(feature = "alloc")]
-    pub(super) fn change_by_parameter<const P: usize>(
+    pub(super) fn change_by_parameter(
         &self,
-        solution: &Solution<L::Scalar, N, M>,
+        solution: &SolutionOf<L>,
         k: usize,
-    ) -> Result<ResidualChange<L::Scalar, N, M>, Error>
+    ) -> Result<ResidualChange<L::Scalar, L::N, L::M>, Error>
     where
-        L: Linearized<N, M, P>,
+        L: Linearized,
     {
         let slopes = self.system.residual_slopes_by_parameters(self.state, solution);
         let change = self.changes_by_parameters(&slopes, &unit(k)).lane(0);
@@ -300,9 +295,9 @@ where
 
     fn checked(
         &self,
-        change: ResidualChange<L::Scalar, N, M>,
+        change: ResidualChange<L::Scalar, L::N, L::M>,
         entry: Entry,
-    ) -> Result<ResidualChange<L::Scalar, N, M>, Error> {
+    ) -> Result<ResidualChange<L::Scalar, L::N, L::M>, Error> {
         let ResidualChange { motion, acceleration, rate, position } = change;
         self.check_finite(&motion, &[acceleration, rate, position], entry)?;
         Ok(change)
@@ -311,12 +306,12 @@ where
     /// Fails at the first row, of a coordinate or a constraint, that is not finite, and names it.
     fn check_finite(
         &self,
-        motion: &SVector<L::Scalar, N>,
-        constraints: &[SVector<L::Scalar, M>],
+        motion: &Vector<L::Scalar, L::N>,
+        constraints: &[Vector<L::Scalar, L::M>],
         entry: Entry,
     ) -> Result<(), Error> {
         let finite = |a: usize| constraints.iter().all(|x| x[a].is_finite());
-        match first_row::<L, N, M>(|i| !motion[i].is_finite(), |a| !finite(a)) {
+        match first_row::<L>(|i| !motion[i].is_finite(), |a| !finite(a)) {
             None => Ok(()),
             Some(row) => Err(Error::DerivativeNotFinite { row, entry, time: self.state.t.to_f64() }),
         }
@@ -326,7 +321,7 @@ where
 /// True if all lanes are reliable: the pivots are large enough, and the sum of all magnitudes is finite, hence every
 /// number.
 #[inline]
-fn are_sound<T: Real, const N: usize, const M: usize>(
+fn are_sound<T: Real, N: Length, M: Length>(
     changes: &ResidualChange<T::Wide, N, M>,
     responses: &Solution<T::Wide, N, M>,
 ) -> bool {
@@ -346,13 +341,10 @@ fn sum_of_magnitudes<W: Scalar>(start: W, numbers: &[W]) -> W {
 }
 
 /// Extracts the solution in one lane.
-fn lane_of<T: Real, const N: usize, const M: usize>(
-    wide: &Solution<T::Wide, N, M>,
-    lane: usize,
-) -> Solution<T, N, M> {
+fn lane_of<T: Real, N: Length, M: Length>(wide: &Solution<T::Wide, N, M>, lane: usize) -> Solution<T, N, M> {
     Solution {
-        accelerations: wide.accelerations.map(|x| x.lane(lane)),
-        multipliers: wide.multipliers.map(|x| x.lane(lane)),
+        accelerations: wide.accelerations.each(|x| x.lane(lane)),
+        multipliers: wide.multipliers.each(|x| x.lane(lane)),
         pivot: wide.pivot.lane(lane),
         rank: wide.rank,
     }

@@ -1,5 +1,5 @@
-use crate::number::vector;
-use crate::system::Direction;
+use crate::Direction;
+use crate::generated::vector;
 
 #[test]
 fn a_direction_of_one_argument_changes_that_alone() {

@@ -10,7 +10,7 @@ use crate::number::Real;
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
 
 /// State of the last step of a motion: its dense output, and whether it is still valid.
 pub(super) struct LastStep<I> {
@@ -54,19 +54,22 @@ pub(super) struct GoPast<'m, L, I, T> {
     pub(super) end: T,
 }
 
-impl<L, F, P, const N: usize, const M: usize> Observer<L, F, P, N, M>
-    for GoPast<'_, L, P::Interpolant, L::Scalar>
+impl<L, F, P> Observer<L, F, P> for GoPast<'_, L, P::Interpolant, L::Scalar>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
 {
     fn system(&self) -> &L {
         self.system
     }
 
     #[inline]
-    fn goal(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<Option<L::Scalar>, Ending> {
+    fn goal(
+        &mut self,
+        _: &P,
+        run: &mut Run<P::Memory, L::Scalar, L::N>,
+    ) -> Result<Option<L::Scalar>, Ending> {
         let now = run.state.t;
         let goes_on = now != self.t && is_between(now, self.t, self.end);
         if goes_on {
@@ -76,33 +79,33 @@ where
     }
 
     #[inline]
-    fn keep(&mut self, _: &P, _: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &P, _: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         self.last_step.is_taken();
         Ok(())
     }
 }
 
 /// Observer that steps to the first crossing, or to `end`.
-pub(super) struct FindCrossing<'m, 'e, L: Lagrangian<N, M>, I, const N: usize, const M: usize> {
+pub(super) struct FindCrossing<'m, 'e, L: Lagrangian, I> {
     pub(super) system: &'m L,
     pub(super) last_step: &'m mut LastStep<I>,
     pub(super) end: L::Scalar,
-    pub(super) search: EventSearch<'m, &'e mut dyn AnyEvent<L, N, M>, L, N, M>,
+    pub(super) search: EventSearch<'m, &'e mut dyn AnyEvent<L>, L>,
     /// State up to which the events have been searched.
-    pub(super) at: &'m mut State<L::Scalar, N>,
-    pub(super) found: Option<Crossing<L::Scalar, N>>,
+    pub(super) at: &'m mut StateOf<L>,
+    pub(super) found: Option<Crossing<L::Scalar, L::N>>,
 }
 
-impl<L, I, const N: usize, const M: usize> FindCrossing<'_, '_, L, I, N, M>
+impl<L, I> FindCrossing<'_, '_, L, I>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    I: Interpolant<L::Scalar, N>,
+    L: Lagrangian<Scalar: Real>,
+    I: Interpolant<L::Scalar, L::N>,
 {
     /// Searches the rest of the last step for a crossing.
-    pub(super) fn look<F: VectorField<L, N, M>>(
+    pub(super) fn look<F: VectorField<L>>(
         &mut self,
-        before: &State<L::Scalar, N>,
-        after: &State<L::Scalar, N>,
+        before: &StateOf<L>,
+        after: &StateOf<L>,
     ) -> Result<(), Ending> {
         if let Some(interpolant) = self.last_step.interpolant() {
             let step = DenseStep { system: self.system, before, after, interpolant, field: PhantomData::<F> };
@@ -112,18 +115,21 @@ where
     }
 }
 
-impl<L, F, P, const N: usize, const M: usize> Observer<L, F, P, N, M>
-    for FindCrossing<'_, '_, L, P::Interpolant, N, M>
+impl<L, F, P> Observer<L, F, P> for FindCrossing<'_, '_, L, P::Interpolant>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
 {
     fn system(&self) -> &L {
         self.system
     }
 
-    fn goal(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<Option<L::Scalar>, Ending> {
+    fn goal(
+        &mut self,
+        _: &P,
+        run: &mut Run<P::Memory, L::Scalar, L::N>,
+    ) -> Result<Option<L::Scalar>, Ending> {
         let goes_on = self.found.is_none() && run.state.t != self.end;
         if goes_on {
             self.last_step.forget();
@@ -131,11 +137,11 @@ where
         Ok(goes_on.then_some(self.end))
     }
 
-    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
-        run.look_within::<L, F, P, M>(self.system, method, &mut self.last_step.within)
+    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+        run.look_within::<L, F, P>(self.system, method, &mut self.last_step.within)
     }
 
-    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         self.last_step.is_taken();
         self.look::<F>(&run.before, &run.state)
     }

@@ -17,6 +17,7 @@ use crate::number::Real;
 use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State};
 use crate::trajectory::Trajectory;
+use crate::vector::{Element, Length};
 
 /// Settings of a motion before its integration: start, method, events, progress callback, samples and controller.
 ///
@@ -26,7 +27,7 @@ use crate::trajectory::Trajectory;
 /// sets another. The result is a [`Trajectory`] with all steps. After [`every`](Self::every) or
 /// [`samples_at`](Self::samples_at) it is an [`Arrival`](crate::motion::Arrival) with the chosen samples alone.
 #[must_use = "a motion is integrated by `to` or `towards`"]
-pub struct MotionBuilder<'a, 'w, L, S, const N: usize, const M: usize, P = Dop853, E = (), K = AllSteps> {
+pub struct MotionBuilder<'a, 'w, L: Lagrangian, S, P = Dop853, E = (), K = AllSteps> {
     pub(crate) system: &'a L,
     pub(crate) start: S,
     pub(crate) method: P,
@@ -42,22 +43,22 @@ pub struct AllSteps;
 
 /// State at which a motion starts. `F` marks the equations of motion, Lagrange's or Hamilton's.
 #[derive(Clone, Debug)]
-pub struct Start<T, const N: usize, F> {
+pub struct Start<T: Element, N: Length, F> {
     /// The start, or an error if it is not finite or no velocities belong to its momenta. It is on the heap because
     /// each call of the builder moves the settings, and a state of 1,000 coordinates would fill the stack.
     pub(super) state: Box<Result<State<T, N>, Error>>,
     field: PhantomData<F>,
 }
 
-impl<T, const N: usize, F> Start<T, N, F> {
+impl<T: Element, N: Length, F> Start<T, N, F> {
     pub(crate) fn new(state: Result<State<T, N>, Error>) -> Self {
         Self { state: Box::new(state), field: PhantomData }
     }
 }
 
 /// Settings of a motion without derivatives, with the equations of motion `F`.
-pub(crate) type MotionFrom<'a, 'w, L, F, const N: usize, const M: usize> =
-    MotionBuilder<'a, 'w, L, Start<<L as Lagrangian<N, M>>::Scalar, N, F>, N, M>;
+pub(crate) type MotionFrom<'a, 'w, L, F> =
+    MotionBuilder<'a, 'w, L, Start<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, F>>;
 
 /// Events of a [`MotionBuilder`]; `()` for none.
 pub trait EventList<W: ?Sized> {
@@ -86,15 +87,15 @@ impl<W: ?Sized> EventList<W> for Vec<Box<W>> {
     }
 }
 
-impl<'a, 'w, L, S, const N: usize, const M: usize> MotionBuilder<'a, 'w, L, S, N, M> {
+impl<'a, 'w, L: Lagrangian, S> MotionBuilder<'a, 'w, L, S> {
     pub(crate) fn new(system: &'a L, start: S) -> Self {
         Self { system, start, method: Dop853::default(), events: (), on_progress: None, kept: AllSteps }
     }
 }
 
-impl<'a, 'w, L, S, const N: usize, const M: usize, P, E, K> MotionBuilder<'a, 'w, L, S, N, M, P, E, K> {
+impl<'a, 'w, L: Lagrangian, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
     /// Sets the method.
-    pub fn by<Q>(self, method: Q) -> MotionBuilder<'a, 'w, L, S, N, M, Q, E, K> {
+    pub fn by<Q>(self, method: Q) -> MotionBuilder<'a, 'w, L, S, Q, E, K> {
         let Self { system, start, events, on_progress, kept, .. } = self;
         MotionBuilder { system, start, method, events, on_progress, kept }
     }
@@ -106,44 +107,40 @@ impl<'a, 'w, L, S, const N: usize, const M: usize, P, E, K> MotionBuilder<'a, 'w
         self
     }
 
-    pub(crate) fn with_events<F>(
-        self,
-        events: impl FnOnce(E) -> F,
-    ) -> MotionBuilder<'a, 'w, L, S, N, M, P, F, K> {
+    pub(crate) fn with_events<F>(self, events: impl FnOnce(E) -> F) -> MotionBuilder<'a, 'w, L, S, P, F, K> {
         let Self { system, start, method, on_progress, kept, .. } = self;
         MotionBuilder { system, start, method, events: events(self.events), on_progress, kept }
     }
 
-    pub(super) fn keeping<J>(self, kept: impl FnOnce(K) -> J) -> MotionBuilder<'a, 'w, L, S, N, M, P, E, J> {
+    pub(super) fn keeping<J>(self, kept: impl FnOnce(K) -> J) -> MotionBuilder<'a, 'w, L, S, P, E, J> {
         let Self { system, start, method, events, on_progress, .. } = self;
         MotionBuilder { system, start, method, events, on_progress, kept: kept(self.kept) }
     }
 }
 
-impl<'a, 'w, L, F, const N: usize, const M: usize, P, E, K>
-    MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E, K>
+impl<'a, 'w, L, F, P, E, K> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E, K>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    E: EventList<DynEvent<'w, L, N, M>>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    E: EventList<DynEvent<'w, L>>,
 {
     /// Adds an event, by value or as `&mut event`. The result lists its crossings. A [terminal](crate::Event::terminal)
     /// event ends the motion. For several events, call this method once for each.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
     pub fn event(
         self,
-        event: impl AnyEvent<L, N, M> + 'w,
-    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<DynEvent<'w, L, N, M>>>, K> {
+        event: impl AnyEvent<L> + 'w,
+    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, F>, P, Vec<Box<DynEvent<'w, L>>>, K> {
         self.events([event])
     }
 
     /// Adds several events of one type.
     #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its list of events")]
-    pub fn events<W: AnyEvent<L, N, M> + 'w>(
+    pub fn events<W: AnyEvent<L> + 'w>(
         self,
         events: impl IntoIterator<Item = W>,
-    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, Vec<Box<DynEvent<'w, L, N, M>>>, K> {
-        let more = events.into_iter().map(|event| Box::new(event) as Box<DynEvent<'w, L, N, M>>);
+    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, F>, P, Vec<Box<DynEvent<'w, L>>>, K> {
+        let more = events.into_iter().map(|event| Box::new(event) as Box<DynEvent<'w, L>>);
         self.with_events(|events| {
             let mut events = events.list();
             events.extend(more);
@@ -152,12 +149,11 @@ where
     }
 }
 
-impl<'a, 'w, L, F, const N: usize, const M: usize, P, E>
-    MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E>
+impl<'a, 'w, L, F, P, E> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    E: EventList<DynEvent<'w, L, N, M>>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    E: EventList<DynEvent<'w, L>>,
 {
     /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the
     /// start, it integrates backwards.
@@ -166,9 +162,9 @@ where
     /// The errors of [`integrate`](crate::Simulate::integrate); for a motion in momenta also those of
     /// [`legendre`](crate::Hamiltonian::legendre); [`Error::EventNotFinite`] and [`Error::UnknownName`] if the function
     /// of an event fails at the start.
-    pub fn to(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, F>, Error>
+    pub fn to(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error>
     where
-        P: Method<L, N, M, F>,
+        P: Method<L, F>,
     {
         self.towards(end)?.finished()
     }
@@ -178,9 +174,9 @@ where
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
-    pub fn towards(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, F>, Error>
+    pub fn towards(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error>
     where
-        P: Method<L, N, M, F>,
+        P: Method<L, F>,
     {
         match const { E::HAS_EVENTS } {
             true => self.store::<true>(end),
@@ -188,27 +184,27 @@ where
         }
     }
 
-    fn store<const HAS_EVENTS: bool>(self, end: L::Scalar) -> Result<Trajectory<&'a L, N, M, F>, Error>
+    fn store<const HAS_EVENTS: bool>(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error>
     where
-        P: Method<L, N, M, F>,
+        P: Method<L, F>,
     {
         let Self { system, start, method, events, on_progress, .. } = self;
         let (state, mut events) = (start.state.as_ref().as_ref().map_err(Error::clone)?, events.list());
         check_end(end)?;
         // Borrowed, not moved to its use: a move that is not optimized away would leave several copies on the stack.
-        let mut begun = Run::begin::<L, F, P, M>(system, state, &method);
+        let mut begun = Run::begin::<L, F, P>(system, state, &method);
         let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
-        let stored = Stored::<_, _, _, N, M, HAS_EVENTS>::begin;
+        let stored = Stored::<_, _, _, HAS_EVENTS>::begin;
         let mut stored = stored(system, &run.state, end, &mut events, on_progress)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
-        let driven = run.drive::<L, F, P, _, M>(&method, &limits, &mut stored);
+        let driven = run.drive::<L, F, P, _>(&method, &limits, &mut stored);
         Ok(stored.finish(driven, run.statistics, *adjustment))
     }
 }
 
-impl<L, S, const N: usize, const M: usize, P, E, K> Debug for MotionBuilder<'_, '_, L, S, N, M, P, E, K>
+impl<L, S, P, E, K> Debug for MotionBuilder<'_, '_, L, S, P, E, K>
 where
-    L: Lagrangian<N, M>,
+    L: Lagrangian,
     S: Debug,
     P: Debug,
 {

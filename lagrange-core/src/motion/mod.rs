@@ -67,8 +67,7 @@ pub use taylor::{Taylor, TaylorPolynomial};
 
 pub use crate::solution::crossing::Crossing;
 pub use crate::solution::interpolant::{HermiteNode, Interpolant, Polynomial};
-pub use crate::solution::vector_field::{
-    ActiveConstraints, LagrangianVectorField, PhaseVector, StagePoint, VectorField,
-};
+pub use crate::solution::vector_field::{ActiveConstraints, LagrangianVectorField, StagePoint, VectorField};
 pub use crate::solution::{Adjustment, Consistent};
 pub use crate::system::RightHandSides;
+pub use crate::vector::PhaseVector;

@@ -11,12 +11,13 @@ use crate::solution::consistent::{self, Consistent};
 use crate::solution::solve::solve;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Element, Length};
 
 /// A motion during its integration: state, working memory of the method, and statistics.
 #[derive(Debug)]
 #[cfg_attr(not(feature = "alloc"), allow(unreachable_pub, reason = "what differentiates motions allocates"))]
-pub struct Run<X, T, const N: usize> {
+pub struct Run<X, T: Element, N: Length> {
     pub(crate) memory: X,
     pub(crate) state: State<T, N>,
     /// State at the start of the last step.
@@ -24,18 +25,18 @@ pub struct Run<X, T, const N: usize> {
     pub(crate) statistics: Statistics,
 }
 
-impl<X, T: Real, const N: usize> Run<X, T, N> {
+impl<X, T: Real, N: Length> Run<X, T, N> {
     /// Checks settings and start, makes the start consistent, and prepares the first step. The adjustment is the change
     /// of the start.
-    pub(crate) fn begin<L, F, P, const M: usize>(
+    pub(crate) fn begin<L, F, P>(
         system: &L,
         state: &State<T, N>,
         method: &P,
     ) -> Result<(Self, Adjustment<T, N>), Error>
     where
-        L: Lagrangian<N, M, Scalar = T>,
-        F: VectorField<L, N, M>,
-        P: Method<L, N, M, F, Memory = X>,
+        L: Lagrangian<N = N, Scalar = T>,
+        F: VectorField<L>,
+        P: Method<L, F, Memory = X>,
     {
         method.check()?;
         let started = check_start(system, state);
@@ -47,7 +48,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
 
     /// Takes one accepted step towards `end`.
     #[inline]
-    pub(crate) fn step<L, F, P, const M: usize>(
+    pub(crate) fn step<L, F, P>(
         &mut self,
         system: &L,
         method: &P,
@@ -55,9 +56,9 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         limits: &Watchdog,
     ) -> Result<(), Ending>
     where
-        L: Lagrangian<N, M, Scalar = T>,
-        F: VectorField<L, N, M>,
-        P: Method<L, N, M, F, Memory = X>,
+        L: Lagrangian<N = N, Scalar = T>,
+        F: VectorField<L>,
+        P: Method<L, F, Memory = X>,
     {
         let now = self.state.t;
         loop {
@@ -83,16 +84,16 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
 
     /// Appends the dense output of the last step to `within`.
     #[inline(always)]
-    pub(crate) fn look_within<L, F, P, const M: usize>(
+    pub(crate) fn look_within<L, F, P>(
         &mut self,
         system: &L,
         method: &P,
         within: &mut Within<P::Interpolant>,
     ) -> Result<(), Ending>
     where
-        L: Lagrangian<N, M, Scalar = T>,
-        F: VectorField<L, N, M>,
-        P: Method<L, N, M, F, Memory = X>,
+        L: Lagrangian<N = N, Scalar = T>,
+        F: VectorField<L>,
+        P: Method<L, F, Memory = X>,
     {
         let Self { memory, statistics, before, .. } = self;
         let found = put_interpolant(system, method, memory, statistics, within);
@@ -101,17 +102,17 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
 
     /// Integrates until the observer has no further goal. The error says why the motion ends before.
     #[inline(always)]
-    pub(crate) fn drive<L, F, P, O, const M: usize>(
+    pub(crate) fn drive<L, F, P, O>(
         &mut self,
         method: &P,
         limits: &Watchdog,
         observer: &mut O,
     ) -> Result<(), Ending>
     where
-        L: Lagrangian<N, M, Scalar = T>,
-        F: VectorField<L, N, M>,
-        P: Method<L, N, M, F, Memory = X>,
-        O: Observer<L, F, P, N, M>,
+        L: Lagrangian<N = N, Scalar = T>,
+        F: VectorField<L>,
+        P: Method<L, F, Memory = X>,
+        O: Observer<L, F, P>,
     {
         while let Some(goal) = observer.goal(method, self)? {
             self.step_with(method, goal, limits, observer)?;
@@ -123,7 +124,7 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
     /// Takes one accepted step. If the observer cannot follow it, undoes the step and tries a shorter one.
     // Its own frame without optimization: what looking into a step takes is not to lie below the search for events.
     #[inline]
-    fn step_with<L, F, P, O, const M: usize>(
+    fn step_with<L, F, P, O>(
         &mut self,
         method: &P,
         end: T,
@@ -131,10 +132,10 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
         observer: &mut O,
     ) -> Result<(), Ending>
     where
-        L: Lagrangian<N, M, Scalar = T>,
-        F: VectorField<L, N, M>,
-        P: Method<L, N, M, F, Memory = X>,
-        O: Observer<L, F, P, N, M>,
+        L: Lagrangian<N = N, Scalar = T>,
+        F: VectorField<L>,
+        P: Method<L, F, Memory = X>,
+        O: Observer<L, F, P>,
     {
         loop {
             self.step(observer.system(), method, end, limits)?;
@@ -151,11 +152,11 @@ impl<X, T: Real, const N: usize> Run<X, T, N> {
 
 /// An observer of a motion: sets its goal, evaluates the dense output of its steps, records them, and may end the
 /// motion.
-pub(crate) trait Observer<L, F, P, const N: usize, const M: usize>
+pub(crate) trait Observer<L, F, P>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
 {
     /// The system in motion.
     fn system(&self) -> &L;
@@ -168,7 +169,7 @@ where
     fn goal(
         &mut self,
         method: &P,
-        run: &mut Run<P::Memory, L::Scalar, N>,
+        run: &mut Run<P::Memory, L::Scalar, L::N>,
     ) -> Result<Option<L::Scalar>, Ending>;
 
     /// Called after each step.
@@ -177,7 +178,7 @@ where
     /// The reason to undo the step and to try a shorter one. It becomes the ending if no shorter step exists.
     #[allow(unused_variables)]
     #[inline(always)]
-    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         Ok(())
     }
 
@@ -187,7 +188,7 @@ where
     /// The reason why the motion ends there.
     #[allow(unused_variables)]
     #[inline(always)]
-    fn keep(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn keep(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         Ok(())
     }
 }
@@ -212,7 +213,7 @@ pub(super) fn clear<I>(within: &mut Within<I>) {
 /// Appends the interpolant of the last accepted step to `within`. Without the feature `alloc` it replaces the
 /// interpolant there.
 #[inline(always)]
-pub(super) fn put_interpolant<L, F, P, const N: usize, const M: usize>(
+pub(super) fn put_interpolant<L, F, P>(
     system: &L,
     method: &P,
     memory: &mut P::Memory,
@@ -220,9 +221,9 @@ pub(super) fn put_interpolant<L, F, P, const N: usize, const M: usize>(
     within: &mut Within<P::Interpolant>,
 ) -> Result<(), Error>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
 {
     #[cfg(feature = "alloc")]
     return method.push_interpolant(system, memory, statistics, within);
@@ -232,19 +233,19 @@ where
 
 /// Resumes the method after a change of the system or of the state.
 #[inline]
-pub(super) fn resume<L, F, P, const N: usize, const M: usize>(
+pub(super) fn resume<L, F, P>(
     system: &L,
     method: &P,
     memory: &mut P::Memory,
-    state: &State<L::Scalar, N>,
+    state: &StateOf<L>,
     statistics: &mut Statistics,
 ) -> Result<(), Error>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
 {
-    if M > 0 {
+    if <L::M>::COUNT > 0 {
         consistent::check(system, state)?;
     }
     method.resume(system, memory, state, statistics)
@@ -261,10 +262,10 @@ fn is_towards<T: Real>(now: T, next: T, end: T) -> bool {
 }
 
 /// Checks the start, and projects it onto the constraints if it is off by round-off alone.
-fn check_start<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+fn check_start<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<Consistent<L::Scalar, N>, Error> {
+    state: &StateOf<L>,
+) -> Result<Consistent<L::Scalar, L::N>, Error> {
     solve(system, state)?;
     consistent::check(system, state)?;
     consistent::project_to_round_off(system, state)

@@ -15,50 +15,47 @@ use crate::error::Error;
 use crate::number::Real;
 use crate::solution::Sample;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
 
 /// Marks a motion that keeps samples alone: `to` returns an [`Arrival`].
-pub struct SamplesAlone<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    pub(crate) plan: RecordPlan<'w, L, N, M>,
+pub struct SamplesAlone<'w, L: Lagrangian> {
+    pub(crate) plan: RecordPlan<'w, L>,
     /// Controller, and the copy of the system that it changes.
-    steered: Option<(Steering<'w, L, N, M>, L)>,
+    steered: Option<(Steering<'w, L>, L)>,
 }
 
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for SamplesAlone<'_, L, N, M> {
+impl<L: Lagrangian> Debug for SamplesAlone<'_, L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("SamplesAlone").field("is_steered", &self.steered.is_some()).finish_non_exhaustive()
     }
 }
 
 /// Selects what a motion keeps: all steps, or samples alone.
-pub trait Kept<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub trait Kept<'w, L: Lagrangian> {
     /// Converts to settings with samples alone; samples that were already chosen remain.
     #[doc(hidden)]
-    fn samples_alone(self) -> SamplesAlone<'w, L, N, M>;
+    fn samples_alone(self) -> SamplesAlone<'w, L>;
 }
 
-impl<'w, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Kept<'w, L, N, M> for AllSteps {
-    fn samples_alone(self) -> SamplesAlone<'w, L, N, M> {
+impl<'w, L: Lagrangian<Scalar: Real>> Kept<'w, L> for AllSteps {
+    fn samples_alone(self) -> SamplesAlone<'w, L> {
         SamplesAlone { plan: RecordPlan::of(SampleTimes::At(Vec::new())), steered: None }
     }
 }
 
-impl<'w, L: Lagrangian<N, M>, const N: usize, const M: usize> Kept<'w, L, N, M>
-    for SamplesAlone<'w, L, N, M>
-{
+impl<'w, L: Lagrangian> Kept<'w, L> for SamplesAlone<'w, L> {
     fn samples_alone(self) -> Self {
         self
     }
 }
 
 /// Settings of a motion from the start `S` that keeps samples alone.
-type Sampled<'a, 'w, L, S, const N: usize, const M: usize, P, E> =
-    MotionBuilder<'a, 'w, L, S, N, M, P, E, SamplesAlone<'w, L, N, M>>;
+type Sampled<'a, 'w, L, S, P, E> = MotionBuilder<'a, 'w, L, S, P, E, SamplesAlone<'w, L>>;
 
-impl<'a, 'w, L, S, const N: usize, const M: usize, P, E, K> MotionBuilder<'a, 'w, L, S, N, M, P, E, K>
+impl<'a, 'w, L, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    K: Kept<'w, L, N, M>,
+    L: Lagrangian<Scalar: Real>,
+    K: Kept<'w, L>,
 {
     /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) returns an [`Arrival`] that holds one
     /// state per time; for a motion with derivatives a
@@ -81,7 +78,7 @@ where
     /// assert!((arrival.state.q[0] - 2.0_f64.cos()).abs() < 1e-8);
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn samples_at(self, times: impl IntoIterator<Item = L::Scalar>) -> Sampled<'a, 'w, L, S, N, M, P, E> {
+    pub fn samples_at(self, times: impl IntoIterator<Item = L::Scalar>) -> Sampled<'a, 'w, L, S, P, E> {
         let times = times.into_iter().collect();
         self.sampled(|samples| samples.plan.times = SampleTimes::At(times))
     }
@@ -103,11 +100,11 @@ where
     /// assert!(arrival.samples.iter().map(|state| state.t).eq([0.0, 0.1, 0.2, 0.3]));
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn every(self, interval: L::Scalar) -> Sampled<'a, 'w, L, S, N, M, P, E> {
+    pub fn every(self, interval: L::Scalar) -> Sampled<'a, 'w, L, S, P, E> {
         self.sampled(|samples| samples.plan.times = SampleTimes::Every(interval))
     }
 
-    fn sampled(self, set: impl FnOnce(&mut SamplesAlone<'w, L, N, M>)) -> Sampled<'a, 'w, L, S, N, M, P, E> {
+    fn sampled(self, set: impl FnOnce(&mut SamplesAlone<'w, L>)) -> Sampled<'a, 'w, L, S, P, E> {
         self.keeping(|kept| {
             let mut samples = kept.samples_alone();
             set(&mut samples);
@@ -116,11 +113,10 @@ where
     }
 }
 
-impl<'a, 'w, L, F, const N: usize, const M: usize, P, E, K>
-    MotionBuilder<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E, K>
+impl<'a, 'w, L, F, P, E, K> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E, K>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    K: Kept<'w, L, N, M>,
+    L: Lagrangian<Scalar: Real>,
+    K: Kept<'w, L>,
 {
     /// Keeps this quantity of each sample in [`Arrival::values`]; with several quantities, all those of the first
     /// sample come first. The function returns a number, or the result of a query by name, `|sample|
@@ -131,8 +127,8 @@ where
     pub fn quantity<V: EventValue<L::Scalar>>(
         self,
         name: &'static str,
-        function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'w,
-    ) -> Sampled<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E> {
+        function: impl Fn(&Sample<&L>) -> V + Send + Sync + 'w,
+    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E> {
         self.sampled(|samples| samples.plan.quantity(name, function))
     }
 
@@ -175,12 +171,12 @@ where
     pub fn controlled<X: Display>(
         self,
         interval: L::Scalar,
-        mut controller: impl FnMut(&mut L, &State<L::Scalar, N>) -> Result<(), X> + 'w,
-    ) -> Sampled<'a, 'w, L, Start<L::Scalar, N, F>, N, M, P, E>
+        mut controller: impl FnMut(&mut L, &StateOf<L>) -> Result<(), X> + 'w,
+    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E>
     where
         L: Clone,
     {
-        let controller = Box::new(move |system: &mut L, state: &State<L::Scalar, N>| {
+        let controller = Box::new(move |system: &mut L, state: &StateOf<L>| {
             controller(system, state).map_err(|error| error.to_string())
         });
         let steered = Some((Steering { interval, controller }, self.system.clone()));
@@ -188,9 +184,9 @@ where
     }
 }
 
-impl<'w, L, F, const N: usize, const M: usize, P, E> Sampled<'_, 'w, L, Start<L::Scalar, N, F>, N, M, P, E>
+impl<'w, L, F, P, E> Sampled<'_, 'w, L, Start<L::Scalar, L::N, F>, P, E>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the
     /// start, it integrates backwards.
@@ -199,11 +195,11 @@ where
     /// The errors of a motion that is [stored](crate::Simulate::motion); [`Error::SampleTime`],
     /// [`Error::OutsideTrajectory`] and [`Error::Setting`] for samples that cannot be taken; errors of the function of
     /// a quantity at the start.
-    pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, N>, Error>
+    pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error>
     where
-        F: VectorField<L, N, M>,
-        P: Method<L, N, M, F>,
-        E: EventList<DynEvent<'w, L, N, M>>,
+        F: VectorField<L>,
+        P: Method<L, F>,
+        E: EventList<DynEvent<'w, L>>,
     {
         let arrival = self.towards(end)?;
         if arrival.ending.is_failure() { Err(arrival.ending.into()) } else { Ok(arrival) }
@@ -214,11 +210,11 @@ where
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
-    pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, N>, Error>
+    pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error>
     where
-        F: VectorField<L, N, M>,
-        P: Method<L, N, M, F>,
-        E: EventList<DynEvent<'w, L, N, M>>,
+        F: VectorField<L>,
+        P: Method<L, F>,
+        E: EventList<DynEvent<'w, L>>,
     {
         let Self { system, start, method, events, mut on_progress, kept: SamplesAlone { plan, steered } } =
             self;
@@ -227,16 +223,15 @@ where
         plan.check()?;
         let (steering, mut own) = steered.unzip();
         steering.as_ref().map_or(Ok(()), Steering::check)?;
-        let mut begun = Run::begin::<L, F, P, M>(system, state, &method);
+        let mut begun = Run::begin::<L, F, P>(system, state, &method);
         let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
         let record = Record::begin(&plan, events.list(), steering, system, &run.state, end)?;
         let from = run.state.t;
-        let accept =
-            |state: &State<L::Scalar, N>, steps| report(&mut on_progress, [from, state.t, end], steps);
+        let accept = |state: &StateOf<L>, steps| report(&mut on_progress, [from, state.t, end], steps);
         let moving = own.as_mut().map_or(Moving::Fixed(system), Moving::Steered);
         let limits = Watchdog::new(method.limits(), &run.statistics);
-        let mut recorded = Recorded::<_, _, _, N, M, true>::new(moving, record, accept);
-        let driven = run.drive::<L, F, P, _, M>(&method, &limits, &mut recorded);
+        let mut recorded = Recorded::<_, _, _, true>::new(moving, record, accept);
+        let driven = run.drive::<L, F, P, _>(&method, &limits, &mut recorded);
         Ok(recorded.finish(driven, run))
     }
 }

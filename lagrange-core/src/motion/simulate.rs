@@ -1,8 +1,5 @@
 //! The trait [`Simulate`]: solving the equations of a system, and integrating its motion.
 
-#[cfg(feature = "alloc")]
-use core::array::from_fn;
-
 use super::event::{Event, EventValue};
 #[cfg(feature = "alloc")]
 use super::{
@@ -21,20 +18,23 @@ use crate::solution::solve::solve;
 #[cfg(feature = "alloc")]
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::finite::check_finite;
+use crate::system::{Lagrangian, SolutionOf, StateOf};
 #[cfg(feature = "alloc")]
-use crate::system::lookup;
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::{State, lookup};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Trajectory;
+use crate::vector::Array;
+#[cfg(feature = "alloc")]
+use crate::vector::{Length, from_fn};
 
 /// Solves, initializes and integrates a system. It is implemented for every [`Lagrangian`] over `f64` or `f32`.
-pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Real> + Sized {
+pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     /// Returns accelerations and multipliers at a state.
     ///
     /// They are the results of [`accelerations_unchecked`](Lagrangian::accelerations_unchecked) if its smallest pivot
     /// exceeds ε^(1/3) (6·10⁻⁶ for `f64`), which costs at most a third of the digits. Else the general solver by null
     /// space is used. It copes with a mass matrix that is singular or indefinite, and with dependent constraints;
-    /// [`Solution::multipliers_are_unique`] reports the latter.
+    /// [`Solution::multipliers_are_unique`](crate::Solution::multipliers_are_unique) reports the latter.
     ///
     /// # Errors
     /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`], even for entries that the equations do not use;
@@ -43,7 +43,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// zero; [`Error::DependentToFirstOrder`] if the row of a combination of constraints is zero. Each names the
     /// coordinates or the constraint. [`check_consistent`](Self::check_consistent) checks that the state is on the
     /// constraints, and that no row is zero up to round-off.
-    fn solve(&self, state: &State<Self::Scalar, N>) -> Result<Solution<Self::Scalar, N, M>, Error> {
+    fn solve(&self, state: &StateOf<Self>) -> Result<SolutionOf<Self>, Error> {
         solve(self, state)
     }
 
@@ -52,7 +52,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Errors
     /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`]; [`Error::Inconsistent`], with the first constraint
     /// that the state violates; [`Error::NoGradient`], with the first constraint that fixes no acceleration.
-    fn check_consistent(&self, state: &State<Self::Scalar, N>) -> Result<(), Error> {
+    fn check_consistent(&self, state: &StateOf<Self>) -> Result<(), Error> {
         check_finite(self, state)?;
         consistent::check(self, state)
     }
@@ -86,9 +86,9 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Errors
     /// [`Error::StateNotFinite`], [`Error::NotProjected`] if Newton's iteration does not converge, and
     /// [`Error::NoGradient`] if a constraint holds and its gradient vanishes.
-    fn make_consistent(&self, state: &State<Self::Scalar, N>) -> Result<Consistent<Self::Scalar, N>, Error> {
+    fn make_consistent(&self, state: &StateOf<Self>) -> Result<Consistent<Self::Scalar, Self::N>, Error> {
         check_finite(self, state)?;
-        consistent::make_consistent(self, state, &[[false; N]; 2])
+        consistent::make_consistent(self, state, &[Array::filled(false); 2])
     }
 
     /// Like [`make_consistent`](Self::make_consistent), with some entries held at their given values. They are named as
@@ -117,18 +117,18 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     #[cfg(feature = "alloc")]
     fn make_consistent_holding(
         &self,
-        state: &State<Self::Scalar, N>,
+        state: &StateOf<Self>,
         held: &[&str],
-    ) -> Result<Consistent<Self::Scalar, N>, Error> {
+    ) -> Result<Consistent<Self::Scalar, Self::N>, Error> {
         check_finite(self, state)?;
-        let known = lookup::entries::<Self, N, M>();
-        let held = lookup::indices::<Self, N, M>(&known, "coordinate or velocity", held)?;
-        let [q, v] = [0, N].map(|half| from_fn(|i| held.contains(&(half + i))));
+        let known = lookup::entries::<Self>();
+        let held = lookup::indices::<Self>(&known, "coordinate or velocity", held)?;
+        let [q, v] = [0, <Self::N>::COUNT].map(|half| from_fn(|i| held.contains(&(half + i))));
         consistent::make_consistent(self, state, &[q, v])
     }
 
     /// Pairs a state with this system, to evaluate coordinates, energies, forces and other quantities by name.
-    fn sample(&self, state: State<Self::Scalar, N>) -> Sample<&Self, N, M> {
+    fn sample(&self, state: StateOf<Self>) -> Sample<&Self> {
         Sample { system: self, state }
     }
 
@@ -157,10 +157,10 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// ```
     ///
     /// [`Event`] describes which crossings are found and which are not, and has the settings.
-    fn event<V, G>(&self, name: &'static str, function: G) -> Event<Self, G, N, M>
+    fn event<V, G>(&self, name: &'static str, function: G) -> Event<Self, G>
     where
         V: EventValue<Self::Scalar>,
-        G: Fn(&Sample<&Self, N, M>) -> V,
+        G: Fn(&Sample<&Self>) -> V,
     {
         Event::new(name, function)
     }
@@ -200,11 +200,11 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     #[cfg(feature = "alloc")]
     fn impact(
         &self,
-        state: &State<Self::Scalar, N>,
+        state: &StateOf<Self>,
         constraint: &str,
         restitution: Self::Scalar,
-    ) -> Result<Impact<Self, N, M>, Error> {
-        let hit = lookup::index::<Self, N, M>(&Self::CONSTRAINTS, "constraint", constraint)?;
+    ) -> Result<Impact<Self>, Error> {
+        let hit = lookup::index::<Self>(Self::CONSTRAINTS, "constraint", constraint)?;
         impact(self, state, hit, restitution)
     }
 
@@ -226,12 +226,12 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// [`Error::Unfinished`] if the motion stops before its end, with the time, the coordinate or constraint, the
     /// reason and a remedy. [`motion`](Self::motion) has more settings.
     #[cfg(feature = "alloc")]
-    fn integrate<P: Method<Self, N, M>>(
+    fn integrate<P: Method<Self>>(
         &self,
-        state: State<Self::Scalar, N>,
+        state: StateOf<Self>,
         end: Self::Scalar,
         method: P,
-    ) -> Result<Trajectory<&Self, N, M>, Error> {
+    ) -> Result<Trajectory<&Self>, Error> {
         self.motion(state).by(method).to(end)
     }
 
@@ -284,10 +284,7 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Ok::<(), Error>(())
     /// ```
     #[cfg(feature = "alloc")]
-    fn motion<'w>(
-        &self,
-        start: State<Self::Scalar, N>,
-    ) -> MotionFrom<'_, 'w, Self, LagrangianVectorField, N, M> {
+    fn motion<'w>(&self, start: StateOf<Self>) -> MotionFrom<'_, 'w, Self, LagrangianVectorField> {
         MotionBuilder::new(self, Start::new(check_finite(self, &start).map(|()| start)))
     }
 
@@ -297,19 +294,19 @@ pub trait Simulate<const N: usize, const M: usize>: Lagrangian<N, M, Scalar: Rea
     /// # Errors
     /// [`Error::UnknownName`], which suggests a name or lists all names, and [`Error::RepeatedName`].
     #[cfg(feature = "alloc")]
-    fn state_from(&self, entries: &[(&str, Self::Scalar)]) -> Result<State<Self::Scalar, N>, Error> {
-        let mut state = State::at_rest([Self::Scalar::constant(0.0); N]);
-        let known = lookup::entries::<Self, N, M>();
+    fn state_from(&self, entries: &[(&str, Self::Scalar)]) -> Result<StateOf<Self>, Error> {
+        let mut state = State::at_rest(Array::filled(Self::Scalar::constant(0.0)));
+        let known = lookup::entries::<Self>();
         for (i, (name, value)) in entries.iter().enumerate() {
             if entries.iter().take(i).any(|(earlier, _)| earlier == name) {
                 return Err(Error::RepeatedName { name: (*name).into() });
             }
-            let index = lookup::index::<Self, N, M>(&known, "coordinate or velocity", name)?;
-            let half = if index < N { &mut state.q } else { &mut state.v };
-            half[index % N] = *value;
+            let index = lookup::index::<Self>(&known, "coordinate or velocity", name)?;
+            let half = if index < <Self::N>::COUNT { &mut state.q } else { &mut state.v };
+            half[index % <Self::N>::COUNT] = *value;
         }
         Ok(state)
     }
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Simulate<N, M> for L {}
+impl<L: Lagrangian<Scalar: Real>> Simulate for L {}

@@ -14,7 +14,7 @@ use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
 use crate::system::finite::check_finite;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
 
 /// A motion that its caller advances by a length of time or to a time, and can steer in between.
 ///
@@ -51,49 +51,49 @@ use crate::system::{Lagrangian, State};
 /// ```
 ///
 /// Limits on steps and on wall-clock time apply to each advance separately.
-pub struct Motion<L, P, const N: usize, const M: usize, F = LagrangianVectorField>
+pub struct Motion<L, P, F = LagrangianVectorField>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
 {
     system: L,
     method: P,
-    run: Run<P::Memory, L::Scalar, N>,
+    run: Run<P::Memory, L::Scalar, L::N>,
     /// State within the last step at which an event has stopped the motion.
-    stop: Option<State<L::Scalar, N>>,
+    stop: Option<StateOf<L>>,
     last_step: LastStep<P::Interpolant>,
 }
 
-impl<L, P, const N: usize, const M: usize> Motion<L, P, N, M>
+impl<L, P> Motion<L, P>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    P: Method<L, N, M>,
+    L: Lagrangian<Scalar: Real>,
+    P: Method<L>,
 {
     /// Starts a motion of this system from a state, by the given method.
     ///
     /// # Errors
     /// Those of [`Simulate::integrate`](crate::Simulate::integrate) before the first step.
-    pub fn new(system: L, state: State<L::Scalar, N>, method: P) -> Result<Self, Error> {
+    pub fn new(system: L, state: StateOf<L>, method: P) -> Result<Self, Error> {
         check_finite(&system, &state)?;
         Self::begin(system, &state, method)
     }
 }
 
-impl<L, P, F, const N: usize, const M: usize> Motion<L, P, N, M, F>
+impl<L, P, F> Motion<L, P, F>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
 {
-    pub(crate) fn begin(system: L, state: &State<L::Scalar, N>, method: P) -> Result<Self, Error> {
+    pub(crate) fn begin(system: L, state: &StateOf<L>, method: P) -> Result<Self, Error> {
         let (run, _) = Run::begin(&system, state, &method)?;
         let last_step = LastStep::none();
         Ok(Self { system, method, run, stop: None, last_step })
     }
 
     /// Current state.
-    pub fn state(&self) -> &State<L::Scalar, N> {
+    pub fn state(&self) -> &StateOf<L> {
         self.stop.as_ref().unwrap_or(&self.run.state)
     }
 
@@ -119,7 +119,7 @@ where
     /// # Errors
     /// [`Error::StateNotFinite`]; [`Error::Inconsistent`], and [`Error::NotProjected`]. The motion then keeps its
     /// state.
-    pub fn set_state(&mut self, state: State<L::Scalar, N>) -> Result<(), Error> {
+    pub fn set_state(&mut self, state: StateOf<L>) -> Result<(), Error> {
         check_finite(&self.system, &state)?;
         consistent::check(&self.system, &state)?;
         let (state, _) = consistent::project_to_round_off(&self.system, &state)?;
@@ -128,7 +128,7 @@ where
     }
 
     /// Sets the state, and invalidates the last step.
-    fn go_on_from(&mut self, state: State<L::Scalar, N>) {
+    fn go_on_from(&mut self, state: StateOf<L>) {
         self.run.state = state;
         self.forget_step();
     }
@@ -165,7 +165,7 @@ where
         self.refresh(end)?;
         self.stop = None;
         let Self { system, method, run, last_step, .. } = self;
-        run.drive::<L, F, P, _, M>(method, limits, &mut GoPast { system: &*system, last_step, t, end })
+        run.drive::<L, F, P, _>(method, limits, &mut GoPast { system: &*system, last_step, t, end })
     }
 
     /// Advances to the first crossing of these events, or to the time `end` if there is none on the way.
@@ -182,8 +182,8 @@ where
     pub fn advance_to_event(
         &mut self,
         end: L::Scalar,
-        events: &mut [&mut dyn AnyEvent<L, N, M>],
-    ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
+        events: &mut [&mut dyn AnyEvent<L>],
+    ) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending> {
         self.refresh(end)?;
         let mut at = *self.state();
         let found = self.search(end, events, &mut at);
@@ -219,8 +219,8 @@ where
     pub fn crossings<'e>(
         &mut self,
         end: L::Scalar,
-        events: &'e mut [&'e mut dyn AnyEvent<L, N, M>],
-    ) -> impl Iterator<Item = Result<Crossing<L::Scalar, N>, Ending>> + use<'_, 'e, L, P, F, N, M> {
+        events: &'e mut [&'e mut dyn AnyEvent<L>],
+    ) -> impl Iterator<Item = Result<Crossing<L::Scalar, L::N>, Ending>> + use<'_, 'e, L, P, F> {
         let mut has_failed = false;
         core::iter::from_fn(move || {
             if has_failed {
@@ -236,9 +236,9 @@ where
     fn search(
         &mut self,
         end: L::Scalar,
-        events: &mut [&mut dyn AnyEvent<L, N, M>],
-        at: &mut State<L::Scalar, N>,
-    ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
+        events: &mut [&mut dyn AnyEvent<L>],
+        at: &mut StateOf<L>,
+    ) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending> {
         let Self { system, method, run, last_step, .. } = self;
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let mut search = EventSearch::from(events, system, at, !last_step.is_there)
@@ -249,7 +249,7 @@ where
             // FindCrossing the rest of the step within which the motion has stopped.
             search.look::<F>(&run.before, &run.state)?;
         }
-        run.drive::<L, F, P, _, M>(method, &limits, &mut search)?;
+        run.drive::<L, F, P, _>(method, &limits, &mut search)?;
         Ok(search.found)
     }
 
@@ -268,7 +268,7 @@ where
     /// # Errors
     /// [`Error::OutsideTrajectory`] for a time outside the last step; after a change of the state or of the system only
     /// the current time is available. Errors of evaluating the equations, and [`Error::NotProjected`].
-    pub fn at(&mut self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
+    pub fn at(&mut self, t: L::Scalar) -> Result<StateOf<L>, Error> {
         let (state, before) = (*self.state(), self.run.before);
         if t == state.t {
             return Ok(state);
@@ -284,7 +284,7 @@ where
         let Self { system, method, run: Run { memory, statistics, .. }, last_step, .. } = self;
         if last_step.interpolant().is_none() {
             let within = &mut last_step.within;
-            put_interpolant::<L, F, P, N, M>(system, method, memory, statistics, within)?;
+            put_interpolant::<L, F, P>(system, method, memory, statistics, within)?;
         }
         let point = last_step.interpolant().map(|interpolant| interpolant.at(t));
         point.map_or(Ok(state), |point| F::project(system, &point))
@@ -317,7 +317,7 @@ where
     pub fn states_at<I>(
         &mut self,
         times: I,
-    ) -> impl Iterator<Item = Result<State<L::Scalar, N>, Ending>> + use<'_, I, L, P, F, N, M>
+    ) -> impl Iterator<Item = Result<StateOf<L>, Ending>> + use<'_, I, L, P, F>
     where
         I: IntoIterator<Item = L::Scalar, IntoIter: DoubleEndedIterator>,
     {
@@ -342,7 +342,7 @@ where
         t: L::Scalar,
         end: L::Scalar,
         limits: &Watchdog,
-    ) -> Result<State<L::Scalar, N>, Ending> {
+    ) -> Result<StateOf<L>, Ending> {
         let now = self.state().t.to_f64();
         self.go_past(t, end, limits)?;
         self.at(t).map_err(|error| Ending::of(error, now))
@@ -369,15 +369,15 @@ where
     #[inline]
     fn resume(&mut self) -> Result<(), Error> {
         let Run { memory, state, statistics, .. } = &mut self.run;
-        resume::<_, F, _, N, M>(&self.system, &self.method, memory, state, statistics)
+        resume::<_, F, _>(&self.system, &self.method, memory, state, statistics)
     }
 }
 
-impl<L, P, F, const N: usize, const M: usize> Debug for Motion<L, P, N, M, F>
+impl<L, P, F> Debug for Motion<L, P, F>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Motion")

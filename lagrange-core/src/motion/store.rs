@@ -12,40 +12,30 @@ use crate::solution::Adjustment;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
 use crate::trajectory::{Path, Trajectory};
 
 /// Observer that stores the steps, their dense output and the crossings of the events `W`. Without events `HAS_EVENTS`
 /// is false, and the search is not compiled.
-pub(crate) struct Stored<
-    'a,
-    'e,
-    L: Lagrangian<N, M>,
-    W,
-    I,
-    const N: usize,
-    const M: usize,
-    const HAS_EVENTS: bool,
-> {
+pub(crate) struct Stored<'a, 'e, L: Lagrangian, W, I, const HAS_EVENTS: bool> {
     system: &'a L,
     end: L::Scalar,
-    path: Path<L::Scalar, N, Vec<I>>,
-    search: EventSearch<'e, W, L, N, M>,
+    path: Path<L::Scalar, L::N, Vec<I>>,
+    search: EventSearch<'e, W, L>,
     /// Ending at the start, if an event that is due there ends the motion.
     stopped: Option<Ending>,
     on_progress: Option<OnProgress<'e>>,
 }
 
-impl<'a, 'e, L, W, I, const N: usize, const M: usize, const HAS_EVENTS: bool>
-    Stored<'a, 'e, L, W, I, N, M, HAS_EVENTS>
+impl<'a, 'e, L, W, I, const HAS_EVENTS: bool> Stored<'a, 'e, L, W, I, HAS_EVENTS>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    W: AnyEvent<L, N, M>,
-    I: Interpolant<L::Scalar, N> + Send + Sync + 'static,
+    L: Lagrangian<Scalar: Real>,
+    W: AnyEvent<L>,
+    I: Interpolant<L::Scalar, L::N> + Send + Sync + 'static,
 {
     pub(crate) fn begin(
         system: &'a L,
-        start: &State<L::Scalar, N>,
+        start: &StateOf<L>,
         end: L::Scalar,
         events: &'e mut [W],
         on_progress: Option<OnProgress<'e>>,
@@ -70,28 +60,32 @@ where
         self,
         driven: Result<(), Ending>,
         statistics: Statistics,
-        adjustment: Adjustment<L::Scalar, N>,
-    ) -> Trajectory<&'a L, N, M, F> {
+        adjustment: Adjustment<L::Scalar, L::N>,
+    ) -> Trajectory<&'a L, F> {
         let time = self.end.to_f64();
         let ending = driven.err().unwrap_or(Ending::Complete { time });
         Trajectory::new(self.system, self.path.finish(), ending, statistics, adjustment)
     }
 }
 
-impl<L, F, P, W, const N: usize, const M: usize, const HAS_EVENTS: bool> Observer<L, F, P, N, M>
-    for Stored<'_, '_, L, W, P::Interpolant, N, M, HAS_EVENTS>
+impl<L, F, P, W, const HAS_EVENTS: bool> Observer<L, F, P>
+    for Stored<'_, '_, L, W, P::Interpolant, HAS_EVENTS>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
-    W: AnyEvent<L, N, M>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
+    W: AnyEvent<L>,
 {
     fn system(&self) -> &L {
         self.system
     }
 
     #[inline(always)]
-    fn goal(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<Option<L::Scalar>, Ending> {
+    fn goal(
+        &mut self,
+        _: &P,
+        run: &mut Run<P::Memory, L::Scalar, L::N>,
+    ) -> Result<Option<L::Scalar>, Ending> {
         match self.stopped.take() {
             Some(ending) => Err(ending),
             None => Ok((run.state.t != self.end).then_some(self.end)),
@@ -99,12 +93,12 @@ where
     }
 
     #[inline(always)]
-    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
-        run.look_within::<L, F, P, M>(self.system, method, self.path.interpolants())
+    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+        run.look_within::<L, F, P>(self.system, method, self.path.interpolants())
     }
 
     #[inline(always)]
-    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         self.path.push(run.state);
         if const { HAS_EVENTS } {
             let ends = [&run.before, &run.state];

@@ -42,10 +42,7 @@ fn starts() -> [State<f64, 3>; 4] {
 }
 
 /// The largest |Φ| and |Φ̇|, as fractions of the squared length and of length times speed.
-fn off_constraints<'a>(
-    pendulum: &Pendulum,
-    samples: impl Iterator<Item = Sample<&'a Pendulum, 3, 1>>,
-) -> f64 {
+fn off_constraints<'a>(pendulum: &Pendulum, samples: impl Iterator<Item = Sample<&'a Pendulum>>) -> f64 {
     samples.fold(0.0, |most, sample| {
         let s = sample.state();
         let phi = pendulum.constraint_residual(s)[0].abs();
@@ -54,7 +51,7 @@ fn off_constraints<'a>(
     })
 }
 
-fn drift(path: &Trajectory<&Pendulum, 3, 1>) -> (f64, f64) {
+fn drift(path: &Trajectory<&Pendulum>) -> (f64, f64) {
     let energy = |s: &State<f64, 3>| 0.5 * s.v.norm_squared() + GRAVITY * s.q[2];
     let moment = |s: &State<f64, 3>| s.q[0] * s.v[1] - s.q[1] * s.v[0];
     let start = path.start();
@@ -65,7 +62,7 @@ fn drift(path: &Trajectory<&Pendulum, 3, 1>) -> (f64, f64) {
     })
 }
 
-fn swing(method: impl Method<Pendulum, 3, 1> + Copy, bound: f64) {
+fn swing(method: impl Method<Pendulum> + Copy, bound: f64) {
     let pendulum = spherical_pendulum();
     for start in starts() {
         let path = pendulum.integrate(start, 100.0, method).unwrap();
@@ -106,12 +103,12 @@ fn solved() -> [Solved; 2] {
 /// Mean slope of log error over log step in four halvings: at the end, and of the largest error in between.
 fn slopes<P>((system, exact): Solved, method: impl Fn(f64) -> P, coarsest: f64) -> (f64, f64)
 where
-    P: Method<Mechanism<1, 0, 0>, 1, 0>,
+    P: Method<Mechanism<1, 0, 0>>,
 {
     let errors = |h: f64| {
         let (q, v) = exact(0.0);
         let path = system.integrate(State::new([q], [v]), 8.0, method(h)).unwrap();
-        let error = |s: &Sample<&Mechanism<1, 0, 0>, 1, 0>| {
+        let error = |s: &Sample<&Mechanism<1, 0, 0>>| {
             let (q, v) = exact(s.time());
             (s.state().q[0] - q).hypot(s.state().v[0] - v)
         };

@@ -1,6 +1,5 @@
 //! Scalar types of the equations of motion.
 
-pub(crate) mod array;
 mod broadcast;
 mod dual;
 #[cfg(all(feature = "std", target_feature = "avx512f"))]
@@ -18,8 +17,6 @@ mod simd;
 #[cfg(feature = "std")]
 mod sines;
 
-pub use array::FixedArray;
-pub(crate) use array::{entries, vector};
 pub use broadcast::{Broadcast, Wide};
 pub use dual::Dual;
 #[cfg(feature = "std")]

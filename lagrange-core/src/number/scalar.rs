@@ -17,6 +17,8 @@ pub trait Scalar:
     Copy
     + PartialEq
     + Debug
+    + Send
+    + Sync
     + 'static
     + Add<Output = Self>
     + Sub<Output = Self>

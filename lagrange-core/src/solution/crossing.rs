@@ -1,12 +1,13 @@
 //! Crossings of events that a trajectory stores.
 
 use crate::system::State;
+use crate::vector::{Element, Length};
 
 /// A located crossing of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
-pub struct Crossing<T, const N: usize> {
+pub struct Crossing<T: Element, N: Length> {
     /// Name of the event.
     pub event: &'static str,
     /// Index of the event, in the order in which the events were given.

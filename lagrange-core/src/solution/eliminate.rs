@@ -1,9 +1,8 @@
 //! Branch-free elimination of the equations of motion, for any scalar.
 
-use nalgebra::SVector;
-
-use crate::number::{Broadcast, Scalar, vector};
+use crate::number::{Broadcast, Scalar};
 use crate::system::Solution;
+use crate::vector::{Array, Element, Length, Vector, array, vector};
 
 /// Solves M q̈ − Fᵀλ = h, F q̈ = −γ by LDLᵀ of M and of the Schur complement F M⁻¹ Fᵀ, without pivoting.
 ///
@@ -12,39 +11,39 @@ use crate::system::Solution;
 /// failure. (Golub and Van Loan, *Matrix Computations*, 4.1.2, and the range-space method of Nocedal and
 /// Wright, *Numerical Optimization*, 16.2.)
 #[inline]
-pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
-    m: [[T; N]; N],
-    h: [T; N],
-    f: [[T; N]; M],
-    gamma: [T; M],
+pub(crate) fn eliminate<T: Scalar, N: Length, M: Length>(
+    m: Array<Array<T, N>, N>,
+    h: Array<T, N>,
+    f: Array<Array<T, N>, M>,
+    gamma: Array<T, M>,
 ) -> Solution<T, N, M> {
-    LoopFactor::of(m, f, [T::constant(0.0); M]).solve_completed(h, gamma)
+    LoopFactor::of(m, f, Array::filled(T::constant(0.0))).solve_completed(h, gamma)
 }
 
 /// Factorizations of M and F M⁻¹ Fᵀ, computed in loops.
 #[derive(Clone, Copy, Debug)]
-pub struct LoopFactor<T, const N: usize, const M: usize> {
+pub struct LoopFactor<T: Element, N: Length, M: Length> {
     mass: Ldl<T, N>,
-    f: [[T; N]; M],
+    f: Array<Array<T, N>, M>,
     /// M⁻¹Fᵀ, one row per constraint.
-    w: [[T; N]; M],
+    w: Array<Array<T, N>, M>,
     schur: Ldl<T, M>,
     /// Weights σ; zero for constraints that do not complete M.
-    weights: [T; M],
+    weights: Array<T, M>,
 }
 
-impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
+impl<T: Scalar, N: Length, M: Length> LoopFactor<T, N, M> {
     /// Factorizes the completed mass matrix M + FᵀσF, whose lower triangle is read row by row. `f` holds one
     /// row per constraint, `weights` is σ.
     #[inline]
-    pub fn of(m: [[T; N]; N], f: [[T; N]; M], weights: [T; M]) -> Self {
+    pub fn of(m: Array<Array<T, N>, N>, f: Array<Array<T, N>, M>, weights: Array<T, M>) -> Self {
         let mass = Ldl::of(m);
         let mut w = f;
         for row in &mut w {
             mass.solve(row);
         }
-        let mut schur = [[T::constant(0.0); M]; M];
-        for a in 0..M {
+        let mut schur = Array::filled(Array::filled(T::constant(0.0)));
+        for a in 0..M::COUNT {
             for b in 0..=a {
                 schur[a][b] = dot(&f[a], &w[b]);
             }
@@ -54,11 +53,11 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
 
     /// Solves M x − Fᵀλ = `forcing`, F x = −`bias`.
     #[inline]
-    pub fn solve<S: Broadcast<T>>(&self, forcing: &SVector<S, N>, bias: &SVector<S, M>) -> Solution<S, N, M> {
-        let (mut h, gamma) = (forcing.data.0[0], bias.data.0[0]);
-        for a in (0..M).filter(|&a| self.weights[a] != T::constant(0.0)) {
+    pub fn solve<S: Broadcast<T>>(&self, forcing: &Vector<S, N>, bias: &Vector<S, M>) -> Solution<S, N, M> {
+        let (mut h, gamma) = (array(*forcing), array(*bias));
+        for a in (0..M::COUNT).filter(|&a| self.weights[a] != T::constant(0.0)) {
             let part = S::of(self.weights[a]) * gamma[a];
-            for i in 0..N {
+            for i in 0..N::COUNT {
                 h[i] = h[i] - S::of(self.f[a][i]) * part;
             }
         }
@@ -67,16 +66,16 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
 
     /// Solves with the completed right-hand side h − Fᵀσγ.
     #[inline]
-    fn solve_completed<S: Broadcast<T>>(&self, h: [S; N], gamma: [S; M]) -> Solution<S, N, M> {
+    fn solve_completed<S: Broadcast<T>>(&self, h: Array<S, N>, gamma: Array<S, M>) -> Solution<S, N, M> {
         let mut q = h;
         self.mass.solve(&mut q);
         let mut lambda = gamma;
-        for a in 0..M {
+        for a in 0..M::COUNT {
             lambda[a] = -(lambda[a] + dot(&self.f[a].map(S::of), &q));
         }
         self.schur.solve(&mut lambda);
-        for a in 0..M {
-            for i in 0..N {
+        for a in 0..M::COUNT {
+            for i in 0..N::COUNT {
                 q[i] = q[i] + S::of(self.w[a][i]) * lambda[a];
             }
         }
@@ -87,24 +86,24 @@ impl<T: Scalar, const N: usize, const M: usize> LoopFactor<T, N, M> {
             accelerations: vector(q.map(|x| x + doubt)),
             multipliers: vector(lambda.map(|x| x + doubt)),
             pivot: S::of(pivot),
-            rank: M,
+            rank: M::COUNT,
         }
     }
 }
 
 /// LDLᵀ factorization: L below the diagonal, 1/D on it.
 #[derive(Clone, Copy, Debug)]
-struct Ldl<T, const K: usize> {
-    l: [[T; K]; K],
+struct Ldl<T: Element, K: Length> {
+    l: Array<Array<T, K>, K>,
     pivot: T,
 }
 
-impl<T: Scalar, const K: usize> Ldl<T, K> {
+impl<T: Scalar, K: Length> Ldl<T, K> {
     #[inline]
-    fn of(mut a: [[T; K]; K]) -> Self {
+    fn of(mut a: Array<Array<T, K>, K>) -> Self {
         let one = T::constant(1.0);
         let mut pivot = one;
-        for i in 0..K {
+        for i in 0..K::COUNT {
             let diagonal = a[i][i];
             let mut d = diagonal;
             for j in 0..i {
@@ -129,17 +128,17 @@ impl<T: Scalar, const K: usize> Ldl<T, K> {
     }
 
     #[inline]
-    fn solve<S: Broadcast<T>>(&self, x: &mut [S; K]) {
-        for i in 0..K {
+    fn solve<S: Broadcast<T>>(&self, x: &mut Array<S, K>) {
+        for i in 0..K::COUNT {
             for j in 0..i {
                 x[i] = x[i] - S::of(self.l[i][j]) * x[j];
             }
         }
-        for i in 0..K {
+        for i in 0..K::COUNT {
             x[i] = x[i] * S::of(self.l[i][i]);
         }
-        for i in (0..K).rev() {
-            for j in i + 1..K {
+        for i in (0..K::COUNT).rev() {
+            for j in i + 1..K::COUNT {
                 x[i] = x[i] - S::of(self.l[j][i]) * x[j];
             }
         }
@@ -164,9 +163,9 @@ fn poison<T: Scalar>(x: T, y: T) -> T {
 }
 
 #[inline]
-fn dot<T: Scalar, const K: usize>(a: &[T; K], b: &[T; K]) -> T {
+fn dot<T: Scalar, K: Length>(a: &Array<T, K>, b: &Array<T, K>) -> T {
     let mut sum = T::constant(0.0);
-    for i in 0..K {
+    for i in 0..K::COUNT {
         sum = sum + a[i] * b[i];
     }
     sum

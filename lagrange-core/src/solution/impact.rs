@@ -3,7 +3,7 @@
 use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use super::consistent::{Level, check_level};
 use super::kkt::Rank;
@@ -13,35 +13,36 @@ use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::solve_in_general;
 use crate::system::finite::check_finite;
 use crate::system::lookup::index;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Entrywise, Vector, vector};
 
 /// Result of an impact: [`Simulate::impact`](crate::Simulate::impact).
-pub struct Impact<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub struct Impact<L: Lagrangian> {
     /// State after the impact.
-    pub state: State<L::Scalar, N>,
+    pub state: StateOf<L>,
     /// Impulses Λ of the constraints, in the order written, with the sign of multipliers: the momenta jump by
     /// FᵀΛ.
-    pub impulses: SVector<L::Scalar, M>,
+    pub impulses: Vector<L::Scalar, L::M>,
     system: PhantomData<fn(&L)>,
 }
 
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Impact<L, N, M> {
+impl<L: Lagrangian> Impact<L> {
     /// Returns the impulse of the constraint of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
     pub fn impulse(&self, name: &str) -> Result<L::Scalar, Error> {
-        Ok(self.impulses[index::<L, N, M>(&L::CONSTRAINTS, "constraint", name)?])
+        Ok(self.impulses[index::<L>(L::CONSTRAINTS, "constraint", name)?])
     }
 }
 
 /// Implements [`Simulate::impact`](crate::Simulate::impact); `hit` is the index of the constraint.
-pub(crate) fn impact<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(crate) fn impact<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    state: &State<L::Scalar, N>,
+    state: &StateOf<L>,
     hit: usize,
     restitution: L::Scalar,
-) -> Result<Impact<L, N, M>, Error> {
+) -> Result<Impact<L>, Error> {
     check_finite(system, state)?;
     if !(restitution.is_finite() && restitution >= L::Scalar::constant(0.0)) {
         return Err(Error::Restitution { value: restitution.to_f64() });
@@ -51,17 +52,20 @@ pub(crate) fn impact<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M:
     // is hit.
     let mut rates = system.constraint_rate(state);
     rates[hit] *= L::Scalar::constant(1.0) + restitution;
-    let no_force = SVector::from_element(L::Scalar::constant(0.0));
+    let no_force = vector(Array::filled(L::Scalar::constant(0.0)));
     let jump = system.solve_with(&system.factor(state), &no_force, &rates);
     let jump = match is_trustworthy(&jump) {
         true => jump,
-        false => solve_in_general(system, state, (no_force, rates), &[true; M], Rank::on_constraints())?.0,
+        false => {
+            solve_in_general(system, state, (no_force, rates), &Array::filled(true), Rank::on_constraints())?
+                .0
+        }
     };
-    let state = State { v: state.v + jump.accelerations, ..*state };
+    let state = State { v: state.v.plus(&jump.accelerations), ..*state };
     Ok(Impact { state, impulses: jump.multipliers, system: PhantomData })
 }
 
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Impact<L, N, M> {
+impl<L: Lagrangian> Debug for Impact<L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Impact").field("state", &self.state).field("impulses", &self.impulses).finish()
     }

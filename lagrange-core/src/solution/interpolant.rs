@@ -1,14 +1,13 @@
 //! Dense output: the motion within a step.
 
-use core::array::from_fn;
-
-use crate::number::{Real, Scalar, entries};
-use crate::solution::vector_field::{PhaseVector, StagePoint};
+use crate::number::{Real, Scalar};
+use crate::solution::vector_field::StagePoint;
+use crate::vector::{Array, Element, Length, PhaseVector, entries, from_fn};
 
 /// Dense output of one step: a continuous function of time, equal to the states at both ends.
 ///
 /// An interpolant contains the start time and the length of its step.
-pub trait Interpolant<T, const N: usize> {
+pub trait Interpolant<T: Element, N: Length> {
     /// Returns the phase at a time within the step, with a velocity there or nearby.
     fn at(&self, t: T) -> StagePoint<T, N>;
 }
@@ -43,19 +42,19 @@ impl<T, C> Polynomial<T, C> {
 }
 
 /// The phase and its rate at one end of a step.
-pub type HermiteNode<T, const N: usize> = (PhaseVector<T, N>, PhaseVector<T, N>);
+pub type HermiteNode<T, N> = (PhaseVector<T, N>, PhaseVector<T, N>);
 
 /// Writes the four coefficients of the cubic Hermite interpolant over a step of `length`, from the phase and
 /// its rate at both ends.
 #[inline]
-pub(crate) fn hermite<T: Scalar, const N: usize>(
+pub(crate) fn hermite<T: Scalar, N: Length>(
     length: T,
     (start, first): (&PhaseVector<T, N>, &PhaseVector<T, N>),
     (end, last): (&PhaseVector<T, N>, &PhaseVector<T, N>),
     coefficients: &mut [PhaseVector<T, N>],
 ) {
     for half in 0..2 {
-        for i in 0..N {
+        for i in 0..N::COUNT {
             let rise = end[half][i] - start[half][i];
             let bend = length * first[half][i] - rise;
             let entries = [start[half][i], rise, bend, rise - length * last[half][i] - bend];
@@ -66,16 +65,16 @@ pub(crate) fn hermite<T: Scalar, const N: usize>(
     }
 }
 
-impl<T: Real, const N: usize> Polynomial<T, [PhaseVector<T, N>; 4]> {
+impl<T: Real, N: Length> Polynomial<T, [PhaseVector<T, N>; 4]> {
     /// Cubic Hermite interpolant of a step, with an error of fourth order.
     pub fn hermite(start: T, length: T, first: &HermiteNode<T, N>, last: &HermiteNode<T, N>) -> Self {
-        let mut coefficients = [[[T::constant(0.0); N]; 2]; 4];
+        let mut coefficients = [PhaseVector::filled(T::constant(0.0)); 4];
         hermite(length, (&first.0, &first.1), (&last.0, &last.1), &mut coefficients);
         Self::new(start, length, coefficients)
     }
 }
 
-impl<T: Real, const N: usize, C: AsRef<[PhaseVector<T, N>]>> Interpolant<T, N> for Polynomial<T, C> {
+impl<T: Real, N: Length, C: AsRef<[PhaseVector<T, N>]>> Interpolant<T, N> for Polynomial<T, C> {
     // Inlined, so that an unused velocity is not computed.
     #[inline(always)]
     fn at(&self, t: T) -> StagePoint<T, N> {
@@ -86,12 +85,12 @@ impl<T: Real, const N: usize, C: AsRef<[PhaseVector<T, N>]>> Interpolant<T, N> f
 
 /// Returns the polynomial at θ, and the derivative of its first half by θ.
 #[inline(always)]
-pub(crate) fn evaluate<T: Scalar, const N: usize>(
+pub(crate) fn evaluate<T: Scalar, N: Length>(
     coefficients: &[PhaseVector<T, N>],
     theta: T,
-) -> (PhaseVector<T, N>, [T; N]) {
+) -> (PhaseVector<T, N>, Array<T, N>) {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
-    let (mut sum, mut slope) = ([[zero; N]; 2], [zero; N]);
+    let (mut sum, mut slope) = (PhaseVector::filled(zero), Array::filled(zero));
     for (k, r) in coefficients.iter().enumerate().rev() {
         let (factor, sign) = if k % 2 == 0 { (theta, one) } else { (one - theta, -one) };
         slope = entries(|i| factor.multiply_add(slope[i], sign * sum[0][i]));

@@ -8,13 +8,10 @@
 #[cfg(test)]
 mod tests;
 
-use core::array::from_fn;
-
-use nalgebra::SVector;
-
 use super::consistent::level::Level;
-use crate::number::{Real, Scalar, sum, vector};
-use crate::system::{Lagrangian, Solution, State};
+use crate::number::{Real, Scalar, sum};
+use crate::system::{Lagrangian, SolutionOf, State, StateOf};
+use crate::vector::{Array, Entrywise, Length, Vector, from_fn, vector};
 
 /// Strategy of the corrections: when and how often to correct, and whether velocities follow the coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +36,7 @@ impl<T: Scalar> Corrections<T> {
 
     /// Tells, lane by lane, whether a correction is needed: zero if not.
     #[inline(always)]
-    fn wanted<const M: usize>(self, residual: &SVector<T, M>, size: &SVector<T, M>, epsilon: f64) -> T {
+    fn wanted<M: Length>(self, residual: &Vector<T, M>, size: &Vector<T, M>, epsilon: f64) -> T {
         match self {
             Self::ToRoundOff => excess(residual, size, 4.0 * epsilon),
             Self::OnceAfter(_) => T::constant(1.0),
@@ -54,21 +51,21 @@ impl<T: Scalar> Corrections<T> {
 /// corrections before rounding: most corrections are below a unit of round-off, and alone they would be rounded
 /// to one side more often than to the other.
 #[inline]
-pub(crate) fn project<L, R, const N: usize, const M: usize>(
+pub(crate) fn project<L, R>(
     system: &L,
     levels: &[Level],
     corrections: Corrections<L::Scalar>,
-    mut state: State<L::Scalar, N>,
-    rest: &mut [[L::Scalar; N]; 2],
-) -> (State<L::Scalar, N>, L::Scalar)
+    mut state: StateOf<L>,
+    rest: &mut [Array<L::Scalar, L::N>; 2],
+) -> (StateOf<L>, L::Scalar)
 where
-    L: Lagrangian<N, M>,
+    L: Lagrangian,
     R: Real,
 {
     let zero = L::Scalar::constant(0.0);
     let (factor, mut doubt) = (system.factor(&state), zero);
-    let mut follow = vector([zero; N]);
-    for &level in levels.iter().filter(|level| level.concerns::<L, N, M>()) {
+    let mut follow = vector(Array::filled(zero));
+    for &level in levels.iter().filter(|level| level.concerns::<L>()) {
         let size = level.magnitude(system, &state);
         let mut rounds = 0..corrections.most();
         // Evaluated in one place, since it is inlined.
@@ -81,12 +78,12 @@ where
             // An unreliable factorization gives NaN, and so does the residual after it.
             let correction = system.solve_with(&factor, &follow, &residual);
             if let (Level::Position, Corrections::OnceAfter(step)) = (level, corrections) {
-                follow = following::<L, R, N, M>(system, &state, &correction, step);
+                follow = following::<L, R>(system, &state, &correction, step);
             }
             // A lane that has converged keeps its state while other lanes continue.
             let (unknowns, rest) = (level.unknowns(&mut state), &mut rest[level as usize]);
-            let x: [_; N] = (*unknowns).into();
-            let moved: [_; N] = from_fn(|i| exact_sum(x[i], correction.accelerations[i] + rest[i]));
+            let x: Array<_, L::N> = (*unknowns).into();
+            let moved: Array<_, L::N> = from_fn(|i| exact_sum(x[i], correction.accelerations[i] + rest[i]));
             let chosen = |x: L::Scalar, moved| wanted.select_by_order(zero, x, x, moved);
             *unknowns = vector(from_fn(|i| chosen(x[i], moved[i][0])));
             *rest = from_fn(|i| chosen(rest[i], moved[i][1]));
@@ -112,32 +109,32 @@ where
 /// a 16th of the size of the coordinates. Angular rates are at most about 3 per step, so the relative change of
 /// the velocities is at most 50 times that of the coordinates.
 #[inline(always)]
-fn following<L, R, const N: usize, const M: usize>(
+fn following<L, R>(
     system: &L,
-    state: &State<L::Scalar, N>,
-    correction: &Solution<L::Scalar, N, M>,
+    state: &StateOf<L>,
+    correction: &SolutionOf<L>,
     step: L::Scalar,
-) -> SVector<L::Scalar, N>
+) -> Vector<L::Scalar, L::N>
 where
-    L: Lagrangian<N, M>,
+    L: Lagrangian,
     R: Real,
 {
     let number = L::Scalar::constant;
-    let size = |x: &SVector<L::Scalar, N>| x.iter().fold(number(0.0), |most, x| most.max(x.abs()));
+    let size = |x: &Vector<L::Scalar, L::N>| x.iter().fold(number(0.0), |most, x| most.max(x.abs()));
     let (State { t, q, v }, part) = (state, step * number(1.0 / 1024.0));
     // Scales a unit of round-off to 1/64, so that little is rounded off: the result is linear in the
     // correction.
     let scale = 1.0 / (64.0 * R::EPSILON);
-    let w = correction.accelerations.map(|w| w * number(scale));
-    let multipliers = correction.multipliers.map(|mu| mu * number(scale));
-    let there = |v| State { t: *t + part, q: q.zip_map(&state.v, |q, v| q + v * part), v };
-    let at_rest = vector([number(0.0); N]);
-    let back_a_part = w.map(|w| -w * part);
-    let slower = v.zip_map(&back_a_part, |v, change| v + change);
+    let w = correction.accelerations.each(|w| w * number(scale));
+    let multipliers = correction.multipliers.each(|mu| mu * number(scale));
+    let there = |v| State { t: *t + part, q: q.each_with(&state.v, |q, v| q + v * part), v };
+    let at_rest = vector(Array::filled(number(0.0)));
+    let back_a_part = w.each(|w| -w * part);
+    let slower = v.each_with(&back_a_part, |v, change| v + change);
     let forces = |v, w: &_, multipliers: &_| system.inverse_dynamics(&there(v), w, multipliers);
     let with = forces(slower, &w, &multipliers);
     let [without, of_change, of_none] =
-        [*v, back_a_part, at_rest].map(|v| forces(v, &at_rest, &vector([number(0.0); M])));
+        [*v, back_a_part, at_rest].map(|v| forces(v, &at_rest, &vector(Array::filled(number(0.0)))));
     let (coordinates, way) = (size(q), step.abs() * size(v));
     let back = number(1.0 / scale) / part;
     let back = size(&w).select_by_order((coordinates + way) * number(16.0), back, back, number(0.0));
@@ -158,8 +155,8 @@ pub(crate) fn exact_sum<T: Scalar>(x: T, y: T) -> [T; 2] {
 
 /// Counts the entries above `part` of their size; NaN if an entry is NaN.
 #[inline]
-fn excess<T: Scalar, const M: usize>(x: &SVector<T, M>, size: &SVector<T, M>, part: f64) -> T {
+fn excess<T: Scalar, M: Length>(x: &Vector<T, M>, size: &Vector<T, M>, part: f64) -> T {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let excess = |x: T, size: T| x.abs().select_by_order(size * T::constant(part), zero, zero, one);
-    sum(M, |a| excess(x[a], size[a]))
+    sum(M::COUNT, |a| excess(x[a], size[a]))
 }

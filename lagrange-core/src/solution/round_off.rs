@@ -2,6 +2,7 @@
 
 use crate::number::Real;
 use crate::system::State;
+use crate::vector::{Entrywise, Length};
 
 /// Number of nearby states that are compared.
 const NEIGHBOURS: u64 = 8;
@@ -15,7 +16,7 @@ pub(crate) const SAFETY: f64 = 16.0;
 
 /// Returns eight states in which the time and each entry are changed by ±`part` of themselves, with random
 /// signs.
-pub(crate) fn neighbours<T: Real, const N: usize>(
+pub(crate) fn neighbours<T: Real, N: Length>(
     state: &State<T, N>,
     part: f64,
 ) -> impl Iterator<Item = State<T, N>> {
@@ -27,6 +28,6 @@ pub(crate) fn neighbours<T: Real, const N: usize>(
                 (bits ^ (bits >> 30)).wrapping_add(0x9e37_79b9_7f4a_7c15).wrapping_mul(0xbf58_476d_1ce4_e5b9);
             x + x * T::constant(if bits >> 63 == 0 { part } else { -part })
         };
-        State { t: moved(state.t), q: state.q.map(&mut moved), v: state.v.map(&mut moved) }
+        State { t: moved(state.t), q: state.q.each(&mut moved), v: state.v.each(&mut moved) }
     })
 }

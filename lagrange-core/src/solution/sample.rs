@@ -10,7 +10,7 @@ use crate::number::Real;
 use crate::solution::solve::solve;
 #[cfg(feature = "alloc")]
 use crate::system::lookup::{index, unknown};
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::{Lagrangian, SolutionOf, State, StateOf};
 
 /// A state of a system with derived quantities: accelerations, multipliers, energy, observables.
 ///
@@ -20,26 +20,26 @@ use crate::system::{Lagrangian, Solution, State};
 /// The sample holds the system `S` in the same way as its trajectory: borrowed, or as a copy. For a system in
 /// an `Arc` or an `Rc`, only the pointer is copied.
 #[derive(Clone, Copy)]
-pub struct Sample<S: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub struct Sample<S: Lagrangian> {
     pub(crate) system: S,
-    pub(crate) state: State<S::Scalar, N>,
+    pub(crate) state: StateOf<S>,
 }
 
-impl<L: Lagrangian<N, M> + Clone, const N: usize, const M: usize> Sample<&L, N, M> {
+impl<L: Lagrangian + Clone> Sample<&L> {
     /// Returns the sample with its own copy of the system; the original may then change or be dropped.
-    pub fn into_owned(self) -> Sample<L, N, M> {
+    pub fn into_owned(self) -> Sample<L> {
         Sample { system: self.system.clone(), state: self.state }
     }
 }
 
-impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S, N, M> {
+impl<S: Lagrangian<Scalar: Real>> Sample<S> {
     /// Returns the system.
     pub fn system(&self) -> &S {
         &self.system
     }
 
     /// Returns time, coordinates and velocities.
-    pub fn state(&self) -> &State<S::Scalar, N> {
+    pub fn state(&self) -> &StateOf<S> {
         &self.state
     }
 
@@ -52,7 +52,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
     ///
     /// # Errors
     /// Those of [`Simulate::solve`](crate::Simulate::solve).
-    pub fn solution(&self) -> Result<Solution<S::Scalar, N, M>, Error> {
+    pub fn solution(&self) -> Result<SolutionOf<S>, Error> {
         solve(&self.system, &self.state)
     }
 
@@ -64,13 +64,13 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
 
 /// Lookup by name.
 #[cfg(feature = "alloc")]
-impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S, N, M> {
+impl<S: Lagrangian<Scalar: Real>> Sample<S> {
     /// Returns the generalized coordinate of this name.
     ///
     /// # Errors
     /// [`Error::UnknownName`].
     pub fn coordinate(&self, name: &str) -> Result<S::Scalar, Error> {
-        Ok(self.state.q[coordinate::<S, N, M>(name)?])
+        Ok(self.state.q[coordinate::<S>(name)?])
     }
 
     /// Returns the generalized velocity of the coordinate of this name.
@@ -78,7 +78,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
     /// # Errors
     /// [`Error::UnknownName`].
     pub fn velocity(&self, name: &str) -> Result<S::Scalar, Error> {
-        Ok(self.state.v[coordinate::<S, N, M>(name)?])
+        Ok(self.state.v[coordinate::<S>(name)?])
     }
 
     /// Returns the generalized momentum ∂L/∂q̇ of the coordinate of this name.
@@ -86,7 +86,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
     /// # Errors
     /// [`Error::UnknownName`].
     pub fn momentum(&self, name: &str) -> Result<S::Scalar, Error> {
-        Ok(self.system.momentum(&self.state)[coordinate::<S, N, M>(name)?])
+        Ok(self.system.momentum(&self.state)[coordinate::<S>(name)?])
     }
 
     /// Returns the generalized acceleration of the coordinate of this name.
@@ -94,17 +94,17 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
     pub fn acceleration(&self, name: &str) -> Result<S::Scalar, Error> {
-        let index = coordinate::<S, N, M>(name)?;
+        let index = coordinate::<S>(name)?;
         Ok(self.solution()?.accelerations[index])
     }
 
     /// Returns the multiplier λ of the constraint of this name. If constraints depend on one another, as
-    /// [`Solution::multipliers_are_unique`] tells, the multipliers are those of least Euclidean norm.
+    /// [`Solution::multipliers_are_unique`](crate::Solution::multipliers_are_unique) tells, the multipliers are those of least Euclidean norm.
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
     pub fn multiplier(&self, name: &str) -> Result<S::Scalar, Error> {
-        let index = index::<S, N, M>(&S::CONSTRAINTS, "constraint", name)?;
+        let index = index::<S>(S::CONSTRAINTS, "constraint", name)?;
         Ok(self.solution()?.multipliers[index])
     }
 
@@ -113,7 +113,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
     pub fn constraint_force(&self, name: &str) -> Result<S::Scalar, Error> {
-        let index = coordinate::<S, N, M>(name)?;
+        let index = coordinate::<S>(name)?;
         Ok(self.system.constraint_force(&self.state, &self.solution()?.multipliers)[index])
     }
 
@@ -122,9 +122,9 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
     pub fn observable(&self, name: &str) -> Result<S::Scalar, Error> {
-        let index = index::<S, N, M>(S::OBSERVABLES, "observable", name)?;
+        let index = index::<S>(S::OBSERVABLES, "observable", name)?;
         let value = self.system.observable(index, &self.state, &self.solution()?);
-        value.ok_or_else(|| unknown::<S, N, M>(S::OBSERVABLES, "observable", name))
+        value.ok_or_else(|| unknown::<S>(S::OBSERVABLES, "observable", name))
     }
 
     /// Returns the conserved quantity of this name: `p_phi`, `energy`, or one given in `#[conserved(…)]`.
@@ -133,27 +133,30 @@ impl<S: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Sample<S
     /// [`Error::UnknownName`].
     pub fn conserved(&self, name: &str) -> Result<S::Scalar, Error> {
         let names: Vec<&'static str> = S::FACTS.conserved.iter().map(|conserved| conserved.name).collect();
-        let index = index::<S, N, M>(&names, "conserved quantity", name)?;
+        let index = index::<S>(&names, "conserved quantity", name)?;
         self.system
             .conserved(index, &self.state)
-            .ok_or_else(|| unknown::<S, N, M>(&names, "conserved quantity", name))
+            .ok_or_else(|| unknown::<S>(&names, "conserved quantity", name))
     }
 }
 
 #[cfg(feature = "alloc")]
-fn coordinate<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> Result<usize, Error> {
-    index::<L, N, M>(&L::COORDINATES, "coordinate", name)
+fn coordinate<L: Lagrangian>(name: &str) -> Result<usize, Error> {
+    index::<L>(L::COORDINATES, "coordinate", name)
 }
 
 /// Formats a sample as `t = 1.0: theta = 0.1, theta_dot = -2e-17`. Format options apply to each number:
 /// `{sample:.3}`.
-impl<S: Lagrangian<N, M>, const N: usize, const M: usize> Display for Sample<S, N, M> {
+impl<S: Lagrangian> Display for Sample<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let State { t, q, v } = &self.state;
         write!(f, "{} = ", Entry::Time)?;
         Debug::fmt(t, f)?;
-        let names =
-            S::COORDINATES.map(Entry::Coordinate).into_iter().chain(S::COORDINATES.map(Entry::Velocity));
+        let names = S::COORDINATES
+            .iter()
+            .copied()
+            .map(Entry::Coordinate)
+            .chain(S::COORDINATES.iter().copied().map(Entry::Velocity));
         for (i, (name, number)) in names.zip(q.iter().chain(v)).enumerate() {
             write!(f, "{} {name} = ", if i == 0 { ':' } else { ',' })?;
             Debug::fmt(number, f)?;
@@ -162,7 +165,7 @@ impl<S: Lagrangian<N, M>, const N: usize, const M: usize> Display for Sample<S, 
     }
 }
 
-impl<S: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Sample<S, N, M> {
+impl<S: Lagrangian> Debug for Sample<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Sample").field("system", &S::NAME).field("state", &self.state).finish()
     }

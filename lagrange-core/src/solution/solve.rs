@@ -1,7 +1,7 @@
 //! Accelerations and multipliers at a state, by the fast elimination if it is reliable, else by the general
 //! solver.
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use crate::error::Error;
 use crate::names::{Names, Row, name};
@@ -10,21 +10,22 @@ use crate::solution::consistent::{dependence, gradient};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
 use crate::solution::pivot::is_trustworthy;
 use crate::system::finite::check_finite;
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::{Lagrangian, Solution, SolutionOf, StateOf};
+use crate::vector::{Array, Length, Vector, rows};
 
 /// Implements [`Simulate::solve`](crate::Simulate::solve).
 #[inline]
-pub(crate) fn solve<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(crate) fn solve<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<Solution<L::Scalar, N, M>, Error> {
+    state: &StateOf<L>,
+) -> Result<SolutionOf<L>, Error> {
     check_finite(system, state)?;
     let solution = solve_near(system, state, None, |solution, _| *solution)?;
     if !solution.multipliers_are_unique() {
         gradient::check(system, state)?;
     }
     let is_independent = solution.multipliers_are_unique() && solution.pivot > dependence::least_pivot();
-    if const { M > 0 } && !is_independent {
+    if const { <L::M>::COUNT > 0 } && !is_independent {
         dependence::check(system, state)?;
     }
     Ok(solution)
@@ -37,20 +38,20 @@ pub(crate) fn solve<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
 /// only these. Off the constraints, by the error of a stage, the others may look independent too, but they
 /// demand only that error.
 #[inline(always)]
-pub(crate) fn solve_near<L: Lagrangian<N, M, Scalar: Real>, R, const N: usize, const M: usize>(
+pub(crate) fn solve_near<L: Lagrangian<Scalar: Real>, R>(
     system: &L,
-    state: &State<L::Scalar, N>,
-    active: Option<&[bool; M]>,
-    read: impl FnOnce(&Solution<L::Scalar, N, M>, &[bool; M]) -> R,
+    state: &StateOf<L>,
+    active: Option<&Array<bool, L::M>>,
+    read: impl FnOnce(&SolutionOf<L>, &Array<bool, L::M>) -> R,
 ) -> Result<R, Error> {
     let (active, rank) = match active {
         Some(active) if active.contains(&false) => (active, Rank::off_constraints()),
         _ => {
             let solution = system.accelerations_unchecked(state);
             if is_trustworthy(&solution) {
-                return Ok(read(&solution, &[true; M]));
+                return Ok(read(&solution, &Array::filled(true)));
             }
-            (&[true; M], Rank::on_constraints())
+            (&Array::filled(true), Rank::on_constraints())
         }
     };
     let forces = (system.forcing(state), system.constraint_bias(state));
@@ -61,66 +62,69 @@ pub(crate) fn solve_near<L: Lagrangian<N, M, Scalar: Real>, R, const N: usize, c
 /// Solves M x = h + Fᵀλ and F x + γ = 0 with M and F of a state by the general solver. Also returns which of
 /// the `active` constraints determine the solution.
 #[cold]
-pub(super) fn solve_in_general<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(super) fn solve_in_general<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    state: &State<L::Scalar, N>,
-    (h, gamma): (SVector<L::Scalar, N>, SVector<L::Scalar, M>),
-    active: &[bool; M],
+    state: &StateOf<L>,
+    (h, gamma): (Vector<L::Scalar, L::N>, Vector<L::Scalar, L::M>),
+    active: &Array<bool, L::M>,
     rank: Rank<L::Scalar>,
-) -> Result<Solved<L::Scalar, N, M>, Error> {
-    let (m, f) = (system.mass_matrix(state).into(), system.constraint_jacobian(state).transpose().into());
+) -> Result<Solved<L::Scalar, L::N, L::M>, Error> {
+    let (m, f) = (system.mass_matrix(state).into(), rows(&system.constraint_jacobian(state)));
     let mut equations = KktSystem { m, h: h.into(), f, gamma: gamma.into() };
     let time = state.t.to_f64();
-    if let Some(row) = not_finite::<L, N, M>(&equations) {
+    if let Some(row) = not_finite::<L>(&equations) {
         return Err(Error::EquationsNotFinite { row, time });
     }
-    for a in (0..M).filter(|&a| !active[a]) {
-        (equations.f[a], equations.gamma[a]) = ([L::Scalar::constant(0.0); N], L::Scalar::constant(0.0));
+    for a in (0..<L::M>::COUNT).filter(|&a| !active[a]) {
+        (equations.f[a], equations.gamma[a]) =
+            (Array::filled(L::Scalar::constant(0.0)), L::Scalar::constant(0.0));
     }
-    let solved = kkt::solve(&equations, rank).map_err(|found| fault::<L, N, M>(&found, time))?;
+    let solved = kkt::solve(&equations, rank).map_err(|found| fault::<L>(&found, time))?;
     let Solution { accelerations, multipliers, .. } = &solved.0;
-    match first_row::<L, N, M>(|i| !accelerations[i].is_finite(), |a| !multipliers[a].is_finite()) {
+    match first_row::<L>(|i| !accelerations[i].is_finite(), |a| !multipliers[a].is_finite()) {
         None => Ok(solved),
         Some(row) => Err(Error::EquationsNotFinite { row, time }),
     }
 }
 
 /// Converts a fault of the general solver to an error with names.
-pub(crate) fn fault<L, const N: usize, const M: usize>(fault: &Fault<L::Scalar, N>, time: f64) -> Error
+pub(crate) fn fault<L>(fault: &Fault<L::Scalar, L::N>, time: f64) -> Error
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
     match fault {
-        Fault::Singular(share) => Error::Singular { coordinates: most_involved::<L, N, M>(share), time },
-        Fault::Contradictory(row) => Error::Contradictory { constraint: name(&L::CONSTRAINTS, *row), time },
+        Fault::Singular(share) => Error::Singular { coordinates: most_involved::<L>(share), time },
+        Fault::Contradictory(row) => Error::Contradictory { constraint: name(L::CONSTRAINTS, *row), time },
     }
 }
 
 /// Returns the first row that is not finite.
-pub(crate) fn not_finite<L, const N: usize, const M: usize>(e: &KktSystem<L::Scalar, N, M>) -> Option<Row>
+pub(crate) fn not_finite<L>(e: &KktSystem<L::Scalar, L::N, L::M>) -> Option<Row>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
-    let finite = |row: &[L::Scalar; N], rhs: L::Scalar| row.iter().all(|x| x.is_finite()) && rhs.is_finite();
-    first_row::<L, N, M>(|i| !finite(&e.m[i], e.h[i]), |a| !finite(&e.f[a], e.gamma[a]))
+    let finite =
+        |row: &Array<L::Scalar, L::N>, rhs: L::Scalar| row.iter().all(|x| x.is_finite()) && rhs.is_finite();
+    first_row::<L>(|i| !finite(&e.m[i], e.h[i]), |a| !finite(&e.f[a], e.gamma[a]))
 }
 
 /// Returns the first coordinate, or else the first constraint, that satisfies its predicate.
-pub(crate) fn first_row<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+pub(crate) fn first_row<L: Lagrangian>(
     coordinate: impl Fn(usize) -> bool,
     constraint: impl Fn(usize) -> bool,
 ) -> Option<Row> {
-    let coordinate = (0..N).find(|&i| coordinate(i)).map(|i| Row::Coordinate(L::COORDINATES[i]));
-    let constraint = || (0..M).find(|&a| constraint(a)).map(|a| Row::Constraint(L::CONSTRAINTS[a]));
+    let coordinate = (0..<L::N>::COUNT).find(|&i| coordinate(i)).map(|i| Row::Coordinate(L::COORDINATES[i]));
+    let constraint =
+        || (0..<L::M>::COUNT).find(|&a| constraint(a)).map(|a| Row::Constraint(L::CONSTRAINTS[a]));
     coordinate.or_else(constraint)
 }
 
 /// Returns the coordinates whose share in the undetermined motions is at least a tenth of the largest.
-fn most_involved<L, const N: usize, const M: usize>(share: &[L::Scalar; N]) -> Names
+fn most_involved<L>(share: &Array<L::Scalar, L::N>) -> Names
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
     let largest = share.iter().copied().fold(L::Scalar::constant(0.0), larger);
     let least = largest * L::Scalar::constant(0.1);
-    (0..N).filter(|&i| share[i] >= least).map(|i| L::COORDINATES[i]).collect()
+    (0..<L::N>::COUNT).filter(|&i| share[i] >= least).map(|i| L::COORDINATES[i]).collect()
 }

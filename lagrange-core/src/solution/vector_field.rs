@@ -4,20 +4,18 @@ use super::consistent::{BOTH, project};
 use super::solve::solve_near;
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Real, vector};
-use crate::system::{Lagrangian, State};
-
-/// Coordinates and velocities, or coordinates and momenta, as arrays: the unknowns of a one-step method.
-pub type PhaseVector<T, const N: usize> = [[T; N]; 2];
+use crate::number::Real;
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Element, Length, PhaseVector, array, vector};
 
 /// First-order equations of motion for a [`PhaseVector`], whose first half is q.
-pub trait VectorField<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> {
+pub trait VectorField<L: Lagrangian<Scalar: Real>> {
     /// True if the second half of a phase is the velocity, so that a state is known without evaluating its
     /// rates.
     const HOLDS_VELOCITY: bool;
 
     /// Returns the phase of a state.
-    fn phase(system: &L, state: &State<L::Scalar, N>) -> PhaseVector<L::Scalar, N>;
+    fn phase(system: &L, state: &StateOf<L>) -> PhaseVector<L::Scalar, L::N>;
 
     /// Writes the rates at `point` to `rates`. `active` marks the constraints to use; for `None` an independent
     /// set is chosen.
@@ -26,20 +24,20 @@ pub trait VectorField<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
     /// Those of [`Simulate::solve`](crate::Simulate::solve), and of the search for the velocity.
     fn evaluate(
         system: &L,
-        point: &StagePoint<L::Scalar, N>,
-        active: Option<&[bool; M]>,
-        rates: &mut PhaseVector<L::Scalar, N>,
-    ) -> Result<ActiveConstraints<M>, Error>;
+        point: &StagePoint<L::Scalar, L::N>,
+        active: Option<&Array<bool, L::M>>,
+        rates: &mut PhaseVector<L::Scalar, L::N>,
+    ) -> Result<ActiveConstraints<L::M>, Error>;
 
     /// Returns the state at `point`. If the search for its velocity fails, uses the initial guess `point.velocity`.
-    fn state(system: &L, point: &StagePoint<L::Scalar, N>) -> State<L::Scalar, N>;
+    fn state(system: &L, point: &StagePoint<L::Scalar, L::N>) -> StateOf<L>;
 
     /// Returns the nearest state on the constraints.
     ///
     /// # Errors
     /// Those of [`Simulate::make_consistent`](crate::Simulate::make_consistent), and of the search for the
     /// velocity.
-    fn project(system: &L, point: &StagePoint<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error>;
+    fn project(system: &L, point: &StagePoint<L::Scalar, L::N>) -> Result<StateOf<L>, Error>;
 
     /// Returns the entry in the second half of the phase that belongs to a coordinate.
     fn entry(coordinate: &'static str) -> Entry;
@@ -47,20 +45,20 @@ pub trait VectorField<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M
 
 /// A time and a point of the phase space, as at a stage of a method.
 #[derive(Clone, Copy, Debug)]
-pub struct StagePoint<T, const N: usize> {
+pub struct StagePoint<T: Element, N: Length> {
     /// Time.
     pub t: T,
     /// Point of the phase space.
     pub y: PhaseVector<T, N>,
     /// A nearby velocity, the initial guess of the search for the velocity that belongs to the momenta.
-    pub velocity: [T; N],
+    pub velocity: Array<T, N>,
 }
 
 /// The constraints that determine the rates of a phase.
 #[derive(Clone, Copy, Debug)]
-pub struct ActiveConstraints<const M: usize> {
+pub struct ActiveConstraints<M: Length> {
     /// True for each constraint that determines the rates.
-    pub active: [bool; M],
+    pub active: Array<bool, M>,
     /// True if the constraints are independent.
     pub multipliers_are_unique: bool,
 }
@@ -69,14 +67,12 @@ pub struct ActiveConstraints<const M: usize> {
 #[derive(Clone, Copy, Debug)]
 pub struct LagrangianVectorField;
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> VectorField<L, N, M>
-    for LagrangianVectorField
-{
+impl<L: Lagrangian<Scalar: Real>> VectorField<L> for LagrangianVectorField {
     const HOLDS_VELOCITY: bool = true;
 
     #[inline]
-    fn phase(_: &L, state: &State<L::Scalar, N>) -> PhaseVector<L::Scalar, N> {
-        [state.q.into(), state.v.into()]
+    fn phase(_: &L, state: &StateOf<L>) -> PhaseVector<L::Scalar, L::N> {
+        PhaseVector::<_, L::N>::of(state.q, state.v)
     }
 
     // Always inlined: otherwise every stage would copy the returned value and the result moved out of the
@@ -84,24 +80,24 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> VectorFi
     #[inline(always)]
     fn evaluate(
         system: &L,
-        point: &StagePoint<L::Scalar, N>,
-        active: Option<&[bool; M]>,
-        rates: &mut PhaseVector<L::Scalar, N>,
-    ) -> Result<ActiveConstraints<M>, Error> {
-        rates[0] = point.y[1];
+        point: &StagePoint<L::Scalar, L::N>,
+        active: Option<&Array<bool, L::M>>,
+        rates: &mut PhaseVector<L::Scalar, L::N>,
+    ) -> Result<ActiveConstraints<L::M>, Error> {
+        rates.set(0, point.y.half(1));
         solve_near(system, &Self::state(system, point), active, |solution, &active| {
-            rates[1] = solution.accelerations.data.0[0];
+            rates.set(1, array(solution.accelerations));
             ActiveConstraints { active, multipliers_are_unique: solution.multipliers_are_unique() }
         })
     }
 
     #[inline]
-    fn state(_: &L, point: &StagePoint<L::Scalar, N>) -> State<L::Scalar, N> {
-        State { t: point.t, q: vector(point.y[0]), v: vector(point.y[1]) }
+    fn state(_: &L, point: &StagePoint<L::Scalar, L::N>) -> StateOf<L> {
+        State { t: point.t, q: vector(point.y.half(0)), v: vector(point.y.half(1)) }
     }
 
     #[inline]
-    fn project(system: &L, point: &StagePoint<L::Scalar, N>) -> Result<State<L::Scalar, N>, Error> {
+    fn project(system: &L, point: &StagePoint<L::Scalar, L::N>) -> Result<StateOf<L>, Error> {
         let mut state = Self::state(system, point);
         project(system, &BOTH, &mut state)?;
         Ok(state)

@@ -1,25 +1,24 @@
 //! Directions in (t, q, q̇), and derivatives of the equations along them.
 
-use nalgebra::SVector;
-
-use crate::number::{Scalar, Wide, vector};
+use crate::number::{Scalar, Wide};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, vector};
 
 /// Direction of differentiation: rate of change of the time and of each entry of the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Direction<T, const N: usize> {
+pub struct Direction<T: Element, N: Length> {
     /// Rate of the time.
     pub t: T,
     /// Rates of the coordinates.
-    pub q: SVector<T, N>,
+    pub q: Vector<T, N>,
     /// Rates of the velocities.
-    pub v: SVector<T, N>,
+    pub v: Vector<T, N>,
 }
 
-impl<T: Scalar, const N: usize> Direction<T, N> {
+impl<T: Scalar, N: Length> Direction<T, N> {
     /// The zero direction.
     pub fn zero() -> Self {
         let zero = T::constant(0.0);
-        Self { t: zero, q: vector([zero; N]), v: vector([zero; N]) }
+        Self { t: zero, q: vector(Array::filled(zero)), v: vector(Array::filled(zero)) }
     }
 
     /// Direction in which the time alone changes, at rate 1.
@@ -39,47 +38,47 @@ impl<T: Scalar, const N: usize> Direction<T, N> {
 }
 
 /// Returns unit vector `i`, or zero for `i` ≥ `K`.
-pub(crate) fn unit<T: Scalar, const K: usize>(i: usize) -> SVector<T, K> {
-    vector(core::array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 })))
+pub(crate) fn unit<T: Scalar, K: Length>(i: usize) -> Vector<T, K> {
+    vector(Array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 })))
 }
 
 /// Derivatives of the residuals of the equations of motion along a direction, at fixed accelerations and
 /// multipliers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ResidualChange<T, const N: usize, const M: usize> {
+pub struct ResidualChange<T: Element, N: Length, M: Length> {
     /// Derivative of M q̈ − h − Fᵀλ.
-    pub motion: SVector<T, N>,
+    pub motion: Vector<T, N>,
     /// Derivative of F q̈ + γ.
-    pub acceleration: SVector<T, M>,
+    pub acceleration: Vector<T, M>,
     /// Derivative of F q̇ + b.
-    pub rate: SVector<T, M>,
+    pub rate: Vector<T, M>,
     /// Derivative of Φ; zero for velocity constraints.
-    pub position: SVector<T, M>,
+    pub position: Vector<T, M>,
 }
 
-impl<T: Scalar, const N: usize, const M: usize> ResidualChange<T, N, M> {
+impl<T: Scalar, N: Length, M: Length> ResidualChange<T, N, M> {
     /// Returns the sum of two derivatives.
     #[cfg(feature = "alloc")]
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
-            motion: self.motion.zip_map(&other.motion, |x, y| x + y),
-            acceleration: self.acceleration.zip_map(&other.acceleration, |x, y| x + y),
-            rate: self.rate.zip_map(&other.rate, |x, y| x + y),
-            position: self.position.zip_map(&other.position, |x, y| x + y),
+            motion: self.motion.each_with(&other.motion, |x, y| x + y),
+            acceleration: self.acceleration.each_with(&other.acceleration, |x, y| x + y),
+            rate: self.rate.each_with(&other.rate, |x, y| x + y),
+            position: self.position.each_with(&other.position, |x, y| x + y),
         }
     }
 
     /// Returns the derivatives in one SIMD lane.
-    pub(crate) fn lane<X: nalgebra::Scalar>(&self, lane: usize) -> ResidualChange<X, N, M>
+    pub(crate) fn lane<X: Element>(&self, lane: usize) -> ResidualChange<X, N, M>
     where
         T: Wide<X>,
     {
         let Self { motion, acceleration, rate, position } = self;
         ResidualChange {
-            motion: motion.map(|x| x.lane(lane)),
-            acceleration: acceleration.map(|x| x.lane(lane)),
-            rate: rate.map(|x| x.lane(lane)),
-            position: position.map(|x| x.lane(lane)),
+            motion: motion.each(|x| x.lane(lane)),
+            acceleration: acceleration.each(|x| x.lane(lane)),
+            rate: rate.each(|x| x.lane(lane)),
+            position: position.each(|x| x.lane(lane)),
         }
     }
 }

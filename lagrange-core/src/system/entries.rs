@@ -1,6 +1,6 @@
 //! Conversion of arrays and vectors to the entries of a state.
 
-use nalgebra::SVector;
+use crate::vector::{Element, Length, Vector};
 
 /// Coordinates, velocities or momenta of a state: an array, or any type that converts to a vector of
 /// `nalgebra`.
@@ -9,14 +9,14 @@ use nalgebra::SVector;
     label = "not {N} numbers `{T}`",
     note = "write an array with an entry for each coordinate, and whole numbers with a point: `[1.0, 0.0]`"
 )]
-pub trait Entries<T, const N: usize> {
+pub trait Entries<T: Element, N: Length> {
     /// Converts the entries to a vector.
-    fn into_vector(self) -> SVector<T, N>;
+    fn into_vector(self) -> Vector<T, N>;
 }
 
 #[diagnostic::do_not_recommend]
-impl<T, V: Into<SVector<T, N>>, const N: usize> Entries<T, N> for V {
-    fn into_vector(self) -> SVector<T, N> {
+impl<T: Element, V: Into<Vector<T, N>>, N: Length> Entries<T, N> for V {
+    fn into_vector(self) -> Vector<T, N> {
         self.into()
     }
 }

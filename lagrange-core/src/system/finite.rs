@@ -1,32 +1,30 @@
 //! Checks that a state is finite and that parameters have their declared properties.
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use super::defect::Defect;
 use super::lagrangian::Lagrangian;
-use super::state::State;
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, exceeds, power_of_epsilon};
+use crate::system::StateOf;
+use crate::vector::Vector;
 
 /// Checks that the state is finite and that every parameter has its declared properties.
-pub(crate) fn check_finite<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<(), Error> {
+pub(crate) fn check_finite<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
     check_entries(system, state.t, [&state.q, &state.v], Entry::Velocity)
 }
 
 /// Checks that the time, the coordinates and `others` (velocities or momenta, named by `other`) are finite, and
 /// that every parameter has its declared properties.
-pub(crate) fn check_entries<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(crate) fn check_entries<L: Lagrangian<Scalar: Real>>(
     system: &L,
     t: L::Scalar,
-    [q, others]: [&SVector<L::Scalar, N>; 2],
+    [q, others]: [&Vector<L::Scalar, L::N>; 2],
     other: fn(&'static str) -> Entry,
 ) -> Result<(), Error> {
     check_parameters(system)?;
-    let named = |entry: fn(&'static str) -> Entry| L::COORDINATES.into_iter().map(entry);
+    let named = |entry: fn(&'static str) -> Entry| L::COORDINATES.iter().copied().map(entry);
     let vectors = named(Entry::Coordinate).zip(q).chain(named(other).zip(others));
     let mut entries = [(Entry::Time, &t)].into_iter().chain(vectors);
     match entries.find(|(_, x)| !x.is_finite()) {
@@ -38,9 +36,7 @@ pub(crate) fn check_entries<L: Lagrangian<N, M, Scalar: Real>, const N: usize, c
 /// Checks the declared properties of the parameters. The tolerance is ε^(2/3) of the size of the matrix, above
 /// the round-off of many matrix products. A matrix with an entry that is not finite fails, even if the
 /// equations do not use the entry.
-fn check_parameters<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-) -> Result<(), Error> {
+fn check_parameters<L: Lagrangian<Scalar: Real>>(system: &L) -> Result<(), Error> {
     let mut result = Ok(());
     system.visit_defects(&mut |name, Defect { wanted, defect, size }| {
         if result.is_ok() && exceeds(defect, size * power_of_epsilon(2.0 / 3.0)) {

@@ -2,14 +2,13 @@
 
 use core::fmt::Debug;
 
-use nalgebra::{SMatrix, SVector};
-
 use super::defect::Defect;
 use super::equations::{Equations, equations};
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
-use super::state::{Solution, State};
+use super::state::{Solution, SolutionOf, StateOf};
 use crate::number::{Broadcast, Scalar};
+use crate::vector::{Length, Matrix, Vector};
 
 /// Form in which a constraint is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,6 +21,32 @@ pub enum ConstraintKind {
 
 /// A mechanical system with `N` generalized coordinates and `M` scalar constraints.
 ///
+/// A function for any system takes an `L: Lagrangian`, and its states are [`StateOf<L>`](crate::StateOf):
+///
+/// ```
+/// # use lagrange_core::prelude::*;
+/// use lagrange_core::StateOf;
+///
+/// /// Time between the first two passages of the first coordinate through zero, upwards.
+/// fn period<L: Lagrangian<Scalar = f64>>(system: &L, start: StateOf<L>) -> Result<f64, Error> {
+///     let mut motion = Motion::new(system, start, Dop853::with_tolerance(1e-12))?;
+///     let mut passage = system.event("passage", |sample| sample.state().q[0]).rising();
+///     let mut times = [0.0; 2];
+///     for (time, crossing) in times.iter_mut().zip(motion.crossings(100.0, &mut [&mut passage])) {
+///         *time = crossing?.state.t;
+///     }
+///     Ok(times[1] - times[0])
+/// }
+/// # #[derive(Lagrangian)]
+/// # #[coordinates(x)]
+/// # #[lagrangian(m/2 * x_dot^2 - k/2 * x^2)]
+/// # struct Spring { m: f64, k: f64 }
+///
+/// let period = period(&Spring { m: 1.0, k: 4.0 }, State::at_rest([0.1]))?;
+/// assert!((period - core::f64::consts::PI).abs() < 1e-10);
+/// # Ok::<(), Error>(())
+/// ```
+///
 /// `#[derive(Lagrangian)]` implements this trait. Its formulas are those of d/dt(∂L/∂q̇) = ∂L/∂q + Q + Fᵀλ
 /// (Milton (8.7), (8.13)) with the constraints Φ = lhs − rhs as written. References, `Box`, `Rc` and `Arc`
 /// forward the trait to the system that they point to.
@@ -31,9 +56,15 @@ pub enum ConstraintKind {
     note = "put `#[derive(Lagrangian)]`, `#[coordinates(…)]` and `#[lagrangian(…)]` on the struct",
     note = "a trajectory is a motion that is over: `.event(…)` and the other settings stand before `.to(…)`"
 )]
-pub trait Lagrangian<const N: usize, const M: usize> {
+pub trait Lagrangian {
     /// Number type of the parameters and the state.
     type Scalar: Scalar;
+
+    /// Number of the generalized coordinates, the length of q: [`Const<2>`](nalgebra::Const) for two.
+    type N: Length;
+
+    /// Number of the scalar constraints, the length of λ.
+    type M: Length;
 
     /// Factorization of the matrix of the equations of motion at a state, without heap data.
     type Factor: Copy + Debug;
@@ -41,13 +72,13 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// Name of the struct.
     const NAME: &'static str;
     /// Names of the generalized coordinates.
-    const COORDINATES: [&'static str; N];
+    const COORDINATES: &'static [&'static str];
     /// Names of the constraints.
-    const CONSTRAINTS: [&'static str; M];
+    const CONSTRAINTS: &'static [&'static str];
     /// Form of each constraint as written: holonomic, or in the velocities.
-    const CONSTRAINT_KINDS: [ConstraintKind; M];
-    /// Integrability of each constraint.
-    const CONSTRAINT_CLASSES: [Classification; M] = [Classification::UNDECIDED; M];
+    const CONSTRAINT_KINDS: &'static [ConstraintKind];
+    /// Integrability of each constraint; a constraint beyond the end is undecided.
+    const CONSTRAINT_CLASSES: &'static [Classification] = &[];
     /// Number of integrals of the velocity constraints; `None` if it could not be decided.
     const INTEGRALS: Option<Integrals> = None;
     /// True if the momenta are linear in the velocities, p = M(q, t) q̇ + a(q, t), so that one linear solve
@@ -78,56 +109,56 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     fn visit_defects(&self, visit: &mut dyn FnMut(&'static str, Defect<Self::Scalar>)) {}
 
     /// Lagrangian L(t, q, q̇).
-    fn lagrangian(&self, state: &State<Self::Scalar, N>) -> Self::Scalar;
+    fn lagrangian(&self, state: &StateOf<Self>) -> Self::Scalar;
 
     /// Energy function E = p·q̇ − L (Milton (8.17)); its rate is −∂L/∂t + Q·q̇ − Σ_α λ_α b_α.
-    fn energy(&self, state: &State<Self::Scalar, N>) -> Self::Scalar;
+    fn energy(&self, state: &StateOf<Self>) -> Self::Scalar;
 
     /// Generalized momenta p = ∂L/∂q̇.
-    fn momentum(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
+    fn momentum(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::N>;
 
     /// ∂L/∂q + Q, the rate of the momenta without constraints; the force of constraint Fᵀλ adds to it.
-    fn momentum_rate(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
+    fn momentum_rate(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::N>;
 
     /// Mass matrix M = ∂p/∂q̇ (symmetric).
-    fn mass_matrix(&self, state: &State<Self::Scalar, N>) -> SMatrix<Self::Scalar, N, N>;
+    fn mass_matrix(&self, state: &StateOf<Self>) -> Matrix<Self::Scalar, Self::N, Self::N>;
 
     /// h = ∂L/∂q + Q − (dp/dt at q̈ = 0), so M q̈ = h without constraints.
-    fn forcing(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
+    fn forcing(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::N>;
 
     /// Φ(q, t) of the holonomic constraints; zero for velocity constraints.
-    fn constraint_residual(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+    fn constraint_residual(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::M>;
 
     /// A function I(q, t) whose rate of change is the velocity constraint `index`, as written or times a
     /// factor. `None` if there is none or none was found.
     #[allow(unused_variables)]
-    fn constraint_integral(&self, index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar> {
+    fn constraint_integral(&self, index: usize, state: &StateOf<Self>) -> Option<Self::Scalar> {
         None
     }
 
     /// F q̇ + b: the rate of change of a holonomic constraint, or the residual of a velocity constraint.
-    fn constraint_rate(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+    fn constraint_rate(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::M>;
 
     /// Σ_i |F_αi q_i| of the holonomic constraints, zero for velocity constraints. It estimates the size of the
     /// terms of Φ; ε times it is their round-off.
-    fn residual_magnitude(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+    fn residual_magnitude(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::M>;
 
     /// Σ_i |F_αi q̇_i| of all constraints, the size of the terms of F q̇ + b.
-    fn rate_magnitude(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+    fn rate_magnitude(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::M>;
 
     /// Constraint Jacobian F: ∂Φ/∂q of a holonomic constraint, or the coefficients of q̇ in a velocity
     /// constraint.
-    fn constraint_jacobian(&self, state: &State<Self::Scalar, N>) -> SMatrix<Self::Scalar, M, N>;
+    fn constraint_jacobian(&self, state: &StateOf<Self>) -> Matrix<Self::Scalar, Self::M, Self::N>;
 
     /// γ in the acceleration constraint F q̈ + γ = 0.
-    fn constraint_bias(&self, state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+    fn constraint_bias(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::M>;
 
     /// Generalized constraint force Fᵀλ.
     fn constraint_force(
         &self,
-        state: &State<Self::Scalar, N>,
-        multipliers: &SVector<Self::Scalar, M>,
-    ) -> SVector<Self::Scalar, N>;
+        state: &StateOf<Self>,
+        multipliers: &Vector<Self::Scalar, Self::M>,
+    ) -> Vector<Self::Scalar, Self::N>;
 
     /// Inverse dynamics: returns M q̈ − h − Fᵀλ, the generalized forces needed beside those of the system to
     /// produce these accelerations with these multipliers. The generated code evaluates d/dt(∂L/∂q̇) − ∂L/∂q −
@@ -146,21 +177,21 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     /// ```
     fn inverse_dynamics(
         &self,
-        state: &State<Self::Scalar, N>,
-        accelerations: &SVector<Self::Scalar, N>,
-        multipliers: &SVector<Self::Scalar, M>,
-    ) -> SVector<Self::Scalar, N>;
+        state: &StateOf<Self>,
+        accelerations: &Vector<Self::Scalar, Self::N>,
+        multipliers: &Vector<Self::Scalar, Self::M>,
+    ) -> Vector<Self::Scalar, Self::N>;
 
     /// Accelerations and multipliers by the generated elimination alone. The result is NaN if it is unreliable:
     /// if the smallest pivot, [`Solution::pivot`], leaves less than two thirds of the digits. The code has no
     /// branches, so it runs on SIMD lanes and dual numbers; each lane is NaN independently.
     /// [`solve`](crate::Simulate::solve) checks the result: it falls back to a general solver or returns an
     /// error.
-    fn accelerations_unchecked(&self, state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
+    fn accelerations_unchecked(&self, state: &StateOf<Self>) -> SolutionOf<Self>;
 
     /// Factorization of the matrix of the equations of motion at a state, block rows (M, −Fᵀ) and (F, 0).
     /// [`solve_with`](Self::solve_with) reuses it for any right-hand sides.
-    fn factor(&self, state: &State<Self::Scalar, N>) -> Self::Factor;
+    fn factor(&self, state: &StateOf<Self>) -> Self::Factor;
 
     /// Solves M x − Fᵀλ = `forcing`, F x = −`bias` with a factorization at a state. With h and γ of that state
     /// as right-hand sides, x and λ are the accelerations and multipliers; other right-hand sides give
@@ -187,18 +218,18 @@ pub trait Lagrangian<const N: usize, const M: usize> {
     fn solve_with<S: Broadcast<Self::Scalar>>(
         &self,
         factor: &Self::Factor,
-        forcing: &SVector<S, N>,
-        bias: &SVector<S, M>,
-    ) -> Solution<S, N, M>;
+        forcing: &Vector<S, Self::N>,
+        bias: &Vector<S, Self::M>,
+    ) -> Solution<S, Self::N, Self::M>;
 
     /// Value of the observable [`OBSERVABLES`](Self::OBSERVABLES)`[index]`; `None` beyond the last.
     fn observable(
         &self,
         index: usize,
-        state: &State<Self::Scalar, N>,
-        solution: &Solution<Self::Scalar, N, M>,
+        state: &StateOf<Self>,
+        solution: &SolutionOf<Self>,
     ) -> Option<Self::Scalar>;
 
     /// Value of the conserved quantity [`FACTS`](Self::FACTS)`.conserved[index]`; `None` beyond the last.
-    fn conserved(&self, index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar>;
+    fn conserved(&self, index: usize, state: &StateOf<Self>) -> Option<Self::Scalar>;
 }

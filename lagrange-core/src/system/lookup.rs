@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod tests;
 
+use crate::vector::Length;
 use alloc::{
     format,
     string::{String, ToString},
@@ -14,29 +15,29 @@ use crate::error::Error;
 use crate::names::Entry;
 
 /// Returns the names of the coordinates, followed by those of the velocities.
-pub(crate) fn entries<L: Lagrangian<N, M>, const N: usize, const M: usize>() -> Vec<String> {
-    (0..2 * N).map(|index| entry::<L, N, M>(index).to_string()).collect()
+pub(crate) fn entries<L: Lagrangian>() -> Vec<String> {
+    (0..2 * <L::N>::COUNT).map(|index| entry::<L>(index).to_string()).collect()
 }
 
 /// Returns the entry at `index` of (q, q̇).
-pub(crate) fn entry<L: Lagrangian<N, M>, const N: usize, const M: usize>(index: usize) -> Entry {
-    let name = L::COORDINATES[index % N];
-    if index < N { Entry::Coordinate(name) } else { Entry::Velocity(name) }
+pub(crate) fn entry<L: Lagrangian>(index: usize) -> Entry {
+    let name = L::COORDINATES[index % <L::N>::COUNT];
+    if index < <L::N>::COUNT { Entry::Coordinate(name) } else { Entry::Velocity(name) }
 }
 
 /// Returns the index of `name` among `known`.
-pub(crate) fn index<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+pub(crate) fn index<L: Lagrangian>(
     known: &[impl AsRef<str>],
     kind: &'static str,
     name: &str,
 ) -> Result<usize, Error> {
     let found = known.iter().position(|known| known.as_ref() == name);
-    found.ok_or_else(|| unknown::<L, N, M>(known, kind, name))
+    found.ok_or_else(|| unknown::<L>(known, kind, name))
 }
 
 /// Returns the indices of the entries with these names. The name `r` of a vector stands for all elements
 /// `r[0]`, `r[1]`, ….
-pub(crate) fn indices<L: Lagrangian<N, M>, const N: usize, const M: usize>(
+pub(crate) fn indices<L: Lagrangian>(
     known: &[impl AsRef<str>],
     kind: &'static str,
     names: &[&str],
@@ -46,7 +47,7 @@ pub(crate) fn indices<L: Lagrangian<N, M>, const N: usize, const M: usize>(
         let before = found.len();
         found.extend((0..known.len()).filter(|&i| is_part(known[i].as_ref(), name)));
         if found.len() == before {
-            return Err(unknown::<L, N, M>(known, kind, name));
+            return Err(unknown::<L>(known, kind, name));
         }
         if let Some(again) = found[before..].iter().find(|index| found[..before].contains(index)) {
             return Err(Error::RepeatedName { name: known[*again].as_ref().into() });
@@ -60,11 +61,7 @@ fn is_part(entry: &str, name: &str) -> bool {
     entry.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
 }
 
-pub(crate) fn unknown<L: Lagrangian<N, M>, const N: usize, const M: usize>(
-    known: &[impl AsRef<str>],
-    kind: &'static str,
-    name: &str,
-) -> Error {
+pub(crate) fn unknown<L: Lagrangian>(known: &[impl AsRef<str>], kind: &'static str, name: &str) -> Error {
     let known: Vec<String> = known.iter().map(|known| known.as_ref().into()).collect();
     let hint = if let Some(element) = known.iter().find(|known| is_part(known, name)) {
         Some(format!("it is a vector: name an element, such as `{element}`"))
@@ -77,14 +74,14 @@ pub(crate) fn unknown<L: Lagrangian<N, M>, const N: usize, const M: usize>(
                 format!("there are `{names}`; a field is a parameter if an expression of the system names it")
             })
         };
-        meaning::<L, N, M>(name).or_else(near).or_else(idle)
+        meaning::<L>(name).or_else(near).or_else(idle)
     };
     Error::UnknownName { name: name.into(), kind, hint, known }
 }
 
 /// Returns the meaning of a name, and the method of a sample that returns its value.
-fn meaning<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> Option<String> {
-    let coordinates = L::COORDINATES.into_iter().flat_map(|x| {
+fn meaning<L: Lagrangian>(name: &str) -> Option<String> {
+    let coordinates = L::COORDINATES.iter().copied().flat_map(|x| {
         let (base, index) = x.split_at(x.find('[').unwrap_or(x.len()));
         let derived = |name, method| (name, format!("the {method} of `{x}`"), method, x);
         [
@@ -95,7 +92,7 @@ fn meaning<L: Lagrangian<N, M>, const N: usize, const M: usize>(name: &str) -> O
             derived(Entry::Momentum(x).to_string(), "momentum"),
         ]
     });
-    let constraints = L::CONSTRAINTS.into_iter().flat_map(|c| {
+    let constraints = L::CONSTRAINTS.iter().copied().flat_map(|c| {
         let multiplier = format!("the multiplier of constraint `{c}`");
         [
             (c.into(), "a constraint".into(), "multiplier", c),

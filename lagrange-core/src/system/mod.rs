@@ -30,5 +30,5 @@ pub use integrability::{Classification, Extent, Integrability, Integrals};
 pub use lagrangian::{ConstraintKind, Lagrangian};
 pub use pack::{Pack, Packed, Shared};
 pub(crate) use state::write_state;
-pub use state::{Solution, State};
+pub use state::{Solution, SolutionOf, State, StateOf};
 pub use taylor_series::{RightHandSides, TaylorSeries};

@@ -8,6 +8,7 @@ use nalgebra::{Isometry, Quaternion, Rotation, SMatrix, Translation, Unit};
 #[cfg(feature = "std")]
 use crate::number::Lanes;
 use crate::number::{Dual, Scalar, Wide};
+use crate::vector::{Array, Element, Length, PhaseVector};
 
 /// A system that can share SIMD lanes of type `V` with other systems of its type.
 ///
@@ -99,6 +100,30 @@ impl<P: Packed<X>, X, const K: usize> Packed<[X; K]> for [P; K] {
     #[inline]
     fn place(&mut self, lane: usize, field: &[X; K]) {
         self.iter_mut().zip(field).for_each(|(packed, x)| packed.place(lane, x));
+    }
+}
+
+impl<P: Packed<X> + Element, X: Element, N: Length> Packed<Array<X, N>> for Array<P, N> {
+    #[inline]
+    fn splat(field: &Array<X, N>) -> Self {
+        Self::from_fn(|i| P::splat(&field[i]))
+    }
+
+    #[inline]
+    fn place(&mut self, lane: usize, field: &Array<X, N>) {
+        self.iter_mut().zip(field).for_each(|(packed, x)| packed.place(lane, x));
+    }
+}
+
+impl<P: Packed<X> + Element, X: Element, N: Length> Packed<PhaseVector<X, N>> for PhaseVector<P, N> {
+    #[inline]
+    fn splat(field: &PhaseVector<X, N>) -> Self {
+        Self::new(field.arrays().each_ref().map(Packed::splat))
+    }
+
+    #[inline]
+    fn place(&mut self, lane: usize, field: &PhaseVector<X, N>) {
+        self.flat_mut().iter_mut().zip(field.flat()).for_each(|(packed, x)| packed.place(lane, x));
     }
 }
 

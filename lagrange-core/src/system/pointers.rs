@@ -1,7 +1,5 @@
 //! Forwards the traits of a system through references and smart pointers.
 
-use nalgebra::{SMatrix, SVector};
-
 use super::defect::Defect;
 use super::direction::Direction;
 use super::equations::Equations;
@@ -12,20 +10,23 @@ use super::pack::Pack;
 use super::state::{Solution, State};
 use super::taylor_series::{RightHandSides, TaylorSeries};
 use crate::number::{Broadcast, PowerSeries};
+use crate::vector::{Matrix, Vector};
 
 /// Forwards every method and constant. Those with a default must be forwarded too, since the default would hide
 /// the system's own.
 macro_rules! forward {
     ($($pointer:ty),*) => {$(
         #[diagnostic::do_not_recommend]
-        impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Lagrangian<N, M> for $pointer {
+        impl<L: Lagrangian> Lagrangian for $pointer {
             type Scalar = L::Scalar;
             type Factor = L::Factor;
+            type N = L::N;
+            type M = L::M;
             const NAME: &'static str = L::NAME;
-            const COORDINATES: [&'static str; N] = L::COORDINATES;
-            const CONSTRAINTS: [&'static str; M] = L::CONSTRAINTS;
-            const CONSTRAINT_KINDS: [ConstraintKind; M] = L::CONSTRAINT_KINDS;
-            const CONSTRAINT_CLASSES: [Classification; M] = L::CONSTRAINT_CLASSES;
+            const COORDINATES: &'static [&'static str] = L::COORDINATES;
+            const CONSTRAINTS: &'static [&'static str] = L::CONSTRAINTS;
+            const CONSTRAINT_KINDS: &'static [ConstraintKind] = L::CONSTRAINT_KINDS;
+            const CONSTRAINT_CLASSES: &'static [Classification] = L::CONSTRAINT_CLASSES;
             const INTEGRALS: Option<Integrals> = L::INTEGRALS;
             const MOMENTA_ARE_LINEAR: bool = L::MOMENTA_ARE_LINEAR;
             const OBSERVABLES: &'static [&'static str] = L::OBSERVABLES;
@@ -43,46 +44,46 @@ macro_rules! forward {
             }
 
             forward! { @methods
-                fn lagrangian(state: &State<Self::Scalar, N>) -> Self::Scalar;
-                fn energy(state: &State<Self::Scalar, N>) -> Self::Scalar;
-                fn momentum(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
-                fn momentum_rate(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
-                fn mass_matrix(state: &State<Self::Scalar, N>) -> SMatrix<Self::Scalar, N, N>;
-                fn forcing(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
-                fn constraint_residual(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
-                fn constraint_integral(index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar>;
-                fn constraint_rate(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
-                fn residual_magnitude(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
-                fn rate_magnitude(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
-                fn constraint_jacobian(state: &State<Self::Scalar, N>) -> SMatrix<Self::Scalar, M, N>;
-                fn constraint_bias(state: &State<Self::Scalar, N>) -> SVector<Self::Scalar, M>;
+                fn lagrangian(state: &State<Self::Scalar, L::N>) -> Self::Scalar;
+                fn energy(state: &State<Self::Scalar, L::N>) -> Self::Scalar;
+                fn momentum(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
+                fn momentum_rate(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
+                fn mass_matrix(state: &State<Self::Scalar, L::N>) -> Matrix<Self::Scalar, L::N, L::N>;
+                fn forcing(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
+                fn constraint_residual(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::M>;
+                fn constraint_integral(index: usize, state: &State<Self::Scalar, L::N>) -> Option<Self::Scalar>;
+                fn constraint_rate(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::M>;
+                fn residual_magnitude(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::M>;
+                fn rate_magnitude(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::M>;
+                fn constraint_jacobian(state: &State<Self::Scalar, L::N>) -> Matrix<Self::Scalar, L::M, L::N>;
+                fn constraint_bias(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::M>;
                 fn constraint_force(
-                    state: &State<Self::Scalar, N>,
-                    multipliers: &SVector<Self::Scalar, M>
-                ) -> SVector<Self::Scalar, N>;
+                    state: &State<Self::Scalar, L::N>,
+                    multipliers: &Vector<Self::Scalar, L::M>
+                ) -> Vector<Self::Scalar, L::N>;
                 fn inverse_dynamics(
-                    state: &State<Self::Scalar, N>,
-                    accelerations: &SVector<Self::Scalar, N>,
-                    multipliers: &SVector<Self::Scalar, M>
-                ) -> SVector<Self::Scalar, N>;
-                fn accelerations_unchecked(state: &State<Self::Scalar, N>) -> Solution<Self::Scalar, N, M>;
-                fn factor(state: &State<Self::Scalar, N>) -> Self::Factor;
+                    state: &State<Self::Scalar, L::N>,
+                    accelerations: &Vector<Self::Scalar, L::N>,
+                    multipliers: &Vector<Self::Scalar, L::M>
+                ) -> Vector<Self::Scalar, L::N>;
+                fn accelerations_unchecked(state: &State<Self::Scalar, L::N>) -> Solution<Self::Scalar, L::N, L::M>;
+                fn factor(state: &State<Self::Scalar, L::N>) -> Self::Factor;
                 fn solve_with<S>(
                     factor: &Self::Factor,
-                    forcing: &SVector<S, N>,
-                    bias: &SVector<S, M>
-                ) -> Solution<S, N, M>;
+                    forcing: &Vector<S, L::N>,
+                    bias: &Vector<S, L::M>
+                ) -> Solution<S, L::N, L::M>;
                 fn observable(
                     index: usize,
-                    state: &State<Self::Scalar, N>,
-                    solution: &Solution<Self::Scalar, N, M>
+                    state: &State<Self::Scalar, L::N>,
+                    solution: &Solution<Self::Scalar, L::N, L::M>
                 ) -> Option<Self::Scalar>;
-                fn conserved(index: usize, state: &State<Self::Scalar, N>) -> Option<Self::Scalar>;
+                fn conserved(index: usize, state: &State<Self::Scalar, L::N>) -> Option<Self::Scalar>;
             }
         }
 
         #[diagnostic::do_not_recommend]
-        impl<L: TaylorSeries<N, M>, const N: usize, const M: usize> TaylorSeries<N, M> for $pointer {
+        impl<L: TaylorSeries> TaylorSeries for $pointer {
             type SeriesSlopes = L::SeriesSlopes;
             type Sums = L::Sums;
             type SeriesTerms = L::SeriesTerms;
@@ -101,22 +102,22 @@ macro_rules! forward {
 
             forward! { @methods
                 fn series_slopes(
-                    state: &State<Self::Scalar, N>,
-                    solution: &Solution<Self::Scalar, N, M>
+                    state: &State<Self::Scalar, L::N>,
+                    solution: &Solution<Self::Scalar, L::N, L::M>
                 ) -> Self::SeriesSlopes;
                 fn series_right_hand_sides(
                     slopes: &Self::SeriesSlopes,
                     sums: &Self::Sums,
                     order: &[Self::Scalar; 4],
-                    direction: &Direction<Self::Scalar, N>
-                ) -> (RightHandSides<Self::Scalar, N, M>, Self::SeriesTerms);
+                    direction: &Direction<Self::Scalar, L::N>
+                ) -> (RightHandSides<Self::Scalar, L::N, L::M>, Self::SeriesTerms);
                 fn series_factors(
                     slopes: &Self::SeriesSlopes,
                     terms: &Self::SeriesTerms,
                     order: &[Self::Scalar; 4],
-                    direction: &Direction<Self::Scalar, N>,
-                    accelerations: &SVector<Self::Scalar, N>,
-                    multipliers: &SVector<Self::Scalar, M>
+                    direction: &Direction<Self::Scalar, L::N>,
+                    accelerations: &Vector<Self::Scalar, L::N>,
+                    multipliers: &Vector<Self::Scalar, L::M>
                 ) -> [Self::Sums; 2];
             }
         }

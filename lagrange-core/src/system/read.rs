@@ -1,11 +1,15 @@
 //! Deserialization of numbers, with an explanation for the `null` that JSON writes for NaN and infinity.
 
-use core::fmt::Display;
-
 use alloc::string::ToString;
-use nalgebra::SVector;
-use serde::de::Error;
-use serde::{Deserialize, Deserializer};
+use alloc::vec::Vec;
+use core::fmt::{self, Display};
+use core::marker::PhantomData;
+
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::ser::SerializeTuple;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::vector::{Array, Element, Length, Vector, vector};
 
 pub(crate) fn number<'de, D, T>(from: D) -> Result<T, D::Error>
 where
@@ -15,12 +19,47 @@ where
     T::deserialize(from).map_err(explained)
 }
 
-pub(crate) fn numbers<'de, D, T, const N: usize>(from: D) -> Result<SVector<T, N>, D::Error>
+/// Reads a vector, a sequence of as many numbers as it is long.
+pub(crate) fn numbers<'de, D, T, N>(from: D) -> Result<Vector<T, N>, D::Error>
 where
     D: Deserializer<'de>,
-    T: nalgebra::Scalar + Deserialize<'de>,
+    T: Element + Deserialize<'de>,
+    N: Length,
 {
-    SVector::deserialize(from).map_err(explained)
+    from.deserialize_tuple(N::COUNT, Numbers(PhantomData)).map(vector).map_err(explained)
+}
+
+/// Writes a vector as the sequence of its numbers.
+pub(crate) fn write<S, T, N>(numbers: &Vector<T, N>, to: S) -> Result<S::Ok, S::Error>
+where
+    S: Serializer,
+    T: Element + Serialize,
+    N: Length,
+{
+    let mut sequence = to.serialize_tuple(N::COUNT)?;
+    numbers.iter().try_for_each(|x| sequence.serialize_element(x))?;
+    sequence.end()
+}
+
+struct Numbers<T, N>(PhantomData<(T, N)>);
+
+impl<'de, T: Element + Deserialize<'de>, N: Length> Visitor<'de> for Numbers<T, N> {
+    type Value = Array<T, N>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} numbers", N::COUNT)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Array<T, N>, A::Error> {
+        let mut found = Vec::with_capacity(N::COUNT);
+        while let Some(x) = sequence.next_element()? {
+            found.push(x);
+        }
+        match found.len() == N::COUNT {
+            true => Ok(Array::from_fn(|i| found[i])),
+            false => Err(A::Error::invalid_length(found.len(), &self)),
+        }
+    }
 }
 
 /// Adds an explanation to an error about `null`. The original message comes last, because `serde_json` reads the line

@@ -2,10 +2,10 @@
 
 use core::fmt::{self, Debug, Display, Formatter};
 
-use nalgebra::SVector;
-
 use super::entries::Entries;
+use super::lagrangian::Lagrangian;
 use crate::number::Scalar;
+use crate::vector::{Array, Element, Length, Vector};
 
 /// The time `t`, the generalized coordinates `q` and the generalized velocities `v` = q̇.
 ///
@@ -33,19 +33,25 @@ use crate::number::Scalar;
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
     ))
 )]
-pub struct State<T, const N: usize> {
+pub struct State<T: Element, N: Length> {
     /// Time.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::number"))]
     pub t: T,
     /// Generalized coordinates.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::numbers"))]
-    pub q: SVector<T, N>,
+    #[cfg_attr(
+        feature = "serde",
+        serde(serialize_with = "super::read::write", deserialize_with = "super::read::numbers")
+    )]
+    pub q: Vector<T, N>,
     /// Generalized velocities.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::numbers"))]
-    pub v: SVector<T, N>,
+    #[cfg_attr(
+        feature = "serde",
+        serde(serialize_with = "super::read::write", deserialize_with = "super::read::numbers")
+    )]
+    pub v: Vector<T, N>,
 }
 
-impl<T: Scalar, const N: usize> State<T, N> {
+impl<T: Scalar, N: Length> State<T, N> {
     /// Creates a state of coordinates and velocities at `t = 0`.
     pub fn new(q: impl Entries<T, N>, v: impl Entries<T, N>) -> Self {
         Self { t: T::constant(0.0), q: q.into_vector(), v: v.into_vector() }
@@ -53,7 +59,7 @@ impl<T: Scalar, const N: usize> State<T, N> {
 
     /// Creates a state at rest at `t = 0`.
     pub fn at_rest(q: impl Entries<T, N>) -> Self {
-        Self::new(q, [T::constant(0.0); N])
+        Self::new(q, Array::filled(T::constant(0.0)))
     }
 
     /// Returns the same coordinates and velocities at the time `t`.
@@ -65,7 +71,7 @@ impl<T: Scalar, const N: usize> State<T, N> {
 
 /// Formats a state as `t = 1.0: q = (0.1, 0.0), q̇ = (0.0, 2e-17)`. Format options apply to each number:
 /// `{state:.3}`.
-impl<T: Scalar, const N: usize> Display for State<T, N> {
+impl<T: Scalar, N: Length> Display for State<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write_state(f, &self.t, [("q", self.q.as_slice()), ("q̇", self.v.as_slice())])
     }
@@ -103,13 +109,19 @@ pub(crate) fn write_state<T: Scalar>(f: &mut Formatter<'_>, t: &T, parts: [(&str
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
     ))
 )]
-pub struct Solution<T, const N: usize, const M: usize> {
+pub struct Solution<T: Element, N: Length, M: Length> {
     /// Generalized accelerations q̈.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::numbers"))]
-    pub accelerations: SVector<T, N>,
+    #[cfg_attr(
+        feature = "serde",
+        serde(serialize_with = "super::read::write", deserialize_with = "super::read::numbers")
+    )]
+    pub accelerations: Vector<T, N>,
     /// Lagrange multipliers λ, one per scalar constraint, in the order written.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::numbers"))]
-    pub multipliers: SVector<T, M>,
+    #[cfg_attr(
+        feature = "serde",
+        serde(serialize_with = "super::read::write", deserialize_with = "super::read::numbers")
+    )]
+    pub multipliers: Vector<T, M>,
     /// Smallest pivot of the elimination, relative to the diagonal entry that it replaces: 1 is perfect, 0
     /// singular. NaN or negative if this elimination cannot solve the system, or if products of its numbers
     /// overflow, underflow or lose digits.
@@ -120,9 +132,15 @@ pub struct Solution<T, const N: usize, const M: usize> {
     pub rank: usize,
 }
 
-impl<T, const N: usize, const M: usize> Solution<T, N, M> {
+/// State of a system: `StateOf<Pendulum>`, `StateOf<L>` in a generic function.
+pub type StateOf<L> = State<<L as Lagrangian>::Scalar, <L as Lagrangian>::N>;
+
+/// Solution of the equations of motion of a system.
+pub type SolutionOf<L> = Solution<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, <L as Lagrangian>::M>;
+
+impl<T: Element, N: Length, M: Length> Solution<T, N, M> {
     /// True if the equations determine the multipliers; false if constraints depend on one another.
     pub fn multipliers_are_unique(&self) -> bool {
-        self.rank == M
+        self.rank == M::COUNT
     }
 }

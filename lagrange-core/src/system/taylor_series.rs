@@ -2,15 +2,13 @@
 
 use core::fmt::Debug;
 
-use nalgebra::SVector;
-
 use super::lagrangian::Lagrangian;
-use super::state::{Solution, State};
-use crate::number::{FixedArray, PowerSeries};
-use crate::system::Direction;
+use crate::number::PowerSeries;
+use crate::system::{Direction, SolutionOf, StateOf};
+use crate::vector::{FixedArray, Vector};
 
 /// Right-hand sides (h, γ) of the linear system M x − Fᵀλ = h, F x = −γ for one Taylor order.
-pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVector<T, M>);
+pub type RightHandSides<T, N, M> = (Vector<T, N>, Vector<T, M>);
 
 /// A system whose motion can be expanded in a Taylor series, order by order, as [`Taylor`](crate::Taylor) does.
 ///
@@ -25,7 +23,7 @@ pub type RightHandSides<T, const N: usize, const M: usize> = (SVector<T, N>, SVe
     label = "no `TaylorSeries`",
     note = "`#[derive(Lagrangian)]` gives it to every system but those whose equations of motion have `abs`, `min`, `max` or `clamp`, take third derivatives of a function of yours, or have a series of more than 50,000 operations: use `Dop853` there"
 )]
-pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
+pub trait TaylorSeries: Lagrangian {
     /// Numbers of the state that the recurrences of all orders share.
     type SeriesSlopes: Copy + Debug + AsRef<[Self::Scalar]>;
     /// One number for each convolution sum, padded with zeros to a multiple of four.
@@ -47,11 +45,7 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
     const STEEP: &'static [[usize; 3]] = &[];
 
     /// Returns the coefficients that the recurrences of all orders share, at one state.
-    fn series_slopes(
-        &self,
-        state: &State<Self::Scalar, N>,
-        solution: &Solution<Self::Scalar, N, M>,
-    ) -> Self::SeriesSlopes;
+    fn series_slopes(&self, state: &StateOf<Self>, solution: &SolutionOf<Self>) -> Self::SeriesSlopes;
 
     /// Stores in `sums` the contributions of the user-supplied functions to this order. `arguments` holds the
     /// series of their arguments, with zeros for the coefficients of this order.
@@ -68,8 +62,8 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
         slopes: &Self::SeriesSlopes,
         sums: &Self::Sums,
         order: &[Self::Scalar; 4],
-        direction: &Direction<Self::Scalar, N>,
-    ) -> (RightHandSides<Self::Scalar, N, M>, Self::SeriesTerms);
+        direction: &Direction<Self::Scalar, Self::N>,
+    ) -> (RightHandSides<Self::Scalar, Self::N, Self::M>, Self::SeriesTerms);
 
     /// Returns the coefficients of this order of the two factors of each sum, from the known parts and the new
     /// accelerations and multipliers.
@@ -78,8 +72,8 @@ pub trait TaylorSeries<const N: usize, const M: usize>: Lagrangian<N, M> {
         slopes: &Self::SeriesSlopes,
         terms: &Self::SeriesTerms,
         order: &[Self::Scalar; 4],
-        direction: &Direction<Self::Scalar, N>,
-        accelerations: &SVector<Self::Scalar, N>,
-        multipliers: &SVector<Self::Scalar, M>,
+        direction: &Direction<Self::Scalar, Self::N>,
+        accelerations: &Vector<Self::Scalar, Self::N>,
+        multipliers: &Vector<Self::Scalar, Self::M>,
     ) -> [Self::Sums; 2];
 }

@@ -10,7 +10,8 @@ use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
+use crate::vector::Length;
 
 /// Table of a trajectory, one line per sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
 /// `lambda(no_slip)`, constraint forces `force(x)` and observables; on request the energy and the conserved
@@ -40,23 +41,23 @@ assert_eq!(table.lines().next(), Some("t,r,phi,r_dot,phi_dot,height,p_phi,energy
 "#
 )]
 #[must_use = "a table is to be printed, or written to a file"]
-pub struct Csv<'t, S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianVectorField> {
-    trajectory: &'t Trajectory<S, N, M, F>,
+pub struct Csv<'t, S: Lagrangian, F = LagrangianVectorField> {
+    trajectory: &'t Trajectory<S, F>,
     count: usize,
     has_energy: bool,
     has_conserved: bool,
 }
 
-impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M, F> {
+impl<S: Lagrangian, F> Trajectory<S, F> {
     /// Returns a table of `count` states at evenly spaced times, as comma-separated values.
     ///
     /// Print it, or write `path.csv(200).to_string()` to a file.
-    pub fn csv(&self, count: usize) -> Csv<'_, S, N, M, F> {
+    pub fn csv(&self, count: usize) -> Csv<'_, S, F> {
         Csv { trajectory: self, count, has_energy: false, has_conserved: false }
     }
 }
 
-impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F> {
+impl<S: Lagrangian, F> Csv<'_, S, F> {
     /// Adds a column `energy`, E = p·q̇ − L.
     pub fn energy(self) -> Self {
         Self { has_energy: true, ..self }
@@ -71,7 +72,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F>
     pub fn records(&self) -> Records<S::Scalar>
     where
         S::Scalar: Real,
-        F: VectorField<S, N, M>,
+        F: VectorField<S>,
     {
         let states = self.trajectory.states(self.count);
         let row = |state| {
@@ -93,11 +94,11 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F>
 
     fn names(&self) -> Vec<String> {
         let mut names = Vec::from(["t".to_string()]);
-        names.extend(S::COORDINATES.map(String::from));
-        names.extend(S::COORDINATES.map(|name| Entry::Velocity(name).to_string()));
-        names.extend(S::CONSTRAINTS.map(|name| format!("lambda({name})")));
-        if M > 0 {
-            names.extend(S::COORDINATES.map(|name| format!("force({name})")));
+        names.extend(S::COORDINATES.iter().copied().map(String::from));
+        names.extend(S::COORDINATES.iter().copied().map(|name| Entry::Velocity(name).to_string()));
+        names.extend(S::CONSTRAINTS.iter().copied().map(|name| format!("lambda({name})")));
+        if <S::M>::COUNT > 0 {
+            names.extend(S::COORDINATES.iter().copied().map(|name| format!("force({name})")));
         }
         names.extend(S::OBSERVABLES.iter().map(ToString::to_string));
         names.extend(self.has_energy.then(|| "energy".to_string()));
@@ -106,20 +107,20 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F>
     }
 
     /// Appends the cells of a line, in the order of the names.
-    fn cells(&self, state: &State<S::Scalar, N>, cells: &mut Vec<S::Scalar>)
+    fn cells(&self, state: &StateOf<S>, cells: &mut Vec<S::Scalar>)
     where
         S::Scalar: Real,
     {
         let (system, unknown) = (&self.trajectory.system, S::Scalar::constant(f64::NAN));
-        let is_solved = M > 0 || !S::OBSERVABLES.is_empty();
+        let is_solved = <S::M>::COUNT > 0 || !S::OBSERVABLES.is_empty();
         let solution = is_solved.then(|| solve(system, state).ok()).flatten();
         cells.push(state.t);
         cells.extend(state.q.iter().chain(&state.v));
-        if M > 0 {
+        if <S::M>::COUNT > 0 {
             let multipliers = solution.map(|solution| solution.multipliers);
             let force = multipliers.map(|lambda| system.constraint_force(state, &lambda));
-            cells.extend((0..M).map(|a| multipliers.map_or(unknown, |lambda| lambda[a])));
-            cells.extend((0..N).map(|i| force.map_or(unknown, |force| force[i])));
+            cells.extend((0..<S::M>::COUNT).map(|a| multipliers.map_or(unknown, |lambda| lambda[a])));
+            cells.extend((0..<S::N>::COUNT).map(|i| force.map_or(unknown, |force| force[i])));
         }
         let observable = |k: usize| system.observable(k, state, solution.as_ref()?);
         cells.extend((0..S::OBSERVABLES.len()).map(|k| observable(k).unwrap_or(unknown)));
@@ -128,9 +129,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Csv<'_, S, N, M, F>
     }
 }
 
-impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize, const M: usize> Display
-    for Csv<'_, S, N, M, F>
-{
+impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Display for Csv<'_, S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.names().join(","))?;
         let mut cells = Vec::new();
@@ -148,7 +147,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize,
     }
 }
 
-impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Debug for Csv<'_, S, N, M, F> {
+impl<S: Lagrangian, F> Debug for Csv<'_, S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { trajectory, count, has_energy, has_conserved } = self;
         let mut fields = f.debug_struct("Csv");

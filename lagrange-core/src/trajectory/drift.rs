@@ -50,9 +50,7 @@ pub struct Drift<T> {
     quantities: Vec<Deviation<T>>,
 }
 
-impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize, const M: usize>
-    Trajectory<S, N, M, F>
-{
+impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
     /// Returns the largest deviation of each conserved quantity from its initial value.
     pub fn drift(&self) -> Drift<S::Scalar> {
         // One pass for all quantities: in (q, p) every state requires a search for the velocity.

@@ -52,7 +52,7 @@ for k in 0..=10 {
     let sample = trajectory.at(trajectory.start() + 0.1 * f64::from(k) * (trajectory.end() - trajectory.start()))?;
     println!("{} {} {}", sample.time(), sample.coordinate("theta")?, sample.multiplier("floor")?);
 }
-let leaning = trajectory.leg::<Trajectory<Leaning, 3, 2>>(0).expect("the first leg");
+let leaning = trajectory.leg::<Trajectory<Leaning>>(0).expect("the first leg");
 assert!(leaning.end().multiplier("wall")?.abs() < 1e-12);
 # Ok::<(), Error>(())
 ```
@@ -173,10 +173,10 @@ pub trait Leg<T>: Any + Debug + Send + Sync {
     fn named_at(&self, t: T) -> Result<Box<dyn Named<T> + '_>, Error>;
 }
 
-impl<S, F, const N: usize, const M: usize> Leg<S::Scalar> for Trajectory<S, N, M, F>
+impl<S, F> Leg<S::Scalar> for Trajectory<S, F>
 where
-    S: Lagrangian<N, M, Scalar: Real> + Clone + Send + Sync + 'static,
-    F: VectorField<S, N, M> + Send + Sync + 'static,
+    S: Lagrangian<Scalar: Real> + Clone + Send + Sync + 'static,
+    F: VectorField<S> + Send + Sync + 'static,
 {
     fn start_time(&self) -> S::Scalar {
         self.path.start.t
@@ -213,9 +213,9 @@ macro_rules! named {
             )*
         }
 
-        impl<S, const N: usize, const M: usize> Named<S::Scalar> for Sample<S, N, M>
+        impl<S> Named<S::Scalar> for Sample<S>
         where
-            S: Lagrangian<N, M, Scalar: Real>,
+            S: Lagrangian<Scalar: Real>,
         {
             fn time(&self) -> S::Scalar {
                 self.time()

@@ -9,10 +9,11 @@ use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
 use crate::system::State;
+use crate::vector::{Element, Length};
 
 /// States at the ends of the steps, and the interpolants between them. The type of the interpolants depends on
 /// the method; [`finish`](Path::finish) erases it.
-pub(crate) struct Path<T, const N: usize, S = Box<dyn Interpolants<T, N> + Send + Sync>> {
+pub(crate) struct Path<T: Element, N: Length, S = Box<dyn Interpolants<T, N> + Send + Sync>> {
     pub(super) start: Room<State<T, N>>,
     pub(super) last: Room<State<T, N>>,
     /// Crossings of events, in the order of the motion.
@@ -23,18 +24,18 @@ pub(crate) struct Path<T, const N: usize, S = Box<dyn Interpolants<T, N> + Send 
 }
 
 /// Interpolants of steps 0, 1, ….
-pub(crate) trait Interpolants<T, const N: usize> {
+pub(crate) trait Interpolants<T: Element, N: Length> {
     /// Returns the phase at a time within this step.
     fn at(&self, step: usize, t: T) -> Option<StagePoint<T, N>>;
 }
 
-impl<T, const N: usize, I: Interpolant<T, N>> Interpolants<T, N> for Vec<I> {
+impl<T: Element, N: Length, I: Interpolant<T, N>> Interpolants<T, N> for Vec<I> {
     fn at(&self, step: usize, t: T) -> Option<StagePoint<T, N>> {
         self.get(step).map(|interpolant| interpolant.at(t))
     }
 }
 
-impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N, Vec<I>> {
+impl<T: Real, N: Length, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N, Vec<I>> {
     pub(crate) fn from(start: State<T, N>) -> Self {
         Self {
             start: Room::of(start),
@@ -84,7 +85,7 @@ impl<T: Real, const N: usize, I: Interpolant<T, N> + Send + Sync + 'static> Path
     }
 }
 
-impl<T: Real, const N: usize> Path<T, N> {
+impl<T: Real, N: Length> Path<T, N> {
     /// Returns the phase at the start of a step.
     pub(super) fn start_of(&self, step: usize) -> Option<StagePoint<T, N>> {
         self.interpolants.at(step, *self.times.get(step)?)

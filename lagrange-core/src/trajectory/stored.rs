@@ -6,32 +6,33 @@ use core::marker::PhantomData;
 
 use super::path::Path;
 use crate::error::{Ending, Error};
-use crate::number::{Real, Scalar, vector};
+use crate::number::{Real, Scalar};
 use crate::solution::crossing::Crossing;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::solution::{Adjustment, Sample};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, vector};
 
 /// Motion of a system from its start to the end of the integration.
 ///
 /// Between the steps the trajectory is the dense output of the method, projected onto the constraints like the
 /// steps themselves. It is continuous and equals the computed states at their times.
 ///
-/// The call that integrates borrows the system `S`: `Trajectory<&Pendulum, 3, 1>`.
+/// The call that integrates borrows the system `S`: `Trajectory<&Pendulum>`.
 /// [`into_owned`](Self::into_owned) returns a trajectory with its own copy of the system,
-/// `Trajectory<Pendulum, 3, 1>`. The vector field `F` tells which equations were integrated,
+/// `Trajectory<Pendulum>`. The vector field `F` tells which equations were integrated,
 /// Lagrange's or Hamilton's; samples have both velocities and momenta.
-pub struct Trajectory<S: Lagrangian<N, M>, const N: usize, const M: usize, F = LagrangianVectorField> {
+pub struct Trajectory<S: Lagrangian, F = LagrangianVectorField> {
     pub(super) system: S,
-    pub(super) path: Path<S::Scalar, N>,
+    pub(super) path: Path<S::Scalar, S::N>,
     ending: Ending,
     statistics: Statistics,
-    adjustment: Adjustment<S::Scalar, N>,
+    adjustment: Adjustment<S::Scalar, S::N>,
     field: PhantomData<F>,
 }
 
-impl<L: Lagrangian<N, M> + Clone, F, const N: usize, const M: usize> Trajectory<&L, N, M, F> {
+impl<L: Lagrangian + Clone, F> Trajectory<&L, F> {
     /// Returns the trajectory with its own copy of the system; the original may then change or be dropped.
     ///
     #[cfg_attr(
@@ -45,7 +46,7 @@ use lagrange_core::prelude::*;
 #[lagrangian(l^2/2 * theta_dot^2 + g*l*cos(theta))]
 struct Pendulum { g: f64, l: f64 }
 
-fn swing(l: f64) -> Result<Trajectory<Pendulum, 1, 0>, Error> {
+fn swing(l: f64) -> Result<Trajectory<Pendulum>, Error> {
     let pendulum = Pendulum { g: 9.81, l };
     Ok(pendulum.integrate(State::at_rest([0.1]), 2.0, Dop853::default())?.into_owned())
 }
@@ -56,19 +57,19 @@ assert!(swing(2.0)?.end().coordinate("theta")? < 0.1);
 "#
     )]
     /// For a system in an `Arc` or an `Rc`, only the pointer is copied.
-    pub fn into_owned(self) -> Trajectory<L, N, M, F> {
+    pub fn into_owned(self) -> Trajectory<L, F> {
         let Self { system, path, ending, statistics, adjustment, field } = self;
         Trajectory { system: system.clone(), path, ending, statistics, adjustment, field }
     }
 }
 
-impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M, F> {
+impl<S: Lagrangian, F> Trajectory<S, F> {
     pub(crate) fn new(
         system: S,
-        path: Path<S::Scalar, N>,
+        path: Path<S::Scalar, S::N>,
         ending: Ending,
         statistics: Statistics,
-        adjustment: Adjustment<S::Scalar, N>,
+        adjustment: Adjustment<S::Scalar, S::N>,
     ) -> Self {
         Self { system, path, ending, statistics, adjustment, field: PhantomData }
     }
@@ -101,7 +102,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
     }
 
     /// Returns the crossings of the [events](crate::MotionBuilder::event), in the order of the motion.
-    pub fn crossings(&self) -> &[Crossing<S::Scalar, N>] {
+    pub fn crossings(&self) -> &[Crossing<S::Scalar, S::N>] {
         &self.path.crossings
     }
 
@@ -111,7 +112,7 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
     }
 
     /// Returns the displacement of the initial state by its projection onto the constraints.
-    pub fn adjustment(&self) -> &Adjustment<S::Scalar, N> {
+    pub fn adjustment(&self) -> &Adjustment<S::Scalar, S::N> {
         &self.adjustment
     }
 
@@ -122,58 +123,56 @@ impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Trajectory<S, N, M,
     }
 }
 
-impl<S, F, const N: usize, const M: usize> Trajectory<S, N, M, F>
+impl<S, F> Trajectory<S, F>
 where
-    S: Lagrangian<N, M, Scalar: Real> + Clone,
-    F: VectorField<S, N, M>,
+    S: Lagrangian<Scalar: Real> + Clone,
+    F: VectorField<S>,
 {
     /// Returns the sample at this time.
     ///
     /// # Errors
     /// [`Error::OutsideTrajectory`]; [`Error::NotProjected`], or in (q, p) an error of the search for the
     /// velocity, if the interpolated state cannot be projected onto the constraints.
-    pub fn at(&self, t: S::Scalar) -> Result<Sample<S, N, M>, Error> {
+    pub fn at(&self, t: S::Scalar) -> Result<Sample<S>, Error> {
         self.state_at(t).map(|state| self.sample(state))
     }
 
     /// Returns the first state, made consistent.
-    pub fn start(&self) -> Sample<S, N, M> {
+    pub fn start(&self) -> Sample<S> {
         self.sample(*self.path.start)
     }
 
     /// Returns the last state.
-    pub fn end(&self) -> Sample<S, N, M> {
+    pub fn end(&self) -> Sample<S> {
         self.sample(*self.path.last)
     }
 
     /// Returns the states that the method computed, first and last included.
-    pub fn steps(&self) -> impl Iterator<Item = Sample<S, N, M>> + '_ {
+    pub fn steps(&self) -> impl Iterator<Item = Sample<S>> + '_ {
         self.states_of_steps().map(|state| self.sample(state))
     }
 
     /// Returns `count` states at evenly spaced times, first and last included. If [`at`](Self::at) fails,
     /// coordinates and velocities are NaN.
-    pub fn samples(&self, count: usize) -> impl Iterator<Item = Sample<S, N, M>> + '_ {
+    pub fn samples(&self, count: usize) -> impl Iterator<Item = Sample<S>> + '_ {
         self.states(count).map(|state| self.sample(state))
     }
 
-    pub(super) fn sample(&self, state: State<S::Scalar, N>) -> Sample<S, N, M> {
+    pub(super) fn sample(&self, state: StateOf<S>) -> Sample<S> {
         Sample { system: self.system.clone(), state }
     }
 }
 
-impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize, const M: usize>
-    Trajectory<S, N, M, F>
-{
-    pub(super) fn states_of_steps(&self) -> impl Iterator<Item = State<S::Scalar, N>> + '_ {
+impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
+    pub(super) fn states_of_steps(&self) -> impl Iterator<Item = StateOf<S>> + '_ {
         let starts = (0..self.statistics.accepted).filter_map(|i| self.path.start_of(i));
         starts.map(|point| F::state(&self.system, &point)).chain(once(*self.path.last))
     }
 
-    pub(super) fn states(&self, count: usize) -> impl Iterator<Item = State<S::Scalar, N>> + '_ {
+    pub(super) fn states(&self, count: usize) -> impl Iterator<Item = StateOf<S>> + '_ {
         let (first, last) = (self.path.start.t, self.path.last.t);
         let intervals = count.saturating_sub(1).max(1);
-        let nowhere = vector([S::Scalar::constant(f64::NAN); N]);
+        let nowhere = vector(Array::filled(S::Scalar::constant(f64::NAN)));
         (0..count).map(move |i| {
             let t = between(first, last, i as f64 / intervals as f64);
             self.state_at(t).unwrap_or(State { t, q: nowhere, v: nowhere })
@@ -182,7 +181,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize,
 
     /// Returns the state at a time. An interpolated state violates the constraints by about the tolerance, so
     /// it is projected.
-    pub(super) fn state_at(&self, t: S::Scalar) -> Result<State<S::Scalar, N>, Error> {
+    pub(super) fn state_at(&self, t: S::Scalar) -> Result<StateOf<S>, Error> {
         if t == self.path.last.t {
             return Ok(*self.path.last);
         }
@@ -197,7 +196,7 @@ impl<S: Lagrangian<N, M, Scalar: Real>, F: VectorField<S, N, M>, const N: usize,
     }
 }
 
-impl<S: Lagrangian<N, M>, F, const N: usize, const M: usize> Debug for Trajectory<S, N, M, F> {
+impl<S: Lagrangian, F> Debug for Trajectory<S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Trajectory")
             .field("system", &S::NAME)

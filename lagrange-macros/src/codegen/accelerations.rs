@@ -30,7 +30,7 @@ impl Emitter<'_> {
     pub(super) fn factor(&self, method: &Method) -> Written {
         let Some(Solving { factor, .. }) = &self.solving else {
             let [mass, _, jacobian, _] = self.equations_by_rows();
-            return self.in_loops(method, [mass, jacobian, self.weights()], &quote!(LoopFactor::of));
+            return self.in_loops(method, [mass, jacobian, self.weights()], &quote!(factor));
         };
         let kernel = self.style.write(method.name, factor, &[ResultShape::Vector(factor.results.len())]);
         self.function(method, kernel, |results| quote!(#(#results)*))

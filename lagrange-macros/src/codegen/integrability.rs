@@ -13,7 +13,6 @@ impl Emitter<'_> {
     /// Emits the constants `CONSTRAINT_CLASSES` and `INTEGRALS`.
     pub(super) fn integrability(&self) -> TokenStream {
         let kinds = &self.derived.equations.integrability;
-        let m = kinds.classes.len();
         let classes = kinds.classes.iter().map(|&Classification { integrability, evidence }| {
             let (integrability, evidence) = (format_ident!("{integrability:?}"), self::evidence(evidence));
             quote!(__lagrange::facts::Classification { integrability: __lagrange::facts::Integrability::#integrability, evidence: #evidence })
@@ -26,7 +25,7 @@ impl Emitter<'_> {
             None => quote!(::core::option::Option::None),
         };
         quote! {
-            const CONSTRAINT_CLASSES: [__lagrange::facts::Classification; #m] = [#(#classes),*];
+            const CONSTRAINT_CLASSES: &'static [__lagrange::facts::Classification] = &[#(#classes),*];
             const INTEGRALS: ::core::option::Option<__lagrange::facts::Integrals> = #integrals;
         }
     }

@@ -18,8 +18,11 @@ impl Emitter<'_> {
     pub(super) fn lagrangian(&self, diagnostics: &mut Diagnostics) -> TokenStream {
         let problem = self.problem;
         let runtime = runtime(self.declaration);
-        let (ident, scalar, [n, m, _]) =
-            (&self.declaration.ident, self.style.types.scalar, self.style.types.dimensions());
+        let (ident, scalar, [n, m]) = (
+            &self.declaration.ident,
+            self.style.types.scalar,
+            [problem.coordinates.len(), problem.constraints.len()],
+        );
         let factor = &self.style.factor;
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let generics = self.generics(&self.orders(&[]), true);
@@ -55,13 +58,15 @@ impl Emitter<'_> {
 
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics __lagrange::Lagrangian<#n, #m> for #ident #type_generics #where_clause {
+                impl #impl_generics __lagrange::Lagrangian for #ident #type_generics #where_clause {
                     type Scalar = #scalar;
                     type Factor = #factor;
+                    type N = __lagrange::nalgebra::Const<#n>;
+                    type M = __lagrange::nalgebra::Const<#m>;
                     const NAME: &'static str = #name;
-                    const COORDINATES: [&'static str; #n] = [#(#coordinates),*];
-                    const CONSTRAINTS: [&'static str; #m] = [#(#constraints),*];
-                    const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [#(#kinds),*];
+                    const COORDINATES: &'static [&'static str] = &[#(#coordinates),*];
+                    const CONSTRAINTS: &'static [&'static str] = &[#(#constraints),*];
+                    const CONSTRAINT_KINDS: &'static [__lagrange::ConstraintKind] = &[#(#kinds),*];
                     #integrability
                     const MOMENTA_ARE_LINEAR: bool = #are_linear;
                     const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];

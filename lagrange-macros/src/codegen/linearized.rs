@@ -68,7 +68,7 @@ impl Emitter<'_> {
         let (impl_generics, _, where_clause) = generics.split_for_impl();
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let (runtime, ident) = (runtime(self.declaration), &self.declaration.ident);
-        let [n, m, p] = self.style.types.dimensions();
+        let p = self.style.types.parameters;
         let scalar = self.style.types.scalar;
         let [of_state_slopes, of_parameter_slopes] =
             [&changing.by_state, &changing.by_parameters].map(|[slopes, _]| slopes.results.len());
@@ -81,16 +81,17 @@ impl Emitter<'_> {
 
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics __lagrange::StateDerivatives<#n, #m> for #ident #type_generics #where_clause {
+                impl #impl_generics __lagrange::StateDerivatives for #ident #type_generics #where_clause {
                     type Slopes = [#scalar; #of_state_slopes];
                     #of_state
                 }
 
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics __lagrange::Linearized<#n, #m, #p> for #ident #type_generics #where_clause {
+                impl #impl_generics __lagrange::Linearized for #ident #type_generics #where_clause {
+                    type P = __lagrange::nalgebra::Const<#p>;
                     type ParameterSlopes = [#scalar; #of_parameter_slopes];
-                    const PARAMETERS: [&'static str; #p] = [#(#names),*];
+                    const PARAMETERS: &'static [&'static str] = &[#(#names),*];
                     #methods
                 }
 

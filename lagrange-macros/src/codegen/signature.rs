@@ -9,7 +9,7 @@ use crate::contract::{Argument, Dimension, Gives, Method};
 #[derive(Clone, Copy)]
 pub(super) struct Types<'a> {
     pub(super) scalar: &'a syn::Type,
-    /// Number of coordinates. `None` if it is unknown; the stubs are then generic over it.
+    /// Number of coordinates. `None` if it is unknown, in a stub.
     pub(super) coordinates: Option<usize>,
     pub(super) constraints: usize,
     pub(super) parameters: usize,
@@ -42,49 +42,68 @@ impl Types<'_> {
         let takes =
             &[Argument::System, Argument::State, Argument::Solution][..2 + usize::from(needs_solution)];
         let arguments = takes.iter().map(|&argument| self.argument(argument));
-        let generic = self.open().map(|n| quote!(<#n>));
         let returns = match lengths {
             [] => self.returns(Gives::Number),
             [length, ..] => {
                 let columns = lengths.get(1).unwrap_or(&1);
-                self.matrix(&quote!(#length), &quote!(#columns))
+                let scalar = self.scalar;
+                quote!(__lagrange::nalgebra::SMatrix<#scalar, #length, #columns>)
             }
         };
-        quote!(fn #name #generic(#(#arguments),*) -> #returns)
+        quote!(fn #name(#(#arguments),*) -> #returns)
     }
 
-    /// Number of coordinates as a const generic parameter. `None` if the number is known.
-    pub(super) fn open(&self) -> Option<TokenStream> {
-        let [n, ..] = self.dimensions();
-        self.coordinates.is_none().then(|| quote!(const #n: usize))
-    }
-
-    /// Dimensions N, M and P as tokens.
-    pub(super) fn dimensions(&self) -> [TokenStream; 3] {
-        let (m, p) = (self.constraints, self.parameters);
-        [self.coordinates.map_or_else(|| quote!(__N), |n| quote!(#n)), quote!(#m), quote!(#p)]
-    }
-
-    fn dimension(&self, dimension: Dimension) -> TokenStream {
-        let [n, m, p] = self.dimensions();
-        match dimension {
-            Dimension::Coordinates => n,
-            Dimension::Constraints => m,
-            Dimension::Parameters => p,
+    /// A type of the runtime with these lengths: `State<f64, 2>`. If the number of coordinates is unknown, it is the
+    /// type with the length `N` of the stub.
+    fn of_lengths(&self, known: &TokenStream, unknown: &str, lengths: &[Dimension]) -> TokenStream {
+        let (scalar, unknown) = (self.scalar, format_ident!("{unknown}"));
+        let length = |dimension: &Dimension| match dimension {
+            Dimension::Coordinates => self.coordinates,
+            Dimension::Constraints => Some(self.constraints),
+            Dimension::Parameters => Some(self.parameters),
+        };
+        let lengths = lengths.iter().map(length);
+        match lengths.clone().collect::<Option<Vec<_>>>() {
+            Some(lengths) => quote!(__lagrange::#known<#scalar, #(#lengths),*>),
+            None => {
+                let lengths = lengths.map(|length| match length {
+                    Some(length) => quote!(__lagrange::nalgebra::Const<#length>),
+                    None => quote!(<Self as __lagrange::Lagrangian>::N),
+                });
+                quote!(__lagrange::generic::#unknown<#scalar, #(#lengths),*>)
+            }
         }
     }
 
     pub(super) fn argument(&self, argument: Argument) -> TokenStream {
-        let (scalar, [n, m, p]) = (self.scalar, self.dimensions());
+        let scalar = self.scalar;
         let ty = match argument {
             Argument::System => return quote!(&self),
             Argument::MutableSystem => return quote!(&mut self),
-            Argument::State => quote!(&__lagrange::State<#scalar, #n>),
-            Argument::Solution => quote!(&__lagrange::Solution<#scalar, #n, #m>),
-            Argument::Accelerations => quote!(&__lagrange::nalgebra::SVector<#scalar, #n>),
-            Argument::Multipliers => quote!(&__lagrange::nalgebra::SVector<#scalar, #m>),
-            Argument::Direction => quote!(&__lagrange::Direction<#scalar, #n>),
-            Argument::Rates => quote!(&__lagrange::nalgebra::SVector<#scalar, #p>),
+            Argument::State => {
+                let ty = self.state();
+                quote!(&#ty)
+            }
+            Argument::Solution => {
+                let ty = self.solution();
+                quote!(&#ty)
+            }
+            Argument::Accelerations => {
+                let ty = self.vector(Dimension::Coordinates);
+                quote!(&#ty)
+            }
+            Argument::Multipliers => {
+                let ty = self.vector(Dimension::Constraints);
+                quote!(&#ty)
+            }
+            Argument::Direction => {
+                let ty = self.of_lengths(&quote!(Direction), "Direction", &[Dimension::Coordinates]);
+                quote!(&#ty)
+            }
+            Argument::Rates => {
+                let ty = self.vector(Dimension::Parameters);
+                quote!(&#ty)
+            }
             Argument::Factor => quote!(&Self::Factor),
             Argument::Slopes => quote!(&Self::Slopes),
             Argument::ParameterSlopes => quote!(&Self::ParameterSlopes),
@@ -92,8 +111,14 @@ impl Types<'_> {
             Argument::Sums => quote!(&Self::Sums),
             Argument::Terms => quote!(&Self::SeriesTerms),
             Argument::Order => quote!(&[#scalar; 4]),
-            Argument::Forcing => quote!(&__lagrange::nalgebra::SVector<#scalar, #n>),
-            Argument::Bias => quote!(&__lagrange::nalgebra::SVector<#scalar, #m>),
+            Argument::Forcing => {
+                let ty = self.vector(Dimension::Coordinates);
+                quote!(&#ty)
+            }
+            Argument::Bias => {
+                let ty = self.vector(Dimension::Constraints);
+                quote!(&#ty)
+            }
             Argument::Index => quote!(usize),
             Argument::Value => quote!(#scalar),
         };
@@ -102,34 +127,43 @@ impl Types<'_> {
     }
 
     fn returns(&self, gives: Gives) -> TokenStream {
-        let (scalar, [n, m, _]) = (self.scalar, self.dimensions());
+        let scalar = self.scalar;
         match gives {
             Gives::Number => quote!(#scalar),
-            Gives::Vector(length) => self.vector(&self.dimension(length)),
-            Gives::Matrix(rows, columns) => self.matrix(&self.dimension(rows), &self.dimension(columns)),
-            Gives::Solution => quote!(__lagrange::Solution<#scalar, #n, #m>),
+            Gives::Vector(length) => self.vector(length),
+            Gives::Matrix(rows, columns) => {
+                self.of_lengths(&quote!(nalgebra::SMatrix), "Matrix", &[rows, columns])
+            }
+            Gives::Solution => self.solution(),
             Gives::Factor => quote!(Self::Factor),
             Gives::Slopes => quote!(Self::Slopes),
             Gives::ParameterSlopes => quote!(Self::ParameterSlopes),
             Gives::SeriesSlopes => quote!(Self::SeriesSlopes),
             Gives::RightHandSides => {
-                let [forcing, bias] = [n, m].map(|length| self.vector(&length));
+                let [forcing, bias] =
+                    [Dimension::Coordinates, Dimension::Constraints].map(|length| self.vector(length));
                 quote!(((#forcing, #bias), Self::SeriesTerms))
             }
             Gives::Factors => quote!([Self::Sums; 2]),
-            Gives::ResidualChange => quote!(__lagrange::ResidualChange<#scalar, #n, #m>),
+            Gives::ResidualChange => self.of_lengths(
+                &quote!(ResidualChange),
+                "ResidualChange",
+                &[Dimension::Coordinates, Dimension::Constraints],
+            ),
             Gives::Optional => quote!(::core::option::Option<#scalar>),
             Gives::Success => quote!(bool),
         }
     }
 
-    fn matrix(&self, rows: &TokenStream, columns: &TokenStream) -> TokenStream {
-        let scalar = self.scalar;
-        quote!(__lagrange::nalgebra::SMatrix<#scalar, #rows, #columns>)
+    fn state(&self) -> TokenStream {
+        self.of_lengths(&quote!(State), "State", &[Dimension::Coordinates])
     }
 
-    fn vector(&self, length: &TokenStream) -> TokenStream {
-        let scalar = self.scalar;
-        quote!(__lagrange::nalgebra::SVector<#scalar, #length>)
+    fn solution(&self) -> TokenStream {
+        self.of_lengths(&quote!(Solution), "Solution", &[Dimension::Coordinates, Dimension::Constraints])
+    }
+
+    fn vector(&self, length: Dimension) -> TokenStream {
+        self.of_lengths(&quote!(nalgebra::SVector), "Vector", &[length])
     }
 }

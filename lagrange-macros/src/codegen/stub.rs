@@ -14,15 +14,20 @@ use crate::resolve::{Observable, Outline};
 use crate::syntax::Declaration;
 
 /// Emits implementations that never run, because the errors beside them stop the compilation.
-pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream {
+///
+/// If the number of coordinates is unknown, the call of `compile_error!` in `unknown` stands for it: rustc reports the
+/// error there, and accepts any number in its place.
+pub(crate) fn stub(
+    declaration: &Declaration,
+    outline: &Outline,
+    unknown: Option<TokenStream>,
+) -> TokenStream {
     let &Outline { ref scalar, coordinates, constraints, parameters, ref observables } = outline;
     let types = Types { scalar, coordinates, constraints, parameters };
-    let (runtime, ident, [n, m, p]) = (runtime(declaration), &declaration.ident, types.dimensions());
+    let (runtime, ident) = (runtime(declaration), &declaration.ident);
+    let n = coordinates.map_or(quote!({ #unknown }), |n| quote!(#n));
     let (_, type_generics, where_clause) = declaration.generics.split_for_impl();
     let generics = bounded_generics(declaration, scalar);
-    let (own_generics, _, _) = generics.split_for_impl();
-    let mut generics = generics.clone();
-    generics.params.extend(types.open().map(|n| -> syn::GenericParam { syn::parse_quote!(#n) }));
     let (impl_generics, _, _) = generics.split_for_impl();
     let never = |method: &Method| {
         let signature = types.signature(method);
@@ -44,13 +49,15 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
 
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
-            impl #impl_generics __lagrange::Lagrangian<#n, #m> for #ident #type_generics #where_clause {
+            impl #impl_generics __lagrange::Lagrangian for #ident #type_generics #where_clause {
                 type Scalar = #scalar;
                 type Factor = ();
+                type N = __lagrange::nalgebra::Const<#n>;
+                type M = __lagrange::nalgebra::Const<#constraints>;
                 const NAME: &'static str = "";
-                const COORDINATES: [&'static str; #n] = [""; #n];
-                const CONSTRAINTS: [&'static str; #m] = [""; #m];
-                const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; #m] = [__lagrange::ConstraintKind::Holonomic; #m];
+                const COORDINATES: &'static [&'static str] = &[];
+                const CONSTRAINTS: &'static [&'static str] = &[];
+                const CONSTRAINT_KINDS: &'static [__lagrange::ConstraintKind] = &[];
                 const OBSERVABLES: &'static [&'static str] = &[];
                 const FACTS: __lagrange::facts::Facts = __lagrange::facts::Facts::NONE;
                 #(#of_lagrangian)*
@@ -58,22 +65,23 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
 
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
-            impl #impl_generics __lagrange::StateDerivatives<#n, #m> for #ident #type_generics #where_clause {
+            impl #impl_generics __lagrange::StateDerivatives for #ident #type_generics #where_clause {
                 type Slopes = ();
                 #(#of_state_derivatives)*
             }
 
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
-            impl #impl_generics __lagrange::Linearized<#n, #m, #p> for #ident #type_generics #where_clause {
+            impl #impl_generics __lagrange::Linearized for #ident #type_generics #where_clause {
+                type P = __lagrange::nalgebra::Const<#parameters>;
                 type ParameterSlopes = ();
-                const PARAMETERS: [&'static str; #p] = [""; #p];
+                const PARAMETERS: &'static [&'static str] = &[];
                 #(#of_linearized)*
             }
 
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
-            impl #impl_generics __lagrange::TaylorSeries<#n, #m> for #ident #type_generics #where_clause {
+            impl #impl_generics __lagrange::TaylorSeries for #ident #type_generics #where_clause {
                 type SeriesSlopes = [#scalar; 0];
                 type Sums = [#scalar; 0];
                 type SeriesTerms = [#scalar; 0];
@@ -82,7 +90,7 @@ pub(crate) fn stub(declaration: &Declaration, outline: &Outline) -> TokenStream 
 
             #[automatically_derived]
             #[allow(unused_variables, dead_code, non_snake_case, clippy::all)]
-            impl #own_generics #ident #type_generics #where_clause {
+            impl #impl_generics #ident #type_generics #where_clause {
                 #visibility const fn equations() -> __lagrange::facts::Equations {
                     __lagrange::generated::equations([[""; 3]; 3])
                 }

@@ -2,10 +2,10 @@
 
 use super::{declaration, tokens};
 use crate::diagnostics::Diagnostics;
-use crate::expand;
 use crate::mechanics;
 use crate::resolve;
 use crate::rounds::{Random, rounds};
+use crate::{expand, stub};
 
 /// Returns the errors for a system with these constraints, named a, b, c, ….
 fn said(constraints: &[&str]) -> Vec<String> {
@@ -189,7 +189,7 @@ fn wrong(constraints: &[String]) -> Vec<String> {
     let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics).expect("a problem");
     match mechanics::derive(&mut graph, &problem, &mut diagnostics) {
         Some(_) => Vec::new(),
-        None => messages(&diagnostics.into_tokens().to_string()),
+        None => messages(&stub(&declaration, diagnostics.into_errors()).to_string()),
     }
 }
 

@@ -50,7 +50,7 @@ fn derived(source: &str) -> (Graph, Problem, Derived) {
         let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics)?;
         Some((graph, problem, derived))
     });
-    found.unwrap_or_else(|| panic!("{source}: {}", diagnostics.into_tokens()))
+    found.unwrap_or_else(|| panic!("{source}: {:?}", diagnostics.into_errors()))
 }
 
 /// Like [`derived`], but returns only the equations of motion of the derived system.

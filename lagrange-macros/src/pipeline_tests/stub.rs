@@ -92,7 +92,7 @@ fn given(source: &str) -> BTreeSet<String> {
 }
 
 fn promised(source: &str) -> BTreeSet<String> {
-    promises(stub(&declaration(source).0))
+    promises(stub(&declaration(source).0, Vec::new()))
 }
 
 #[test]

@@ -14,7 +14,7 @@ pub(super) struct Bead {
     b: f64,
 }
 
-impl Exhibit<2, 1, 3> for Bead {
+impl Exhibit<3> for Bead {
     const TITLE: &'static str = "Bead on a wire";
     const ABOUT: &'static str = "The wire is a constraint, and pushes across itself, by what the multiplier \
         says: more than the weight where it is curved and the bead is fast.";
@@ -32,7 +32,7 @@ impl Exhibit<2, 1, 3> for Bead {
         View::plane(xy(0.0, 0.7), 1.3, 4.0 * self.m * self.g)
     }
 
-    fn draw(&self, now: &Moment<2, 1>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let wire = (-60..=60).map(|k| f64::from(k) / 40.0).map(|x| xy(x, self.b * x * x / 2.0));
         scene.line(Paint::Fixed, 2.5, &wire.collect::<Vec<Point>>());
         let bead = xy(now.state.q[0], now.state.q[1]);

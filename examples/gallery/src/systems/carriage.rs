@@ -20,7 +20,7 @@ pub(super) struct Carriage {
     omega: f64,
 }
 
-impl Exhibit<2, 1, 5> for Carriage {
+impl Exhibit<5> for Carriage {
     const TITLE: &'static str = "Pendulum in a carriage";
     const ABOUT: &'static str = "Seen from the carriage, which accelerates by A(t), a force −mA acts \
         (green); the rod’s is red. With a steady A it hangs askew. Shaken close to its own frequency it \
@@ -45,7 +45,7 @@ impl Exhibit<2, 1, 5> for Carriage {
         vec![state.q.push(0.0)]
     }
 
-    fn draw(&self, now: &Moment<2, 1>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let corner = |x: f64, y: f64| xy(1.45 * x, 1.3 * y);
         let walls =
             [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0), corner(-1.0, -1.0)];

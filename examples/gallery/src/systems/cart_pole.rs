@@ -28,7 +28,7 @@ pub(super) struct CartPole {
 /// Of least cost for 1 kg, 0.2 kg and 0.6 m, as the example `cart_pole` finds it.
 const GAIN: [f64; 4] = [-3.1623, -42.9893, -4.4086, -9.9971];
 
-impl Exhibit<2, 0, 5> for CartPole {
+impl Exhibit<5> for CartPole {
     const TITLE: &'static str = "Pole on a cart";
     const ABOUT: &'static str = "A feedback balances the pole in a steady wind, leaning against that; the \
         green arrows are the wind and the push of the motor. Make the feedback weaker, and see when the \
@@ -57,7 +57,7 @@ impl Exhibit<2, 0, 5> for CartPole {
         vec![self.bob(state)]
     }
 
-    fn draw(&self, now: &Moment<2, 0>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let (x, bob) = (now.state.q[0], self.bob(&now.state));
         let ground = -0.22;
         scene.line(Paint::Fixed, 2.0, &[xy(x - 9.0, ground), xy(x + 9.0, ground)]);

@@ -17,7 +17,7 @@ pub(super) struct Chain {
     g: f64,
 }
 
-impl Exhibit<100, 50, 4> for Chain {
+impl Exhibit<4> for Chain {
     const TITLE: &'static str = "Chain of 50 rods";
     const ABOUT: &'static str = "A hundred coordinates and fifty constraints. The derive solves for \
         accelerations and multipliers while it compiles, from one end of the chain to the other, so that a \
@@ -49,7 +49,7 @@ impl Exhibit<100, 50, 4> for Chain {
         vec![xy(state.q[RODS - 1], state.q[2 * RODS - 1])]
     }
 
-    fn draw(&self, now: &Moment<100, 50>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let joint = |i: usize| xy(now.state.q[i], now.state.q[RODS + i]);
         let joints: Vec<Point> = std::iter::once(Point::zeros()).chain((0..RODS).map(joint)).collect();
         scene.line(Paint::Fixed, 2.0, &joints);

@@ -16,7 +16,7 @@ pub(super) struct ChaplyginSleigh {
     inertia: f64,
 }
 
-impl Exhibit<3, 1, 4> for ChaplyginSleigh {
+impl Exhibit<4> for ChaplyginSleigh {
     const TITLE: &'static str = "Chaplygin’s sleigh";
     const ABOUT: &'static str = "It glides along its blade and cannot slip sideways. The energy is \
         conserved, and yet all motions end alike: straight ahead with the centre of mass in front, as if \
@@ -40,7 +40,7 @@ impl Exhibit<3, 1, 4> for ChaplyginSleigh {
         vec![xy(state.q[0], state.q[1])]
     }
 
-    fn draw(&self, now: &Moment<3, 1>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let (blade, (sine, cosine)) = (xy(now.state.q[0], now.state.q[1]), now.state.q[2].sin_cos());
         let (along, across) = (xy(cosine, sine), xy(-sine, cosine));
         let hull = [[-0.25, -0.3], [0.65, -0.3], [1.0, 0.0], [0.65, 0.3], [-0.25, 0.3]];

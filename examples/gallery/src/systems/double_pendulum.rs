@@ -15,7 +15,7 @@ pub(super) struct DoublePendulum {
     g: f64,
 }
 
-impl Exhibit<4, 2, 7> for DoublePendulum {
+impl Exhibit<7> for DoublePendulum {
     const TITLE: &'static str = "Double pendulum";
     const ABOUT: &'static str = "Two bobs on rigid rods, in Cartesian coordinates: each rod is a \
         constraint, and its multiplier is what the rod pulls with. Let go from high up it is chaos, yet the \
@@ -46,7 +46,7 @@ impl Exhibit<4, 2, 7> for DoublePendulum {
         vec![xy(state.q[1], state.q[3])]
     }
 
-    fn draw(&self, now: &Moment<4, 2>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let bobs = [0, 1].map(|i| xy(now.state.q[i], now.state.q[2 + i]));
         scene.line(Paint::Fixed, 4.0, &[Point::zeros(), bobs[0], bobs[1]]);
         scene.dot(Paint::Fixed, 8.0, Point::zeros());

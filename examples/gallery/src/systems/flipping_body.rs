@@ -21,7 +21,7 @@ pub(super) struct FlippingBody {
     edges: [f64; 3],
 }
 
-impl Exhibit<7, 1, 5> for FlippingBody {
+impl Exhibit<5> for FlippingBody {
     const TITLE: &'static str = "Book thrown into the air";
     const ABOUT: &'static str = "A free body spun about its middle axis turns over, again and again, while \
         its angular momentum (the arrow) stands still. The closer the axis was aimed at, the longer it \
@@ -57,7 +57,7 @@ impl Exhibit<7, 1, 5> for FlippingBody {
         vec![pose(state) * Point::y() * (0.75 * self.edges[1])]
     }
 
-    fn draw(&self, now: &Moment<7, 1>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let pose = pose(&now.state);
         scene.solid(Paint::Body, Point::zeros(), pose, self.edges);
         let tip = pose * Point::y() * (0.75 * self.edges[1]);

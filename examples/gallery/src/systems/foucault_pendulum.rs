@@ -17,7 +17,7 @@ pub(super) struct FoucaultPendulum {
     latitude: f64,
 }
 
-impl Exhibit<3, 1, 4> for FoucaultPendulum {
+impl Exhibit<4> for FoucaultPendulum {
     const TITLE: &'static str = "Foucault’s pendulum";
     const ABOUT: &'static str = "A pendulum let go from rest in the frame of the Earth, which here turns in \
         minutes. Its plane turns clockwise in the north by sin(latitude) of a turn a day, and not at all on \
@@ -46,7 +46,7 @@ impl Exhibit<3, 1, 4> for FoucaultPendulum {
         vec![state.q]
     }
 
-    fn draw(&self, now: &Moment<3, 1>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let (bob, below) = (now.state.q, Point::z() * (-1.03 * self.l));
         let radius = 0.35 * self.l;
         for k in [1.0, 2.0 / 3.0, 1.0 / 3.0] {

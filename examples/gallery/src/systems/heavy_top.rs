@@ -20,7 +20,7 @@ pub(super) struct HeavyTop {
     inertia: Matrix3<f64>,
 }
 
-impl Exhibit<7, 4, 5> for HeavyTop {
+impl Exhibit<5> for HeavyTop {
     const TITLE: &'static str = "Heavy top";
     const ABOUT: &'static str = "A top on its tip, its pose a unit quaternion, the push of the floor a \
         multiplier (red). It is let go leaning and nods while it precesses; give it the right turn and it \
@@ -56,7 +56,7 @@ impl Exhibit<7, 4, 5> for HeavyTop {
         vec![1.7 * r]
     }
 
-    fn draw(&self, now: &Moment<7, 4>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let (r, q) = (now.place(0), now.state.q);
         let pose = UnitQuaternion::new_normalize(Quaternion::new(q[3], q[4], q[5], q[6]));
         scene.floor(Point::zeros(), 2.0 * self.l, 0.0);

@@ -9,7 +9,7 @@ use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 #[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
 pub(super) struct HenonHeiles;
 
-impl Exhibit<2, 0, 3> for HenonHeiles {
+impl Exhibit<3> for HenonHeiles {
     const TITLE: &'static str = "Hénon and Heiles";
     const ABOUT: &'static str = "A star in a galaxy, at x = 0 to start with. Its energy draws the line that \
         it cannot cross; from 1/6 on it may leave. At a low energy its path fills a pattern, as if \
@@ -34,7 +34,7 @@ impl Exhibit<2, 0, 3> for HenonHeiles {
         vec![state.q.push(0.0)]
     }
 
-    fn draw(&self, now: &Moment<2, 0>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let energy = self.energy(&now.state);
         scene.line(Paint::Guide, 1.5, &contour(1.0 / 6.0));
         scene.face(Paint::Guide, &contour(energy));

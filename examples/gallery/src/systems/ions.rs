@@ -22,7 +22,7 @@ pub(super) struct StirredIons {
 /// Where they start, in x, y, z one ion after the other.
 const PLACES: [f64; 15] = [1.4, 0.1, 0.0, -0.2, 0.7, 0.1, -1.5, -0.1, 0.0, 0.1, -0.8, -0.1, 0.1, 0.1, 0.6];
 
-impl Exhibit<15, 0, 4> for StirredIons {
+impl Exhibit<4> for StirredIons {
     const TITLE: &'static str = "Ions in a stirred trap";
     const ABOUT: &'static str = "Five ions repel each other in a trap that is longer in one direction and \
         turns. Seen from the trap nothing depends on the time, and E = E₀ − Σ L·Ω is conserved; neither \
@@ -48,7 +48,7 @@ impl Exhibit<15, 0, 4> for StirredIons {
         (0..5).map(|a| state.q.fixed_rows::<3>(3 * a).into()).collect()
     }
 
-    fn draw(&self, now: &Moment<15, 0>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         // Where the trap holds by as much.
         let ellipse: Vec<Point> = (0..=60)
             .map(|k| (std::f64::consts::TAU * f64::from(k) / 60.0).sin_cos())
@@ -66,7 +66,7 @@ impl Exhibit<15, 0, 4> for StirredIons {
 
 impl StirredIons {
     /// What the others push an ion by.
-    fn pushed(&self, now: &Moment<15, 0>, a: usize) -> Point {
+    fn pushed(&self, now: &Moment<Self>, a: usize) -> Point {
         let from = |b: usize| now.place(3 * a) - now.place(3 * b);
         (0..5).filter(|b| *b != a).map(|b| from(b) * (self.k / from(b).norm().powi(3))).sum()
     }

@@ -50,10 +50,10 @@ pub struct Entry {
 }
 
 /// The entry of an exhibit.
-const fn entry<E, const N: usize, const M: usize, const K: usize>(key: &'static str) -> Entry
+const fn entry<E, const K: usize>(key: &'static str) -> Entry
 where
-    E: Exhibit<N, M, K>,
-    Dop853: Method<E, N, M>,
+    E: Exhibit<K>,
+    Dop853: Method<E>,
 {
     Entry {
         key,
@@ -63,34 +63,34 @@ where
         pace: E::PACE,
         equations: E::EQUATIONS,
         conserves_energy: E::FACTS.energy_is_conserved.is_some(),
-        coordinates: &E::COORDINATES,
-        open: running::open::<E, N, M, K>,
+        coordinates: E::COORDINATES,
+        open: running::open::<E, K>,
     }
 }
 
 /// All of them, from pendulums to machines.
 pub fn all() -> Vec<Entry> {
     vec![
-        entry::<bead::Bead, _, _, _>("bead"),
-        entry::<double_pendulum::DoublePendulum, _, _, _>("double-pendulum"),
-        entry::<chain::Chain, _, _, _>("chain"),
-        entry::<spherical_pendulum::SphericalPendulum, _, _, _>("spherical-pendulum"),
-        entry::<polar_pendulum::PolarPendulum, _, _, _>("polar-pendulum"),
-        entry::<foucault_pendulum::FoucaultPendulum, _, _, _>("foucault-pendulum"),
-        entry::<race::Race, _, _, _>("race"),
-        entry::<rolling_cylinder::RollingCylinder, _, _, _>("rolling-cylinder"),
-        entry::<rolling_ball::RollingBall, _, _, _>("rolling-ball"),
-        entry::<rolling_coin::RollingCoin, _, _, _>("rolling-coin"),
-        entry::<chaplygin_sleigh::ChaplyginSleigh, _, _, _>("chaplygin-sleigh"),
-        entry::<carriage::Carriage, _, _, _>("carriage"),
-        entry::<turntable::Turntable, _, _, _>("turntable"),
-        entry::<ions::StirredIons, _, _, _>("ions"),
-        entry::<heavy_top::HeavyTop, _, _, _>("heavy-top"),
-        entry::<flipping_body::FlippingBody, _, _, _>("flipping-body"),
-        entry::<stewart_platform::StewartPlatform, _, _, _>("stewart-platform"),
-        entry::<robot_arm::RobotArm, _, _, _>("robot-arm"),
-        entry::<cart_pole::CartPole, _, _, _>("cart-pole"),
-        entry::<henon_heiles::HenonHeiles, _, _, _>("henon-heiles"),
-        entry::<three_bodies::ThreeBodies, _, _, _>("three-bodies"),
+        entry::<bead::Bead, _>("bead"),
+        entry::<double_pendulum::DoublePendulum, _>("double-pendulum"),
+        entry::<chain::Chain, _>("chain"),
+        entry::<spherical_pendulum::SphericalPendulum, _>("spherical-pendulum"),
+        entry::<polar_pendulum::PolarPendulum, _>("polar-pendulum"),
+        entry::<foucault_pendulum::FoucaultPendulum, _>("foucault-pendulum"),
+        entry::<race::Race, _>("race"),
+        entry::<rolling_cylinder::RollingCylinder, _>("rolling-cylinder"),
+        entry::<rolling_ball::RollingBall, _>("rolling-ball"),
+        entry::<rolling_coin::RollingCoin, _>("rolling-coin"),
+        entry::<chaplygin_sleigh::ChaplyginSleigh, _>("chaplygin-sleigh"),
+        entry::<carriage::Carriage, _>("carriage"),
+        entry::<turntable::Turntable, _>("turntable"),
+        entry::<ions::StirredIons, _>("ions"),
+        entry::<heavy_top::HeavyTop, _>("heavy-top"),
+        entry::<flipping_body::FlippingBody, _>("flipping-body"),
+        entry::<stewart_platform::StewartPlatform, _>("stewart-platform"),
+        entry::<robot_arm::RobotArm, _>("robot-arm"),
+        entry::<cart_pole::CartPole, _>("cart-pole"),
+        entry::<henon_heiles::HenonHeiles, _>("henon-heiles"),
+        entry::<three_bodies::ThreeBodies, _>("three-bodies"),
     ]
 }

@@ -14,7 +14,7 @@ pub(super) struct PolarPendulum {
     l: f64,
 }
 
-impl Exhibit<2, 0, 5> for PolarPendulum {
+impl Exhibit<5> for PolarPendulum {
     const TITLE: &'static str = "Spherical pendulum in angles";
     const ABOUT: &'static str = "The spherical pendulum by two angles needs no constraint, and the derive \
         sees that φ is cyclic: p_φ is conserved. With that and the energy the bob moves between two \
@@ -39,7 +39,7 @@ impl Exhibit<2, 0, 5> for PolarPendulum {
         vec![self.place(state.q[0], state.q[1])]
     }
 
-    fn draw(&self, now: &Moment<2, 0>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         for theta in self.turning_points(&now.state) {
             let height = Point::z() * (-self.l * theta.cos());
             scene.circle(Paint::Other, 1.5, height, Point::z(), self.l * theta.sin());

@@ -20,7 +20,7 @@ pub(super) struct Race {
 /// How far their inclines are apart.
 const APART: f64 = 2.4;
 
-impl Exhibit<6, 3, 5> for Race {
+impl Exhibit<5> for Race {
     const TITLE: &'static str = "Sphere, cylinder and hoop";
     const ABOUT: &'static str = "They roll down inclines without slipping; ẍ is 5/7, 2/3 and 1/2 of g sin \
         α, whatever their mass and radius. The multiplier of rolling is friction: it points up the slope, \
@@ -48,7 +48,7 @@ impl Exhibit<6, 3, 5> for Race {
         )
     }
 
-    fn draw(&self, now: &Moment<6, 3>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let (along, up) = (self.downhill(), xy(self.alpha.sin(), self.alpha.cos()));
         for i in 0..3 {
             let (x, phi) = (now.state.q[i], now.state.q[3 + i]);

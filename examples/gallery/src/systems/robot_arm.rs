@@ -43,7 +43,7 @@ pub(super) struct RobotArm {
     round: f64,
 }
 
-impl Exhibit<6, 6, 4> for RobotArm {
+impl Exhibit<4> for RobotArm {
     const TITLE: &'static str = "Robot arm, led by the hand";
     const ABOUT: &'static str = "Six joints, and a hand that leads the tool around a circle, pointing down: \
         six constraints that depend on time. Their multipliers are the force and the moments of the hand, \
@@ -86,7 +86,7 @@ impl Exhibit<6, 6, 4> for RobotArm {
         vec![self.tip(state)]
     }
 
-    fn draw(&self, now: &Moment<6, 6>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let s = &now.state;
         let (shoulder, tip) = (self.shoulder(s), self.tip(s));
         scene.floor(Point::new(0.25, 0.0, 0.0), 0.75, 0.0);

@@ -20,7 +20,7 @@ pub(super) struct RollingBall {
     w: f64,
 }
 
-impl Exhibit<7, 4, 5> for RollingBall {
+impl Exhibit<5> for RollingBall {
     const TITLE: &'static str = "Ball on a turntable";
     const ABOUT: &'static str = "A ball that rolls without slipping, V − a Ω×n = w n×r: nonholonomic, its \
         orientation a unit quaternion. On a turntable it goes in circles at 2/7 of the table’s rate, and \
@@ -52,7 +52,7 @@ impl Exhibit<7, 4, 5> for RollingBall {
         vec![r - self.a * self.n]
     }
 
-    fn draw(&self, now: &Moment<7, 4>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let (centre, below) = (now.place(0), -self.a * self.n);
         let table = 1.0;
         scene.disc(Paint::Guide, below, self.n, table);

@@ -21,7 +21,7 @@ pub(super) struct RollingCoin {
     inertia: Matrix3<f64>,
 }
 
-impl Exhibit<6, 3, 4> for RollingCoin {
+impl Exhibit<4> for RollingCoin {
     const TITLE: &'static str = "Rolling coin";
     const ABOUT: &'static str = "A coin whose lowest point is at rest: three constraints on six \
         coordinates, two of them nonholonomic. Fast enough it stays up by itself, its path a row of loops.";
@@ -50,7 +50,7 @@ impl Exhibit<6, 3, 4> for RollingCoin {
         vec![self.contact(state)]
     }
 
-    fn draw(&self, now: &Moment<6, 3>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let (centre, contact) = (now.place(0), self.contact(&now.state));
         let tile = 2.0 * self.a;
         let nearest = Point::new((centre.x / tile).round() * tile, (centre.y / tile).round() * tile, 0.0);

@@ -20,7 +20,7 @@ pub(super) struct RollingCylinder {
 /// How long the spring is at rest.
 const SPRING: f64 = 1.6;
 
-impl Exhibit<2, 1, 5> for RollingCylinder {
+impl Exhibit<5> for RollingCylinder {
     const TITLE: &'static str = "Cylinder on a spring";
     const ABOUT: &'static str = "Rolling is written with velocities, Ẋ − aφ̇ = 0; the derive finds out that \
         it is the rate of X − aφ. The cylinder oscillates with ω² = 2k/3m, and friction turns around twice \
@@ -41,7 +41,7 @@ impl Exhibit<2, 1, 5> for RollingCylinder {
         View::plane(Point::zeros(), 1.9, self.m * 9.81)
     }
 
-    fn draw(&self, now: &Moment<2, 1>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let (along, up) = (xy(self.alpha.cos(), -self.alpha.sin()), xy(self.alpha.sin(), self.alpha.cos()));
         let [x, phi] = [now.state.q[0], now.state.q[1]];
         let (contact, hook) = (along * x, along * -SPRING + up * self.a);

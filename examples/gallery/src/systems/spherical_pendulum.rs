@@ -15,7 +15,7 @@ pub(super) struct SphericalPendulum {
     l: f64,
 }
 
-impl Exhibit<3, 1, 5> for SphericalPendulum {
+impl Exhibit<5> for SphericalPendulum {
     const TITLE: &'static str = "Spherical pendulum";
     const ABOUT: &'static str = "A bob on a string. It swings between two heights and the ellipse turns, by \
         3πab/4l² an orbit where it is small: try small angles. The red arrow is the tension, −λl; the \
@@ -40,7 +40,7 @@ impl Exhibit<3, 1, 5> for SphericalPendulum {
         vec![state.q]
     }
 
-    fn draw(&self, now: &Moment<3, 1>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let bob = now.state.q;
         scene.floor(Point::zeros(), self.l, -1.2 * self.l);
         let shadow = Point::new(bob.x, bob.y, -1.2 * self.l);

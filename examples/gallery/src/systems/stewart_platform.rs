@@ -31,7 +31,7 @@ pub(super) struct StewartPlatform {
     rest: f64,
 }
 
-impl Exhibit<25, 19, 5> for StewartPlatform {
+impl Exhibit<5> for StewartPlatform {
     const TITLE: &'static str = "Stewart platform on springs";
     const ABOUT: &'static str = "A plate on six legs that can stretch: 25 coordinates with 19 constraints, \
         of which six degrees of freedom are left. That the legs end at the plate are the constraints, and \
@@ -79,7 +79,7 @@ impl Exhibit<25, 19, 5> for StewartPlatform {
         vec![state.q.fixed_rows::<3>(0).into()]
     }
 
-    fn draw(&self, now: &Moment<25, 19>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let q = now.state.q;
         let pose = UnitQuaternion::new_normalize(Quaternion::new(q[3], q[4], q[5], q[6]));
         let joints: [Point; 6] = std::array::from_fn(|i| now.place(0) + pose * self.corner[i]);

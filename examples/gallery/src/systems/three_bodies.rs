@@ -21,7 +21,7 @@ pub(super) struct ThreeBodies {
 const END: [f64; 2] = [0.97000436, -0.24308753];
 const MIDDLE: [f64; 2] = [-0.93240737, -0.86473146];
 
-impl Exhibit<6, 0, 3> for ThreeBodies {
+impl Exhibit<3> for ThreeBodies {
     const TITLE: &'static str = "Three bodies on an eight";
     const ABOUT: &'static str = "Three equal masses chase each other along one curve, by gravity alone. The \
         motion is stable: a little push makes the eight drift and turn. With masses too different it falls \
@@ -50,7 +50,7 @@ impl Exhibit<6, 0, 3> for ThreeBodies {
         (0..3).map(|i| xy(state.q[i], state.q[3 + i])).collect()
     }
 
-    fn draw(&self, now: &Moment<6, 0>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let pulls = self.momentum_rate(&now.state);
         for (i, paint) in [Paint::Body, Paint::Other, Paint::Momentum].into_iter().enumerate() {
             let at = xy(now.state.q[i], now.state.q[3 + i]);

@@ -21,7 +21,7 @@ pub(super) struct Turntable {
 /// The frame on the left, what one sees from outside on the right.
 const APART: f64 = 1.25;
 
-impl Exhibit<3, 0, 5> for Turntable {
+impl Exhibit<5> for Turntable {
     const TITLE: &'static str = "Turning frame";
     const ABOUT: &'static str = "A mass on a spring, seen from a frame that turns (left) and from outside \
         (right). One arrow is the force of Coriolis, across the velocity, the other, along the radius, the \
@@ -46,7 +46,7 @@ impl Exhibit<3, 0, 5> for Turntable {
         vec![inside(state.q), self.outside(state)]
     }
 
-    fn draw(&self, now: &Moment<3, 0>, scene: &mut Scene) {
+    fn draw(&self, now: &Moment<Self>, scene: &mut Scene) {
         let (r, angle) = (now.state.q, self.omega * now.state.t);
         for (side, turn) in [(-APART, 0.0), (APART, angle)] {
             let middle = xy(side, 0.0);

@@ -22,7 +22,8 @@ use super::table::{MemberRow, MemberTable};
 use crate::error::{EnsembleError, Error};
 use crate::linearized::Linearized;
 use crate::number::Real;
-use crate::system::State;
+use crate::system::StateOf;
+use crate::vector::{Element, Length};
 
 /// A table of members in a directory of Parquet files; rows are appended as members finish.
 ///
@@ -62,16 +63,15 @@ use crate::system::State;
 /// # std::fs::remove_dir_all(&directory).unwrap();
 /// # Ok::<(), Error>(())
 /// ```
-pub struct ParquetTable<'a, L, T, const N: usize, const M: usize, const P: usize>
+pub struct ParquetTable<'a, L>
 where
-    L: Linearized<N, M, P, Scalar = T>,
-    T: Real,
+    L: Linearized<Scalar: Real>,
 {
     directory: PathBuf,
-    member: Box<dyn Fn(usize) -> (L, State<T, N>) + Send + 'a>,
+    member: Box<dyn Fn(usize) -> (L, StateOf<L>) + Send + 'a>,
     interval: Duration,
     /// Rows not yet written to a file; `since` is the time of the first.
-    waiting: Vec<MemberRow<T, N>>,
+    waiting: Vec<MemberRow<L::Scalar, L::N>>,
     since: Instant,
     /// Members below this index were compared: their starts and parameters agree with the files of the directory.
     compared: usize,
@@ -80,10 +80,9 @@ where
     damaged: Vec<Error>,
 }
 
-impl<'a, L, T, const N: usize, const M: usize, const P: usize> ParquetTable<'a, L, T, N, M, P>
+impl<'a, L> ParquetTable<'a, L>
 where
-    L: Linearized<N, M, P, Scalar = T>,
-    T: Real,
+    L: Linearized<Scalar: Real>,
 {
     /// Opens the table in this directory, and creates the directory if it does not exist. `member` is the function that
     /// the ensemble is [made from](super::Ensemble::from_fn).
@@ -92,7 +91,7 @@ where
     /// [`EnsembleError::Parquet`] if the directory cannot be created.
     pub fn open(
         directory: impl AsRef<Path>,
-        member: impl Fn(usize) -> (L, State<T, N>) + Send + 'a,
+        member: impl Fn(usize) -> (L, StateOf<L>) + Send + 'a,
     ) -> Result<Self, Error> {
         let directory = directory.as_ref().to_owned();
         create_dir_all(&directory).map_err(|error| wrong(&directory, error))?;
@@ -119,7 +118,7 @@ where
     /// # Errors
     /// [`EnsembleError::OtherRun`] if the member belongs to another run than the waiting rows, or was made from another
     /// start. When a file is due, also the errors of [`flush`](Self::flush); the row then waits with the others.
-    pub fn push(&mut self, member: &Member<T, N>) -> Result<(), Error> {
+    pub fn push(&mut self, member: &Member<L::Scalar, L::N>) -> Result<(), Error> {
         let (system, start) = (self.member)(member.index);
         let known = self.waiting.first().map_or(member.fingerprint, |row| row.fingerprint);
         if let Some((_, differs)) = known.with_start(&system, &start).difference(&member.fingerprint) {
@@ -159,7 +158,7 @@ where
     /// # Errors
     /// [`EnsembleError::Parquet`] if a file belongs to another system (by its columns or equations) or has another
     /// member 0, if the files belong to several runs, or if the directory cannot be read.
-    pub fn read(&mut self) -> Result<MemberTable<T, N>, Error> {
+    pub fn read(&mut self) -> Result<MemberTable<L::Scalar, L::N>, Error> {
         self.damaged.clear();
         let mut found = Vec::new();
         for path in self.files()? {
@@ -169,7 +168,7 @@ where
                 Err(FileFault::Other(reason)) => return Err(wrong(&path, reason)),
             }
         }
-        MemberTable::gather(L::COORDINATES, Fingerprint::of_system::<L, N, M>(), found, |path, _, reason| {
+        MemberTable::gather(L::COORDINATES, Fingerprint::of_system::<L>(), found, |path, _, reason| {
             wrong(&path, reason)
         })
     }
@@ -210,14 +209,14 @@ where
     }
 
     /// Reads the rows of a file, and checks that its member 0 has the same start and parameters as here.
-    fn rows_in(&self, path: &Path) -> Result<Vec<MemberRow<T, N>>, FileFault> {
+    fn rows_in(&self, path: &Path) -> Result<Vec<MemberRow<L::Scalar, L::N>>, FileFault> {
         let file = File::open(path).map_err(|error| FileFault::Other(error.to_string()))?;
-        let read = file::read(file, columns::<L, T, N, M, P>(&[], &[]))?;
+        let read = file::read(file, columns::<L>(&[], &[]))?;
         let (.., first) = &read;
-        if first.system == Fingerprint::of_system::<L, N, M>() && first.start != self.first() {
+        if first.system == Fingerprint::of_system::<L>() && first.start != self.first() {
             return Err(FileFault::Other(OTHER_START.into()));
         }
-        rows::<T, N, P>(&read)
+        rows::<L::Scalar, L::N, L::P>(&read)
     }
 
     /// [`Fingerprint::start`] of member 0, which every run of an ensemble can compute.
@@ -254,7 +253,7 @@ where
     }
 
     /// Writes a file of these rows under a temporary name, and renames it when it is complete.
-    fn write(&self, rows: &[MemberRow<T, N>]) -> Result<PathBuf, Error> {
+    fn write(&self, rows: &[MemberRow<L::Scalar, L::N>]) -> Result<PathBuf, Error> {
         let made: Vec<_> = rows.iter().map(|row| (self.member)(row.index)).collect();
         let columns = columns(rows, &made);
         let has_end: Vec<bool> = rows.iter().map(|row| row.state.is_some()).collect();
@@ -286,7 +285,7 @@ fn is_file(name: &str) -> bool {
 
 /// File name derived from the rows: equal for equal rows, different otherwise. Programs that write into one directory
 /// do not overwrite each other's files.
-fn name<T, const N: usize>(rows: &[MemberRow<T, N>]) -> String {
+fn name<T: Element, N: Length>(rows: &[MemberRow<T, N>]) -> String {
     let mut hash = Hash::new();
     for row in rows {
         let Fingerprint { system, run, start } = row.fingerprint;
@@ -302,10 +301,9 @@ fn wrong(path: &Path, reason: impl ToString) -> Error {
     Error::Ensemble(EnsembleError::Parquet { file: path.display().to_string(), reason: reason.to_string() })
 }
 
-impl<L, T, const N: usize, const M: usize, const P: usize> Drop for ParquetTable<'_, L, T, N, M, P>
+impl<L> Drop for ParquetTable<'_, L>
 where
-    L: Linearized<N, M, P, Scalar = T>,
-    T: Real,
+    L: Linearized<Scalar: Real>,
 {
     fn drop(&mut self) {
         // A destructor cannot return errors; call `flush` to see them.
@@ -313,10 +311,9 @@ where
     }
 }
 
-impl<L, T, const N: usize, const M: usize, const P: usize> Debug for ParquetTable<'_, L, T, N, M, P>
+impl<L> Debug for ParquetTable<'_, L>
 where
-    L: Linearized<N, M, P, Scalar = T>,
-    T: Real,
+    L: Linearized<Scalar: Real>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let (directory, waiting) = (&self.directory, self.waiting.len());

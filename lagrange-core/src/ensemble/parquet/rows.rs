@@ -5,18 +5,15 @@ use crate::ensemble::fingerprint::Fingerprint;
 use crate::ensemble::table::MemberRow;
 use crate::linearized::Linearized;
 use crate::names::Entry;
-use crate::number::{Real, vector};
+use crate::number::Real;
 use crate::statistics::Statistics;
-use crate::system::State;
+use crate::system::{State, StateOf};
+use crate::vector::{Array, Length, vector};
 
 /// Columns of these rows. `made` holds, for each row, the system and the initial state of its member.
-pub(super) fn columns<L, T, const N: usize, const M: usize, const P: usize>(
-    rows: &[MemberRow<T, N>],
-    made: &[(L, State<T, N>)],
-) -> Vec<Column>
+pub(super) fn columns<L>(rows: &[MemberRow<L::Scalar, L::N>], made: &[(L, StateOf<L>)]) -> Vec<Column>
 where
-    L: Linearized<N, M, P, Scalar = T>,
-    T: Real,
+    L: Linearized<Scalar: Real>,
 {
     let integers = |group, name: &str, values: Vec<i64>| Column {
         group,
@@ -29,9 +26,8 @@ where
         integers("", "fingerprint", rows.iter().map(|row| i64::from(row.fingerprint.start)).collect()),
         Column { group: "", name: "ending".into(), values: Values::Texts(endings) },
     ];
-    columns
-        .extend(states::<L, T, N, M, P>("start", &made.iter().map(|(_, start)| start).collect::<Vec<_>>()));
-    let mut parameters = vec![Vec::new(); P];
+    columns.extend(states::<L>("start", &made.iter().map(|(_, start)| start).collect::<Vec<_>>()));
+    let mut parameters = vec![Vec::new(); <L::P>::COUNT];
     for (system, _) in made {
         let mut columns = parameters.iter_mut();
         system.visit_parameters(&mut |x| columns.next().into_iter().for_each(|of| of.push(x.to_f64())));
@@ -42,7 +38,7 @@ where
         values: Values::Numbers(values),
     }));
     let ends = || rows.iter().filter_map(|row| Some((row.state.as_ref()?, &row.statistics)));
-    columns.extend(states::<L, T, N, M, P>(END, &ends().map(|(state, _)| state).collect::<Vec<_>>()));
+    columns.extend(states::<L>(END, &ends().map(|(state, _)| state).collect::<Vec<_>>()));
     let count = |name, of: fn(&Statistics) -> usize| {
         integers(END, name, ends().map(|(_, statistics)| of(statistics) as i64).collect())
     };
@@ -58,23 +54,23 @@ where
 }
 
 /// Rows of a table, from its columns, the flags `has_end` and the fingerprint of member 0.
-pub(super) fn rows<T: Real, const N: usize, const P: usize>(
+pub(super) fn rows<T: Real, N: Length, P: Length>(
     (columns, has_end, first): &(Vec<Column>, Vec<bool>, Fingerprint),
 ) -> Result<Vec<MemberRow<T, N>>, FileFault> {
     let [members, starts, endings] = &columns[..3] else {
         return Err(FileFault::Other("it has no rows".into()));
     };
-    let end = &columns[3 + 2 * N + 1 + P..];
+    let end = &columns[3 + 2 * N::COUNT + 1 + P::COUNT..];
     let mut ends = 0..;
     let row = |k: usize| -> Option<MemberRow<T, N>> {
         let place = if has_end[k] { ends.next() } else { None };
-        let count = |column: usize, place: usize| end[2 * N + 1 + column].values.integer(place);
+        let count = |column: usize, place: usize| end[2 * N::COUNT + 1 + column].values.integer(place);
         let statistics = |place: usize| {
             Some(Statistics {
                 accepted: count(0, place)?.try_into().ok()?,
                 rejected: count(1, place)?.try_into().ok()?,
                 evaluations: count(2, place)?.try_into().ok()?,
-                multipliers_are_unique: end[2 * N + 4].values.flag(place)?,
+                multipliers_are_unique: end[2 * N::COUNT + 4].values.flag(place)?,
             })
         };
         let (state, statistics) = match place {
@@ -94,33 +90,30 @@ pub(super) fn rows<T: Real, const N: usize, const P: usize>(
 }
 
 /// Columns of times, coordinates and velocities.
-fn states<L, T, const N: usize, const M: usize, const P: usize>(
-    group: &'static str,
-    states: &[&State<T, N>],
-) -> impl Iterator<Item = Column>
+fn states<L>(group: &'static str, states: &[&StateOf<L>]) -> impl Iterator<Item = Column>
 where
-    L: Linearized<N, M, P, Scalar = T>,
-    T: Real,
+    L: Linearized<Scalar: Real>,
 {
-    let column = move |name: String, entry: &dyn Fn(&State<T, N>) -> T| Column {
+    let column = move |name: String, entry: &dyn Fn(&StateOf<L>) -> L::Scalar| Column {
         group,
         name,
         values: Values::Numbers(states.iter().map(|state| entry(state).to_f64()).collect()),
     };
     let names = L::COORDINATES;
-    let coordinates: Vec<_> = (0..N).map(|i| column(names[i].into(), &|state| state.q[i])).collect();
+    let coordinates: Vec<_> =
+        (0..<L::N>::COUNT).map(|i| column(names[i].into(), &|state| state.q[i])).collect();
     let velocity = |i: usize| Entry::Velocity(names[i]).to_string();
-    let velocities: Vec<_> = (0..N).map(|i| column(velocity(i), &|state| state.v[i])).collect();
+    let velocities: Vec<_> = (0..<L::N>::COUNT).map(|i| column(velocity(i), &|state| state.v[i])).collect();
     core::iter::once(column("t".into(), &|state| state.t)).chain(coordinates).chain(velocities)
 }
 
 /// State in the row `place` of the columns of time, coordinates and velocities.
-fn state<T: Real, const N: usize>(columns: &[Column], place: usize) -> Option<State<T, N>> {
+fn state<T: Real, N: Length>(columns: &[Column], place: usize) -> Option<State<T, N>> {
     let number = |k: usize| columns[k].values.number(place).filter(|x| x.is_finite()).map(T::constant);
-    let zero = vector([T::constant(0.0); N]);
+    let zero = vector(Array::filled(T::constant(0.0)));
     let mut state = State { t: number(0)?, q: zero, v: zero };
-    for i in 0..N {
-        (state.q[i], state.v[i]) = (number(1 + i)?, number(1 + N + i)?);
+    for i in 0..N::COUNT {
+        (state.q[i], state.v[i]) = (number(1 + i)?, number(1 + N::COUNT + i)?);
     }
     Some(state)
 }

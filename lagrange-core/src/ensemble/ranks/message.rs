@@ -8,9 +8,10 @@ use crate::ensemble::outcome::Member;
 use crate::ensemble::table::MemberRow;
 use crate::motion::Crossing;
 use crate::motion::record::Arrival;
-use crate::number::{Real, vector};
+use crate::number::Real;
 use crate::statistics::Statistics;
 use crate::system::State;
+use crate::vector::{Array, Length, vector};
 
 /// Encodes each member as a table row, followed by its samples, values and crossings if it has a motion.
 #[derive(Default)]
@@ -25,13 +26,13 @@ const NUMBERS: i32 = 0;
 const WORDS: i32 = 1;
 
 impl MemberMessage {
-    pub(super) fn of<T: Real, const N: usize>(members: &[Member<T, N>]) -> Self {
+    pub(super) fn of<T: Real, N: Length>(members: &[Member<T, N>]) -> Self {
         let mut message = Self::default();
         members.iter().for_each(|member| message.pack(member));
         message
     }
 
-    fn pack<T: Real, const N: usize>(&mut self, member: &Member<T, N>) {
+    fn pack<T: Real, N: Length>(&mut self, member: &Member<T, N>) {
         let MemberRow { index, fingerprint, state, statistics, ending } = member.row();
         let Statistics { accepted, rejected, evaluations, multipliers_are_unique } = statistics;
         let ending = ending.to_string();
@@ -53,7 +54,7 @@ impl MemberMessage {
         self.numbers.extend(counts.map(|count| count as f64));
     }
 
-    fn state<T: Real, const N: usize>(&mut self, state: &State<T, N>) {
+    fn state<T: Real, N: Length>(&mut self, state: &State<T, N>) {
         let entries = [&state.t].into_iter().chain(&state.q).chain(&state.v);
         self.numbers.extend(entries.map(|x| x.to_f64()));
     }
@@ -74,7 +75,7 @@ impl MemberMessage {
     }
 
     /// Decodes the members. `run` is the fingerprint of the run, `events` the names of its events.
-    pub(super) fn members<T: Real, const N: usize>(
+    pub(super) fn members<T: Real, N: Length>(
         &self,
         run: Fingerprint,
         events: &[&'static str],
@@ -91,7 +92,7 @@ struct Rest<'p> {
 }
 
 impl Rest<'_> {
-    fn member<T: Real, const N: usize>(
+    fn member<T: Real, N: Length>(
         &mut self,
         run: Fingerprint,
         events: &[&'static str],
@@ -120,7 +121,7 @@ impl Rest<'_> {
         Some(member)
     }
 
-    fn restore<T: Real, const N: usize>(
+    fn restore<T: Real, N: Length>(
         &mut self,
         arrival: &mut Arrival<T, N>,
         events: &[&'static str],
@@ -132,13 +133,13 @@ impl Rest<'_> {
         Some(())
     }
 
-    fn crossing<T: Real, const N: usize>(&mut self, events: &[&'static str]) -> Option<Crossing<T, N>> {
+    fn crossing<T: Real, N: Length>(&mut self, events: &[&'static str]) -> Option<Crossing<T, N>> {
         let [index, count, rising] = self.counts()?;
         Some(Crossing { event: events.get(index)?, index, count, rising: rising == 1, state: self.state()? })
     }
 
-    fn state<T: Real, const N: usize>(&mut self) -> Option<State<T, N>> {
-        let zero = vector([T::constant(0.0); N]);
+    fn state<T: Real, N: Length>(&mut self) -> Option<State<T, N>> {
+        let zero = vector(Array::filled(T::constant(0.0)));
         let mut state = State { t: self.number()?, q: zero, v: zero };
         for x in state.q.iter_mut().chain(&mut state.v) {
             *x = self.number()?;

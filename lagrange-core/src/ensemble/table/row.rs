@@ -11,10 +11,11 @@ use crate::names::Entry;
 use crate::number::Real;
 use crate::statistics::Statistics;
 use crate::system::State;
+use crate::vector::{Element, Length};
 
 /// Data of one member in a table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MemberRow<T, const N: usize> {
+pub struct MemberRow<T: Element, N: Length> {
     /// Index of the member in the ensemble.
     pub index: usize,
     /// Hashes of the system, the run and the start.
@@ -71,7 +72,7 @@ impl From<&str> for MemberEnding {
     }
 }
 
-impl<T: Real, const N: usize> MemberRow<T, N> {
+impl<T: Real, N: Length> MemberRow<T, N> {
     /// True if an error, rather than the observer or an event, ended the motion early.
     pub fn has_failed(&self) -> bool {
         matches!(self.ending, MemberEnding::Failed(_))
@@ -116,7 +117,7 @@ pub(super) const COMPLETE: &str = "complete";
 pub(super) const CANCELLED: &str = "cancelled";
 pub(super) const EVENT: &str = "event: ";
 
-pub(super) fn header<const N: usize>(names: &[&'static str; N]) -> String {
+pub(super) fn header(names: &'static [&'static str]) -> String {
     let velocities = names.iter().map(|name| Entry::Velocity(name).to_string());
     let first = ["member", "system", "run", "start", "t"];
     let names = first.into_iter().chain(names.iter().copied()).map(String::from).chain(velocities);
@@ -127,15 +128,15 @@ pub(super) fn header<const N: usize>(names: &[&'static str; N]) -> String {
 
 /// Prints one line of the table. The index stands at both ends, so that a truncated line with another row appended is
 /// not mistaken for the row of a third member.
-pub(super) struct Line<'m, T: Real, const N: usize>(pub(super) Cow<'m, MemberRow<T, N>>);
+pub(super) struct Line<'m, T: Real, N: Length>(pub(super) Cow<'m, MemberRow<T, N>>);
 
-impl<T: Real, const N: usize> Display for Line<'_, T, N> {
+impl<T: Real, N: Length> Display for Line<'_, T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let MemberRow { index, fingerprint, state, statistics, ending } = &*self.0;
         let Fingerprint { system, run, start } = fingerprint;
         write!(f, "{index},{system},{run},{start}")?;
         match state {
-            None => (0..2 * N + 5).try_for_each(|_| write!(f, ","))?,
+            None => (0..2 * N::COUNT + 5).try_for_each(|_| write!(f, ","))?,
             Some(state) => {
                 // `Debug` prints the fewest digits that read back to the same number.
                 write!(f, ",{:?}", state.t)?;

@@ -1,10 +1,12 @@
 //! Truncated, concatenated, edited and foreign tables: read, or rejected with line and column.
 
+use nalgebra::Const;
+
 use super::*;
 use crate::statistics::Statistics;
 use crate::system::State;
 
-const NAMES: [&str; 1] = ["x"];
+const NAMES: &[&str] = &["x"];
 const COUNT: usize = 30;
 const MINE: Fingerprint = Fingerprint { system: 71, run: 4_294_967_295, start: 0 };
 
@@ -37,12 +39,12 @@ fn table() -> String {
     Outcome::new(members, NAMES, Vec::new(), (1.0, MINE)).csv().to_string()
 }
 
-fn resume(table: &str) -> Result<Vec<Member<f64, 1>>, Error> {
+fn resume(table: &str) -> Result<Vec<Member<f64, Const<1>>>, Error> {
     let rows = MemberTable::of(table, NAMES, MINE.system, COUNT)?.into_rows().filter(|row| !row.has_failed());
     Ok(rows.map(|row| row.into_member(&[])).collect())
 }
 
-fn taken(table: &str) -> Vec<Member<f64, 1>> {
+fn taken(table: &str) -> Vec<Member<f64, Const<1>>> {
     resume(table).unwrap_or_else(|error| panic!("{error} in {table:?}"))
 }
 
@@ -159,7 +161,7 @@ fn an_index_that_is_none_is_refused() {
 
 #[test]
 fn other_columns_are_refused() {
-    let header = header(&NAMES);
+    let header = header(NAMES);
     for (other, column) in [
         (header.replace(",x,", ",y,"), 6),
         (header.replace("x_dot,", ""), 7),
@@ -190,7 +192,7 @@ fn a_failure_that_ran_into_the_next_row_of_its_member_is_no_row() {
 }
 
 /// All rows, including those of failed members.
-fn all(table: &str) -> Vec<MemberRow<f64, 1>> {
+fn all(table: &str) -> Vec<MemberRow<f64, Const<1>>> {
     MemberTable::of(table, NAMES, MINE.system, COUNT).expect("a table").rows().to_vec()
 }
 

@@ -8,8 +8,6 @@ mod weights;
 use alloc::{string::String, vec::Vec};
 use core::fmt::{self, Debug, Formatter};
 
-use nalgebra::SVector;
-
 use super::Linearized;
 use super::argument::Argument;
 use crate::error::Error;
@@ -17,27 +15,28 @@ use crate::number::Real;
 use crate::solution::newton;
 use crate::solution::solve::solve;
 use crate::system::finite::check_finite;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
+use crate::vector::{Length, Vector};
 use point::Point;
 use search::EquilibriumSearch;
 
 /// An equilibrium, or a steady motion.
 #[derive(Clone)]
-pub struct Equilibrium<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub struct Equilibrium<L: Lagrangian> {
     /// The system, with the parameters that were found.
     pub system: L,
     /// The state. Time, and entries that were not among the unknowns, are those of the guess.
-    pub state: State<L::Scalar, N>,
+    pub state: StateOf<L>,
     /// Multipliers λ, with the sign of [`Solution`](crate::Solution): the constraint force on coordinate i is Σ_α λ_α
     /// F_αi. The unit is that of the generalized force divided by that of F: for Φ = 0 an energy per unit of Φ, for a
     /// velocity constraint a power per unit of F q̇.
-    pub multipliers: SVector<L::Scalar, M>,
+    pub multipliers: Vector<L::Scalar, L::M>,
     /// Number of iterations.
     pub iterations: usize,
     undetermined: Vec<String>,
 }
 
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Equilibrium<L, N, M> {
+impl<L: Lagrangian> Equilibrium<L> {
     /// Names of the unknowns that can change, together and to first order, without leaving the equilibrium or steady
     /// motion: cyclic coordinates, and any unknowns beyond those that the equations determine. Their values are as near
     /// to the guess as the other unknowns allow.
@@ -47,7 +46,7 @@ impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Equilibrium<L, N, M> {
 }
 
 /// Leaves out the system, which need not implement `Debug`.
-impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Equilibrium<L, N, M> {
+impl<L: Lagrangian> Debug for Equilibrium<L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct(L::NAME)
             .field("state", &self.state)
@@ -59,18 +58,14 @@ impl<L: Lagrangian<N, M>, const N: usize, const M: usize> Debug for Equilibrium<
 }
 
 /// See [`Linearized::equilibrium`].
-pub(super) fn equilibrium<L, const N: usize, const M: usize, const P: usize>(
-    system: &L,
-    guess: &State<L::Scalar, N>,
-    names: &[&str],
-) -> Result<Equilibrium<L, N, M>, Error>
+pub(super) fn equilibrium<L>(system: &L, guess: &StateOf<L>, names: &[&str]) -> Result<Equilibrium<L>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real> + Clone,
+    L: Linearized<Scalar: Real> + Clone,
 {
     check_finite(system, guess)?;
     let unknowns = match names {
-        [] => (0..N).map(Argument::Coordinate).collect(),
-        names => Argument::named::<L, N, M, P>(names)?,
+        [] => (0..<L::N>::COUNT).map(Argument::Coordinate).collect(),
+        names => Argument::named::<L>(names)?,
     };
     let (mut balance, start) = EquilibriumSearch::start(system.clone(), guess, unknowns)?;
     let at_the_guess = start.point.unsteadiness()?;

@@ -1,30 +1,33 @@
 //! Residual of the equilibrium equations at one point of the search, and its derivatives.
 
-use nalgebra::{ComplexField, DMatrix, DVector, SVector};
+use nalgebra::{ComplexField, DMatrix, DVector};
 
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
 use crate::names::Row;
-use crate::number::{Real, Scalar, vector};
-use crate::system::{Lagrangian, ResidualChange, Solution, State};
+use crate::number::{Real, Scalar};
+use crate::system::{Lagrangian, ResidualChange, Solution, StateOf};
+use crate::vector::{Array, Entrywise, Length, Vector, vector};
 
 /// Values of the unknowns: parameters of the system, state and multipliers.
 #[derive(Clone)]
-pub(super) struct Point<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
+pub(super) struct Point<L: Linearized> {
     pub(super) system: L,
-    pub(super) state: State<L::Scalar, N>,
-    pub(super) multipliers: SVector<L::Scalar, M>,
+    pub(super) state: StateOf<L>,
+    pub(super) multipliers: Vector<L::Scalar, L::M>,
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Point<L, N, M, P>
+impl<L> Point<L>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     /// Residual R, with the rows of the motion first.
     pub(super) fn residual(&self) -> DVector<L::Scalar> {
         let Self { system, state, multipliers } = self;
-        let motion = -(system.forcing(state) + system.constraint_force(state, multipliers));
+        let motion = system
+            .forcing(state)
+            .each_with(&system.constraint_force(state, multipliers), |h, force| -(h + force));
         stacked(&ResidualChange {
             motion,
             acceleration: system.constraint_bias(state),
@@ -35,16 +38,25 @@ where
 
     /// Derivatives of R by the unknowns, followed by those by the multipliers.
     pub(super) fn jacobian(&self, unknowns: &[Argument]) -> DMatrix<L::Scalar> {
-        let mut jacobian = DMatrix::zeros(N + 3 * M, unknowns.len() + M);
+        let mut jacobian = DMatrix::zeros(<L::N>::COUNT + 3 * <L::M>::COUNT, unknowns.len() + <L::M>::COUNT);
         let multipliers = self.multipliers;
-        let zero = vector([L::Scalar::constant(0.0); N]);
-        let still = Solution { accelerations: zero, multipliers, pivot: L::Scalar::constant(1.0), rank: M };
+        let zero = vector(Array::filled(L::Scalar::constant(0.0)));
+        let still = Solution {
+            accelerations: zero,
+            multipliers,
+            pivot: L::Scalar::constant(1.0),
+            rank: <L::M>::COUNT,
+        };
         for (j, &unknown) in unknowns.iter().enumerate() {
             let change = unknown.residual_change(&self.system, &self.state, &still);
             jacobian.set_column(j, &stacked(&change));
         }
         let f = self.system.constraint_jacobian(&self.state);
-        jacobian.view_mut((0, unknowns.len()), (N, M)).copy_from(&-f.transpose());
+        for i in 0..<L::N>::COUNT {
+            for a in 0..<L::M>::COUNT {
+                jacobian[(i, unknowns.len() + a)] = -f[(a, i)];
+            }
+        }
         jacobian
     }
 
@@ -56,7 +68,7 @@ where
     ) -> Result<(), Error> {
         for (&unknown, column) in unknowns.iter().zip(jacobian.column_iter()) {
             if let Some(i) = column.iter().position(|x| !x.is_finite()) {
-                let (row, entry) = (row::<L, N, M>(i), unknown.entry::<L, N, M, P>());
+                let (row, entry) = (row::<L>(i), unknown.entry::<L>());
                 return Err(Error::DerivativeNotFinite { row, entry, time: self.state.t.to_f64() });
             }
         }
@@ -83,13 +95,17 @@ where
     }
 }
 
-fn stacked<T: Real, const N: usize, const M: usize>(residual: &ResidualChange<T, N, M>) -> DVector<T> {
+fn stacked<T: Real, N: Length, M: Length>(residual: &ResidualChange<T, N, M>) -> DVector<T> {
     let ResidualChange { motion, acceleration, rate, position } = residual;
     let rows = motion.iter().chain(acceleration).chain(rate).chain(position);
-    DVector::from_iterator(N + 3 * M, rows.copied())
+    DVector::from_iterator(N::COUNT + 3 * M::COUNT, rows.copied())
 }
 
 /// Coordinate or constraint that row `i` of R belongs to.
-pub(super) fn row<L: Lagrangian<N, M>, const N: usize, const M: usize>(i: usize) -> Row {
-    if i < N { Row::Coordinate(L::COORDINATES[i]) } else { Row::Constraint(L::CONSTRAINTS[(i - N) % M]) }
+pub(super) fn row<L: Lagrangian>(i: usize) -> Row {
+    if i < <L::N>::COUNT {
+        Row::Coordinate(L::COORDINATES[i])
+    } else {
+        Row::Constraint(L::CONSTRAINTS[(i - <L::N>::COUNT) % <L::M>::COUNT])
+    }
 }

@@ -14,14 +14,15 @@ use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
 use crate::linearized::singular::Singular;
-use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon, smaller, vector};
+use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon, smaller};
 use crate::solution::consistent::{Level, project};
 use crate::solution::newton::{Left, Search};
 use crate::solution::solve::solve;
-use crate::system::{Lagrangian, State};
+use crate::system::StateOf;
+use crate::vector::{Array, Length, vector};
 
 /// Unknowns of the search, and the units of rows and columns.
-pub(super) struct EquilibriumSearch<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
+pub(super) struct EquilibriumSearch<L: Linearized> {
     unknowns: Vec<Argument>,
     /// Factor of each row, so that rows of different units can be compared.
     weights: DVector<L::Scalar>,
@@ -31,27 +32,27 @@ pub(super) struct EquilibriumSearch<L: Lagrangian<N, M>, const N: usize, const M
 }
 
 /// Point of the search, with residual, Jacobian and damping.
-pub(super) struct Iterate<L: Lagrangian<N, M>, const N: usize, const M: usize, const P: usize> {
-    pub(super) point: Point<L, N, M, P>,
+pub(super) struct Iterate<L: Linearized> {
+    pub(super) point: Point<L>,
     residual: DVector<L::Scalar>,
     jacobian: DMatrix<L::Scalar>,
     damping: L::Scalar,
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> EquilibriumSearch<L, N, M, P>
+impl<L> EquilibriumSearch<L>
 where
-    L: Linearized<N, M, P, Scalar: Real> + Clone,
+    L: Linearized<Scalar: Real> + Clone,
 {
     /// Starts a search at the guess; returns it with its first iterate.
     pub(super) fn start(
         system: L,
-        guess: &State<L::Scalar, N>,
+        guess: &StateOf<L>,
         unknowns: Vec<Argument>,
-    ) -> Result<(Self, Iterate<L, N, M, P>), Error> {
-        let none = vector([L::Scalar::constant(0.0); M]);
+    ) -> Result<(Self, Iterate<L>), Error> {
+        let none = vector(Array::filled(L::Scalar::constant(0.0)));
         let mut state = *guess;
         // Project onto the constraints if no coordinate is held. A guess that cannot be projected is kept.
-        if (0..N).all(|i| unknowns.contains(&Argument::Coordinate(i))) {
+        if (0..<L::N>::COUNT).all(|i| unknowns.contains(&Argument::Coordinate(i))) {
             project(&system, &[Level::Position], &mut state).unwrap_or_default();
         }
         let multipliers = solve(&system, &state).map_or(none, |solution| solution.multipliers);
@@ -65,14 +66,14 @@ where
         let mut balance = Self { unknowns, weights: DVector::zeros(0), scale: DVector::zeros(0) };
         let start = balance.trial(point, L::Scalar::constant(1e-3));
         if let Some(i) = start.residual.iter().position(|x| !x.is_finite()) {
-            return Err(Error::EquationsNotFinite { row: row::<L, N, M>(i), time: state.t.to_f64() });
+            return Err(Error::EquationsNotFinite { row: row::<L>(i), time: state.t.to_f64() });
         }
-        balance.weights = weights(&start.jacobian, &start.residual, N);
+        balance.weights = weights(&start.jacobian, &start.residual, <L::N>::COUNT);
         balance.scale = DVector::zeros(start.jacobian.ncols());
         Ok((balance, start))
     }
 
-    fn trial(&self, point: Point<L, N, M, P>, damping: L::Scalar) -> Iterate<L, N, M, P> {
+    fn trial(&self, point: Point<L>, damping: L::Scalar) -> Iterate<L> {
         Iterate { residual: point.residual(), jacobian: point.jacobian(&self.unknowns), point, damping }
     }
 
@@ -101,23 +102,19 @@ where
         if self.scale[j] > L::Scalar::constant(0.0) { one / self.scale[j] } else { one }
     }
 
-    fn moved(&self, trial: &Point<L, N, M, P>, step: &DVector<L::Scalar>) -> Point<L, N, M, P> {
+    fn moved(&self, trial: &Point<L>, step: &DVector<L::Scalar>) -> Point<L> {
         let mut next = trial.clone();
         for (j, &unknown) in self.unknowns.iter().enumerate() {
             next.set(unknown, next.value(unknown) + step[j]);
         }
-        for a in 0..M {
+        for a in 0..<L::M>::COUNT {
             next.multipliers[a] += step[self.unknowns.len() + a];
         }
         next
     }
 
     /// Σ_j |∂R_i/∂x_j| size(j, |x_j|) over the unknowns and multipliers, for each row i.
-    fn terms(
-        &self,
-        trial: &Iterate<L, N, M, P>,
-        size: impl Fn(usize, L::Scalar) -> L::Scalar,
-    ) -> DVector<L::Scalar> {
+    fn terms(&self, trial: &Iterate<L>, size: impl Fn(usize, L::Scalar) -> L::Scalar) -> DVector<L::Scalar> {
         let unknowns = self.unknowns.iter().map(|&unknown| trial.point.value(unknown));
         let values = unknowns.chain(trial.point.multipliers.iter().copied());
         let sizes = values.enumerate().map(|(j, x)| size(j, Scalar::abs(x)));
@@ -126,12 +123,12 @@ where
     }
 
     /// Weighted norm |W R| of the residual; W holds the row weights.
-    fn distance(&self, trial: &Iterate<L, N, M, P>) -> L::Scalar {
+    fn distance(&self, trial: &Iterate<L>) -> L::Scalar {
         trial.residual.component_mul(&self.weights).norm()
     }
 
     /// True if every row is round-off of its terms.
-    fn is_rounded(&self, trial: &Iterate<L, N, M, P>) -> bool {
+    fn is_rounded(&self, trial: &Iterate<L>) -> bool {
         let part = L::Scalar::constant(4.0 * L::Scalar::EPSILON);
         let bound = self.terms(trial, |_, x| part * x);
         trial.residual.iter().zip(&bound).all(|(r, bound)| is_within(Scalar::abs(*r), *bound))
@@ -140,7 +137,7 @@ where
     /// True if the residual may be round-off. First, each row must be small beside its terms, and beside its terms for
     /// unknowns of size 1. Second, the part of R that no step can remove must be round-off of the terms here or at the
     /// guess. The second test detects forces that cannot balance, however small their unit makes them.
-    fn is_negligible(&self, factors: &Singular<L::Scalar>, trial: &Iterate<L, N, M, P>) -> bool {
+    fn is_negligible(&self, factors: &Singular<L::Scalar>, trial: &Iterate<L>) -> bool {
         let part = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
         let floor = power_of_epsilon(0.75);
         let small = self.terms(trial, |_, x| part * x + floor);
@@ -155,7 +152,7 @@ where
     /// Rejects a residual that is round-off only of gradient times value. Example: an angle of 10¹⁶ is known to ±1, so
     /// every force is round-off of the angle times its gradient. The bound therefore uses the actual change of the row
     /// with each unknown, if that is smaller.
-    pub(super) fn check_resolved(&self, found: &Iterate<L, N, M, P>, steps: usize) -> Result<(), Error> {
+    pub(super) fn check_resolved(&self, found: &Iterate<L>, steps: usize) -> Result<(), Error> {
         let (part, root) =
             (L::Scalar::constant(32.0 * L::Scalar::EPSILON), power_of_epsilon::<L::Scalar>(0.5));
         let unknowns = self.unknowns.len();
@@ -178,7 +175,7 @@ where
     }
 
     /// Names of the unknowns that take part in directions along which R does not change.
-    pub(super) fn undetermined(&mut self, found: &Iterate<L, N, M, P>) -> Result<Vec<String>, Error> {
+    pub(super) fn undetermined(&mut self, found: &Iterate<L>) -> Result<Vec<String>, Error> {
         let zero = L::Scalar::constant(0.0);
         let factors = self.linearize(found)?;
         let least = factors.norm() * power_of_epsilon(2.0 / 3.0);
@@ -188,16 +185,16 @@ where
         let shares: Vec<_> = (0..self.unknowns.len()).map(share).collect();
         let names =
             self.unknowns.iter().zip(shares).filter(|(_, share)| *share > power_of_epsilon(1.0 / 3.0));
-        Ok(names.map(|(unknown, _)| format!("{}", unknown.entry::<L, N, M, P>())).collect())
+        Ok(names.map(|(unknown, _)| format!("{}", unknown.entry::<L>())).collect())
     }
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Search for EquilibriumSearch<L, N, M, P>
+impl<L> Search for EquilibriumSearch<L>
 where
-    L: Linearized<N, M, P, Scalar: Real> + Clone,
+    L: Linearized<Scalar: Real> + Clone,
 {
     type Scalar = L::Scalar;
-    type Trial = Iterate<L, N, M, P>;
+    type Trial = Iterate<L>;
     type Linear = Singular<L::Scalar>;
 
     const STEPS: usize = 200;
@@ -243,20 +240,20 @@ where
     }
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> EquilibriumSearch<L, N, M, P>
+impl<L> EquilibriumSearch<L>
 where
-    L: Linearized<N, M, P, Scalar: Real> + Clone,
+    L: Linearized<Scalar: Real> + Clone,
 {
-    fn no_equilibrium(&self, trial: &Iterate<L, N, M, P>, steps: usize) -> Error {
+    fn no_equilibrium(&self, trial: &Iterate<L>, steps: usize) -> Error {
         let size = |i: usize| Scalar::abs(trial.residual[i]) * self.weights[i];
         let worst =
             (1..trial.residual.len()).fold(0, |worst, i| if size(i) > size(worst) { i } else { worst });
         let best = self.unknowns.iter().map(|&unknown| {
             let value = trial.point.value(unknown).to_f64();
-            format!("{} = {value:?}", unknown.entry::<L, N, M, P>())
+            format!("{} = {value:?}", unknown.entry::<L>())
         });
         Error::NoEquilibrium {
-            row: row::<L, N, M>(worst),
+            row: row::<L>(worst),
             residual: trial.residual[worst].to_f64(),
             iterations: steps,
             best: best.collect(),

@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::vector::Length;
 
 /// Contributions of the moving coordinates (q̇ᵢ ≠ 0), one per column, to the time derivative of the residuals (M q̈ −
 /// h − Fᵀλ, F q̈ + γ) at q̈ = 0. If γ stays zero, so do F q̇ + b and Φ.
@@ -23,17 +24,17 @@ impl<T: Real> Unsteadiness<T> {
     }
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Point<L, N, M, P>
+impl<L> Point<L>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     pub(super) fn unsteadiness(&self) -> Result<Unsteadiness<L::Scalar>, Error> {
         let v = &self.state.v;
-        let moving: Vec<usize> = (0..N).filter(|&i| v[i] != L::Scalar::constant(0.0)).collect();
+        let moving: Vec<usize> = (0..<L::N>::COUNT).filter(|&i| v[i] != L::Scalar::constant(0.0)).collect();
         let coordinates: Vec<_> = moving.iter().copied().map(Argument::Coordinate).collect();
         let jacobian = self.jacobian(&coordinates);
         self.check_derivatives(&jacobian, &coordinates)?;
-        let mut columns = jacobian.view((0, 0), (N + M, moving.len())).into_owned();
+        let mut columns = jacobian.view((0, 0), (<L::N>::COUNT + <L::M>::COUNT, moving.len())).into_owned();
         for (mut column, &i) in columns.column_iter_mut().zip(&moving) {
             column.scale_mut(v[i]);
         }
@@ -48,12 +49,12 @@ where
             let terms = larger(here.terms(*i), guess.terms(*i));
             Scalar::abs(here.columns.row(*i).sum()) > part * terms
         };
-        match (0..N + M).find(changes) {
+        match (0..<L::N>::COUNT + <L::M>::COUNT).find(changes) {
             None => Ok(()),
             Some(i) => {
                 let most = here.moving[here.columns.row(i).transpose().icamax()];
                 let (coordinate, time) = (L::COORDINATES[most], self.state.t.to_f64());
-                Err(Error::NotSteady { coordinate, row: row::<L, N, M>(i), time })
+                Err(Error::NotSteady { coordinate, row: row::<L>(i), time })
             }
         }
     }

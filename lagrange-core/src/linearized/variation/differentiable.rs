@@ -8,8 +8,8 @@ use crate::linearized::tangent::WideOf;
 use crate::motion::Method;
 use crate::motion::run::Run;
 use crate::number::Real;
-use crate::solution::vector_field::PhaseVector;
-use crate::system::State;
+use crate::system::StateOf;
+use crate::vector::PhaseVector;
 
 /// A [`Method`] whose steps can be differentiated, so that derivatives of a motion can be integrated with it.
 ///
@@ -22,9 +22,9 @@ use crate::system::State;
     note = "`Dop853` and `Dopri5` can, of every system",
     note = "`Taylor` can where the number type is a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`"
 )]
-pub trait DifferentiableMethod<L, const N: usize, const M: usize, const P: usize>: Method<L, N, M>
+pub trait DifferentiableMethod<L>: Method<L>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     /// Memory of the method for the variations, beside their values.
     #[doc(hidden)]
@@ -35,14 +35,14 @@ where
     fn companion(
         &self,
         system: &L,
-        start: &State<L::Scalar, N>,
-        variations: &Variations<L, N, M, P>,
+        start: &StateOf<L>,
+        variations: &Variations<L>,
     ) -> Result<Self::VariationMemory, Error>;
 
     /// Parts of the memory that are linear in the variations, block by block: linear combinations of variations apply
     /// to them too. Empty if the memory is recomputed at each step.
     #[doc(hidden)]
-    fn linear(companion: &mut Self::VariationMemory) -> Vec<&mut [WideOf<L, N, M>]> {
+    fn linear(companion: &mut Self::VariationMemory) -> Vec<&mut PhaseVector<WideOf<L>, L::N>> {
         let _ = companion;
         Vec::new()
     }
@@ -52,9 +52,9 @@ where
     fn prepare(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, N>,
+        run: &mut Run<Self::Memory, L::Scalar, L::N>,
         end: L::Scalar,
-        variations: &Variations<L, N, M, P>,
+        variations: &Variations<L>,
         companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending> {
         let _ = (system, run, end, variations, companion);
@@ -67,8 +67,8 @@ where
     fn follow(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, N>,
-        variations: &mut Variations<L, N, M, P>,
+        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        variations: &mut Variations<L>,
         companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending>;
 
@@ -78,17 +78,17 @@ where
     fn interpolate(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, N>,
-        variations: &mut Variations<L, N, M, P>,
+        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        variations: &mut Variations<L>,
         companion: &mut Self::VariationMemory,
         within: &mut Vec<Self::Interpolant>,
-        coefficients: &mut Vec<PhaseVector<WideOf<L, N, M>, N>>,
+        coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending>;
 
     /// Variations of a block at a fraction of a step, from its coefficients.
     #[doc(hidden)]
     fn between(
-        coefficients: &[PhaseVector<WideOf<L, N, M>, N>],
-        part: WideOf<L, N, M>,
-    ) -> PhaseVector<WideOf<L, N, M>, N>;
+        coefficients: &[PhaseVector<WideOf<L>, L::N>],
+        part: WideOf<L>,
+    ) -> PhaseVector<WideOf<L>, L::N>;
 }

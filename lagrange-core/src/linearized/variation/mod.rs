@@ -16,30 +16,28 @@ mod taylor;
 
 use alloc::vec::Vec;
 
-use nalgebra::SVector;
-
 use super::argument::parameter;
 use super::tangent::{Tangent, WideOf};
 use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Real, Scalar, Wide, entries, vector};
+use crate::number::{Real, Scalar, Wide};
 use crate::room::Room;
 use crate::solution::consistent::factors_of_nearest;
 use crate::solution::kkt::{Factors, Fault, Rank};
 use crate::solution::solve::fault;
-use crate::solution::vector_field::PhaseVector;
 use crate::system::{Direction, ResidualChange};
+use crate::vector::{Array, Element, Length, PhaseVector, Vector, entries, vector};
 
 pub use differentiable::DifferentiableMethod;
 
 /// Variations of a motion, one per SIMD lane.
 #[derive(Clone, Debug)]
-pub(crate) struct Block<W, const N: usize, const P: usize> {
+pub(crate) struct Block<W: Element, N: Length, P: Length> {
     /// Variations δ(q, q̇).
     pub(crate) y: PhaseVector<W, N>,
     /// Rates of change of the parameters; `None` if no lane varies a parameter.
-    pub(crate) rates: Option<SVector<W, P>>,
+    pub(crate) rates: Option<Vector<W, P>>,
     /// Reciprocal scale of each lane: 1/|p| if the lane varies a parameter p ≠ 0, else 1.
     pub(crate) unit: W,
     /// Number of lanes in use.
@@ -48,31 +46,31 @@ pub(crate) struct Block<W, const N: usize, const P: usize> {
 
 /// Variations of a motion by several arguments, in blocks of lanes.
 #[derive(Debug)]
-pub struct Variations<L: Linearized<N, M, P, Scalar: Real>, const N: usize, const M: usize, const P: usize> {
+pub struct Variations<L: Linearized<Scalar: Real>> {
     arguments: Vec<Entry>,
-    pub(crate) blocks: Vec<Block<WideOf<L, N, M>, N, P>>,
+    pub(crate) blocks: Vec<Block<WideOf<L>, L::N, L::P>>,
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> Variations<L, N, M, P>
+impl<L> Variations<L>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     /// Variations at the start of a motion: `column` gives δ(q, q̇) for each argument, and arguments that are
     /// parameters also change the equations. With constraints, the variations are projected onto the tangent space:
     /// parameters may shift the start, and only the part of a change along the constraints changes the motion.
     pub(super) fn begin(
-        tangent: &Tangent<'_, L, N, M>,
+        tangent: &Tangent<'_, L>,
         arguments: Vec<Entry>,
-        column: impl Fn(usize) -> [SVector<L::Scalar, N>; 2],
+        column: impl Fn(usize) -> [Vector<L::Scalar, L::N>; 2],
     ) -> Result<Self, Error> {
-        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
-        let parameters: Vec<_> = arguments.iter().map(|entry| parameter::<L, N, M, P>(*entry)).collect();
+        let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
+        let parameters: Vec<_> = arguments.iter().map(|entry| parameter::<L>(*entry)).collect();
         let values = tangent.system.parameters();
-        let mut blocks: Vec<Block<WideOf<L, N, M>, N, P>> =
+        let mut blocks: Vec<Block<WideOf<L>, L::N, L::P>> =
             parameters.chunks(lanes).map(|parameters| Block::of(parameters, &values)).collect();
         for j in 0..arguments.len() {
             let column = column(j);
-            let entries = column.iter().flat_map(SVector::iter);
+            let entries = column.iter().flat_map(|half| half.iter());
             blocks[j / lanes].y_mut().iter_mut().zip(entries).for_each(|(wide, x)| wide.put(j % lanes, *x));
         }
         let mut variations = Self { arguments, blocks };
@@ -90,7 +88,7 @@ where
     /// way.
     pub(super) fn orthonormalize(
         &mut self,
-        linear: &mut [&mut [WideOf<L, N, M>]],
+        linear: &mut [&mut PhaseVector<WideOf<L>, L::N>],
         mut take: impl FnMut(usize, L::Scalar),
     ) {
         for j in 0..self.count() {
@@ -107,31 +105,30 @@ where
     /// Replaces variation `into` by the combination `of` itself and variation `from`.
     fn combine(
         &mut self,
-        linear: &mut [&mut [WideOf<L, N, M>]],
+        linear: &mut [&mut PhaseVector<WideOf<L>, L::N>],
         [into, from]: [usize; 2],
         of: impl Fn(L::Scalar, L::Scalar) -> L::Scalar,
     ) {
-        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+        let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
         let [into, from] = [into, from].map(|j| (j / lanes, j % lanes));
-        let combine = |x: &mut WideOf<L, N, M>, y: WideOf<L, N, M>| {
+        let combine = |x: &mut WideOf<L>, y: WideOf<L>| {
             let combined = of(x.lane(into.1), y.lane(from.1));
             x.put(into.1, combined);
         };
-        for i in 0..2 * N {
-            let y = self.blocks[from.0].y_mut()[i];
-            combine(&mut self.blocks[into.0].y_mut()[i], y);
-        }
-        for i in 0..linear.get(into.0).map_or(0, |all| all.len()) {
-            let y = linear[from.0][i];
-            combine(&mut linear[into.0][i], y);
+        let from_y = self.blocks[from.0].y;
+        let pairs = self.blocks[into.0].y_mut().iter_mut().zip(from_y.flat());
+        pairs.for_each(|(x, y)| combine(x, *y));
+        if !linear.is_empty() {
+            let y = *linear[from.0];
+            let pairs = linear[into.0].flat_mut().iter_mut().zip(y.flat());
+            pairs.for_each(|(x, y)| combine(x, *y));
         }
     }
 
     /// Scalar product of two variations.
     fn dot(&self, j: usize, k: usize) -> L::Scalar {
-        let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
-        let entries =
-            |j: usize| self.blocks[j / lanes].y.as_flattened().iter().map(move |x| x.lane(j % lanes));
+        let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
+        let entries = |j: usize| self.blocks[j / lanes].y.flat().iter().map(move |x| x.lane(j % lanes));
         entries(j).zip(entries(k)).fold(L::Scalar::constant(0.0), |sum, (x, y)| sum + x * y)
     }
 
@@ -142,18 +139,18 @@ where
 
     /// Argument of the variation in this lane of a block.
     pub(crate) fn argument(&self, block: usize, lane: usize) -> Entry {
-        lane_names::<L, N, M>(&self.arguments, block)(lane)
+        lane_names::<L>(&self.arguments, block)(lane)
     }
 
     /// Variations δ(q, q̇) of a block.
-    pub(super) fn block(&self, index: usize) -> &PhaseVector<WideOf<L, N, M>, N> {
+    pub(super) fn block(&self, index: usize) -> &PhaseVector<WideOf<L>, L::N> {
         &self.blocks[index].y
     }
 
     /// Projects the variations at the start onto the tangent space. As for the start itself, the coordinates are moved
     /// by the holonomic constraints alone.
-    fn set_out(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error> {
-        if const { M > 0 } {
+    fn set_out(&mut self, tangent: &Tangent<'_, L>) -> Result<(), Error> {
+        if const { <L::M>::COUNT > 0 } {
             let nearest = Room::of(factors_of_nearest(
                 &tangent.matrices().m,
                 &tangent.holonomic_rows(),
@@ -161,11 +158,11 @@ where
             ));
             let by_parameters = self.parameter_slopes(tangent);
             for (k, block) in self.blocks.iter_mut().enumerate() {
-                let names = lane_names::<L, N, M>(&self.arguments, k);
+                let names = lane_names::<L>(&self.arguments, k);
                 let position = block.changes(tangent, &by_parameters, &block.y).position;
                 block
                     .move_by(&nearest, &position)
-                    .map_err(|found| fault::<L, N, M>(&found, tangent.state.t.to_f64()))?;
+                    .map_err(|found| fault::<L>(&found, tangent.state.t.to_f64()))?;
                 block.y = block.half_projected(1, tangent, &by_parameters, block.y, &names)?;
             }
         }
@@ -173,11 +170,11 @@ where
     }
 
     /// Projects the variations at the end of a step onto the tangent space.
-    pub(crate) fn arrive(&mut self, tangent: &Tangent<'_, L, N, M>) -> Result<(), Error> {
-        if const { M > 0 } {
+    pub(crate) fn arrive(&mut self, tangent: &Tangent<'_, L>) -> Result<(), Error> {
+        if const { <L::M>::COUNT > 0 } {
             let by_parameters = self.parameter_slopes(tangent);
             for (k, block) in self.blocks.iter_mut().enumerate() {
-                let names = lane_names::<L, N, M>(&self.arguments, k);
+                let names = lane_names::<L>(&self.arguments, k);
                 block.y = block.projected(tangent, &by_parameters, block.y, &names)?;
             }
         }
@@ -187,13 +184,13 @@ where
     /// Passes δ(q̇, q̈) of each block at a state to `give`; `y` returns the block's δ(q, q̇) there.
     pub(crate) fn slopes_at(
         &self,
-        tangent: &Tangent<'_, L, N, M>,
-        y: impl Fn(usize, &Block<WideOf<L, N, M>, N, P>) -> PhaseVector<WideOf<L, N, M>, N>,
-        mut give: impl FnMut(usize, PhaseVector<WideOf<L, N, M>, N>),
+        tangent: &Tangent<'_, L>,
+        y: impl Fn(usize, &Block<WideOf<L>, L::N, L::P>) -> PhaseVector<WideOf<L>, L::N>,
+        mut give: impl FnMut(usize, PhaseVector<WideOf<L>, L::N>),
     ) -> Result<(), Error> {
         let by_parameters = self.parameter_slopes(tangent);
         for (k, block) in self.blocks.iter().enumerate() {
-            let names = lane_names::<L, N, M>(&self.arguments, k);
+            let names = lane_names::<L>(&self.arguments, k);
             give(k, block.slope_at(tangent, &by_parameters, &y(k, block), &names)?);
         }
         Ok(())
@@ -203,60 +200,60 @@ where
     pub(super) fn projected(
         &self,
         index: usize,
-        tangent: &Tangent<'_, L, N, M>,
-        y: PhaseVector<WideOf<L, N, M>, N>,
-    ) -> Result<PhaseVector<WideOf<L, N, M>, N>, Error> {
-        let names = lane_names::<L, N, M>(&self.arguments, index);
+        tangent: &Tangent<'_, L>,
+        y: PhaseVector<WideOf<L>, L::N>,
+    ) -> Result<PhaseVector<WideOf<L>, L::N>, Error> {
+        let names = lane_names::<L>(&self.arguments, index);
         self.blocks[index].projected(tangent, &self.parameter_slopes(tangent), y, &names)
     }
 
     /// Numbers for the derivatives by parameters; `None` if no variation changes a parameter.
-    fn parameter_slopes(&self, tangent: &Tangent<'_, L, N, M>) -> Option<L::ParameterSlopes> {
+    fn parameter_slopes(&self, tangent: &Tangent<'_, L>) -> Option<L::ParameterSlopes> {
         self.blocks.iter().any(|block| block.rates.is_some()).then(|| tangent.parameter_slopes())
     }
 }
 
 /// Names the lanes of a block by their arguments, for errors.
-fn lane_names<L, const N: usize, const M: usize>(arguments: &[Entry], block: usize) -> impl Fn(usize) -> Entry
+fn lane_names<L>(arguments: &[Entry], block: usize) -> impl Fn(usize) -> Entry
 where
-    L: StateDerivatives<N, M, Scalar: Real>,
+    L: StateDerivatives<Scalar: Real>,
 {
-    let lanes = <WideOf<L, N, M> as Wide<L::Scalar>>::COUNT;
+    let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
     move |lane| arguments[lanes * block + lane]
 }
 
-impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
+impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
     /// A block of zero variations by these parameters, one per lane; `None` is an entry of the state.
-    fn of<T: Real>(parameters: &[Option<usize>], values: &SVector<T, P>) -> Self
+    fn of<T: Real>(parameters: &[Option<usize>], values: &Vector<T, P>) -> Self
     where
         W: Wide<T>,
     {
         let (zero, one) = (W::constant(0.0), T::constant(1.0));
         let (mut rates, mut unit) = (None, W::constant(1.0));
         for (lane, k) in parameters.iter().enumerate().filter_map(|(lane, k)| Some((lane, (*k)?))) {
-            rates.get_or_insert_with(|| SVector::<W, P>::from_element(zero))[k].put(lane, one);
+            rates.get_or_insert_with(|| vector(Array::filled(zero)))[k].put(lane, one);
             let size = Scalar::abs(values[k]);
             unit.put(lane, if size > T::constant(0.0) { one / size } else { one });
         }
-        Self { y: [[zero; N]; 2], rates, unit, lanes: parameters.len() }
+        Self { y: PhaseVector::filled(zero), rates, unit, lanes: parameters.len() }
     }
 
     fn y_mut(&mut self) -> &mut [W] {
-        self.y.as_flattened_mut()
+        self.y.flat_mut()
     }
 
     /// Adds to δq the correction that compensates these changes of Φ, lane by lane.
-    fn move_by<T: Real<Wide = W>, const M: usize>(
+    fn move_by<T: Real<Wide = W>, M: Length>(
         &mut self,
         nearest: &Factors<T, N, M>,
-        position: &SVector<W, M>,
+        position: &Vector<W, M>,
     ) -> Result<(), Fault<T, N>>
     where
         W: Wide<T>,
     {
         for lane in 0..self.lanes {
             let demanded = entries(|a| position[a].lane(lane));
-            let least = nearest.solve(&[T::constant(0.0); N], &demanded)?.accelerations;
+            let least = nearest.solve(&Array::filled(T::constant(0.0)), &demanded)?.accelerations;
             let moved = self.y[0].iter_mut().zip(&least);
             moved.for_each(|(x, least)| x.put(lane, x.lane(lane) + *least));
         }
@@ -265,46 +262,48 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
 
     /// Derivative of the residual along the variations.
     #[inline]
-    fn changes<L, const M: usize>(
+    fn changes<L>(
         &self,
-        tangent: &Tangent<'_, L, N, M>,
+        tangent: &Tangent<'_, L>,
         by_parameters: &Option<L::ParameterSlopes>,
-        [q, v]: &PhaseVector<W, N>,
-    ) -> ResidualChange<W, N, M>
+        y: &PhaseVector<W, N>,
+    ) -> ResidualChange<W, N, L::M>
     where
-        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+        L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>,
     {
-        let of_state = tangent.changes(&Direction { t: W::constant(0.0), q: vector(*q), v: vector(*v) });
+        let of_state =
+            tangent.changes(&Direction { t: W::constant(0.0), q: vector(y.half(0)), v: vector(y.half(1)) });
         let Some((slopes, rates)) = by_parameters.as_ref().zip(self.rates.as_ref()) else { return of_state };
         of_state.plus(&tangent.changes_by_parameters(slopes, rates))
     }
 
     /// Rates δ(q̇, q̈) of the variations.
     #[inline]
-    fn slope_at<L, const M: usize>(
+    fn slope_at<L>(
         &self,
-        tangent: &Tangent<'_, L, N, M>,
+        tangent: &Tangent<'_, L>,
         by_parameters: &Option<L::ParameterSlopes>,
         y: &PhaseVector<W, N>,
         names: &impl Fn(usize) -> Entry,
     ) -> Result<PhaseVector<W, N>, Error>
     where
-        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+        L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>,
     {
         let changes = self.changes(tangent, by_parameters, y);
-        Ok([y[1], tangent.responses(self.lanes, &changes, names)?.accelerations.into()])
+        let rates = tangent.responses(self.lanes, &changes, names)?.accelerations;
+        Ok(PhaseVector::new([y.half(1), rates.into()]))
     }
 
     /// Projects variations onto the tangent space.
-    fn projected<L, const M: usize>(
+    fn projected<L>(
         &self,
-        tangent: &Tangent<'_, L, N, M>,
+        tangent: &Tangent<'_, L>,
         by_parameters: &Option<L::ParameterSlopes>,
         mut y: PhaseVector<W, N>,
         names: &impl Fn(usize) -> Entry,
     ) -> Result<PhaseVector<W, N>, Error>
     where
-        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+        L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>,
     {
         for half in 0..2 {
             y = self.half_projected(half, tangent, by_parameters, y, names)?;
@@ -313,20 +312,20 @@ impl<W: Scalar, const N: usize, const P: usize> Block<W, N, P> {
     }
 
     /// Projects δq (`half` 0) or δq̇ (`half` 1), by the rows of all constraints.
-    fn half_projected<L, const M: usize>(
+    fn half_projected<L>(
         &self,
         half: usize,
-        tangent: &Tangent<'_, L, N, M>,
+        tangent: &Tangent<'_, L>,
         by_parameters: &Option<L::ParameterSlopes>,
         mut y: PhaseVector<W, N>,
         names: &impl Fn(usize) -> Entry,
     ) -> Result<PhaseVector<W, N>, Error>
     where
-        L: Linearized<N, M, P, Scalar: Real<Wide = W>>,
+        L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>,
     {
         let changes = self.changes(tangent, by_parameters, &y);
         let left = if half == 0 { changes.position } else { changes.rate };
-        let motion = changes.motion.map(|_| W::constant(0.0));
+        let motion = vector(Array::filled(W::constant(0.0)));
         let demands = ResidualChange { motion, acceleration: left, ..changes };
         let correction = tangent.responses(self.lanes, &demands, names)?.accelerations;
         y[half].iter_mut().zip(&correction).for_each(|(x, correction)| *x = *x + *correction);

@@ -13,16 +13,17 @@ use crate::motion::method::pair::{Slopes, advance, last};
 use crate::motion::method::pair_memory::PairMemory;
 use crate::motion::run::Run;
 use crate::motion::{Adaptive, Pair, TableauRow};
-use crate::number::{Broadcast, Real, Scalar, Wide, exceeds, vector};
+use crate::number::{Broadcast, Real, Scalar, Wide, exceeds};
 use crate::room::Room;
 use crate::solution::interpolant::{evaluate, hermite};
 use crate::solution::solve::solve_near;
-use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
-use crate::system::{Solution, State};
+use crate::solution::vector_field::LagrangianVectorField;
+use crate::system::{Solution, State, StateOf};
+use crate::vector::{Array, Element, Length, PhaseVector, vector};
 
 /// Stage slopes of a block of variations.
 #[derive(Clone, Debug)]
-pub struct Stages<W, const N: usize> {
+pub struct Stages<W: Element, N: Length> {
     /// Variations at the start of the last step.
     start: PhaseVector<W, N>,
     /// Slopes of that step; the first is the slope at its start.
@@ -31,20 +32,20 @@ pub struct Stages<W, const N: usize> {
     slope: PhaseVector<W, N>,
 }
 
-impl<Q, L, const N: usize, const M: usize, const P: usize> DifferentiableMethod<L, N, M, P> for Adaptive<Q>
+impl<Q, L> DifferentiableMethod<L> for Adaptive<Q>
 where
     Q: Pair,
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
-    type VariationMemory = Vec<Stages<WideOf<L, N, M>, N>>;
+    type VariationMemory = Vec<Stages<WideOf<L>, L::N>>;
 
     fn companion(
         &self,
         system: &L,
-        start: &State<L::Scalar, N>,
-        variations: &Variations<L, N, M, P>,
+        start: &StateOf<L>,
+        variations: &Variations<L>,
     ) -> Result<Self::VariationMemory, Error> {
-        let zero = [[WideOf::<L, N, M>::constant(0.0); N]; 2];
+        let zero = PhaseVector::filled(WideOf::<L>::constant(0.0));
         let none = Stages { start: zero, slopes: Room::filled(zero), slope: zero };
         let mut all = vec![none; variations.blocks.len()];
         let tangent = Tangent::at(system, start)?;
@@ -52,15 +53,15 @@ where
         Ok(all)
     }
 
-    fn linear(companion: &mut Self::VariationMemory) -> Vec<&mut [WideOf<L, N, M>]> {
-        companion.iter_mut().map(|stages| stages.slope.as_flattened_mut()).collect()
+    fn linear(companion: &mut Self::VariationMemory) -> Vec<&mut PhaseVector<WideOf<L>, L::N>> {
+        companion.iter_mut().map(|stages| &mut stages.slope).collect()
     }
 
     fn follow(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, N>,
-        variations: &mut Variations<L, N, M, P>,
+        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        variations: &mut Variations<L>,
         all: &mut Self::VariationMemory,
     ) -> Result<(), Ending> {
         for (block, stages) in variations.blocks.iter().zip(&mut *all) {
@@ -68,7 +69,7 @@ where
         }
         let time = run.before.t.to_f64();
         let slope = run.memory.ensure_slope::<L, LagrangianVectorField>(system, &mut run.statistics);
-        let followed = slope.and_then(|()| go::<Q, L, N, M, P>(system, &run.memory, variations, all));
+        let followed = slope.and_then(|()| go::<Q, L>(system, &run.memory, variations, all));
         let followed = followed.map_err(|error| Ending::of(error, time));
         let (error, worst) = followed
             .inspect_err(|_| step_back(variations, all))
@@ -84,19 +85,18 @@ where
     fn interpolate(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, N>,
-        variations: &mut Variations<L, N, M, P>,
+        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        variations: &mut Variations<L>,
         all: &mut Self::VariationMemory,
         within: &mut Vec<Self::Interpolant>,
-        coefficients: &mut Vec<PhaseVector<WideOf<L, N, M>, N>>,
+        coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending> {
         let known = within.len();
         let more = (last::<Q>() + 1, Q::INTERPOLATION_STAGES);
-        let found =
-            run.look_within::<L, LagrangianVectorField, Self, M>(system, self, within).and_then(|()| {
-                let found = stages::<Q, L, N, M, P>(system, &run.memory, variations, all, more);
-                found.map_err(|error| Ending::of(error, run.before.t.to_f64()))
-            });
+        let found = run.look_within::<L, LagrangianVectorField, Self>(system, self, within).and_then(|()| {
+            let found = stages::<Q, L>(system, &run.memory, variations, all, more);
+            found.map_err(|error| Ending::of(error, run.before.t.to_f64()))
+        });
         if let Err(ending) = found {
             within.truncate(known);
             step_back(variations, all);
@@ -104,7 +104,7 @@ where
         }
         let memory = &run.memory;
         if let Some((_, h, _)) = memory.last_step() {
-            let h = WideOf::<L, N, M>::of(h);
+            let h = WideOf::<L>::of(h);
             let steps = variations.blocks.iter().zip(all);
             steps.for_each(|(block, stages)| stages.push_coefficients::<Q>(h, &block.y, coefficients));
         }
@@ -112,31 +112,31 @@ where
     }
 
     fn between(
-        coefficients: &[PhaseVector<WideOf<L, N, M>, N>],
-        part: WideOf<L, N, M>,
-    ) -> PhaseVector<WideOf<L, N, M>, N> {
+        coefficients: &[PhaseVector<WideOf<L>, L::N>],
+        part: WideOf<L>,
+    ) -> PhaseVector<WideOf<L>, L::N> {
         evaluate(coefficients, part).0
     }
 }
 
 impl<Q: Pair> Adaptive<Q> {
     /// Largest error of a variation relative to its tolerance, and the index of that variation.
-    fn error_of<L, const N: usize, const M: usize, const P: usize>(
+    fn error_of<L>(
         &self,
-        memory: &PairMemory<L::Scalar, N, M>,
-        variations: &Variations<L, N, M, P>,
-        all: &[Stages<WideOf<L, N, M>, N>],
+        memory: &PairMemory<L::Scalar, L::N, L::M>,
+        variations: &Variations<L>,
+        all: &[Stages<WideOf<L>, L::N>],
     ) -> (L::Scalar, usize)
     where
-        L: Linearized<N, M, P, Scalar: Real>,
+        L: Linearized<Scalar: Real>,
     {
         let zero = L::Scalar::constant(0.0);
         let Some((from, h, _)) = memory.last_step() else { return (zero, 0) };
-        let (lanes, tolerance) = (<WideOf<L, N, M> as Wide<L::Scalar>>::COUNT, self.tolerance::<L::Scalar>());
+        let (lanes, tolerance) = (<WideOf<L> as Wide<L::Scalar>>::COUNT, self.tolerance::<L::Scalar>());
         let places = [&from.y, &memory.y];
-        let error = |(block, stages): (&Block<_, N, P>, &Stages<_, N>)| {
+        let error = |(block, stages): (&Block<_, L::N, L::P>, &Stages<_, L::N>)| {
             let ends = [&stages.start, &block.y];
-            tolerance.error_of_variations::<Q, _, _, N>(&stages.slopes, h, ends, places, block.unit)
+            tolerance.error_of_variations::<Q, _, _, L::N>(&stages.slopes, h, ends, places, block.unit)
         };
         let errors: Vec<_> = variations.blocks.iter().zip(all).map(error).collect();
         // NaN counts as infinite.
@@ -149,11 +149,9 @@ impl<Q: Pair> Adaptive<Q> {
 }
 
 /// Restores the variations to the start of the last step.
-fn step_back<L, const N: usize, const M: usize, const P: usize>(
-    variations: &mut Variations<L, N, M, P>,
-    all: &mut [Stages<WideOf<L, N, M>, N>],
-) where
-    L: Linearized<N, M, P, Scalar: Real>,
+fn step_back<L>(variations: &mut Variations<L>, all: &mut [Stages<WideOf<L>, L::N>])
+where
+    L: Linearized<Scalar: Real>,
 {
     for (block, stages) in variations.blocks.iter_mut().zip(all) {
         (block.y, stages.slope) = (stages.start, stages.slopes[0]);
@@ -161,22 +159,22 @@ fn step_back<L, const N: usize, const M: usize, const P: usize>(
 }
 
 /// Advances the variations to the end of the step that the motion has taken.
-fn go<Q: Pair, L, const N: usize, const M: usize, const P: usize>(
+fn go<Q: Pair, L>(
     system: &L,
-    memory: &PairMemory<L::Scalar, N, M>,
-    variations: &mut Variations<L, N, M, P>,
-    all: &mut [Stages<WideOf<L, N, M>, N>],
+    memory: &PairMemory<L::Scalar, L::N, L::M>,
+    variations: &mut Variations<L>,
+    all: &mut [Stages<WideOf<L>, L::N>],
 ) -> Result<(), Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
-    stages::<Q, L, N, M, P>(system, memory, variations, all, (1, Q::STAGES))?;
+    stages::<Q, L>(system, memory, variations, all, (1, Q::STAGES))?;
     let Some((_, h, _)) = memory.last_step() else { return Ok(()) };
     for (block, stages) in variations.blocks.iter_mut().zip(&*all) {
-        advance(&stages.start, WideOf::<L, N, M>::of(h), &stages.slopes, Q::WEIGHTS, &mut block.y);
+        advance(&stages.start, WideOf::<L>::of(h), &stages.slopes, Q::WEIGHTS, &mut block.y);
     }
     let state = state_at(memory.clock.now, &memory.y);
-    let tangent = tangent_at(system, &state, &memory.slope[1], &memory.active)?;
+    let tangent = tangent_at(system, &state, &memory.slope.half(1), &memory.active)?;
     variations.arrive(&tangent)?;
     variations.slopes_at(
         &tangent,
@@ -188,22 +186,22 @@ where
 }
 
 /// Computes the slopes of these stages of the last step; `first` is the number of the first stage.
-fn stages<Q: Pair, L, const N: usize, const M: usize, const P: usize>(
+fn stages<Q: Pair, L>(
     system: &L,
-    memory: &PairMemory<L::Scalar, N, M>,
-    variations: &Variations<L, N, M, P>,
-    all: &mut [Stages<WideOf<L, N, M>, N>],
+    memory: &PairMemory<L::Scalar, L::N, L::M>,
+    variations: &Variations<L>,
+    all: &mut [Stages<WideOf<L>, L::N>],
     (first, rows): (usize, &[TableauRow]),
 ) -> Result<(), Error>
 where
-    L: Linearized<N, M, P, Scalar: Real>,
+    L: Linearized<Scalar: Real>,
 {
     let Some((from, h, slopes)) = memory.last_step() else { return Ok(()) };
-    let (mut place, wide) = (from.y, WideOf::<L, N, M>::of(h));
+    let (mut place, wide) = (from.y, WideOf::<L>::of(h));
     for (number, row) in (first..).zip(rows) {
         advance(&from.y, h, slopes, row, &mut place);
         let state = state_at(from.t + h * L::Scalar::constant(Q::NODES[number]), &place);
-        let tangent = tangent_at(system, &state, &slopes[number][1], &memory.active)?;
+        let tangent = tangent_at(system, &state, &slopes[number].half(1), &memory.active)?;
         let at_stage = |k: usize| {
             let (Stages { start, slopes, .. }, mut y) = (&all[k], all[k].start);
             advance(start, wide, slopes, row, &mut y);
@@ -215,20 +213,20 @@ where
     Ok(())
 }
 
-fn state_at<T: Real, const N: usize>(t: T, [q, v]: &PhaseVector<T, N>) -> State<T, N> {
-    State { t, q: vector(*q), v: vector(*v) }
+fn state_at<T: Real, N: Length>(t: T, y: &PhaseVector<T, N>) -> State<T, N> {
+    State { t, q: vector(y.half(0)), v: vector(y.half(1)) }
 }
 
 /// Linearized equations at a stage. The accelerations are known from the motion; with constraints the equations are
 /// solved again for the multipliers.
 #[inline]
-fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const M: usize>(
+fn tangent_at<'a, L: StateDerivatives<Scalar: Real>>(
     system: &'a L,
-    state: &'a State<L::Scalar, N>,
-    accelerations: &[L::Scalar; N],
-    active: &[bool; M],
-) -> Result<Tangent<'a, L, N, M>, Error> {
-    if const { M > 0 } {
+    state: &'a StateOf<L>,
+    accelerations: &Array<L::Scalar, L::N>,
+    active: &Array<bool, L::M>,
+) -> Result<Tangent<'a, L>, Error> {
+    if const { <L::M>::COUNT > 0 } {
         return Ok(Tangent::of(
             system,
             state,
@@ -236,11 +234,11 @@ fn tangent_at<'a, L: StateDerivatives<N, M, Scalar: Real>, const N: usize, const
         ));
     }
     let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
-    let (accelerations, multipliers) = (vector(*accelerations), vector([zero; M]));
-    Ok(Tangent::of(system, state, Solution { accelerations, multipliers, pivot: one, rank: M }))
+    let (accelerations, multipliers) = (vector(*accelerations), vector(Array::filled(zero)));
+    Ok(Tangent::of(system, state, Solution { accelerations, multipliers, pivot: one, rank: <L::M>::COUNT }))
 }
 
-impl<W: Scalar, const N: usize> Stages<W, N> {
+impl<W: Scalar, N: Length> Stages<W, N> {
     /// Appends the coefficients of dense output for the step that led to `y`.
     fn push_coefficients<Q: Pair>(
         &self,
@@ -248,7 +246,7 @@ impl<W: Scalar, const N: usize> Stages<W, N> {
         y: &PhaseVector<W, N>,
         coefficients: &mut Vec<PhaseVector<W, N>>,
     ) {
-        let zero = [[W::constant(0.0); N]; 2];
+        let zero = PhaseVector::filled(W::constant(0.0));
         let cubic = coefficients.len();
         coefficients.extend([zero; 4]);
         hermite(h, (&self.start, &self.slopes[0]), (y, &self.slope), &mut coefficients[cubic..]);
@@ -280,13 +278,13 @@ mod tests {
         let (system, method) = (Spring, Dop853::default());
         let start = State::at_rest([1.0]);
         let (mut run, _) =
-            Run::begin::<_, LagrangianVectorField, _, 0>(&system, &start, &method).expect("a start");
+            Run::begin::<_, LagrangianVectorField, _>(&system, &start, &method).expect("a start");
         let arguments = vec![Entry::Coordinate("x"), Entry::Velocity("x")];
         let unit = |j: usize| [[1.0 - j as f64].into(), [j as f64].into()];
         let tangent = Tangent::at(&system, &start).expect("a start");
-        let mut variations = Variations::<_, 1, 0, 0>::begin(&tangent, arguments, unit).expect("a start");
-        let limits = Watchdog::new(Method::<Spring, 1, 0>::limits(&method), &run.statistics);
-        run.step::<_, LagrangianVectorField, _, 0>(&system, &method, 1.0, &limits).expect("a step");
+        let mut variations = Variations::<_>::begin(&tangent, arguments, unit).expect("a start");
+        let limits = Watchdog::new(Method::<Spring>::limits(&method), &run.statistics);
+        run.step::<_, LagrangianVectorField, _>(&system, &method, 1.0, &limits).expect("a step");
         let mut stages = method.companion(&system, &start, &variations).expect("a start");
         method.follow(&system, &mut run, &mut variations, &mut stages).expect("a step");
         let (error, _) = method.error_of(&run.memory, &variations, &stages);

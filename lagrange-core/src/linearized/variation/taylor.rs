@@ -6,10 +6,9 @@
 mod general;
 
 use alloc::vec::Vec;
-use core::array::from_fn;
 use core::convert::Infallible;
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use super::{Block, DifferentiableMethod, Variations};
 use crate::error::{Ending, Error};
@@ -21,52 +20,53 @@ use crate::motion::taylor::expansion::Expansion;
 use crate::motion::taylor::last::{LAST, Last};
 use crate::motion::taylor::{Taylor, TaylorMemory};
 use crate::names::Entry;
-use crate::number::{Broadcast, Dual, FixedArray, Real, Scalar, Wide, entries, exceeds, smaller, vector};
+use crate::number::{Broadcast, Dual, Real, Scalar, Wide, exceeds, smaller};
 use crate::solution::pivot::least_pivot;
 use crate::solution::solve::first_row;
-use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
-use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, TaylorSeries};
+use crate::solution::vector_field::LagrangianVectorField;
+use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, StateOf, TaylorSeries};
+use crate::vector::{Array, Element, FixedArray, Length, PhaseVector, Vector, entries, from_fn, vector};
 use general::DualGeneral;
 
 /// Dual numbers with derivatives along one direction per lane.
-type Duals<L, const N: usize, const M: usize> = Dual<WideOf<L, N, M>>;
+type Duals<L> = Dual<WideOf<L>>;
 /// The system over these dual numbers.
-type PackedDuals<L, const N: usize, const M: usize> = <L as Pack<Duals<L, N, M>>>::Packed;
-type Sums<L, const N: usize, const M: usize> = <PackedDuals<L, N, M> as TaylorSeries<N, M>>::Sums;
+type PackedDuals<L> = <L as Pack<Duals<L>>>::Packed;
+type Sums<L> = <PackedDuals<L> as TaylorSeries>::Sums;
 
 /// A motion with one variation per lane, as a system and a series over dual numbers.
 #[derive(Debug)]
-pub struct Varied<S, U, W, const N: usize> {
+pub struct Varied<S, U, W: Element, N: Length> {
     /// System over dual numbers; the slope of each parameter is its rate of change in [`Block::rates`].
     system: S,
     series: Expansion<U, Dual<W>, N>,
 }
 
 /// A step of a block of variations.
-struct BlockStep<W, const N: usize> {
+struct BlockStep<W: Element, N: Length> {
     /// Variations at the start of the step.
     before: PhaseVector<W, N>,
     /// Rates of δq̇ at the end of the series.
-    rates: [W; N],
+    rates: Array<W, N>,
 }
 
-impl<L, const N: usize, const M: usize, const P: usize> DifferentiableMethod<L, N, M, P> for Taylor
+impl<L> DifferentiableMethod<L> for Taylor
 where
-    L: Linearized<N, M, P, Scalar: Real> + TaylorSeries<N, M> + Pack<Duals<L, N, M>>,
-    PackedDuals<L, N, M>: TaylorSeries<N, M, Scalar = Duals<L, N, M>> + Linearized<N, M, P>,
+    L: Linearized<Scalar: Real> + TaylorSeries + Pack<Duals<L>>,
+    PackedDuals<L>: TaylorSeries<N = L::N, M = L::M, Scalar = Duals<L>> + Linearized<P = L::P>,
 {
-    type VariationMemory = Vec<Varied<PackedDuals<L, N, M>, Sums<L, N, M>, WideOf<L, N, M>, N>>;
+    type VariationMemory = Vec<Varied<PackedDuals<L>, Sums<L>, WideOf<L>, L::N>>;
 
     fn companion(
         &self,
         system: &L,
-        _: &State<L::Scalar, N>,
-        variations: &Variations<L, N, M, P>,
+        _: &StateOf<L>,
+        variations: &Variations<L>,
     ) -> Result<Self::VariationMemory, Error> {
         let order = self.order::<L::Scalar>();
-        let varied = |block: &Block<_, N, P>| {
-            let system = with_rates::<L, N, M, P>(system, block.rates.as_ref())?;
-            Ok(Varied { system, series: Expansion::new::<PackedDuals<L, N, M>, M>(order) })
+        let varied = |block: &Block<_, L::N, L::P>| {
+            let system = with_rates::<L>(system, block.rates.as_ref())?;
+            Ok(Varied { system, series: Expansion::new::<PackedDuals<L>>(order) })
         };
         variations.blocks.iter().map(varied).collect()
     }
@@ -74,9 +74,9 @@ where
     fn prepare(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, N>,
+        run: &mut Run<Self::Memory, L::Scalar, L::N>,
         end: L::Scalar,
-        variations: &Variations<L, N, M, P>,
+        variations: &Variations<L>,
         companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending> {
         let (memory, time) = (&mut run.memory, run.state.t.to_f64());
@@ -85,7 +85,7 @@ where
         self.expand(system, memory, &mut run.statistics).map_err(of)?;
         for (k, (varied, block)) in companion.iter_mut().zip(&variations.blocks).enumerate() {
             let entry = |lane| variations.argument(k, lane);
-            varied.expand::<L, _, M, P>(system, memory, block, entry).map_err(of)?;
+            varied.expand::<L, _, L::P>(system, memory, block, entry).map_err(of)?;
             let scales = self.scales([&block.y; 2], block.unit, &memory.series);
             let sizes: [_; LAST] = from_fn(|i| varied.size(varied.series.order() + 1 - LAST + i, &scales));
             for lane in 0..block.lanes {
@@ -101,8 +101,8 @@ where
     fn follow(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, N>,
-        variations: &mut Variations<L, N, M, P>,
+        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        variations: &mut Variations<L>,
         companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending> {
         let (memory, time) = (&run.memory, run.before.t.to_f64());
@@ -124,13 +124,13 @@ where
     fn interpolate(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, N>,
-        _: &mut Variations<L, N, M, P>,
+        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        _: &mut Variations<L>,
         companion: &mut Self::VariationMemory,
         within: &mut Vec<Self::Interpolant>,
-        coefficients: &mut Vec<PhaseVector<WideOf<L, N, M>, N>>,
+        coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending> {
-        run.look_within::<L, LagrangianVectorField, Self, M>(system, self, within)?;
+        run.look_within::<L, LagrangianVectorField, Self>(system, self, within)?;
         let memory = &run.memory;
         let theta = (memory.clock.now - memory.series.start) / memory.series.unit;
         companion.iter().for_each(|varied| varied.push_coefficients(theta, coefficients));
@@ -138,10 +138,10 @@ where
     }
 
     fn between(
-        coefficients: &[PhaseVector<WideOf<L, N, M>, N>],
-        part: WideOf<L, N, M>,
-    ) -> PhaseVector<WideOf<L, N, M>, N> {
-        let zero = [[WideOf::<L, N, M>::constant(0.0); N]; 2];
+        coefficients: &[PhaseVector<WideOf<L>, L::N>],
+        part: WideOf<L>,
+    ) -> PhaseVector<WideOf<L>, L::N> {
+        let zero = PhaseVector::filled(WideOf::<L>::constant(0.0));
         coefficients.iter().rev().fold(zero, |sum, coefficient| {
             from_fn(|half| entries(|i| sum[half][i].multiply_add(part, coefficient[half][i])))
         })
@@ -151,7 +151,7 @@ where
 impl Taylor {
     /// Reciprocal scales for coefficients of variations. The scale of an entry is `SLACK` times the sum of the largest
     /// δq (or δq̇) and the scale of the motion, in units of the variations.
-    fn scales<S, T: Real, W: Wide<T>, const N: usize>(
+    fn scales<S, T: Real, W: Wide<T>, N: Length>(
         &self,
         ends: [&PhaseVector<W, N>; 2],
         unit: W,
@@ -168,27 +168,27 @@ impl Taylor {
 
     /// Projects the variations onto the tangent space. Returns the argument of a variation whose accelerations at the
     /// end of its series deviate too far from the equations; `None` if there is none.
-    fn off<L, const N: usize, const M: usize, const P: usize>(
+    fn off<L>(
         &self,
         system: &L,
-        memory: &TaylorMemory<L::Sums, L::Scalar, N, M>,
-        variations: &mut Variations<L, N, M, P>,
-        steps: &[BlockStep<WideOf<L, N, M>, N>],
+        memory: &TaylorMemory<L::Sums, L::Scalar, L::N, L::M>,
+        variations: &mut Variations<L>,
+        steps: &[BlockStep<WideOf<L>, L::N>],
     ) -> Result<Option<Entry>, Error>
     where
-        L: Linearized<N, M, P, Scalar: Real> + TaylorSeries<N, M>,
+        L: Linearized<Scalar: Real> + TaylorSeries,
     {
         let tangent = Tangent::of(system, &memory.state, memory.solved.solution);
         variations.arrive(&tangent)?;
-        let length = WideOf::<L, N, M>::of(Scalar::abs(memory.clock.now - memory.series.start));
+        let length = WideOf::<L>::of(Scalar::abs(memory.clock.now - memory.series.start));
         let bound = L::Scalar::constant(self.jump_allowed::<L::Scalar>());
         let mut worst = None;
-        let look = |k: usize, [_, slope]: PhaseVector<WideOf<L, N, M>, N>| {
+        let look = |k: usize, slope: PhaseVector<WideOf<L>, L::N>| {
             let block = &variations.blocks[k];
             let BlockStep { before, rates } = &steps[k];
-            let [_, scales] = self.scales([before, &block.y], block.unit, &memory.series);
-            let off = (0..N).map(|i| (rates[i] - slope[i]).abs() * length * scales[i]);
-            let off = off.fold(WideOf::<L, N, M>::constant(0.0), |most, off| most + off);
+            let scales = self.scales([before, &block.y], block.unit, &memory.series);
+            let off = (0..<L::N>::COUNT).map(|i| (rates[i] - slope[1][i]).abs() * length * scales[1][i]);
+            let off = off.fold(WideOf::<L>::constant(0.0), |most, off| most + off);
             let lane = (0..block.lanes).find(|&lane| exceeds(off.lane(lane), bound));
             worst = worst.or_else(|| lane.map(|lane| variations.argument(k, lane)));
         };
@@ -198,20 +198,17 @@ impl Taylor {
 }
 
 /// Converts the system to dual numbers whose parameters change at these rates.
-fn with_rates<L, const N: usize, const M: usize, const P: usize>(
-    system: &L,
-    rates: Option<&SVector<WideOf<L, N, M>, P>>,
-) -> Result<PackedDuals<L, N, M>, Error>
+fn with_rates<L>(system: &L, rates: Option<&Vector<WideOf<L>, L::P>>) -> Result<PackedDuals<L>, Error>
 where
-    L: Linearized<N, M, P, Scalar: Real> + Pack<Duals<L, N, M>>,
-    PackedDuals<L, N, M>: Linearized<N, M, P, Scalar = Duals<L, N, M>>,
+    L: Linearized<Scalar: Real> + Pack<Duals<L>>,
+    PackedDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = Duals<L>>,
 {
     let (mut over, values) = (system.pack(), system.parameters());
     let Some(rates) = rates else { return Ok(over) };
     let zero = L::Scalar::constant(0.0);
-    for k in 0..P {
-        let changes = (0..WideOf::<L, N, M>::COUNT).any(|lane| rates[k].lane(lane) != zero);
-        let value = Dual { value: WideOf::<L, N, M>::of(values[k]), slope: rates[k] };
+    for k in 0..<L::P>::COUNT {
+        let changes = (0..WideOf::<L>::COUNT).any(|lane| rates[k].lane(lane) != zero);
+        let value = Dual { value: WideOf::<L>::of(values[k]), slope: rates[k] };
         if changes && !over.set_parameter(k, value) {
             return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
         }
@@ -219,58 +216,58 @@ where
     Ok(over)
 }
 
-impl<S, U, W: Scalar, const N: usize> Varied<S, U, W, N>
+impl<S, U, W: Scalar, N: Length> Varied<S, U, W, N>
 where
     U: FixedArray<Dual<W>>,
 {
     /// Expands the motion and its variations in Taylor series about the present state.
-    fn expand<L, V, const M: usize, const P: usize>(
+    fn expand<L, V, P: Length>(
         &mut self,
         system: &L,
-        memory: &TaylorMemory<V, L::Scalar, N, M>,
+        memory: &TaylorMemory<V, L::Scalar, N, L::M>,
         block: &Block<W, N, P>,
         entry: impl Fn(usize) -> Entry,
     ) -> Result<(), Error>
     where
-        L: Lagrangian<N, M, Scalar: Real<Wide = W>>,
-        S: TaylorSeries<N, M, Scalar = Dual<W>, Sums = U>,
+        L: Lagrangian<N = N, Scalar: Real<Wide = W>>,
+        S: TaylorSeries<N = N, M = L::M, Scalar = Dual<W>, Sums = U>,
         W: Wide<L::Scalar>,
         V: FixedArray<L::Scalar>,
     {
         let dual = |value: L::Scalar, slope| Dual { value: W::of(value), slope };
-        let (at, none, [q, v]) = (&memory.state, W::constant(0.0), &block.y);
+        let (at, none, y) = (&memory.state, W::constant(0.0), &block.y);
         let state = State {
             t: dual(at.t, none),
-            q: vector(from_fn(|i| dual(at.q[i], q[i]))),
-            v: vector(from_fn(|i| dual(at.v[i], v[i]))),
+            q: vector(from_fn(|i| dual(at.q[i], y[0][i]))),
+            v: vector(from_fn(|i| dual(at.v[i], y[1][i]))),
         };
         let unit = dual(memory.series.unit, none);
         let solution = self.system.accelerations_unchecked(&state);
-        if memory.solved.is_by_elimination() && is_sound::<L::Scalar, W, N, M>(&solution) {
+        if memory.solved.is_by_elimination() && is_sound::<L::Scalar, W, N, L::M>(&solution) {
             let factor = self.system.factor(&state);
-            let solve = |(forcing, bias): &RightHandSides<_, N, M>| {
+            let solve = |(forcing, bias): &RightHandSides<_, N, L::M>| {
                 Ok(self.system.solve_with(&factor, forcing, bias))
             };
             let Ok::<(), Infallible>(()) = self.series.orders(&self.system, &state, &solution, unit, solve);
         } else {
             self.expand_in_general(system, (at, &state), unit, memory.solved.active)?;
         }
-        self.check::<L, M>(block.lanes, at.t, entry)
+        self.check::<L>(block.lanes, at.t, entry)
     }
 
     /// Like `expand`, by the general factors. A separate function, because the matrices are large.
     #[cold]
     #[inline(never)]
-    fn expand_in_general<L, const M: usize>(
+    fn expand_in_general<L>(
         &mut self,
         system: &L,
         (at, state): (&State<L::Scalar, N>, &State<Dual<W>, N>),
         unit: Dual<W>,
-        active: [bool; M],
+        active: Array<bool, L::M>,
     ) -> Result<(), Error>
     where
-        L: Lagrangian<N, M, Scalar: Real<Wide = W>>,
-        S: TaylorSeries<N, M, Scalar = Dual<W>, Sums = U>,
+        L: Lagrangian<N = N, Scalar: Real<Wide = W>>,
+        S: TaylorSeries<N = N, M = L::M, Scalar = Dual<W>, Sums = U>,
         W: Wide<L::Scalar>,
     {
         let general = DualGeneral::at(system, &self.system, (at, state), active)?;
@@ -280,20 +277,15 @@ where
     }
 
     /// Fails if the derivatives of a coefficient are not finite.
-    fn check<L, const M: usize>(
-        &self,
-        lanes: usize,
-        time: L::Scalar,
-        entry: impl Fn(usize) -> Entry,
-    ) -> Result<(), Error>
+    fn check<L>(&self, lanes: usize, time: L::Scalar, entry: impl Fn(usize) -> Entry) -> Result<(), Error>
     where
-        L: Lagrangian<N, M, Scalar: Real<Wide = W>>,
+        L: Lagrangian<N = N, Scalar: Real<Wide = W>>,
         W: Wide<L::Scalar>,
     {
         let last = self.series.last();
         for lane in 0..lanes {
             let is_broken = |i: usize| last.iter().any(|x| !x[i].slope.lane(lane).is_finite());
-            if let Some(row) = first_row::<L, N, M>(is_broken, |_| false) {
+            if let Some(row) = first_row::<L>(is_broken, |_| false) {
                 return Err(Error::DerivativeNotFinite { row, entry: entry(lane), time: time.to_f64() });
             }
         }
@@ -303,13 +295,13 @@ where
     /// Largest derivative of a coefficient of this order, relative to the scales.
     fn size(&self, order: usize, scales: &PhaseVector<W, N>) -> W {
         let coefficients = [&self.series.q[order], &self.series.v[order]];
-        let sizes = coefficients.iter().zip(scales);
-        let sizes = sizes.flat_map(|(x, scales)| (0..N).map(move |i| x[i].slope.abs() * scales[i]));
+        let sizes = coefficients.iter().zip([&scales[0], &scales[1]]);
+        let sizes = sizes.flat_map(|(x, scales)| (0..N::COUNT).map(move |i| x[i].slope.abs() * scales[i]));
         sizes.fold(W::constant(0.0), |most, size| most.max(size))
     }
 
     /// Advances the variations to the end of the step that the motion has taken.
-    fn advance<T: Real<Wide = W>, V, const P: usize>(
+    fn advance<T: Real<Wide = W>, V, P: Length>(
         &mut self,
         block: &mut Block<W, N, P>,
         motion: &Expansion<V, T, N>,
@@ -322,7 +314,7 @@ where
         let length = Dual { value: W::of(now - motion.start), slope: W::constant(0.0) };
         let [dq, dv, rates] = self.series.change(length).map(|all| all.map(|x| x.slope));
         let before = block.y;
-        block.y = [(before[0], dq), (before[1], dv)].map(|(y, change)| entries(|i| y[i] + change[i]));
+        block.y = from_fn(|half| entries(|i| before[half][i] + [&dq, &dv][half][i]));
         BlockStep { before, rates }
     }
 
@@ -333,20 +325,21 @@ where
         W: Wide<T>,
     {
         let Expansion { q, v, summed, .. } = &self.series;
-        let (mut power, theta, zero) = (W::constant(1.0), W::of(theta), [W::constant(0.0); N]);
+        let (mut power, theta, zero) = (W::constant(1.0), W::of(theta), Array::filled(W::constant(0.0)));
         for order in 0..q.len() {
             let is_summed = [order <= summed + 1, order <= *summed];
-            let of = |x: Option<&[Dual<W>; N]>, is_summed: bool| match x.filter(|_| is_summed) {
+            let of = |x: Option<&Array<Dual<W>, N>>, is_summed: bool| match x.filter(|_| is_summed) {
                 Some(x) => x.map(|x| x.slope * power),
                 None => zero,
             };
-            coefficients.push([of(q.get(order), is_summed[0]), of(v.get(order), is_summed[1])]);
+            let halves = [of(q.get(order), is_summed[0]), of(v.get(order), is_summed[1])];
+            coefficients.push(PhaseVector::new(halves));
             power = power * theta;
         }
     }
 }
 
 /// True if the pivots of the elimination are large enough in all lanes.
-fn is_sound<T: Real, W: Wide<T>, const N: usize, const M: usize>(solution: &Solution<Dual<W>, N, M>) -> bool {
+fn is_sound<T: Real, W: Wide<T>, N: Length, M: Length>(solution: &Solution<Dual<W>, N, M>) -> bool {
     (0..W::COUNT).all(|lane| solution.pivot.value.lane(lane) > least_pivot())
 }

@@ -4,9 +4,8 @@
 //! The coefficients of degree n follow from the values at the n + 1 extreme points of Tₙ (Clenshaw and Curtis). The
 //! points of degree n are among those of degree 2n, so doubling the degree repeats no evaluation.
 
-use core::array::from_fn;
-
 use crate::number::{Real, Scalar, larger};
+use crate::vector::from_fn;
 
 /// Highest degree, and number of subintervals between its points, which include the points of all lower degrees.
 pub(super) const FINEST: usize = 32;

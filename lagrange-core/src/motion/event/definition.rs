@@ -10,7 +10,7 @@ use super::memory::{CrossingDirection, EventState};
 use crate::error::Error;
 use crate::number::{Dual, Real};
 use crate::solution::Sample;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
 
 /// A zero crossing of a function g of a motion, made by [`Simulate::event`](crate::Simulate::event).
 ///
@@ -64,13 +64,13 @@ use crate::system::{Lagrangian, State};
 /// Each run counts its crossings from 1, even if it is one leg of a motion. The history for accumulating crossings is
 /// kept from leg to leg, and dropped when a run starts before the last crossing. A steered [`Motion`](crate::Motion)
 /// continues to count until another motion starts.
-pub struct Event<L: Lagrangian<N, M>, G, const N: usize, const M: usize> {
+pub struct Event<L: Lagrangian, G> {
     function: G,
     memory: EventState<L::Scalar>,
     system: PhantomData<fn(&L)>,
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event<L, G, N, M> {
+impl<L: Lagrangian<Scalar: Real>, G> Event<L, G> {
     pub(crate) fn new(name: &'static str, function: G) -> Self {
         Self { function, memory: EventState::new(name), system: PhantomData }
     }
@@ -113,13 +113,13 @@ impl<L: Lagrangian<N, M, Scalar: Real>, G, const N: usize, const M: usize> Event
 
     /// Copy of the event for another motion, without its history, and with its function mapped.
     #[cfg(feature = "std")]
-    pub(crate) fn anew<'g, H>(&'g self, function: impl FnOnce(&'g G) -> H) -> Event<L, H, N, M> {
+    pub(crate) fn anew<'g, H>(&'g self, function: impl FnOnce(&'g G) -> H) -> Event<L, H> {
         Event { function: function(&self.function), memory: self.memory.anew(), system: PhantomData }
     }
 
     /// The event with its function mapped.
     #[cfg(feature = "std")]
-    pub(crate) fn map<H>(self, function: impl FnOnce(G) -> H) -> Event<L, H, N, M> {
+    pub(crate) fn map<H>(self, function: impl FnOnce(G) -> H) -> Event<L, H> {
         Event { function: function(self.function), memory: self.memory, system: PhantomData }
     }
 
@@ -175,20 +175,20 @@ impl<T> EventValue<T> for Result<T, Error> {
 }
 
 /// Function of an event: a closure over samples, or one over dual numbers (`MotionDerivatives::differentiable_event`).
-pub trait EventFunction<L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub trait EventFunction<L: Lagrangian> {
     /// Value of the function at a state.
     #[doc(hidden)]
-    fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error>;
+    fn at(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error>;
 }
 
-impl<L, G, V, const N: usize, const M: usize> EventFunction<L, N, M> for G
+impl<L, G, V> EventFunction<L> for G
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    G: Fn(&Sample<&L, N, M>) -> V,
+    L: Lagrangian<Scalar: Real>,
+    G: Fn(&Sample<&L>) -> V,
     V: EventValue<L::Scalar>,
 {
     #[inline]
-    fn at(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
+    fn at(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
         self(&Sample { system, state: *state }).value()
     }
 }
@@ -200,10 +200,10 @@ where
     message = "`{Self}` is not an event of `{L}`",
     note = "make one by `system.event(\"name\", |sample| …)`, of the same system; a `Motion` takes `&mut [&mut event]`"
 )]
-pub trait AnyEvent<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed::Sealed {
+pub trait AnyEvent<L: Lagrangian>: sealed::Sealed {
     /// Value of the event's function at this state.
     #[doc(hidden)]
-    fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error>;
+    fn value(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error>;
 
     /// Settings of the event, and the state of its search.
     #[doc(hidden)]
@@ -211,18 +211,18 @@ pub trait AnyEvent<L: Lagrangian<N, M>, const N: usize, const M: usize>: sealed:
 
     /// Stores the value of the function as sample `place` of the interval, unless the interval is already decided.
     #[doc(hidden)]
-    fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error>;
+    fn sample(&mut self, system: &L, state: &StateOf<L>, place: usize) -> Result<(), Error>;
 }
 
 /// A type-erased event.
 #[cfg(feature = "alloc")]
-pub(crate) type DynEvent<'a, L, const N: usize, const M: usize> = dyn AnyEvent<L, N, M> + 'a;
+pub(crate) type DynEvent<'a, L> = dyn AnyEvent<L> + 'a;
 
 mod sealed {
     pub trait Sealed {}
 }
 
-impl<L: Lagrangian<N, M>, G, const N: usize, const M: usize> sealed::Sealed for Event<L, G, N, M> {}
+impl<L: Lagrangian, G> sealed::Sealed for Event<L, G> {}
 
 impl<W: sealed::Sealed + ?Sized> sealed::Sealed for &mut W {}
 
@@ -232,23 +232,23 @@ impl<W: sealed::Sealed + ?Sized> sealed::Sealed for Box<W> {}
 /// Implements [`AnyEvent`] for a pointer to an event.
 macro_rules! watched_behind {
     ($pointer:ty) => {
-        impl<L, W, const N: usize, const M: usize> AnyEvent<L, N, M> for $pointer
+        impl<L, W> AnyEvent<L> for $pointer
         where
-            L: Lagrangian<N, M>,
-            W: AnyEvent<L, N, M> + ?Sized,
+            L: Lagrangian,
+            W: AnyEvent<L> + ?Sized,
         {
             #[inline]
-            fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
+            fn value(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
                 (**self).value(system, state)
             }
 
             #[inline]
             fn memory(&mut self) -> &mut EventState<L::Scalar> {
-                AnyEvent::<L, N, M>::memory(&mut **self)
+                AnyEvent::<L>::memory(&mut **self)
             }
 
             #[inline]
-            fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
+            fn sample(&mut self, system: &L, state: &StateOf<L>, place: usize) -> Result<(), Error> {
                 (**self).sample(system, state, place)
             }
         }
@@ -259,14 +259,14 @@ watched_behind!(&mut W);
 #[cfg(feature = "alloc")]
 watched_behind!(Box<W>);
 
-impl<L, K, G, const N: usize, const M: usize> AnyEvent<L, N, M> for Event<K, G, N, M>
+impl<L, K, G> AnyEvent<L> for Event<K, G>
 where
-    L: Lagrangian<N, M, Scalar: Real> + Borrow<K>,
-    K: Lagrangian<N, M, Scalar = L::Scalar>,
-    G: EventFunction<K, N, M>,
+    L: Lagrangian<Scalar: Real> + Borrow<K>,
+    K: Lagrangian<N = L::N, M = L::M, Scalar = L::Scalar>,
+    G: EventFunction<K>,
 {
     #[inline]
-    fn value(&self, system: &L, state: &State<L::Scalar, N>) -> Result<L::Scalar, Error> {
+    fn value(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
         let value = self.function.at(system.borrow(), state)?;
         // An infinite value has a sign, as at a pole.
         match value.to_f64().is_nan() {
@@ -281,15 +281,15 @@ where
     }
 
     #[inline]
-    fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
+    fn sample(&mut self, system: &L, state: &StateOf<L>, place: usize) -> Result<(), Error> {
         if !self.memory.is_known() {
-            self.memory.samples[place] = AnyEvent::<L, N, M>::value(self, system, state)?;
+            self.memory.samples[place] = AnyEvent::<L>::value(self, system, state)?;
         }
         Ok(())
     }
 }
 
-impl<L: Lagrangian<N, M>, G, const N: usize, const M: usize> Debug for Event<L, G, N, M> {
+impl<L: Lagrangian, G> Debug for Event<L, G> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Event").field(&self.memory).finish()
     }

@@ -8,26 +8,26 @@ use crate::error::Error;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
 
 /// An accepted step with its dense output.
-pub(crate) struct DenseStep<'a, L: Lagrangian<N, M>, F, I, const N: usize, const M: usize> {
+pub(crate) struct DenseStep<'a, L: Lagrangian, F, I> {
     pub(crate) system: &'a L,
-    pub(crate) before: &'a State<L::Scalar, N>,
-    pub(crate) after: &'a State<L::Scalar, N>,
+    pub(crate) before: &'a StateOf<L>,
+    pub(crate) after: &'a StateOf<L>,
     pub(crate) interpolant: &'a I,
     pub(crate) field: PhantomData<F>,
 }
 
-impl<L, F, I, const N: usize, const M: usize> DenseStep<'_, L, F, I, N, M>
+impl<L, F, I> DenseStep<'_, L, F, I>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    I: Interpolant<L::Scalar, N>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    I: Interpolant<L::Scalar, L::N>,
 {
     /// State at a time within the step, projected onto the constraints.
     #[inline]
-    pub(crate) fn at(&self, t: L::Scalar) -> Result<State<L::Scalar, N>, Error> {
+    pub(crate) fn at(&self, t: L::Scalar) -> Result<StateOf<L>, Error> {
         match t == self.after.t {
             true => Ok(*self.after),
             false => F::project(self.system, &self.interpolant.at(t)),

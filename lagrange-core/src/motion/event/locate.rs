@@ -7,20 +7,21 @@ use crate::error::Error;
 use crate::motion::Interpolant;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Entrywise, Length};
 
 /// Finds the state between the two given ones at which an event crosses zero. Its function there is zero, or has the
 /// sign of the second state.
-pub(super) fn locate<L, F, I, const N: usize, const M: usize>(
-    stride: &DenseStep<'_, L, F, I, N, M>,
-    event: &impl AnyEvent<L, N, M>,
-    between: [&State<L::Scalar, N>; 2],
+pub(super) fn locate<L, F, I>(
+    stride: &DenseStep<'_, L, F, I>,
+    event: &impl AnyEvent<L>,
+    between: [&StateOf<L>; 2],
     values: [L::Scalar; 2],
-) -> Result<State<L::Scalar, N>, Error>
+) -> Result<StateOf<L>, Error>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    I: Interpolant<L::Scalar, N>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    I: Interpolant<L::Scalar, L::N>,
 {
     let constant = L::Scalar::constant;
     let [a, b] = between;
@@ -31,8 +32,8 @@ where
     // No representable time lies between these two: interpolate between their states.
     let between = |x: L::Scalar| State {
         t: low.what.t + (high.what.t - low.what.t) * x,
-        q: low.what.q + (high.what.q - low.what.q) * x,
-        v: low.what.v + (high.what.v - low.what.v) * x,
+        q: low.what.q.each_with(&high.what.q, |low, high| low + (high - low) * x),
+        v: low.what.v.each_with(&high.what.v, |low, high| low + (high - low) * x),
     };
     let finest = constant(L::Scalar::EPSILON);
     let [_, high] =
@@ -44,7 +45,7 @@ where
 }
 
 /// Two states and the function's values there, as the points x = 0 and x = 1.
-fn ends<T: Real, const N: usize>(
+fn ends<T: Real, N: Length>(
     [low, high]: [&State<T, N>; 2],
     [at_low, at_high]: [T; 2],
 ) -> [Probe<T, State<T, N>>; 2] {
@@ -55,16 +56,16 @@ fn ends<T: Real, const N: usize>(
 }
 
 /// State at a fraction x of an interval, and the value of the event's function there.
-fn probe<L, F, I, const N: usize, const M: usize>(
-    stride: &DenseStep<'_, L, F, I, N, M>,
-    event: &impl AnyEvent<L, N, M>,
-    [a, b]: [&State<L::Scalar, N>; 2],
+fn probe<L, F, I>(
+    stride: &DenseStep<'_, L, F, I>,
+    event: &impl AnyEvent<L>,
+    [a, b]: [&StateOf<L>; 2],
     x: L::Scalar,
-) -> Result<(State<L::Scalar, N>, L::Scalar), Error>
+) -> Result<(StateOf<L>, L::Scalar), Error>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    I: Interpolant<L::Scalar, N>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    I: Interpolant<L::Scalar, L::N>,
 {
     let state = stride.at(a.t + x * (b.t - a.t))?;
     Ok((state, event.value(stride.system, &state)?))

@@ -3,20 +3,20 @@
 use super::definition::AnyEvent;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::round_off::{SAFETY, neighbours};
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, StateOf};
 
 /// Round-off of an event's function, below which it counts as zero. It is 16 times the largest change of the function
 /// at eight states whose entries and time are off by one unit of round-off each, up or down at random. The entries are
 /// not known more accurately, and the function's own rounding errors change along with them.
 #[cold]
 #[inline(never)]
-pub(super) fn noise<L, const N: usize, const M: usize>(
-    event: &impl AnyEvent<L, N, M>,
+pub(super) fn noise<L>(
+    event: &impl AnyEvent<L>,
     system: &L,
-    state: &State<L::Scalar, N>,
+    state: &StateOf<L>,
 ) -> Result<L::Scalar, crate::error::Error>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
     let value = event.value(system, state)?;
     let moved = |nearby| event.value(system, &nearby).unwrap_or(value);

@@ -16,9 +16,10 @@ use crate::number::{Real, Scalar, larger};
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Path;
+use crate::vector::{Element, Length};
 
 /// Result of the search of an interval.
 enum Look {
@@ -34,21 +35,21 @@ enum Look {
 const MOST_INTERVALS: usize = 4096;
 
 /// Search of a motion for the events `W`.
-pub(crate) struct EventSearch<'e, W, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub(crate) struct EventSearch<'e, W, L: Lagrangian> {
     pub(crate) events: &'e mut [W],
     /// Minimum number of parts in which every step is searched.
     pub(crate) subdivisions: usize,
     pub(crate) system: PhantomData<fn(&L)>,
 }
 
-impl<'e, W, L, const N: usize, const M: usize> EventSearch<'e, W, L, N, M>
+impl<'e, W, L> EventSearch<'e, W, L>
 where
-    W: AnyEvent<L, N, M>,
-    L: Lagrangian<N, M, Scalar: Real>,
+    W: AnyEvent<L>,
+    L: Lagrangian<Scalar: Real>,
 {
     /// Begins the search at the start of a run, and counts crossings from 1.
     #[cfg(feature = "alloc")]
-    pub(crate) fn begin(events: &'e mut [W], system: &L, state: &State<L::Scalar, N>) -> Result<Self, Error> {
+    pub(crate) fn begin(events: &'e mut [W], system: &L, state: &StateOf<L>) -> Result<Self, Error> {
         events.iter_mut().for_each(|event| event.memory().begin_run());
         Self::from(events, system, state, true)
     }
@@ -57,7 +58,7 @@ where
     pub(crate) fn from(
         events: &'e mut [W],
         system: &L,
-        state: &State<L::Scalar, N>,
+        state: &StateOf<L>,
         is_new: bool,
     ) -> Result<Self, Error> {
         let mut subdivisions = 1;
@@ -77,12 +78,12 @@ where
     /// The reason why the motion ends at `from`.
     pub(crate) fn next<F, I>(
         &mut self,
-        step: &DenseStep<'_, L, F, I, N, M>,
-        from: &mut State<L::Scalar, N>,
-    ) -> Result<Option<Crossing<L::Scalar, N>>, Ending>
+        step: &DenseStep<'_, L, F, I>,
+        from: &mut StateOf<L>,
+    ) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending>
     where
-        F: VectorField<L, N, M>,
-        I: Interpolant<L::Scalar, N>,
+        F: VectorField<L>,
+        I: Interpolant<L::Scalar, L::N>,
     {
         let (start, mut intervals) = (from.t, 0);
         for piece in 1..=self.subdivisions {
@@ -111,10 +112,7 @@ where
     }
 
     /// Returns a crossing at `state` that has not been reported yet.
-    pub(crate) fn due(
-        &mut self,
-        state: &State<L::Scalar, N>,
-    ) -> Result<Option<Crossing<L::Scalar, N>>, Ending> {
+    pub(crate) fn due(&mut self, state: &StateOf<L>) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending> {
         for (index, event) in self.events.iter_mut().enumerate() {
             let memory = event.memory();
             if let Some(rising) = memory.due.take() {
@@ -131,12 +129,12 @@ where
     #[inline]
     pub(crate) fn record<F, I>(
         &mut self,
-        step: &DenseStep<'_, L, F, I, N, M>,
-        crossings: &mut Vec<Crossing<L::Scalar, N>>,
-    ) -> Option<(State<L::Scalar, N>, Ending)>
+        step: &DenseStep<'_, L, F, I>,
+        crossings: &mut Vec<Crossing<L::Scalar, L::N>>,
+    ) -> Option<(StateOf<L>, Ending)>
     where
-        F: VectorField<L, N, M>,
-        I: Interpolant<L::Scalar, N>,
+        F: VectorField<L>,
+        I: Interpolant<L::Scalar, L::N>,
     {
         let mut at = *step.before;
         loop {
@@ -158,13 +156,13 @@ where
     #[inline(always)]
     pub(crate) fn record_in<F, I>(
         &mut self,
-        path: &mut Path<L::Scalar, N, Vec<I>>,
+        path: &mut Path<L::Scalar, L::N, Vec<I>>,
         system: &L,
-        [before, after]: [&State<L::Scalar, N>; 2],
+        [before, after]: [&StateOf<L>; 2],
     ) -> Option<Ending>
     where
-        F: VectorField<L, N, M>,
-        I: Interpolant<L::Scalar, N> + Send + Sync + 'static,
+        F: VectorField<L>,
+        I: Interpolant<L::Scalar, L::N> + Send + Sync + 'static,
     {
         let (interpolant, crossings) = path.last_step()?;
         let step = DenseStep { system, before, after, interpolant, field: PhantomData::<F> };
@@ -178,8 +176,8 @@ where
     #[cfg(feature = "alloc")]
     pub(crate) fn record_due(
         &mut self,
-        at: &State<L::Scalar, N>,
-        crossings: &mut Vec<Crossing<L::Scalar, N>>,
+        at: &StateOf<L>,
+        crossings: &mut Vec<Crossing<L::Scalar, L::N>>,
     ) -> Option<Ending> {
         loop {
             match self.due(at) {
@@ -195,7 +193,7 @@ where
 
     /// Returns the ending if the last crossing is terminal.
     #[cfg(feature = "alloc")]
-    fn ending(&mut self, crossings: &[Crossing<L::Scalar, N>]) -> Option<Ending> {
+    fn ending(&mut self, crossings: &[Crossing<L::Scalar, L::N>]) -> Option<Ending> {
         let Crossing { event, index, state, .. } = crossings.last()?;
         let is_terminal = self.events.get_mut(*index)?.memory().is_terminal();
         is_terminal.then(|| Ending::Event { time: state.t.to_f64(), event })
@@ -206,14 +204,14 @@ where
     #[inline]
     fn look<F, I>(
         &mut self,
-        step: &DenseStep<'_, L, F, I, N, M>,
-        from: &mut State<L::Scalar, N>,
+        step: &DenseStep<'_, L, F, I>,
+        from: &mut StateOf<L>,
         t: L::Scalar,
         may_halve: bool,
     ) -> Result<Look, Error>
     where
-        F: VectorField<L, N, M>,
-        I: Interpolant<L::Scalar, N>,
+        F: VectorField<L>,
+        I: Interpolant<L::Scalar, L::N>,
     {
         let interval = if may_halve { step.interval(from.t, t) } else { None };
         let mut are_too_wide = false;
@@ -252,7 +250,7 @@ where
 
     /// Samples all functions that are undecided on the interval.
     #[inline]
-    fn sample(&mut self, system: &L, state: &State<L::Scalar, N>, place: usize) -> Result<(), Error> {
+    fn sample(&mut self, system: &L, state: &StateOf<L>, place: usize) -> Result<(), Error> {
         self.events.iter_mut().try_for_each(|event| event.sample(system, state, place))
     }
 
@@ -261,13 +259,13 @@ where
     #[inline]
     fn is_plain<F, I>(
         &mut self,
-        step: &DenseStep<'_, L, F, I, N, M>,
+        step: &DenseStep<'_, L, F, I>,
         [from, to]: [L::Scalar; 2],
         interval: &Interval<L::Scalar>,
     ) -> Result<bool, Error>
     where
-        F: VectorField<L, N, M>,
-        I: Interpolant<L::Scalar, N>,
+        F: VectorField<L>,
+        I: Interpolant<L::Scalar, L::N>,
     {
         let mut degree = COARSEST;
         while degree <= interval.finest {
@@ -293,7 +291,7 @@ where
 
     /// Records all functions at the end of an interval. Returns true if one crosses on the way.
     #[inline]
-    fn look_at(&mut self, system: &L, end: &State<L::Scalar, N>) -> Result<bool, Error> {
+    fn look_at(&mut self, system: &L, end: &StateOf<L>) -> Result<bool, Error> {
         let mut any_crosses = false;
         for event in self.events.iter_mut() {
             let mut memory = event.memory();
@@ -314,13 +312,13 @@ where
     #[inline(never)]
     fn go_to_first<F, I>(
         &mut self,
-        step: &DenseStep<'_, L, F, I, N, M>,
-        from: &mut State<L::Scalar, N>,
-        to: &State<L::Scalar, N>,
+        step: &DenseStep<'_, L, F, I>,
+        from: &mut StateOf<L>,
+        to: &StateOf<L>,
     ) -> Result<(), Error>
     where
-        F: VectorField<L, N, M>,
-        I: Interpolant<L::Scalar, N>,
+        F: VectorField<L>,
+        I: Interpolant<L::Scalar, L::N>,
     {
         let mut first = (usize::MAX, *to);
         for (index, event) in self.events.iter_mut().enumerate() {
@@ -345,17 +343,17 @@ where
 /// Decides on an event's function by its samples of this degree. If they may be all noise, the noise is estimated in
 /// the middle.
 #[inline]
-fn judge<L, F, I, const N: usize, const M: usize>(
-    event: &mut impl AnyEvent<L, N, M>,
-    step: &DenseStep<'_, L, F, I, N, M>,
+fn judge<L, F, I>(
+    event: &mut impl AnyEvent<L>,
+    step: &DenseStep<'_, L, F, I>,
     middle: L::Scalar,
     interval: &Interval<L::Scalar>,
     degree: usize,
 ) -> Result<View, Error>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    I: Interpolant<L::Scalar, N>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    I: Interpolant<L::Scalar, L::N>,
 {
     let view = event.memory().judge(degree, interval);
     if view != View::Rough {
@@ -367,6 +365,6 @@ where
 
 /// Reference to the state in a result: moving the state out would take longer than using it.
 #[inline(always)]
-fn there<T, const N: usize>(found: &Result<State<T, N>, Error>) -> Result<&State<T, N>, Error> {
+fn there<T: Element, N: Length>(found: &Result<State<T, N>, Error>) -> Result<&State<T, N>, Error> {
     found.as_ref().map_err(Error::clone)
 }

@@ -10,21 +10,21 @@ use crate::motion::run::{Run, Watchdog, resume};
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::{Lagrangian, State};
 
-impl<'o, L, P, const N: usize, const M: usize> LaneMotion<'o, L, P, N, M>
+impl<'o, L, P> LaneMotion<'o, L, P>
 where
-    L: Lagrangian<N, M, Scalar = f64>,
-    P: LaneMethod<L, N, M>,
+    L: Lagrangian<Scalar = f64>,
+    P: LaneMethod<L>,
 {
     /// Makes the start consistent, and prepares the first step. Returns the motion and its consistent start.
     pub(crate) fn new<const HAS_DENSE_OUTPUT: bool>(
         (index, start): (usize, u32),
         system: L,
-        state: &State<f64, N>,
+        state: &State<f64, L::N>,
         end: f64,
         method: &P,
-        record: impl FnOnce(&L, &State<f64, N>) -> Result<Record<'o, L, N, M>, Error>,
-    ) -> Result<(Self, State<f64, N>), Error> {
-        let (run, _) = Run::begin::<L, LagrangianVectorField, _, M>(&system, state, method)?;
+        record: impl FnOnce(&L, &State<f64, L::N>) -> Result<Record<'o, L>, Error>,
+    ) -> Result<(Self, State<f64, L::N>), Error> {
+        let (run, _) = Run::begin::<L, LagrangianVectorField, _>(&system, state, method)?;
         let record = record(&system, &run.state)?;
         let Run { memory, state, statistics, .. } = run;
         let limits = Watchdog::new(method.limits(), &statistics);
@@ -50,10 +50,10 @@ where
     }
 
     /// Calls the controller, and continues from this state with the changed parameters.
-    pub(super) fn control(&mut self, state: &State<f64, N>, method: &P) -> Result<(), Ending> {
+    pub(super) fn control(&mut self, state: &State<f64, L::N>, method: &P) -> Result<(), Ending> {
         let Self { record, system, memory, statistics, .. } = self;
         record.control(system, state)?;
-        resume::<_, LagrangianVectorField, _, N, M>(system, method, memory, state, statistics)
+        resume::<_, LagrangianVectorField, _>(system, method, memory, state, statistics)
             .map_err(|error| Ending::of(error, state.t))?;
         self.end = self.record.goal;
         self.prepare(method)

@@ -1,6 +1,5 @@
 //! Motions in lock-step on SIMD lanes, each with its own time, step length and ending.
 
-use core::array::from_fn;
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
@@ -8,28 +7,29 @@ use super::contract::{LaneMethod, LaneMotions};
 use super::motion::{LaneMotion, LaneOutcome};
 use crate::error::Ending;
 use crate::motion::event::DenseStep;
-use crate::number::{Lanes, vector};
-use crate::solution::vector_field::{LagrangianVectorField, PhaseVector};
+use crate::number::Lanes;
+use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::{Lagrangian, State};
+use crate::vector::{Length, PhaseVector, from_fn, vector};
 
 /// Motions in lock-step, at most one per lane.
-pub(crate) struct Batch<'o, L, P, const N: usize, const M: usize>
+pub(crate) struct Batch<'o, L, P>
 where
-    L: Lagrangian<N, M, Scalar = f64>,
-    P: LaneMethod<L, N, M>,
+    L: Lagrangian<Scalar = f64>,
+    P: LaneMethod<L>,
 {
     method: &'o P,
     lane_memory: P::LaneMemory,
-    motions: LaneMotions<'o, L, P, N, M>,
+    motions: LaneMotions<'o, L, P>,
 }
 
-impl<'o, L, P, const N: usize, const M: usize> Batch<'o, L, P, N, M>
+impl<'o, L, P> Batch<'o, L, P>
 where
-    L: Lagrangian<N, M, Scalar = f64>,
-    P: LaneMethod<L, N, M>,
+    L: Lagrangian<Scalar = f64>,
+    P: LaneMethod<L>,
 {
     /// Creates a batch with a first motion; the other lanes are free.
-    pub(crate) fn new(method: &'o P, motion: LaneMotion<'o, L, P, N, M>) -> Self {
+    pub(crate) fn new(method: &'o P, motion: LaneMotion<'o, L, P>) -> Self {
         let lane_memory = method.lane_memory(&motion.system, &motion.memory);
         let mut motions = [const { None }; Lanes::COUNT];
         motions[0] = Some(motion.begin(method));
@@ -46,7 +46,7 @@ where
 
     /// Assigns a free lane to the motion. Returns the motion if no lane is free, or if it differs in a field that lanes
     /// share.
-    pub(crate) fn join(&mut self, motion: LaneMotion<'o, L, P, N, M>) -> Option<LaneMotion<'o, L, P, N, M>> {
+    pub(crate) fn join(&mut self, motion: LaneMotion<'o, L, P>) -> Option<LaneMotion<'o, L, P>> {
         let lane = self.motions.iter().position(Option::is_none);
         match lane.filter(|&lane| P::place(&mut self.lane_memory, lane, &motion.system)) {
             None => Some(motion),
@@ -62,14 +62,14 @@ where
     /// If `HAS_DENSE_OUTPUT` is false, no samples, events or controller exist, and their code is not compiled.
     pub(crate) fn step<const HAS_DENSE_OUTPUT: bool>(
         &mut self,
-        mut accept: impl FnMut(usize, &State<f64, N>) -> ControlFlow<()>,
-        mut leave: impl FnMut(LaneMotion<'o, L, P, N, M>, State<f64, N>, Ending),
+        mut accept: impl FnMut(usize, &State<f64, L::N>) -> ControlFlow<()>,
+        mut leave: impl FnMut(LaneMotion<'o, L, P>, State<f64, L::N>, Ending),
     ) {
         let starts = self.motions.each_ref().map(|motion| motion.as_ref().map_or(0.0, LaneMotion::now));
         let outcomes = self.method.attempt::<HAS_DENSE_OUTPUT>(&mut self.lane_memory, &mut self.motions);
         let outcomes =
             from_fn(|lane| outcomes[lane].unwrap_or_else(|| self.step_alone::<HAS_DENSE_OUTPUT>(lane)));
-        let before = from_fn::<_, { Lanes::COUNT }, _>(|lane| {
+        let before: [_; Lanes::COUNT] = from_fn(|lane| {
             if const { HAS_DENSE_OUTPUT } {
                 Some(state(P::phase(&self.lane_memory, lane), starts[lane]))
             } else {
@@ -122,7 +122,7 @@ where
 
     /// Records the samples and crossings in an accepted step. If the motion stops within the step, moves `end` there
     /// and returns the ending.
-    fn keep(&mut self, lane: usize, before: &State<f64, N>, end: &mut State<f64, N>) -> Option<Ending> {
+    fn keep(&mut self, lane: usize, before: &State<f64, L::N>, end: &mut State<f64, L::N>) -> Option<Ending> {
         let LaneMotion { record, system, within, .. } = self.motions[lane].as_mut()?;
         if !record.looks_into(before.t, end.t) {
             return None;
@@ -141,7 +141,7 @@ where
     }
 
     /// Calls the controller of a member if its call is due. Returns the ending if it fails.
-    fn control(&mut self, lane: usize, state: &State<f64, N>) -> Option<Ending> {
+    fn control(&mut self, lane: usize, state: &State<f64, L::N>) -> Option<Ending> {
         let motion = self.motions[lane].as_mut().filter(|motion| motion.record.is_due(state.t))?;
         if let Err(ending) = motion.control(state, self.method) {
             return Some(ending);
@@ -168,6 +168,6 @@ where
     }
 }
 
-fn state<const N: usize>([q, v]: PhaseVector<f64, N>, t: f64) -> State<f64, N> {
-    State { t, q: vector(q), v: vector(v) }
+fn state<N: Length>(y: PhaseVector<f64, N>, t: f64) -> State<f64, N> {
+    State { t, q: vector(y.half(0)), v: vector(y.half(1)) }
 }

@@ -4,9 +4,9 @@ use super::motion::{LaneMotion, LaneOutcome};
 use crate::error::Error;
 use crate::motion::{Interpolant, Method};
 use crate::number::Lanes;
-use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
+use crate::vector::{Array, Length, PhaseVector};
 
 /// A method that integrates several members of an ensemble at once: [`Dop853`](crate::Dop853),
 /// [`Dopri5`](crate::Dopri5) and every other [`Pair`](crate::motion::Pair), and [`Taylor`](crate::Taylor) if the system
@@ -18,9 +18,9 @@ use crate::system::Lagrangian;
     note = "`Dop853` and `Dopri5` do, and `Taylor` where the equations of motion have a Taylor series",
     note = "`Ensemble::integrate` takes every method, and integrates one member at a time"
 )]
-pub trait LaneMethod<L, const N: usize, const M: usize>: Method<L, N, M> + Sized
+pub trait LaneMethod<L>: Method<L> + Sized
 where
-    L: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<Scalar = f64>,
 {
     /// Systems and states of all lanes, with the working arrays of a step.
     #[doc(hidden)]
@@ -62,12 +62,12 @@ where
 
     /// Current coordinates and velocities of a lane.
     #[doc(hidden)]
-    fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N>;
+    fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, L::N>;
 
     /// End of the last step tried in a lane. After the step is accepted, [`phase`](Self::phase) is the same, but would
     /// wait for its stores.
     #[doc(hidden)]
-    fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N>;
+    fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, L::N>;
 
     /// Tries a step in all lanes, and advances the clocks of those that accept it. `None` for a lane whose step must be
     /// taken by the scalar method. If `HAS_DENSE_OUTPUT` is false, no dense output is available.
@@ -75,7 +75,7 @@ where
     fn attempt<const HAS_DENSE_OUTPUT: bool>(
         &self,
         lane_memory: &mut Self::LaneMemory,
-        motions: &mut LaneMotions<'_, L, Self, N, M>,
+        motions: &mut LaneMotions<'_, L, Self>,
     ) -> [Option<LaneOutcome>; Lanes::COUNT];
 
     /// Moves the chosen lanes to the ends of their steps.
@@ -84,25 +84,29 @@ where
 
     /// Dense output of the last step tried in a lane.
     #[doc(hidden)]
-    fn within(lane_memory: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N>;
+    fn within(lane_memory: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, L::N>;
 }
 
 /// Motion of each lane, or `None` for a free lane.
-pub(crate) type LaneMotions<'o, L, P, const N: usize, const M: usize> =
-    [Option<LaneMotion<'o, L, P, N, M>>; Lanes::COUNT];
+pub(crate) type LaneMotions<'o, L, P> = [Option<LaneMotion<'o, L, P>>; Lanes::COUNT];
 
 /// Extracts the numbers of one lane.
 #[inline(always)]
-pub(crate) fn unpacked<const R: usize, const N: usize>(
-    packed: &[[Lanes; N]; R],
-    lane: usize,
-) -> [[f64; N]; R] {
+pub(crate) fn unpacked<N: Length>(packed: &Array<Lanes, N>, lane: usize) -> Array<f64, N> {
     // Not by `map`: the compiler does not inline it, and the caller would wait for its result.
-    let mut phase = [[0.0; N]; R];
-    for (half, packed) in phase.iter_mut().zip(packed) {
-        for (x, packed) in half.iter_mut().zip(packed) {
-            *x = packed.to_array()[lane];
-        }
+    let mut numbers = Array::filled(0.0);
+    for (x, packed) in numbers.iter_mut().zip(packed) {
+        *x = packed.to_array()[lane];
+    }
+    numbers
+}
+
+/// Extracts the phase of one lane.
+#[inline(always)]
+pub(crate) fn unpacked_phase<N: Length>(packed: &PhaseVector<Lanes, N>, lane: usize) -> PhaseVector<f64, N> {
+    let mut phase = PhaseVector::filled(0.0);
+    for (x, packed) in phase.flat_mut().iter_mut().zip(packed.flat()) {
+        *x = packed.to_array()[lane];
     }
     phase
 }

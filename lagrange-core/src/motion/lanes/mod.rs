@@ -13,6 +13,6 @@ mod reliability;
 
 pub(crate) use batch::Batch;
 pub use contract::LaneMethod;
-pub(crate) use contract::{LaneMotions, unpacked};
+pub(crate) use contract::{LaneMotions, unpacked, unpacked_phase};
 pub(crate) use motion::{LaneMotion, LaneOutcome};
 pub(crate) use reliability::LaneReliability;

@@ -10,10 +10,10 @@ use crate::statistics::Statistics;
 use crate::system::Lagrangian;
 
 /// A motion of an ensemble that has a lane, or waits for one.
-pub struct LaneMotion<'o, L, P, const N: usize, const M: usize>
+pub struct LaneMotion<'o, L, P>
 where
-    L: Lagrangian<N, M, Scalar = f64>,
-    P: Method<L, N, M>,
+    L: Lagrangian<Scalar = f64>,
+    P: Method<L>,
 {
     /// Index of the member in the ensemble.
     pub(crate) index: usize,
@@ -21,7 +21,7 @@ where
     pub(crate) start: u32,
     pub(crate) statistics: Statistics,
     /// Samples, quantities and crossings recorded so far.
-    pub(crate) record: Record<'o, L, N, M>,
+    pub(crate) record: Record<'o, L>,
     pub(crate) system: L,
     /// Method's memory, valid only while a step is taken outside the lanes.
     pub(crate) memory: P::Memory,
@@ -33,10 +33,10 @@ where
     pub(super) failure: Option<Ending>,
 }
 
-impl<L, P, const N: usize, const M: usize> Debug for LaneMotion<'_, L, P, N, M>
+impl<L, P> Debug for LaneMotion<'_, L, P>
 where
-    L: Lagrangian<N, M, Scalar = f64>,
-    P: Method<L, N, M>,
+    L: Lagrangian<Scalar = f64>,
+    P: Method<L>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { index, statistics, end, .. } = self;

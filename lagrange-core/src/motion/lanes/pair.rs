@@ -1,26 +1,25 @@
 //! Steps of an embedded Runge–Kutta pair on SIMD lanes.
 
-use core::array::from_fn;
-
-use super::contract::{LaneMethod, LaneMotions, unpacked};
+use super::contract::{LaneMethod, LaneMotions, unpacked_phase};
 use super::motion::LaneOutcome;
 use super::reliability::LaneReliability;
 use crate::error::Error;
 use crate::motion::method::pair::{Slopes, TableauRow, advance, check, last};
 use crate::motion::method::pair_memory::PairMemory;
 use crate::motion::{Adaptive, Interpolant, Pair};
-use crate::number::{Lanes, Scalar, vector};
+use crate::number::{Lanes, Scalar};
 use crate::room::Room;
 use crate::solution::consistent::BOTH;
 use crate::solution::interpolant::{evaluate, hermite};
 use crate::solution::near::{self, Corrections};
-use crate::solution::vector_field::{LagrangianVectorField, PhaseVector, StagePoint, VectorField};
+use crate::solution::vector_field::{LagrangianVectorField, StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, Pack, Packed, State};
+use crate::vector::{Array, Length, PhaseVector, array, from_fn, vector};
 
 /// Motions in lock-step, with the working arrays of a step.
 #[derive(Debug)]
-pub struct PairLanes<S, P: Pair, const N: usize, const M: usize> {
+pub struct PairLanes<S, P: Pair, N: Length> {
     system: S,
     y: PhaseVector<Lanes, N>,
     /// Slopes of the step; the first is the slope at `y`.
@@ -42,29 +41,29 @@ struct LaneErrors {
     sound: [bool; Lanes::COUNT],
 }
 
-impl<P, L, const N: usize, const M: usize> LaneMethod<L, N, M> for Adaptive<P>
+impl<P, L> LaneMethod<L> for Adaptive<P>
 where
     P: Pair,
-    L: Lagrangian<N, M, Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N, M, Scalar = Lanes>>,
+    L: Lagrangian<Scalar = f64> + Pack<Lanes, Packed: Lagrangian<N = L::N, M = L::M, Scalar = Lanes>>,
 {
-    type LaneMemory = PairLanes<L::Packed, P, N, M>;
+    type LaneMemory = PairLanes<L::Packed, P, L::N>;
 
-    fn now(memory: &PairMemory<f64, N, M>) -> f64 {
+    fn now(memory: &PairMemory<f64, L::N, L::M>) -> f64 {
         memory.clock.now
     }
 
-    fn is_at_end(memory: &PairMemory<f64, N, M>) -> bool {
+    fn is_at_end(memory: &PairMemory<f64, L::N, L::M>) -> bool {
         memory.clock.is_at_end()
     }
 
     fn prepare(
         &self,
         system: &L,
-        memory: &mut PairMemory<f64, N, M>,
+        memory: &mut PairMemory<f64, L::N, L::M>,
         end: f64,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
-        self.aim::<L, LagrangianVectorField, N, M>(system, memory, end, statistics);
+        self.aim::<L, LagrangianVectorField>(system, memory, end, statistics);
         // The lane needs the slope only if a step follows.
         if memory.clock.is_at_end() {
             return Ok(());
@@ -72,9 +71,9 @@ where
         memory.ensure_slope::<L, LagrangianVectorField>(system, statistics)
     }
 
-    fn lane_memory(&self, system: &L, memory: &PairMemory<f64, N, M>) -> Self::LaneMemory {
-        let zero = [[Lanes::constant(0.0); N]; 2];
-        let mut slopes = Room::<Slopes<Lanes, N>>::filled(zero);
+    fn lane_memory(&self, system: &L, memory: &PairMemory<f64, L::N, L::M>) -> Self::LaneMemory {
+        let zero = PhaseVector::filled(Lanes::constant(0.0));
+        let mut slopes = Room::<Slopes<Lanes, L::N>>::filled(zero);
         slopes[0] = Packed::splat(&memory.slope);
         let (system, y) = (system.pack(), Packed::splat(&memory.y));
         let [now, h, end] = [[0.0; Lanes::COUNT]; 3];
@@ -85,29 +84,29 @@ where
         system.place(&mut lane_memory.system, lane)
     }
 
-    fn load(lane_memory: &mut Self::LaneMemory, lane: usize, memory: &PairMemory<f64, N, M>) {
+    fn load(lane_memory: &mut Self::LaneMemory, lane: usize, memory: &PairMemory<f64, L::N, L::M>) {
         lane_memory.y.place(lane, &memory.y);
         lane_memory.slopes[0].place(lane, &memory.slope);
     }
 
-    fn unload(lane_memory: &Self::LaneMemory, lane: usize, memory: &mut PairMemory<f64, N, M>) {
+    fn unload(lane_memory: &Self::LaneMemory, lane: usize, memory: &mut PairMemory<f64, L::N, L::M>) {
         [memory.y, memory.slope] =
-            [&lane_memory.y, &lane_memory.slopes[0]].map(|packed| unpacked(packed, lane));
+            [&lane_memory.y, &lane_memory.slopes[0]].map(|packed| unpacked_phase(packed, lane));
     }
 
-    fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N> {
-        unpacked(&lane_memory.y, lane)
+    fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, L::N> {
+        unpacked_phase(&lane_memory.y, lane)
     }
 
-    fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N> {
-        unpacked(&lane_memory.next, lane)
+    fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, L::N> {
+        unpacked_phase(&lane_memory.next, lane)
     }
 
     #[inline(always)]
     fn attempt<const HAS_DENSE_OUTPUT: bool>(
         &self,
         lane_memory: &mut Self::LaneMemory,
-        motions: &mut LaneMotions<'_, L, Self, N, M>,
+        motions: &mut LaneMotions<'_, L, Self>,
     ) -> [Option<LaneOutcome>; Lanes::COUNT] {
         // A free lane makes steps of length zero.
         let plan: [_; Lanes::COUNT] =
@@ -131,7 +130,7 @@ where
     fn commit(lane_memory: &mut Self::LaneMemory, chosen: Lanes) {
         let PairLanes { y, slopes, next, .. } = lane_memory;
         for half in 0..2 {
-            for i in 0..N {
+            for i in 0..<L::N>::COUNT {
                 let (y, slope) = (&mut y[half][i], slopes[last::<P>()][half][i]);
                 *y = next[half][i].select(chosen, *y);
                 slopes[0][half][i] = slope.select(chosen, slopes[0][half][i]);
@@ -139,26 +138,22 @@ where
         }
     }
 
-    fn within(lane_memory: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N> {
+    fn within(lane_memory: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, L::N> {
         let (start, length, coefficients) =
             (lane_memory.now[lane], lane_memory.h[lane], &lane_memory.coefficients);
         LaneOf { lane, start, length, coefficients }
     }
 }
 
-impl<S, P, const N: usize, const M: usize> PairLanes<S, P, N, M>
+impl<S, P> PairLanes<S, P, S::N>
 where
-    S: Lagrangian<N, M, Scalar = Lanes>,
+    S: Lagrangian<Scalar = Lanes>,
     P: Pair,
 {
     /// Computes stages, error, projection, and the slopes at the end of the step in all lanes.
-    fn attempt<L>(
-        &mut self,
-        method: &Adaptive<P>,
-        motions: &LaneMotions<'_, L, Adaptive<P>, N, M>,
-    ) -> LaneErrors
+    fn attempt<L>(&mut self, method: &Adaptive<P>, motions: &LaneMotions<'_, L, Adaptive<P>>) -> LaneErrors
     where
-        L: Lagrangian<N, M, Scalar = f64>,
+        L: Lagrangian<N = S::N, M = S::M, Scalar = f64>,
     {
         const { check::<P>() };
         let (h, end) = (Lanes::from(self.h), Lanes::from(self.end));
@@ -166,17 +161,17 @@ where
         self.stages((1, P::STAGES), &mut reliability);
         let mut next = self.y;
         advance(&self.y, h, &self.slopes, P::WEIGHTS, &mut next);
-        reliability.numbers(next.as_flattened());
+        reliability.numbers(next.flat());
         if method.error_needs_last() {
             self.slope(last::<P>(), end, &next, &mut reliability);
         }
         let tolerance = method.tolerance::<f64>();
-        let error = tolerance.error::<P, _, N>(&self.slopes, h, &self.y, &next).to_array();
-        let projected = match M {
+        let error = tolerance.error::<P, _, S::N>(&self.slopes, h, &self.y, &next).to_array();
+        let projected = match <S::M>::COUNT {
             0 => [true; Lanes::COUNT],
             _ => self.project(&mut next, method, motions, &error),
         };
-        if M > 0 || !method.error_needs_last() {
+        if <S::M>::COUNT > 0 || !method.error_needs_last() {
             self.slope(last::<P>(), end, &next, &mut reliability);
         }
         self.next = next;
@@ -201,45 +196,45 @@ where
         &mut self,
         number: usize,
         t: Lanes,
-        y: &PhaseVector<Lanes, N>,
+        y: &PhaseVector<Lanes, S::N>,
         reliability: &mut LaneReliability,
     ) {
-        let solution = self.system.accelerations_unchecked(&State { t, q: vector(y[0]), v: vector(y[1]) });
+        let solution =
+            self.system.accelerations_unchecked(&State { t, q: vector(y.half(0)), v: vector(y.half(1)) });
         reliability.solution(&solution);
-        self.slopes[number][0] = y[1];
-        self.slopes[number][1] = solution.accelerations.data.0[0];
+        self.slopes[number].set(0, y.half(1));
+        self.slopes[number].set(1, array(solution.accelerations));
     }
 
     /// Projects all lanes onto the constraints at once. A lane for which that fails is projected alone if its step is
     /// accurate. Returns true for each lane that is projected or rejected anyway.
     fn project<L>(
         &self,
-        next: &mut PhaseVector<Lanes, N>,
+        next: &mut PhaseVector<Lanes, S::N>,
         method: &Adaptive<P>,
-        motions: &LaneMotions<'_, L, Adaptive<P>, N, M>,
+        motions: &LaneMotions<'_, L, Adaptive<P>>,
         error: &[f64; Lanes::COUNT],
     ) -> [bool; Lanes::COUNT]
     where
-        L: Lagrangian<N, M, Scalar = f64>,
+        L: Lagrangian<N = S::N, M = S::M, Scalar = f64>,
     {
-        let state = State { t: self.end.into(), q: vector(next[0]), v: vector(next[1]) };
-        let rest = &mut [[Lanes::constant(0.0); N]; 2];
+        let state = State { t: self.end.into(), q: vector(next.half(0)), v: vector(next.half(1)) };
+        let rest = &mut [Array::filled(Lanes::constant(0.0)); 2];
         let (near, doubt) =
-            near::project::<_, f64, N, M>(&self.system, &BOTH, Corrections::ToRoundOff, state, rest);
+            near::project::<_, f64>(&self.system, &BOTH, Corrections::ToRoundOff, state, rest);
         let is_there = doubt.to_array().map(|doubt| doubt == 0.0);
         let chosen = Lanes::from(is_there.map(|is_there| if is_there { 1.0 } else { 0.0 }));
         let before = *next;
-        *next = [near.q.into(), near.v.into()];
-        for (x, before) in next.iter_mut().flatten().zip(before.iter().flatten()) {
+        *next = PhaseVector::of(near.q, near.v);
+        for (x, before) in next.flat_mut().iter_mut().zip(before.flat()) {
             *x = x.select(chosen, *before);
         }
         from_fn(|lane| match &motions[lane] {
             Some(motion) if !is_there[lane] && method.accepts(error[lane]) => {
-                let y = unpacked(next, lane);
-                let point = StagePoint { t: self.end[lane], y, velocity: y[1] };
-                let projected =
-                    <LagrangianVectorField as VectorField<L, N, M>>::project(&motion.system, &point);
-                projected.map(|state| next.place(lane, &[state.q.into(), state.v.into()])).is_ok()
+                let y = unpacked_phase(next, lane);
+                let point = StagePoint { t: self.end[lane], y, velocity: y.half(1) };
+                let projected = <LagrangianVectorField as VectorField<L>>::project(&motion.system, &point);
+                projected.map(|state| next.place(lane, &PhaseVector::of(state.q, state.v))).is_ok()
             }
             _ => true,
         })
@@ -250,13 +245,13 @@ where
     fn look_within<L>(
         &mut self,
         method: &Adaptive<P>,
-        motions: &LaneMotions<'_, L, Adaptive<P>, N, M>,
+        motions: &LaneMotions<'_, L, Adaptive<P>>,
         tried: &mut LaneErrors,
     ) -> [bool; Lanes::COUNT]
     where
-        L: Lagrangian<N, M, Scalar = f64>,
+        L: Lagrangian<N = S::N, M = S::M, Scalar = f64>,
     {
-        let looked = from_fn(|lane| {
+        let looked: [bool; Lanes::COUNT] = from_fn(|lane| {
             let motion = motions[lane].as_ref();
             motion.is_some_and(|motion| motion.record.looks_into(self.now[lane], self.end[lane]))
         });
@@ -268,7 +263,7 @@ where
             let (start, end) = ((&self.y, &self.slopes[0]), (&self.next, &self.slopes[last::<P>()]));
             let (cubic, beyond) = self.coefficients.as_mut().split_at_mut(4);
             hermite(h, start, end, cubic);
-            let zero = [[Lanes::constant(0.0); N]; 2];
+            let zero = PhaseVector::filled(Lanes::constant(0.0));
             for (coefficient, row) in beyond.iter_mut().zip(P::INTERPOLATION) {
                 advance(&zero, h, &self.slopes, row, coefficient);
             }
@@ -280,7 +275,7 @@ where
 }
 
 /// Accepts or rejects a step computed on lanes. Returns `None` if the scalar method must take it.
-fn decide<P: Pair, const N: usize, const M: usize>(
+fn decide<P: Pair, N: Length, M: Length>(
     method: &Adaptive<P>,
     memory: &mut PairMemory<f64, N, M>,
     (h, time): (f64, f64),
@@ -304,7 +299,7 @@ fn decide<P: Pair, const N: usize, const M: usize>(
 }
 
 /// Counts the evaluations that the scalar method would need for the step, with or without dense output.
-fn count<P: Pair, const N: usize, const M: usize>(
+fn count<P: Pair, N: Length, M: Length>(
     method: &Adaptive<P>,
     PairMemory { has_slope, .. }: &mut PairMemory<f64, N, M>,
     statistics: &mut Statistics,
@@ -317,7 +312,7 @@ fn count<P: Pair, const N: usize, const M: usize>(
     statistics.evaluations += if accepted && is_looked_into { P::INTERPOLATION_STAGES.len() } else { 0 };
     if accepted {
         let at_end = is_looked_into || !method.ignores_error();
-        statistics.evaluations += usize::from(at_end && (M > 0 || !before));
+        statistics.evaluations += usize::from(at_end && (M::COUNT > 0 || !before));
         *has_slope = at_end;
     }
     statistics.accepted += usize::from(accepted);
@@ -332,12 +327,12 @@ struct LaneOf<'c, C> {
     coefficients: &'c C,
 }
 
-impl<const N: usize, C: AsRef<[PhaseVector<Lanes, N>]>> Interpolant<f64, N> for LaneOf<'_, C> {
+impl<N: Length, C: AsRef<[PhaseVector<Lanes, N>]>> Interpolant<f64, N> for LaneOf<'_, C> {
     #[inline(always)]
     fn at(&self, t: f64) -> StagePoint<f64, N> {
         let theta = Lanes::constant((t - self.start) / self.length);
         let (y, velocity) = evaluate(self.coefficients.as_ref(), theta);
         let velocity = velocity.map(|x| x.to_array()[self.lane] / self.length);
-        StagePoint { t, y: unpacked(&y, self.lane), velocity }
+        StagePoint { t, y: unpacked_phase(&y, self.lane), velocity }
     }
 }

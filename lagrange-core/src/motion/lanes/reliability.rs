@@ -1,10 +1,9 @@
 //! Reliability of results computed on lanes.
 
-use core::array::from_fn;
-
 use crate::number::{Lanes, Scalar, sum};
 use crate::solution::pivot::least_pivot;
 use crate::system::Solution;
+use crate::vector::{Length, from_fn};
 
 /// Collects, during a step, the evidence whether the numbers of each lane are reliable.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +32,7 @@ impl LaneReliability {
     }
 
     #[inline(always)]
-    pub(crate) fn solution<const N: usize, const M: usize>(&mut self, solution: &Solution<Lanes, N, M>) {
+    pub(crate) fn solution<N: Length, M: Length>(&mut self, solution: &Solution<Lanes, N, M>) {
         self.numbers(solution.accelerations.as_slice());
         self.numbers(solution.multipliers.as_slice());
         self.pivot(solution.pivot);

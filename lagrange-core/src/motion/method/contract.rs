@@ -9,7 +9,8 @@ use crate::number::Real;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Element, Length};
 
 /// An integration method: a value with settings that proposes steps from one state to the next. Its bounds say to which
 /// systems it applies, and `F` whether it integrates Lagrange's or Hamilton's equations.
@@ -21,15 +22,15 @@ use crate::system::{Lagrangian, State};
     note = "methods are `Dop853::default()`, `Taylor::default()`, `Dopri5::default()` and `RungeKutta4::with_step(…)`; the system must be over `f64` or `f32`",
     note = "the order is `integrate(start, end, method)`"
 )]
-pub trait Method<L, const N: usize, const M: usize, F = LagrangianVectorField>
+pub trait Method<L, F = LagrangianVectorField>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
 {
     /// State of the method that is carried from step to step, including its working arrays.
     type Memory;
     /// Dense output of one step.
-    type Interpolant: Interpolant<L::Scalar, N> + Send + Sync + 'static;
+    type Interpolant: Interpolant<L::Scalar, L::N> + Send + Sync + 'static;
 
     /// Limits on steps and wall-clock time.
     fn limits(&self) -> Limits;
@@ -54,7 +55,7 @@ where
     fn begin(
         &self,
         system: &L,
-        start: &State<L::Scalar, N>,
+        start: &StateOf<L>,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error>;
 
@@ -66,7 +67,7 @@ where
         &self,
         system: &L,
         memory: &mut Self::Memory,
-        state: &State<L::Scalar, N>,
+        state: &StateOf<L>,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         *memory = self.begin(system, state, statistics)?;
@@ -82,7 +83,7 @@ where
         memory: &mut Self::Memory,
         end: L::Scalar,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, N>;
+    ) -> Step<L::Scalar, L::N>;
 
     /// Returns the dense output of the last accepted step. It is called only when needed, before the next step and
     /// before a change of the system.
@@ -141,7 +142,7 @@ pub(crate) fn check_settings<const K: usize>(
 
 /// Result of an attempted step.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Step<T, const N: usize> {
+pub enum Step<T: Element, N: Length> {
     /// The step reached a new state, which satisfies the constraints.
     Accepted(State<T, N>),
     /// The step was too long; the next attempt is shorter.

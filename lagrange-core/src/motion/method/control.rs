@@ -1,17 +1,16 @@
 //! Step-size control (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.4).
 
-use core::array::from_fn;
-
 use super::adaptive::Adaptive;
 use super::clock::Clock;
 #[cfg(feature = "std")]
 use super::pair::error_needs_last;
 use super::pair::{Pair, Slopes, combine};
+
 #[cfg(feature = "alloc")]
 #[cfg(feature = "alloc")]
 use crate::number::Broadcast;
-use crate::number::{Real, Scalar, entries, exceeds, larger, smaller, sum};
-use crate::solution::vector_field::PhaseVector;
+use crate::number::{Real, Scalar, exceeds, larger, smaller, sum};
+use crate::vector::{Length, PhaseVector, entries, from_fn};
 
 /// Length of the next step, and the memory of the controller.
 #[derive(Clone, Debug)]
@@ -79,7 +78,7 @@ pub(crate) struct Tolerance {
 impl Tolerance {
     /// Error of a step, in units of the tolerance.
     #[inline]
-    pub(crate) fn error<P: Pair, T: Scalar, const N: usize>(
+    pub(crate) fn error<P: Pair, T: Scalar, N: Length>(
         self,
         slopes: &Slopes<T, N>,
         h: T,
@@ -93,7 +92,7 @@ impl Tolerance {
     /// the velocities of the variations, is [`SLACK`] times a sum: the relative tolerance of the largest entry of that
     /// half, plus the error allowed in the state itself, converted by `unit` to the unit of the variations.
     #[cfg(feature = "alloc")]
-    pub(crate) fn error_of_variations<P: Pair, T: Scalar, W: Broadcast<T>, const N: usize>(
+    pub(crate) fn error_of_variations<P: Pair, T: Scalar, W: Broadcast<T>, N: Length>(
         self,
         slopes: &Slopes<W, N>,
         h: T,
@@ -102,12 +101,12 @@ impl Tolerance {
         unit: W,
     ) -> W {
         let largest = |half: usize| {
-            let sizes = (0..N).map(|i| before[half][i].abs().max(after[half][i].abs()));
+            let sizes = (0..N::COUNT).map(|i| before[half][i].abs().max(after[half][i].abs()));
             sizes.fold(W::constant(0.0), |most, size| size.max(most))
         };
         let own = self.scale(places[0], places[1]);
         let [relative, slack] = [self.relative, SLACK].map(W::constant);
-        let scale = [0, 1].map(|half| {
+        let scale: PhaseVector<W, N> = from_fn(|half| {
             let largest = relative * largest(half);
             entries(|i| slack * (largest + W::of(own[half][i]) * unit))
         });
@@ -115,7 +114,7 @@ impl Tolerance {
     }
 
     /// Change that `rates` make over a step of length `h`, in units of the error allowed at the state `place`.
-    pub(crate) fn part<T: Real, const N: usize>(
+    pub(crate) fn part<T: Real, N: Length>(
         self,
         h: T,
         rates: &PhaseVector<T, N>,
@@ -125,7 +124,7 @@ impl Tolerance {
     }
 
     /// First guess of the first step: it changes the state by a hundredth of its size.
-    pub(crate) fn guess_step<T: Real, const N: usize>(
+    pub(crate) fn guess_step<T: Real, N: Length>(
         self,
         y: &PhaseVector<T, N>,
         slope: &PhaseVector<T, N>,
@@ -139,7 +138,7 @@ impl Tolerance {
     }
 
     /// Index of the entry with the largest error relative to its tolerance.
-    pub(crate) fn worst<P: Pair, T: Real, const N: usize>(
+    pub(crate) fn worst<P: Pair, T: Real, N: Length>(
         self,
         slopes: &Slopes<T, N>,
         before: &PhaseVector<T, N>,
@@ -147,17 +146,13 @@ impl Tolerance {
     ) -> StateEntry {
         let (error, scale) = (combine(slopes, P::ERROR), self.scale(before, after));
         let part = |(half, i): StateEntry| Scalar::abs(error[half][i]) / scale[half][i];
-        let places = (0..2).flat_map(|half| (0..N).map(move |i| (half, i)));
+        let places = (0..2).flat_map(|half| (0..N::COUNT).map(move |i| (half, i)));
         places.fold((0, 0), |worst, place| if part(place) > part(worst) { place } else { worst })
     }
 
     /// Error allowed in each entry over a step between two states.
     #[inline]
-    fn scale<T: Scalar, const N: usize>(
-        self,
-        a: &PhaseVector<T, N>,
-        b: &PhaseVector<T, N>,
-    ) -> PhaseVector<T, N> {
+    fn scale<T: Scalar, N: Length>(self, a: &PhaseVector<T, N>, b: &PhaseVector<T, N>) -> PhaseVector<T, N> {
         let relative = T::constant(self.relative);
         let absolute = T::constant(self.absolute);
         let size = |half: usize, i: usize| a[half][i].abs().max(b[half][i].abs());
@@ -167,7 +162,7 @@ impl Tolerance {
 
 /// Error estimate of a step, in units of the allowed errors.
 #[inline]
-fn estimate<P: Pair, T: Scalar, const N: usize>(slopes: &Slopes<T, N>, h: T, scale: &PhaseVector<T, N>) -> T {
+fn estimate<P: Pair, T: Scalar, N: Length>(slopes: &Slopes<T, N>, h: T, scale: &PhaseVector<T, N>) -> T {
     // Multiply by h before squaring: slopes depend on the unit of time, and their squares could overflow or underflow.
     let first = norm(h, &combine(slopes, P::ERROR), scale);
     if P::LOWER_ERROR.is_empty() {
@@ -237,7 +232,7 @@ impl<P: Pair> Adaptive<P> {
 
     /// First step, from a guess and the slopes before and after a step of that length: the error of Euler's method over
     /// the returned step would be a hundredth of the tolerance.
-    pub(crate) fn first_step_from<T: Real, const N: usize>(
+    pub(crate) fn first_step_from<T: Real, N: Length>(
         &self,
         guess: T,
         y: &PhaseVector<T, N>,
@@ -245,7 +240,7 @@ impl<P: Pair> Adaptive<P> {
         after: &PhaseVector<T, N>,
     ) -> T {
         let scale = self.tolerance::<T>().scale(y, y);
-        let change = from_fn(|half| entries(|i| after[half][i] - before[half][i]));
+        let change: PhaseVector<T, N> = from_fn(|half| entries(|i| after[half][i] - before[half][i]));
         let one = T::constant(1.0);
         let fastest = larger(norm(one, &change, &scale) / guess, norm(one, before, &scale));
         let step = if fastest > T::constant(1e-15) && fastest.is_finite() {
@@ -264,11 +259,11 @@ pub(crate) const SLACK: f64 = 10.0;
 
 /// Root mean square of h x/scale: √(mean (h x/scale)²).
 #[inline]
-fn norm<T: Scalar, const N: usize>(h: T, x: &PhaseVector<T, N>, scale: &PhaseVector<T, N>) -> T {
-    let (x, scale) = (x.as_flattened(), scale.as_flattened());
-    let squares = sum(2 * N, |i| {
+fn norm<T: Scalar, N: Length>(h: T, x: &PhaseVector<T, N>, scale: &PhaseVector<T, N>) -> T {
+    let (x, scale) = (x.flat(), scale.flat());
+    let squares = sum(2 * N::COUNT, |i| {
         let part = h * x[i] / scale[i];
         part * part
     });
-    (squares / T::constant((2 * N) as f64)).sqrt()
+    (squares / T::constant((2 * N::COUNT) as f64)).sqrt()
 }

@@ -1,7 +1,7 @@
 //! Coefficients of embedded Runge–Kutta pairs, and weighted sums of their slopes.
 
 use crate::number::Scalar;
-use crate::solution::vector_field::PhaseVector;
+use crate::vector::{Length, PhaseVector};
 
 /// A row of the Butcher tableau: pairs (index of a slope, its coefficient).
 pub type TableauRow = &'static [(usize, f64)];
@@ -138,31 +138,31 @@ const fn check_row(row: TableauRow, slopes: usize, expected: f64) {
 }
 
 /// Slopes (q̇, q̈) of a step, by their index.
-pub(crate) type Slopes<T, const N: usize> = [PhaseVector<T, N>; SLOPES];
+pub(crate) type Slopes<T, N> = [PhaseVector<T, N>; SLOPES];
 
 /// Sets `end` to start + h Σ cᵢ slopeᵢ.
 #[inline]
-pub(crate) fn advance<T: Scalar, const N: usize>(
+pub(crate) fn advance<T: Scalar, N: Length>(
     start: &PhaseVector<T, N>,
     h: T,
     slopes: &Slopes<T, N>,
     row: &[(usize, f64)],
     end: &mut PhaseVector<T, N>,
 ) {
-    let start = start.as_flattened();
+    let start = start.flat();
     sums(slopes, row, |i, sum| start[i] + h * sum, end);
 }
 
 /// True if slopes are short enough to stay in registers from stage to stage. Numbers written to memory one by one
 /// cannot be loaded as a vector before they reach the cache: every stage would wait for the last slope.
-pub(crate) const fn is_carried<const N: usize>() -> bool {
-    2 * N <= BLOCK
+pub(crate) const fn is_carried<N: Length>() -> bool {
+    2 * N::COUNT <= BLOCK
 }
 
 /// Like [`advance`], with the slope `number`, evaluated last, also in `newest`. If slopes are carried in registers,
 /// `newest` replaces the copy in memory.
 #[inline(always)]
-pub(crate) fn advance_from<T: Scalar, const N: usize>(
+pub(crate) fn advance_from<T: Scalar, N: Length>(
     (number, newest): (usize, &PhaseVector<T, N>),
     start: &PhaseVector<T, N>,
     h: T,
@@ -172,7 +172,7 @@ pub(crate) fn advance_from<T: Scalar, const N: usize>(
 ) {
     match row.split_last() {
         Some(((slope, coefficient), earlier)) if is_carried::<N>() && *slope == number => {
-            let (start, newest) = (start.as_flattened(), newest.as_flattened());
+            let (start, newest) = (start.flat(), newest.flat());
             let coefficient = T::constant(*coefficient);
             sums(slopes, earlier, |i, sum| start[i] + h * coefficient.multiply_add(newest[i], sum), end);
         }
@@ -181,11 +181,11 @@ pub(crate) fn advance_from<T: Scalar, const N: usize>(
 }
 
 #[inline]
-pub(crate) fn combine<T: Scalar, const N: usize>(
+pub(crate) fn combine<T: Scalar, N: Length>(
     slopes: &Slopes<T, N>,
     row: &[(usize, f64)],
 ) -> PhaseVector<T, N> {
-    let mut combined = [[T::constant(0.0); N]; 2];
+    let mut combined = PhaseVector::filled(T::constant(0.0));
     sums(slopes, row, |_, sum| sum, &mut combined);
     combined
 }
@@ -195,13 +195,13 @@ const BLOCK: usize = 8;
 
 /// Maps each Σ cᵢ slopeᵢ by `what_becomes`, which takes its index and its value, and stores the results.
 #[inline(always)]
-fn sums<T: Scalar, const N: usize>(
+fn sums<T: Scalar, N: Length>(
     slopes: &Slopes<T, N>,
     row: &[(usize, f64)],
     what_becomes: impl Fn(usize, T) -> T,
     results: &mut PhaseVector<T, N>,
 ) {
-    let (blocks, rest) = results.as_flattened_mut().as_chunks_mut::<BLOCK>();
+    let (blocks, rest) = results.flat_mut().as_chunks_mut::<BLOCK>();
     let count = blocks.len();
     for (k, block) in blocks.iter_mut().enumerate() {
         sum_block(slopes, row, &what_becomes, BLOCK * k, block);
@@ -212,7 +212,7 @@ fn sums<T: Scalar, const N: usize>(
 /// One block of [`sums`], starting at index `at`. The block length is known at compile time, so loops over entries are
 /// unrolled.
 #[inline(always)]
-fn sum_block<T: Scalar, const N: usize>(
+fn sum_block<T: Scalar, N: Length>(
     slopes: &Slopes<T, N>,
     row: &[(usize, f64)],
     what_becomes: &impl Fn(usize, T) -> T,
@@ -221,7 +221,7 @@ fn sum_block<T: Scalar, const N: usize>(
 ) {
     let mut sums = [T::constant(0.0); BLOCK];
     for (slope, coefficient) in row {
-        let slope = &slopes[*slope].as_flattened()[at..at + results.len()];
+        let slope = &slopes[*slope].flat()[at..at + results.len()];
         for (sum, x) in sums.iter_mut().zip(slope) {
             *sum = T::constant(*coefficient).multiply_add(*x, *sum);
         }

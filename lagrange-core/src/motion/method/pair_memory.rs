@@ -7,13 +7,14 @@ use super::slope::slope;
 use crate::error::Error;
 use crate::number::Real;
 use crate::room::Room;
-use crate::solution::vector_field::{PhaseVector, StagePoint, VectorField};
+use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
+use crate::vector::{Array, Element, Length, PhaseVector};
 
 /// State that an embedded pair carries from step to step.
 #[derive(Clone, Debug)]
-pub struct PairMemory<T, const N: usize, const M: usize> {
+pub struct PairMemory<T: Element, N: Length, M: Length> {
     pub(crate) clock: Clock<T>,
     pub(crate) control: Control<T>,
     /// True once the first step length has been chosen, which requires the end.
@@ -25,7 +26,7 @@ pub struct PairMemory<T, const N: usize, const M: usize> {
     /// Rates at `y`.
     pub(crate) slope: PhaseVector<T, N>,
     /// Constraints that determine the rates: a largest independent set at `y`.
-    pub(crate) active: [bool; M],
+    pub(crate) active: Array<bool, M>,
     /// Slopes of the last step tried; the first is the slope at its start.
     pub(super) slopes: Room<Slopes<T, N>>,
     /// The step that led to `y`.
@@ -34,7 +35,7 @@ pub struct PairMemory<T, const N: usize, const M: usize> {
 
 /// An accepted step, for its dense output or to undo it.
 #[derive(Clone, Debug)]
-pub(super) struct Taken<T, const N: usize, const M: usize> {
+pub(super) struct Taken<T: Element, N: Length, M: Length> {
     pub(super) from: StepStart<T, N, M>,
     pub(super) h: T,
     pub(super) control: Control<T>,
@@ -42,13 +43,13 @@ pub(super) struct Taken<T, const N: usize, const M: usize> {
 
 /// Start of a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct StepStart<T, const N: usize, const M: usize> {
+pub(super) struct StepStart<T: Element, N: Length, M: Length> {
     pub(super) t: T,
     pub(super) y: PhaseVector<T, N>,
-    pub(super) active: [bool; M],
+    pub(super) active: Array<bool, M>,
 }
 
-impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
+impl<T: Real, N: Length, M: Length> PairMemory<T, N, M> {
     /// Returns the next step, signed, and the time after it.
     pub(crate) fn next(&self) -> (T, T) {
         self.clock.next(self.control.step)
@@ -58,19 +59,19 @@ impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
     #[cfg(feature = "alloc")]
     pub(crate) fn last_step(&self) -> Option<(StagePoint<T, N>, T, &Slopes<T, N>)> {
         let Taken { from: StepStart { t, y, .. }, h, .. } = self.taken.as_ref()?;
-        Some((StagePoint { t: *t, y: *y, velocity: self.slopes[0][0] }, *h, &self.slopes))
+        Some((StagePoint { t: *t, y: *y, velocity: self.slopes[0].half(0) }, *h, &self.slopes))
     }
 
     /// Evaluates the rates at the current state, unless they are known.
     #[inline]
-    pub(crate) fn ensure_slope<L: Lagrangian<N, M, Scalar = T>, F: VectorField<L, N, M>>(
+    pub(crate) fn ensure_slope<L: Lagrangian<N = N, M = M, Scalar = T>, F: VectorField<L>>(
         &mut self,
         system: &L,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         if !self.has_slope {
-            let point = StagePoint { t: self.clock.now, y: self.y, velocity: self.slope[0] };
-            self.active = slope::<L, F, N, M>(system, &point, None, &mut self.slope, statistics)?;
+            let point = StagePoint { t: self.clock.now, y: self.y, velocity: self.slope.half(0) };
+            self.active = slope::<L, F>(system, &point, None, &mut self.slope, statistics)?;
             self.has_slope = true;
         }
         Ok(())

@@ -1,21 +1,20 @@
 //! The classical Runge–Kutta method of order 4, for any scalar.
 
-use core::array::from_fn;
 use core::convert::Infallible;
 use core::fmt;
 
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use super::clock::Clock;
 use super::contract::{Limits, Method, Step, check_settings};
 use crate::error::{Ending, Error};
-use crate::number::{Real, Scalar, vector};
+use crate::number::{Real, Scalar};
 use crate::solution::consistent::{BOTH, project};
 use crate::solution::interpolant::Polynomial;
 use crate::solution::solve::{first_row, solve, solve_near};
-use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, Solution, State};
+use crate::system::{Lagrangian, Solution, State, StateOf};
+use crate::vector::{Array, Element, Length, PhaseVector, Vector, array, from_fn, vector};
 
 /// Returns the state a time `h` later, or earlier if `h` is negative, by one step of the classical Runge–Kutta method
 /// of order 4 (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, table II.1.2).
@@ -49,11 +48,7 @@ use crate::system::{Lagrangian, Solution, State};
 /// ```
 #[inline]
 #[must_use]
-pub fn runge_kutta_step<L: Lagrangian<N, M>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-    h: L::Scalar,
-) -> State<L::Scalar, N> {
+pub fn runge_kutta_step<L: Lagrangian>(system: &L, state: &StateOf<L>, h: L::Scalar) -> StateOf<L> {
     let stepped =
         step(state, h, |at| Ok::<_, Infallible>(system.accelerations_unchecked(at).accelerations.into()));
     match stepped {
@@ -64,16 +59,16 @@ pub fn runge_kutta_step<L: Lagrangian<N, M>, const N: usize, const M: usize>(
 
 /// One step, with any function for the accelerations.
 #[inline(always)]
-fn step<T: Scalar, E, const N: usize>(
+fn step<T: Scalar, E, N: Length>(
     state: &State<T, N>,
     h: T,
-    mut accelerations: impl FnMut(&State<T, N>) -> Result<[T; N], E>,
+    mut accelerations: impl FnMut(&State<T, N>) -> Result<Array<T, N>, E>,
 ) -> Result<State<T, N>, E> {
-    let (half, start): (_, PhaseVector<_, N>) = (h * T::constant(0.5), [state.q.into(), state.v.into()]);
-    let moved = |by: T, slope: &PhaseVector<T, N>| -> PhaseVector<T, N> {
+    let (half, start) = (h * T::constant(0.5), [array(state.q), array(state.v)]);
+    let moved = |by: T, slope: &[Array<T, N>; 2]| -> [Array<T, N>; 2] {
         from_fn(|half| from_fn(|i| start[half][i] + by * slope[half][i]))
     };
-    let mut slope = |after: T, [q, v]: PhaseVector<T, N>| -> Result<PhaseVector<T, N>, E> {
+    let mut slope = |after: T, [q, v]: [Array<T, N>; 2]| -> Result<[Array<T, N>; 2], E> {
         Ok([v, accelerations(&State { t: state.t + after, q: vector(q), v: vector(v) })?])
     };
     let a = slope(T::constant(0.0), start)?;
@@ -113,7 +108,7 @@ impl RungeKutta4 {
 
 /// State that the method carries from step to step.
 #[derive(Clone, Debug)]
-pub struct FixedStepState<T, const N: usize> {
+pub struct FixedStepState<T: Element, N: Length> {
     clock: Clock<T>,
     /// Length of the next step.
     planned: T,
@@ -121,9 +116,9 @@ pub struct FixedStepState<T, const N: usize> {
     state: State<T, N>,
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L, N, M> for RungeKutta4 {
-    type Memory = FixedStepState<L::Scalar, N>;
-    type Interpolant = Polynomial<L::Scalar, [PhaseVector<L::Scalar, N>; 4]>;
+impl<L: Lagrangian<Scalar: Real>> Method<L> for RungeKutta4 {
+    type Memory = FixedStepState<L::Scalar, L::N>;
+    type Interpolant = Polynomial<L::Scalar, [PhaseVector<L::Scalar, L::N>; 4]>;
 
     fn limits(&self) -> Limits {
         self.limits
@@ -137,7 +132,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         check_settings([("fixed step", Some(self.step))])
     }
 
-    fn begin(&self, _: &L, start: &State<L::Scalar, N>, _: &mut Statistics) -> Result<Self::Memory, Error> {
+    fn begin(&self, _: &L, start: &StateOf<L>, _: &mut Statistics) -> Result<Self::Memory, Error> {
         let planned = L::Scalar::constant(self.step);
         Ok(FixedStepState {
             clock: Clock::new(start.t, Some(planned)),
@@ -154,7 +149,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         memory: &mut Self::Memory,
         end: L::Scalar,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, N> {
+    ) -> Step<L::Scalar, L::N> {
         let FixedStepState { clock, planned, before, state } = memory;
         clock.aim(end);
         let (h, time) = clock.next(*planned);
@@ -163,7 +158,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         }
         statistics.evaluations += 4;
         let mut next = State { t: time, ..runge_kutta_step(system, state, h) };
-        if (M > 0 || !is_finite(&next))
+        if (<L::M>::COUNT > 0 || !is_finite(&next))
             && let Err(error) = mend(system, state, h, &mut next, statistics)
         {
             return Step::Failed(Ending::of(error, state.t.to_f64()));
@@ -178,7 +173,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         &self,
         _: &L,
         memory: &mut Self::Memory,
-        state: &State<L::Scalar, N>,
+        state: &StateOf<L>,
         _: &mut Statistics,
     ) -> Result<(), Error> {
         memory.clock.set(state.t);
@@ -197,36 +192,36 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Method<L
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
         let FixedStepState { before, state, .. } = memory;
-        let mut node = |state: &State<L::Scalar, N>| -> Result<_, Error> {
+        let mut node = |state: &StateOf<L>| -> Result<_, Error> {
             statistics.evaluations += 1;
-            let (q, v) = (state.q.into(), state.v.into());
-            Ok(([q, v], [v, solve(system, state)?.accelerations.into()]))
+            let rates = PhaseVector::of(state.v, solve(system, state)?.accelerations);
+            Ok((PhaseVector::of(state.q, state.v), rates))
         };
         let (first, last) = (node(before)?, node(state)?);
         Ok(Polynomial::hermite(before.t, state.t - before.t, &first, &last))
     }
 }
 
-fn is_finite<T: Real, const N: usize>(state: &State<T, N>) -> bool {
+fn is_finite<T: Real, N: Length>(state: &State<T, N>) -> bool {
     // `&` instead of `&&` avoids a branch for each entry.
-    let all_finite = |x: &SVector<T, N>| x.iter().fold(true, |all, x| all & x.is_finite());
+    let all_finite = |x: &Vector<T, N>| x.iter().fold(true, |all, x| all & x.is_finite());
     all_finite(&state.q) & all_finite(&state.v)
 }
 
 /// Completes a step of `h` from `start`: repeats it by the general solver if the elimination is not reliable, and
 /// projects the end onto the constraints. An error rejects the step.
-fn mend<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+fn mend<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    start: &State<L::Scalar, N>,
+    start: &StateOf<L>,
     h: L::Scalar,
-    end: &mut State<L::Scalar, N>,
+    end: &mut StateOf<L>,
     statistics: &mut Statistics,
 ) -> Result<(), Error> {
     if !is_finite(end) {
         // Later stages are off the constraints, so they use the constraints that are independent at the start.
         let mut at_start = None;
         let solved = step(start, h, |at| {
-            let of = |solution: &Solution<_, N, M>, active: &_| (*solution, *active);
+            let of = |solution: &Solution<_, L::N, L::M>, active: &_| (*solution, *active);
             let (solution, active) = solve_near(system, at, at_start.as_ref(), of)?;
             at_start.get_or_insert(active);
             statistics.multipliers_are_unique &= solution.multipliers_are_unique();
@@ -234,7 +229,7 @@ fn mend<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
         })?;
         *end = State { t: end.t, ..solved };
     }
-    match first_row::<L, N, M>(|i| !(end.q[i].is_finite() && end.v[i].is_finite()), |_| false) {
+    match first_row::<L>(|i| !(end.q[i].is_finite() && end.v[i].is_finite()), |_| false) {
         Some(row) => Err(Error::EquationsNotFinite { row, time: start.t.to_f64() }),
         None => project(system, &BOTH, end),
     }

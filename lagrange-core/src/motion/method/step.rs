@@ -2,7 +2,6 @@
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
-use core::array::from_fn;
 use core::fmt;
 
 use super::adaptive::Adaptive;
@@ -17,12 +16,13 @@ use super::slope::{check_finite, entry, inlined_slope, slope};
 use crate::error::{Ending, Error, Pace};
 #[cfg(feature = "alloc")]
 use crate::number::larger;
-use crate::number::{Real, Scalar, entries, vector};
+use crate::number::{Real, Scalar};
 use crate::room::Room;
 use crate::solution::interpolant::{Polynomial, hermite};
-use crate::solution::vector_field::{PhaseVector, StagePoint, VectorField};
+use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Element, Length, PhaseVector, entries, from_fn, vector};
 
 /// Reason to reject a step.
 enum Refusal<T> {
@@ -39,20 +39,20 @@ impl<T> From<Error> for Refusal<T> {
 }
 
 /// End of a step, its error in units of the tolerance, and the constraints that determine the slope there.
-struct Reached<T, const N: usize, const M: usize> {
+struct Reached<T: Element, N: Length, M: Length> {
     y: PhaseVector<T, N>,
     error: T,
-    active: [bool; M],
+    active: Array<bool, M>,
 }
 
-impl<P, L, F, const N: usize, const M: usize> Method<L, N, M, F> for Adaptive<P>
+impl<P, L, F> Method<L, F> for Adaptive<P>
 where
     P: Pair,
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
 {
-    type Memory = PairMemory<L::Scalar, N, M>;
-    type Interpolant = Polynomial<L::Scalar, P::Coefficients<PhaseVector<L::Scalar, N>>>;
+    type Memory = PairMemory<L::Scalar, L::N, L::M>;
+    type Interpolant = Polynomial<L::Scalar, P::Coefficients<PhaseVector<L::Scalar, L::N>>>;
 
     fn limits(&self) -> Limits {
         self.limits()
@@ -69,10 +69,10 @@ where
     fn begin(
         &self,
         system: &L,
-        start: &State<L::Scalar, N>,
+        start: &StateOf<L>,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
-        let zero = [[L::Scalar::constant(0.0); N]; 2];
+        let zero = PhaseVector::filled(L::Scalar::constant(0.0));
         let mut memory = PairMemory {
             clock: Clock::new(start.t, self.fixed_step.map(L::Scalar::constant)),
             control: Control::new(L::Scalar::constant(0.0)),
@@ -80,11 +80,11 @@ where
             y: zero,
             has_slope: false,
             slope: zero,
-            active: [true; M],
+            active: Array::filled(true),
             slopes: Room::filled(zero),
             taken: None,
         };
-        Method::<L, N, M, F>::resume(self, system, &mut memory, start, statistics)?;
+        Method::<L, F>::resume(self, system, &mut memory, start, statistics)?;
         Ok(memory)
     }
 
@@ -92,12 +92,13 @@ where
         &self,
         system: &L,
         memory: &mut Self::Memory,
-        state: &State<L::Scalar, N>,
+        state: &StateOf<L>,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         memory.clock.set(state.t);
         // The velocity is the initial guess for the Legendre inversion of the first rate.
-        (memory.y, memory.slope[0]) = (F::phase(system, state), state.v.into());
+        memory.y = F::phase(system, state);
+        memory.slope.set(0, state.v.into());
         (memory.has_slope, memory.taken) = (false, None);
         memory.ensure_slope::<L, F>(system, statistics)
     }
@@ -108,8 +109,8 @@ where
         memory: &mut Self::Memory,
         end: L::Scalar,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, N> {
-        self.aim::<L, F, N, M>(system, memory, end, statistics);
+    ) -> Step<L::Scalar, L::N> {
+        self.aim::<L, F>(system, memory, end, statistics);
         let (h, time) = memory.next();
         let now = memory.clock.now.to_f64();
         if !memory.clock.is_ahead(time) {
@@ -117,14 +118,14 @@ where
         }
         // Two compiled variants, so that an adaptive step contains no code for fixed steps.
         let attempt = match self.ignores_error() {
-            true => self.attempt::<L, F, N, M, true>(system, memory, (h, time), statistics),
-            false => self.attempt::<L, F, N, M, false>(system, memory, (h, time), statistics),
+            true => self.attempt::<L, F, true>(system, memory, (h, time), statistics),
+            false => self.attempt::<L, F, false>(system, memory, (h, time), statistics),
         };
         let ending = match attempt {
-            Ok(reached) => return Step::Accepted(self.take::<L, F, N, M>(memory, (h, time), &reached)),
+            Ok(reached) => return Step::Accepted(self.take::<L, F>(memory, (h, time), &reached)),
             Err(Refusal::Inaccurate(error, place)) => {
                 memory.control.refuse::<P>(h, error);
-                Ending::StepTooSmall { time: now, entry: entry::<L, F, N, M>(place) }
+                Ending::StepTooSmall { time: now, entry: entry::<L, F>(place) }
             }
             Err(Refusal::Unsolved(error)) => {
                 memory.control.halve(h);
@@ -141,10 +142,10 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
-        let (start, length) = look_within::<P, L, F, N, M>(system, memory, statistics)?;
+        let (start, length) = look_within::<P, L, F>(system, memory, statistics)?;
         // Build the coefficients in place: the only copy is into the trajectory.
-        let mut coefficients = P::coefficients([[L::Scalar::constant(0.0); N]; 2]);
-        interpolate::<P, _, N, M>(memory, coefficients.as_mut());
+        let mut coefficients = P::coefficients(PhaseVector::filled(L::Scalar::constant(0.0)));
+        interpolate::<P, _, L::N, L::M>(memory, coefficients.as_mut());
         Ok(Polynomial::new(start, length, coefficients))
     }
 
@@ -157,10 +158,14 @@ where
         statistics: &mut Statistics,
         to: &mut Vec<Self::Interpolant>,
     ) -> Result<(), Error> {
-        let (start, length) = look_within::<P, L, F, N, M>(system, memory, statistics)?;
-        to.push(Polynomial::new(start, length, P::coefficients([[L::Scalar::constant(0.0); N]; 2])));
+        let (start, length) = look_within::<P, L, F>(system, memory, statistics)?;
+        to.push(Polynomial::new(
+            start,
+            length,
+            P::coefficients(PhaseVector::filled(L::Scalar::constant(0.0))),
+        ));
         if let Some(last) = to.last_mut() {
-            interpolate::<P, _, N, M>(memory, last.coefficients_mut());
+            interpolate::<P, _, L::N, L::M>(memory, last.coefficients_mut());
         }
         Ok(())
     }
@@ -179,22 +184,17 @@ where
             return Pace::default();
         }
         let step = Some(memory.control.step.to_f64());
-        let stiffness = self.find_stiffness::<L, F, N, M>(system, memory, end);
-        Pace { step, stiffness, time_apart: self.find_coarseness::<L, F, N, M>(system, memory) }
+        let stiffness = self.find_stiffness::<L, F>(system, memory, end);
+        Pace { step, stiffness, time_apart: self.find_coarseness::<L, F>(system, memory) }
     }
 }
 
 impl<P: Pair> Adaptive<P> {
     /// Sets the end, and chooses the length of the first step if this is the first call.
-    pub(crate) fn aim<
-        L: Lagrangian<N, M, Scalar: Real>,
-        F: VectorField<L, N, M>,
-        const N: usize,
-        const M: usize,
-    >(
+    pub(crate) fn aim<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
         &self,
         system: &L,
-        memory: &mut PairMemory<L::Scalar, N, M>,
+        memory: &mut PairMemory<L::Scalar, L::N, L::M>,
         end: L::Scalar,
         statistics: &mut Statistics,
     ) {
@@ -202,7 +202,7 @@ impl<P: Pair> Adaptive<P> {
         if !memory.is_planned {
             let step = match self.fixed_step.or(self.first_step) {
                 Some(step) => L::Scalar::constant(step),
-                None => self.estimate_step::<L, F, N, M>(system, memory, statistics),
+                None => self.estimate_step::<L, F>(system, memory, statistics),
             };
             memory.control.step = self.fit(step, &memory.clock);
             memory.is_planned = true;
@@ -212,7 +212,7 @@ impl<P: Pair> Adaptive<P> {
     /// Chooses the next step after a step on which another quantity was integrated as well, with `error` in units of
     /// its tolerance. The larger of both errors counts.
     #[cfg(feature = "alloc")]
-    pub(crate) fn accept_with<T: Real, const N: usize, const M: usize>(
+    pub(crate) fn accept_with<T: Real, N: Length, M: Length>(
         &self,
         memory: &mut PairMemory<T, N, M>,
         error: T,
@@ -225,36 +225,36 @@ impl<P: Pair> Adaptive<P> {
     }
 
     /// True if a shorter step can be tried; never for fixed steps.
-    fn can_try_again<T: Real, const N: usize, const M: usize>(&self, memory: &PairMemory<T, N, M>) -> bool {
+    fn can_try_again<T: Real, N: Length, M: Length>(&self, memory: &PairMemory<T, N, M>) -> bool {
         self.fixed_step.is_none() && memory.clock.advances_by(memory.control.step)
     }
 
     /// Accepts a step: moves to its end.
-    fn take<L: Lagrangian<N, M, Scalar: Real>, F: VectorField<L, N, M>, const N: usize, const M: usize>(
+    fn take<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
         &self,
-        memory: &mut PairMemory<L::Scalar, N, M>,
+        memory: &mut PairMemory<L::Scalar, L::N, L::M>,
         (h, time): (L::Scalar, L::Scalar),
-        reached: &Reached<L::Scalar, N, M>,
-    ) -> State<L::Scalar, N> {
+        reached: &Reached<L::Scalar, L::N, L::M>,
+    ) -> StateOf<L> {
         memory.taken = Some(Taken { from: memory.origin(), h, control: memory.control.clone() });
         (memory.y, memory.active, memory.slope) = (reached.y, reached.active, memory.slopes[last::<P>()]);
         memory.has_slope = !(self.ignores_error() && F::HOLDS_VELOCITY);
         self.after_acceptance(&mut memory.control, &mut memory.clock, (h, time), reached.error);
-        let velocity = if F::HOLDS_VELOCITY { &memory.y[1] } else { &memory.slope[0] };
-        State { t: time, q: vector(memory.y[0]), v: vector(*velocity) }
+        let velocity = if F::HOLDS_VELOCITY { memory.y.half(1) } else { memory.slope.half(0) };
+        State { t: time, q: vector(memory.y.half(0)), v: vector(velocity) }
     }
 
     /// Computes stages, error and projection of a step; any failure rejects it.
-    fn attempt<L, F, const N: usize, const M: usize, const IS_FIXED: bool>(
+    fn attempt<L, F, const IS_FIXED: bool>(
         &self,
         system: &L,
-        memory: &mut PairMemory<L::Scalar, N, M>,
+        memory: &mut PairMemory<L::Scalar, L::N, L::M>,
         (h, time): (L::Scalar, L::Scalar),
         statistics: &mut Statistics,
-    ) -> Result<Reached<L::Scalar, N, M>, Refusal<L::Scalar>>
+    ) -> Result<Reached<L::Scalar, L::N, L::M>, Refusal<L::Scalar>>
     where
-        L: Lagrangian<N, M, Scalar: Real>,
-        F: VectorField<L, N, M>,
+        L: Lagrangian<Scalar: Real>,
+        F: VectorField<L>,
     {
         const { check::<P>() };
         if IS_FIXED {
@@ -262,28 +262,28 @@ impl<P: Pair> Adaptive<P> {
         }
         let (from, slopes) = (memory.origin(), &mut *memory.slopes);
         slopes[0] = memory.slope;
-        stages::<P, L, F, N, M>(system, &from, h, slopes, (1, P::STAGES), statistics)?;
-        let mut next = StagePoint { t: time, y: from.y, velocity: slopes[0][0] };
+        stages::<P, L, F>(system, &from, h, slopes, (1, P::STAGES), statistics)?;
+        let mut next = StagePoint { t: time, y: from.y, velocity: slopes[0].half(0) };
         advance(&from.y, h, slopes, P::WEIGHTS, &mut next.y);
-        check_finite::<L, N, M>(time, &next.y)?;
+        check_finite::<L>(time, &next.y)?;
         let mut active = from.active;
         let needs_last = !IS_FIXED && error_needs_last::<P>();
         if needs_last {
-            active = slope::<L, F, N, M>(system, &next, Some(&active), &mut slopes[last::<P>()], statistics)?;
+            active = slope::<L, F>(system, &next, Some(&active), &mut slopes[last::<P>()], statistics)?;
         }
         let error =
             if IS_FIXED { L::Scalar::constant(0.0) } else { self.check_error(slopes, h, &from.y, &next.y)? };
-        if M > 0 {
+        if <L::M>::COUNT > 0 {
             next.y = F::phase(system, &F::project(system, &next)?);
         }
-        if !(IS_FIXED && F::HOLDS_VELOCITY) && (M > 0 || !needs_last) {
-            active = slope::<L, F, N, M>(system, &next, None, &mut slopes[last::<P>()], statistics)?;
+        if !(IS_FIXED && F::HOLDS_VELOCITY) && (<L::M>::COUNT > 0 || !needs_last) {
+            active = slope::<L, F>(system, &next, None, &mut slopes[last::<P>()], statistics)?;
         }
         Ok(Reached { y: next.y, error, active })
     }
 
     /// Error in units of the tolerance; an error above 1 rejects the step.
-    fn check_error<T: Real, const N: usize>(
+    fn check_error<T: Real, N: Length>(
         &self,
         slopes: &Slopes<T, N>,
         h: T,
@@ -302,46 +302,36 @@ impl<P: Pair> Adaptive<P> {
     /// errs by half its tolerance or more. Stages are evaluated at rounded times. From the whole tolerance on, this
     /// rounding costs steps.
     #[cold]
-    fn find_coarseness<
-        L: Lagrangian<N, M, Scalar: Real>,
-        F: VectorField<L, N, M>,
-        const N: usize,
-        const M: usize,
-    >(
+    fn find_coarseness<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
         &self,
         system: &L,
-        memory: &PairMemory<L::Scalar, N, M>,
+        memory: &PairMemory<L::Scalar, L::N, L::M>,
     ) -> Option<f64> {
         let PairMemory { clock, control, y, slope: here, active, .. } = memory;
         // 0.75 to 1.5 of the distance to the next number: the sum rounds to that number.
         let next = clock.now + L::Scalar::constant(0.75 * L::Scalar::EPSILON) * Scalar::abs(clock.now);
-        let point = StagePoint { t: next, y: *y, velocity: here[0] };
+        let point = StagePoint { t: next, y: *y, velocity: here.half(0) };
         let mut there = *here;
         let (active, mut statistics) = (memory.has_slope.then_some(active)?, Statistics::default());
-        slope::<L, F, N, M>(system, &point, Some(active), &mut there, &mut statistics).ok()?;
-        let change = from_fn(|half| entries(|i| there[half][i] - here[half][i]));
+        slope::<L, F>(system, &point, Some(active), &mut there, &mut statistics).ok()?;
+        let change: PhaseVector<_, L::N> = from_fn(|half| entries(|i| there[half][i] - here[half][i]));
         let lost = self.tolerance::<L::Scalar>().part(control.step, &change, y);
         (lost >= L::Scalar::constant(0.5)).then(|| (next - clock.now).to_f64())
     }
 
-    fn estimate_step<
-        L: Lagrangian<N, M, Scalar: Real>,
-        F: VectorField<L, N, M>,
-        const N: usize,
-        const M: usize,
-    >(
+    fn estimate_step<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
         &self,
         system: &L,
-        memory: &PairMemory<L::Scalar, N, M>,
+        memory: &PairMemory<L::Scalar, L::N, L::M>,
         statistics: &mut Statistics,
     ) -> L::Scalar {
         let PairMemory { clock, y, slope: first, active, .. } = memory;
         let guess = self.tolerance::<L::Scalar>().guess_step(y, first, clock.left());
         let h = clock.directed(guess);
-        let euler = from_fn(|half| entries(|i| y[half][i] + h * first[half][i]));
-        let point = StagePoint { t: clock.now + h, y: euler, velocity: first[0] };
+        let euler: PhaseVector<_, L::N> = from_fn(|half| entries(|i| y[half][i] + h * first[half][i]));
+        let point = StagePoint { t: clock.now + h, y: euler, velocity: first.half(0) };
         let mut second = *first;
-        match slope::<L, F, N, M>(system, &point, Some(active), &mut second, statistics) {
+        match slope::<L, F>(system, &point, Some(active), &mut second, statistics) {
             Ok(_) => self.first_step_from(guess, y, first, &second),
             Err(_) => guess,
         }
@@ -351,15 +341,15 @@ impl<P: Pair> Adaptive<P> {
 /// Evaluates the remaining slopes for the dense output of the last accepted step. Returns the start and the length of
 /// the step.
 #[inline(always)]
-fn look_within<P, L, F, const N: usize, const M: usize>(
+fn look_within<P, L, F>(
     system: &L,
-    memory: &mut PairMemory<L::Scalar, N, M>,
+    memory: &mut PairMemory<L::Scalar, L::N, L::M>,
     statistics: &mut Statistics,
 ) -> Result<(L::Scalar, L::Scalar), Error>
 where
     P: Pair,
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
 {
     memory.ensure_slope::<L, F>(system, statistics)?;
     memory.slopes[last::<P>()] = memory.slope;
@@ -367,17 +357,17 @@ where
     let no_step = Error::OutsideTrajectory { time: now, start: now, end: now };
     let Taken { from, h, .. } = memory.taken.as_ref().ok_or(no_step)?;
     let more = (last::<P>() + 1, P::INTERPOLATION_STAGES);
-    stages::<P, L, F, N, M>(system, from, *h, &mut memory.slopes, more, statistics)?;
+    stages::<P, L, F>(system, from, *h, &mut memory.slopes, more, statistics)?;
     Ok((from.t, *h))
 }
 
 /// Computes the coefficients of the dense output of the last accepted step from its slopes.
 #[inline(always)]
-fn interpolate<P: Pair, T: Real, const N: usize, const M: usize>(
+fn interpolate<P: Pair, T: Real, N: Length, M: Length>(
     memory: &PairMemory<T, N, M>,
     coefficients: &mut [PhaseVector<T, N>],
 ) {
-    let (slopes, zero) = (&*memory.slopes, [[T::constant(0.0); N]; 2]);
+    let (slopes, zero) = (&*memory.slopes, PhaseVector::filled(T::constant(0.0)));
     let Some(Taken { from, h, .. }) = &memory.taken else { return };
     let (start, end) = ((&from.y, &slopes[0]), (&memory.y, &slopes[last::<P>()]));
     let (cubic, beyond) = coefficients.split_at_mut(4);
@@ -388,27 +378,27 @@ fn interpolate<P: Pair, T: Real, const N: usize, const M: usize>(
 }
 
 /// Evaluates the rates of consecutive stages, beginning with stage `first`.
-fn stages<P, L, F, const N: usize, const M: usize>(
+fn stages<P, L, F>(
     system: &L,
-    from: &StepStart<L::Scalar, N, M>,
+    from: &StepStart<L::Scalar, L::N, L::M>,
     h: L::Scalar,
-    slopes: &mut Slopes<L::Scalar, N>,
+    slopes: &mut Slopes<L::Scalar, L::N>,
     (first, rows): (usize, &[TableauRow]),
     statistics: &mut Statistics,
 ) -> Result<(), Error>
 where
     P: Pair,
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
 {
-    let mut point = StagePoint { t: from.t, y: from.y, velocity: slopes[0][0] };
+    let mut point = StagePoint { t: from.t, y: from.y, velocity: slopes[0].half(0) };
     let mut newest = slopes[first - 1];
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
         advance_from((number - 1, &newest), &from.y, h, slopes, row, &mut point.y);
         point.t = from.t + h * L::Scalar::constant(P::NODES[number]);
-        let rates = if const { is_carried::<N>() } { &mut newest } else { &mut slopes[number] };
-        inlined_slope::<L, F, N, M>(system, &point, Some(&from.active), rates, statistics)?;
-        if const { is_carried::<N>() } {
+        let rates = if const { is_carried::<L::N>() } { &mut newest } else { &mut slopes[number] };
+        inlined_slope::<L, F>(system, &point, Some(&from.active), rates, statistics)?;
+        if const { is_carried::<L::N>() } {
             slopes[number] = newest;
         }
     }

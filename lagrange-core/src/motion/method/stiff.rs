@@ -12,6 +12,7 @@ use crate::number::{Real, Scalar};
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
+use crate::vector::{Array, Length};
 
 /// Number of trial steps. The problem counts as stiff if more than a third of them are at the stability limit.
 const STEPS: usize = 15;
@@ -20,21 +21,21 @@ impl<P: Pair> Adaptive<P> {
     /// Returns [`Pace::stiffness`](crate::error::Pace::stiffness). Only this call costs time: it tries the next steps
     /// on a copy.
     #[cold]
-    pub(super) fn find_stiffness<L, F, const N: usize, const M: usize>(
+    pub(super) fn find_stiffness<L, F>(
         &self,
         system: &L,
-        memory: &PairMemory<L::Scalar, N, M>,
+        memory: &PairMemory<L::Scalar, L::N, L::M>,
         end: L::Scalar,
     ) -> Option<f64>
     where
-        L: Lagrangian<N, M, Scalar: Real>,
-        F: VectorField<L, N, M>,
+        L: Lagrangian<Scalar: Real>,
+        F: VectorField<L>,
     {
         let limit = L::Scalar::constant(0.9 * stability_limit::<P>());
         let (mut memory, mut statistics) = (memory.clone(), Statistics::default());
         let (mut seen, mut longest, mut rate) = (0, 0, None);
         while seen < STEPS {
-            match Method::<L, N, M, F>::step(self, system, &mut memory, end, &mut statistics) {
+            match Method::<L, F>::step(self, system, &mut memory, end, &mut statistics) {
                 Step::Rejected => continue,
                 Step::Failed(_) => return None,
                 Step::Accepted(_) => seen += 1,
@@ -49,7 +50,7 @@ impl<P: Pair> Adaptive<P> {
     }
 }
 
-impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
+impl<T: Real, N: Length, M: Length> PairMemory<T, N, M> {
     /// Length of the last step, and the rate |λ| of the mode that grows or decays fastest; `None` if round-off hides
     /// it.
     ///
@@ -64,8 +65,10 @@ impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
         let ratio = |half: usize| {
             let apart = squared_distance(&to_end[half], &to_stage[half]);
             let round_off = T::constant(128.0 * T::EPSILON);
-            let shows =
-                apart > round_off * round_off * squared_distance(&to_end[half], &[T::constant(0.0); N]);
+            let shows = apart
+                > round_off
+                    * round_off
+                    * squared_distance(&to_end[half], &Array::<T, N>::filled(T::constant(0.0)));
             shows.then(|| squared_distance(&end[half], &stage[half]) / apart)
         };
         // The ratio of differences of slopes, divided by h, is the ratio of differences of slopes to differences of
@@ -75,8 +78,8 @@ impl<T: Real, const N: usize, const M: usize> PairMemory<T, N, M> {
     }
 }
 
-fn squared_distance<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
-    (0..N).fold(T::constant(0.0), |sum, i| sum + (a[i] - b[i]) * (a[i] - b[i]))
+fn squared_distance<T: Real>(a: &[T], b: &[T]) -> T {
+    (0..a.len()).fold(T::constant(0.0), |sum, i| sum + (a[i] - b[i]) * (a[i] - b[i]))
 }
 
 /// Largest h|λ| for which a decay of rate λ stays stable: beyond it |R(−h|λ|)| > 1, with the stability function R

@@ -20,13 +20,14 @@ use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Element, Length};
 
 /// End of a motion, with its samples, quantities and crossings.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
-pub struct Arrival<T, const N: usize> {
+pub struct Arrival<T: Element, N: Length> {
     /// Last state.
     pub state: State<T, N>,
     /// Reason why the motion ended there.
@@ -43,16 +44,15 @@ pub struct Arrival<T, const N: usize> {
 }
 
 /// Controller, which sets parameters of a system during its motion. Its error is a message.
-pub(crate) type Controller<'o, L, const N: usize, const M: usize> =
-    dyn FnMut(&mut L, &State<<L as Lagrangian<N, M>>::Scalar, N>) -> Result<(), String> + 'o;
+pub(crate) type Controller<'o, L> = dyn FnMut(&mut L, &StateOf<L>) -> Result<(), String> + 'o;
 
 /// Controller, with the interval of time between its calls.
-pub(crate) struct Steering<'o, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub(crate) struct Steering<'o, L: Lagrangian> {
     pub(crate) interval: L::Scalar,
-    pub(crate) controller: Box<Controller<'o, L, N, M>>,
+    pub(crate) controller: Box<Controller<'o, L>>,
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Steering<'_, L, N, M> {
+impl<L: Lagrangian<Scalar: Real>> Steering<'_, L> {
     /// Checks that the interval is positive and finite.
     pub(crate) fn check(&self) -> Result<(), Error> {
         check_interval(CONTROLLER, self.interval)
@@ -63,18 +63,18 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Steering
 pub(crate) const CONTROLLER: &str = "interval of the controller";
 
 /// Record of one motion.
-pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize> {
-    plan: &'o RecordPlan<'o, L, N, M>,
-    samples: Vec<State<L::Scalar, N>>,
+pub(crate) struct Record<'o, L: Lagrangian> {
+    plan: &'o RecordPlan<'o, L>,
+    samples: Vec<StateOf<L>>,
     /// Quantities of the first sample, then of the second, …
     values: Vec<L::Scalar>,
-    crossings: Vec<Crossing<L::Scalar, N>>,
-    events: Vec<Box<DynEvent<'o, L, N, M>>>,
+    crossings: Vec<Crossing<L::Scalar, L::N>>,
+    events: Vec<Box<DynEvent<'o, L>>>,
     /// Minimum number of parts in which every step is searched for events.
     subdivisions: usize,
     /// Ending at the start, if an event that is due there ends the motion.
     stopped: Option<Ending>,
-    steering: Option<Steering<'o, L, N, M>>,
+    steering: Option<Steering<'o, L>>,
     start: L::Scalar,
     end: L::Scalar,
     /// Next time to reach: the end, or an earlier call of the controller.
@@ -83,14 +83,14 @@ pub(crate) struct Record<'o, L: Lagrangian<N, M>, const N: usize, const M: usize
     calls: usize,
 }
 
-impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Record<'o, L, N, M> {
+impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
     /// Begins the record: takes the samples and crossings that are due at the start.
     pub(crate) fn begin(
-        plan: &'o RecordPlan<'o, L, N, M>,
-        mut events: Vec<Box<DynEvent<'o, L, N, M>>>,
-        steering: Option<Steering<'o, L, N, M>>,
+        plan: &'o RecordPlan<'o, L>,
+        mut events: Vec<Box<DynEvent<'o, L>>>,
+        steering: Option<Steering<'o, L>>,
         system: &L,
-        start: &State<L::Scalar, N>,
+        start: &StateOf<L>,
         end: L::Scalar,
     ) -> Result<Self, Error> {
         plan.times.check_within([start.t, end])?;
@@ -130,7 +130,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
         self.plan.times.get(self.samples.len(), [self.start, self.end])
     }
 
-    fn push(&mut self, system: &L, state: State<L::Scalar, N>) -> Result<(), Error> {
+    fn push(&mut self, system: &L, state: StateOf<L>) -> Result<(), Error> {
         let (sample, before) = (Sample { system, state }, self.values.len());
         for (_, value) in &self.plan.quantities {
             match value(&sample) {
@@ -152,14 +152,10 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
 
     /// Records the samples and crossings in this step. If the motion stops within the step, moves `end` there and
     /// returns the ending.
-    pub(crate) fn keep<F, I>(
-        &mut self,
-        step: &DenseStep<'_, L, F, I, N, M>,
-        end: &mut State<L::Scalar, N>,
-    ) -> Option<Ending>
+    pub(crate) fn keep<F, I>(&mut self, step: &DenseStep<'_, L, F, I>, end: &mut StateOf<L>) -> Option<Ending>
     where
-        F: VectorField<L, N, M>,
-        I: Interpolant<L::Scalar, N>,
+        F: VectorField<L>,
+        I: Interpolant<L::Scalar, L::N>,
     {
         let (mut at, mut stopped) = (*step.before, None);
         if !self.events.is_empty() {
@@ -193,7 +189,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
     }
 
     /// Calls the controller, and sets the next goal. The caller must then resume the method.
-    pub(crate) fn control(&mut self, system: &mut L, state: &State<L::Scalar, N>) -> Result<(), Ending> {
+    pub(crate) fn control(&mut self, system: &mut L, state: &StateOf<L>) -> Result<(), Ending> {
         let Some(Steering { interval, controller }) = &mut self.steering else { return Ok(()) };
         let time = state.t.to_f64();
         controller(system, state).map_err(|said| Ending::ControllerFailed { time, said })?;
@@ -209,7 +205,7 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
     }
 
     /// The samples so far.
-    pub(crate) fn samples(&self) -> &[State<L::Scalar, N>] {
+    pub(crate) fn samples(&self) -> &[StateOf<L>] {
         &self.samples
     }
 
@@ -221,10 +217,10 @@ impl<'o, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
     /// Converts the record to the result, with the state at the end.
     pub(crate) fn arrive(
         self,
-        state: State<L::Scalar, N>,
+        state: StateOf<L>,
         ending: Ending,
         statistics: Statistics,
-    ) -> Arrival<L::Scalar, N> {
+    ) -> Arrival<L::Scalar, L::N> {
         let Self { samples, values, crossings, .. } = self;
         Arrival { state, ending, statistics, samples, values, crossings }
     }
@@ -250,24 +246,23 @@ impl<L> Deref for Moving<'_, L> {
 
 /// Observer that records one motion, and calls its controller. If `HAS_DENSE_OUTPUT` is false, no samples, events or
 /// controller exist, and their code is not compiled.
-pub(crate) struct Recorded<'o, 'r, L, I, A, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
+pub(crate) struct Recorded<'o, 'r, L, I, A, const HAS_DENSE_OUTPUT: bool>
 where
-    L: Lagrangian<N, M>,
+    L: Lagrangian,
 {
     system: Moving<'r, L>,
-    record: Record<'o, L, N, M>,
+    record: Record<'o, L>,
     /// Interpolant of the last step, if samples or events need it.
     within: Option<I>,
     /// Callback with the state and the number of steps after each step; it may cancel the motion.
     accept: A,
 }
 
-impl<'o, 'r, L, I, A, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool>
-    Recorded<'o, 'r, L, I, A, N, M, HAS_DENSE_OUTPUT>
+impl<'o, 'r, L, I, A, const HAS_DENSE_OUTPUT: bool> Recorded<'o, 'r, L, I, A, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
-    pub(crate) fn new(system: Moving<'r, L>, record: Record<'o, L, N, M>, accept: A) -> Self {
+    pub(crate) fn new(system: Moving<'r, L>, record: Record<'o, L>, accept: A) -> Self {
         Self { system, record, within: None, accept }
     }
 
@@ -275,20 +270,20 @@ where
     pub(crate) fn finish<X>(
         self,
         driven: Result<(), Ending>,
-        run: &Run<X, L::Scalar, N>,
-    ) -> Arrival<L::Scalar, N> {
+        run: &Run<X, L::Scalar, L::N>,
+    ) -> Arrival<L::Scalar, L::N> {
         let ending = driven.err().unwrap_or(Ending::Complete { time: self.record.end.to_f64() });
         self.record.arrive(run.state, ending, run.statistics)
     }
 }
 
-impl<L, F, P, A, const N: usize, const M: usize, const HAS_DENSE_OUTPUT: bool> Observer<L, F, P, N, M>
-    for Recorded<'_, '_, L, P::Interpolant, A, N, M, HAS_DENSE_OUTPUT>
+impl<L, F, P, A, const HAS_DENSE_OUTPUT: bool> Observer<L, F, P>
+    for Recorded<'_, '_, L, P::Interpolant, A, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<N, M, Scalar: Real>,
-    F: VectorField<L, N, M>,
-    P: Method<L, N, M, F>,
-    A: FnMut(&State<L::Scalar, N>, usize) -> Result<(), Ending>,
+    L: Lagrangian<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
+    A: FnMut(&StateOf<L>, usize) -> Result<(), Ending>,
 {
     fn system(&self) -> &L {
         &self.system
@@ -298,7 +293,7 @@ where
     fn goal(
         &mut self,
         method: &P,
-        run: &mut Run<P::Memory, L::Scalar, N>,
+        run: &mut Run<P::Memory, L::Scalar, L::N>,
     ) -> Result<Option<L::Scalar>, Ending> {
         let Self { system, record, .. } = self;
         let Run { memory, state, statistics, .. } = run;
@@ -310,7 +305,7 @@ where
                 && record.is_due(state.t)
             {
                 record.control(system, state)?;
-                resume::<_, F, _, N, M>(system, method, memory, state, statistics)
+                resume::<_, F, _>(system, method, memory, state, statistics)
                     .map_err(|error| Ending::of(error, state.t.to_f64()))?;
             }
         }
@@ -318,7 +313,7 @@ where
     }
 
     #[inline(always)]
-    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         if const { HAS_DENSE_OUTPUT } {
             let Run { memory, statistics, before, state } = run;
             let is_wanted = self.record.looks_into(before.t, state.t);
@@ -329,7 +324,7 @@ where
     }
 
     #[inline(always)]
-    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
         if let (true, Some(interpolant)) = (const { HAS_DENSE_OUTPUT }, &self.within) {
             let (before, after, field) = (&run.before, &{ run.state }, PhantomData::<F>);
             let step = DenseStep { system: &*self.system, before, after, interpolant, field };

@@ -15,14 +15,14 @@ use crate::solution::Sample;
 use crate::system::Lagrangian;
 
 /// Times of the samples of a motion, or of each member of an ensemble, and the quantities to evaluate there.
-pub(crate) struct RecordPlan<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+pub(crate) struct RecordPlan<'a, L: Lagrangian> {
     pub(crate) times: SampleTimes<L::Scalar>,
-    pub(super) quantities: Vec<(&'static str, Box<Observed<'a, L, N, M>>)>,
+    pub(super) quantities: Vec<(&'static str, Box<Observed<'a, L>>)>,
 }
 
 /// A number computed from a state.
-pub(crate) type Observed<'a, L, const N: usize, const M: usize> =
-    dyn Fn(&Sample<&L, N, M>) -> Result<<L as Lagrangian<N, M>>::Scalar, Error> + Send + Sync + 'a;
+pub(crate) type Observed<'a, L> =
+    dyn Fn(&Sample<&L>) -> Result<<L as Lagrangian>::Scalar, Error> + Send + Sync + 'a;
 
 /// Times of the samples.
 pub(crate) enum SampleTimes<T> {
@@ -121,7 +121,7 @@ pub(crate) fn check_interval<T: Real>(name: &'static str, interval: T) -> Result
     if is_right { Ok(()) } else { Err(Error::Setting { name, value: interval.to_f64() }) }
 }
 
-impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> RecordPlan<'a, L, N, M> {
+impl<'a, L: Lagrangian<Scalar: Real>> RecordPlan<'a, L> {
     /// Creates a plan with samples at these times, without quantities.
     pub(crate) fn of(times: SampleTimes<L::Scalar>) -> Self {
         Self { times, quantities: Vec::new() }
@@ -130,9 +130,9 @@ impl<'a, L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Reco
     pub(crate) fn quantity<V: EventValue<L::Scalar>>(
         &mut self,
         name: &'static str,
-        function: impl Fn(&Sample<&L, N, M>) -> V + Send + Sync + 'a,
+        function: impl Fn(&Sample<&L>) -> V + Send + Sync + 'a,
     ) {
-        self.quantities.push((name, Box::new(move |sample: &Sample<&L, N, M>| function(sample).value())));
+        self.quantities.push((name, Box::new(move |sample: &Sample<&L>| function(sample).value())));
     }
 
     /// Checks the conditions that do not depend on start and end.

@@ -7,6 +7,7 @@ use crate::motion::method::clock::Clock;
 use crate::motion::method::control::{FIRST, Tolerance};
 use crate::number::{ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
+use crate::vector::{Length, PhaseVector};
 
 /// The first omitted term is e⁻⁵ of the tolerance. With this value, measured errors are between half of those of
 /// Jorba and Zou's order (3-11) with their step length, and equal to them.
@@ -27,15 +28,15 @@ impl Taylor {
 
     /// Largest first step, as for embedded pairs (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations
     /// I*, II.4): it changes the state by at most its size.
-    pub(crate) fn first<T: Real, const N: usize, const M: usize>(
+    pub(crate) fn first<T: Real, N: Length, M: Length>(
         &self,
         state: &State<T, N>,
         solved: &SolvedState<T, N, M>,
         span: T,
     ) -> T {
         let tolerance = Tolerance { relative: self.tolerance::<T>(), absolute: self.absolute };
-        let y = [state.q.into(), state.v.into()];
-        let slope = [state.v.into(), solved.solution.accelerations.into()];
+        let y = PhaseVector::of(state.q, state.v);
+        let slope = PhaseVector::of(state.v, solved.solution.accelerations);
         self.limited(smaller(T::constant(FIRST) * tolerance.guess_step(&y, &slope, span), span))
     }
 

@@ -8,8 +8,9 @@
 use super::expansion::{Expansion, SolvedState};
 use super::last::log2_roughly;
 use super::settings::Taylor;
-use crate::number::{FixedArray, Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger};
 use crate::solution::pivot::is_trustworthy;
+use crate::vector::{FixedArray, Length};
 
 /// Independence of the constraints, from 0 to 1, below which a singular pose may be near; and ratio of a step to the
 /// step before, below which it may be near.
@@ -33,7 +34,7 @@ const ROUNDING: f64 = 1.2;
 /// Number of longer attempts after a step by fewer orders is rejected.
 const LONGER: usize = 2;
 
-impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
+impl<T: Real, N: Length, M: Length> SolvedState<T, N, M> {
     /// Independence of the constraints, from 0 to 1.
     fn independence(&self) -> T {
         // The diagonal of the elimination holds squares.
@@ -43,17 +44,17 @@ impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
 
     /// True if constraints may become dependent nearby: they nearly are, or the steps shrink quickly.
     pub(super) fn is_near_dependence(&self, planned: T, before: T) -> bool {
-        self.is_hardly_independent() || M > 0 && planned < before * T::constant(COLLAPSE)
+        self.is_hardly_independent() || M::COUNT > 0 && planned < before * T::constant(COLLAPSE)
     }
 
     /// True if the constraints are so dependent that accelerations have large rounding errors.
     pub(super) fn is_hardly_independent(&self) -> bool {
-        M > 0 && self.independence() < T::constant(NEAR)
+        M::COUNT > 0 && self.independence() < T::constant(NEAR)
     }
 
     /// True if the constraints are so dependent that products of two small numbers lose too many digits.
     pub(super) fn is_close_to_dependence(&self) -> bool {
-        M > 0 && self.independence() < T::constant(CLOSE)
+        M::COUNT > 0 && self.independence() < T::constant(CLOSE)
     }
 
     /// True if no step from this state may end at `there`, because the constraints are nearly dependent there and not
@@ -68,7 +69,7 @@ impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
 impl Taylor {
     /// Plans a step by fewer orders, if it is much longer than the planned step.
     #[cold]
-    pub(super) fn cross<S: FixedArray<T>, T: Real, const N: usize>(
+    pub(super) fn cross<S: FixedArray<T>, T: Real, N: Length>(
         &self,
         series: &mut Expansion<S, T, N>,
         planned: T,

@@ -1,14 +1,13 @@
 //! Defect of a series: the difference between its accelerations and those of the equations along a step.
 
-use core::array::from_fn;
-
 use super::expansion::{Expansion, SolvedState};
 use super::sampling::parts;
 use super::settings::Taylor;
 use crate::error::Error;
-use crate::number::{FixedArray, Real, Scalar, exceeds, larger, vector};
+use crate::number::{Real, Scalar, exceeds, larger};
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
+use crate::vector::{Array, Element, FixedArray, Length, from_fn, vector};
 
 /// Smallest limit, in units of ε, on the defect of a step relative to the velocities; a larger tolerance raises the
 /// limit. Omitted terms give at most a sixteenth of the tolerance, and rounding errors at most 100 ε (pendulums of one
@@ -27,14 +26,14 @@ const STRICT: f64 = 64.0;
 const ROUNDING: [f64; 2] = [4.0, 16.0];
 
 /// A step to check before it is accepted.
-pub(super) struct CandidateStep<'a, S, T, const N: usize, const M: usize> {
+pub(super) struct CandidateStep<'a, S, T: Element, N: Length, M: Length> {
     pub(super) series: &'a Expansion<S, T, N>,
     pub(super) start: &'a State<T, N>,
     pub(super) end: &'a State<T, N>,
     pub(super) solved: &'a SolvedState<T, N, M>,
     pub(super) length: T,
     /// Accelerations of the series at the end.
-    pub(super) accelerations: &'a [T; N],
+    pub(super) accelerations: &'a Array<T, N>,
     /// Number of samples within.
     pub(super) count: usize,
     /// True if the constraints are nearly dependent at the start or the end, so that accelerations have large rounding
@@ -42,7 +41,7 @@ pub(super) struct CandidateStep<'a, S, T, const N: usize, const M: usize> {
     pub(super) is_near_dependence: bool,
 }
 
-impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> CandidateStep<'_, S, T, N, M> {
+impl<S: FixedArray<T>, T: Real, N: Length, M: Length> CandidateStep<'_, S, T, N, M> {
     /// Index of the coordinate with the largest defect, if that is too large; `None` if the step is accurate.
     pub(super) fn inaccurate<L>(
         &self,
@@ -51,19 +50,19 @@ impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> CandidateStep<'_
         statistics: &mut Statistics,
     ) -> Result<Option<usize>, Error>
     where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+        L: TaylorSeries<N = N, M = M, Scalar = T, Sums = S>,
     {
         let tolerance = method.tolerance::<T>();
         let allowed = match self.is_near_dependence {
             true => method.jump_allowed::<T>(),
-            false => method.defect_allowed::<L, N, M>(),
+            false => method.defect_allowed::<L>(),
         };
         let bound = if self.series.ends() { STRICT * tolerance } else { allowed };
         if let Some(found) = self.off(system, method, (self.end, self.solved), self.accelerations, bound) {
             return Ok(Some(found));
         }
         let at_roots =
-            self.series.roots_below_zero::<L, M>(self.length).map(|length| (length, STRICT * tolerance));
+            self.series.roots_below_zero::<L>(self.length).map(|length| (length, STRICT * tolerance));
         let within = parts(self.count).map(|part| (self.length * T::constant(part), allowed));
         for (length, bound) in at_roots.chain(within) {
             let [dq, dv, accelerations] = self.series.change(length);
@@ -85,16 +84,16 @@ impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> CandidateStep<'_
         system: &L,
         method: &Taylor,
         (state, solved): (&State<T, N>, &SolvedState<T, N, M>),
-        accelerations: &[T; N],
+        accelerations: &Array<T, N>,
         bound: f64,
     ) -> Option<usize>
     where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+        L: TaylorSeries<N = N, M = M, Scalar = T, Sums = S>,
     {
         let slack = T::constant(method.slack::<T>());
         let off = |i: usize| Scalar::abs(accelerations[i] - solved.solution.accelerations[i]);
         let defect = |i: usize| part([self.start.v[i], self.end.v[i]], off(i), self.length, slack);
-        let worst = (0..N).fold(0, |worst, i| if defect(i) > defect(worst) { i } else { worst });
+        let worst = (0..N::COUNT).fold(0, |worst, i| if defect(i) > defect(worst) { i } else { worst });
         let is_too_much = exceeds(defect(worst), T::constant(bound));
         (is_too_much && !is_rounding(system, state, solved, worst, off(worst))).then_some(worst)
     }
@@ -103,18 +102,18 @@ impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> CandidateStep<'_
 impl Taylor {
     /// Index of a coordinate whose value or velocity is changed too much by the projection, if there is one. Near a
     /// pose where constraints become dependent, a projection may lead onto another branch of the motion.
-    pub(super) fn moved<T: Real, const N: usize>(&self, sums: [(&[T; N], &[T; N]); 2]) -> Option<usize> {
+    pub(super) fn moved<T: Real, N: Length>(&self, sums: [(&Array<T, N>, &Array<T, N>); 2]) -> Option<usize> {
         let (slack, bound) = (T::constant(self.slack::<T>()), T::constant(self.jump_allowed::<T>()));
-        let is_moved = |(sum, projected): &(&[T; N], &[T; N]), i: usize| {
+        let is_moved = |(sum, projected): &(&Array<T, N>, &Array<T, N>), i: usize| {
             exceeds(Scalar::abs(projected[i] - sum[i]), bound * (Scalar::abs(sum[i]) + slack))
         };
-        (0..N).find(|&i| sums.iter().any(|pair| is_moved(pair, i)))
+        (0..N::COUNT).find(|&i| sums.iter().any(|pair| is_moved(pair, i)))
     }
 
     /// Largest defect of accelerations, relative to the velocities.
-    pub(super) fn defect_allowed<L, const N: usize, const M: usize>(&self) -> f64
+    pub(super) fn defect_allowed<L>(&self) -> f64
     where
-        L: TaylorSeries<N, M, Scalar: Real>,
+        L: TaylorSeries<Scalar: Real>,
     {
         let tolerance = self.tolerance::<L::Scalar>();
         match L::ARGUMENTS.is_empty() {
@@ -138,25 +137,25 @@ pub(super) fn part<T: Scalar>([start, end]: [T; 2], off: T, length: T, slack: T)
 
 /// True if rounding errors of the state change this acceleration by about as much as `off`.
 #[cold]
-fn is_rounding<L, T: Real, const N: usize, const M: usize>(
+fn is_rounding<L, T: Real>(
     system: &L,
-    state: &State<T, N>,
-    solved: &SolvedState<T, N, M>,
+    state: &State<T, L::N>,
+    solved: &SolvedState<T, L::N, L::M>,
     row: usize,
     off: T,
 ) -> bool
 where
-    L: TaylorSeries<N, M, Scalar = T>,
+    L: TaylorSeries<Scalar = T>,
 {
     let [units, times] = ROUNDING;
     let factors = [1.0, -1.0].map(|sign| T::constant(1.0 + sign * units * T::EPSILON));
     let moved = |[even, odd]: [T; 2]| {
-        let moved = |x: &[T; N]| vector(from_fn(|i| x[i] * if i % 2 == 0 { even } else { odd }));
+        let moved = |x: &Array<T, L::N>| vector(from_fn(|i| x[i] * if i % 2 == 0 { even } else { odd }));
         let state = State { t: state.t * even, q: moved(&state.q.into()), v: moved(&state.v.into()) };
         SolvedState::at(system, &state)
     };
     [factors, [factors[1], factors[0]]].into_iter().any(|factors| {
-        let change = |other: SolvedState<T, N, M>| {
+        let change = |other: SolvedState<T, L::N, L::M>| {
             Scalar::abs(other.solution.accelerations[row] - solved.solution.accelerations[row])
         };
         moved(factors).is_ok_and(|other| off <= change(other) * T::constant(times))

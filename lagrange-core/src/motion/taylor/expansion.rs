@@ -2,17 +2,17 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::array::from_fn;
 use core::convert::Infallible;
 
 use super::last::{LAST, Last, exp2_roughly, log2_roughly};
 use super::sums::{Ends, SeriesFactors};
 use crate::error::Error;
-use crate::number::{FixedArray, PowerSeries, Real, Scalar, larger, vector};
+use crate::number::{PowerSeries, Real, Scalar, larger};
 use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::{fault, not_finite, solve_near};
 use crate::system::{Direction, Lagrangian, RightHandSides, Solution, State, TaylorSeries};
+use crate::vector::{Array, Element, FixedArray, Length, array, from_fn, rows, vector};
 
 /// Largest number of units of time tried for one expansion.
 const UNITS: usize = 40;
@@ -28,13 +28,13 @@ const LEAST: f64 = 2.0;
 
 /// Accelerations and multipliers at a state, and the constraints that determine them.
 #[derive(Clone, Debug)]
-pub(crate) struct SolvedState<T, const N: usize, const M: usize> {
+pub(crate) struct SolvedState<T: Element, N: Length, M: Length> {
     pub(crate) solution: Solution<T, N, M>,
-    pub(crate) active: [bool; M],
+    pub(crate) active: Array<bool, M>,
 }
 
-impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
-    pub(crate) fn at<L: Lagrangian<N, M, Scalar = T>>(
+impl<T: Real, N: Length, M: Length> SolvedState<T, N, M> {
+    pub(crate) fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(
         system: &L,
         state: &State<T, N>,
     ) -> Result<Self, Error> {
@@ -51,13 +51,13 @@ impl<T: Real, const N: usize, const M: usize> SolvedState<T, N, M> {
 
 /// Taylor coefficients of coordinates and velocities about a state, in powers of (t − t₀)/unit.
 #[derive(Clone, Debug)]
-pub(crate) struct Expansion<S, T, const N: usize> {
+pub(crate) struct Expansion<S, T: Element, N: Length> {
     pub(crate) start: T,
     /// Unit of time. One near the length of a step avoids overflow and underflow of the coefficients.
     pub(crate) unit: T,
     /// Coefficients from order 0 on; the coordinates have one order more than the velocities.
-    pub(crate) q: Vec<[T; N]>,
-    pub(crate) v: Vec<[T; N]>,
+    pub(crate) q: Vec<Array<T, N>>,
+    pub(crate) v: Vec<Array<T, N>>,
     /// Highest order that is summed: all orders, or fewer if the others are rounding errors.
     pub(crate) summed: usize,
     pub(super) factors: SeriesFactors<T, S>,
@@ -69,18 +69,18 @@ pub(crate) struct Expansion<S, T, const N: usize> {
     arguments: Vec<PowerSeries<T>>,
 }
 
-impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
     /// Allocates a series of this order.
-    pub(crate) fn new<L, const M: usize>(order: usize) -> Self
+    pub(crate) fn new<L>(order: usize) -> Self
     where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+        L: TaylorSeries<N = N, Scalar = T, Sums = S>,
     {
         let zero = T::constant(0.0);
         Self {
             start: zero,
             unit: T::constant(1.0),
-            q: vec![[zero; N]; order + 2],
-            v: vec![[zero; N]; order + 1],
+            q: vec![Array::filled(zero); order + 2],
+            v: vec![Array::filled(zero); order + 1],
             summed: order,
             factors: SeriesFactors::new(order),
             roots: vec![zero; L::ROOTS.len()],
@@ -94,7 +94,7 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     }
 
     /// Coefficients of the highest order. All others contribute to them: if these are finite, all are.
-    pub(crate) fn last(&self) -> [&[T; N]; 2] {
+    pub(crate) fn last(&self) -> [&Array<T, N>; 2] {
         let order = self.order();
         [&self.q[order + 1], &self.v[order]]
     }
@@ -102,16 +102,16 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     /// Expands the motion about a state, given accelerations and multipliers there. `solve` returns those of a higher
     /// order, from the right-hand sides of that order.
     #[inline(always)]
-    pub(crate) fn orders<L, E, const M: usize>(
+    pub(crate) fn orders<L, E>(
         &mut self,
         system: &L,
         state: &State<T, N>,
-        solution: &Solution<T, N, M>,
+        solution: &Solution<T, N, L::M>,
         unit: T,
-        solve: impl Fn(&RightHandSides<T, N, M>) -> Result<Solution<T, N, M>, E>,
+        solve: impl Fn(&RightHandSides<T, N, L::M>) -> Result<Solution<T, N, L::M>, E>,
     ) -> Result<(), E>
     where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+        L: TaylorSeries<N = N, Scalar = T, Sums = S>,
     {
         (self.start, self.unit, self.summed) = (state.t, unit, self.order());
         (self.q[0], self.v[0]) = (state.q.into(), state.v.into());
@@ -153,24 +153,25 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
 
     /// Sets the coefficients of this order, from the accelerations of the order before, and returns them.
     #[inline(always)]
-    fn advance<const M: usize>(&mut self, order: usize, newest: &Solution<T, N, M>) -> Direction<T, N> {
+    fn advance<M: Length>(&mut self, order: usize, newest: &Solution<T, N, M>) -> Direction<T, N> {
         let factor = unit_over(self.unit, order);
         let q = scaled(&self.v[order - 1], factor);
-        let v = scaled(&newest.accelerations.data.0[0], factor);
+        let v = scaled(&array(newest.accelerations), factor);
         (self.q[order], self.v[order]) = (q, v);
         let t = if order == 1 { self.unit } else { T::constant(0.0) };
         Direction { t, q: vector(q), v: vector(v) }
     }
 
     /// Reciprocal sizes of coordinates and velocities, in which coefficients are measured.
-    pub(crate) fn scales(&self, slack: T) -> [[T; N]; 2] {
+    pub(crate) fn scales(&self, slack: T) -> [Array<T, N>; 2] {
         [&self.q, &self.v].map(|x| x[0].map(|x| T::constant(1.0) / (x.abs() + slack)))
     }
 
     /// Largest coefficient of an order, in units of the sizes.
-    pub(crate) fn size(&self, order: usize, scales: &[[T; N]; 2]) -> T {
-        let [q, v] = [(&self.q[order], &scales[0]), (&self.v[order], &scales[1])]
-            .map(|(x, scales)| (0..N).fold(T::constant(0.0), |most, i| most.max(x[i].abs() * scales[i])));
+    pub(crate) fn size(&self, order: usize, scales: &[Array<T, N>; 2]) -> T {
+        let [q, v] = [(&self.q[order], &scales[0]), (&self.v[order], &scales[1])].map(|(x, scales)| {
+            (0..N::COUNT).fold(T::constant(0.0), |most, i| most.max(x[i].abs() * scales[i]))
+        });
         q.max(v)
     }
 
@@ -182,37 +183,37 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     }
 
     /// Changes of coordinates and velocities over a step of this length, and the accelerations at its end.
-    pub(crate) fn change(&self, length: T) -> [[T; N]; 3] {
+    pub(crate) fn change(&self, length: T) -> [Array<T, N>; 3] {
         let (theta, order) = (length / self.unit, self.summed);
         let change =
-            |coefficients: &[[T; N]]| scaled(&polynomial(coefficients.iter().copied(), theta), theta);
+            |coefficients: &[Array<T, N>]| scaled(&polynomial(coefficients.iter().copied(), theta), theta);
         let rates = (1..=order).map(|k| scaled(&self.v[k], T::constant(k as f64)));
         let rate = scaled(&polynomial(rates, theta), T::constant(1.0) / self.unit);
         [change(&self.q[1..order + 2]), change(&self.v[1..=order]), rate]
     }
 }
 
-impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
     /// Expands the motion about a state, given the solution of the equations there. Returns the sizes of the last
     /// coefficients.
-    pub(crate) fn about<L, const M: usize>(
+    pub(crate) fn about<L>(
         &mut self,
         system: &L,
         state: &State<T, N>,
-        solved: &SolvedState<T, N, M>,
+        solved: &SolvedState<T, N, L::M>,
         [unit, slack]: [T; 2],
     ) -> Result<Last<T>, Error>
     where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+        L: TaylorSeries<N = N, Scalar = T, Sums = S>,
     {
         let solution = &solved.solution;
         if solved.is_by_elimination() {
             let factor = system.factor(state);
             let solve =
-                |(forcing, bias): &RightHandSides<T, N, M>| Ok(system.solve_with(&factor, forcing, bias));
+                |(forcing, bias): &RightHandSides<T, N, L::M>| Ok(system.solve_with(&factor, forcing, bias));
             let Ok::<(), Infallible>(()) = self.orders(system, state, solution, unit, solve);
             let last = self.last_sizes(slack);
-            if self.is_finite(self.order()) && self.better_unit::<L, M>(&last, slack).is_none() {
+            if self.is_finite(self.order()) && self.better_unit::<L>(&last, slack).is_none() {
                 return Ok(last);
             }
         }
@@ -223,38 +224,38 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
     /// gives NaN, and for other units of time, which are rare. A separate function, because the matrices are large.
     #[cold]
     #[inline(never)]
-    fn about_in_general<L, const M: usize>(
+    fn about_in_general<L>(
         &mut self,
         system: &L,
         state: &State<T, N>,
-        SolvedState { solution, active }: &SolvedState<T, N, M>,
+        SolvedState { solution, active }: &SolvedState<T, N, L::M>,
         [unit, slack]: [T; 2],
     ) -> Result<Last<T>, Error>
     where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+        L: TaylorSeries<N = N, Scalar = T, Sums = S>,
     {
         let general = General::at(system, state, *active)?;
         let expand = |series: &mut Self, unit| {
             series.orders(system, state, solution, unit, |sides| general.solve::<L>(sides))
         };
-        self.in_units::<L, M>(unit, slack, expand)
+        self.in_units::<L>(unit, slack, expand)
     }
 
     /// Expands in this unit of time, and in better ones as long as there are any.
     #[cold]
-    fn in_units<L, const M: usize>(
+    fn in_units<L>(
         &mut self,
         mut unit: T,
         slack: T,
         expand: impl Fn(&mut Self, T) -> Result<(), Error>,
     ) -> Result<Last<T>, Error>
     where
-        L: TaylorSeries<N, M>,
+        L: TaylorSeries,
     {
         for _ in 0..UNITS {
             expand(self, unit)?;
             let last = self.last_sizes(slack);
-            match self.better_unit::<L, M>(&last, slack) {
+            match self.better_unit::<L>(&last, slack) {
                 None => return Ok(last),
                 Some(better) => unit = better,
             }
@@ -264,12 +265,12 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
 
     /// Returns a better unit of time if the last coefficients overflow or underflow in this one.
     #[inline(always)]
-    fn better_unit<L: TaylorSeries<N, M>, const M: usize>(&self, last: &Last<T>, slack: T) -> Option<T> {
+    fn better_unit<L: TaylorSeries>(&self, last: &Last<T>, slack: T) -> Option<T> {
         let sum = last.sizes.iter().fold(T::constant(0.0), |sum, size| sum + *size);
         let are_numbers = sum.is_finite() && self.is_finite(self.order());
         // Coefficients that underflow with the length of the last step as unit do not matter in a step ten times as
         // long.
-        if are_numbers && (sum > T::constant(0.0) || !is_linear::<L, N, M>()) {
+        if are_numbers && (sum > T::constant(0.0) || !is_linear::<L>()) {
             None
         } else {
             self.unit_by_the_highest(!are_numbers, slack)
@@ -309,17 +310,17 @@ fn unit_over<T: Scalar>(unit: T, order: usize) -> T {
 }
 
 #[inline(always)]
-fn scaled<T: Scalar, const N: usize>(x: &[T; N], factor: T) -> [T; N] {
-    core::array::from_fn(|i| factor * x[i])
+fn scaled<T: Scalar, N: Length>(x: &Array<T, N>, factor: T) -> Array<T, N> {
+    from_fn(|i| factor * x[i])
 }
 
 /// Sums c₀ + c₁ θ + c₂ θ² + …, even and odd powers in parallel: in a single chain, each term waits for the one before.
 #[inline(always)]
-fn polynomial<T: Scalar, const N: usize>(
-    coefficients: impl DoubleEndedIterator<Item = [T; N]>,
+fn polynomial<T: Scalar, N: Length>(
+    coefficients: impl DoubleEndedIterator<Item = Array<T, N>>,
     theta: T,
-) -> [T; N] {
-    let (zero, square) = ([T::constant(0.0); N], theta * theta);
+) -> Array<T, N> {
+    let (zero, square) = (Array::filled(T::constant(0.0)), theta * theta);
     let (mut odd, mut even) = (zero, zero);
     for coefficient in coefficients.rev() {
         (odd, even) = (even, horner(&odd, square, &coefficient));
@@ -328,51 +329,52 @@ fn polynomial<T: Scalar, const N: usize>(
 }
 
 #[inline(always)]
-fn horner<T: Scalar, const N: usize>(sum: &[T; N], theta: T, coefficient: &[T; N]) -> [T; N] {
-    core::array::from_fn(|i| sum[i].multiply_add(theta, coefficient[i]))
+fn horner<T: Scalar, N: Length>(sum: &Array<T, N>, theta: T, coefficient: &Array<T, N>) -> Array<T, N> {
+    from_fn(|i| sum[i].multiply_add(theta, coefficient[i]))
 }
 
 /// Factors of the general solver at a state, for the constraints that are independent there.
-pub(crate) struct General<T, const N: usize, const M: usize> {
+pub(crate) struct General<T: Element, N: Length, M: Length> {
     factors: kkt::Factors<T, N, M>,
-    active: [bool; M],
+    active: Array<bool, M>,
     time: f64,
 }
 
-impl<T: Real, const N: usize, const M: usize> General<T, N, M> {
+impl<T: Real, N: Length, M: Length> General<T, N, M> {
     #[cold]
-    pub(crate) fn at<L: Lagrangian<N, M, Scalar = T>>(
+    pub(crate) fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(
         system: &L,
         state: &State<T, N>,
-        active: [bool; M],
+        active: Array<bool, M>,
     ) -> Result<Self, Error> {
         let zero = T::constant(0.0);
-        let (m, mut f): (_, [[T; N]; M]) =
-            (system.mass_matrix(state).into(), system.constraint_jacobian(state).transpose().into());
-        for a in (0..M).filter(|&a| !active[a]) {
-            f[a] = [zero; N];
+        let (m, mut f): (_, Array<Array<T, N>, M>) =
+            (system.mass_matrix(state).into(), rows(&system.constraint_jacobian(state)));
+        for a in (0..M::COUNT).filter(|&a| !active[a]) {
+            f[a] = Array::filled(zero);
         }
-        let (equations, time) = (KktSystem { m, h: [zero; N], f, gamma: [zero; M] }, state.t.to_f64());
-        if let Some(row) = not_finite::<L, N, M>(&equations) {
+        let (equations, time) =
+            (KktSystem { m, h: Array::filled(zero), f, gamma: Array::filled(zero) }, state.t.to_f64());
+        if let Some(row) = not_finite::<L>(&equations) {
             return Err(Error::EquationsNotFinite { row, time });
         }
         let factors = kkt::Factors::of(&equations.m, &equations.f, Rank::off_constraints());
         Ok(Self { factors, active, time })
     }
 
-    pub(crate) fn solve<L: Lagrangian<N, M, Scalar = T>>(
+    pub(crate) fn solve<L: Lagrangian<N = N, M = M, Scalar = T>>(
         &self,
         (forcing, bias): &RightHandSides<T, N, M>,
     ) -> Result<Solution<T, N, M>, Error> {
-        let bias = core::array::from_fn(|a| if self.active[a] { bias[a] } else { T::constant(0.0) });
+        let bias = from_fn(|a| if self.active[a] { bias[a] } else { T::constant(0.0) });
         let solution = self.factors.solve(&(*forcing).into(), &bias);
-        solution.map_err(|found| fault::<L, N, M>(&found, self.time))
+        solution.map_err(|found| fault::<L>(&found, self.time))
     }
 }
 
 /// True if the equations are linear with constant coefficients, so that there are no products of series: the start of a
 /// motion then determines all of it.
-pub(super) const fn is_linear<L: TaylorSeries<N, M>, const N: usize, const M: usize>() -> bool {
+pub(super) const fn is_linear<L: TaylorSeries>() -> bool {
     size_of::<L::Sums>() == 0 && L::ARGUMENTS.is_empty()
 }
 

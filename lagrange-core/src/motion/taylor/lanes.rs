@@ -3,7 +3,6 @@
 //! All motions are expanded at once, each in its own unit of time. After a rejected step, the scalar method takes over
 //! until a step is accepted.
 
-use core::array::from_fn;
 use core::convert::Infallible;
 
 use super::defect::part;
@@ -16,17 +15,17 @@ use super::settings::Taylor;
 use super::step::compensated;
 use crate::error::Error;
 use crate::motion::Interpolant;
-use crate::motion::lanes::{LaneMethod, LaneMotions, LaneOutcome, LaneReliability, unpacked};
-use crate::number::{FixedArray, Lanes, Scalar, vector};
+use crate::motion::lanes::{LaneMethod, LaneMotions, LaneOutcome, LaneReliability, unpacked, unpacked_phase};
+use crate::number::{Lanes, Scalar};
 use crate::solution::consistent::BOTH;
 use crate::solution::near::{self, Corrections};
-use crate::solution::vector_field::PhaseVector;
 use crate::statistics::Statistics;
 use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries};
+use crate::vector::{Array, Entrywise, FixedArray, Length, PhaseVector, from_fn, vector};
 
 /// Motions in lock-step, with the working arrays of a step.
 #[derive(Debug)]
-pub struct TaylorLanes<S, U, const N: usize, const M: usize> {
+pub struct TaylorLanes<S, U, N: Length, M: Length> {
     system: S,
     here: LaneState<N, M>,
     /// Series about the start of the last step tried.
@@ -37,9 +36,9 @@ pub struct TaylorLanes<S, U, const N: usize, const M: usize> {
 
 /// States of the motions, their compensation terms, and the solution of the equations there.
 #[derive(Clone, Copy, Debug)]
-struct LaneState<const N: usize, const M: usize> {
+struct LaneState<N: Length, M: Length> {
     y: PhaseVector<Lanes, N>,
-    rest: [[Lanes; N]; 2],
+    rest: [Array<Lanes, N>; 2],
     solution: Solution<Lanes, N, M>,
 }
 
@@ -52,11 +51,11 @@ struct LaneStep {
     end: f64,
 }
 
-impl<L, const N: usize, const M: usize> LaneMethod<L, N, M> for Taylor
+impl<L> LaneMethod<L> for Taylor
 where
-    L: TaylorSeries<N, M, Scalar = f64> + Pack<Lanes, Packed: TaylorSeries<N, M, Scalar = Lanes>>,
+    L: TaylorSeries<Scalar = f64> + Pack<Lanes, Packed: TaylorSeries<N = L::N, M = L::M, Scalar = Lanes>>,
 {
-    type LaneMemory = TaylorLanes<L::Packed, <L::Packed as TaylorSeries<N, M>>::Sums, N, M>;
+    type LaneMemory = TaylorLanes<L::Packed, <L::Packed as TaylorSeries>::Sums, L::N, L::M>;
 
     fn now(memory: &Self::Memory) -> f64 {
         memory.clock.now
@@ -72,16 +71,16 @@ where
     }
 
     fn lane_memory(&self, system: &L, memory: &Self::Memory) -> Self::LaneMemory {
-        let zero = [[Lanes::constant(0.0); N]; 2];
+        let zero = [Array::filled(Lanes::constant(0.0)); 2];
         let solution = Solution {
-            accelerations: Packed::splat(&memory.solved.solution.accelerations),
-            multipliers: Packed::splat(&memory.solved.solution.multipliers),
+            accelerations: memory.solved.solution.accelerations.each(Lanes::constant),
+            multipliers: memory.solved.solution.multipliers.each(Lanes::constant),
             pivot: Packed::splat(&memory.solved.solution.pivot),
-            rank: M,
+            rank: <L::M>::COUNT,
         };
-        let y = Packed::splat(&[memory.state.q.into(), memory.state.v.into()]);
+        let y = Packed::splat(&PhaseVector::of(memory.state.q, memory.state.v));
         let here = LaneState { y, rest: zero, solution };
-        let series = Expansion::new::<L::Packed, M>(self.order::<f64>());
+        let series = Expansion::new::<L::Packed>(self.order::<f64>());
         TaylorLanes { system: system.pack(), here, series, next: here }
     }
 
@@ -91,36 +90,38 @@ where
 
     fn load(TaylorLanes { here, .. }: &mut Self::LaneMemory, lane: usize, memory: &Self::Memory) {
         let (state, solution) = (&memory.state, &memory.solved.solution);
-        here.y.place(lane, &[state.q.into(), state.v.into()]);
+        here.y.place(lane, &PhaseVector::of(state.q, state.v));
         here.rest.place(lane, &memory.rest);
-        here.solution.accelerations.place(lane, &solution.accelerations);
-        here.solution.multipliers.place(lane, &solution.multipliers);
+        let accelerations = here.solution.accelerations.iter_mut().zip(&solution.accelerations);
+        accelerations.for_each(|(packed, x)| packed.place(lane, x));
+        let multipliers = here.solution.multipliers.iter_mut().zip(&solution.multipliers);
+        multipliers.for_each(|(packed, x)| packed.place(lane, x));
         here.solution.pivot.place(lane, &solution.pivot);
     }
 
     fn unload(TaylorLanes { here, .. }: &Self::LaneMemory, lane: usize, memory: &mut Self::Memory) {
         let (state, solution) = (&mut memory.state, &mut memory.solved.solution);
-        let [q, v] = unpacked(&here.y, lane);
+        let [q, v] = unpacked_phase(&here.y, lane).arrays();
         (state.t, state.q, state.v) = (memory.clock.now, vector(q), vector(v));
-        memory.rest = unpacked(&here.rest, lane);
-        solution.accelerations = here.solution.accelerations.map(|x| x.to_array()[lane]);
-        solution.multipliers = here.solution.multipliers.map(|x| x.to_array()[lane]);
+        memory.rest = here.rest.each_ref().map(|rest| unpacked(rest, lane));
+        solution.accelerations = here.solution.accelerations.each(|x| x.to_array()[lane]);
+        solution.multipliers = here.solution.multipliers.each(|x| x.to_array()[lane]);
         solution.pivot = here.solution.pivot.to_array()[lane];
     }
 
-    fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N> {
-        unpacked(&lane_memory.here.y, lane)
+    fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, L::N> {
+        unpacked_phase(&lane_memory.here.y, lane)
     }
 
-    fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, N> {
-        unpacked(&lane_memory.next.y, lane)
+    fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, L::N> {
+        unpacked_phase(&lane_memory.next.y, lane)
     }
 
     #[inline(always)]
     fn attempt<const HAS_DENSE_OUTPUT: bool>(
         &self,
         lane_memory: &mut Self::LaneMemory,
-        motions: &mut LaneMotions<'_, L, Self, N, M>,
+        motions: &mut LaneMotions<'_, L, Self>,
     ) -> [Option<LaneOutcome>; Lanes::COUNT] {
         let mut reliability = LaneReliability::new();
         let time = |TaylorMemory { clock, planned, .. }: &Self::Memory| (clock.now, clock.directed(*planned));
@@ -137,20 +138,20 @@ where
         let plan = from_fn(|lane| {
             motions[lane]
                 .as_ref()
-                .map_or(LaneStep::default(), |motion| self.plan::<L, N, M>(allowed[lane], &motion.memory))
+                .map_or(LaneStep::default(), |motion| self.plan::<L>(allowed[lane], &motion.memory))
         });
-        let keeps = lane_memory.advance(self, &plan, self.defect_allowed::<L, N, M>(), &mut reliability);
+        let keeps = lane_memory.advance(self, &plan, self.defect_allowed::<L>(), &mut reliability);
         let trusted = reliability.lanes();
         from_fn(|lane| {
             let motion = motions[lane].as_mut()?;
             let TaylorMemory { clock, solved, is_expanded, planned, sampling, .. } = &mut motion.memory;
-            let (length, few) = (plan[lane].h.abs(), few::<L, N, M>());
+            let (length, few) = (plan[lane].h.abs(), few::<L>());
             // If the last coefficients are zero, or the step is much longer than the one before, the scalar method
             // samples it.
             let can_go = !*is_expanded
                 && solved.solution.multipliers_are_unique()
                 && allowed[lane].is_finite()
-                && sampling.count::<L, N, M>(length) == few;
+                && sampling.count::<L>(length) == few;
             if !(can_go && trusted[lane] && keeps[lane] && clock.is_ahead(plan[lane].end)) {
                 return None;
             }
@@ -166,7 +167,7 @@ where
         *here = next.select(chosen, here);
     }
 
-    fn within(TaylorLanes { series, .. }: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, N> {
+    fn within(TaylorLanes { series, .. }: &Self::LaneMemory, lane: usize) -> impl Interpolant<f64, L::N> {
         let [start, unit] = [series.start, series.unit].map(|x| x.to_array()[lane]);
         TaylorPolynomial::new(start, unit, series.q.iter().map(|q| q.map(|x| x.to_array()[lane])))
     }
@@ -182,34 +183,31 @@ impl Last<Lanes> {
 
 impl Taylor {
     /// Step of a lane whose last coefficients allow the length `allowed`.
-    fn plan<L, const N: usize, const M: usize>(
-        &self,
-        allowed: f64,
-        memory: &TaylorMemory<L::Sums, f64, N, M>,
-    ) -> LaneStep
+    fn plan<L>(&self, allowed: f64, memory: &TaylorMemory<L::Sums, f64, L::N, L::M>) -> LaneStep
     where
-        L: TaylorSeries<N, M, Scalar = f64>,
+        L: TaylorSeries<Scalar = f64>,
     {
-        let longest = memory.sampling.longest::<L, N, M>(memory.planned);
+        let longest = memory.sampling.longest::<L>(memory.planned);
         let planned = self.choose(allowed, longest, &memory.clock);
         let (h, end) = memory.clock.next(planned);
         LaneStep { planned, h, end }
     }
 }
 
-impl<S, U, const N: usize, const M: usize> TaylorLanes<S, U, N, M>
+impl<S, U> TaylorLanes<S, U, S::N, S::M>
 where
-    S: TaylorSeries<N, M, Scalar = Lanes, Sums = U>,
+    S: TaylorSeries<Scalar = Lanes, Sums = U>,
     U: FixedArray<Lanes>,
 {
     /// Expands the motions. `times` holds the time and the unit of time of each lane.
     fn expand(&mut self, times: [(f64, f64); Lanes::COUNT], reliability: &mut LaneReliability) {
         let Self { system, here: LaneState { y, solution, .. }, series, .. } = self;
         let (t, unit) = (times.map(|(t, _)| t).into(), times.map(|(_, unit)| unit).into());
-        let state = State { t, q: vector(y[0]), v: vector(y[1]) };
+        let state = State { t, q: vector(y.half(0)), v: vector(y.half(1)) };
         let factor = system.factor(&state);
-        let solve =
-            |(forcing, bias): &RightHandSides<Lanes, N, M>| Ok(system.solve_with(&factor, forcing, bias));
+        let solve = |(forcing, bias): &RightHandSides<Lanes, S::N, S::M>| {
+            Ok(system.solve_with(&factor, forcing, bias))
+        };
         let Ok::<(), Infallible>(()) = series.orders(system, &state, solution, unit, solve);
         reliability.solution(solution);
         series.last().into_iter().for_each(|last| reliability.numbers(last));
@@ -227,22 +225,21 @@ where
         let (h, t) = (plan.map(|plan| plan.h).into(), plan.map(|plan| plan.end).into());
         let LaneState { y, rest, .. } = &self.here;
         let [dq, dv, accelerations] = self.series.change(h);
-        let (q, rest_q) = compensated(&y[0], &dq, &rest[0]);
-        let (v, rest_v) = compensated(&y[1], &dv, &rest[1]);
+        let (q, rest_q) = compensated(&y.half(0), &dq, &rest[0]);
+        let (v, rest_v) = compensated(&y.half(1), &dv, &rest[1]);
         let (mut state, mut doubt) = (State { t, q: vector(q), v: vector(v) }, Lanes::constant(0.0));
         let mut rest = [rest_q, rest_v];
-        if M > 0 {
+        if <S::M>::COUNT > 0 {
             let corrections = Corrections::OnceAfter(h);
-            (state, doubt) =
-                near::project::<_, f64, N, M>(&self.system, &BOTH, corrections, state, &mut rest);
+            (state, doubt) = near::project::<_, f64>(&self.system, &BOTH, corrections, state, &mut rest);
         }
         let solution = self.system.accelerations_unchecked(&state);
         reliability.solution(&solution);
         [&q, &v, &accelerations].into_iter().for_each(|numbers| reliability.numbers(numbers));
         let slack = Lanes::constant(method.slack::<f64>());
-        let off = |accelerations: &[Lanes; N], solution: &Solution<Lanes, N, M>| {
+        let off = |accelerations: &Array<Lanes, S::N>, solution: &Solution<Lanes, S::N, S::M>| {
             let off = |i: usize| (accelerations[i] - solution.accelerations[i]).abs();
-            let parts = (0..N).map(|i| part([y[1][i], state.v[i]], off(i), h, slack));
+            let parts = (0..<S::N>::COUNT).map(|i| part([y[1][i], state.v[i]], off(i), h, slack));
             parts.fold(Lanes::constant(0.0), |worst, part| worst.max(part))
         };
         let mut worst = off(&accelerations, &solution);
@@ -252,7 +249,7 @@ where
             worst = worst.max(off(&accelerations, &solution));
         }
         let [doubt, worst] = [doubt, worst].map(Lanes::to_array);
-        let y = [state.q.into(), state.v.into()];
+        let y = PhaseVector::of(state.q, state.v);
         self.next = LaneState { y, rest, solution };
         let (keeps_roots, is_steep) = (self.keeps_roots(h), self.is_steep(h));
         from_fn(|lane| {
@@ -261,8 +258,8 @@ where
     }
 
     /// Accelerations of the series, and the solution of the equations, at the samples within a step.
-    fn samples(&self, h: Lanes) -> impl Iterator<Item = ([Lanes; N], Solution<Lanes, N, M>)> {
-        let (parts, y, start) = (parts(few::<S, N, M>()), &self.here.y, self.series.start);
+    fn samples(&self, h: Lanes) -> impl Iterator<Item = (Array<Lanes, S::N>, Solution<Lanes, S::N, S::M>)> {
+        let (parts, y, start) = (parts(few::<S>()), &self.here.y, self.series.start);
         parts.map(move |part| {
             let length = h * Lanes::constant(part);
             let [dq, dv, accelerations] = self.series.change(length);
@@ -274,10 +271,10 @@ where
 
     /// True for each lane in which steep functions need samples.
     fn is_steep(&self, h: Lanes) -> [bool; Lanes::COUNT] {
-        self.series.steep::<S, M>(h).fold([false; Lanes::COUNT], |is_steep, (numbers, exponent)| {
+        self.series.steep::<S>(h).fold([false; Lanes::COUNT], |is_steep, (numbers, exponent)| {
             let [value, change] = numbers.map(Lanes::to_array);
             from_fn(|lane| {
-                is_steep[lane] || samples_of_steep([value[lane], change[lane]], exponent) > few::<S, N, M>()
+                is_steep[lane] || samples_of_steep([value[lane], change[lane]], exponent) > few::<S>()
             })
         })
     }
@@ -285,27 +282,26 @@ where
     /// True for each lane in which no root can reach zero in a step of this length.
     fn keeps_roots(&self, h: Lanes) -> [bool; Lanes::COUNT] {
         let theta = h / self.series.unit;
-        self.series.series_of_roots::<S, M>().fold([true; Lanes::COUNT], |keeps, root| {
+        self.series.series_of_roots::<S>().fold([true; Lanes::COUNT], |keeps, root| {
             let [value, change] = root.value_and_change(theta).map(Lanes::to_array);
             from_fn(|lane| keeps[lane] && change[lane] < value[lane])
         })
     }
 }
 
-impl<const N: usize, const M: usize> LaneState<N, M> {
+impl<N: Length, M: Length> LaneState<N, M> {
     /// `self` in the chosen lanes, `other` in the rest.
     fn select(&self, chosen: Lanes, other: &Self) -> Self {
         let select = |x: Lanes, y: Lanes| x.select(chosen, y);
-        let both = |x: &[[Lanes; N]; 2], y: &[[Lanes; N]; 2]| {
-            from_fn(|part| from_fn(|i| select(x[part][i], y[part][i])))
-        };
-        let (x, y) = (&self.solution, &other.solution);
+        let y = from_fn(|half| from_fn(|i| select(self.y[half][i], other.y[half][i])));
+        let rest = from_fn(|half| from_fn(|i| select(self.rest[half][i], other.rest[half][i])));
+        let (a, b) = (&self.solution, &other.solution);
         let solution = Solution {
-            accelerations: x.accelerations.zip_map(&y.accelerations, select),
-            multipliers: x.multipliers.zip_map(&y.multipliers, select),
-            pivot: select(x.pivot, y.pivot),
-            rank: x.rank,
+            accelerations: a.accelerations.each_with(&b.accelerations, select),
+            multipliers: a.multipliers.each_with(&b.multipliers, select),
+            pivot: select(a.pivot, b.pivot),
+            rank: a.rank,
         };
-        Self { y: both(&self.y, &other.y), rest: both(&self.rest, &other.rest), solution }
+        Self { y, rest, solution }
     }
 }

@@ -5,15 +5,16 @@ use super::expansion::{Expansion, SolvedState};
 use super::sampling::Sampling;
 use crate::motion::method::clock::Clock;
 use crate::system::State;
+use crate::vector::{Array, Element, Length};
 
 /// State that Taylor's method carries from step to step.
 #[derive(Clone, Debug)]
-pub struct TaylorMemory<S, T, const N: usize, const M: usize> {
+pub struct TaylorMemory<S, T: Element, N: Length, M: Length> {
     pub(crate) clock: Clock<T>,
     pub(crate) state: State<T, N>,
     pub(crate) solved: SolvedState<T, N, M>,
     /// Compensation terms of coordinates and velocities: the rounding errors of `state`.
-    pub(super) rest: [[T; N]; 2],
+    pub(super) rest: [Array<T, N>; 2],
     /// Expansion about `state`; before it is expanded, about the start of the last step.
     pub(crate) series: Expansion<S, T, N>,
     pub(super) is_expanded: bool,
@@ -28,8 +29,8 @@ pub struct TaylorMemory<S, T, const N: usize, const M: usize> {
 
 /// Data of a state that its series does not contain.
 #[derive(Clone, Debug)]
-pub(super) struct Before<T, const N: usize, const M: usize> {
+pub(super) struct Before<T: Element, N: Length, M: Length> {
     pub(super) solved: SolvedState<T, N, M>,
-    pub(super) rest: [[T; N]; 2],
+    pub(super) rest: [Array<T, N>; 2],
     pub(super) sampling: Sampling<T>,
 }

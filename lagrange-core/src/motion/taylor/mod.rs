@@ -23,9 +23,10 @@ use super::method::contract::check_settings;
 use super::method::{Limits, Method, Step};
 use crate::error::{Ending, Error, Pace};
 use crate::names::{Entry, name};
-use crate::number::{Real, Scalar, vector};
+use crate::number::{Real, Scalar};
 use crate::statistics::Statistics;
-use crate::system::{State, TaylorSeries};
+use crate::system::{State, StateOf, TaylorSeries};
+use crate::vector::{Array, vector};
 use expansion::{Expansion, SolvedState};
 use memory::Before;
 pub(crate) use memory::TaylorMemory;
@@ -34,12 +35,12 @@ use sampling::Sampling;
 pub use settings::Taylor;
 use step::Attempt;
 
-impl<L, const N: usize, const M: usize> Method<L, N, M> for Taylor
+impl<L> Method<L> for Taylor
 where
-    L: TaylorSeries<N, M, Scalar: Real>,
+    L: TaylorSeries<Scalar: Real>,
 {
-    type Memory = TaylorMemory<L::Sums, L::Scalar, N, M>;
-    type Interpolant = TaylorPolynomial<L::Scalar, N>;
+    type Memory = TaylorMemory<L::Sums, L::Scalar, L::N, L::M>;
+    type Interpolant = TaylorPolynomial<L::Scalar, L::N>;
 
     fn limits(&self) -> Limits {
         self.limits
@@ -61,7 +62,7 @@ where
     fn begin(
         &self,
         system: &L,
-        start: &State<L::Scalar, N>,
+        start: &StateOf<L>,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
         statistics.evaluations += 1;
@@ -71,8 +72,8 @@ where
             clock: Clock::new(start.t, None),
             state: *start,
             solved,
-            rest: [[zero; N]; 2],
-            series: Expansion::new::<L, M>(self.order::<L::Scalar>()),
+            rest: [Array::filled(zero); 2],
+            series: Expansion::new::<L>(self.order::<L::Scalar>()),
             is_expanded: false,
             planned: zero,
             sampling: Sampling { step: zero, distance: zero },
@@ -85,7 +86,7 @@ where
         &self,
         system: &L,
         memory: &mut Self::Memory,
-        state: &State<L::Scalar, N>,
+        state: &StateOf<L>,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         statistics.evaluations += 1;
@@ -93,7 +94,7 @@ where
         (memory.state, memory.solved) = (*state, SolvedState::at(system, state)?);
         statistics.multipliers_are_unique &= memory.solved.solution.multipliers_are_unique();
         (memory.is_expanded, memory.before) = (false, None);
-        memory.rest = [[L::Scalar::constant(0.0); N]; 2];
+        memory.rest = [Array::filled(L::Scalar::constant(0.0)); 2];
         Ok(())
     }
 
@@ -103,7 +104,7 @@ where
         memory: &mut Self::Memory,
         end: L::Scalar,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, N> {
+    ) -> Step<L::Scalar, L::N> {
         self.aim(memory, end);
         let now = memory.clock.now.to_f64();
         if let Err(error) = self.expand(system, memory, statistics) {
@@ -120,7 +121,7 @@ where
                 return Step::Accepted(next);
             }
             Ok(Attempt::Inaccurate(i)) => {
-                Ending::StepTooSmall { time: now, entry: Entry::Velocity(name(&L::COORDINATES, i)) }
+                Ending::StepTooSmall { time: now, entry: Entry::Velocity(name(L::COORDINATES, i)) }
             }
             Err(error) => Ending::of(error, now),
         };

@@ -2,8 +2,9 @@
 //! sign.
 
 use super::expansion::Expansion;
-use crate::number::{FixedArray, Real, Scalar, exceeds};
+use crate::number::{Real, Scalar, exceeds};
 use crate::system::TaylorSeries;
+use crate::vector::{FixedArray, Length};
 
 /// Number of parts in which the minimum of a root over a step is searched, and number of reductions of the interval
 /// around it, by a third each.
@@ -63,13 +64,13 @@ impl<T: Real, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
     }
 }
 
-impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
     /// Series of the roots, in powers of (t − t₀)/unit.
-    pub(super) fn series_of_roots<L, const M: usize>(
+    pub(super) fn series_of_roots<L>(
         &self,
     ) -> impl Iterator<Item = WatchedSeries<impl Iterator<Item = T> + Clone, T>>
     where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+        L: TaylorSeries<Scalar = T, Sums = S>,
     {
         let coefficients = |place| self.factors.right_factor(place, self.order() - 1);
         let root = move |(&[place, _], &value): (&[usize; 2], &T)| WatchedSeries {
@@ -80,14 +81,14 @@ impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
     }
 }
 
-impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
     /// For each root whose series becomes negative in a step of this length, a position with a negative value.
-    pub(super) fn roots_below_zero<L, const M: usize>(&self, length: T) -> impl Iterator<Item = T>
+    pub(super) fn roots_below_zero<L>(&self, length: T) -> impl Iterator<Item = T>
     where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+        L: TaylorSeries<Scalar = T, Sums = S>,
     {
         let theta = length / self.unit;
-        let vanishing = self.series_of_roots::<L, M>().filter_map(move |root| root.vanishes(theta));
+        let vanishing = self.series_of_roots::<L>().filter_map(move |root| root.vanishes(theta));
         vanishing.map(|theta| theta * self.unit)
     }
 }

@@ -7,8 +7,9 @@
 
 use super::expansion::{Expansion, is_linear};
 use super::roots::WatchedSeries;
-use crate::number::{FixedArray, Real, Scalar, smaller};
+use crate::number::{Real, Scalar, smaller};
 use crate::system::TaylorSeries;
+use crate::vector::{FixedArray, Length};
 
 /// Largest number of samples within a step. Each costs an evaluation of the equations, about a thirtieth of a step.
 const MOST: usize = 128;
@@ -50,11 +51,11 @@ impl<T: Real> Sampling<T> {
     }
 
     /// Largest length of the next step; `first` if it is the first.
-    pub(super) fn longest<L, const N: usize, const M: usize>(&self, first: T) -> T
+    pub(super) fn longest<L>(&self, first: T) -> T
     where
-        L: TaylorSeries<N, M>,
+        L: TaylorSeries,
     {
-        match (is_linear::<L, N, M>(), self.step > T::constant(0.0)) {
+        match (is_linear::<L>(), self.step > T::constant(0.0)) {
             (true, _) => T::constant(f64::INFINITY),
             (false, true) => T::constant(GROWTH) * self.step,
             (false, false) => first,
@@ -62,12 +63,12 @@ impl<T: Real> Sampling<T> {
     }
 
     /// Number of samples in a step of this length, if its series may not know its surroundings.
-    pub(super) fn count<L, const N: usize, const M: usize>(&self, length: T) -> usize
+    pub(super) fn count<L>(&self, length: T) -> usize
     where
-        L: TaylorSeries<N, M>,
+        L: TaylorSeries,
     {
-        let few = few::<L, N, M>();
-        if is_linear::<L, N, M>() {
+        let few = few::<L>();
+        if is_linear::<L>() {
             return few;
         }
         let distances = length / (T::constant(WIDER) * self.distance);
@@ -75,12 +76,12 @@ impl<T: Real> Sampling<T> {
     }
 }
 
-impl<S: FixedArray<T>, T: Scalar, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
     /// Arguments of steep functions: each with its value, a bound on its change in a step of this length, and its
     /// exponent.
-    pub(super) fn steep<L, const M: usize>(&self, length: T) -> impl Iterator<Item = ([T; 2], usize)>
+    pub(super) fn steep<L>(&self, length: T) -> impl Iterator<Item = ([T; 2], usize)>
     where
-        L: TaylorSeries<N, M, Scalar = T, Sums = S>,
+        L: TaylorSeries<Scalar = T, Sums = S>,
     {
         let theta = length / self.unit;
         let steep = move |(&[place, _, exponent], &value): (&[usize; 3], &T)| {
@@ -104,7 +105,7 @@ pub(super) fn samples_of_steep([value, change]: [f64; 2], exponent: usize) -> us
     }
 }
 
-impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
     /// True if terms of middle orders are significant in a step of this length, as in one that the last terms limit.
     #[cold]
     pub(super) fn knows_surroundings(&self, length: T, [tolerance, slack]: [f64; 2]) -> bool {
@@ -123,7 +124,7 @@ impl<S: FixedArray<T>, T: Real, const N: usize> Expansion<S, T, N> {
 
 /// Number of samples within a step whose series knows its surroundings. The check at the end suffices without
 /// user-supplied functions.
-pub(super) const fn few<L: TaylorSeries<N, M>, const N: usize, const M: usize>() -> usize {
+pub(super) const fn few<L: TaylorSeries>() -> usize {
     if L::ARGUMENTS.is_empty() { 0 } else { AT_KINKS }
 }
 

@@ -1,7 +1,5 @@
 //! One step of Taylor's method: sum of the series, and checks of the result.
 
-use core::array::from_fn;
-
 use nalgebra::ComplexField;
 
 use super::crossing::SingularStep;
@@ -11,21 +9,22 @@ use super::memory::{Before, TaylorMemory};
 use super::sampling::{Sampling, few, samples_of_steep};
 use super::settings::Taylor;
 use crate::error::Error;
-use crate::number::{FixedArray, Real, Scalar, vector};
+use crate::number::{Real, Scalar};
 use crate::solution::consistent::{BOTH, project_by};
 use crate::solution::near::{Corrections, exact_sum};
 use crate::solution::solve::first_row;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
+use crate::vector::{Array, Element, FixedArray, Length, array, from_fn, vector};
 
-impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> TaylorMemory<S, T, N, M> {
+impl<S: FixedArray<T>, T: Real, N: Length, M: Length> TaylorMemory<S, T, N, M> {
     /// End of a step of this length, before its projection.
     #[inline]
     fn sum(&self, h: T) -> Sum<T, N> {
         let Self { state, rest, series, .. } = self;
         let [dq, dv, accelerations] = series.change(h);
-        let (q, rest_q) = compensated(&state.q.data.0[0], &dq, &rest[0]);
-        let (v, rest_v) = compensated(&state.v.data.0[0], &dv, &rest[1]);
+        let (q, rest_q) = compensated(&array(state.q), &dq, &rest[0]);
+        let (v, rest_v) = compensated(&array(state.v), &dv, &rest[1]);
         Sum { phase: [q, v], rest: [rest_q, rest_v], accelerations }
     }
 
@@ -47,7 +46,7 @@ impl<S: FixedArray<T>, T: Real, const N: usize, const M: usize> TaylorMemory<S, 
 }
 
 /// Result of an attempted step.
-pub(super) enum Attempt<T, const N: usize> {
+pub(super) enum Attempt<T: Element, N: Length> {
     Reached(State<T, N>),
     /// Rejected; index of the coordinate whose acceleration or state is most inaccurate.
     Inaccurate(usize),
@@ -55,7 +54,7 @@ pub(super) enum Attempt<T, const N: usize> {
 
 impl Taylor {
     /// Plans another step after one of length `h` was rejected. Returns false if it would not advance the time.
-    pub(super) fn can_be_shorter<S: FixedArray<T>, T: Real, const N: usize, const M: usize>(
+    pub(super) fn can_be_shorter<S: FixedArray<T>, T: Real, N: Length, M: Length>(
         &self,
         memory: &mut TaylorMemory<S, T, N, M>,
         h: T,
@@ -66,7 +65,7 @@ impl Taylor {
     }
 
     /// Sets the end; before the first step, also plans the longest allowed first step.
-    pub(crate) fn aim<S, T: Real, const N: usize, const M: usize>(
+    pub(crate) fn aim<S, T: Real, N: Length, M: Length>(
         &self,
         memory: &mut TaylorMemory<S, T, N, M>,
         end: T,
@@ -79,10 +78,10 @@ impl Taylor {
     }
 
     /// Expands the motion about the state, and chooses the step length, unless this has been done.
-    pub(crate) fn expand<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    pub(crate) fn expand<L: TaylorSeries<Scalar: Real>>(
         &self,
         system: &L,
-        memory: &mut TaylorMemory<L::Sums, L::Scalar, N, M>,
+        memory: &mut TaylorMemory<L::Sums, L::Scalar, L::N, L::M>,
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         if memory.is_expanded {
@@ -96,11 +95,11 @@ impl Taylor {
         statistics.evaluations += series.order();
         let row =
             |i: usize| series.v[series.order()][i].is_finite() && series.q[series.order()][i].is_finite();
-        if let Some(row) = first_row::<L, N, M>(|i| !row(i), |_| false) {
+        if let Some(row) = first_row::<L>(|i| !row(i), |_| false) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
         let before = if sampling.step > L::Scalar::constant(0.0) { *planned } else { sampling.step };
-        *planned = self.choose(last.allowed(), sampling.longest::<L, N, M>(*planned), clock);
+        *planned = self.choose(last.allowed(), sampling.longest::<L>(*planned), clock);
         let may_cross = solved.is_near_dependence(*planned, before);
         memory.crossing = if may_cross { self.cross(series, *planned) } else { None };
         if let Some(crossing) = memory.crossing {
@@ -111,18 +110,18 @@ impl Taylor {
     }
 
     /// Attempts a step of length `h`, to the time `time`.
-    pub(super) fn attempt<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    pub(super) fn attempt<L: TaylorSeries<Scalar: Real>>(
         &self,
         system: &L,
-        memory: &mut TaylorMemory<L::Sums, L::Scalar, N, M>,
+        memory: &mut TaylorMemory<L::Sums, L::Scalar, L::N, L::M>,
         (h, time): (L::Scalar, L::Scalar),
         statistics: &mut Statistics,
-    ) -> Result<Attempt<L::Scalar, N>, Error> {
-        let count = self.samples::<L, N, M>(memory, h);
+    ) -> Result<Attempt<L::Scalar, L::N>, Error> {
+        let count = self.samples::<L>(memory, h);
         let Sum { phase: [q, v], rest, accelerations } = &mut memory.sum(h);
         let TaylorMemory { state, series, .. } = memory;
         let mut next = State { t: time, q: vector(*q), v: vector(*v) };
-        if let Some(row) = first_row::<L, N, M>(|i| !(q[i].is_finite() && v[i].is_finite()), |_| false) {
+        if let Some(row) = first_row::<L>(|i| !(q[i].is_finite() && v[i].is_finite()), |_| false) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }
         project_by(Corrections::OnceAfter(h), system, &BOTH, &mut next, rest)?;
@@ -130,7 +129,7 @@ impl Taylor {
         if memory.solved.avoids(&solved) {
             return Ok(Attempt::Inaccurate(0));
         }
-        let projected = [&next.q.data.0[0], &next.v.data.0[0]];
+        let projected = [&array(next.q), &array(next.v)];
         if let Some(worst) = self.moved([(q, projected[0]), (v, projected[1])]) {
             return Ok(Attempt::Inaccurate(worst));
         }
@@ -160,19 +159,19 @@ impl Taylor {
 
     /// Number of samples within a step of this length. A step across a pose where constraints become dependent is
     /// checked at its ends.
-    fn samples<L: TaylorSeries<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    fn samples<L: TaylorSeries<Scalar: Real>>(
         &self,
-        memory: &TaylorMemory<L::Sums, L::Scalar, N, M>,
+        memory: &TaylorMemory<L::Sums, L::Scalar, L::N, L::M>,
         h: L::Scalar,
     ) -> usize {
         let TaylorMemory { sampling, series, crossing, .. } = memory;
-        let (few, count) = (few::<L, N, M>(), sampling.count::<L, N, M>(Scalar::abs(h)));
+        let (few, count) = (few::<L>(), sampling.count::<L>(Scalar::abs(h)));
         let measures = [self.tolerance::<L::Scalar>(), self.slack::<L::Scalar>()];
         if crossing.is_some() {
             return few;
         }
         let steep = series
-            .steep::<L, M>(h)
+            .steep::<L>(h)
             .map(|([value, change], exponent)| samples_of_steep([value.to_f64(), change.to_f64()], exponent));
         let least = steep.fold(few, usize::max);
         if count > least && !series.knows_surroundings(h, measures) { count } else { least }
@@ -180,23 +179,23 @@ impl Taylor {
 }
 
 /// End of a step before its projection.
-struct Sum<T, const N: usize> {
-    phase: [[T; N]; 2],
+struct Sum<T: Element, N: Length> {
+    phase: [Array<T, N>; 2],
     /// Compensation terms of `phase`: its rounding errors.
-    rest: [[T; N]; 2],
+    rest: [Array<T, N>; 2],
     /// Accelerations of the series there.
-    accelerations: [T; N],
+    accelerations: Array<T, N>,
 }
 
 /// Compensated sum: x + change, and its rounding error. The old rounding error `rest` is added last: the change may be
 /// as large as the sum, and would absorb it.
 #[inline(always)]
-pub(super) fn compensated<T: Scalar, const N: usize>(
-    x: &[T; N],
-    change: &[T; N],
-    rest: &[T; N],
-) -> ([T; N], [T; N]) {
-    let sums: [[T; 2]; N] = from_fn(|i| {
+pub(super) fn compensated<T: Scalar, N: Length>(
+    x: &Array<T, N>,
+    change: &Array<T, N>,
+    rest: &Array<T, N>,
+) -> (Array<T, N>, Array<T, N>) {
+    let sums: Array<[T; 2], N> = from_fn(|i| {
         let [sum, left] = exact_sum(x[i], change[i]);
         exact_sum(sum, left + rest[i])
     });

@@ -11,7 +11,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
-use crate::number::{FixedArray, Scalar};
+use crate::number::Scalar;
+use crate::vector::FixedArray;
+
 pub(super) use alone::Ends;
 use group::{Group, WIDTH, plus, products};
 

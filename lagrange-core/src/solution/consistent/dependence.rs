@@ -6,14 +6,13 @@
 //! too, and the motion is determined. Otherwise these directions are not free, although every first derivative
 //! says so.
 
-use nalgebra::SVector;
-
 use super::level::{Level, Residual, check_level};
 use crate::error::Error;
 use crate::names::Names;
-use crate::number::{Real, Scalar, entries, larger, power_of_epsilon};
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::kkt::{Rank, Rows};
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Entrywise, Length, Vector, entries, vector};
 
 /// Number of directions, beside the remainders of the dependent rows, along which second derivatives are taken.
 /// A nonzero quadratic form H may vanish along one of them by chance, but hardly along three.
@@ -35,11 +34,8 @@ pub(crate) fn least_pivot<T: Real>() -> T {
 /// directions. The error names the constraints of the combination.
 #[cold]
 #[inline(never)]
-pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<(), Error> {
-    if !Level::Position.concerns::<L, N, M>() || check_level(system, Level::Position, state).is_err() {
+pub(crate) fn check<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+    if !Level::Position.concerns::<L>() || check_level(system, Level::Position, state).is_err() {
         return Ok(());
     }
     let residual = Residual::of(system, Level::Position, state);
@@ -54,34 +50,33 @@ pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
     });
     match found {
         None => Ok(()),
-        Some(parts) => Err(Error::DependentToFirstOrder {
-            constraints: involved::<L, N, M>(&parts),
-            time: state.t.to_f64(),
-        }),
+        Some(parts) => {
+            Err(Error::DependentToFirstOrder { constraints: involved::<L>(&parts), time: state.t.to_f64() })
+        }
     }
 }
 
 /// Returns the second derivatives of the holonomic constraints along a direction of the coordinates: the part
 /// of their bias γ that is even in the velocity, without its value at rest.
-fn second_derivatives<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+fn second_derivatives<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    state: &State<L::Scalar, N>,
-    direction: SVector<L::Scalar, N>,
-) -> [L::Scalar; M] {
+    state: &StateOf<L>,
+    direction: Vector<L::Scalar, L::N>,
+) -> Array<L::Scalar, L::M> {
     let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
     let bias = |v| system.constraint_bias(&State { v, ..*state });
-    let [ahead, back] = [direction, -direction].map(bias);
-    let rest = bias(direction.map(|_| zero));
+    let [ahead, back] = [direction, direction.negated()].map(bias);
+    let rest = bias(vector(Array::filled(zero)));
     let is_holonomic = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
     entries(|a| if is_holonomic(a) { half * (ahead[a] + back[a]) - rest[a] } else { zero })
 }
 
 /// Returns the constraints whose coefficients exceed ε^(1/3) of the largest coefficient.
-fn involved<L, const N: usize, const M: usize>(parts: &[L::Scalar; M]) -> Names
+fn involved<L>(parts: &Array<L::Scalar, L::M>) -> Names
 where
-    L: Lagrangian<N, M, Scalar: Real>,
+    L: Lagrangian<Scalar: Real>,
 {
     let sizes = parts.map(Scalar::abs);
     let least = sizes.iter().copied().fold(L::Scalar::constant(0.0), larger) * power_of_epsilon(1.0 / 3.0);
-    (0..M).filter(|&a| sizes[a] >= least).map(|a| L::CONSTRAINTS[a]).collect()
+    (0..<L::M>::COUNT).filter(|&a| sizes[a] >= least).map(|a| L::CONSTRAINTS[a]).collect()
 }

@@ -3,32 +3,28 @@
 //! The equations of motion contain only the first derivatives of a constraint. If these vanish, the constraint
 //! has no effect; if they are the round-off of zero, it acts in an arbitrary direction.
 
-use core::array::from_fn;
-
 use super::level::Level;
 use crate::error::Error;
 use crate::names::name;
-use crate::number::{Real, Scalar, entries, larger, power_of_epsilon};
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::round_off::{SAFETY, neighbours};
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Entrywise, Length, entries, from_fn};
 
 /// Displacement of the coordinates for the test whether a row vanishes throughout a neighbourhood.
 const AROUND: f64 = 1.0 / 1024.0;
 
 /// Fails if a holonomic constraint holds at this state, to round-off, but has no gradient there. The error
 /// names the first one.
-pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<(), Error> {
-    if !Level::Position.concerns::<L, N, M>() {
+pub(crate) fn check<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+    if !Level::Position.concerns::<L>() {
         return Ok(());
     }
     let vanishing = vanishing(system, state);
     let is_at_fault = |&a: &usize| holds(system, state, a) && is_felt(system, state, a);
-    match (0..M).filter(|&a| vanishing[a]).find(is_at_fault) {
+    match (0..<L::M>::COUNT).filter(|&a| vanishing[a]).find(is_at_fault) {
         None => Ok(()),
-        Some(a) => Err(Error::NoGradient { constraint: name(&L::CONSTRAINTS, a), time: state.t.to_f64() }),
+        Some(a) => Err(Error::NoGradient { constraint: name(L::CONSTRAINTS, a), time: state.t.to_f64() }),
     }
 }
 
@@ -37,31 +33,24 @@ pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: 
 /// a coordinate, the round-off of that sum is still smaller. The gradient of an effective constraint is this
 /// small only next to a singular pose.
 #[inline(never)]
-fn vanishing<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-) -> [bool; M] {
+fn vanishing<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Array<bool, L::M> {
     let zero = L::Scalar::constant(0.0);
     let here = Level::Position.jacobian(system, state);
-    let mut noise = [[zero; N]; M];
+    let mut noise: Array<Array<_, L::N>, L::M> = Array::filled(Array::filled(zero));
     for nearby in neighbours(state, power_of_epsilon::<L::Scalar>(0.75).to_f64()) {
         let there = system.constraint_jacobian(&nearby);
-        for a in 0..M {
+        for a in 0..<L::M>::COUNT {
             noise[a] = entries(|i| larger(noise[a][i], Scalar::abs(there[(a, i)] - here[a][i])));
         }
     }
     let safety = L::Scalar::constant(SAFETY);
     let is_active = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
-    from_fn(|a| is_active(a) && (0..N).all(|i| Scalar::abs(here[a][i]) <= safety * noise[a][i]))
+    from_fn(|a| is_active(a) && (0..<L::N>::COUNT).all(|i| Scalar::abs(here[a][i]) <= safety * noise[a][i]))
 }
 
 /// True if the constraint holds to within a change of the coordinates by √ε: where the gradient vanishes,
 /// round-off hides smaller differences.
-fn holds<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-    a: usize,
-) -> bool {
+fn holds<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>, a: usize) -> bool {
     let value = system.constraint_residual(state)[a];
     let off = |nearby| Scalar::abs(system.constraint_residual(&nearby)[a] - value);
     let part = power_of_epsilon::<L::Scalar>(0.5).to_f64();
@@ -71,12 +60,8 @@ fn holds<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
 
 /// True if the gradient of constraint `a` is nonzero at a nearby state. A constraint multiplied by a zero parameter
 /// has no gradient anywhere, and no effect.
-fn is_felt<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-    a: usize,
-) -> bool {
-    let aside = State { q: state.q.map(|q| q + L::Scalar::constant(AROUND)), ..*state };
+fn is_felt<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>, a: usize) -> bool {
+    let aside = State { q: state.q.each(|q| q + L::Scalar::constant(AROUND)), ..*state };
     let is_zero =
         |state| system.constraint_jacobian(&state).row(a).iter().all(|x| *x == L::Scalar::constant(0.0));
     !neighbours(&aside, AROUND).all(is_zero)

@@ -1,15 +1,10 @@
 //! The two levels of constraints, positions and velocities, and their residuals.
 
-use core::array::from_fn;
-
-use nalgebra::SVector;
-
 use crate::error::Error;
 use crate::names::name;
-use crate::number::{
-    Real, Scalar, beyond_round_off, entries, exceeds, is_within, power_of_epsilon, smaller, sum,
-};
-use crate::system::{ConstraintKind, Lagrangian, State};
+use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, smaller, sum};
+use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
+use crate::vector::{Array, Element, Length, Vector, entries, from_fn};
 
 /// Unknowns of a projection: the coordinates, projected onto the holonomic constraints, or the velocities,
 /// projected onto all constraints.
@@ -23,16 +18,12 @@ pub(crate) const BOTH: [Level; 2] = [Level::Position, Level::Velocity];
 
 impl Level {
     /// True if a constraint acts on this level.
-    pub(crate) fn concerns<L: Lagrangian<N, M>, const N: usize, const M: usize>(self) -> bool {
+    pub(crate) fn concerns<L: Lagrangian>(self) -> bool {
         L::CONSTRAINT_KINDS.iter().any(|kind| self.is_active(*kind))
     }
 
     /// Constraint residual of this level, Φ or F q̇ + b.
-    pub(crate) fn residual<L: Lagrangian<N, M>, const N: usize, const M: usize>(
-        self,
-        system: &L,
-        state: &State<L::Scalar, N>,
-    ) -> SVector<L::Scalar, M> {
+    pub(crate) fn residual<L: Lagrangian>(self, system: &L, state: &StateOf<L>) -> Vector<L::Scalar, L::M> {
         match self {
             Self::Position => system.constraint_residual(state),
             Self::Velocity => system.constraint_rate(state),
@@ -40,22 +31,18 @@ impl Level {
     }
 
     /// Constraint Jacobian of this level; rows of constraints that do not act on it are zero.
-    pub(crate) fn jacobian<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+    pub(crate) fn jacobian<L: Lagrangian<Scalar: Real>>(
         self,
         system: &L,
-        state: &State<L::Scalar, N>,
-    ) -> [[L::Scalar; N]; M] {
+        state: &StateOf<L>,
+    ) -> Array<Array<L::Scalar, L::N>, L::M> {
         let (zero, jacobian) = (L::Scalar::constant(0.0), system.constraint_jacobian(state));
         let is_active = |a: usize| self.is_active(L::CONSTRAINT_KINDS[a]);
         from_fn(|a| entries(|i| if is_active(a) { jacobian[(a, i)] } else { zero }))
     }
 
     /// Magnitude of the terms of the residual, for its round-off.
-    pub(crate) fn magnitude<L: Lagrangian<N, M>, const N: usize, const M: usize>(
-        self,
-        system: &L,
-        state: &State<L::Scalar, N>,
-    ) -> SVector<L::Scalar, M> {
+    pub(crate) fn magnitude<L: Lagrangian>(self, system: &L, state: &StateOf<L>) -> Vector<L::Scalar, L::M> {
         match self {
             Self::Position => system.residual_magnitude(state),
             Self::Velocity => system.rate_magnitude(state),
@@ -63,7 +50,7 @@ impl Level {
     }
 
     /// Unknowns of this level: coordinates or velocities.
-    pub(crate) fn unknowns<T, const N: usize>(self, state: &mut State<T, N>) -> &mut SVector<T, N> {
+    pub(crate) fn unknowns<T: Element, N: Length>(self, state: &mut State<T, N>) -> &mut Vector<T, N> {
         match self {
             Self::Position => &mut state.q,
             Self::Velocity => &mut state.v,
@@ -79,26 +66,30 @@ impl Level {
 pub(super) const NEGLIGIBLE: f64 = 16.0;
 
 /// Residual of a level, with its Jacobian and the magnitude of its terms.
-pub(super) struct Residual<T, const N: usize, const M: usize> {
-    pub(super) value: [T; M],
-    pub(super) jacobian: [[T; N]; M],
+pub(super) struct Residual<T: Element, N: Length, M: Length> {
+    pub(super) value: Array<T, M>,
+    pub(super) jacobian: Array<Array<T, N>, M>,
     /// Σ |F_αa| |x_a|, the magnitude of the terms; ε times it is their round-off.
-    pub(super) terms: [T; M],
+    pub(super) terms: Array<T, M>,
     /// Σ |F_αa|, the magnitude of the terms for unknowns of size 1.
-    pub(super) sensitivity: [T; M],
+    pub(super) sensitivity: Array<T, M>,
 }
 
-impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
-    pub(crate) fn of<L: Lagrangian<N, M, Scalar = T>>(system: &L, level: Level, state: &State<T, N>) -> Self {
+impl<T: Real, N: Length, M: Length> Residual<T, N, M> {
+    pub(crate) fn of<L: Lagrangian<N = N, M = M, Scalar = T>>(
+        system: &L,
+        level: Level,
+        state: &State<T, N>,
+    ) -> Self {
         let zero = T::constant(0.0);
-        let active = L::CONSTRAINT_KINDS.map(|kind| level.is_active(kind));
+        let active = |a: usize| level.is_active(L::CONSTRAINT_KINDS[a]);
         let jacobian = level.jacobian(system, state);
         let value = level.residual(system, state);
         let x = *level.unknowns(&mut { *state });
         Self {
-            value: entries(|a| if active[a] { value[a] } else { zero }),
-            terms: entries(|a| sum(N, |i| Scalar::abs(jacobian[a][i] * x[i]))),
-            sensitivity: entries(|a| sum(N, |i| Scalar::abs(jacobian[a][i]))),
+            value: entries(|a| if active(a) { value[a] } else { zero }),
+            terms: entries(|a| sum(N::COUNT, |i| Scalar::abs(jacobian[a][i] * x[i]))),
+            sensitivity: entries(|a| sum(N::COUNT, |i| Scalar::abs(jacobian[a][i]))),
             jacobian,
         }
     }
@@ -106,7 +97,7 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
     /// Returns the first constraint whose residual exceeds `part` of its terms (plus ε^(3/4) of its
     /// sensitivity, for terms near zero).
     pub(crate) fn first_above(&self, part: T) -> Option<usize> {
-        (0..M).find(|&a| !is_within(Scalar::abs(self.value[a]), self.bound(part, a)))
+        (0..M::COUNT).find(|&a| !is_within(Scalar::abs(self.value[a]), self.bound(part, a)))
     }
 
     pub(crate) fn bound(&self, part: T, a: usize) -> T {
@@ -114,7 +105,7 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
     }
 
     /// Returns the residual of each constraint that a projection may leave as round-off.
-    pub(crate) fn negligible(&self) -> [T; M] {
+    pub(crate) fn negligible(&self) -> Array<T, M> {
         entries(|a| self.bound(T::constant(NEGLIGIBLE * T::EPSILON), a))
     }
 
@@ -123,15 +114,15 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
     /// is never that inaccurate.
     pub(crate) fn limit_terms<L>(&mut self, system: &L, state: &State<T, N>)
     where
-        L: Lagrangian<N, M, Scalar = T>,
+        L: Lagrangian<N = N, M = M, Scalar = T>,
     {
         let part = T::constant(0.125);
-        self.terms = [T::constant(0.0); M];
-        for i in 0..N {
+        self.terms = Array::filled(T::constant(0.0));
+        for i in 0..N::COUNT {
             let mut moved = *state;
             moved.q[i] *= T::constant(1.0) + part;
             let value = system.constraint_residual(&moved);
-            for a in 0..M {
+            for a in 0..M::COUNT {
                 let change = Scalar::abs(value[a] - self.value[a]) / part;
                 self.terms[a] += smaller(Scalar::abs(self.jacobian[a][i] * state.q[i]), change);
             }
@@ -143,7 +134,7 @@ impl<T: Real, const N: usize, const M: usize> Residual<T, N, M> {
     pub(crate) fn farthest(&self) -> (T, usize) {
         let zero = T::constant(0.0);
         let mut farthest = (zero, 0);
-        for a in 0..M {
+        for a in 0..M::COUNT {
             let value = beyond_round_off(self.value[a], self.terms[a]);
             let distance = if self.sensitivity[a] > zero { value / self.sensitivity[a] } else { value };
             // NaN counts as the largest distance.
@@ -161,10 +152,10 @@ fn is_number<T: Real>(x: T) -> bool {
 }
 
 /// Checks the constraints of one level, on the coordinates or on the velocities.
-pub(crate) fn check_level<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(crate) fn check_level<L: Lagrangian<Scalar: Real>>(
     system: &L,
     level: Level,
-    state: &State<L::Scalar, N>,
+    state: &StateOf<L>,
 ) -> Result<(), Error> {
     let mut residual = Residual::of(system, level, state);
     if level == Level::Position {
@@ -173,7 +164,7 @@ pub(crate) fn check_level<L: Lagrangian<N, M, Scalar: Real>, const N: usize, con
     match residual.first_above(power_of_epsilon(0.5)) {
         None => Ok(()),
         Some(row) => Err(Error::Inconsistent {
-            constraint: name(&L::CONSTRAINTS, row),
+            constraint: name(L::CONSTRAINTS, row),
             rate: level == Level::Velocity,
             residual: residual.value[row].to_f64(),
             time: state.t.to_f64(),

@@ -13,32 +13,32 @@ mod nearest;
 #[cfg(test)]
 mod tests;
 
-use core::array::from_fn;
 use core::fmt::{self, Display, Formatter};
-use nalgebra::{ComplexField, SVector};
+use nalgebra::ComplexField;
 
 use crate::error::Error;
 use crate::names::name;
-use crate::number::{Real, Scalar, entries, largest, vector};
+use crate::number::{Real, Scalar, largest};
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::near::{self, Corrections};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::pivot::is_trustworthy;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, entries, from_fn, vector};
 pub(crate) use level::{BOTH, Level, check_level};
 use level::{NEGLIGIBLE, Residual};
 
 /// Displacement of a state by a projection onto the constraints.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Adjustment<T, const N: usize> {
+pub struct Adjustment<T: Element, N: Length> {
     /// Projected minus given generalized coordinates.
-    pub q: SVector<T, N>,
+    pub q: Vector<T, N>,
     /// Projected minus given generalized velocities.
-    pub v: SVector<T, N>,
+    pub v: Vector<T, N>,
 }
 
-impl<T: Real, const N: usize> Adjustment<T, N> {
+impl<T: Real, N: Length> Adjustment<T, N> {
     /// Returns the largest change of a coordinate, in magnitude.
     pub fn largest_coordinate_change(&self) -> T {
         largest(self.q.as_slice())
@@ -50,7 +50,7 @@ impl<T: Real, const N: usize> Adjustment<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> Display for Adjustment<T, N> {
+impl<T: Real, N: Length> Display for Adjustment<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let (q, v) = (self.largest_coordinate_change().to_f64(), self.largest_velocity_change().to_f64());
         write!(f, "coordinates moved by at most {q:e}, velocities by at most {v:e}")
@@ -58,17 +58,17 @@ impl<T: Real, const N: usize> Display for Adjustment<T, N> {
 }
 
 /// A consistent state and its displacement from the given state.
-pub type Consistent<T, const N: usize> = (State<T, N>, Adjustment<T, N>);
+pub type Consistent<T, N> = (State<T, N>, Adjustment<T, N>);
 
 /// Implements [`Simulate::make_consistent_holding`](crate::Simulate::make_consistent_holding); `held` marks the
 /// coordinates and the velocities to hold.
-pub(crate) fn make_consistent<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(crate) fn make_consistent<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    state: &State<L::Scalar, N>,
-    held: &[[bool; N]; 2],
-) -> Result<Consistent<L::Scalar, N>, Error> {
+    state: &StateOf<L>,
+    held: &[Array<bool, L::N>; 2],
+) -> Result<Consistent<L::Scalar, L::N>, Error> {
     let mut consistent = *state;
-    if const { M > 0 } {
+    if const { <L::M>::COUNT > 0 } {
         gradient::check(system, state)?;
         project_holding(system, Level::Position, &held[0], &mut consistent)?;
         nearest::approach(system, state, &held[0], &mut consistent);
@@ -78,60 +78,60 @@ pub(crate) fn make_consistent<L: Lagrangian<N, M, Scalar: Real>, const N: usize,
 }
 
 /// Projects a state that satisfies the constraints to √ε onto them, to round-off.
-pub(crate) fn project_to_round_off<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(crate) fn project_to_round_off<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<Consistent<L::Scalar, N>, Error> {
+    state: &StateOf<L>,
+) -> Result<Consistent<L::Scalar, L::N>, Error> {
     let mut settled = *state;
     project_in_general(system, &BOTH, &mut settled)?;
     adjusted(system, state, settled)
 }
 
 /// Checks the projected state and returns it with its displacement from the given state.
-fn adjusted<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+fn adjusted<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    state: &State<L::Scalar, N>,
-    consistent: State<L::Scalar, N>,
-) -> Result<Consistent<L::Scalar, N>, Error> {
+    state: &StateOf<L>,
+    consistent: StateOf<L>,
+) -> Result<Consistent<L::Scalar, L::N>, Error> {
     check(system, &consistent).map_err(|error| match error {
         Error::Inconsistent { constraint, residual, time, .. } => {
             Error::NotProjected { constraint, residual, iterations: 0, time }
         }
         error => error,
     })?;
-    Ok((consistent, Adjustment { q: consistent.q - state.q, v: consistent.v - state.v }))
+    Ok((consistent, Adjustment { q: consistent.q.minus(&state.q), v: consistent.v.minus(&state.v) }))
 }
 
 /// Projects the coordinates, the velocities or both, the coordinates first, to the nearest ones on their
 /// constraints.
-pub(crate) fn project<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(crate) fn project<L: Lagrangian<Scalar: Real>>(
     system: &L,
     levels: &[Level],
-    state: &mut State<L::Scalar, N>,
+    state: &mut StateOf<L>,
 ) -> Result<(), Error> {
     project_by(Corrections::ToRoundOff, system, levels, state, &mut none())
 }
 
 /// Zero rounding errors of coordinates and velocities.
-fn none<T: Scalar, const N: usize>() -> [[T; N]; 2] {
-    [[T::constant(0.0); N]; 2]
+fn none<T: Scalar, N: Length>() -> [Array<T, N>; 2] {
+    [Array::filled(T::constant(0.0)); 2]
 }
 
 /// Projects with the given corrections if the state is near the constraints, else by the general projection.
 /// `rest` holds the rounding errors of coordinates and velocities.
 #[inline]
-pub(crate) fn project_by<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(crate) fn project_by<L: Lagrangian<Scalar: Real>>(
     corrections: Corrections<L::Scalar>,
     system: &L,
     levels: &[Level],
-    state: &mut State<L::Scalar, N>,
-    rest: &mut [[L::Scalar; N]; 2],
+    state: &mut StateOf<L>,
+    rest: &mut [Array<L::Scalar, L::N>; 2],
 ) -> Result<(), Error> {
     // `const`: the compiler omits the rest for a system without constraints.
-    if const { M == 0 } || !levels.iter().any(|level| level.concerns::<L, N, M>()) {
+    if const { <L::M>::COUNT == 0 } || !levels.iter().any(|level| level.concerns::<L>()) {
         return Ok(());
     }
-    let (near, doubt) = near::project::<L, L::Scalar, N, M>(system, levels, corrections, *state, rest);
+    let (near, doubt) = near::project::<L, L::Scalar>(system, levels, corrections, *state, rest);
     if doubt == L::Scalar::constant(0.0) {
         *state = near;
         return Ok(());
@@ -141,21 +141,21 @@ pub(crate) fn project_by<L: Lagrangian<N, M, Scalar: Real>, const N: usize, cons
 }
 
 #[cold]
-fn project_in_general<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+fn project_in_general<L: Lagrangian<Scalar: Real>>(
     system: &L,
     levels: &[Level],
-    state: &mut State<L::Scalar, N>,
+    state: &mut StateOf<L>,
 ) -> Result<(), Error> {
-    levels.iter().try_for_each(|level| project_holding(system, *level, &[false; N], state))
+    levels.iter().try_for_each(|level| project_holding(system, *level, &Array::filled(false), state))
 }
 
-fn project_holding<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+fn project_holding<L: Lagrangian<Scalar: Real>>(
     system: &L,
     level: Level,
-    held: &[bool; N],
-    state: &mut State<L::Scalar, N>,
+    held: &Array<bool, L::N>,
+    state: &mut StateOf<L>,
 ) -> Result<(), Error> {
-    if const { M == 0 } || !level.concerns::<L, N, M>() {
+    if const { <L::M>::COUNT == 0 } || !level.concerns::<L>() {
         return Ok(());
     }
     let mut projection = Projection { system, level, held };
@@ -170,27 +170,24 @@ fn project_holding<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: u
 }
 
 /// Implements [`Simulate::check_consistent`](crate::Simulate::check_consistent).
-pub(crate) fn check<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
-    system: &L,
-    state: &State<L::Scalar, N>,
-) -> Result<(), Error> {
+pub(crate) fn check<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
     gradient::check(system, state)?;
     BOTH.into_iter().try_for_each(|level| check_level(system, level, state))
 }
 
 /// Newton's search for the nearest state on the constraints of a level.
-struct Projection<'a, L, const N: usize, const M: usize> {
+struct Projection<'a, L: Lagrangian> {
     system: &'a L,
     level: Level,
     /// True for entries that keep their value.
-    held: &'a [bool; N],
+    held: &'a Array<bool, L::N>,
 }
 
 /// A trial state and its residual.
-type Trial<T, const N: usize, const M: usize> = (State<T, N>, Residual<T, N, M>);
+type Trial<T, N, M> = (State<T, N>, Residual<T, N, M>);
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projection<'_, L, N, M> {
-    fn trial(&self, state: State<L::Scalar, N>) -> Trial<L::Scalar, N, M> {
+impl<L: Lagrangian<Scalar: Real>> Projection<'_, L> {
+    fn trial(&self, state: StateOf<L>) -> Trial<L::Scalar, L::N, L::M> {
         (state, Residual::of(self.system, self.level, &state))
     }
 
@@ -199,10 +196,10 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
     #[inline(never)]
     fn correction(
         &self,
-        (state, residual): &Trial<L::Scalar, N, M>,
+        (state, residual): &Trial<L::Scalar, L::N, L::M>,
         rank: Rank<L::Scalar>,
-    ) -> Option<SVector<L::Scalar, N>> {
-        let mut m: [[L::Scalar; N]; N] = self.system.mass_matrix(state).into();
+    ) -> Option<Vector<L::Scalar, L::N>> {
+        let mut m: Array<Array<L::Scalar, L::N>, L::N> = self.system.mass_matrix(state).into();
         let mut f = residual.jacobian;
         hold(self.held, &mut m, &mut f);
         // For small constraints beside large ones the elimination is more accurate than the general solver.
@@ -214,21 +211,21 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Projecti
     #[inline(never)]
     fn general_correction(
         &self,
-        m: &[[L::Scalar; N]; N],
-        f: &[[L::Scalar; N]; M],
-        left: &[L::Scalar; M],
+        m: &Array<Array<L::Scalar, L::N>, L::N>,
+        f: &Array<Array<L::Scalar, L::N>, L::M>,
+        left: &Array<L::Scalar, L::M>,
         rank: Rank<L::Scalar>,
-    ) -> Option<SVector<L::Scalar, N>> {
+    ) -> Option<Vector<L::Scalar, L::N>> {
         let zero = L::Scalar::constant(0.0);
-        let step = factors_of_nearest(m, f, rank).solve(&[zero; N], left).ok()?.accelerations;
-        let moving: SVector<_, N> = vector(entries(|i| if self.held[i] { zero } else { step[i] }));
+        let step = factors_of_nearest(m, f, rank).solve(&Array::filled(zero), left).ok()?.accelerations;
+        let moving: Vector<_, L::N> = vector(entries(|i| if self.held[i] { zero } else { step[i] }));
         moving.iter().all(|x| x.is_finite()).then_some(moving)
     }
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search for Projection<'_, L, N, M> {
+impl<L: Lagrangian<Scalar: Real>> Search for Projection<'_, L> {
     type Scalar = L::Scalar;
-    type Trial = Trial<L::Scalar, N, M>;
+    type Trial = Trial<L::Scalar, L::N, L::M>;
     type Linear = ();
 
     /// From a typical start, four or five steps suffice.
@@ -259,7 +256,8 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search f
         Ok(steps.flat_map(move |step| {
             halvings::<L::Scalar>(if converged { 1 } else { 12 }).map(move |part| {
                 let mut state = trial.0;
-                *self.level.unknowns(&mut state) += step * part;
+                let unknowns = self.level.unknowns(&mut state);
+                *unknowns = unknowns.each_with(&step, |x, change| x + change * part);
                 self.trial(state)
             })
         }))
@@ -268,33 +266,33 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Search f
     #[cold]
     fn not_found(&self, (): &(), (state, residual): &Self::Trial, steps: usize) -> Error {
         let (_, row) = residual.farthest();
-        let constraint = name(&L::CONSTRAINTS, row);
+        let constraint = name(L::CONSTRAINTS, row);
         let left = residual.value.get(row).map_or(f64::NAN, |value| value.to_f64());
         let time = state.t.to_f64();
         if !self.held.contains(&true) {
             return Error::NotProjected { constraint, residual: left, iterations: steps, time };
         }
-        let held = (0..N).filter(|&i| self.held[i]).map(|i| L::COORDINATES[i]).collect();
+        let held = (0..<L::N>::COUNT).filter(|&i| self.held[i]).map(|i| L::COORDINATES[i]).collect();
         Error::HeldTooMuch { constraint, rate: self.level == Level::Velocity, residual: left, held, time }
     }
 }
 
 #[inline(never)]
-fn fast_correction<T: Real, const N: usize, const M: usize>(
-    m: &[[T; N]; N],
-    f: &[[T; N]; M],
-    left: &[T; M],
-) -> Option<SVector<T, N>> {
-    let fast = eliminate(*m, [T::constant(0.0); N], *f, *left);
+fn fast_correction<T: Real, N: Length, M: Length>(
+    m: &Array<Array<T, N>, N>,
+    f: &Array<Array<T, N>, M>,
+    left: &Array<T, M>,
+) -> Option<Vector<T, N>> {
+    let fast = eliminate(*m, Array::filled(T::constant(0.0)), *f, *left);
     is_trustworthy(&fast).then_some(fast.accelerations)
 }
 
 /// Factorization for the least x with F x + γ = 0, in the metric of the mass matrix. If F leaves a direction
 /// without mass, the metric is the diagonal of M. Holonomic constraints alone leave such a direction if a
 /// velocity constraint ties a massless coordinate.
-pub(crate) fn factors_of_nearest<T: Real, const N: usize, const M: usize>(
-    m: &[[T; N]; N],
-    f: &[[T; N]; M],
+pub(crate) fn factors_of_nearest<T: Real, N: Length, M: Length>(
+    m: &Array<Array<T, N>, N>,
+    f: &Array<Array<T, N>, M>,
     rank: Rank<T>,
 ) -> Factors<T, N, M> {
     let factors = Factors::of(m, f, rank);
@@ -302,8 +300,8 @@ pub(crate) fn factors_of_nearest<T: Real, const N: usize, const M: usize>(
 }
 
 /// Removes held entries from the equations: zero columns in the constraints, and a unit mass without coupling.
-fn hold<T: Real, const N: usize>(held: &[bool; N], m: &mut [[T; N]], f: &mut [[T; N]]) {
-    for i in (0..N).filter(|&i| held[i]) {
+fn hold<T: Real, N: Length>(held: &Array<bool, N>, m: &mut [Array<T, N>], f: &mut [Array<T, N>]) {
+    for i in (0..N::COUNT).filter(|&i| held[i]) {
         m.iter_mut().chain(&mut *f).for_each(|row| row[i] = T::constant(0.0));
         if let Some(row) = m.get_mut(i) {
             *row = entries(|j| T::constant(if i == j { 1.0 } else { 0.0 }));
@@ -312,7 +310,7 @@ fn hold<T: Real, const N: usize>(held: &[bool; N], m: &mut [[T; N]], f: &mut [[T
 }
 
 /// Diagonal part of the mass matrix, with 1 in place of zero masses.
-fn diagonal<T: Real, const N: usize>(m: &[[T; N]; N]) -> [[T; N]; N] {
+fn diagonal<T: Real, N: Length>(m: &Array<Array<T, N>, N>) -> Array<Array<T, N>, N> {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let mass = |i: usize| if m[i][i] == zero { one } else { Scalar::abs(m[i][i]) };
     from_fn(|i| entries(|j| if i == j { mass(i) } else { zero }))

@@ -12,18 +12,18 @@
 #[cfg(test)]
 mod tests;
 
-use core::array::from_fn;
 use core::iter::successors;
 
-use nalgebra::SVector;
+use nalgebra::Const;
 
 use super::level::Level;
 use super::{diagonal, hold, project_holding};
-use crate::number::{Real, Scalar, entries, is_within, larger, power_of_epsilon, vector};
+use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon};
 use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::newton::halvings;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, entries, from_fn, vector};
 
 /// Limit on Newton steps. Usually about five suffice; far from the constraints and at flat minima more, 31 for
 /// a chain of 50 rods.
@@ -31,11 +31,11 @@ const STEPS: usize = 100;
 
 /// Moves the coordinates along the holonomic constraints to a local minimum of the distance from the given
 /// ones.
-pub(super) fn approach<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+pub(super) fn approach<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    given: &State<L::Scalar, N>,
-    held: &[bool; N],
-    state: &mut State<L::Scalar, N>,
+    given: &StateOf<L>,
+    held: &Array<bool, L::N>,
+    state: &mut StateOf<L>,
 ) {
     if state.q == given.q {
         return;
@@ -53,16 +53,16 @@ pub(super) fn approach<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const 
 /// Metric of the distance: the mass matrix at the given coordinates, or its negative, if positive semidefinite
 /// and regular along the constraints; else its diagonal.
 #[inline(never)]
-fn metric<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
+fn metric<L: Lagrangian<Scalar: Real>>(
     system: &L,
-    given: &State<L::Scalar, N>,
-    held: &[bool; N],
-    state: &State<L::Scalar, N>,
-) -> Room<[[L::Scalar; N]; N]> {
+    given: &StateOf<L>,
+    held: &Array<bool, L::N>,
+    state: &StateOf<L>,
+) -> Room<Array<Array<L::Scalar, L::N>, L::N>> {
     let mut f = Level::Position.jacobian(system, state);
-    let mut m: [[L::Scalar; N]; N] = system.mass_matrix(given).into();
+    let mut m: Array<Array<L::Scalar, L::N>, L::N> = system.mass_matrix(given).into();
     if m.iter().enumerate().all(|(i, row)| row[i] <= L::Scalar::constant(0.0)) {
-        m.as_flattened_mut().iter_mut().for_each(|x| *x = -*x);
+        m.iter_mut().flatten().for_each(|x| *x = -*x);
     }
     hold(held, &mut m, &mut f);
     Room::of(if is_semidefinite(&m) && is_regular(&m, &f) { m } else { diagonal(&m) })
@@ -70,48 +70,49 @@ fn metric<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize>(
 
 /// True if no direction has negative mass.
 #[inline(never)]
-fn is_semidefinite<T: Real, const N: usize>(m: &[[T; N]; N]) -> bool {
-    Factors::<T, N, 0>::of(m, &[], Rank::off_constraints()).is_semidefinite()
+fn is_semidefinite<T: Real, N: Length>(m: &Array<Array<T, N>, N>) -> bool {
+    Factors::<T, N, Const<0>>::of(m, &Array([]), Rank::off_constraints()).is_semidefinite()
 }
 
 /// True if every direction that the constraints leave free has mass.
 #[inline(never)]
-fn is_regular<T: Real, const N: usize, const M: usize>(m: &[[T; N]; N], f: &[[T; N]; M]) -> bool {
+fn is_regular<T: Real, N: Length, M: Length>(m: &Array<Array<T, N>, N>, f: &Array<Array<T, N>, M>) -> bool {
     Factors::of(m, f, Rank::off_constraints()).are_regular()
 }
 
-struct Nearest<'a, L: Lagrangian<N, M>, const N: usize, const M: usize> {
+struct Nearest<'a, L: Lagrangian> {
     system: &'a L,
-    given: &'a State<L::Scalar, N>,
+    given: &'a StateOf<L>,
     /// True for entries that keep their value.
-    held: &'a [bool; N],
-    metric: Room<[[L::Scalar; N]; N]>,
+    held: &'a Array<bool, L::N>,
+    metric: Room<Array<Array<L::Scalar, L::N>, L::N>>,
 }
 
 /// A point on the constraints, with its distance from the given point q₀.
-struct ConstrainedPoint<T, const N: usize, const M: usize> {
+struct ConstrainedPoint<T: Element, N: Length, M: Length> {
     state: State<T, N>,
-    f: Room<[[T; N]; M]>,
+    f: Room<Array<Array<T, N>, M>>,
     /// Gradient of half the squared distance, with opposite sign: M (q₀ − q).
-    pull: [T; N],
+    pull: Array<T, N>,
     /// Squared distance in the metric M.
     square: T,
     /// Tangential part of q₀ − q, zero at the nearest point; with the multipliers μ.
-    slip: SVector<T, N>,
-    multipliers: SVector<T, M>,
+    slip: Vector<T, N>,
+    multipliers: Vector<T, M>,
     /// Largest |slipᵢ| / (|qᵢ| + |q₀ᵢ| + d/√Mᵢᵢ), with the distance d in the metric M.
     slip_part: T,
 }
 
-impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<'_, L, N, M> {
+impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
     #[inline(never)]
-    fn place(&self, state: State<L::Scalar, N>) -> Option<ConstrainedPoint<L::Scalar, N, M>> {
+    fn place(&self, state: StateOf<L>) -> Option<ConstrainedPoint<L::Scalar, L::N, L::M>> {
         let (Self { system, given, metric, .. }, zero) = (self, L::Scalar::constant(0.0));
         let mut f = Level::Position.jacobian(*system, &state);
         hold(self.held, &mut [], &mut f);
-        let way = given.q - state.q;
+        let way = given.q.minus(&state.q);
         let pull = entries(|i| dot(&metric[i], way.as_slice()));
-        let found = Factors::of(metric, &f, Rank::off_constraints()).solve(&pull, &[zero; M]).ok()?;
+        let found =
+            Factors::of(metric, &f, Rank::off_constraints()).solve(&pull, &Array::filled(zero)).ok()?;
         let square = dot(&pull, way.as_slice());
         // Round-off of each difference, and of the terms that the projection combines, is ε times this scale.
         let part = |i: usize| {
@@ -126,19 +127,24 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
             square,
             slip: found.accelerations,
             multipliers: found.multipliers,
-            slip_part: (0..N).fold(zero, |most, i| larger(most, part(i))),
+            slip_part: (0..<L::N>::COUNT).fold(zero, |most, i| larger(most, part(i))),
         })
     }
 
     /// Returns a nearer point, or one with half the slip if round-off hides which point is nearer.
-    fn nearer(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> Option<ConstrainedPoint<L::Scalar, N, M>> {
+    fn nearer(
+        &self,
+        place: &ConstrainedPoint<L::Scalar, L::N, L::M>,
+    ) -> Option<ConstrainedPoint<L::Scalar, L::N, L::M>> {
         let half = L::Scalar::constant(0.5);
         let hidden = L::Scalar::constant(64.0 * L::Scalar::EPSILON) * place.square;
-        let is_nearer = |next: &ConstrainedPoint<_, N, M>| {
+        let is_nearer = |next: &ConstrainedPoint<_, L::N, L::M>| {
             let change = next.square - place.square;
             change < -hidden || change <= hidden && next.slip_part < half * place.slip_part
         };
-        let parts = |step: SVector<L::Scalar, N>| halvings::<L::Scalar>(12).map(move |part| step * part);
+        let parts = |step: Vector<L::Scalar, L::N>| {
+            halvings::<L::Scalar>(12).map(move |part| step.each(|x| x * part))
+        };
         let steps = self.steps(place).into_iter().flatten();
         steps.flat_map(parts).filter_map(|step| self.moved(place, &step)).find(is_nearer)
     }
@@ -146,11 +152,11 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     /// Takes a step and projects the result back onto the constraints.
     fn moved(
         &self,
-        place: &ConstrainedPoint<L::Scalar, N, M>,
-        step: &SVector<L::Scalar, N>,
-    ) -> Option<ConstrainedPoint<L::Scalar, N, M>> {
+        place: &ConstrainedPoint<L::Scalar, L::N, L::M>,
+        step: &Vector<L::Scalar, L::N>,
+    ) -> Option<ConstrainedPoint<L::Scalar, L::N, L::M>> {
         let mut state = place.state;
-        for i in (0..N).filter(|&i| !self.held[i]) {
+        for i in (0..<L::N>::COUNT).filter(|&i| !self.held[i]) {
             state.q[i] += step[i];
         }
         project_holding(self.system, Level::Position, self.held, &mut state).ok()?;
@@ -161,7 +167,7 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     /// a damped step, or next to a saddle a step of the length of the distance along a direction of negative
     /// curvature. Second, the slip.
     #[inline(never)]
-    fn steps(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> [Option<SVector<L::Scalar, N>>; 2] {
+    fn steps(&self, place: &ConstrainedPoint<L::Scalar, L::N, L::M>) -> [Option<Vector<L::Scalar, L::N>>; 2] {
         let hessian = self.hessian(place);
         let factors = Factors::of(&hessian, &place.f, Rank::off_constraints());
         let first = match factors.downhill() {
@@ -178,10 +184,10 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     }
 
     fn newton(
-        factors: &Factors<L::Scalar, N, M>,
-        place: &ConstrainedPoint<L::Scalar, N, M>,
-    ) -> Option<SVector<L::Scalar, N>> {
-        let found = factors.solve(&place.pull, &[L::Scalar::constant(0.0); M]);
+        factors: &Factors<L::Scalar, L::N, L::M>,
+        place: &ConstrainedPoint<L::Scalar, L::N, L::M>,
+    ) -> Option<Vector<L::Scalar, L::N>> {
+        let found = factors.solve(&place.pull, &Array::filled(L::Scalar::constant(0.0)));
         found.ok().map(|found| found.accelerations)
     }
 
@@ -190,9 +196,9 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     #[inline(never)]
     fn damped(
         &self,
-        place: &ConstrainedPoint<L::Scalar, N, M>,
-        hessian: &[[L::Scalar; N]; N],
-    ) -> Option<SVector<L::Scalar, N>> {
+        place: &ConstrainedPoint<L::Scalar, L::N, L::M>,
+        hessian: &Array<Array<L::Scalar, L::N>, L::N>,
+    ) -> Option<Vector<L::Scalar, L::N>> {
         let multiples = successors(Some(0.25), |multiple| Some(4.0 * multiple)).take(10);
         multiples.map(L::Scalar::constant).find_map(|multiple| {
             let sum = from_fn(|i| entries(|j| hessian[i][j] + multiple * self.metric[i][j]));
@@ -204,11 +210,11 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     /// A step along ±`down`, as long as the distance, on the side of the given point.
     fn as_long_as_the_way(
         &self,
-        place: &ConstrainedPoint<L::Scalar, N, M>,
-        down: SVector<L::Scalar, N>,
-    ) -> SVector<L::Scalar, N> {
+        place: &ConstrainedPoint<L::Scalar, L::N, L::M>,
+        down: Vector<L::Scalar, L::N>,
+    ) -> Vector<L::Scalar, L::N> {
         let down = down.as_slice();
-        let length = dot(down, &entries::<_, N>(|i| dot(&self.metric[i], down)));
+        let length = dot(down, &entries::<_, L::N>(|i| dot(&self.metric[i], down)));
         let scale = Scalar::sqrt(place.square / length);
         let scale = if dot(&place.pull, down) < L::Scalar::constant(0.0) { -scale } else { scale };
         vector(entries(|i| down[i] * scale))
@@ -217,31 +223,34 @@ impl<L: Lagrangian<N, M, Scalar: Real>, const N: usize, const M: usize> Nearest<
     /// Hessian M − Σ μ ∇²Φ, from central differences of Fᵀμ over ε^(1/3) of the distance. |Fᵀμ| is M times the
     /// distance, so the error is ε^(2/3) of M: a Newton step reduces the slip by that factor.
     #[inline(never)]
-    fn hessian(&self, place: &ConstrainedPoint<L::Scalar, N, M>) -> Room<[[L::Scalar; N]; N]> {
+    fn hessian(
+        &self,
+        place: &ConstrainedPoint<L::Scalar, L::N, L::M>,
+    ) -> Room<Array<Array<L::Scalar, L::N>, L::N>> {
         let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
         let is_active = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
         let multipliers = vector(entries(|a| if is_active(a) { place.multipliers[a] } else { zero }));
         let mut hessian = self.metric.clone();
-        for j in 0..N {
+        for j in 0..<L::N>::COUNT {
             let step = self.difference(place, j);
             let force = |step: L::Scalar| {
                 let mut state = place.state;
                 state.q[j] += step;
                 self.system.constraint_force(&state, &multipliers)
             };
-            let change = (force(step) - force(-step)) * (half * half / step);
-            for i in 0..N {
+            let change = force(step).minus(&force(-step)).each(|x| x * (half * half / step));
+            for i in 0..<L::N>::COUNT {
                 hessian[i][j] -= change[i];
                 hessian[j][i] -= change[i];
             }
         }
-        hold(self.held, &mut *hessian, &mut []);
+        hold(self.held, &mut hessian, &mut []);
         hessian
     }
 
     /// Step length of the central difference in coordinate `j`: ε^(1/3) of the distance, plus ε^(2/3) of the
     /// coordinate, well above its round-off.
-    fn difference(&self, place: &ConstrainedPoint<L::Scalar, N, M>, j: usize) -> L::Scalar {
+    fn difference(&self, place: &ConstrainedPoint<L::Scalar, L::N, L::M>, j: usize) -> L::Scalar {
         let (zero, part) = (L::Scalar::constant(0.0), power_of_epsilon(1.0 / 3.0));
         let mass = self.metric[j][j];
         let distance = if mass > zero { Scalar::sqrt(place.square / mass) } else { zero };

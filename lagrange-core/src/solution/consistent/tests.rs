@@ -1,3 +1,5 @@
+use nalgebra::Const;
+
 use crate::fixtures::{Mechanism, dependent_on_the_manifold, identity, rolling_sphere, spherical_pendulum};
 use crate::prelude::*;
 use crate::solution::Adjustment;
@@ -124,11 +126,11 @@ fn an_inconsistent_start_is_refused_with_its_constraint() {
 
 #[test]
 fn a_residual_that_is_no_number_is_the_farthest() {
-    let residual = super::Residual::<f64, 1, 3> {
-        value: [1.0, f64::NAN, 5.0],
-        jacobian: [[1.0]; 3],
-        terms: [1.0; 3],
-        sensitivity: [1.0; 3],
+    let residual = super::Residual::<f64, Const<1>, Const<3>> {
+        value: [1.0, f64::NAN, 5.0].into(),
+        jacobian: [[1.0]; 3].into(),
+        terms: [1.0; 3].into(),
+        sensitivity: [1.0; 3].into(),
     };
     let (distance, row) = residual.farthest();
     assert!(distance.is_nan() && row == 1, "{distance} in row {row}");

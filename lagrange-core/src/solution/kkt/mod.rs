@@ -11,29 +11,27 @@ mod symmetric;
 mod tests;
 mod units;
 
-use core::array::from_fn;
+use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, smaller};
 
-use nalgebra::SVector;
-
-use crate::number::{Real, Scalar, entries, larger, largest, norm, power_of_epsilon, smaller, vector};
 use crate::system::Solution;
+use crate::vector::{Array, Element, Length, Vector, entries, from_fn, vector};
 use qr::{Qr, dot};
 use symmetric::Symmetric;
 pub(crate) use units::Units;
 
 /// Coefficients of M q̈ − Fᵀλ = h, F q̈ + γ = 0; matrices as arrays of rows.
-pub(crate) struct KktSystem<T, const N: usize, const M: usize> {
-    pub(crate) m: [[T; N]; N],
-    pub(crate) h: [T; N],
-    pub(crate) f: [[T; N]; M],
-    pub(crate) gamma: [T; M],
+pub(crate) struct KktSystem<T: Element, N: Length, M: Length> {
+    pub(crate) m: Array<Array<T, N>, N>,
+    pub(crate) h: Array<T, N>,
+    pub(crate) f: Array<Array<T, N>, M>,
+    pub(crate) gamma: Array<T, M>,
 }
 
 /// Reason why the equations have no solution, or more than one.
 #[derive(Debug)]
-pub(crate) enum Fault<T, const N: usize> {
+pub(crate) enum Fault<T: Element, N: Length> {
     /// Undetermined accelerations: share of each coordinate in them, in its natural unit.
-    Singular([T; N]),
+    Singular(Array<T, N>),
     /// Index of a constraint that contradicts those on which it depends.
     Contradictory(usize),
 }
@@ -72,10 +70,10 @@ impl<T: Real> Rank<T> {
 }
 
 /// A solution, and for each constraint whether it belongs to the independent ones that determine it.
-pub(crate) type Solved<T, const N: usize, const M: usize> = (Solution<T, N, M>, [bool; M]);
+pub(crate) type Solved<T, N, M> = (Solution<T, N, M>, Array<bool, M>);
 
 /// Solves the equations; see [`Factors`].
-pub(crate) fn solve<T: Real, const N: usize, const M: usize>(
+pub(crate) fn solve<T: Real, N: Length, M: Length>(
     equations: &KktSystem<T, N, M>,
     rank: Rank<T>,
 ) -> Result<Solved<T, N, M>, Fault<T, N>> {
@@ -89,10 +87,10 @@ pub(crate) fn solve<T: Real, const N: usize, const M: usize>(
 ///
 /// In these units a direction counts as massless if its pivot is less than ε^(3/4) of the largest entry of M
 /// (ε: the round-off unit of `T`).
-pub(crate) struct Factors<T, const N: usize, const M: usize> {
+pub(crate) struct Factors<T: Element, N: Length, M: Length> {
     pub(crate) rows: Rows<T, N, M>,
     /// QᵀMQ.
-    m: [[T; N]; N],
+    m: Array<Array<T, N>, N>,
     /// Factorization of ZᵀMZ, and its smallest pivot relative to the largest entry of M.
     along: Symmetric<T, N>,
     pivot: T,
@@ -101,26 +99,26 @@ pub(crate) struct Factors<T, const N: usize, const M: usize> {
     must_agree: bool,
 }
 
-impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
-    pub(crate) fn of(m: &[[T; N]; N], f: &[[T; N]; M], rank: Rank<T>) -> Self {
+impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
+    pub(crate) fn of(m: &Array<Array<T, N>, N>, f: &Array<Array<T, N>, M>, rank: Rank<T>) -> Self {
         let rows = Rows::of(m, f, rank);
         let mut m = *m;
-        for i in 0..N {
-            for j in 0..N {
+        for i in 0..N::COUNT {
+            for j in 0..N::COUNT {
                 m[i][j] *= rows.units.coordinates[i] * rows.units.coordinates[j];
             }
         }
         to_range_basis(&rows.split, &mut m);
         let largest = m.iter().fold(T::constant(0.0), |most, row| larger(most, largest(row)));
         let along = along_constraints(&m, rows.split.rank, largest);
-        let pivot = if rows.split.rank < N { along.smallest / largest } else { T::constant(1.0) };
-        let wide = (rows.split.rank < M).then(|| least_norm(&rows));
+        let pivot = if rows.split.rank < N::COUNT { along.smallest / largest } else { T::constant(1.0) };
+        let wide = (rows.split.rank < M::COUNT).then(|| least_norm(&rows));
         Self { rows, m, along, pivot, wide, must_agree: rank.must_agree }
     }
 
     /// True if every direction that F leaves free has mass.
     pub(crate) fn are_regular(&self) -> bool {
-        self.along.rank == N - self.rows.split.rank
+        self.along.rank == N::COUNT - self.rows.split.rank
     }
 
     /// True if no direction that F leaves free has negative mass.
@@ -129,13 +127,17 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
     }
 
     /// Returns a direction of negative mass that F leaves free.
-    pub(crate) fn downhill(&self) -> Option<SVector<T, N>> {
+    pub(crate) fn downhill(&self) -> Option<Vector<T, N>> {
         let (rank, y) = (self.rows.split.rank, self.along.negative()?);
         Some(self.rows.out_of_basis(entries(|i| if i < rank { T::constant(0.0) } else { y[i - rank] })))
     }
 
     /// Solves M q̈ − Fᵀλ = h, F q̈ + γ = 0.
-    pub(crate) fn solve(&self, h: &[T; N], gamma: &[T; M]) -> Result<Solution<T, N, M>, Fault<T, N>> {
+    pub(crate) fn solve(
+        &self,
+        h: &Array<T, N>,
+        gamma: &Array<T, M>,
+    ) -> Result<Solution<T, N, M>, Fault<T, N>> {
         let Rows { units, split } = &self.rows;
         let mut h = entries(|i| h[i] * units.coordinates[i]);
         let fixed = self.rows.fixed(gamma);
@@ -155,15 +157,15 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
     }
 
     /// Returns true for each constraint that belongs to the independent ones.
-    fn active(&self) -> [bool; M] {
+    fn active(&self) -> Array<bool, M> {
         let split = &self.rows.split;
         from_fn(|a| split.order.iter().take(split.rank).any(|&row| row == a))
     }
 
     /// Returns the free accelerations from ZᵀMZ y = Zᵀ(h − M x), where x is `fixed`.
-    fn free_accelerations(&self, h: &[T; N], fixed: &[T; N]) -> Result<[T; N], Fault<T, N>> {
+    fn free_accelerations(&self, h: &Array<T, N>, fixed: &Array<T, N>) -> Result<Array<T, N>, Fault<T, N>> {
         let zero = T::constant(0.0);
-        let (rank, size) = (self.rows.split.rank, N - self.rows.split.rank);
+        let (rank, size) = (self.rows.split.rank, N::COUNT - self.rows.split.rank);
         if !self.are_regular() {
             return Err(Fault::Singular(undetermined(&self.rows.split, &self.along, size)));
         }
@@ -174,7 +176,7 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
 
     /// Returns λ with Fᵀλ = M q̈ − h (given in the range basis): the solution of least Euclidean norm if there
     /// are several.
-    fn multipliers(&self, force: &[T; N]) -> [T; M] {
+    fn multipliers(&self, force: &Array<T, N>) -> Array<T, M> {
         match &self.wide {
             None => {
                 let scaled = self.rows.split.solve(force);
@@ -190,13 +192,13 @@ impl<T: Real, const N: usize, const M: usize> Factors<T, N, M> {
 }
 
 /// QR factorization of the constraint rows in natural units, each row of length 1 (or zero).
-pub(crate) struct Rows<T, const N: usize, const M: usize> {
+pub(crate) struct Rows<T: Element, N: Length, M: Length> {
     pub(crate) units: Units<T, N, M>,
     split: Qr<T, N, M>,
 }
 
-impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
-    pub(crate) fn of(m: &[[T; N]; N], f: &[[T; N]; M], rank: Rank<T>) -> Self {
+impl<T: Real, N: Length, M: Length> Rows<T, N, M> {
+    pub(crate) fn of(m: &Array<Array<T, N>, N>, f: &Array<Array<T, N>, M>, rank: Rank<T>) -> Self {
         let units = Units::of(m, f);
         let rows = from_fn(|a| units.unit_row(a, &f[a]));
         Self { units, split: Qr::of(rows, rank.tolerance) }
@@ -204,77 +206,86 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
 
     /// Returns a basis of the null space F x = 0.
     #[cfg(feature = "alloc")]
-    pub(crate) fn null_space(&self) -> impl Iterator<Item = SVector<T, N>> {
-        (self.split.rank..N)
+    pub(crate) fn null_space(&self) -> impl Iterator<Item = Vector<T, N>> {
+        (self.split.rank..N::COUNT)
             .map(|k| self.out_of_basis(entries(|i| T::constant(if i == k { 1.0 } else { 0.0 }))))
     }
 
     /// Returns the least x with F x + γ = 0 in natural units, ignoring dependent constraints.
     #[cfg(feature = "alloc")]
-    pub(crate) fn least(&self, gamma: &[T; M]) -> SVector<T, N> {
+    pub(crate) fn least(&self, gamma: &Array<T, M>) -> Vector<T, N> {
         self.out_of_basis(self.fixed(gamma))
     }
 
     /// Transforms from the range basis and natural units to the coordinates.
-    fn out_of_basis(&self, mut x: [T; N]) -> SVector<T, N> {
+    fn out_of_basis(&self, mut x: Array<T, N>) -> Vector<T, N> {
         self.split.leave_basis(&mut x);
         vector(entries(|i| x[i] * self.units.coordinates[i]))
     }
 
     /// Returns the least x with F x + γ = 0, in the range basis.
-    fn fixed(&self, gamma: &[T; M]) -> [T; N] {
+    fn fixed(&self, gamma: &Array<T, M>) -> Array<T, N> {
         self.split.solve_transposed(&self.demands(gamma))
     }
 
     /// Right-hand sides of the rows, −γ in natural units.
-    fn demands(&self, gamma: &[T; M]) -> [T; M] {
+    fn demands(&self, gamma: &Array<T, M>) -> Array<T, M> {
         entries(|a| -self.units.of_row(a, gamma[a]))
     }
 
     /// Returns the direction with F x = 0, of length 1 in natural units, with these weights of the basis
     /// vectors of the null space. `None` if the null space is empty.
-    pub(crate) fn free_direction(&self, weight: impl Fn(usize) -> T) -> Option<SVector<T, N>> {
+    pub(crate) fn free_direction(&self, weight: impl Fn(usize) -> T) -> Option<Vector<T, N>> {
         let rank = self.split.rank;
         let x = entries(|i| if i < rank { T::constant(0.0) } else { weight(i - rank) });
         let length = norm::<T>(&x);
-        (rank < N).then(|| self.out_of_basis(x.map(|x| x / length)))
+        (rank < N::COUNT).then(|| self.out_of_basis(x.map(|x| x / length)))
     }
 
     /// Returns, for each dependent row, the direction of its remainder, the part that the independent rows do
     /// not span; NaN for a remainder of zero.
-    pub(crate) fn remainders(&self) -> impl Iterator<Item = SVector<T, N>> {
+    pub(crate) fn remainders(&self) -> impl Iterator<Item = Vector<T, N>> {
         let split = &self.split;
-        (split.rank..M).filter_map(move |j| self.free_direction(|k| split.entry(split.rank + k, j)))
+        (split.rank..M::COUNT).filter_map(move |j| self.free_direction(|k| split.entry(split.rank + k, j)))
     }
 
     /// Returns the coefficients of a combination of rows that is dependent to first order only. The second
     /// derivative of a dependent row along a free direction differs by h from that of the independent rows. The
     /// remainder s of the row must be small: s²/(2h), the change of the combination until the remainder
     /// vanishes, must not exceed `round_off` of the constraints.
-    pub(crate) fn first_order_dependence(&self, second: &[T; M], round_off: &[T; M]) -> Option<[T; M]> {
+    pub(crate) fn first_order_dependence(
+        &self,
+        second: &Array<T, M>,
+        round_off: &Array<T, M>,
+    ) -> Option<Array<T, M>> {
         let (split, two) = (&self.split, T::constant(2.0));
         let (fixed, demands) = (self.fixed(second), self.demands(second));
         let size = norm(&fixed);
-        (split.rank..M).find_map(|j| {
+        (split.rank..M::COUNT).find_map(|j| {
             let bend = self.mismatch(j, &demands, &fixed, size)?;
             let (left, parts) = (split.remainder(j), split.combination(j));
             let known = |a: usize| Scalar::abs(parts[a] * self.units.of_row(a, round_off[a]));
-            let known = (0..M).fold(T::constant(0.0), |sum, a| sum + known(a));
+            let known = (0..M::COUNT).fold(T::constant(0.0), |sum, a| sum + known(a));
             (left * left <= two * bend * known).then_some(parts)
         })
     }
 
     /// Checks that every dependent constraint agrees with the accelerations that the independent ones fix.
-    fn check_agreement(&self, gamma: &[T; M], h: &[T; N], fixed: &[T; N]) -> Result<(), Fault<T, N>> {
+    fn check_agreement(
+        &self,
+        gamma: &Array<T, M>,
+        h: &Array<T, N>,
+        fixed: &Array<T, N>,
+    ) -> Result<(), Fault<T, N>> {
         let (demands, size) = (self.demands(gamma), norm(fixed) + norm(h));
         let disagrees = |j: &usize| self.mismatch(*j, &demands, fixed, size).is_some();
-        let at_fault = (self.split.rank..M).find(disagrees);
+        let at_fault = (self.split.rank..M::COUNT).find(disagrees);
         at_fault.map_or(Ok(()), |j| Err(Fault::Contradictory(self.split.order[j])))
     }
 
     /// Returns the disagreement of dependent row `j` with the accelerations that the independent rows fix, if
     /// it exceeds ε^(1/3) of their size.
-    fn mismatch(&self, j: usize, demands: &[T; M], fixed: &[T; N], size: T) -> Option<T> {
+    fn mismatch(&self, j: usize, demands: &Array<T, M>, fixed: &Array<T, N>, size: T) -> Option<T> {
         let (split, demanded) = (&self.split, demands[self.split.order[j]]);
         let given = (0..split.rank).fold(T::constant(0.0), |sum, i| sum + split.entry(i, j) * fixed[i]);
         let mismatch = Scalar::abs(demanded - given);
@@ -283,12 +294,12 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
 }
 
 /// Replaces symmetric m by Qᵀ m Q in place: large arrays are not copied.
-fn to_range_basis<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, m: &mut [[T; N]; N]) {
+fn to_range_basis<T: Real, N: Length, M: Length>(split: &Qr<T, N, M>, m: &mut Array<Array<T, N>, N>) {
     for _ in 0..2 {
         for row in m.iter_mut() {
             split.enter_basis(row);
         }
-        for i in 0..N {
+        for i in 0..N::COUNT {
             for j in 0..i {
                 (m[i][j], m[j][i]) = (m[j][i], m[i][j]);
             }
@@ -297,9 +308,13 @@ fn to_range_basis<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>, 
 }
 
 /// Factorizes ZᵀMZ, given QᵀMQ and its largest entry.
-fn along_constraints<T: Real, const N: usize>(m: &[[T; N]; N], rank: usize, largest: T) -> Symmetric<T, N> {
-    let size = N - rank;
-    let mut along = [[T::constant(0.0); N]; N];
+fn along_constraints<T: Real, N: Length>(
+    m: &Array<Array<T, N>, N>,
+    rank: usize,
+    largest: T,
+) -> Symmetric<T, N> {
+    let size = N::COUNT - rank;
+    let mut along = Array::filled(Array::filled(T::constant(0.0)));
     for i in 0..size {
         along[i][..size].copy_from_slice(&m[rank + i][rank..]);
     }
@@ -307,13 +322,13 @@ fn along_constraints<T: Real, const N: usize>(m: &[[T; N]; N], rank: usize, larg
 }
 
 /// Returns the share of each coordinate in the undetermined motions.
-fn undetermined<T: Real, const N: usize, const M: usize>(
+fn undetermined<T: Real, N: Length, M: Length>(
     split: &Qr<T, N, M>,
     factors: &Symmetric<T, N>,
     size: usize,
-) -> [T; N] {
+) -> Array<T, N> {
     let zero = T::constant(0.0);
-    let mut share = [zero; N];
+    let mut share = Array::filled(zero);
     for index in 0..size - factors.rank {
         let y = factors.null_vector(index);
         let mut x = entries(|i| if i < split.rank { zero } else { y[i - split.rank] });
@@ -325,10 +340,10 @@ fn undetermined<T: Real, const N: usize, const M: usize>(
 
 /// Returns the QR factorization of Cᵀ for the least-norm solution of C λ = force, λ = Q R⁻ᵀ force. C is R times
 /// the row lengths, with one column per constraint.
-fn least_norm<T: Real, const N: usize, const M: usize>(rows: &Rows<T, N, M>) -> Qr<T, M, N> {
+fn least_norm<T: Real, N: Length, M: Length>(rows: &Rows<T, N, M>) -> Qr<T, M, N> {
     let Rows { units, split } = rows;
     let zero = T::constant(0.0);
-    let mut transposed = [[zero; M]; N];
+    let mut transposed = Array::filled(Array::filled(zero));
     for (i, column) in transposed.iter_mut().enumerate().take(split.rank) {
         for (j, &row) in split.order.iter().enumerate().skip(i) {
             column[row] = split.entry(i, j) * units.lengths[row] * units.powers[row];
@@ -337,6 +352,6 @@ fn least_norm<T: Real, const N: usize, const M: usize>(rows: &Rows<T, N, M>) -> 
     Qr::of(transposed, zero)
 }
 
-fn smallest_diagonal<T: Real, const N: usize, const M: usize>(split: &Qr<T, N, M>) -> T {
+fn smallest_diagonal<T: Real, N: Length, M: Length>(split: &Qr<T, N, M>) -> T {
     (0..split.rank).fold(T::constant(1.0), |least, i| smaller(least, Scalar::abs(split.entry(i, i))))
 }

@@ -1,27 +1,31 @@
 //! Rank-revealing Householder QR with column pivoting.
 
-use core::array::from_fn;
-
 use crate::number::{Real, Scalar, norm, power_of_two};
+use crate::vector::{Array, Element, Length, from_fn};
 
 /// Factorization A P = Q R of a K×C matrix A (Golub and Van Loan, *Matrix Computations*, 5.4.2).
-pub(super) struct Qr<T, const K: usize, const C: usize> {
+pub(super) struct Qr<T: Element, K: Length, C: Length> {
     /// Columns of R, in pivoted order.
-    r: [[T; K]; C],
+    r: Array<Array<T, K>, C>,
     /// Reflection k is I − v vᵀ with v = `reflectors[k]`, which is zero above entry k.
-    reflectors: [[T; K]; C],
+    reflectors: Array<Array<T, K>, C>,
     /// For each column of R, the index of its column of A.
-    pub(super) order: [usize; C],
+    pub(super) order: Array<usize, C>,
     /// Number of independent columns.
     pub(super) rank: usize,
 }
 
-impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
+impl<T: Real, K: Length, C: Length> Qr<T, K, C> {
     /// Factorizes the matrix with these columns; a remainder up to `tolerance` counts as zero.
-    pub(super) fn of(columns: [[T; K]; C], tolerance: T) -> Self {
+    pub(super) fn of(columns: Array<Array<T, K>, C>, tolerance: T) -> Self {
         let zero = T::constant(0.0);
-        let mut qr = Self { r: columns, reflectors: [[zero; K]; C], order: from_fn(|j| j), rank: 0 };
-        for k in 0..K.min(C) {
+        let mut qr = Self {
+            r: columns,
+            reflectors: Array::filled(Array::filled(zero)),
+            order: from_fn(|j| j),
+            rank: 0,
+        };
+        for k in 0..K::COUNT.min(C::COUNT) {
             let (longest, length) = qr.longest_remainder(k);
             if length <= tolerance {
                 break;
@@ -36,7 +40,7 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
 
     fn longest_remainder(&self, k: usize) -> (usize, T) {
         let mut best = (k, T::constant(0.0));
-        for j in k..C {
+        for j in k..C::COUNT {
             let length = norm(&self.r[j][k..]);
             if length > best.1 {
                 best = (j, length);
@@ -58,20 +62,20 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
             *entry = *x * scale;
         }
         self.r[k][k] = diagonal;
-        for j in k + 1..C {
+        for j in k + 1..C::COUNT {
             reflect(&self.reflectors[k], &mut self.r[j], k);
         }
     }
 
     /// Replaces x by Qᵀ x.
-    pub(super) fn enter_basis(&self, x: &mut [T; K]) {
+    pub(super) fn enter_basis(&self, x: &mut Array<T, K>) {
         for k in 0..self.rank {
             reflect(&self.reflectors[k], x, k);
         }
     }
 
     /// Replaces x by Q x.
-    pub(super) fn leave_basis(&self, x: &mut [T; K]) {
+    pub(super) fn leave_basis(&self, x: &mut Array<T, K>) {
         for k in (0..self.rank).rev() {
             reflect(&self.reflectors[k], x, k);
         }
@@ -89,15 +93,15 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
 
     /// Returns the coefficients of the columns of A whose sum is that orthogonal part, in the order of A: 1 for
     /// the column itself.
-    pub(super) fn combination(&self, column: usize) -> [T; C] {
+    pub(super) fn combination(&self, column: usize) -> Array<T, C> {
         let mut parts = self.solve(&self.r[column]).map(|x| -x);
         parts[self.order[column]] = T::constant(1.0);
         parts
     }
 
     /// Returns y with Rᵀ y = c in the first `rank` rows, zero beyond; c is in the order of the columns of A.
-    pub(super) fn solve_transposed(&self, c: &[T; C]) -> [T; K] {
-        let mut y = [T::constant(0.0); K];
+    pub(super) fn solve_transposed(&self, c: &Array<T, C>) -> Array<T, K> {
+        let mut y = Array::filled(T::constant(0.0));
         for i in 0..self.rank {
             let known = dot(&self.r[i][..i], &y[..i]);
             y[i] = (c[self.order[i]] - known) / self.r[i][i];
@@ -107,9 +111,9 @@ impl<T: Real, const K: usize, const C: usize> Qr<T, K, C> {
 
     /// Returns x with A x = Q y for y in the range; x is in the order of the columns of A, and zero for
     /// dependent columns.
-    pub(super) fn solve(&self, y: &[T; K]) -> [T; C] {
+    pub(super) fn solve(&self, y: &Array<T, K>) -> Array<T, C> {
         let mut y = *y;
-        let mut x = [T::constant(0.0); C];
+        let mut x = Array::filled(T::constant(0.0));
         for i in (0..self.rank).rev() {
             let value = y[i] / self.r[i][i];
             for (entry, r) in y.iter_mut().zip(&self.r[i]).take(i) {

@@ -1,32 +1,31 @@
 //! Factorization of a symmetric matrix, definite or indefinite.
 
-use core::array::from_fn;
-
 use crate::number::{Real, Scalar, smaller};
+use crate::vector::{Array, Element, Length, from_fn};
 
 /// Factorization P A Pᵀ = L D Lᵀ of a symmetric matrix of order `size` ≤ N. D has 1×1 and 2×2 blocks, by
 /// complete pivoting (Bunch and Parlett 1971; Golub and Van Loan, *Matrix Computations*, 4.4.4).
 ///
 /// In a positive definite matrix the largest entry is on the diagonal, so this is Cholesky's method with
 /// pivoting.
-pub(super) struct Symmetric<T, const N: usize> {
+pub(super) struct Symmetric<T: Element, N: Length> {
     size: usize,
     /// L below the diagonal (or the 2×2 block), D on it.
-    a: [[T; N]; N],
-    order: [usize; N],
+    a: Array<Array<T, N>, N>,
+    order: Array<usize, N>,
     /// True where a 2×2 block of D starts.
-    pair: [bool; N],
+    pair: Array<bool, N>,
     pub(super) rank: usize,
     /// Smallest pivot, as the magnitude that selected it.
     pub(super) smallest: T,
 }
 
-impl<T: Real, const N: usize> Symmetric<T, N> {
+impl<T: Real, N: Length> Symmetric<T, N> {
     /// Factorizes the leading block of order `size`; a remainder with no entry above `tolerance` counts as
     /// zero.
-    pub(super) fn of(a: [[T; N]; N], size: usize, tolerance: T) -> Self {
+    pub(super) fn of(a: Array<Array<T, N>, N>, size: usize, tolerance: T) -> Self {
         let smallest = T::constant(f64::MAX);
-        let mut f = Self { size, a, order: from_fn(|i| i), pair: [false; N], rank: 0, smallest };
+        let mut f = Self { size, a, order: from_fn(|i| i), pair: Array::filled(false), rank: 0, smallest };
         let growth = T::constant(0.640_388_203_202_208); // (1 + √17)/8
         while f.rank < size {
             let k = f.rank;
@@ -81,7 +80,8 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         for i in k + 1..self.size {
             let l = self.a[i][k] / self.a[k][k];
             for j in k + 1..self.size {
-                self.a[i][j] -= l * self.a[k][j];
+                let change = l * self.a[k][j];
+                self.a[i][j] -= change;
             }
             self.a[i][k] = l;
         }
@@ -92,7 +92,8 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
         for i in k + 2..self.size {
             let [l0, l1] = self.solve_pair(k, [self.a[i][k], self.a[i][k + 1]]);
             for j in k + 2..self.size {
-                self.a[i][j] -= l0 * self.a[k][j] + l1 * self.a[k + 1][j];
+                let change = l0 * self.a[k][j] + l1 * self.a[k + 1][j];
+                self.a[i][j] -= change;
             }
             (self.a[i][k], self.a[i][k + 1]) = (l0, l1);
         }
@@ -108,12 +109,13 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
     }
 
     /// Returns A⁻¹ b for a matrix of full rank; entries of `b` beyond `size` are ignored.
-    pub(super) fn solve(&self, b: &[T; N]) -> [T; N] {
-        let mut x = [T::constant(0.0); N];
+    pub(super) fn solve(&self, b: &Array<T, N>) -> Array<T, N> {
+        let mut x = Array::filled(T::constant(0.0));
         for i in 0..self.size {
             x[i] = b[self.order[i]];
             for j in 0..self.block_start(i) {
-                x[i] -= self.a[i][j] * x[j];
+                let change = self.a[i][j] * x[j];
+                x[i] -= change;
             }
         }
         let mut k = 0;
@@ -130,19 +132,19 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
     }
 
     /// Returns the null vector of the `index`-th dependent row (`rank + index < size`).
-    pub(super) fn null_vector(&self, index: usize) -> [T; N] {
-        let mut x = [T::constant(0.0); N];
+    pub(super) fn null_vector(&self, index: usize) -> Array<T, N> {
+        let mut x = Array::filled(T::constant(0.0));
         x[self.rank + index] = T::constant(1.0);
         self.back_substitute(x)
     }
 
     /// Returns a vector x with xᵀ A x < 0, if there is one. Every 2×2 block of D has one, since its
     /// off-diagonal entry is the largest.
-    pub(super) fn negative(&self) -> Option<[T; N]> {
+    pub(super) fn negative(&self) -> Option<Array<T, N>> {
         let (zero, one) = (T::constant(0.0), T::constant(1.0));
         let starts = (0..self.rank).filter(|&k| self.block_start(k) == k);
         let k = { starts }.find(|&k| self.pair[k] || self.a[k][k] < zero)?;
-        let mut x = [zero; N];
+        let mut x = Array::filled(zero);
         x[k] = one;
         if self.pair[k] {
             x[k + 1] = if self.a[k + 1][k] > zero { -one } else { one };
@@ -151,11 +153,12 @@ impl<T: Real, const N: usize> Symmetric<T, N> {
     }
 
     /// Returns Pᵀ L⁻ᵀ x.
-    fn back_substitute(&self, mut x: [T; N]) -> [T; N] {
-        let mut y = [T::constant(0.0); N];
+    fn back_substitute(&self, mut x: Array<T, N>) -> Array<T, N> {
+        let mut y = Array::filled(T::constant(0.0));
         for i in (0..self.size).rev() {
             for j in 0..self.block_start(i).min(self.rank) {
-                x[j] -= self.a[i][j] * x[i];
+                let change = self.a[i][j] * x[i];
+                x[j] -= change;
             }
             y[self.order[i]] = x[i];
         }

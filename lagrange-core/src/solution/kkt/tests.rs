@@ -1,19 +1,20 @@
-use nalgebra::SMatrix;
+use nalgebra::{Const, SMatrix};
 
 use super::*;
+use crate::Solution;
 use crate::fixtures::{At, Mechanism, identity, rolling_sphere, spherical_pendulum};
+use crate::generated::vector;
 use crate::prelude::*;
-use crate::system::Solution;
 
 fn general<const N: usize, const M: usize, const H: usize>(
     system: &Mechanism<N, M, H>,
     state: &At<N>,
-) -> Result<Solution<f64, N, M>, Fault<f64, N>> {
+) -> Result<Solution<f64, N, M>, Fault<f64, Const<N>>> {
     let equations = KktSystem {
-        m: (system.mass)(state),
-        h: (system.forcing)(state),
-        f: (system.jacobian)(state),
-        gamma: (system.bias)(state),
+        m: (system.mass)(state).into(),
+        h: (system.forcing)(state).into(),
+        f: (system.jacobian)(state).into(),
+        gamma: (system.bias)(state).into(),
     };
     solve(&equations, Rank::on_constraints()).map(|(solution, _)| solution)
 }
@@ -231,11 +232,11 @@ fn equations_that_are_not_finite_are_named() {
 
 #[test]
 fn single_precision_is_solved_too() {
-    let equations = KktSystem::<f32, 2, 2> {
-        m: [[2.0, 0.0], [0.0, 0.0]],
-        h: [4.0, 0.0],
-        f: [[3.0, -3.0], [1.0, -1.0]],
-        gamma: [0.0; 2],
+    let equations = KktSystem::<f32, Const<2>, Const<2>> {
+        m: [[2.0, 0.0], [0.0, 0.0]].into(),
+        h: [4.0, 0.0].into(),
+        f: [[3.0, -3.0], [1.0, -1.0]].into(),
+        gamma: [0.0; 2].into(),
     };
     let (s, _) = solve(&equations, Rank::on_constraints()).unwrap();
     assert!((s.accelerations - vector([2.0, 2.0])).norm() < 1e-6, "{s:?}");
@@ -243,17 +244,17 @@ fn single_precision_is_solved_too() {
 }
 
 /// Two dependent rows x + y and 2x + 2y, and an independent row z, with different masses.
-fn dependent() -> Factors<f64, 3, 3> {
+fn dependent() -> Factors<f64, Const<3>, Const<3>> {
     let m = [[4.0, 1.0, 0.0], [1.0, 9.0, 0.5], [0.0, 0.5, 0.01]];
     let f = [[1.0, 1.0, 0.0], [2.0, 2.0, 0.0], [0.0, 0.0, 1.0]];
-    Factors::of(&m, &f, Rank::off_constraints())
+    Factors::of(&m.into(), &f.into(), Rank::off_constraints())
 }
 
 #[test]
 fn one_factorization_serves_all_right_hand_sides() {
     let factors = dependent();
     for (h, gamma) in [([1.0, 0.0, 0.0], [0.0; 3]), ([0.0, 2.0, -3.0], [1.0, 2.0, -0.5])] {
-        let s = factors.solve(&h, &gamma).unwrap();
+        let s = factors.solve(&h.into(), &gamma.into()).unwrap();
         let [x, y, z]: [f64; 3] = s.accelerations.into();
         // x + y = −γ₀ and z = −γ₂; the difference of the first two rows of M q̈ = h + Fᵀλ does not contain λ.
         assert!((x + y + gamma[0]).abs() < 1e-15 && (z + gamma[2]).abs() < 1e-15, "{s:?}");
@@ -269,7 +270,7 @@ fn rows_leave_a_null_space_and_fix_the_rest() {
     let free: Vec<_> = rows.null_space().collect();
     assert_eq!(free.len(), 1);
     assert!((free[0][0] + free[0][1]).abs() < 1e-15 && free[0][2].abs() < 1e-15 && free[0][0].abs() > 0.1);
-    let x = rows.least(&[3.0, 6.0, -2.0]);
+    let x = rows.least(&[3.0, 6.0, -2.0].into());
     assert!((x[0] + x[1] + 3.0).abs() < 1e-15 && (x[2] - 2.0).abs() < 1e-15, "{x}");
     // Least norm in natural units, where masses are 1: x m_x = y m_y for equal rows.
     assert!((4.0 * x[0] - 9.0 * x[1]).abs() < 1e-14, "{x}");

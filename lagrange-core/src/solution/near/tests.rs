@@ -1,7 +1,10 @@
+use nalgebra::Const;
+
 use super::{Corrections, project};
 use crate::fixtures::Random;
 use crate::prelude::*;
 use crate::solution::consistent::BOTH;
+use crate::vector::Array;
 
 /// A mass on a growing circle about a centre, in a magnetic field and with anisotropic damping.
 #[derive(Lagrangian)]
@@ -46,12 +49,12 @@ struct Coupled {
 
 /// Mean change of a momentum by the projection of random states a few hundred units of round-off off the
 /// constraints: with velocities that follow the coordinates, and with velocities that do not.
-fn changes<L, const N: usize, const M: usize>(
+fn changes<L, const N: usize>(
     system: impl Fn(&mut Random) -> L,
     momentum: impl Fn(&L, &State<f64, N>) -> f64,
 ) -> [f64; 2]
 where
-    L: Lagrangian<N, M, Scalar = f64>,
+    L: Lagrangian<N = Const<N>, Scalar = f64>,
 {
     let mut sums = [0.0; 2];
     let cases = std::env::var("LAGRANGE_MOMENTA").ok().and_then(|n| n.parse().ok()).unwrap_or(4000);
@@ -70,7 +73,8 @@ where
         let step = 0.6 + 0.3 * random.next();
         let corrections = [Corrections::OnceAfter(step), Corrections::ToRoundOff];
         for (sum, corrections) in sums.iter_mut().zip(corrections) {
-            let (near, doubt) = project::<_, f64, N, M>(&system, &BOTH, corrections, off, &mut [[0.0; N]; 2]);
+            let (near, doubt) =
+                project::<_, f64>(&system, &BOTH, corrections, off, &mut [Array::filled(0.0); 2]);
             assert_eq!(doubt, 0.0, "case {case}");
             *sum += (momentum(&system, &near) - momentum(&system, &off)).abs();
         }

@@ -22,7 +22,7 @@ fn start() -> State<f64, 4> {
 }
 
 /// Returns the error message of a query for a wrong name.
-fn said(ask: impl Fn(&Sample<&Named, 4, 1>) -> Result<f64, Error>) -> String {
+fn said(ask: impl Fn(&Sample<&Named>) -> Result<f64, Error>) -> String {
     let path = NAMED.integrate(start(), 0.0, Dop853::default()).unwrap();
     ask(&path.end()).unwrap_err().to_string()
 }

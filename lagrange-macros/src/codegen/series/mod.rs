@@ -138,7 +138,7 @@ impl Emitter<'_> {
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let (runtime, ident, scalar) =
             (runtime(self.declaration), &self.declaration.ident, style.types.scalar);
-        let ([n, m, _], slopes) = (style.types.dimensions(), series.slopes());
+        let slopes = series.slopes();
         let [roots, arguments] = [("ROOTS", &series.roots), ("ARGUMENTS", &series.arguments)]
             .map(|(name, pairs)| places(name, pairs));
         let steep = places("STEEP", &series.steep);
@@ -149,7 +149,7 @@ impl Emitter<'_> {
 
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics __lagrange::TaylorSeries<#n, #m> for #ident #type_generics #where_clause {
+                impl #impl_generics __lagrange::TaylorSeries for #ident #type_generics #where_clause {
                     type SeriesSlopes = [#scalar; #slopes];
                     type Sums = [#scalar; #sums];
                     type SeriesTerms = [#scalar; #terms];

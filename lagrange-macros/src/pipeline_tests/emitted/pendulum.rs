@@ -2,14 +2,16 @@ const _: () = {
     use ::lagrange_core as __lagrange;
     #[automatically_derived]
     #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-    impl __lagrange::Lagrangian<1usize, 0usize> for Pendulum {
+    impl __lagrange::Lagrangian for Pendulum {
         type Scalar = f64;
         type Factor = [f64; 2usize];
+        type N = __lagrange::nalgebra::Const<1usize>;
+        type M = __lagrange::nalgebra::Const<0usize>;
         const NAME: &'static str = "Pendulum";
-        const COORDINATES: [&'static str; 1usize] = ["theta"];
-        const CONSTRAINTS: [&'static str; 0usize] = [];
-        const CONSTRAINT_KINDS: [__lagrange::ConstraintKind; 0usize] = [];
-        const CONSTRAINT_CLASSES: [__lagrange::facts::Classification; 0usize] = [];
+        const COORDINATES: &'static [&'static str] = &["theta"];
+        const CONSTRAINTS: &'static [&'static str] = &[];
+        const CONSTRAINT_KINDS: &'static [__lagrange::ConstraintKind] = &[];
+        const CONSTRAINT_CLASSES: &'static [__lagrange::facts::Classification] = &[];
         const INTEGRALS: ::core::option::Option<__lagrange::facts::Integrals> = ::core::option::Option::Some(__lagrange::facts::Integrals {
             count: 0usize,
             of: 0usize,
@@ -355,7 +357,7 @@ const _: () = {
     use ::lagrange_core as __lagrange;
     #[automatically_derived]
     #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-    impl __lagrange::StateDerivatives<1usize, 0usize> for Pendulum {
+    impl __lagrange::StateDerivatives for Pendulum {
         type Slopes = [f64; 1usize];
         ///3 operations (+ − × ÷ √), 1 elementary function.
         #[inline]
@@ -396,9 +398,10 @@ const _: () = {
     }
     #[automatically_derived]
     #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-    impl __lagrange::Linearized<1usize, 0usize, 3usize> for Pendulum {
+    impl __lagrange::Linearized for Pendulum {
+        type P = __lagrange::nalgebra::Const<3usize>;
         type ParameterSlopes = [f64; 7usize];
-        const PARAMETERS: [&'static str; 3usize] = ["m", "l", "g"];
+        const PARAMETERS: &'static [&'static str] = &["m", "l", "g"];
         fn parameters(&self) -> __lagrange::nalgebra::SVector<f64, 3usize> {
             __lagrange::generated::vector([self.m, self.l, self.g])
         }
@@ -473,7 +476,7 @@ const _: () = {
     use ::lagrange_core as __lagrange;
     #[automatically_derived]
     #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-    impl __lagrange::TaylorSeries<1usize, 0usize> for Pendulum {
+    impl __lagrange::TaylorSeries for Pendulum {
         type SeriesSlopes = [f64; 3usize];
         type Sums = [f64; 4usize];
         type SeriesTerms = [f64; 2usize];

@@ -1,33 +1,30 @@
 //! Derivatives of accelerations and multipliers for dependent constraints, for which the emitted elimination fails.
 
-use core::array::from_fn;
-
-use nalgebra::SVector;
-
 use crate::error::Error;
 use crate::motion::taylor::expansion::General;
-use crate::number::{Dual, Real, Wide, entries};
+use crate::number::{Dual, Real, Wide};
 use crate::system::{Lagrangian, RightHandSides, Solution, State};
+use crate::vector::{Array, Element, Entrywise, Length, entries, from_fn, vector};
 
 /// General factors at a state, with the derivatives of M and F.
-pub(super) struct DualGeneral<T, W, const N: usize, const M: usize> {
+pub(super) struct DualGeneral<T: Element, W: Element, N: Length, M: Length> {
     general: General<T, N, M>,
     /// δM and δF, row by row.
-    m: [[W; N]; N],
-    f: [[W; N]; M],
+    m: Array<Array<W, N>, N>,
+    f: Array<Array<W, N>, M>,
 }
 
-impl<T: Real<Wide = W>, W: Wide<T>, const N: usize, const M: usize> DualGeneral<T, W, N, M> {
+impl<T: Real<Wide = W>, W: Wide<T>, N: Length, M: Length> DualGeneral<T, W, N, M> {
     #[cold]
     pub(super) fn at<L, S>(
         system: &L,
         over: &S,
         (state, varied): (&State<T, N>, &State<Dual<W>, N>),
-        active: [bool; M],
+        active: Array<bool, M>,
     ) -> Result<Self, Error>
     where
-        L: Lagrangian<N, M, Scalar = T>,
-        S: Lagrangian<N, M, Scalar = Dual<W>>,
+        L: Lagrangian<N = N, M = M, Scalar = T>,
+        S: Lagrangian<N = N, M = M, Scalar = Dual<W>>,
     {
         let (m, f) = (over.mass_matrix(varied), over.constraint_jacobian(varied));
         let zero = W::constant(0.0);
@@ -38,29 +35,29 @@ impl<T: Real<Wide = W>, W: Wide<T>, const N: usize, const M: usize> DualGeneral<
 
     /// Solves M x − Fᵀλ = h and F x = −γ over dual numbers. The derivatives satisfy M δx − Fᵀδλ = δh − δM x + δFᵀλ and
     /// F δx = −δγ − δF x.
-    pub(super) fn solve<L: Lagrangian<N, M, Scalar = T>>(
+    pub(super) fn solve<L: Lagrangian<N = N, M = M, Scalar = T>>(
         &self,
         (h, gamma): &RightHandSides<Dual<W>, N, M>,
     ) -> Result<Solution<Dual<W>, N, M>, Error> {
-        let values = (h.map(|x| x.value.lane(0)), gamma.map(|x| x.value.lane(0)));
+        let values = (h.each(|x| x.value.lane(0)), gamma.each(|x| x.value.lane(0)));
         let Solution { accelerations: x, multipliers, pivot, rank } = self.general.solve::<L>(&values)?;
         let dual = |value: T| Dual { value: W::of(value), slope: W::constant(0.0) };
         let mut all = Solution {
-            accelerations: x.map(dual),
-            multipliers: multipliers.map(dual),
+            accelerations: x.each(dual),
+            multipliers: multipliers.each(dual),
             pivot: dual(pivot),
             rank,
         };
         for lane in 0..W::COUNT {
             let (m, f) =
                 (|i: usize, j: usize| self.m[i][j].lane(lane), |a: usize, i: usize| self.f[a][i].lane(lane));
-            let h = SVector::from_fn(|i, _| {
-                let inertia = (0..N).fold(h[i].slope.lane(lane), |sum, j| sum - m(i, j) * x[j]);
-                (0..M).fold(inertia, |sum, a| sum + f(a, i) * multipliers[a])
-            });
-            let gamma = SVector::from_fn(|a, _| {
-                (0..N).fold(gamma[a].slope.lane(lane), |sum, i| sum + f(a, i) * x[i])
-            });
+            let h = vector(from_fn(|i| {
+                let inertia = (0..N::COUNT).fold(h[i].slope.lane(lane), |sum, j| sum - m(i, j) * x[j]);
+                (0..M::COUNT).fold(inertia, |sum, a| sum + f(a, i) * multipliers[a])
+            }));
+            let gamma = vector(from_fn(|a| {
+                (0..N::COUNT).fold(gamma[a].slope.lane(lane), |sum, i| sum + f(a, i) * x[i])
+            }));
             let change = self.general.solve::<L>(&(h, gamma))?;
             let pairs = all.accelerations.iter_mut().zip(&change.accelerations);
             let pairs = pairs.chain(all.multipliers.iter_mut().zip(&change.multipliers));

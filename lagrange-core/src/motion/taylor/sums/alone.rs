@@ -7,7 +7,8 @@
 //! needed.
 
 use super::group::{Group, WIDTH, plus};
-use crate::number::{FixedArray, ROOM, Scalar};
+use crate::number::{ROOM, Scalar};
+use crate::vector::FixedArray;
 
 /// True if sums of this type are one group of plain numbers.
 pub(super) const fn is<T, S>() -> bool {

@@ -1,8 +1,7 @@
 //! Groups of sums of products, computed in parallel.
 
-use core::array::from_fn;
-
 use crate::number::Scalar;
+use crate::vector::from_fn;
 
 /// Number of sums in a group. The derive pads the number of sums to a multiple of it.
 pub(super) const WIDTH: usize = 4;

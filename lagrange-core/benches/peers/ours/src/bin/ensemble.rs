@@ -25,7 +25,7 @@ type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 fn run(
     on_lanes: bool,
     starts: &[[f64; 2]],
-    method: impl LaneMethod<DoublePendulum<f64>, 2, 0> + Sync,
+    method: impl LaneMethod<DoublePendulum<f64>> + Sync,
 ) -> Outcome<Vec<State<f64, 2>>> {
     let member = |k: usize| (DoublePendulum { g: 9.81 }, State::at_rest(starts[k]));
     let ensemble = Ensemble::from_fn(starts.len(), member);

@@ -28,12 +28,12 @@ struct Task {
 }
 
 impl Task {
-    fn run<L, const N: usize, const M: usize>(&self, system: &L) -> Outcome<()>
+    fn run<L>(&self, system: &L) -> Outcome<()>
     where
-        L: TaylorSeries<N, M, Scalar = f64>,
+        L: TaylorSeries<Scalar = f64>,
     {
-        let halves: Vec<[f64; N]> = self.start.as_chunks().0.to_vec();
-        let [q, v] = <[[f64; N]; 2]>::try_from(halves).map_err(|_| "START is of another length")?;
+        let halves: Vec<Array<f64, L::N>> = self.start.as_chunks().0.to_vec();
+        let [q, v] = <[Array<f64, L::N>; 2]>::try_from(halves).map_err(|_| "START is of another length")?;
         let start = State::new(q, v);
         match self.method.as_str() {
             "taylor" => self.timed(system, start, Taylor::default()),
@@ -42,15 +42,15 @@ impl Task {
         }
     }
 
-    fn timed<L, P, const N: usize, const M: usize>(
+    fn timed<L, P>(
         &self,
         system: &L,
-        start: State<f64, N>,
+        start: State<f64, L::N>,
         method: P,
     ) -> Outcome<()>
     where
-        L: Lagrangian<N, M, Scalar = f64>,
-        P: for<'l> Method<&'l L, N, M> + Copy,
+        L: Lagrangian<Scalar = f64>,
+        P: for<'l> Method<&'l L> + Copy,
     {
         let mut last = start;
         for line in stdin().lock().lines() {

@@ -1,0 +1,175 @@
+//! Arrays whose length is a type.
+
+use core::fmt::{self, Debug, Formatter};
+use core::ops::{Deref, DerefMut};
+
+use nalgebra::Const;
+
+use super::{Element, Length};
+use crate::number::Scalar;
+
+/// Array of a length: `[T; K]` for [`Const<K>`](Const). It dereferences to a slice.
+#[derive(Clone, Copy)]
+pub struct Array<T: Element, N: Length>(pub N::Entries<T>);
+
+impl<T: Element, N: Length> Array<T, N> {
+    /// Returns an array with `x` in every entry.
+    #[inline(always)]
+    pub fn filled(x: T) -> Self {
+        Self(N::filled(x))
+    }
+
+    /// Returns the array `of(0)`, `of(1)`, ….
+    #[inline(always)]
+    pub fn from_fn(of: impl FnMut(usize) -> T) -> Self {
+        Self(N::from_fn(of))
+    }
+
+    /// Returns the values of a function of the entries.
+    #[inline(always)]
+    pub fn map<U: Element>(self, mut of: impl FnMut(T) -> U) -> Array<U, N> {
+        Array::from_fn(|i| of(self[i]))
+    }
+}
+
+impl<T: Element, N: Length> Deref for Array<T, N> {
+    type Target = [T];
+
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        self.0.as_ref()
+    }
+}
+
+impl<T: Element, N: Length> DerefMut for Array<T, N> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
+        self.0.as_mut()
+    }
+}
+
+impl<T: Element, N: Length> IntoIterator for Array<T, N> {
+    type Item = T;
+    type IntoIter = <N::Entries<T> as IntoIterator>::IntoIter;
+
+    #[inline(always)]
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl<'a, T: Element, N: Length> IntoIterator for &'a Array<T, N> {
+    type Item = &'a T;
+    type IntoIter = core::slice::Iter<'a, T>;
+
+    #[inline(always)]
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl<'a, T: Element, N: Length> IntoIterator for &'a mut Array<T, N> {
+    type Item = &'a mut T;
+    type IntoIter = core::slice::IterMut<'a, T>;
+
+    #[inline(always)]
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter_mut()
+    }
+}
+
+impl<T: Element, N: Length> Debug for Array<T, N> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        Debug::fmt(&**self, f)
+    }
+}
+
+impl<T: Element, N: Length> PartialEq for Array<T, N> {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
+
+impl<T: Element, N: Length> AsRef<[T]> for Array<T, N> {
+    #[inline(always)]
+    fn as_ref(&self) -> &[T] {
+        self
+    }
+}
+
+impl<T: Element, N: Length> AsMut<[T]> for Array<T, N> {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut [T] {
+        self
+    }
+}
+
+impl<T: Element, const K: usize> From<[T; K]> for Array<T, Const<K>> {
+    #[inline(always)]
+    fn from(entries: [T; K]) -> Self {
+        Self(entries)
+    }
+}
+
+impl<T: Element, const R: usize, const C: usize> From<[[T; R]; C]> for Array<Array<T, Const<R>>, Const<C>> {
+    #[inline(always)]
+    fn from(columns: [[T; R]; C]) -> Self {
+        Self(columns.map(Array))
+    }
+}
+
+/// Like [`from_fn`], but cheaper to compile: rustc has many times as much work with `from_fn`, as
+/// with iterators.
+#[inline]
+pub(crate) fn entries<T: Scalar, N: Length>(mut of: impl FnMut(usize) -> T) -> Array<T, N> {
+    let mut entries = Array::filled(T::constant(0.0));
+    let mut k = 0;
+    while k < N::COUNT {
+        entries[k] = of(k);
+        k += 1;
+    }
+    entries
+}
+
+/// An array that a function of the index fills: `[X; K]` or [`Array`].
+pub(crate) trait FromFn {
+    type Item;
+    fn from_fn(of: impl FnMut(usize) -> Self::Item) -> Self;
+}
+
+impl<X, const K: usize> FromFn for [X; K] {
+    type Item = X;
+
+    #[inline(always)]
+    fn from_fn(of: impl FnMut(usize) -> X) -> Self {
+        core::array::from_fn(of)
+    }
+}
+
+impl<X: Element, N: Length> FromFn for Array<X, N> {
+    type Item = X;
+
+    #[inline(always)]
+    fn from_fn(of: impl FnMut(usize) -> X) -> Self {
+        Self(N::from_fn(of))
+    }
+}
+
+/// Returns the array `of(0)`, `of(1)`, ….
+#[inline(always)]
+pub(crate) fn from_fn<A: FromFn>(of: impl FnMut(usize) -> A::Item) -> A {
+    A::from_fn(of)
+}
+
+/// An array of fixed length that can be filled with copies of a value.
+pub trait FixedArray<T>: Copy + AsRef<[T]> + AsMut<[T]> {
+    /// Returns an array with `x` in every entry.
+    fn filled(x: T) -> Self;
+}
+
+impl<T: Copy, const K: usize> FixedArray<T> for [T; K] {
+    #[inline(always)]
+    fn filled(x: T) -> Self {
+        [x; K]
+    }
+}

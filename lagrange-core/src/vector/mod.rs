@@ -1,0 +1,13 @@
+//! Vectors, matrices and arrays whose length is a type.
+
+mod array;
+mod length;
+mod nalgebra;
+mod phase_vector;
+
+pub use array::{Array, FixedArray};
+pub(crate) use array::{entries, from_fn};
+pub use length::{Contiguous, Element, Length};
+pub(crate) use nalgebra::{Entrywise, array, matrix, rows, vector};
+pub use nalgebra::{Matrix, Vector};
+pub use phase_vector::PhaseVector;
