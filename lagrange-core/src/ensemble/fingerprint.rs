@@ -28,10 +28,7 @@ pub struct Fingerprint {
 
 impl Fingerprint {
     /// Hash of a system, the same for all members of all runs.
-    pub(super) fn of_system<L>() -> u32
-    where
-        L: Lagrangian<Scalar: Real>,
-    {
+    pub(super) fn of_system<L: Lagrangian<Scalar: Real>>() -> u32 {
         let mut system = Hash::new();
         [L::NAME].iter().chain(L::COORDINATES).chain(L::CONSTRAINTS).for_each(|text| system.text(text));
         system.bytes(&L::DIGEST.to_le_bytes());
@@ -40,10 +37,7 @@ impl Fingerprint {
     }
 
     /// Adds the hash of a member's start and parameters to the fingerprint of its run.
-    pub(super) fn with_start<L>(self, system: &L, start: &StateOf<L>) -> Self
-    where
-        L: Lagrangian<Scalar: Real>,
-    {
+    pub(super) fn with_start<L: Lagrangian<Scalar: Real>>(self, system: &L, start: &StateOf<L>) -> Self {
         let mut hash = Hash::new();
         hash.number(start.t.to_f64());
         start.q.iter().chain(&start.v).for_each(|x| hash.number(x.to_f64()));

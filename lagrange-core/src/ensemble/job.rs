@@ -92,10 +92,7 @@ struct Ledger<'a, T: Element, N: Length> {
     watch: Option<Watch<'a, T, N>>,
 }
 
-impl<'a, L> Job<'a, L>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
     pub(super) fn new(plan: Plan<'a, L>, end: L::Scalar, run: Fingerprint) -> Result<Self, Error> {
         plan.check_tag()?;
         let Plan { count, make, shard, shards, list, done, observer, watch, member_plan, tag: _ } = plan;

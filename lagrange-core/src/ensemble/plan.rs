@@ -33,10 +33,7 @@ pub(super) struct Plan<'a, L: Lagrangian<Scalar: Real>> {
     pub(super) tag: Option<String>,
 }
 
-impl<L> Plan<'_, L>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<L: Lagrangian<Scalar: Real>> Plan<'_, L> {
     /// Fingerprint of the run, common to all members.
     pub(super) fn fingerprint<P: Method<L>>(
         &self,
@@ -116,10 +113,7 @@ impl<L: Lagrangian<Scalar: Real>> Default for MemberPlan<'_, L> {
 }
 
 impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
-    pub(super) fn event<G>(&mut self, event: Event<L, G>)
-    where
-        G: EventFunction<L> + Send + Sync + 'a,
-    {
+    pub(super) fn event<G: EventFunction<L> + Send + Sync + 'a>(&mut self, event: Event<L, G>) {
         self.events.push(event.map(|function| {
             let value: Box<Observed<'a, L>> =
                 Box::new(move |sample: &Sample<&L>| function.at(sample.system, &sample.state));

@@ -30,10 +30,7 @@ use message::MemberMessage;
 
 /// An ensemble on all ranks of an MPI communicator, from [`Ensemble::on_ranks`].
 #[must_use = "an ensemble does nothing until it is integrated"]
-pub struct OnRanks<'a, L, const HAS_DENSE_OUTPUT: bool = false>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+pub struct OnRanks<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool = false> {
     ensemble: Ensemble<'a, L, HAS_DENSE_OUTPUT>,
     world: SimpleCommunicator,
     batch: Duration,
@@ -44,10 +41,7 @@ const PAUSE: Duration = Duration::from_millis(1);
 /// Smallest number of members in a batch, unless fewer are left.
 const LEAST: usize = 16;
 
-impl<'a, L, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT> {
     /// Runs this ensemble on all ranks of the communicator. Each rank must call this and then integrate; see the
     /// [chapter](super#on-many-machines).
     ///
@@ -63,10 +57,7 @@ where
     }
 }
 
-impl<L, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, HAS_DENSE_OUTPUT>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, HAS_DENSE_OUTPUT> {
     /// Sets the approximate time that a rank works on one batch; 1 s by default. At most this much work is lost if the
     /// job is killed. Rank 0 hears from each rank about as often. Batches become shorter toward the end, so that all
     /// ranks finish together.
@@ -84,10 +75,11 @@ where
     /// error nothing is integrated.
     ///
     /// A rank that panics aborts the whole job, because the other ranks would wait forever.
-    pub fn integrate<P>(self, end: L::Scalar, method: P) -> Result<Option<Outcome<L::Scalar, L::N>>, Error>
-    where
-        P: Method<L> + Sync,
-    {
+    pub fn integrate<P: Method<L> + Sync>(
+        self,
+        end: L::Scalar,
+        method: P,
+    ) -> Result<Option<Outcome<L::Scalar, L::N>>, Error> {
         let run = self.ensemble.plan.fingerprint(&method, end, false);
         self.run(method.check(), end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
     }
@@ -121,10 +113,7 @@ where
     }
 }
 
-impl<L, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, HAS_DENSE_OUTPUT>
-where
-    L: Lagrangian<Scalar = f64>,
-{
+impl<L: Lagrangian<Scalar = f64>, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, HAS_DENSE_OUTPUT> {
     /// Integrates all members to the time `end`, on each thread as many at once as [`Lanes`] holds, like
     /// [`Ensemble::integrate_on_lanes`]. Returns the outcome of all members on rank 0, and `None` on the others.
     ///
@@ -140,10 +129,7 @@ where
     }
 }
 
-impl<L, const HAS_DENSE_OUTPUT: bool> Debug for OnRanks<'_, L, HAS_DENSE_OUTPUT>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Debug for OnRanks<'_, L, HAS_DENSE_OUTPUT> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("OnRanks").field("ensemble", &self.ensemble).field("batch", &self.batch).finish()
     }
@@ -172,10 +158,10 @@ fn check_threads(world: &SimpleCommunicator) -> Result<(), Error> {
 }
 
 /// Checks, before any rank integrates, that all ranks can and that they agree with rank 0.
-fn agreed<'a, L>(world: &SimpleCommunicator, job: Result<Job<'a, L>, Error>) -> Result<Job<'a, L>, Error>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+fn agreed<'a, L: Lagrangian<Scalar: Real>>(
+    world: &SimpleCommunicator,
+    job: Result<Job<'a, L>, Error>,
+) -> Result<Job<'a, L>, Error> {
     let mine = job.as_ref().map_or([0; 4], |job| {
         let [run, count, members] = job.identity();
         [1, run, count, members]
@@ -215,14 +201,12 @@ fn follow(world: &SimpleCommunicator, integrate: impl Fn(Vec<usize>) -> MemberMe
 }
 
 /// Distributes members and collects their results, while another thread integrates the batches of rank 0.
-fn lead<L>(
+fn lead<L: Lagrangian<Scalar: Real>>(
     world: &SimpleCommunicator,
     job: &Job<'_, L>,
     batch: Duration,
     integrate: impl Fn(Vec<usize>) -> MemberMessage + Send,
-) where
-    L: Lagrangian<Scalar: Real>,
-{
+) {
     thread::scope(|scope| {
         let (own, lists) = channel();
         let (finished, parcels) = channel();
@@ -252,10 +236,7 @@ struct Desk<'w, 'a, L: Lagrangian<Scalar: Real>> {
     time: Duration,
 }
 
-impl<L> Desk<'_, '_, L>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<L: Lagrangian<Scalar: Real>> Desk<'_, '_, L> {
     /// Serves ranks until all members are done, the job is stopped, or the integrating thread of this rank has
     /// panicked.
     fn serve(&mut self, parcels: &Receiver<MemberMessage>, is_lost: impl Fn() -> bool) {

@@ -39,17 +39,11 @@ use crate::system::{Lagrangian, Pack, StateOf};
 /// # Ok::<(), Error>(())
 /// ```
 #[must_use = "an ensemble does nothing until it is integrated"]
-pub struct Ensemble<'a, L, const HAS_DENSE_OUTPUT: bool = false>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+pub struct Ensemble<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool = false> {
     pub(super) plan: Plan<'a, L>,
 }
 
-impl<'a, L> Ensemble<'a, L>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<'a, L: Lagrangian<Scalar: Real>> Ensemble<'a, L> {
     /// Makes `count` members from their indices 0, 1, …. `member` must return the same member for the same index. It is
     /// called from any thread, and from several at once.
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, StateOf<L>) + Send + Sync + 'a) -> Self {
@@ -71,10 +65,7 @@ where
     }
 }
 
-impl<'a, L, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT> {
     /// Keeps one of `of` parts: every `of`-th member, starting at index `shard` (counted from 0). The sizes of the
     /// parts differ by one member at most. Parts may run on different machines; [`Outcome::merge`] or
     /// [`resume`](Self::resume) combines them.
@@ -163,10 +154,11 @@ where
     /// Errors of the whole ensemble: [`Error::Setting`], [`Error::EndNotFinite`], [`EnsembleError::Shard`],
     /// [`EnsembleError::NoSuchMember`], [`EnsembleError::OtherRun`], [`EnsembleError::Untagged`],
     /// [`Error::SampleTime`]. The errors of single members are in the outcome.
-    pub fn integrate<P>(self, end: L::Scalar, method: P) -> Result<Outcome<L::Scalar, L::N>, Error>
-    where
-        P: Method<L> + Sync,
-    {
+    pub fn integrate<P: Method<L> + Sync>(
+        self,
+        end: L::Scalar,
+        method: P,
+    ) -> Result<Outcome<L::Scalar, L::N>, Error> {
         method.check()?;
         let run = self.plan.fingerprint(&method, end, false);
         self.run(end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
@@ -242,10 +234,7 @@ where
     }
 }
 
-impl<L, const HAS_DENSE_OUTPUT: bool> Ensemble<'_, L, HAS_DENSE_OUTPUT>
-where
-    L: Lagrangian<Scalar = f64>,
-{
+impl<L: Lagrangian<Scalar = f64>, const HAS_DENSE_OUTPUT: bool> Ensemble<'_, L, HAS_DENSE_OUTPUT> {
     /// Integrates all members to the time `end` by `method`, on each thread as many at once as [`Lanes`] holds. The
     /// method is `Dop853`, `Dopri5`, [`Taylor`](crate::Taylor) or another [`LaneMethod`].
     ///

@@ -9,10 +9,7 @@ use crate::number::Real;
 use crate::solution::Sample;
 use crate::system::{Lagrangian, StateOf};
 
-impl<'a, L, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT> {
     /// Stores the states of each member at these times, in [`Arrival::samples`](super::Arrival::samples).
     ///
     /// Samples lie on the dense output of the method, projected onto the constraints. Steps have the same lengths as
@@ -90,10 +87,7 @@ where
     /// If the event's function fails at the start of a member, the member has that error. If it fails later, the member
     /// ends and keeps the crossings found so far. Every step is searched for crossings. On lanes this costs about half
     /// of a step, by Taylor's method nothing, and the evaluations of the function.
-    pub fn event<G>(self, event: Event<L, G>) -> Ensemble<'a, L, true>
-    where
-        G: EventFunction<L> + Send + Sync + 'a,
-    {
+    pub fn event<G: EventFunction<L> + Send + Sync + 'a>(self, event: Event<L, G>) -> Ensemble<'a, L, true> {
         let mut plan = self.plan;
         plan.member_plan.event(event);
         Ensemble { plan }

@@ -160,10 +160,7 @@ impl<L: Lagrangian<Scalar: Real>> Inversion<'_, L> {
     }
 }
 
-impl<'a, L> Search for Inversion<'a, L>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<'a, L: Lagrangian<Scalar: Real>> Search for Inversion<'a, L> {
     type Scalar = L::Scalar;
     type Trial = VelocityTrial<L::Scalar, L::N, L::M>;
     type Linear = Linear<'a, L::Scalar, L::N, L::M>;

@@ -97,11 +97,11 @@ pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
     /// }
     /// # Ok::<(), Error>(())
     /// ```
-    fn differentiable_event<V, G>(&self, name: &'static str, function: G) -> Event<Self, OverDuals<G>>
-    where
-        V: EventValue<Dual<Self::Scalar>>,
-        G: Fn(&DualSample<'_, Self>) -> V,
-    {
+    fn differentiable_event<V: EventValue<Dual<Self::Scalar>>, G: Fn(&DualSample<'_, Self>) -> V>(
+        &self,
+        name: &'static str,
+        function: G,
+    ) -> Event<Self, OverDuals<G>> {
         Event::new(name, OverDuals(function))
     }
 

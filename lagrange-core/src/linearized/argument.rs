@@ -40,10 +40,7 @@ impl Argument {
     }
 
     /// Name of the argument, for messages.
-    pub(crate) fn entry<L>(self) -> Entry
-    where
-        L: Linearized,
-    {
+    pub(crate) fn entry<L: Linearized>(self) -> Entry {
         match self {
             Self::Coordinate(i) => Entry::Coordinate(L::COORDINATES[i]),
             Self::Velocity(i) => Entry::Velocity(L::COORDINATES[i]),
@@ -52,15 +49,12 @@ impl Argument {
     }
 
     /// Derivative of the residual by this argument.
-    pub(crate) fn residual_change<L>(
+    pub(crate) fn residual_change<L: Linearized>(
         self,
         system: &L,
         state: &StateOf<L>,
         solution: &SolutionOf<L>,
-    ) -> ResidualChange<L::Scalar, L::N, L::M>
-    where
-        L: Linearized,
-    {
+    ) -> ResidualChange<L::Scalar, L::N, L::M> {
         match self {
             Self::Coordinate(i) => system.residual_change(state, solution, &Direction::of_coordinate(i)),
             Self::Velocity(i) => system.residual_change(state, solution, &Direction::of_velocity(i)),
@@ -70,10 +64,7 @@ impl Argument {
 }
 
 /// Index of this parameter among those of the system; `None` if the system does not have it.
-pub(crate) fn parameter<L>(entry: Entry) -> Option<usize>
-where
-    L: Linearized,
-{
+pub(crate) fn parameter<L: Linearized>(entry: Entry) -> Option<usize> {
     match entry {
         Entry::Parameter(name) => L::PARAMETERS.iter().position(|known| *known == name),
         _ => None,

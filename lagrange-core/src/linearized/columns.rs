@@ -33,14 +33,11 @@ impl<T: Element, N: Length, M: Length> SelectedJacobian<T, N, M> {
 }
 
 /// See [`Linearized::jacobian_by`].
-pub(super) fn jacobian_by<L>(
+pub(super) fn jacobian_by<L: Linearized<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     names: &[&str],
-) -> Result<SelectedJacobian<L::Scalar, L::N, L::M>, Error>
-where
-    L: Linearized<Scalar: Real>,
-{
+) -> Result<SelectedJacobian<L::Scalar, L::N, L::M>, Error> {
     let arguments = Argument::named::<L>(names)?;
     let tangent = Tangent::at(system, state)?;
     let mut accelerations = DMatrix::zeros(<L::N>::COUNT, arguments.len());

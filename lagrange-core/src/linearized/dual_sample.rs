@@ -23,20 +23,14 @@ use crate::vector::{Array, Entrywise, Length, vector};
 /// multipliers and constraint forces. Parameters and captured numbers must be read with [`parameter`](Self::parameter)
 /// and [`number`](Self::number): values that the function captures, or reads from the system, are constants. [`Dual`]
 /// numbers have the mathematical functions of [`Scalar`].
-pub struct DualSample<'a, L>
-where
-    L: Linearized,
-{
+pub struct DualSample<'a, L: Linearized> {
     system: &'a L,
     state: State<Dual<L::Scalar>, L::N>,
     /// Parameter of differentiation; `None` if only the value or the rate along the motion is wanted.
     argument: Option<Entry>,
 }
 
-impl<'a, L> DualSample<'a, L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<'a, L: Linearized<Scalar: Real>> DualSample<'a, L> {
     pub(super) fn along(
         system: &'a L,
         state: &StateOf<L>,
@@ -191,10 +185,7 @@ pub(super) fn slope<T: Scalar>(argument: Option<Entry>, name: &str) -> T {
     T::constant(if is_argument { 1.0 } else { 0.0 })
 }
 
-impl<L> Debug for DualSample<'_, L>
-where
-    L: Linearized,
-{
+impl<L: Linearized> Debug for DualSample<'_, L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut sample = f.debug_struct("DualSample");
         sample
@@ -226,10 +217,7 @@ where
     message = "`{Self}` is not an event of `{L}` that can be differentiated",
     note = "make one by `system.differentiable_event(\"name\", |sample| …)`, of the same system"
 )]
-pub trait DifferentiableEvent<L>: AnyEvent<L>
-where
-    L: Linearized,
-{
+pub trait DifferentiableEvent<L: Linearized>: AnyEvent<L> {
     /// Derivative of the event's function along `direction` and by `argument`; an error with the event's name if it is
     /// not finite.
     #[doc(hidden)]
@@ -272,11 +260,7 @@ where
     }
 }
 
-impl<L, W> DifferentiableEvent<L> for &mut W
-where
-    L: Linearized<Scalar: Real>,
-    W: DifferentiableEvent<L> + ?Sized,
-{
+impl<L: Linearized<Scalar: Real>, W: DifferentiableEvent<L> + ?Sized> DifferentiableEvent<L> for &mut W {
     fn change(
         &self,
         system: &L,

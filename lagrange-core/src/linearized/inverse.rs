@@ -37,15 +37,12 @@ impl<T: Element, M: Length> InverseDynamics<T, M> {
 const STEPS: usize = 30;
 
 /// See [`Linearized::inputs_for`].
-pub(super) fn inputs_for<L>(
+pub(super) fn inputs_for<L: Linearized<Scalar: Real> + Clone>(
     system: &L,
     state: &StateOf<L>,
     accelerations: &Vector<L::Scalar, L::N>,
     names: &[&str],
-) -> Result<InverseDynamics<L::Scalar, L::M>, Error>
-where
-    L: Linearized<Scalar: Real> + Clone,
-{
+) -> Result<InverseDynamics<L::Scalar, L::M>, Error> {
     check_finite(system, state)?;
     let inputs = Argument::actuators::<L>(names)?;
     let mut balance = InputBalance::new(system.clone(), state, accelerations, inputs)?;
@@ -74,10 +71,7 @@ struct InputBalance<'a, L: Linearized> {
     units: Units<L::Scalar, L::N, L::M>,
 }
 
-impl<'a, L> InputBalance<'a, L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
     fn new(
         mut system: L,
         state: &'a StateOf<L>,

@@ -35,13 +35,10 @@ pub struct Jacobian<T: Element, N: Length, M: Length, P: Length> {
 }
 
 /// See [`StateDerivatives::state_jacobian`].
-pub(super) fn state_jacobian<L>(
+pub(super) fn state_jacobian<L: StateDerivatives<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
-) -> Result<Jacobian<L::Scalar, L::N, L::M, Const<0>>, Error>
-where
-    L: StateDerivatives<Scalar: Real>,
-{
+) -> Result<Jacobian<L::Scalar, L::N, L::M, Const<0>>, Error> {
     let tangent = Tangent::at(system, state)?;
     let mut jacobian = Jacobian::of(tangent.solution);
     jacobian.set_by_state(&tangent)?;
@@ -49,13 +46,10 @@ where
 }
 
 /// See [`Linearized::jacobian`].
-pub(super) fn jacobian<L>(
+pub(super) fn jacobian<L: Linearized<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
-) -> Result<Jacobian<L::Scalar, L::N, L::M, L::P>, Error>
-where
-    L: Linearized<Scalar: Real>,
-{
+) -> Result<Jacobian<L::Scalar, L::N, L::M, L::P>, Error> {
     let tangent = Tangent::at(system, state)?;
     let mut jacobian = Jacobian::of(tangent.solution);
     jacobian.set_by_state(&tangent)?;
@@ -78,10 +72,10 @@ impl<T: Real, N: Length, M: Length, P: Length> Jacobian<T, N, M, P> {
     }
 
     /// Computes the derivatives by the time and the state in place, because the matrices are large.
-    fn set_by_state<L>(&mut self, tangent: &Tangent<'_, L>) -> Result<(), Error>
-    where
-        L: StateDerivatives<N = N, M = M, Scalar = T>,
-    {
+    fn set_by_state<L: StateDerivatives<N = N, M = M, Scalar = T>>(
+        &mut self,
+        tangent: &Tangent<'_, L>,
+    ) -> Result<(), Error> {
         tangent.along_each(1 + 2 * N::COUNT, put_argument, name_of::<L>, |k, change| {
             self.accelerations.set(k, &change.accelerations);
             self.multipliers.set(k, &change.multipliers);

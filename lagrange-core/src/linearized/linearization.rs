@@ -56,14 +56,11 @@ impl<T> Linearization<T> {
 }
 
 /// See [`Linearized::linearize`].
-pub(super) fn linearize<L>(
+pub(super) fn linearize<L: Linearized<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     names: &[&str],
-) -> Result<Linearization<L::Scalar>, Error>
-where
-    L: Linearized<Scalar: Real>,
-{
+) -> Result<Linearization<L::Scalar>, Error> {
     let parameters = lookup::indices::<L>(L::PARAMETERS, "parameter", names)?;
     check_finite(system, state)?;
     consistent::check(system, state)?;
@@ -86,10 +83,7 @@ where
     })
 }
 
-impl<L> Tangent<'_, L>
-where
-    L: StateDerivatives<Scalar: Real>,
-{
+impl<L: StateDerivatives<Scalar: Real>> Tangent<'_, L> {
     /// Derivatives of (q̇, q̈) by each entry of the state.
     fn change(&self) -> Result<DMatrix<L::Scalar>, Error> {
         let mut change = DMatrix::zeros(2 * <L::N>::COUNT, 2 * <L::N>::COUNT);

@@ -34,16 +34,12 @@ pub struct LyapunovSpectrum<T> {
 const PARTS: usize = 20;
 
 /// See [`Linearized::lyapunov_spectrum`].
-pub(super) fn spectrum<L, D>(
+pub(super) fn spectrum<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     system: &L,
     state: &StateOf<L>,
     end: L::Scalar,
     method: &D,
-) -> Result<LyapunovSpectrum<L::Scalar>, Error>
-where
-    L: Linearized<Scalar: Real>,
-    D: DifferentiableMethod<L>,
-{
+) -> Result<LyapunovSpectrum<L::Scalar>, Error> {
     check_finite(system, state)?;
     check_end(end)?;
     let (mut run, _) = Run::begin::<L, LagrangianVectorField, _>(system, state, method)?;
@@ -65,11 +61,7 @@ where
 }
 
 /// Growth of variations along a motion.
-struct Growth<'a, L, D>
-where
-    L: Linearized<Scalar: Real>,
-    D: DifferentiableMethod<L>,
-{
+struct Growth<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> {
     system: &'a L,
     start: L::Scalar,
     end: L::Scalar,
@@ -82,11 +74,7 @@ where
     parts: Vec<(L::Scalar, Vec<L::Scalar>)>,
 }
 
-impl<L, D> Growth<'_, L, D>
-where
-    L: Linearized<Scalar: Real>,
-    D: DifferentiableMethod<L>,
-{
+impl<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> Growth<'_, L, D> {
     /// End time of the current part.
     fn stop(&self) -> L::Scalar {
         let part = self.parts.len() + 1;

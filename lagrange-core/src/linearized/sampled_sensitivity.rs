@@ -94,7 +94,7 @@ where
 }
 
 /// Integrates a motion together with its derivatives, and samples both.
-fn integrate<L, D>(
+fn integrate<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     system: &L,
     start: &StateSensitivity<L::Scalar, L::N>,
     end: L::Scalar,
@@ -102,11 +102,7 @@ fn integrate<L, D>(
     events: &mut [Box<DynDifferentiableEvent<'_, L>>],
     plan: &RecordPlan<'_, L>,
     on_progress: Option<OnProgress<'_>>,
-) -> Result<SampledSensitivity<L::Scalar, L::N>, Error>
-where
-    L: Linearized<Scalar: Real>,
-    D: DifferentiableMethod<L>,
-{
+) -> Result<SampledSensitivity<L::Scalar, L::N>, Error> {
     check_finite(system, &start.state)?;
     check_end(end)?;
     plan.check()?;
@@ -139,11 +135,7 @@ where
 }
 
 /// Observer that carries derivatives along a motion and samples both.
-struct SampledAlong<'a, 'o, L, D>
-where
-    L: Linearized<Scalar: Real>,
-    D: DifferentiableMethod<L>,
-{
+struct SampledAlong<'a, 'o, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> {
     system: &'a L,
     /// Times of the start and of the end.
     ends: [L::Scalar; 2],
@@ -160,11 +152,7 @@ where
     on_progress: Option<OnProgress<'o>>,
 }
 
-impl<'o, L, D> SampledAlong<'_, 'o, L, D>
-where
-    L: Linearized<Scalar: Real>,
-    D: DifferentiableMethod<L>,
-{
+impl<'o, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> SampledAlong<'_, 'o, L, D> {
     /// Adds the derivatives of the samples that the record has taken since the last call.
     fn sample(&mut self) -> Result<(), Error> {
         for state in &self.record.samples()[self.samples.len()..] {

@@ -117,18 +117,14 @@ where
 }
 
 /// Integrates a motion together with its derivatives.
-fn integrate<'a, L, D>(
+fn integrate<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     system: &'a L,
     start: &StateSensitivity<L::Scalar, L::N>,
     end: L::Scalar,
     method: &D,
     events: &mut [Box<DynDifferentiableEvent<'_, L>>],
     on_progress: Option<OnProgress<'_>>,
-) -> Result<TrajectorySensitivity<'a, L>, Error>
-where
-    L: Linearized<Scalar: Real>,
-    D: DifferentiableMethod<L>,
-{
+) -> Result<TrajectorySensitivity<'a, L>, Error> {
     check_finite(system, &start.state)?;
     check_end(end)?;
     let mut begun = Run::begin::<L, LagrangianVectorField, D>(system, &start.state, method);
@@ -146,11 +142,7 @@ where
 }
 
 /// Observes a motion while it is integrated and stored, and carries its derivatives along.
-struct Along<'a, 'e, L, D, W>
-where
-    L: Linearized<Scalar: Real>,
-    D: DifferentiableMethod<L>,
-{
+struct Along<'a, 'e, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>, W> {
     stored: Stored<'a, 'e, L, W, D::Interpolant, true>,
     course: Course<L>,
     /// Memory of the method for the next step of the derivatives.
@@ -159,11 +151,7 @@ where
     before: StateOf<L>,
 }
 
-impl<'a, 'e, L, D, W> Along<'a, 'e, L, D, W>
-where
-    L: Linearized<Scalar: Real>,
-    D: DifferentiableMethod<L>,
-{
+impl<'a, 'e, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>, W> Along<'a, 'e, L, D, W> {
     /// Stored motion, derivatives, and the state before the last step.
     #[allow(clippy::type_complexity, reason = "its fields")]
     fn end(self) -> (Stored<'a, 'e, L, W, D::Interpolant, true>, Course<L>, StateOf<L>) {
@@ -208,10 +196,7 @@ where
     }
 }
 
-impl<L> Course<L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<L: Linearized<Scalar: Real>> Course<L> {
     /// Derivatives at the start of a motion, and the method's memory for them.
     pub(super) fn from<D: DifferentiableMethod<L>>(
         system: &L,
@@ -305,20 +290,14 @@ where
     }
 }
 
-impl<L> Debug for TrajectorySensitivity<'_, L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<L: Linearized<Scalar: Real>> Debug for TrajectorySensitivity<'_, L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut sensitivities = f.debug_struct("TrajectorySensitivity");
         sensitivities.field("trajectory", &self.trajectory).field("arguments", &self.arguments()).finish()
     }
 }
 
-impl<'a, L> TrajectorySensitivity<'a, L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<'a, L: Linearized<Scalar: Real>> TrajectorySensitivity<'a, L> {
     /// Returns the motion if it reached its end or a terminal event.
     ///
     /// # Errors

@@ -97,10 +97,10 @@ impl<T: Real, N: Length> StateSensitivity<T, N> {
 }
 
 /// See [`MotionDerivatives::sensitivity`](super::MotionDerivatives::sensitivity).
-pub(super) fn start<L>(state: &StateOf<L>, names: &[&str]) -> Result<StateSensitivity<L::Scalar, L::N>, Error>
-where
-    L: Linearized<Scalar: Real>,
-{
+pub(super) fn start<L: Linearized<Scalar: Real>>(
+    state: &StateOf<L>,
+    names: &[&str],
+) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
     let arguments = Argument::named::<L>(names)?;
     let entries = arguments.iter().map(|argument| argument.entry::<L>()).collect();
     let mut start = StateSensitivity::of(*state, entries);
@@ -119,15 +119,12 @@ where
 ///
 /// # Errors
 /// [`Error::Grazing`].
-pub(super) fn at_event<L>(
+pub(super) fn at_event<L: Linearized<Scalar: Real>>(
     system: &L,
     mut at: StateSensitivity<L::Scalar, L::N>,
     event: &dyn DifferentiableEvent<L>,
     before: &StateOf<L>,
-) -> Result<StateSensitivity<L::Scalar, L::N>, Error>
-where
-    L: Linearized<Scalar: Real>,
-{
+) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
     let accelerations = solve(system, &at.state)?.accelerations;
     // The event's function may have no derivative at the earlier state.
     let earlier = rate(system, before, event).map_or(L::Scalar::constant(0.0), |(_, terms)| terms);
@@ -143,14 +140,11 @@ where
 }
 
 /// Rate of an event's function along the motion, and the sum of the magnitudes of its terms.
-fn rate<L>(
+fn rate<L: Linearized<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     event: &dyn DifferentiableEvent<L>,
-) -> Result<(L::Scalar, L::Scalar), Error>
-where
-    L: Linearized<Scalar: Real>,
-{
+) -> Result<(L::Scalar, L::Scalar), Error> {
     let accelerations = solve(system, state)?.accelerations;
     let zero = Direction::zero();
     let mut sums = [L::Scalar::constant(0.0); 2];
@@ -172,14 +166,11 @@ fn only<T: Real, N: Length>(i: usize, x: &Vector<T, N>) -> Vector<T, N> {
 }
 
 /// See [`MotionDerivatives::push_forward`](super::MotionDerivatives::push_forward).
-pub(super) fn push_forward<L, const K: usize>(
+pub(super) fn push_forward<L: Linearized<Scalar: Real>, const K: usize>(
     system: &L,
     at: &StateSensitivity<L::Scalar, L::N>,
     map: impl Fn(&DualSample<'_, L>) -> Result<[[Dual<L::Scalar>; K]; 2], Error>,
-) -> Result<StateSensitivity<L::Scalar, Const<K>>, Error>
-where
-    L: Linearized<Scalar: Real>,
-{
+) -> Result<StateSensitivity<L::Scalar, Const<K>>, Error> {
     let [q, v] = map(&DualSample::along(system, &at.state, &Direction::zero(), None))?
         .map(|half| vector(Array(half.map(|x| x.value))));
     let mut after = StateSensitivity::of(State { t: at.state.t, q, v }, at.arguments.clone());
@@ -198,15 +189,12 @@ where
 /// the row of the impact. Differentiation needs two terms. δM J − δFᵀΛ is the change of the residual of motion with
 /// accelerations J and multipliers Λ, less the change with both zero. δF J is the same difference for the residual of
 /// the acceleration constraints.
-pub(super) fn impact_sensitivity<L>(
+pub(super) fn impact_sensitivity<L: Linearized<Scalar: Real>>(
     system: &L,
     at: &StateSensitivity<L::Scalar, L::N>,
     constraint: &str,
     (name, restitution): (&str, L::Scalar),
-) -> Result<StateSensitivity<L::Scalar, L::N>, Error>
-where
-    L: Linearized<Scalar: Real>,
-{
+) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
     let of = <L::Scalar as Real>::Wide::of;
     let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
     let hit = index::<L>(L::CONSTRAINTS, "constraint", constraint)?;

@@ -71,10 +71,7 @@ impl<T: Real, N: Length, M: Length> Matrices<T, N, M> {
     }
 }
 
-impl<'a, L> Tangent<'a, L>
-where
-    L: StateDerivatives<Scalar: Real>,
-{
+impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     pub(super) fn at(system: &'a L, state: &'a StateOf<L>) -> Result<Self, Error> {
         Ok(Self::of(system, state, solve(system, state)?))
     }

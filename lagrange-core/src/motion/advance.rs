@@ -96,11 +96,7 @@ pub(super) struct FindCrossing<'m, 'e, L: Lagrangian, I> {
     pub(super) found: Option<Crossing<L::Scalar, L::N>>,
 }
 
-impl<L, I> FindCrossing<'_, '_, L, I>
-where
-    L: Lagrangian<Scalar: Real>,
-    I: Interpolant<L::Scalar, L::N>,
-{
+impl<L: Lagrangian<Scalar: Real>, I: Interpolant<L::Scalar, L::N>> FindCrossing<'_, '_, L, I> {
     /// Searches the rest of the last step for a crossing.
     pub(super) fn look<F: VectorField<L>>(
         &mut self,

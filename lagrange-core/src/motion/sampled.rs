@@ -52,11 +52,7 @@ impl<'w, L: Lagrangian> Kept<'w, L> for SamplesAlone<'w, L> {
 /// Settings of a motion from the start `S` that keeps samples alone.
 type Sampled<'a, 'w, L, S, P, E> = MotionBuilder<'a, 'w, L, S, P, E, SamplesAlone<'w, L>>;
 
-impl<'a, 'w, L, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K>
-where
-    L: Lagrangian<Scalar: Real>,
-    K: Kept<'w, L>,
-{
+impl<'a, 'w, L: Lagrangian<Scalar: Real>, S, P, E, K: Kept<'w, L>> MotionBuilder<'a, 'w, L, S, P, E, K> {
     /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) returns an [`Arrival`] that holds one
     /// state per time; for a motion with derivatives a
     /// [`SampledSensitivity`](crate::linearized::SampledSensitivity).
@@ -184,10 +180,7 @@ where
     }
 }
 
-impl<'w, L, F, P, E> Sampled<'_, 'w, L, Start<L::Scalar, L::N, F>, P, E>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+impl<'w, L: Lagrangian<Scalar: Real>, F, P, E> Sampled<'_, 'w, L, Start<L::Scalar, L::N, F>, P, E> {
     /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the
     /// start, it integrates backwards.
     ///

@@ -157,11 +157,11 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     /// ```
     ///
     /// [`Event`] describes which crossings are found and which are not, and has the settings.
-    fn event<V, G>(&self, name: &'static str, function: G) -> Event<Self, G>
-    where
-        V: EventValue<Self::Scalar>,
-        G: Fn(&Sample<&Self>) -> V,
-    {
+    fn event<V: EventValue<Self::Scalar>, G: Fn(&Sample<&Self>) -> V>(
+        &self,
+        name: &'static str,
+        function: G,
+    ) -> Event<Self, G> {
         Event::new(name, function)
     }
 

@@ -65,11 +65,7 @@ where
     last_step: LastStep<P::Interpolant>,
 }
 
-impl<L, P> Motion<L, P>
-where
-    L: Lagrangian<Scalar: Real>,
-    P: Method<L>,
-{
+impl<L: Lagrangian<Scalar: Real>, P: Method<L>> Motion<L, P> {
     /// Starts a motion of this system from a state, by the given method.
     ///
     /// # Errors
@@ -314,13 +310,10 @@ where
     /// # Errors
     /// An item is an error of [`advance_to`](Self::advance_to), or [`Ending::Unsolved`] with an
     /// [`Error::OutsideTrajectory`] for a time out of order.
-    pub fn states_at<I>(
+    pub fn states_at<I: IntoIterator<Item = L::Scalar, IntoIter: DoubleEndedIterator>>(
         &mut self,
         times: I,
-    ) -> impl Iterator<Item = Result<StateOf<L>, Ending>> + use<'_, I, L, P, F>
-    where
-        I: IntoIterator<Item = L::Scalar, IntoIter: DoubleEndedIterator>,
-    {
+    ) -> impl Iterator<Item = Result<StateOf<L>, Ending>> + use<'_, I, L, P, F> {
         let mut times = times.into_iter();
         let last = times.next_back();
         let end = last.unwrap_or(self.state().t);

@@ -101,10 +101,11 @@ fn solved() -> [Solved; 2] {
 }
 
 /// Mean slope of log error over log step in four halvings: at the end, and of the largest error in between.
-fn slopes<P>((system, exact): Solved, method: impl Fn(f64) -> P, coarsest: f64) -> (f64, f64)
-where
-    P: Method<Mechanism<1, 0, 0>>,
-{
+fn slopes<P: Method<Mechanism<1, 0, 0>>>(
+    (system, exact): Solved,
+    method: impl Fn(f64) -> P,
+    coarsest: f64,
+) -> (f64, f64) {
     let errors = |h: f64| {
         let (q, v) = exact(0.0);
         let path = system.integrate(State::new([q], [v]), 8.0, method(h)).unwrap();

@@ -51,17 +51,13 @@ impl<T: Scalar> Corrections<T> {
 /// corrections before rounding: most corrections are below a unit of round-off, and alone they would be rounded
 /// to one side more often than to the other.
 #[inline]
-pub(crate) fn project<L, R>(
+pub(crate) fn project<L: Lagrangian, R: Real>(
     system: &L,
     levels: &[Level],
     corrections: Corrections<L::Scalar>,
     mut state: StateOf<L>,
     rest: &mut [Array<L::Scalar, L::N>; 2],
-) -> (StateOf<L>, L::Scalar)
-where
-    L: Lagrangian,
-    R: Real,
-{
+) -> (StateOf<L>, L::Scalar) {
     let zero = L::Scalar::constant(0.0);
     let (factor, mut doubt) = (system.factor(&state), zero);
     let mut follow = vector(Array::filled(zero));
@@ -109,16 +105,12 @@ where
 /// a 16th of the size of the coordinates. Angular rates are at most about 3 per step, so the relative change of
 /// the velocities is at most 50 times that of the coordinates.
 #[inline(always)]
-fn following<L, R>(
+fn following<L: Lagrangian, R: Real>(
     system: &L,
     state: &StateOf<L>,
     correction: &SolutionOf<L>,
     step: L::Scalar,
-) -> Vector<L::Scalar, L::N>
-where
-    L: Lagrangian,
-    R: Real,
-{
+) -> Vector<L::Scalar, L::N> {
     let number = L::Scalar::constant;
     let size = |x: &Vector<L::Scalar, L::N>| x.iter().fold(number(0.0), |most, x| most.max(x.abs()));
     let (State { t, q, v }, part) = (state, step * number(1.0 / 1024.0));

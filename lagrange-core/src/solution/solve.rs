@@ -88,10 +88,7 @@ pub(super) fn solve_in_general<L: Lagrangian<Scalar: Real>>(
 }
 
 /// Converts a fault of the general solver to an error with names.
-pub(crate) fn fault<L>(fault: &Fault<L::Scalar, L::N>, time: f64) -> Error
-where
-    L: Lagrangian<Scalar: Real>,
-{
+pub(crate) fn fault<L: Lagrangian<Scalar: Real>>(fault: &Fault<L::Scalar, L::N>, time: f64) -> Error {
     match fault {
         Fault::Singular(share) => Error::Singular { coordinates: most_involved::<L>(share), time },
         Fault::Contradictory(row) => Error::Contradictory { constraint: name(L::CONSTRAINTS, *row), time },
@@ -99,10 +96,7 @@ where
 }
 
 /// Returns the first row that is not finite.
-pub(crate) fn not_finite<L>(e: &KktSystem<L::Scalar, L::N, L::M>) -> Option<Row>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+pub(crate) fn not_finite<L: Lagrangian<Scalar: Real>>(e: &KktSystem<L::Scalar, L::N, L::M>) -> Option<Row> {
     let finite =
         |row: &Array<L::Scalar, L::N>, rhs: L::Scalar| row.iter().all(|x| x.is_finite()) && rhs.is_finite();
     first_row::<L>(|i| !finite(&e.m[i], e.h[i]), |a| !finite(&e.f[a], e.gamma[a]))
@@ -120,10 +114,7 @@ pub(crate) fn first_row<L: Lagrangian>(
 }
 
 /// Returns the coordinates whose share in the undetermined motions is at least a tenth of the largest.
-fn most_involved<L>(share: &Array<L::Scalar, L::N>) -> Names
-where
-    L: Lagrangian<Scalar: Real>,
-{
+fn most_involved<L: Lagrangian<Scalar: Real>>(share: &Array<L::Scalar, L::N>) -> Names {
     let largest = share.iter().copied().fold(L::Scalar::constant(0.0), larger);
     let least = largest * L::Scalar::constant(0.1);
     (0..<L::N>::COUNT).filter(|&i| share[i] >= least).map(|i| L::COORDINATES[i]).collect()

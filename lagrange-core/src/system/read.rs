@@ -11,11 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::vector::{Array, Element, Length, Vector, vector};
 
-pub(crate) fn number<'de, D, T>(from: D) -> Result<T, D::Error>
-where
-    D: Deserializer<'de>,
-    T: Deserialize<'de>,
-{
+pub(crate) fn number<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<T, D::Error> {
     T::deserialize(from).map_err(explained)
 }
 

@@ -213,10 +213,7 @@ macro_rules! named {
             )*
         }
 
-        impl<S> Named<S::Scalar> for Sample<S>
-        where
-            S: Lagrangian<Scalar: Real>,
-        {
+        impl<S: Lagrangian<Scalar: Real>> Named<S::Scalar> for Sample<S> {
             fn time(&self) -> S::Scalar {
                 self.time()
             }

@@ -20,11 +20,9 @@ pub struct Records<T> {
 }
 
 #[cfg(feature = "serde")]
-fn rows<'de, D, T>(deserializer: D) -> Result<Vec<Vec<T>>, D::Error>
-where
-    D: serde::Deserializer<'de>,
-    T: crate::Real + serde::Deserialize<'de>,
-{
+fn rows<'de, D: serde::Deserializer<'de>, T: crate::Real + serde::Deserialize<'de>>(
+    deserializer: D,
+) -> Result<Vec<Vec<T>>, D::Error> {
     use serde::Deserialize;
 
     if !deserializer.is_human_readable() {

@@ -123,11 +123,7 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
     }
 }
 
-impl<S, F> Trajectory<S, F>
-where
-    S: Lagrangian<Scalar: Real> + Clone,
-    F: VectorField<S>,
-{
+impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Trajectory<S, F> {
     /// Returns the sample at this time.
     ///
     /// # Errors

@@ -63,10 +63,7 @@ use crate::vector::{Element, Length};
 /// # std::fs::remove_dir_all(&directory).unwrap();
 /// # Ok::<(), Error>(())
 /// ```
-pub struct ParquetTable<'a, L>
-where
-    L: Linearized<Scalar: Real>,
-{
+pub struct ParquetTable<'a, L: Linearized<Scalar: Real>> {
     directory: PathBuf,
     member: Box<dyn Fn(usize) -> (L, StateOf<L>) + Send + 'a>,
     interval: Duration,
@@ -80,10 +77,7 @@ where
     damaged: Vec<Error>,
 }
 
-impl<'a, L> ParquetTable<'a, L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
     /// Opens the table in this directory, and creates the directory if it does not exist. `member` is the function that
     /// the ensemble is [made from](super::Ensemble::from_fn).
     ///
@@ -301,20 +295,14 @@ fn wrong(path: &Path, reason: impl ToString) -> Error {
     Error::Ensemble(EnsembleError::Parquet { file: path.display().to_string(), reason: reason.to_string() })
 }
 
-impl<L> Drop for ParquetTable<'_, L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<L: Linearized<Scalar: Real>> Drop for ParquetTable<'_, L> {
     fn drop(&mut self) {
         // A destructor cannot return errors; call `flush` to see them.
         let _ = self.flush();
     }
 }
 
-impl<L> Debug for ParquetTable<'_, L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<L: Linearized<Scalar: Real>> Debug for ParquetTable<'_, L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let (directory, waiting) = (&self.directory, self.waiting.len());
         f.debug_struct("ParquetTable").field("directory", directory).field("waiting", &waiting).finish()

@@ -11,10 +11,10 @@ use crate::system::{State, StateOf};
 use crate::vector::{Array, Length, vector};
 
 /// Columns of these rows. `made` holds, for each row, the system and the initial state of its member.
-pub(super) fn columns<L>(rows: &[MemberRow<L::Scalar, L::N>], made: &[(L, StateOf<L>)]) -> Vec<Column>
-where
-    L: Linearized<Scalar: Real>,
-{
+pub(super) fn columns<L: Linearized<Scalar: Real>>(
+    rows: &[MemberRow<L::Scalar, L::N>],
+    made: &[(L, StateOf<L>)],
+) -> Vec<Column> {
     let integers = |group, name: &str, values: Vec<i64>| Column {
         group,
         name: name.into(),
@@ -90,10 +90,10 @@ pub(super) fn rows<T: Real, N: Length, P: Length>(
 }
 
 /// Columns of times, coordinates and velocities.
-fn states<L>(group: &'static str, states: &[&StateOf<L>]) -> impl Iterator<Item = Column>
-where
-    L: Linearized<Scalar: Real>,
-{
+fn states<L: Linearized<Scalar: Real>>(
+    group: &'static str,
+    states: &[&StateOf<L>],
+) -> impl Iterator<Item = Column> {
     let column = move |name: String, entry: &dyn Fn(&StateOf<L>) -> L::Scalar| Column {
         group,
         name,

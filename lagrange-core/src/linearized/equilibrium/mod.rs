@@ -58,10 +58,11 @@ impl<L: Lagrangian> Debug for Equilibrium<L> {
 }
 
 /// See [`Linearized::equilibrium`].
-pub(super) fn equilibrium<L>(system: &L, guess: &StateOf<L>, names: &[&str]) -> Result<Equilibrium<L>, Error>
-where
-    L: Linearized<Scalar: Real> + Clone,
-{
+pub(super) fn equilibrium<L: Linearized<Scalar: Real> + Clone>(
+    system: &L,
+    guess: &StateOf<L>,
+    names: &[&str],
+) -> Result<Equilibrium<L>, Error> {
     check_finite(system, guess)?;
     let unknowns = match names {
         [] => (0..<L::N>::COUNT).map(Argument::Coordinate).collect(),

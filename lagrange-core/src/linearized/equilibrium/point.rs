@@ -18,10 +18,7 @@ pub(super) struct Point<L: Linearized> {
     pub(super) multipliers: Vector<L::Scalar, L::M>,
 }
 
-impl<L> Point<L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<L: Linearized<Scalar: Real>> Point<L> {
     /// Residual R, with the rows of the motion first.
     pub(super) fn residual(&self) -> DVector<L::Scalar> {
         let Self { system, state, multipliers } = self;

@@ -39,10 +39,7 @@ pub(super) struct Iterate<L: Linearized> {
     damping: L::Scalar,
 }
 
-impl<L> EquilibriumSearch<L>
-where
-    L: Linearized<Scalar: Real> + Clone,
-{
+impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
     /// Starts a search at the guess; returns it with its first iterate.
     pub(super) fn start(
         system: L,
@@ -189,10 +186,7 @@ where
     }
 }
 
-impl<L> Search for EquilibriumSearch<L>
-where
-    L: Linearized<Scalar: Real> + Clone,
-{
+impl<L: Linearized<Scalar: Real> + Clone> Search for EquilibriumSearch<L> {
     type Scalar = L::Scalar;
     type Trial = Iterate<L>;
     type Linear = Singular<L::Scalar>;
@@ -240,10 +234,7 @@ where
     }
 }
 
-impl<L> EquilibriumSearch<L>
-where
-    L: Linearized<Scalar: Real> + Clone,
-{
+impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
     fn no_equilibrium(&self, trial: &Iterate<L>, steps: usize) -> Error {
         let size = |i: usize| Scalar::abs(trial.residual[i]) * self.weights[i];
         let worst =

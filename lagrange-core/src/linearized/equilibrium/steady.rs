@@ -24,10 +24,7 @@ impl<T: Real> Unsteadiness<T> {
     }
 }
 
-impl<L> Point<L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<L: Linearized<Scalar: Real>> Point<L> {
     pub(super) fn unsteadiness(&self) -> Result<Unsteadiness<L::Scalar>, Error> {
         let v = &self.state.v;
         let moving: Vec<usize> = (0..<L::N>::COUNT).filter(|&i| v[i] != L::Scalar::constant(0.0)).collect();

@@ -22,10 +22,7 @@ use crate::vector::PhaseVector;
     note = "`Dop853` and `Dopri5` can, of every system",
     note = "`Taylor` can where the number type is a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`"
 )]
-pub trait DifferentiableMethod<L>: Method<L>
-where
-    L: Linearized<Scalar: Real>,
-{
+pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> {
     /// Memory of the method for the variations, beside their values.
     #[doc(hidden)]
     type VariationMemory;

@@ -51,10 +51,7 @@ pub struct Variations<L: Linearized<Scalar: Real>> {
     pub(crate) blocks: Vec<Block<WideOf<L>, L::N, L::P>>,
 }
 
-impl<L> Variations<L>
-where
-    L: Linearized<Scalar: Real>,
-{
+impl<L: Linearized<Scalar: Real>> Variations<L> {
     /// Variations at the start of a motion: `column` gives δ(q, q̇) for each argument, and arguments that are
     /// parameters also change the equations. With constraints, the variations are projected onto the tangent space:
     /// parameters may shift the start, and only the part of a change along the constraints changes the motion.
@@ -214,10 +211,10 @@ where
 }
 
 /// Names the lanes of a block by their arguments, for errors.
-fn lane_names<L>(arguments: &[Entry], block: usize) -> impl Fn(usize) -> Entry
-where
-    L: StateDerivatives<Scalar: Real>,
-{
+fn lane_names<L: StateDerivatives<Scalar: Real>>(
+    arguments: &[Entry],
+    block: usize,
+) -> impl Fn(usize) -> Entry {
     let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
     move |lane| arguments[lanes * block + lane]
 }
@@ -262,15 +259,12 @@ impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
 
     /// Derivative of the residual along the variations.
     #[inline]
-    fn changes<L>(
+    fn changes<L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>>(
         &self,
         tangent: &Tangent<'_, L>,
         by_parameters: &Option<L::ParameterSlopes>,
         y: &PhaseVector<W, N>,
-    ) -> ResidualChange<W, N, L::M>
-    where
-        L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>,
-    {
+    ) -> ResidualChange<W, N, L::M> {
         let of_state =
             tangent.changes(&Direction { t: W::constant(0.0), q: vector(y.half(0)), v: vector(y.half(1)) });
         let Some((slopes, rates)) = by_parameters.as_ref().zip(self.rates.as_ref()) else { return of_state };
@@ -279,32 +273,26 @@ impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
 
     /// Rates δ(q̇, q̈) of the variations.
     #[inline]
-    fn slope_at<L>(
+    fn slope_at<L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>>(
         &self,
         tangent: &Tangent<'_, L>,
         by_parameters: &Option<L::ParameterSlopes>,
         y: &PhaseVector<W, N>,
         names: &impl Fn(usize) -> Entry,
-    ) -> Result<PhaseVector<W, N>, Error>
-    where
-        L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>,
-    {
+    ) -> Result<PhaseVector<W, N>, Error> {
         let changes = self.changes(tangent, by_parameters, y);
         let rates = tangent.responses(self.lanes, &changes, names)?.accelerations;
         Ok(PhaseVector::new([y.half(1), rates.into()]))
     }
 
     /// Projects variations onto the tangent space.
-    fn projected<L>(
+    fn projected<L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>>(
         &self,
         tangent: &Tangent<'_, L>,
         by_parameters: &Option<L::ParameterSlopes>,
         mut y: PhaseVector<W, N>,
         names: &impl Fn(usize) -> Entry,
-    ) -> Result<PhaseVector<W, N>, Error>
-    where
-        L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>,
-    {
+    ) -> Result<PhaseVector<W, N>, Error> {
         for half in 0..2 {
             y = self.half_projected(half, tangent, by_parameters, y, names)?;
         }
@@ -312,17 +300,14 @@ impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
     }
 
     /// Projects δq (`half` 0) or δq̇ (`half` 1), by the rows of all constraints.
-    fn half_projected<L>(
+    fn half_projected<L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>>(
         &self,
         half: usize,
         tangent: &Tangent<'_, L>,
         by_parameters: &Option<L::ParameterSlopes>,
         mut y: PhaseVector<W, N>,
         names: &impl Fn(usize) -> Entry,
-    ) -> Result<PhaseVector<W, N>, Error>
-    where
-        L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>,
-    {
+    ) -> Result<PhaseVector<W, N>, Error> {
         let changes = self.changes(tangent, by_parameters, &y);
         let left = if half == 0 { changes.position } else { changes.rate };
         let motion = vector(Array::filled(W::constant(0.0)));

@@ -32,11 +32,7 @@ pub struct Stages<W: Element, N: Length> {
     slope: PhaseVector<W, N>,
 }
 
-impl<Q, L> DifferentiableMethod<L> for Adaptive<Q>
-where
-    Q: Pair,
-    L: Linearized<Scalar: Real>,
-{
+impl<Q: Pair, L: Linearized<Scalar: Real>> DifferentiableMethod<L> for Adaptive<Q> {
     type VariationMemory = Vec<Stages<WideOf<L>, L::N>>;
 
     fn companion(
@@ -121,15 +117,12 @@ where
 
 impl<Q: Pair> Adaptive<Q> {
     /// Largest error of a variation relative to its tolerance, and the index of that variation.
-    fn error_of<L>(
+    fn error_of<L: Linearized<Scalar: Real>>(
         &self,
         memory: &PairMemory<L::Scalar, L::N, L::M>,
         variations: &Variations<L>,
         all: &[Stages<WideOf<L>, L::N>],
-    ) -> (L::Scalar, usize)
-    where
-        L: Linearized<Scalar: Real>,
-    {
+    ) -> (L::Scalar, usize) {
         let zero = L::Scalar::constant(0.0);
         let Some((from, h, _)) = memory.last_step() else { return (zero, 0) };
         let (lanes, tolerance) = (<WideOf<L> as Wide<L::Scalar>>::COUNT, self.tolerance::<L::Scalar>());
@@ -149,25 +142,22 @@ impl<Q: Pair> Adaptive<Q> {
 }
 
 /// Restores the variations to the start of the last step.
-fn step_back<L>(variations: &mut Variations<L>, all: &mut [Stages<WideOf<L>, L::N>])
-where
-    L: Linearized<Scalar: Real>,
-{
+fn step_back<L: Linearized<Scalar: Real>>(
+    variations: &mut Variations<L>,
+    all: &mut [Stages<WideOf<L>, L::N>],
+) {
     for (block, stages) in variations.blocks.iter_mut().zip(all) {
         (block.y, stages.slope) = (stages.start, stages.slopes[0]);
     }
 }
 
 /// Advances the variations to the end of the step that the motion has taken.
-fn go<Q: Pair, L>(
+fn go<Q: Pair, L: Linearized<Scalar: Real>>(
     system: &L,
     memory: &PairMemory<L::Scalar, L::N, L::M>,
     variations: &mut Variations<L>,
     all: &mut [Stages<WideOf<L>, L::N>],
-) -> Result<(), Error>
-where
-    L: Linearized<Scalar: Real>,
-{
+) -> Result<(), Error> {
     stages::<Q, L>(system, memory, variations, all, (1, Q::STAGES))?;
     let Some((_, h, _)) = memory.last_step() else { return Ok(()) };
     for (block, stages) in variations.blocks.iter_mut().zip(&*all) {
@@ -186,16 +176,13 @@ where
 }
 
 /// Computes the slopes of these stages of the last step; `first` is the number of the first stage.
-fn stages<Q: Pair, L>(
+fn stages<Q: Pair, L: Linearized<Scalar: Real>>(
     system: &L,
     memory: &PairMemory<L::Scalar, L::N, L::M>,
     variations: &Variations<L>,
     all: &mut [Stages<WideOf<L>, L::N>],
     (first, rows): (usize, &[TableauRow]),
-) -> Result<(), Error>
-where
-    L: Linearized<Scalar: Real>,
-{
+) -> Result<(), Error> {
     let Some((from, h, slopes)) = memory.last_step() else { return Ok(()) };
     let (mut place, wide) = (from.y, WideOf::<L>::of(h));
     for (number, row) in (first..).zip(rows) {

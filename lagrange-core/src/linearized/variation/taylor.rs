@@ -168,16 +168,13 @@ impl Taylor {
 
     /// Projects the variations onto the tangent space. Returns the argument of a variation whose accelerations at the
     /// end of its series deviate too far from the equations; `None` if there is none.
-    fn off<L>(
+    fn off<L: Linearized<Scalar: Real> + TaylorSeries>(
         &self,
         system: &L,
         memory: &TaylorMemory<L::Sums, L::Scalar, L::N, L::M>,
         variations: &mut Variations<L>,
         steps: &[BlockStep<WideOf<L>, L::N>],
-    ) -> Result<Option<Entry>, Error>
-    where
-        L: Linearized<Scalar: Real> + TaylorSeries,
-    {
+    ) -> Result<Option<Entry>, Error> {
         let tangent = Tangent::of(system, &memory.state, memory.solved.solution);
         variations.arrive(&tangent)?;
         let length = WideOf::<L>::of(Scalar::abs(memory.clock.now - memory.series.start));
@@ -216,10 +213,7 @@ where
     Ok(over)
 }
 
-impl<S, U, W: Scalar, N: Length> Varied<S, U, W, N>
-where
-    U: FixedArray<Dual<W>>,
-{
+impl<S, U: FixedArray<Dual<W>>, W: Scalar, N: Length> Varied<S, U, W, N> {
     /// Expands the motion and its variations in Taylor series about the present state.
     fn expand<L, V, P: Length>(
         &mut self,

@@ -232,11 +232,7 @@ impl<W: sealed::Sealed + ?Sized> sealed::Sealed for Box<W> {}
 /// Implements [`AnyEvent`] for a pointer to an event.
 macro_rules! watched_behind {
     ($pointer:ty) => {
-        impl<L, W> AnyEvent<L> for $pointer
-        where
-            L: Lagrangian,
-            W: AnyEvent<L> + ?Sized,
-        {
+        impl<L: Lagrangian, W: AnyEvent<L> + ?Sized> AnyEvent<L> for $pointer {
             #[inline]
             fn value(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
                 (**self).value(system, state)

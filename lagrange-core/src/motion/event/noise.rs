@@ -10,14 +10,11 @@ use crate::system::{Lagrangian, StateOf};
 /// not known more accurately, and the function's own rounding errors change along with them.
 #[cold]
 #[inline(never)]
-pub(super) fn noise<L>(
+pub(super) fn noise<L: Lagrangian<Scalar: Real>>(
     event: &impl AnyEvent<L>,
     system: &L,
     state: &StateOf<L>,
-) -> Result<L::Scalar, crate::error::Error>
-where
-    L: Lagrangian<Scalar: Real>,
-{
+) -> Result<L::Scalar, crate::error::Error> {
     let value = event.value(system, state)?;
     let moved = |nearby| event.value(system, &nearby).unwrap_or(value);
     let differences = neighbours(state, L::Scalar::EPSILON).map(|nearby| Scalar::abs(moved(nearby) - value));

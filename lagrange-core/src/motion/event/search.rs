@@ -42,11 +42,7 @@ pub(crate) struct EventSearch<'e, W, L: Lagrangian> {
     pub(crate) system: PhantomData<fn(&L)>,
 }
 
-impl<'e, W, L> EventSearch<'e, W, L>
-where
-    W: AnyEvent<L>,
-    L: Lagrangian<Scalar: Real>,
-{
+impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     /// Begins the search at the start of a run, and counts crossings from 1.
     #[cfg(feature = "alloc")]
     pub(crate) fn begin(events: &'e mut [W], system: &L, state: &StateOf<L>) -> Result<Self, Error> {
@@ -76,15 +72,11 @@ where
     ///
     /// # Errors
     /// The reason why the motion ends at `from`.
-    pub(crate) fn next<F, I>(
+    pub(crate) fn next<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         from: &mut StateOf<L>,
-    ) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending>
-    where
-        F: VectorField<L>,
-        I: Interpolant<L::Scalar, L::N>,
-    {
+    ) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending> {
         let (start, mut intervals) = (from.t, 0);
         for piece in 1..=self.subdivisions {
             let mut halves = Halves::of([from.t, step.mark(start, piece, self.subdivisions)]);
@@ -127,15 +119,11 @@ where
     /// Records the crossings within a step. If the motion ends within it, returns the state there and the ending.
     #[cfg(feature = "alloc")]
     #[inline]
-    pub(crate) fn record<F, I>(
+    pub(crate) fn record<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         crossings: &mut Vec<Crossing<L::Scalar, L::N>>,
-    ) -> Option<(StateOf<L>, Ending)>
-    where
-        F: VectorField<L>,
-        I: Interpolant<L::Scalar, L::N>,
-    {
+    ) -> Option<(StateOf<L>, Ending)> {
         let mut at = *step.before;
         loop {
             match self.next(step, &mut at) {
@@ -202,17 +190,13 @@ where
     /// Moves `from` to `t`, or to an earlier crossing. If a function may cross twice on the way and the interval can be
     /// halved, asks for that instead.
     #[inline]
-    fn look<F, I>(
+    fn look<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         from: &mut StateOf<L>,
         t: L::Scalar,
         may_halve: bool,
-    ) -> Result<Look, Error>
-    where
-        F: VectorField<L>,
-        I: Interpolant<L::Scalar, L::N>,
-    {
+    ) -> Result<Look, Error> {
         let interval = if may_halve { step.interval(from.t, t) } else { None };
         let mut are_too_wide = false;
         for event in self.events.iter_mut() {
@@ -257,16 +241,12 @@ where
     /// True if each function crosses zero at most once between these times. The degree of the samples is raised as
     /// needed.
     #[inline]
-    fn is_plain<F, I>(
+    fn is_plain<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         [from, to]: [L::Scalar; 2],
         interval: &Interval<L::Scalar>,
-    ) -> Result<bool, Error>
-    where
-        F: VectorField<L>,
-        I: Interpolant<L::Scalar, L::N>,
-    {
+    ) -> Result<bool, Error> {
         let mut degree = COARSEST;
         while degree <= interval.finest {
             for place in places(degree) {
@@ -310,16 +290,12 @@ where
     /// too.
     #[cold]
     #[inline(never)]
-    fn go_to_first<F, I>(
+    fn go_to_first<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         from: &mut StateOf<L>,
         to: &StateOf<L>,
-    ) -> Result<(), Error>
-    where
-        F: VectorField<L>,
-        I: Interpolant<L::Scalar, L::N>,
-    {
+    ) -> Result<(), Error> {
         let mut first = (usize::MAX, *to);
         for (index, event) in self.events.iter_mut().enumerate() {
             let memory = event.memory();

@@ -10,11 +10,7 @@ use crate::motion::run::{Run, Watchdog, resume};
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::{Lagrangian, State};
 
-impl<'o, L, P> LaneMotion<'o, L, P>
-where
-    L: Lagrangian<Scalar = f64>,
-    P: LaneMethod<L>,
-{
+impl<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> LaneMotion<'o, L, P> {
     /// Makes the start consistent, and prepares the first step. Returns the motion and its consistent start.
     pub(crate) fn new<const HAS_DENSE_OUTPUT: bool>(
         (index, start): (usize, u32),

@@ -13,21 +13,13 @@ use crate::system::{Lagrangian, State};
 use crate::vector::{Length, PhaseVector, from_fn, vector};
 
 /// Motions in lock-step, at most one per lane.
-pub(crate) struct Batch<'o, L, P>
-where
-    L: Lagrangian<Scalar = f64>,
-    P: LaneMethod<L>,
-{
+pub(crate) struct Batch<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> {
     method: &'o P,
     lane_memory: P::LaneMemory,
     motions: LaneMotions<'o, L, P>,
 }
 
-impl<'o, L, P> Batch<'o, L, P>
-where
-    L: Lagrangian<Scalar = f64>,
-    P: LaneMethod<L>,
-{
+impl<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> Batch<'o, L, P> {
     /// Creates a batch with a first motion; the other lanes are free.
     pub(crate) fn new(method: &'o P, motion: LaneMotion<'o, L, P>) -> Self {
         let lane_memory = method.lane_memory(&motion.system, &motion.memory);

@@ -18,10 +18,7 @@ use crate::vector::{Array, Length, PhaseVector};
     note = "`Dop853` and `Dopri5` do, and `Taylor` where the equations of motion have a Taylor series",
     note = "`Ensemble::integrate` takes every method, and integrates one member at a time"
 )]
-pub trait LaneMethod<L>: Method<L> + Sized
-where
-    L: Lagrangian<Scalar = f64>,
-{
+pub trait LaneMethod<L: Lagrangian<Scalar = f64>>: Method<L> + Sized {
     /// Systems and states of all lanes, with the working arrays of a step.
     #[doc(hidden)]
     type LaneMemory;

@@ -10,11 +10,7 @@ use crate::statistics::Statistics;
 use crate::system::Lagrangian;
 
 /// A motion of an ensemble that has a lane, or waits for one.
-pub struct LaneMotion<'o, L, P>
-where
-    L: Lagrangian<Scalar = f64>,
-    P: Method<L>,
-{
+pub struct LaneMotion<'o, L: Lagrangian<Scalar = f64>, P: Method<L>> {
     /// Index of the member in the ensemble.
     pub(crate) index: usize,
     /// Identifies the start and the parameters of the member.
@@ -33,11 +29,7 @@ where
     pub(super) failure: Option<Ending>,
 }
 
-impl<L, P> Debug for LaneMotion<'_, L, P>
-where
-    L: Lagrangian<Scalar = f64>,
-    P: Method<L>,
-{
+impl<L: Lagrangian<Scalar = f64>, P: Method<L>> Debug for LaneMotion<'_, L, P> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { index, statistics, end, .. } = self;
         let mut text = f.debug_struct("LaneMotion");

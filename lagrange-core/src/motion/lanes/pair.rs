@@ -145,16 +145,13 @@ where
     }
 }
 
-impl<S, P> PairLanes<S, P, S::N>
-where
-    S: Lagrangian<Scalar = Lanes>,
-    P: Pair,
-{
+impl<S: Lagrangian<Scalar = Lanes>, P: Pair> PairLanes<S, P, S::N> {
     /// Computes stages, error, projection, and the slopes at the end of the step in all lanes.
-    fn attempt<L>(&mut self, method: &Adaptive<P>, motions: &LaneMotions<'_, L, Adaptive<P>>) -> LaneErrors
-    where
-        L: Lagrangian<N = S::N, M = S::M, Scalar = f64>,
-    {
+    fn attempt<L: Lagrangian<N = S::N, M = S::M, Scalar = f64>>(
+        &mut self,
+        method: &Adaptive<P>,
+        motions: &LaneMotions<'_, L, Adaptive<P>>,
+    ) -> LaneErrors {
         const { check::<P>() };
         let (h, end) = (Lanes::from(self.h), Lanes::from(self.end));
         let mut reliability = LaneReliability::new();
@@ -208,16 +205,13 @@ where
 
     /// Projects all lanes onto the constraints at once. A lane for which that fails is projected alone if its step is
     /// accurate. Returns true for each lane that is projected or rejected anyway.
-    fn project<L>(
+    fn project<L: Lagrangian<N = S::N, M = S::M, Scalar = f64>>(
         &self,
         next: &mut PhaseVector<Lanes, S::N>,
         method: &Adaptive<P>,
         motions: &LaneMotions<'_, L, Adaptive<P>>,
         error: &[f64; Lanes::COUNT],
-    ) -> [bool; Lanes::COUNT]
-    where
-        L: Lagrangian<N = S::N, M = S::M, Scalar = f64>,
-    {
+    ) -> [bool; Lanes::COUNT] {
         let state = State { t: self.end.into(), q: vector(next.half(0)), v: vector(next.half(1)) };
         let rest = &mut [Array::filled(Lanes::constant(0.0)); 2];
         let (near, doubt) =
@@ -242,15 +236,12 @@ where
 
     /// Computes the dense output of steps that will be accepted, if a lane needs it. Returns these lanes. A lane with
     /// unreliable stages of the dense output is marked unsound, so that the scalar method repeats its step.
-    fn look_within<L>(
+    fn look_within<L: Lagrangian<N = S::N, M = S::M, Scalar = f64>>(
         &mut self,
         method: &Adaptive<P>,
         motions: &LaneMotions<'_, L, Adaptive<P>>,
         tried: &mut LaneErrors,
-    ) -> [bool; Lanes::COUNT]
-    where
-        L: Lagrangian<N = S::N, M = S::M, Scalar = f64>,
-    {
+    ) -> [bool; Lanes::COUNT] {
         let looked: [bool; Lanes::COUNT] = from_fn(|lane| {
             let motion = motions[lane].as_ref();
             motion.is_some_and(|motion| motion.record.looks_into(self.now[lane], self.end[lane]))

@@ -245,17 +245,13 @@ impl<P: Pair> Adaptive<P> {
     }
 
     /// Computes stages, error and projection of a step; any failure rejects it.
-    fn attempt<L, F, const IS_FIXED: bool>(
+    fn attempt<L: Lagrangian<Scalar: Real>, F: VectorField<L>, const IS_FIXED: bool>(
         &self,
         system: &L,
         memory: &mut PairMemory<L::Scalar, L::N, L::M>,
         (h, time): (L::Scalar, L::Scalar),
         statistics: &mut Statistics,
-    ) -> Result<Reached<L::Scalar, L::N, L::M>, Refusal<L::Scalar>>
-    where
-        L: Lagrangian<Scalar: Real>,
-        F: VectorField<L>,
-    {
+    ) -> Result<Reached<L::Scalar, L::N, L::M>, Refusal<L::Scalar>> {
         const { check::<P>() };
         if IS_FIXED {
             memory.ensure_slope::<L, F>(system, statistics)?;

@@ -21,16 +21,12 @@ impl<P: Pair> Adaptive<P> {
     /// Returns [`Pace::stiffness`](crate::error::Pace::stiffness). Only this call costs time: it tries the next steps
     /// on a copy.
     #[cold]
-    pub(super) fn find_stiffness<L, F>(
+    pub(super) fn find_stiffness<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
         &self,
         system: &L,
         memory: &PairMemory<L::Scalar, L::N, L::M>,
         end: L::Scalar,
-    ) -> Option<f64>
-    where
-        L: Lagrangian<Scalar: Real>,
-        F: VectorField<L>,
-    {
+    ) -> Option<f64> {
         let limit = L::Scalar::constant(0.9 * stability_limit::<P>());
         let (mut memory, mut statistics) = (memory.clone(), Statistics::default());
         let (mut seen, mut longest, mut rate) = (0, 0, None);

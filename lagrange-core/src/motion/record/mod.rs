@@ -152,11 +152,11 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
 
     /// Records the samples and crossings in this step. If the motion stops within the step, moves `end` there and
     /// returns the ending.
-    pub(crate) fn keep<F, I>(&mut self, step: &DenseStep<'_, L, F, I>, end: &mut StateOf<L>) -> Option<Ending>
-    where
-        F: VectorField<L>,
-        I: Interpolant<L::Scalar, L::N>,
-    {
+    pub(crate) fn keep<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+        &mut self,
+        step: &DenseStep<'_, L, F, I>,
+        end: &mut StateOf<L>,
+    ) -> Option<Ending> {
         let (mut at, mut stopped) = (*step.before, None);
         if !self.events.is_empty() {
             let mut search = EventSearch {
@@ -246,10 +246,7 @@ impl<L> Deref for Moving<'_, L> {
 
 /// Observer that records one motion, and calls its controller. If `HAS_DENSE_OUTPUT` is false, no samples, events or
 /// controller exist, and their code is not compiled.
-pub(crate) struct Recorded<'o, 'r, L, I, A, const HAS_DENSE_OUTPUT: bool>
-where
-    L: Lagrangian,
-{
+pub(crate) struct Recorded<'o, 'r, L: Lagrangian, I, A, const HAS_DENSE_OUTPUT: bool> {
     system: Moving<'r, L>,
     record: Record<'o, L>,
     /// Interpolant of the last step, if samples or events need it.

@@ -43,15 +43,12 @@ pub(super) struct CandidateStep<'a, S, T: Element, N: Length, M: Length> {
 
 impl<S: FixedArray<T>, T: Real, N: Length, M: Length> CandidateStep<'_, S, T, N, M> {
     /// Index of the coordinate with the largest defect, if that is too large; `None` if the step is accurate.
-    pub(super) fn inaccurate<L>(
+    pub(super) fn inaccurate<L: TaylorSeries<N = N, M = M, Scalar = T, Sums = S>>(
         &self,
         system: &L,
         method: &Taylor,
         statistics: &mut Statistics,
-    ) -> Result<Option<usize>, Error>
-    where
-        L: TaylorSeries<N = N, M = M, Scalar = T, Sums = S>,
-    {
+    ) -> Result<Option<usize>, Error> {
         let tolerance = method.tolerance::<T>();
         let allowed = match self.is_near_dependence {
             true => method.jump_allowed::<T>(),
@@ -79,17 +76,14 @@ impl<S: FixedArray<T>, T: Real, N: Length, M: Length> CandidateStep<'_, S, T, N,
         Ok(None)
     }
 
-    fn off<L>(
+    fn off<L: TaylorSeries<N = N, M = M, Scalar = T, Sums = S>>(
         &self,
         system: &L,
         method: &Taylor,
         (state, solved): (&State<T, N>, &SolvedState<T, N, M>),
         accelerations: &Array<T, N>,
         bound: f64,
-    ) -> Option<usize>
-    where
-        L: TaylorSeries<N = N, M = M, Scalar = T, Sums = S>,
-    {
+    ) -> Option<usize> {
         let slack = T::constant(method.slack::<T>());
         let off = |i: usize| Scalar::abs(accelerations[i] - solved.solution.accelerations[i]);
         let defect = |i: usize| part([self.start.v[i], self.end.v[i]], off(i), self.length, slack);
@@ -111,10 +105,7 @@ impl Taylor {
     }
 
     /// Largest defect of accelerations, relative to the velocities.
-    pub(super) fn defect_allowed<L>(&self) -> f64
-    where
-        L: TaylorSeries<Scalar: Real>,
-    {
+    pub(super) fn defect_allowed<L: TaylorSeries<Scalar: Real>>(&self) -> f64 {
         let tolerance = self.tolerance::<L::Scalar>();
         match L::ARGUMENTS.is_empty() {
             true => larger(tolerance, DEFECT * L::Scalar::EPSILON),
@@ -137,16 +128,13 @@ pub(super) fn part<T: Scalar>([start, end]: [T; 2], off: T, length: T, slack: T)
 
 /// True if rounding errors of the state change this acceleration by about as much as `off`.
 #[cold]
-fn is_rounding<L, T: Real>(
+fn is_rounding<L: TaylorSeries<Scalar = T>, T: Real>(
     system: &L,
     state: &State<T, L::N>,
     solved: &SolvedState<T, L::N, L::M>,
     row: usize,
     off: T,
-) -> bool
-where
-    L: TaylorSeries<Scalar = T>,
-{
+) -> bool {
     let [units, times] = ROUNDING;
     let factors = [1.0, -1.0].map(|sign| T::constant(1.0 + sign * units * T::EPSILON));
     let moved = |[even, odd]: [T; 2]| {

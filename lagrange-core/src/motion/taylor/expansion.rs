@@ -71,10 +71,7 @@ pub(crate) struct Expansion<S, T: Element, N: Length> {
 
 impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
     /// Allocates a series of this order.
-    pub(crate) fn new<L>(order: usize) -> Self
-    where
-        L: TaylorSeries<N = N, Scalar = T, Sums = S>,
-    {
+    pub(crate) fn new<L: TaylorSeries<N = N, Scalar = T, Sums = S>>(order: usize) -> Self {
         let zero = T::constant(0.0);
         Self {
             start: zero,
@@ -102,17 +99,14 @@ impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
     /// Expands the motion about a state, given accelerations and multipliers there. `solve` returns those of a higher
     /// order, from the right-hand sides of that order.
     #[inline(always)]
-    pub(crate) fn orders<L, E>(
+    pub(crate) fn orders<L: TaylorSeries<N = N, Scalar = T, Sums = S>, E>(
         &mut self,
         system: &L,
         state: &State<T, N>,
         solution: &Solution<T, N, L::M>,
         unit: T,
         solve: impl Fn(&RightHandSides<T, N, L::M>) -> Result<Solution<T, N, L::M>, E>,
-    ) -> Result<(), E>
-    where
-        L: TaylorSeries<N = N, Scalar = T, Sums = S>,
-    {
+    ) -> Result<(), E> {
         (self.start, self.unit, self.summed) = (state.t, unit, self.order());
         (self.q[0], self.v[0]) = (state.q.into(), state.v.into());
         let (slopes, highest) = (system.series_slopes(state, solution), self.order());
@@ -196,16 +190,13 @@ impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
 impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
     /// Expands the motion about a state, given the solution of the equations there. Returns the sizes of the last
     /// coefficients.
-    pub(crate) fn about<L>(
+    pub(crate) fn about<L: TaylorSeries<N = N, Scalar = T, Sums = S>>(
         &mut self,
         system: &L,
         state: &State<T, N>,
         solved: &SolvedState<T, N, L::M>,
         [unit, slack]: [T; 2],
-    ) -> Result<Last<T>, Error>
-    where
-        L: TaylorSeries<N = N, Scalar = T, Sums = S>,
-    {
+    ) -> Result<Last<T>, Error> {
         let solution = &solved.solution;
         if solved.is_by_elimination() {
             let factor = system.factor(state);
@@ -224,16 +215,13 @@ impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
     /// gives NaN, and for other units of time, which are rare. A separate function, because the matrices are large.
     #[cold]
     #[inline(never)]
-    fn about_in_general<L>(
+    fn about_in_general<L: TaylorSeries<N = N, Scalar = T, Sums = S>>(
         &mut self,
         system: &L,
         state: &State<T, N>,
         SolvedState { solution, active }: &SolvedState<T, N, L::M>,
         [unit, slack]: [T; 2],
-    ) -> Result<Last<T>, Error>
-    where
-        L: TaylorSeries<N = N, Scalar = T, Sums = S>,
-    {
+    ) -> Result<Last<T>, Error> {
         let general = General::at(system, state, *active)?;
         let expand = |series: &mut Self, unit| {
             series.orders(system, state, solution, unit, |sides| general.solve::<L>(sides))
@@ -243,15 +231,12 @@ impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
 
     /// Expands in this unit of time, and in better ones as long as there are any.
     #[cold]
-    fn in_units<L>(
+    fn in_units<L: TaylorSeries>(
         &mut self,
         mut unit: T,
         slack: T,
         expand: impl Fn(&mut Self, T) -> Result<(), Error>,
-    ) -> Result<Last<T>, Error>
-    where
-        L: TaylorSeries,
-    {
+    ) -> Result<Last<T>, Error> {
         for _ in 0..UNITS {
             expand(self, unit)?;
             let last = self.last_sizes(slack);

@@ -183,10 +183,11 @@ impl Last<Lanes> {
 
 impl Taylor {
     /// Step of a lane whose last coefficients allow the length `allowed`.
-    fn plan<L>(&self, allowed: f64, memory: &TaylorMemory<L::Sums, f64, L::N, L::M>) -> LaneStep
-    where
-        L: TaylorSeries<Scalar = f64>,
-    {
+    fn plan<L: TaylorSeries<Scalar = f64>>(
+        &self,
+        allowed: f64,
+        memory: &TaylorMemory<L::Sums, f64, L::N, L::M>,
+    ) -> LaneStep {
         let longest = memory.sampling.longest::<L>(memory.planned);
         let planned = self.choose(allowed, longest, &memory.clock);
         let (h, end) = memory.clock.next(planned);
@@ -194,11 +195,7 @@ impl Taylor {
     }
 }
 
-impl<S, U> TaylorLanes<S, U, S::N, S::M>
-where
-    S: TaylorSeries<Scalar = Lanes, Sums = U>,
-    U: FixedArray<Lanes>,
-{
+impl<S: TaylorSeries<Scalar = Lanes, Sums = U>, U: FixedArray<Lanes>> TaylorLanes<S, U, S::N, S::M> {
     /// Expands the motions. `times` holds the time and the unit of time of each lane.
     fn expand(&mut self, times: [(f64, f64); Lanes::COUNT], reliability: &mut LaneReliability) {
         let Self { system, here: LaneState { y, solution, .. }, series, .. } = self;

@@ -35,10 +35,7 @@ use sampling::Sampling;
 pub use settings::Taylor;
 use step::Attempt;
 
-impl<L> Method<L> for Taylor
-where
-    L: TaylorSeries<Scalar: Real>,
-{
+impl<L: TaylorSeries<Scalar: Real>> Method<L> for Taylor {
     type Memory = TaylorMemory<L::Sums, L::Scalar, L::N, L::M>;
     type Interpolant = TaylorPolynomial<L::Scalar, L::N>;
 

@@ -66,12 +66,9 @@ impl<T: Real, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
 
 impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
     /// Series of the roots, in powers of (t − t₀)/unit.
-    pub(super) fn series_of_roots<L>(
+    pub(super) fn series_of_roots<L: TaylorSeries<Scalar = T, Sums = S>>(
         &self,
-    ) -> impl Iterator<Item = WatchedSeries<impl Iterator<Item = T> + Clone, T>>
-    where
-        L: TaylorSeries<Scalar = T, Sums = S>,
-    {
+    ) -> impl Iterator<Item = WatchedSeries<impl Iterator<Item = T> + Clone, T>> {
         let coefficients = |place| self.factors.right_factor(place, self.order() - 1);
         let root = move |(&[place, _], &value): (&[usize; 2], &T)| WatchedSeries {
             value,
@@ -83,10 +80,10 @@ impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
 
 impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
     /// For each root whose series becomes negative in a step of this length, a position with a negative value.
-    pub(super) fn roots_below_zero<L>(&self, length: T) -> impl Iterator<Item = T>
-    where
-        L: TaylorSeries<Scalar = T, Sums = S>,
-    {
+    pub(super) fn roots_below_zero<L: TaylorSeries<Scalar = T, Sums = S>>(
+        &self,
+        length: T,
+    ) -> impl Iterator<Item = T> {
         let theta = length / self.unit;
         let vanishing = self.series_of_roots::<L>().filter_map(move |root| root.vanishes(theta));
         vanishing.map(|theta| theta * self.unit)

@@ -51,10 +51,7 @@ impl<T: Real> Sampling<T> {
     }
 
     /// Largest length of the next step; `first` if it is the first.
-    pub(super) fn longest<L>(&self, first: T) -> T
-    where
-        L: TaylorSeries,
-    {
+    pub(super) fn longest<L: TaylorSeries>(&self, first: T) -> T {
         match (is_linear::<L>(), self.step > T::constant(0.0)) {
             (true, _) => T::constant(f64::INFINITY),
             (false, true) => T::constant(GROWTH) * self.step,
@@ -63,10 +60,7 @@ impl<T: Real> Sampling<T> {
     }
 
     /// Number of samples in a step of this length, if its series may not know its surroundings.
-    pub(super) fn count<L>(&self, length: T) -> usize
-    where
-        L: TaylorSeries,
-    {
+    pub(super) fn count<L: TaylorSeries>(&self, length: T) -> usize {
         let few = few::<L>();
         if is_linear::<L>() {
             return few;
@@ -79,10 +73,10 @@ impl<T: Real> Sampling<T> {
 impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
     /// Arguments of steep functions: each with its value, a bound on its change in a step of this length, and its
     /// exponent.
-    pub(super) fn steep<L>(&self, length: T) -> impl Iterator<Item = ([T; 2], usize)>
-    where
-        L: TaylorSeries<Scalar = T, Sums = S>,
-    {
+    pub(super) fn steep<L: TaylorSeries<Scalar = T, Sums = S>>(
+        &self,
+        length: T,
+    ) -> impl Iterator<Item = ([T; 2], usize)> {
         let theta = length / self.unit;
         let steep = move |(&[place, _, exponent], &value): (&[usize; 3], &T)| {
             let watched = WatchedSeries::new(value, self.factors.left_factor(place, self.order() - 1));

@@ -72,10 +72,7 @@ fn second_derivatives<L: Lagrangian<Scalar: Real>>(
 }
 
 /// Returns the constraints whose coefficients exceed ε^(1/3) of the largest coefficient.
-fn involved<L>(parts: &Array<L::Scalar, L::M>) -> Names
-where
-    L: Lagrangian<Scalar: Real>,
-{
+fn involved<L: Lagrangian<Scalar: Real>>(parts: &Array<L::Scalar, L::M>) -> Names {
     let sizes = parts.map(Scalar::abs);
     let least = sizes.iter().copied().fold(L::Scalar::constant(0.0), larger) * power_of_epsilon(1.0 / 3.0);
     (0..<L::M>::COUNT).filter(|&a| sizes[a] >= least).map(|a| L::CONSTRAINTS[a]).collect()

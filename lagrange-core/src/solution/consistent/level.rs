@@ -112,10 +112,11 @@ impl<T: Real, N: Length, M: Length> Residual<T, N, M> {
     /// Limits each term to the actual change of Φ with its coordinate, measured by an increase of the
     /// coordinate by an eighth. An angle of 10¹⁶ times the gradient of its sine is a large term, but the sine
     /// is never that inaccurate.
-    pub(crate) fn limit_terms<L>(&mut self, system: &L, state: &State<T, N>)
-    where
-        L: Lagrangian<N = N, M = M, Scalar = T>,
-    {
+    pub(crate) fn limit_terms<L: Lagrangian<N = N, M = M, Scalar = T>>(
+        &mut self,
+        system: &L,
+        state: &State<T, N>,
+    ) {
         let part = T::constant(0.125);
         self.terms = Array::filled(T::constant(0.0));
         for i in 0..N::COUNT {

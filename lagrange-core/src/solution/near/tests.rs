@@ -49,13 +49,10 @@ struct Coupled {
 
 /// Mean change of a momentum by the projection of random states a few hundred units of round-off off the
 /// constraints: with velocities that follow the coordinates, and with velocities that do not.
-fn changes<L, const N: usize>(
+fn changes<L: Lagrangian<N = Const<N>, Scalar = f64>, const N: usize>(
     system: impl Fn(&mut Random) -> L,
     momentum: impl Fn(&L, &State<f64, N>) -> f64,
-) -> [f64; 2]
-where
-    L: Lagrangian<N = Const<N>, Scalar = f64>,
-{
+) -> [f64; 2] {
     let mut sums = [0.0; 2];
     let cases = std::env::var("LAGRANGE_MOMENTA").ok().and_then(|n| n.parse().ok()).unwrap_or(4000);
     for case in 0..cases {
