@@ -12,7 +12,7 @@ use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::progress::unless_broken;
 use crate::motion::record::{Arrival, Moving, Recorded};
 use crate::motion::run::{Run, Watchdog};
-use crate::motion::{Batch, LagrangianVectorField, LaneMethod, LaneMotion, Method};
+use crate::motion::{Batch, LaneMethod, LaneMotion, Method};
 use crate::number::Real;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State, StateOf};
@@ -236,14 +236,14 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
         method: &P,
     ) -> Result<Arrival<L::Scalar, L::N>, Error> {
         check_finite(system, start)?;
-        let (mut run, _) = Run::begin::<L, LagrangianVectorField, _>(system, start, method)?;
+        let (mut run, _) = Run::<L, _>::begin(system, start, method)?;
         let record = self.member_plan.record(index, system, &run.state, self.end)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let accept = |state: &StateOf<L>, _| unless_broken(self.observe(index, state), state.t.to_f64());
         let mut recorded =
             Recorded::<_, _, _, HAS_DENSE_OUTPUT>::new(Moving::Steered(system), record, accept);
-        let driven = run.drive::<L, LagrangianVectorField, P, _>(method, &limits, &mut recorded);
-        Ok(recorded.finish(driven, &run))
+        let driven = run.drive(method, &limits, &mut recorded);
+        Ok(recorded.finish(driven, run.state, run.statistics))
     }
 }
 

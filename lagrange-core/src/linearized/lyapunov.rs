@@ -11,7 +11,6 @@ use super::variation::{DifferentiableMethod, Variations};
 use crate::error::{Ending, Error};
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::number::{Real, Scalar};
-use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::StateOf;
 use crate::system::finite::check_finite;
 use crate::system::lookup::entry;
@@ -42,7 +41,7 @@ pub(super) fn spectrum<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
 ) -> Result<LyapunovSpectrum<L::Scalar>, Error> {
     check_finite(system, state)?;
     check_end(end)?;
-    let (mut run, _) = Run::begin::<L, LagrangianVectorField, _>(system, state, method)?;
+    let (mut run, _) = Run::<L, _>::begin(system, state, method)?;
     let start = run.state;
     let tangent = Tangent::at(system, &start)?;
     let basis = match const { <L::M>::COUNT == 0 } {
@@ -56,7 +55,7 @@ pub(super) fn spectrum<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     let limits = Watchdog::new(method.limits(), &run.statistics);
     let growth = vec![L::Scalar::constant(0.0); variations.count()];
     let mut exponents = Growth { system, start: start.t, end, variations, stages, growth, parts: Vec::new() };
-    run.drive::<L, LagrangianVectorField, D, _>(method, &limits, &mut exponents)?;
+    run.drive(method, &limits, &mut exponents)?;
     Ok(LyapunovSpectrum::of(&exponents.parts[1..]))
 }
 
@@ -91,7 +90,7 @@ impl<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> Growth<'_, L, D> {
     }
 }
 
-impl<L, D> Observer<L, LagrangianVectorField, D> for Growth<'_, L, D>
+impl<L, D> Observer<L, D> for Growth<'_, L, D>
 where
     L: Linearized<Scalar: Real>,
     D: DifferentiableMethod<L>,
@@ -100,11 +99,7 @@ where
         self.system
     }
 
-    fn goal(
-        &mut self,
-        method: &D,
-        run: &mut Run<D::Memory, L::Scalar, L::N>,
-    ) -> Result<Option<L::Scalar>, Ending> {
+    fn goal(&mut self, method: &D, run: &mut Run<L, D>) -> Result<Option<L::Scalar>, Ending> {
         while self.parts.len() <= PARTS {
             let stop = self.stop();
             if run.state.t != stop {
@@ -116,11 +111,11 @@ where
         Ok(None)
     }
 
-    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn follow(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
         method.follow(self.system, run, &mut self.variations, &mut self.stages)
     }
 
-    fn keep(&mut self, _: &D, _: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &D, _: &mut Run<L, D>) -> Result<(), Ending> {
         let Self { variations, stages, growth, .. } = self;
         let linear = &mut D::linear(stages);
         variations.orthonormalize(linear, |j, length| growth[j] += Scalar::ln(length));

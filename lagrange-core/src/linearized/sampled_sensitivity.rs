@@ -106,7 +106,7 @@ fn integrate<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     check_finite(system, &start.state)?;
     check_end(end)?;
     plan.check()?;
-    let mut begun = Run::begin::<L, LagrangianVectorField, D>(system, &start.state, method);
+    let mut begun = Run::<L, D>::begin(system, &start.state, method);
     let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
     let (course, stages) = Course::from(system, &run.state, start, method)?;
     let lent =
@@ -126,7 +126,7 @@ fn integrate<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     };
     sampled.sample()?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
-    let driven = run.drive::<L, LagrangianVectorField, D, _>(method, &limits, &mut sampled);
+    let driven = run.drive(method, &limits, &mut sampled);
     let ending = driven.err().unwrap_or(Ending::Complete { time: end.to_f64() });
     let (record, course, before, samples) = sampled.end();
     let arrival = record.arrive(run.state, ending, run.statistics);
@@ -168,7 +168,7 @@ impl<'o, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> SampledAlong<'
     }
 }
 
-impl<L, D> Observer<L, LagrangianVectorField, D> for SampledAlong<'_, '_, L, D>
+impl<L, D> Observer<L, D> for SampledAlong<'_, '_, L, D>
 where
     L: Linearized<Scalar: Real>,
     D: DifferentiableMethod<L>,
@@ -177,11 +177,7 @@ where
         self.system
     }
 
-    fn goal(
-        &mut self,
-        method: &D,
-        run: &mut Run<D::Memory, L::Scalar, L::N>,
-    ) -> Result<Option<L::Scalar>, Ending> {
+    fn goal(&mut self, method: &D, run: &mut Run<L, D>) -> Result<Option<L::Scalar>, Ending> {
         if let Some(ending) = self.record.stopped() {
             return Err(ending);
         }
@@ -195,7 +191,7 @@ where
         Ok(Some(end))
     }
 
-    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn follow(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
         let Self { system, course: Course { variations, coefficients, .. }, stages, within, .. } = self;
         method.follow(system, run, variations, stages)?;
         match self.record.looks_into(run.before.t, run.state.t) {
@@ -204,7 +200,7 @@ where
         }
     }
 
-    fn keep(&mut self, _: &D, run: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
         self.before = run.before;
         self.course.push(run.before.t, run.state.t);
         if let Some(interpolant) = self.within.first() {

@@ -17,7 +17,6 @@ use crate::motion::{AnyEvent, MotionBuilder};
 use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::solution::crossing::Crossing;
-use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::finite::check_finite;
 use crate::system::{Direction, Lagrangian, StateOf, lookup};
 use crate::trajectory::Trajectory;
@@ -127,13 +126,13 @@ fn integrate<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
 ) -> Result<TrajectorySensitivity<'a, L>, Error> {
     check_finite(system, &start.state)?;
     check_end(end)?;
-    let mut begun = Run::begin::<L, LagrangianVectorField, D>(system, &start.state, method);
+    let mut begun = Run::<L, D>::begin(system, &start.state, method);
     let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
     let (course, stages) = Course::from(system, &run.state, start, method)?;
     let stored = Stored::begin(system, &run.state, end, events, on_progress)?;
     let mut along = Along { stored, course, stages, before: run.state };
     let limits = Watchdog::new(method.limits(), &run.statistics);
-    let driven = run.drive::<L, LagrangianVectorField, D, _>(method, &limits, &mut along);
+    let driven = run.drive(method, &limits, &mut along);
     let (stored, course, before) = along.end();
     let trajectory = stored.finish(driven, run.statistics, *adjustment);
     let (ending, crossings) = (trajectory.ending(), trajectory.crossings());
@@ -159,22 +158,18 @@ impl<'a, 'e, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>, W> Along<'
     }
 }
 
-impl<L, D, W> Observer<L, LagrangianVectorField, D> for Along<'_, '_, L, D, W>
+impl<L, D, W> Observer<L, D> for Along<'_, '_, L, D, W>
 where
     L: Linearized<Scalar: Real>,
     D: DifferentiableMethod<L>,
     W: AnyEvent<L>,
 {
     fn system(&self) -> &L {
-        Observer::<L, LagrangianVectorField, D>::system(&self.stored)
+        self.stored.system()
     }
 
-    fn goal(
-        &mut self,
-        method: &D,
-        run: &mut Run<D::Memory, L::Scalar, L::N>,
-    ) -> Result<Option<L::Scalar>, Ending> {
-        let goal = Observer::<_, LagrangianVectorField, _>::goal(&mut self.stored, method, run)?;
+    fn goal(&mut self, method: &D, run: &mut Run<L, D>) -> Result<Option<L::Scalar>, Ending> {
+        let goal = self.stored.goal(method, run)?;
         if let Some(end) = goal {
             let system = self.stored.system();
             method.prepare(system, run, end, &self.course.variations, &mut self.stages)?;
@@ -182,17 +177,17 @@ where
         Ok(goal)
     }
 
-    fn follow(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn follow(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
         let Self { stored, course: Course { variations, coefficients, .. }, stages, .. } = self;
         let system = stored.system();
         method.follow(system, run, variations, stages)?;
         method.interpolate(system, run, variations, stages, stored.interpolants(), coefficients)
     }
 
-    fn keep(&mut self, method: &D, run: &mut Run<D::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn keep(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
         self.before = run.before;
         self.course.push(run.before.t, run.state.t);
-        Observer::<_, LagrangianVectorField, _>::keep(&mut self.stored, method, run)
+        self.stored.keep(method, run)
     }
 }
 

@@ -54,7 +54,7 @@ pub(super) struct GoPast<'m, L, I, T> {
     pub(super) end: T,
 }
 
-impl<L, F, P> Observer<L, F, P> for GoPast<'_, L, P::Interpolant, L::Scalar>
+impl<L, F, P> Observer<L, P, F> for GoPast<'_, L, P::Interpolant, L::Scalar>
 where
     L: Lagrangian<Scalar: Real>,
     F: VectorField<L>,
@@ -65,11 +65,7 @@ where
     }
 
     #[inline]
-    fn goal(
-        &mut self,
-        _: &P,
-        run: &mut Run<P::Memory, L::Scalar, L::N>,
-    ) -> Result<Option<L::Scalar>, Ending> {
+    fn goal(&mut self, _: &P, run: &mut Run<L, P, F>) -> Result<Option<L::Scalar>, Ending> {
         let now = run.state.t;
         let goes_on = now != self.t && is_between(now, self.t, self.end);
         if goes_on {
@@ -79,7 +75,7 @@ where
     }
 
     #[inline]
-    fn keep(&mut self, _: &P, _: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &P, _: &mut Run<L, P, F>) -> Result<(), Ending> {
         self.last_step.is_taken();
         Ok(())
     }
@@ -111,7 +107,7 @@ impl<L: Lagrangian<Scalar: Real>, I: Interpolant<L::Scalar, L::N>> FindCrossing<
     }
 }
 
-impl<L, F, P> Observer<L, F, P> for FindCrossing<'_, '_, L, P::Interpolant>
+impl<L, F, P> Observer<L, P, F> for FindCrossing<'_, '_, L, P::Interpolant>
 where
     L: Lagrangian<Scalar: Real>,
     F: VectorField<L>,
@@ -121,11 +117,7 @@ where
         self.system
     }
 
-    fn goal(
-        &mut self,
-        _: &P,
-        run: &mut Run<P::Memory, L::Scalar, L::N>,
-    ) -> Result<Option<L::Scalar>, Ending> {
+    fn goal(&mut self, _: &P, run: &mut Run<L, P, F>) -> Result<Option<L::Scalar>, Ending> {
         let goes_on = self.found.is_none() && run.state.t != self.end;
         if goes_on {
             self.last_step.forget();
@@ -133,11 +125,11 @@ where
         Ok(goes_on.then_some(self.end))
     }
 
-    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
-        run.look_within::<L, F, P>(self.system, method, &mut self.last_step.within)
+    fn follow(&mut self, method: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
+        run.look_within(self.system, method, &mut self.last_step.within)
     }
 
-    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
         self.last_step.is_taken();
         self.look::<F>(&run.before, &run.state)
     }

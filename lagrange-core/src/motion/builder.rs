@@ -192,12 +192,12 @@ where
         let (state, mut events) = (start.state.as_ref().as_ref().map_err(Error::clone)?, events.list());
         check_end(end)?;
         // Borrowed, not moved to its use: a move that is not optimized away would leave several copies on the stack.
-        let mut begun = Run::begin::<L, F, P>(system, state, &method);
+        let mut begun = Run::<L, P, F>::begin(system, state, &method);
         let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
         let stored = Stored::<_, _, _, HAS_EVENTS>::begin;
         let mut stored = stored(system, &run.state, end, &mut events, on_progress)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
-        let driven = run.drive::<L, F, P, _>(&method, &limits, &mut stored);
+        let driven = run.drive(&method, &limits, &mut stored);
         Ok(stored.finish(driven, run.statistics, *adjustment))
     }
 }

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
+use core::fmt::{self, Debug, Formatter};
 
 use super::method::{Limits, Method, Step};
 use crate::error::{Ending, Error, Pace};
@@ -9,35 +10,53 @@ use crate::number::Real;
 use crate::solution::Adjustment;
 use crate::solution::consistent::{self, Consistent};
 use crate::solution::solve::solve;
-use crate::solution::vector_field::VectorField;
+use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Element, Length};
+use crate::system::{Lagrangian, StateOf};
+use crate::vector::Length;
 
 /// A motion during its integration: state, working memory of the method, and statistics.
-#[derive(Debug)]
 #[cfg_attr(not(feature = "alloc"), allow(unreachable_pub, reason = "what differentiates motions allocates"))]
-pub struct Run<X, T: Element, N: Length> {
-    pub(crate) memory: X,
-    pub(crate) state: State<T, N>,
+pub struct Run<L, P, F = LagrangianVectorField>
+where
+    L: Lagrangian<Scalar: Real>,
+    P: Method<L, F>,
+    F: VectorField<L>,
+{
+    pub(crate) memory: P::Memory,
+    pub(crate) state: StateOf<L>,
     /// State at the start of the last step.
-    pub(crate) before: State<T, N>,
+    pub(crate) before: StateOf<L>,
     pub(crate) statistics: Statistics,
 }
 
-impl<X, T: Real, N: Length> Run<X, T, N> {
+impl<L, P, F> Debug for Run<L, P, F>
+where
+    L: Lagrangian<Scalar: Real>,
+    P: Method<L, F>,
+    F: VectorField<L>,
+{
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Run")
+            .field("state", &self.state)
+            .field("statistics", &self.statistics)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<L, P, F> Run<L, P, F>
+where
+    L: Lagrangian<Scalar: Real>,
+    P: Method<L, F>,
+    F: VectorField<L>,
+{
     /// Checks settings and start, makes the start consistent, and prepares the first step. The adjustment is the change
     /// of the start.
-    pub(crate) fn begin<L, F, P>(
+    pub(crate) fn begin(
         system: &L,
-        state: &State<T, N>,
+        state: &StateOf<L>,
         method: &P,
-    ) -> Result<(Self, Adjustment<T, N>), Error>
-    where
-        L: Lagrangian<N = N, Scalar = T>,
-        F: VectorField<L>,
-        P: Method<L, F, Memory = X>,
-    {
+    ) -> Result<(Self, Adjustment<L::Scalar, L::N>), Error> {
         method.check()?;
         let started = check_start(system, state);
         let &(state, adjustment) = started.as_ref().map_err(Error::clone)?;
@@ -48,18 +67,13 @@ impl<X, T: Real, N: Length> Run<X, T, N> {
 
     /// Takes one accepted step towards `end`.
     #[inline]
-    pub(crate) fn step<L, F, P>(
+    pub(crate) fn step(
         &mut self,
         system: &L,
         method: &P,
-        end: T,
+        end: L::Scalar,
         limits: &Watchdog,
-    ) -> Result<(), Ending>
-    where
-        L: Lagrangian<N = N, Scalar = T>,
-        F: VectorField<L>,
-        P: Method<L, F, Memory = X>,
-    {
+    ) -> Result<(), Ending> {
         let now = self.state.t;
         loop {
             let pace = || method.pace(system, &self.memory, end);
@@ -84,17 +98,12 @@ impl<X, T: Real, N: Length> Run<X, T, N> {
 
     /// Appends the dense output of the last step to `within`.
     #[inline(always)]
-    pub(crate) fn look_within<L, F, P>(
+    pub(crate) fn look_within(
         &mut self,
         system: &L,
         method: &P,
         within: &mut Within<P::Interpolant>,
-    ) -> Result<(), Ending>
-    where
-        L: Lagrangian<N = N, Scalar = T>,
-        F: VectorField<L>,
-        P: Method<L, F, Memory = X>,
-    {
+    ) -> Result<(), Ending> {
         let Self { memory, statistics, before, .. } = self;
         let found = put_interpolant(system, method, memory, statistics, within);
         found.map_err(|error| Ending::of(error, before.t.to_f64()))
@@ -102,18 +111,12 @@ impl<X, T: Real, N: Length> Run<X, T, N> {
 
     /// Integrates until the observer has no further goal. The error says why the motion ends before.
     #[inline(always)]
-    pub(crate) fn drive<L, F, P, O>(
+    pub(crate) fn drive<O: Observer<L, P, F>>(
         &mut self,
         method: &P,
         limits: &Watchdog,
         observer: &mut O,
-    ) -> Result<(), Ending>
-    where
-        L: Lagrangian<N = N, Scalar = T>,
-        F: VectorField<L>,
-        P: Method<L, F, Memory = X>,
-        O: Observer<L, F, P>,
-    {
+    ) -> Result<(), Ending> {
         while let Some(goal) = observer.goal(method, self)? {
             self.step_with(method, goal, limits, observer)?;
             observer.keep(method, self)?;
@@ -124,19 +127,13 @@ impl<X, T: Real, N: Length> Run<X, T, N> {
     /// Takes one accepted step. If the observer cannot follow it, undoes the step and tries a shorter one.
     // Its own frame without optimization: what looking into a step takes is not to lie below the search for events.
     #[inline]
-    fn step_with<L, F, P, O>(
+    fn step_with<O: Observer<L, P, F>>(
         &mut self,
         method: &P,
-        end: T,
+        end: L::Scalar,
         limits: &Watchdog,
         observer: &mut O,
-    ) -> Result<(), Ending>
-    where
-        L: Lagrangian<N = N, Scalar = T>,
-        F: VectorField<L>,
-        P: Method<L, F, Memory = X>,
-        O: Observer<L, F, P>,
-    {
+    ) -> Result<(), Ending> {
         loop {
             self.step(observer.system(), method, end, limits)?;
             let Err(ending) = observer.follow(method, self) else { return Ok(()) };
@@ -152,11 +149,11 @@ impl<X, T: Real, N: Length> Run<X, T, N> {
 
 /// An observer of a motion: sets its goal, evaluates the dense output of its steps, records them, and may end the
 /// motion.
-pub(crate) trait Observer<L, F, P>
+pub(crate) trait Observer<L, P, F = LagrangianVectorField>
 where
     L: Lagrangian<Scalar: Real>,
-    F: VectorField<L>,
     P: Method<L, F>,
+    F: VectorField<L>,
 {
     /// The system in motion.
     fn system(&self) -> &L;
@@ -166,11 +163,7 @@ where
     ///
     /// # Errors
     /// The reason why the motion cannot continue.
-    fn goal(
-        &mut self,
-        method: &P,
-        run: &mut Run<P::Memory, L::Scalar, L::N>,
-    ) -> Result<Option<L::Scalar>, Ending>;
+    fn goal(&mut self, method: &P, run: &mut Run<L, P, F>) -> Result<Option<L::Scalar>, Ending>;
 
     /// Called after each step.
     ///
@@ -178,7 +171,7 @@ where
     /// The reason to undo the step and to try a shorter one. It becomes the ending if no shorter step exists.
     #[allow(unused_variables)]
     #[inline(always)]
-    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn follow(&mut self, method: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
         Ok(())
     }
 
@@ -188,7 +181,7 @@ where
     /// The reason why the motion ends there.
     #[allow(unused_variables)]
     #[inline(always)]
-    fn keep(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn keep(&mut self, method: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
         Ok(())
     }
 }

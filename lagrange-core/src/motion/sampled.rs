@@ -216,7 +216,7 @@ impl<'w, L: Lagrangian<Scalar: Real>, F, P, E> Sampled<'_, 'w, L, Start<L::Scala
         plan.check()?;
         let (steering, mut own) = steered.unzip();
         steering.as_ref().map_or(Ok(()), Steering::check)?;
-        let mut begun = Run::begin::<L, F, P>(system, state, &method);
+        let mut begun = Run::<L, P, F>::begin(system, state, &method);
         let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
         let record = Record::begin(&plan, events.list(), steering, system, &run.state, end)?;
         let from = run.state.t;
@@ -224,7 +224,7 @@ impl<'w, L: Lagrangian<Scalar: Real>, F, P, E> Sampled<'_, 'w, L, Start<L::Scala
         let moving = own.as_mut().map_or(Moving::Fixed(system), Moving::Steered);
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let mut recorded = Recorded::<_, _, _, true>::new(moving, record, accept);
-        let driven = run.drive::<L, F, P, _>(&method, &limits, &mut recorded);
-        Ok(recorded.finish(driven, run))
+        let driven = run.drive(&method, &limits, &mut recorded);
+        Ok(recorded.finish(driven, run.state, run.statistics))
     }
 }

@@ -59,7 +59,7 @@ where
 {
     system: L,
     method: P,
-    run: Run<P::Memory, L::Scalar, L::N>,
+    run: Run<L, P, F>,
     /// State within the last step at which an event has stopped the motion.
     stop: Option<StateOf<L>>,
     last_step: LastStep<P::Interpolant>,
@@ -161,7 +161,7 @@ where
         self.refresh(end)?;
         self.stop = None;
         let Self { system, method, run, last_step, .. } = self;
-        run.drive::<L, F, P, _>(method, limits, &mut GoPast { system: &*system, last_step, t, end })
+        run.drive(method, limits, &mut GoPast { system: &*system, last_step, t, end })
     }
 
     /// Advances to the first crossing of these events, or to the time `end` if there is none on the way.
@@ -245,7 +245,7 @@ where
             // FindCrossing the rest of the step within which the motion has stopped.
             search.look::<F>(&run.before, &run.state)?;
         }
-        run.drive::<L, F, P, _>(method, &limits, &mut search)?;
+        run.drive(method, &limits, &mut search)?;
         Ok(search.found)
     }
 

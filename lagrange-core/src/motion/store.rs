@@ -68,7 +68,7 @@ where
     }
 }
 
-impl<L, F, P, W, const HAS_EVENTS: bool> Observer<L, F, P>
+impl<L, F, P, W, const HAS_EVENTS: bool> Observer<L, P, F>
     for Stored<'_, '_, L, W, P::Interpolant, HAS_EVENTS>
 where
     L: Lagrangian<Scalar: Real>,
@@ -81,11 +81,7 @@ where
     }
 
     #[inline(always)]
-    fn goal(
-        &mut self,
-        _: &P,
-        run: &mut Run<P::Memory, L::Scalar, L::N>,
-    ) -> Result<Option<L::Scalar>, Ending> {
+    fn goal(&mut self, _: &P, run: &mut Run<L, P, F>) -> Result<Option<L::Scalar>, Ending> {
         match self.stopped.take() {
             Some(ending) => Err(ending),
             None => Ok((run.state.t != self.end).then_some(self.end)),
@@ -93,12 +89,12 @@ where
     }
 
     #[inline(always)]
-    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
-        run.look_within::<L, F, P>(self.system, method, self.path.interpolants())
+    fn follow(&mut self, method: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
+        run.look_within(self.system, method, self.path.interpolants())
     }
 
     #[inline(always)]
-    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
         self.path.push(run.state);
         if const { HAS_EVENTS } {
             let ends = [&run.before, &run.state];

@@ -22,7 +22,7 @@ use crate::vector::PhaseVector;
     note = "`Dop853` and `Dopri5` can, of every system",
     note = "`Taylor` can where the number type is a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`"
 )]
-pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> {
+pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> + Sized {
     /// Memory of the method for the variations, beside their values.
     #[doc(hidden)]
     type VariationMemory;
@@ -49,7 +49,7 @@ pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> {
     fn prepare(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        run: &mut Run<L, Self>,
         end: L::Scalar,
         variations: &Variations<L>,
         companion: &mut Self::VariationMemory,
@@ -64,7 +64,7 @@ pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> {
     fn follow(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        run: &mut Run<L, Self>,
         variations: &mut Variations<L>,
         companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending>;
@@ -75,7 +75,7 @@ pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> {
     fn interpolate(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        run: &mut Run<L, Self>,
         variations: &mut Variations<L>,
         companion: &mut Self::VariationMemory,
         within: &mut Vec<Self::Interpolant>,

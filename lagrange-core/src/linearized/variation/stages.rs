@@ -56,7 +56,7 @@ impl<Q: Pair, L: Linearized<Scalar: Real>> DifferentiableMethod<L> for Adaptive<
     fn follow(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        run: &mut Run<L, Self>,
         variations: &mut Variations<L>,
         all: &mut Self::VariationMemory,
     ) -> Result<(), Ending> {
@@ -81,7 +81,7 @@ impl<Q: Pair, L: Linearized<Scalar: Real>> DifferentiableMethod<L> for Adaptive<
     fn interpolate(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        run: &mut Run<L, Self>,
         variations: &mut Variations<L>,
         all: &mut Self::VariationMemory,
         within: &mut Vec<Self::Interpolant>,
@@ -89,7 +89,7 @@ impl<Q: Pair, L: Linearized<Scalar: Real>> DifferentiableMethod<L> for Adaptive<
     ) -> Result<(), Ending> {
         let known = within.len();
         let more = (last::<Q>() + 1, Q::INTERPOLATION_STAGES);
-        let found = run.look_within::<L, LagrangianVectorField, Self>(system, self, within).and_then(|()| {
+        let found = run.look_within(system, self, within).and_then(|()| {
             let found = stages::<Q, L>(system, &run.memory, variations, all, more);
             found.map_err(|error| Ending::of(error, run.before.t.to_f64()))
         });
@@ -264,14 +264,13 @@ mod tests {
     fn an_error_that_is_no_number_refuses_the_step() {
         let (system, method) = (Spring, Dop853::default());
         let start = State::at_rest([1.0]);
-        let (mut run, _) =
-            Run::begin::<_, LagrangianVectorField, _>(&system, &start, &method).expect("a start");
+        let (mut run, _) = Run::<_, _>::begin(&system, &start, &method).expect("a start");
         let arguments = vec![Entry::Coordinate("x"), Entry::Velocity("x")];
         let unit = |j: usize| [[1.0 - j as f64].into(), [j as f64].into()];
         let tangent = Tangent::at(&system, &start).expect("a start");
         let mut variations = Variations::<_>::begin(&tangent, arguments, unit).expect("a start");
         let limits = Watchdog::new(Method::<Spring>::limits(&method), &run.statistics);
-        run.step::<_, LagrangianVectorField, _>(&system, &method, 1.0, &limits).expect("a step");
+        run.step(&system, &method, 1.0, &limits).expect("a step");
         let mut stages = method.companion(&system, &start, &variations).expect("a start");
         method.follow(&system, &mut run, &mut variations, &mut stages).expect("a step");
         let (error, _) = method.error_of(&run.memory, &variations, &stages);

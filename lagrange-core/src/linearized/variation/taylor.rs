@@ -23,7 +23,6 @@ use crate::names::Entry;
 use crate::number::{Broadcast, Dual, Real, Scalar, Wide, exceeds, smaller};
 use crate::solution::pivot::least_pivot;
 use crate::solution::solve::first_row;
-use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, StateOf, TaylorSeries};
 use crate::vector::{Array, Element, FixedArray, Length, PhaseVector, Vector, entries, from_fn, vector};
 use general::DualGeneral;
@@ -74,7 +73,7 @@ where
     fn prepare(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        run: &mut Run<L, Self>,
         end: L::Scalar,
         variations: &Variations<L>,
         companion: &mut Self::VariationMemory,
@@ -101,7 +100,7 @@ where
     fn follow(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        run: &mut Run<L, Self>,
         variations: &mut Variations<L>,
         companion: &mut Self::VariationMemory,
     ) -> Result<(), Ending> {
@@ -124,13 +123,13 @@ where
     fn interpolate(
         &self,
         system: &L,
-        run: &mut Run<Self::Memory, L::Scalar, L::N>,
+        run: &mut Run<L, Self>,
         _: &mut Variations<L>,
         companion: &mut Self::VariationMemory,
         within: &mut Vec<Self::Interpolant>,
         coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending> {
-        run.look_within::<L, LagrangianVectorField, Self>(system, self, within)?;
+        run.look_within(system, self, within)?;
         let memory = &run.memory;
         let theta = (memory.clock.now - memory.series.start) / memory.series.unit;
         companion.iter().for_each(|varied| varied.push_coefficients(theta, coefficients));

@@ -20,7 +20,7 @@ impl<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> LaneMotion<'o, L, P> {
         method: &P,
         record: impl FnOnce(&L, &State<f64, L::N>) -> Result<Record<'o, L>, Error>,
     ) -> Result<(Self, State<f64, L::N>), Error> {
-        let (run, _) = Run::begin::<L, LagrangianVectorField, _>(&system, state, method)?;
+        let (run, _) = Run::<L, _>::begin(&system, state, method)?;
         let record = record(&system, &run.state)?;
         let Run { memory, state, statistics, .. } = run;
         let limits = Watchdog::new(method.limits(), &statistics);

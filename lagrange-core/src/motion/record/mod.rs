@@ -264,17 +264,18 @@ where
     }
 
     /// Ends the record, and returns the result.
-    pub(crate) fn finish<X>(
+    pub(crate) fn finish(
         self,
         driven: Result<(), Ending>,
-        run: &Run<X, L::Scalar, L::N>,
+        state: StateOf<L>,
+        statistics: Statistics,
     ) -> Arrival<L::Scalar, L::N> {
         let ending = driven.err().unwrap_or(Ending::Complete { time: self.record.end.to_f64() });
-        self.record.arrive(run.state, ending, run.statistics)
+        self.record.arrive(state, ending, statistics)
     }
 }
 
-impl<L, F, P, A, const HAS_DENSE_OUTPUT: bool> Observer<L, F, P>
+impl<L, F, P, A, const HAS_DENSE_OUTPUT: bool> Observer<L, P, F>
     for Recorded<'_, '_, L, P::Interpolant, A, HAS_DENSE_OUTPUT>
 where
     L: Lagrangian<Scalar: Real>,
@@ -287,11 +288,7 @@ where
     }
 
     #[inline(always)]
-    fn goal(
-        &mut self,
-        method: &P,
-        run: &mut Run<P::Memory, L::Scalar, L::N>,
-    ) -> Result<Option<L::Scalar>, Ending> {
+    fn goal(&mut self, method: &P, run: &mut Run<L, P, F>) -> Result<Option<L::Scalar>, Ending> {
         let Self { system, record, .. } = self;
         let Run { memory, state, statistics, .. } = run;
         if const { HAS_DENSE_OUTPUT } {
@@ -310,7 +307,7 @@ where
     }
 
     #[inline(always)]
-    fn follow(&mut self, method: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn follow(&mut self, method: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
         if const { HAS_DENSE_OUTPUT } {
             let Run { memory, statistics, before, state } = run;
             let is_wanted = self.record.looks_into(before.t, state.t);
@@ -321,7 +318,7 @@ where
     }
 
     #[inline(always)]
-    fn keep(&mut self, _: &P, run: &mut Run<P::Memory, L::Scalar, L::N>) -> Result<(), Ending> {
+    fn keep(&mut self, _: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
         if let (true, Some(interpolant)) = (const { HAS_DENSE_OUTPUT }, &self.within) {
             let (before, after, field) = (&run.before, &{ run.state }, PhantomData::<F>);
             let step = DenseStep { system: &*self.system, before, after, interpolant, field };
