@@ -5,6 +5,5 @@
 //! [`State<f64, 2>`](crate::State) is short for [`State<f64, Const<2>>`](State).
 
 pub use crate::hamiltonian::PhaseState;
-
 pub use crate::system::{Direction, ResidualChange, Solution, State};
 pub use crate::vector::{Array, Contiguous, Element, FixedArray, Length, Matrix, PhaseVector, Vector};

@@ -126,6 +126,7 @@ println!("{}", path.csv(50).energy());
 //! - [`HybridTrajectory`]: a motion in several legs, each with its own system; [`Simulate::impact`].
 //! - [`Lagrangian`]: the trait that generated code implements; [`Solution`]: accelerations and multipliers at a
 //!   state; [`Scalar`]: requirements on the number type.
+//! - [`StateOf`], [`SolutionOf`] and [`generic`]: types in functions that work for any system.
 //! - [`embedded`]: programs without an operating system.
 //!
 //! The book in the repository follows a course of mechanics and contains how-to guides.
@@ -206,21 +207,22 @@ pub use system::{
 #[cfg(feature = "alloc")]
 pub use trajectory::{HybridTrajectory, Trajectory};
 
-/// [`State`](generic::State) of `N` coordinates.
+/// State of `N` coordinates: a [`generic::State`] whose length is a number.
 pub type State<T, const N: usize> = generic::State<T, nalgebra::Const<N>>;
 
-/// [`Solution`](generic::Solution) for `N` coordinates and `M` constraints.
+/// Accelerations and multipliers for `N` coordinates and `M` constraints: a [`generic::Solution`] whose lengths are numbers.
 pub type Solution<T, const N: usize, const M: usize> =
     generic::Solution<T, nalgebra::Const<N>, nalgebra::Const<M>>;
 
-/// [`Direction`](generic::Direction) in the space of `N` coordinates.
+/// Direction of differentiation for `N` coordinates: a [`generic::Direction`] whose length is a number.
 pub type Direction<T, const N: usize> = generic::Direction<T, nalgebra::Const<N>>;
 
-/// [`ResidualChange`](generic::ResidualChange) for `N` coordinates and `M` constraints.
+/// Derivatives of the residuals for `N` coordinates and `M` constraints: a [`generic::ResidualChange`] whose lengths are
+/// numbers.
 pub type ResidualChange<T, const N: usize, const M: usize> =
     generic::ResidualChange<T, nalgebra::Const<N>, nalgebra::Const<M>>;
 
-/// [`PhaseState`](generic::PhaseState) of `N` coordinates.
+/// State of `N` coordinates and momenta: a [`generic::PhaseState`] whose length is a number.
 pub type PhaseState<T, const N: usize> = generic::PhaseState<T, nalgebra::Const<N>>;
 
 /// Compiles and runs the program in the README as a doc test.
