@@ -140,8 +140,9 @@ pub trait Linearized: StateDerivatives {
     /// Plain numbers from which the derivatives of the residual by all parameters are computed.
     type ParameterSlopes: Copy + Debug;
 
-    /// Computes the numbers from which the derivatives of the residual by all parameters follow. Accelerations and
-    /// multipliers are held at those of `solution`.
+    /// Computes the coefficients that
+    /// [`residual_change_by_parameters_with`](Self::residual_change_by_parameters_with) combines with the rates of the
+    /// parameters. Accelerations and multipliers are held at those of `solution`.
     fn residual_slopes_by_parameters(
         &self,
         state: &StateOf<Self>,

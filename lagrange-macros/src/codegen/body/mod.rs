@@ -92,7 +92,8 @@ pub(super) enum Statement {
     Let(Local, Operand),
     /// Reduces angles by full turns if they are large. Their sines and cosines then need no range check.
     Small(Vec<(Local, Operand)>),
-    /// Sines and cosines, evaluated together. Several angles must be small ones.
+    /// Sines and cosines, evaluated together. More than one angle requires that all were reduced by
+    /// [`Small`](Self::Small).
     Turns(Vec<SineAndCosine>),
     /// Call of a user-supplied function, with the indices and locals of the results in use.
     Call(Call<Operand>, Vec<(u32, Local)>),

@@ -37,7 +37,8 @@ pub(super) struct TaylorPrograms {
     factors: Program,
     /// Number of sums, padded to a multiple of [`WIDTH`].
     pub(super) sums: usize,
-    /// Number of known parts of factors, which are computed before the accelerations.
+    /// Number of values that `right_hand_sides` passes to `factors`: parts of the newest Taylor coefficients that do
+    /// not depend on the accelerations and multipliers of the same order.
     pub(super) terms: usize,
     /// For each root: index of a sum whose right factor is the root, and index of its value of order 0 in the results
     /// of `slopes`.

@@ -57,8 +57,9 @@ impl Recurrences {
             let [left, right] = factors.map(|factor| factor.and_then(|factor| self.term(factor, &mut known)));
             let [left, right] = match sum {
                 Sum::Weighted(..) => [self.times_input(Variable::Order, left), right],
-                // The weights are exact, and dividing the sum by them nearly is. Factors 1/(k + 1) would be rounded
-                // to the same side in every step; with them constraints were violated and the energy drifted.
+                // Both factors get a weight c/(k + 1), which is exact: c is a multiple of all orders. The product with
+                // 1/c² has a relative error of only 10⁻²⁰. Weights 1/(k + 1) would be rounded in the same direction
+                // in every step; with them, constraints were violated and the energy drifted.
                 Sum::Mean(..) => {
                     let [left, right] = [left, right].map(|x| self.times_input(Variable::NextWeight, x));
                     [left, self.times_input(Variable::WeightsReciprocal, right)]

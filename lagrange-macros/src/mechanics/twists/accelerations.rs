@@ -40,7 +40,8 @@ impl Twists<'_> {
 }
 
 impl Acceleration {
-    /// Acceleration of the frame after a step from this one.
+    /// Acceleration of `frame`, from the acceleration `self` of the frame `before` and the displacement or rotation
+    /// between the two frames.
     fn after(&self, frame: &Frame, before: &Frame, along: &mut Forward, graph: &mut Graph) -> Self {
         let mut rates =
             |vector: Triple, graph: &mut Graph| vector.map(|component| along.of(graph, component));

@@ -146,7 +146,7 @@ impl Collector<'_, '_> {
         groups.reduce(|best, next| if next.worth() > best.worth() { next } else { best })
     }
 
-    /// Product of the members, if it saves enough symbols.
+    /// Factors the sum of these terms of a polynomial into one product. `None` if that saves too few symbols.
     fn candidate(&self, polynomial: &Polynomial, members: Vec<&Monomial>) -> Option<Group> {
         if members.len() < 2 {
             return None;

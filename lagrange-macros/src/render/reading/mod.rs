@@ -110,7 +110,8 @@ impl Page<'_> {
         self.chosen(self.read(id), computed, length, false)
     }
 
-    /// Shortest formula of a node; the computed form wins ties.
+    /// Shortest formula of a node. In a tie, the form used in the computation wins. If no form is short enough to
+    /// print, the error is the number of symbols of the form used in the computation.
     pub(super) fn quantity(&self, id: Id) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
         self.chosen(self.read(id), computed, length, true)

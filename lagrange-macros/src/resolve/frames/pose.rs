@@ -121,8 +121,8 @@ impl Step {
 }
 
 impl Turned {
-    /// Returns whether the rotation is constant in time and leaves no entry of the matrix zero, as a rotation about one
-    /// of the axes would.
+    /// Returns whether the rotation is constant in time and no entry of its matrix is zero. The matrix of a rotation
+    /// about a coordinate axis has zero entries.
     pub(super) fn is_placement(&self) -> bool {
         self.rate == [Id::ZERO; 3] && self.by.iter().flatten().all(|&entry| entry != Id::ZERO)
     }
