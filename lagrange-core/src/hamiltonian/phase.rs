@@ -27,25 +27,13 @@ use crate::vector::{Array, Element, Entrywise, Length, Vector};
 )]
 pub struct PhaseState<T: Element, N: Length> {
     /// Time.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::read::number"))]
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::serial::number"))]
     pub t: T,
     /// Generalized coordinates.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            serialize_with = "crate::system::read::write",
-            deserialize_with = "crate::system::read::numbers"
-        )
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub q: Vector<T, N>,
     /// Generalized momenta.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            serialize_with = "crate::system::read::write",
-            deserialize_with = "crate::system::read::numbers"
-        )
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub p: Vector<T, N>,
 }
 
@@ -82,31 +70,13 @@ impl<T: Scalar, N: Length> Display for PhaseState<T, N> {
 )]
 pub struct PhaseDerivative<T: Element, N: Length, M: Length> {
     /// q̇ = ∂H/∂p.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            serialize_with = "crate::system::read::write",
-            deserialize_with = "crate::system::read::numbers"
-        )
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub q: Vector<T, N>,
     /// ṗ = ∂L/∂q + Q + Fᵀλ.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            serialize_with = "crate::system::read::write",
-            deserialize_with = "crate::system::read::numbers"
-        )
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub p: Vector<T, N>,
     /// Lagrange multipliers λ, in the order written.
-    #[cfg_attr(
-        feature = "serde",
-        serde(
-            serialize_with = "crate::system::read::write",
-            deserialize_with = "crate::system::read::numbers"
-        )
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub multipliers: Vector<T, M>,
 }
 

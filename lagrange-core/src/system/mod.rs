@@ -15,7 +15,7 @@ pub(crate) mod member;
 mod pack;
 pub(crate) mod pointers;
 #[cfg(feature = "serde")]
-pub(crate) mod read;
+pub(crate) mod serial;
 mod state;
 mod taylor_series;
 

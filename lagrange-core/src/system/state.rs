@@ -35,19 +35,13 @@ use crate::vector::{Array, Element, Length, Vector};
 )]
 pub struct State<T: Element, N: Length> {
     /// Time.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::number"))]
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::serial::number"))]
     pub t: T,
     /// Generalized coordinates.
-    #[cfg_attr(
-        feature = "serde",
-        serde(serialize_with = "super::read::write", deserialize_with = "super::read::numbers")
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub q: Vector<T, N>,
     /// Generalized velocities.
-    #[cfg_attr(
-        feature = "serde",
-        serde(serialize_with = "super::read::write", deserialize_with = "super::read::numbers")
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub v: Vector<T, N>,
 }
 
@@ -111,21 +105,15 @@ pub(crate) fn write_state<T: Scalar>(f: &mut Formatter<'_>, t: &T, parts: [(&str
 )]
 pub struct Solution<T: Element, N: Length, M: Length> {
     /// Generalized accelerations q̈.
-    #[cfg_attr(
-        feature = "serde",
-        serde(serialize_with = "super::read::write", deserialize_with = "super::read::numbers")
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub accelerations: Vector<T, N>,
     /// Lagrange multipliers λ, one per scalar constraint, in the order written.
-    #[cfg_attr(
-        feature = "serde",
-        serde(serialize_with = "super::read::write", deserialize_with = "super::read::numbers")
-    )]
+    #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub multipliers: Vector<T, M>,
     /// Smallest pivot of the elimination, relative to the diagonal entry that it replaces: 1 is perfect, 0
     /// singular. NaN or negative if this elimination cannot solve the system, or if products of its numbers
     /// overflow, underflow or lose digits.
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "super::read::number"))]
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::serial::number"))]
     pub pivot: T,
     /// Number of independent constraints at this state. If it is less than `M` the multipliers are not unique;
     /// the given ones have the least Euclidean norm.

@@ -1,4 +1,4 @@
-//! Deserialization of numbers, with an explanation for the `null` that JSON writes for NaN and infinity.
+//! Serialization of vectors, and deserialization of numbers with an explanation for the `null` that JSON writes for NaN and infinity.
 
 use alloc::string::ToString;
 use alloc::vec::Vec;
@@ -15,26 +15,29 @@ pub(crate) fn number<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) ->
     T::deserialize(from).map_err(explained)
 }
 
-/// Reads a vector, a sequence of as many numbers as it is long.
-pub(crate) fn numbers<'de, D, T, N>(from: D) -> Result<Vector<T, N>, D::Error>
-where
-    D: Deserializer<'de>,
-    T: Element + Deserialize<'de>,
-    N: Length,
-{
-    from.deserialize_tuple(N::COUNT, Numbers(PhantomData)).map(vector).map_err(explained)
-}
+/// A vector, as the sequence of its numbers.
+pub(crate) mod numbers {
+    use super::*;
 
-/// Writes a vector as the sequence of its numbers.
-pub(crate) fn write<S, T, N>(numbers: &Vector<T, N>, to: S) -> Result<S::Ok, S::Error>
-where
-    S: Serializer,
-    T: Element + Serialize,
-    N: Length,
-{
-    let mut sequence = to.serialize_tuple(N::COUNT)?;
-    numbers.iter().try_for_each(|x| sequence.serialize_element(x))?;
-    sequence.end()
+    pub(crate) fn serialize<S, T, N>(numbers: &Vector<T, N>, to: S) -> Result<S::Ok, S::Error>
+    where
+        S: Serializer,
+        T: Element + Serialize,
+        N: Length,
+    {
+        let mut sequence = to.serialize_tuple(N::COUNT)?;
+        numbers.iter().try_for_each(|x| sequence.serialize_element(x))?;
+        sequence.end()
+    }
+
+    pub(crate) fn deserialize<'de, D, T, N>(from: D) -> Result<Vector<T, N>, D::Error>
+    where
+        D: Deserializer<'de>,
+        T: Element + Deserialize<'de>,
+        N: Length,
+    {
+        from.deserialize_tuple(N::COUNT, Numbers(PhantomData)).map(vector).map_err(explained)
+    }
 }
 
 struct Numbers<T, N>(PhantomData<(T, N)>);
