@@ -14,19 +14,19 @@ pub struct Array<T: Element, N: Length>(pub N::Entries<T>);
 
 impl<T: Element, N: Length> Array<T, N> {
     /// Returns an array with `x` in every entry.
-    #[inline(always)]
+    #[inline]
     pub fn filled(x: T) -> Self {
         Self(N::filled(x))
     }
 
     /// Returns the array `of(0)`, `of(1)`, ….
-    #[inline(always)]
+    #[inline]
     pub fn from_fn(of: impl FnMut(usize) -> T) -> Self {
         Self(N::from_fn(of))
     }
 
     /// Returns the values of a function of the entries.
-    #[inline(always)]
+    #[inline]
     pub fn map<U: Element>(self, mut of: impl FnMut(T) -> U) -> Array<U, N> {
         Array::from_fn(|i| of(self[i]))
     }
@@ -105,14 +105,14 @@ impl<T: Element, N: Length> AsMut<[T]> for Array<T, N> {
 }
 
 impl<T: Element, const K: usize> From<[T; K]> for Array<T, Const<K>> {
-    #[inline(always)]
+    #[inline]
     fn from(entries: [T; K]) -> Self {
         Self(entries)
     }
 }
 
 impl<T: Element, const R: usize, const C: usize> From<[[T; R]; C]> for Array<Array<T, Const<R>>, Const<C>> {
-    #[inline(always)]
+    #[inline]
     fn from(columns: [[T; R]; C]) -> Self {
         Self(columns.map(Array))
     }
@@ -140,7 +140,7 @@ pub(crate) trait FromFn {
 impl<X, const K: usize> FromFn for [X; K] {
     type Item = X;
 
-    #[inline(always)]
+    #[inline]
     fn from_fn(of: impl FnMut(usize) -> X) -> Self {
         core::array::from_fn(of)
     }
@@ -149,14 +149,14 @@ impl<X, const K: usize> FromFn for [X; K] {
 impl<X: Element, N: Length> FromFn for Array<X, N> {
     type Item = X;
 
-    #[inline(always)]
+    #[inline]
     fn from_fn(of: impl FnMut(usize) -> X) -> Self {
         Self(N::from_fn(of))
     }
 }
 
 /// Returns the array `of(0)`, `of(1)`, ….
-#[inline(always)]
+#[inline]
 pub(crate) fn from_fn<A: FromFn>(of: impl FnMut(usize) -> A::Item) -> A {
     A::from_fn(of)
 }
@@ -168,7 +168,7 @@ pub trait FixedArray<T>: Copy + AsRef<[T]> + AsMut<[T]> {
 }
 
 impl<T: Copy, const K: usize> FixedArray<T> for [T; K] {
-    #[inline(always)]
+    #[inline]
     fn filled(x: T) -> Self {
         [x; K]
     }

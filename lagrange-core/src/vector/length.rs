@@ -102,17 +102,17 @@ impl<const K: usize> Length for Const<K> {
     type Storage<T: Element, C: Length> = C::Columns<T, K>;
     type Columns<T: Element, const R: usize> = ArrayStorage<T, R, K>;
 
-    #[inline(always)]
+    #[inline]
     fn filled<T: Element>(x: T) -> [T; K] {
         [x; K]
     }
 
-    #[inline(always)]
+    #[inline]
     fn from_fn<T: Element>(of: impl FnMut(usize) -> T) -> [T; K] {
         core::array::from_fn(of)
     }
 
-    #[inline(always)]
+    #[inline]
     fn join<T: Element>([first, second]: [Array<T, Self>; 2]) -> [[T; K]; 2] {
         [first.0, second.0]
     }
@@ -127,23 +127,23 @@ impl<const K: usize> Length for Const<K> {
         halves.as_flattened_mut()
     }
 
-    #[inline(always)]
+    #[inline]
     fn vector<T: Element>(entries: [T; K]) -> SVector<T, K> {
         SVector::from_array_storage(ArrayStorage([entries]))
     }
 
-    #[inline(always)]
+    #[inline]
     fn entries<T: Element>(vector: SVector<T, K>) -> [T; K] {
         let [entries] = vector.data.0;
         entries
     }
 
-    #[inline(always)]
+    #[inline]
     fn matrix<T: Element, C: Length>(columns: Array<Array<T, Self>, C>) -> Matrix<T, Self, C> {
         nalgebra::Matrix::from_data(C::columns(columns))
     }
 
-    #[inline(always)]
+    #[inline]
     fn columns<T: Element, const R: usize>(
         columns: Array<Array<T, Const<R>>, Self>,
     ) -> ArrayStorage<T, R, K> {

@@ -12,46 +12,46 @@ pub type Vector<T, N> = nalgebra::Matrix<T, N, U1, <N as Length>::Storage<T, U1>
 pub type Matrix<T, R, C> = nalgebra::Matrix<T, R, C, <R as Length>::Storage<T, C>>;
 
 impl<T: Element, N: Length> From<Vector<T, N>> for Array<T, N> {
-    #[inline(always)]
+    #[inline]
     fn from(vector: Vector<T, N>) -> Self {
         Self(N::entries(vector))
     }
 }
 
 impl<T: Element, R: Length, C: Length> From<Matrix<T, R, C>> for Array<Array<T, R>, C> {
-    #[inline(always)]
+    #[inline]
     fn from(matrix: Matrix<T, R, C>) -> Self {
         Self::from_fn(|j| Array::from_fn(|i| matrix[(i, j)]))
     }
 }
 
 impl<T: Element, N: Length> From<Array<T, N>> for Vector<T, N> {
-    #[inline(always)]
+    #[inline]
     fn from(array: Array<T, N>) -> Self {
         vector(array)
     }
 }
 
 /// Converts an array to a column vector, without a copy.
-#[inline(always)]
+#[inline]
 pub(crate) fn vector<T: Element, N: Length>(entries: Array<T, N>) -> Vector<T, N> {
     N::vector(entries.0)
 }
 
 /// Converts a column vector to an array, without a copy.
-#[inline(always)]
+#[inline]
 pub(crate) fn array<T: Element, N: Length>(vector: Vector<T, N>) -> Array<T, N> {
     Array(N::entries(vector))
 }
 
 /// Converts an array of columns to a matrix, without a copy.
-#[inline(always)]
+#[inline]
 pub(crate) fn matrix<T: Element, R: Length, C: Length>(columns: Array<Array<T, R>, C>) -> Matrix<T, R, C> {
     R::matrix(columns)
 }
 
 /// Returns the rows of a matrix.
-#[inline(always)]
+#[inline]
 pub(crate) fn rows<T: Element, R: Length, C: Length>(matrix: &Matrix<T, R, C>) -> Array<Array<T, C>, R> {
     Array::from_fn(|i| Array::from_fn(|j| matrix[(i, j)]))
 }
@@ -69,7 +69,7 @@ pub(crate) trait Entrywise<T: Element, N: Length> {
     ) -> Vector<U, N>;
 
     /// Returns the sum of two vectors.
-    #[inline(always)]
+    #[inline]
     fn plus(&self, other: &Vector<T, N>) -> Vector<T, N>
     where
         T: Scalar,
@@ -78,7 +78,7 @@ pub(crate) trait Entrywise<T: Element, N: Length> {
     }
 
     /// Returns the difference of two vectors.
-    #[inline(always)]
+    #[inline]
     fn minus(&self, other: &Vector<T, N>) -> Vector<T, N>
     where
         T: Scalar,
@@ -87,7 +87,7 @@ pub(crate) trait Entrywise<T: Element, N: Length> {
     }
 
     /// Returns the negative of the vector.
-    #[inline(always)]
+    #[inline]
     fn negated(&self) -> Vector<T, N>
     where
         T: Scalar,
@@ -97,12 +97,12 @@ pub(crate) trait Entrywise<T: Element, N: Length> {
 }
 
 impl<T: Element, N: Length> Entrywise<T, N> for Vector<T, N> {
-    #[inline(always)]
+    #[inline]
     fn each<U: Element>(&self, mut of: impl FnMut(T) -> U) -> Vector<U, N> {
         vector(Array::from_fn(|i| of(self[i])))
     }
 
-    #[inline(always)]
+    #[inline]
     fn each_with<S: Element, U: Element>(
         &self,
         other: &Vector<S, N>,

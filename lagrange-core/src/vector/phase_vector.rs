@@ -12,37 +12,37 @@ pub struct PhaseVector<T: Element, N: Length>(N::Halves<T>);
 
 impl<T: Element, N: Length> PhaseVector<T, N> {
     /// Joins two halves.
-    #[inline(always)]
+    #[inline]
     pub fn new(halves: [Array<T, N>; 2]) -> Self {
         Self(N::join(halves))
     }
 
     /// Returns the vector with `x` in every entry.
-    #[inline(always)]
+    #[inline]
     pub fn filled(x: T) -> Self {
         Self::new([Array::filled(x); 2])
     }
 
     /// Joins coordinates to velocities or momenta.
-    #[inline(always)]
+    #[inline]
     pub fn of(first: Vector<T, N>, second: Vector<T, N>) -> Self {
         Self::new([first.into(), second.into()])
     }
 
     /// Returns a half, 0 or 1.
-    #[inline(always)]
+    #[inline]
     pub fn half(&self, half: usize) -> Array<T, N> {
         Array(self.0[half])
     }
 
     /// Returns both halves.
-    #[inline(always)]
+    #[inline]
     pub fn arrays(&self) -> [Array<T, N>; 2] {
         [self.half(0), self.half(1)]
     }
 
     /// Sets a half, 0 or 1.
-    #[inline(always)]
+    #[inline]
     pub fn set(&mut self, half: usize, to: Array<T, N>) {
         self.0[half] = to.0;
     }
@@ -80,7 +80,7 @@ impl<T: Element, N: Length> IndexMut<usize> for PhaseVector<T, N> {
 impl<X: Element, N: Length> FromFn for PhaseVector<X, N> {
     type Item = Array<X, N>;
 
-    #[inline(always)]
+    #[inline]
     fn from_fn(mut of: impl FnMut(usize) -> Array<X, N>) -> Self {
         Self::new([of(0), of(1)])
     }
