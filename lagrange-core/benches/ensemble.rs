@@ -65,13 +65,13 @@ fn accelerations() {
         let at = |entry: usize| numbers[4 * k + entry];
         State::new([at(0), at(1)], [at(2), at(3)])
     });
-    let side_by_side = |states: &[State<f64, 2>]| {
+    let side_by_side = |states: &[State<f64, 2>; Lanes::COUNT]| {
         let entry = |pick: &dyn Fn(&State<f64, 2>) -> f64| {
             Lanes::from(std::array::from_fn(|lane| pick(&states[lane])))
         };
         State::new([entry(&|s| s.q[0]), entry(&|s| s.q[1])], [entry(&|s| s.v[0]), entry(&|s| s.v[1])])
     };
-    let packed_states: Vec<_> = states.chunks_exact(Lanes::COUNT).map(side_by_side).collect();
+    let packed_states: Vec<_> = states.as_chunks::<{ Lanes::COUNT }>().0.iter().map(side_by_side).collect();
     let packed = PENDULUM.pack();
     let [scalar, lanes] = in_turn(
         200,

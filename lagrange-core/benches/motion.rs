@@ -280,7 +280,9 @@ where
     let [own, hand] = in_turn([&|| solved(&system, &states), &|| solved(&by_hand, &states)]);
     let packed = system.pack();
     let wide: Vec<State<Lanes, N>> = states
-        .chunks_exact(Lanes::COUNT)
+        .as_chunks::<{ Lanes::COUNT }>()
+        .0
+        .iter()
         .map(|four| {
             let lane = |entry: &dyn Fn(&State<f64, N>) -> f64| {
                 Lanes::from(std::array::from_fn(|lane| entry(&four[lane])))

@@ -365,10 +365,7 @@ fn rows_of_other_equations_are_refused() {
     let reason = "the system or its equations are others";
     let table = whole().csv().to_string();
     assert_eq!(other().resume(&table).unwrap_err(), OTHER_SYSTEM);
-    assert_eq!(
-        MemberTable::<f64, Const<2>>::read::<upward::DoublePendulum<f64>>(&table).unwrap_err(),
-        OTHER_SYSTEM
-    );
+    assert_eq!(MemberTable::read::<upward::DoublePendulum<f64>>(&table).unwrap_err(), OTHER_SYSTEM);
     let outcome = other().integrate_on_lanes(END, Dop853::default()).unwrap();
     assert_eq!(whole().merge(outcome).unwrap_err(), Error::Ensemble(EnsembleError::Merge { reason }));
     let coarse = ensemble().integrate_on_lanes(END, Dop853::with_tolerance(1e-8)).unwrap();

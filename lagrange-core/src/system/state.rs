@@ -19,6 +19,9 @@ use crate::vector::{Array, Element, Length, Vector};
 /// assert_eq!(format!("{state:.3}"), "t = 1.000: q = (0.100, 0.000), q̇ = (0.000, 2.000)");
 /// ```
 ///
+/// rustc before 1.96 crashes on the struct update of a state that a closure captures, `|v| State { v, ..start }`. A copy
+/// in the closure, `let start = start;`, avoids that.
+///
 /// With the feature `serde` a state can be serialized and deserialized: `{"t": 0.0, "q": [0.1], "v": [0.0]}`.
 /// JSON has neither NaN nor infinities: `serde_json` writes them as `null`, which is an error when a state is
 /// read. Numbers are read back to the last bit only with the feature `float_roundtrip`

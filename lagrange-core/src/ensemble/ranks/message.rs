@@ -139,7 +139,7 @@ impl Rest<'_> {
     }
 
     fn state<T: Real, N: Length>(&mut self) -> Option<State<T, N>> {
-        let zero = vector(Array::filled(T::constant(0.0)));
+        let zero = vector(Array::<T, N>::filled(T::constant(0.0)));
         let mut state = State { t: self.number()?, q: zero, v: zero };
         for x in state.q.iter_mut().chain(&mut state.v) {
             *x = self.number()?;

@@ -252,7 +252,7 @@ mod tests {
     use crate::motion::{Adaptive, Method};
     use crate::{Dop853, error::Entry, prelude::*};
 
-    use super::{DifferentiableMethod, LagrangianVectorField, Variations};
+    use super::{DifferentiableMethod, Variations};
 
     #[derive(Lagrangian)]
     #[coordinates(x)]
