@@ -19,6 +19,7 @@ pub(crate) enum Argument {
 impl Argument {
     /// Finds the arguments of these names.
     pub(crate) fn named<L: Linearized>(names: &[&str]) -> Result<Vec<Self>, Error> {
+        const { assert!(L::PARAMETERS.len() == <L::P>::COUNT, "`PARAMETERS` must have `P` names") };
         let mut known = lookup::entries::<L>();
         known.extend(L::PARAMETERS.iter().copied().map(Into::into));
         let found = lookup::indices::<L>(&known, "coordinate, velocity or parameter", names)?;

@@ -3,7 +3,7 @@
 use nalgebra::ComplexField;
 
 use super::defect::Defect;
-use super::lagrangian::Lagrangian;
+use super::lagrangian::{Lagrangian, check_names};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, exceeds, power_of_epsilon};
@@ -23,6 +23,7 @@ pub(crate) fn check_entries<L: Lagrangian<Scalar: Real>>(
     [q, others]: [&Vector<L::Scalar, L::N>; 2],
     other: fn(&'static str) -> Entry,
 ) -> Result<(), Error> {
+    const { check_names::<L>() };
     check_parameters(system)?;
     let named = |entry: fn(&'static str) -> Entry| L::COORDINATES.iter().copied().map(entry);
     let vectors = named(Entry::Coordinate).zip(q).chain(named(other).zip(others));

@@ -71,13 +71,13 @@ pub trait Lagrangian {
 
     /// Name of the struct.
     const NAME: &'static str;
-    /// Names of the generalized coordinates.
+    /// Names of the generalized coordinates, `N` of them.
     const COORDINATES: &'static [&'static str];
-    /// Names of the constraints.
+    /// Names of the constraints, `M` of them.
     const CONSTRAINTS: &'static [&'static str];
     /// Form of each constraint as written: holonomic, or in the velocities.
     const CONSTRAINT_KINDS: &'static [ConstraintKind];
-    /// Integrability of each constraint; a constraint beyond the end is undecided.
+    /// Integrability of each constraint; empty for a manual implementation.
     const CONSTRAINT_CLASSES: &'static [Classification] = &[];
     /// Number of integrals of the velocity constraints; `None` if it could not be decided.
     const INTEGRALS: Option<Integrals> = None;
@@ -232,4 +232,11 @@ pub trait Lagrangian {
 
     /// Value of the conserved quantity [`FACTS`](Self::FACTS)`.conserved[index]`; `None` beyond the last.
     fn conserved(&self, index: usize, state: &StateOf<Self>) -> Option<Self::Scalar>;
+}
+
+/// Checks at compile time that a manual implementation names all coordinates and constraints.
+pub(super) const fn check_names<L: Lagrangian>() {
+    assert!(L::COORDINATES.len() == <L::N>::COUNT, "`COORDINATES` must have `N` names");
+    assert!(L::CONSTRAINTS.len() == <L::M>::COUNT, "`CONSTRAINTS` must have `M` names");
+    assert!(L::CONSTRAINT_KINDS.len() == <L::M>::COUNT, "`CONSTRAINT_KINDS` must have `M` entries");
 }
