@@ -20,8 +20,8 @@ use crate::vector::{Element, Length};
 
 /// State of a running ensemble, shared by all threads.
 pub(super) struct Job<'a, L: Lagrangian<Scalar: Real>> {
-    make: Make<'a, L, L::Scalar, L::N>,
-    observer: Option<MemberObserver<'a, L::Scalar, L::N>>,
+    make: Make<'a, L>,
+    observer: Option<MemberObserver<'a, L>>,
     member_plan: Arc<MemberPlan<'a, L>>,
     end: L::Scalar,
     /// Fingerprint of the run, common to all members.
@@ -129,7 +129,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
     #[cfg(feature = "mpi")]
     pub(super) fn batch(&self, list: Vec<usize>) -> Job<'_, L> {
         let observer = self.observer.as_ref().map(|observe| {
-            let observer: MemberObserver<'_, L::Scalar, L::N> = Box::new(observe);
+            let observer: MemberObserver<'_, L> = Box::new(observe);
             observer
         });
         let ledger = Mutex::new(Ledger { members: Vec::new(), of: list.len(), watch: None });

@@ -13,20 +13,20 @@ use crate::motion::record::{CONTROLLER, Record, RecordPlan, SampleTimes, Steerin
 use crate::motion::{Event, EventFunction, Method};
 use crate::number::Real;
 use crate::solution::Sample;
-use crate::system::{Lagrangian, State, StateOf};
+use crate::system::{Lagrangian, StateOf};
 use crate::vector::{Element, Length};
 
 /// Settings of an ensemble, collected before it is integrated.
 pub(super) struct Plan<'a, L: Lagrangian<Scalar: Real>> {
     pub(super) count: usize,
-    pub(super) make: Make<'a, L, L::Scalar, L::N>,
+    pub(super) make: Make<'a, L>,
     pub(super) shard: usize,
     pub(super) shards: usize,
     /// Indices of the members to integrate; all if `None`.
     pub(super) list: Option<Vec<usize>>,
     /// Rows of members taken over from earlier runs.
     pub(super) done: Vec<MemberRow<L::Scalar, L::N>>,
-    pub(super) observer: Option<MemberObserver<'a, L::Scalar, L::N>>,
+    pub(super) observer: Option<MemberObserver<'a, L>>,
     pub(super) watch: Option<Watch<'a, L::Scalar, L::N>>,
     pub(super) member_plan: MemberPlan<'a, L>,
     /// Name given by the user to the code that no fingerprint sees.
@@ -77,9 +77,8 @@ impl<L: Lagrangian<Scalar: Real>> Plan<'_, L> {
     }
 }
 
-pub(super) type Make<'a, L, T, N> = Box<dyn Fn(usize) -> (L, State<T, N>) + Send + Sync + 'a>;
-pub(super) type MemberObserver<'a, T, N> =
-    Box<dyn Fn(usize, &State<T, N>) -> ControlFlow<()> + Send + Sync + 'a>;
+pub(super) type Make<'a, L> = Box<dyn Fn(usize) -> (L, StateOf<L>) + Send + Sync + 'a>;
+pub(super) type MemberObserver<'a, L> = Box<dyn Fn(usize, &StateOf<L>) -> ControlFlow<()> + Send + Sync + 'a>;
 pub(super) type Watch<'a, T, N> = Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> ControlFlow<()> + Send + 'a>;
 
 /// Progress of an ensemble.

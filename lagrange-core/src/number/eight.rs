@@ -6,13 +6,13 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use wide::f64x8;
 
 use super::scalar::Scalar;
-use super::simd::Vector;
+use super::simd::SimdVector;
 
 /// A vector of eight `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Eight(f64x8);
 
-impl Vector for Eight {
+impl SimdVector for Eight {
     #[inline(always)]
     fn select(self, chosen: Self, other: Self) -> Self {
         Self(chosen.0.simd_gt(f64x8::splat(0.0)).select(self.0, other.0))

@@ -9,7 +9,7 @@ use super::quad::Quad;
 #[cfg(not(target_feature = "avx512f"))]
 use super::quad::Quad as Widest;
 use super::scalar::Scalar;
-use super::simd::Vector;
+use super::simd::SimdVector;
 
 /// Largest angle for vector sines. Beyond, the reduction by π/2 in three parts loses digits.
 const LARGEST_ANGLE: f64 = 1e8;

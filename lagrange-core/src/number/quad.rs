@@ -2,12 +2,12 @@
 
 use simba::simd::{SimdPartialOrd, SimdValue, WideF64x4};
 
-use super::simd::Vector;
+use super::simd::SimdVector;
 
 /// A vector of four `f64`.
 pub(super) type Quad = WideF64x4;
 
-impl Vector for Quad {
+impl SimdVector for Quad {
     #[inline(always)]
     fn select(self, chosen: Self, other: Self) -> Self {
         SimdValue::select(self, chosen.simd_gt(Self::splat(0.0)), other)

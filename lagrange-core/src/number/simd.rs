@@ -3,7 +3,7 @@
 use super::scalar::Scalar;
 
 /// A vector of `f64`.
-pub(super) trait Vector: Scalar {
+pub(super) trait SimdVector: Scalar {
     /// Number of lanes.
     const COUNT: usize = size_of::<Self>() / size_of::<f64>();
 

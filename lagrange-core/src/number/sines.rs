@@ -9,7 +9,7 @@
 
 use super::quad::Quad;
 use super::scalar::Scalar;
-use super::simd::Vector;
+use super::simd::SimdVector;
 
 /// Largest angle. Beyond, the multiple of π/2 has too many digits for the first step to be exact.
 const LARGEST: f64 = 1e5;
