@@ -16,10 +16,16 @@ pub(crate) enum Argument {
     Parameter(usize),
 }
 
+/// Checks that a manual implementation names all parameters: at compile time, where a program is built that uses the
+/// names.
+pub(crate) const fn check_parameters<L: Linearized>() {
+    assert!(L::PARAMETERS.len() == <L::P>::COUNT, "`PARAMETERS` must have `P` names");
+}
+
 impl Argument {
     /// Finds the arguments of these names.
     pub(crate) fn named<L: Linearized>(names: &[&str]) -> Result<Vec<Self>, Error> {
-        const { assert!(L::PARAMETERS.len() == <L::P>::COUNT, "`PARAMETERS` must have `P` names") };
+        const { check_parameters::<L>() };
         let mut known = lookup::entries::<L>();
         known.extend(L::PARAMETERS.iter().copied().map(Into::into));
         let found = lookup::indices::<L>(&known, "coordinate, velocity or parameter", names)?;
@@ -33,6 +39,7 @@ impl Argument {
 
     /// Finds the actuators of these names: a coordinate stands for the generalized force on it, a parameter for itself.
     pub(crate) fn actuators<L: Linearized>(names: &[&str]) -> Result<Vec<Self>, Error> {
+        const { check_parameters::<L>() };
         let known = [L::COORDINATES, L::PARAMETERS].concat();
         let found = lookup::indices::<L>(&known, "coordinate or parameter", names)?;
         let argument =

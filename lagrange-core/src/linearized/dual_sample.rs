@@ -5,7 +5,7 @@ use core::fmt::{self, Debug, Formatter};
 use nalgebra::ComplexField;
 
 use super::Linearized;
-use super::argument::parameter;
+use super::argument::{check_parameters, parameter};
 use super::tangent::{Tangent, WideOf};
 use crate::error::Error;
 use crate::motion::{AnyEvent, Event, EventFunction, EventValue};
@@ -117,6 +117,7 @@ impl<'a, L: Linearized<Scalar: Real>> DualSample<'a, L> {
     /// # Errors
     /// [`Error::UnknownName`].
     pub fn parameter(&self, name: &str) -> Result<Dual<L::Scalar>, Error> {
+        const { check_parameters::<L>() };
         let index = index::<L>(L::PARAMETERS, "parameter", name)?;
         Ok(self.number(L::PARAMETERS[index], self.system.parameters()[index]))
     }

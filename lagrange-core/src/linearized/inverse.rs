@@ -9,7 +9,7 @@ use super::argument::Argument;
 use super::singular::Singular;
 use crate::error::Error;
 use crate::names::Row;
-use crate::number::{Real, Scalar, larger, power_of_epsilon, sum};
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::kkt::Units;
 use crate::solution::solve::first_row;
 use crate::system::{Solution, StateOf, finite::check_finite, unit};
@@ -118,9 +118,10 @@ impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
                 motion[i] -= *value;
             }
         }
-        let (f, bias) = (system.constraint_jacobian(state), system.constraint_bias(state));
+        let (f, bias, zero) =
+            (system.constraint_jacobian(state), system.constraint_bias(state), L::Scalar::constant(0.0));
         let demanded: Array<_, L::M> =
-            entries(|a| sum(<L::N>::COUNT, |i| f[(a, i)] * accelerations[i]) + bias[a]);
+            entries(|a| (0..<L::N>::COUNT).fold(zero, |sum, i| sum + f[(a, i)] * accelerations[i]) + bias[a]);
         if let Some(row) = first_row::<L>(|i| !motion[i].is_finite(), |a| !demanded[a].is_finite()) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }

@@ -4,6 +4,7 @@ use alloc::{string::String, vec::Vec};
 
 use nalgebra::{DMatrix, DVector};
 
+use super::argument::check_parameters;
 use super::jacobian::{name_of, put_argument};
 use super::tangent::{Matrices, Tangent, WideOf};
 use super::{Linearized, StateDerivatives};
@@ -61,6 +62,7 @@ pub(super) fn linearize<L: Linearized<Scalar: Real>>(
     state: &StateOf<L>,
     names: &[&str],
 ) -> Result<Linearization<L::Scalar>, Error> {
+    const { check_parameters::<L>() };
     let parameters = lookup::indices::<L>(L::PARAMETERS, "parameter", names)?;
     check_finite(system, state)?;
     consistent::check(system, state)?;

@@ -43,6 +43,8 @@ use core::fmt::Debug;
 
 #[cfg(feature = "alloc")]
 pub use across::MotionDerivatives;
+#[cfg(feature = "parquet")]
+pub(crate) use argument::check_parameters;
 #[cfg(feature = "alloc")]
 pub use columns::SelectedJacobian;
 #[cfg(feature = "alloc")]

@@ -10,7 +10,7 @@ use crate::number::Real;
 use crate::solution::solve::solve;
 #[cfg(feature = "alloc")]
 use crate::system::lookup::{index, unknown};
-use crate::system::{Lagrangian, SolutionOf, State, StateOf};
+use crate::system::{Lagrangian, SolutionOf, State, StateOf, check_names};
 
 /// A state of a system with derived quantities: accelerations, multipliers, energy, observables.
 ///
@@ -149,6 +149,7 @@ fn coordinate<L: Lagrangian>(name: &str) -> Result<usize, Error> {
 /// `{sample:.3}`.
 impl<S: Lagrangian> Display for Sample<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        const { check_names::<S>() };
         let State { t, q, v } = &self.state;
         write!(f, "{} = ", Entry::Time)?;
         Debug::fmt(t, f)?;

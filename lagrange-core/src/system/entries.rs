@@ -7,7 +7,8 @@ use crate::vector::{Element, Length, Vector};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not {N} numbers of the type `{T}`",
     label = "not {N} numbers `{T}`",
-    note = "write an array with an entry for each coordinate, and whole numbers with a point: `[1.0, 0.0]`"
+    note = "write an array with an entry for each coordinate, and whole numbers with a point: `[1.0, 0.0]`",
+    note = "in a function for any system write `StateOf::<L>::new(…)` or `generic::State {{ … }}`"
 )]
 pub trait Entries<T: Element, N: Length> {
     /// Converts the entries to a vector.

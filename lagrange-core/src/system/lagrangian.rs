@@ -234,8 +234,9 @@ pub trait Lagrangian {
     fn conserved(&self, index: usize, state: &StateOf<Self>) -> Option<Self::Scalar>;
 }
 
-/// Checks at compile time that a manual implementation names all coordinates and constraints.
-pub(super) const fn check_names<L: Lagrangian>() {
+/// Checks that a manual implementation names all coordinates and constraints: at compile time, where a program is built
+/// that uses the names.
+pub(crate) const fn check_names<L: Lagrangian>() {
     assert!(L::COORDINATES.len() == <L::N>::COUNT, "`COORDINATES` must have `N` names");
     assert!(L::CONSTRAINTS.len() == <L::M>::COUNT, "`CONSTRAINTS` must have `M` names");
     assert!(L::CONSTRAINT_KINDS.len() == <L::M>::COUNT, "`CONSTRAINT_KINDS` must have `M` entries");

@@ -10,17 +10,19 @@ use alloc::{
     vec::Vec,
 };
 
-use super::lagrangian::Lagrangian;
+use super::lagrangian::{Lagrangian, check_names};
 use crate::error::Error;
 use crate::names::Entry;
 
 /// Returns the names of the coordinates, followed by those of the velocities.
 pub(crate) fn entries<L: Lagrangian>() -> Vec<String> {
+    const { check_names::<L>() };
     (0..2 * <L::N>::COUNT).map(|index| entry::<L>(index).to_string()).collect()
 }
 
 /// Returns the entry at `index` of (q, q̇).
 pub(crate) fn entry<L: Lagrangian>(index: usize) -> Entry {
+    const { check_names::<L>() };
     let name = L::COORDINATES[index % <L::N>::COUNT];
     if index < <L::N>::COUNT { Entry::Coordinate(name) } else { Entry::Velocity(name) }
 }
@@ -31,6 +33,7 @@ pub(crate) fn index<L: Lagrangian>(
     kind: &'static str,
     name: &str,
 ) -> Result<usize, Error> {
+    const { check_names::<L>() };
     let found = known.iter().position(|known| known.as_ref() == name);
     found.ok_or_else(|| unknown::<L>(known, kind, name))
 }
@@ -42,6 +45,7 @@ pub(crate) fn indices<L: Lagrangian>(
     kind: &'static str,
     names: &[&str],
 ) -> Result<Vec<usize>, Error> {
+    const { check_names::<L>() };
     let mut found = Vec::new();
     for name in names {
         let before = found.len();

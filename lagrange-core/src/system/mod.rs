@@ -27,6 +27,7 @@ pub use equations::{Equations, Excerpt};
 pub use evidence::Evidence;
 pub use facts::{Conserved, EnergyForm, Facts, LinearPart, TotalDerivative};
 pub use integrability::{Classification, Extent, Integrability, Integrals};
+pub(crate) use lagrangian::check_names;
 pub use lagrangian::{ConstraintKind, Lagrangian};
 pub use pack::{Pack, Packed, Shared};
 pub(crate) use state::write_state;

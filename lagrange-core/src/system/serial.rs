@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::fmt::{self, Display};
 use core::marker::PhantomData;
 
-use serde::de::{Error, SeqAccess, Visitor};
+use serde::de::{Error, IgnoredAny, SeqAccess, Visitor};
 use serde::ser::SerializeTuple;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -51,12 +51,19 @@ impl<'de, T: Element + Deserialize<'de>, N: Length> Visitor<'de> for Numbers<T, 
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Array<T, N>, A::Error> {
         let mut found = Vec::with_capacity(N::COUNT);
-        while let Some(x) = sequence.next_element()? {
+        while found.len() < N::COUNT {
+            let Some(x) = sequence.next_element()? else {
+                return Err(A::Error::invalid_length(found.len(), &self));
+            };
             found.push(x);
         }
-        match found.len() == N::COUNT {
+        let mut count = N::COUNT;
+        while sequence.next_element::<IgnoredAny>()?.is_some() {
+            count += 1;
+        }
+        match count == N::COUNT {
             true => Ok(Array::from_fn(|i| found[i])),
-            false => Err(A::Error::invalid_length(found.len(), &self)),
+            false => Err(A::Error::invalid_length(count, &self)),
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use core::ops::{Index, IndexMut};
 
+use nalgebra::Const;
+
 use super::array::FromFn;
 use super::{Array, Element, Length, Vector};
 
@@ -57,6 +59,12 @@ impl<T: Element, N: Length> PhaseVector<T, N> {
     #[inline(always)]
     pub fn flat_mut(&mut self) -> &mut [T] {
         N::flat_mut(&mut self.0)
+    }
+}
+
+impl<T: Element, const K: usize> From<[[T; K]; 2]> for PhaseVector<T, Const<K>> {
+    fn from(halves: [[T; K]; 2]) -> Self {
+        Self(halves)
     }
 }
 

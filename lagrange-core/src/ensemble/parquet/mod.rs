@@ -20,7 +20,7 @@ use super::fingerprint::{Fingerprint, Hash, OTHER_START};
 use super::outcome::Member;
 use super::table::{MemberRow, MemberTable};
 use crate::error::{EnsembleError, Error};
-use crate::linearized::Linearized;
+use crate::linearized::{Linearized, check_parameters};
 use crate::number::Real;
 use crate::system::StateOf;
 use crate::vector::{Element, Length};
@@ -87,6 +87,7 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
         directory: impl AsRef<Path>,
         member: impl Fn(usize) -> (L, StateOf<L>) + Send + 'a,
     ) -> Result<Self, Error> {
+        const { check_parameters::<L>() };
         let directory = directory.as_ref().to_owned();
         create_dir_all(&directory).map_err(|error| wrong(&directory, error))?;
         Ok(Self {
