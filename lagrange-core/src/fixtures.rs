@@ -26,14 +26,9 @@ pub(crate) struct Mechanism<const N: usize, const M: usize, const H: usize> {
     pub(crate) bias: fn(&At<N>) -> [f64; M],
 }
 
-const fn first<const K: usize>(all: [&'static str; 5]) -> [&'static str; K] {
-    let mut names = [""; K];
-    let mut i = 0;
-    while i < K {
-        names[i] = all[i];
-        i += 1;
-    }
-    names
+/// The first of the names; all of them if there are too few.
+const fn first(all: &'static [&'static str], count: usize) -> &'static [&'static str] {
+    if count < all.len() { all.split_at(count).0 } else { all }
 }
 
 const fn kinds<const M: usize>(holonomic: usize) -> [ConstraintKind; M] {
@@ -52,8 +47,8 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian for Mechanism<N,
     type Scalar = f64;
     type Factor = LoopFactor<f64, N, M>;
     const NAME: &'static str = "Mechanism";
-    const COORDINATES: &'static [&'static str] = &first::<N>(["x", "y", "z", "w[0]", "w[1]"]);
-    const CONSTRAINTS: &'static [&'static str] = &first::<M>(["c0", "c1", "c2", "c3", "c4"]);
+    const COORDINATES: &'static [&'static str] = first(&["x", "y", "z", "w[0]", "w[1]"], N);
+    const CONSTRAINTS: &'static [&'static str] = first(&["c0", "c1", "c2", "c3", "c4"], M);
     const CONSTRAINT_KINDS: &'static [ConstraintKind] = &kinds::<M>(H);
     const OBSERVABLES: &'static [&'static str] = &["kinetic"];
     const FACTS: Facts = Facts::NONE;

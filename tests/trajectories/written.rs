@@ -86,8 +86,11 @@ fn unknown_numbers_come_back_unknown() {
     );
     let phase = to_string(&PhaseState::new([1.0], [1.0]).at_time(f64::NAN)).unwrap();
     assert!(from_str::<PhaseState<f64, 1>>(&phase).unwrap_err().to_string().contains("NaN or infinite"));
-    let shorter = json!({ "t": 0.0, "q": [1.0], "v": [0.0] });
-    assert!(from_value::<State<f64, 2>>(shorter).is_err());
+    for (length, q) in [(1, json!([1.0])), (3, json!([1.0, 2.0, 3.0]))] {
+        let state = json!({ "t": 0.0, "q": q, "v": [0.0, 0.0] });
+        let error = from_value::<State<f64, 2>>(state).unwrap_err().to_string();
+        assert_eq!(error, format!("invalid length {length}, expected 2 numbers"));
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Progress of a motion, and who looks at it.
+//! Progress of a motion, and its report to the closure of [`on_progress`](crate::MotionBuilder::on_progress).
 
 #[cfg(feature = "alloc")]
 use alloc::boxed::Box;

@@ -241,3 +241,27 @@ pub(crate) const fn check_names<L: Lagrangian>() {
     assert!(L::CONSTRAINTS.len() == <L::M>::COUNT, "`CONSTRAINTS` must have `M` names");
     assert!(L::CONSTRAINT_KINDS.len() == <L::M>::COUNT, "`CONSTRAINT_KINDS` must have `M` entries");
 }
+
+#[cfg(test)]
+mod tests {
+    use super::check_names;
+    use crate::fixtures::Mechanism;
+
+    #[test]
+    fn names_are_as_many_as_coordinates_and_constraints() {
+        check_names::<Mechanism<5, 5, 2>>();
+        check_names::<Mechanism<1, 0, 0>>();
+    }
+
+    #[test]
+    #[should_panic(expected = "`COORDINATES` must have `N` names")]
+    fn too_few_names_of_coordinates_are_noticed() {
+        check_names::<Mechanism<6, 0, 0>>();
+    }
+
+    #[test]
+    #[should_panic(expected = "`CONSTRAINTS` must have `M` names")]
+    fn too_few_names_of_constraints_are_noticed() {
+        check_names::<Mechanism<5, 6, 0>>();
+    }
+}

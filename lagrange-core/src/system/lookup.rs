@@ -3,7 +3,6 @@
 #[cfg(test)]
 mod tests;
 
-use crate::vector::Length;
 use alloc::{
     format,
     string::{String, ToString},
@@ -13,6 +12,7 @@ use alloc::{
 use super::lagrangian::{Lagrangian, check_names};
 use crate::error::Error;
 use crate::names::Entry;
+use crate::vector::Length;
 
 /// Returns the names of the coordinates, followed by those of the velocities.
 pub(crate) fn entries<L: Lagrangian>() -> Vec<String> {

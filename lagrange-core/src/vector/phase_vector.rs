@@ -9,6 +9,13 @@ use super::{Array, Element, Length, Vector};
 
 /// Coordinates and velocities, or coordinates and momenta: the unknowns of a one-step method. `y[0]` and `y[1]` are
 /// slices of the entries of its halves.
+///
+/// ```
+/// use lagrange_core::generic::PhaseVector;
+///
+/// let y = PhaseVector::from([[1.0, 2.0], [3.0, 4.0]]);
+/// assert_eq!((y[1][0], y.half(0)[1], y.flat()), (3.0, 2.0, &[1.0, 2.0, 3.0, 4.0][..]));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhaseVector<T: Element, N: Length>(N::Halves<T>);
 

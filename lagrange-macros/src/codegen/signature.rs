@@ -76,54 +76,41 @@ impl Types<'_> {
     }
 
     pub(super) fn argument(&self, argument: Argument) -> TokenStream {
-        let scalar = self.scalar;
-        let ty = match argument {
+        match argument {
             Argument::System => return quote!(&self),
             Argument::MutableSystem => return quote!(&mut self),
-            Argument::State => {
-                let ty = self.state();
-                quote!(&#ty)
-            }
-            Argument::Solution => {
-                let ty = self.solution();
-                quote!(&#ty)
-            }
-            Argument::Accelerations => {
-                let ty = self.vector(Dimension::Coordinates);
-                quote!(&#ty)
-            }
-            Argument::Multipliers => {
-                let ty = self.vector(Dimension::Constraints);
-                quote!(&#ty)
-            }
+            _ => {}
+        }
+        let (name, ty) = (format_ident!("{}", argument.name()), self.of_argument(argument));
+        match argument {
+            Argument::Index | Argument::Value => quote!(#name: #ty),
+            _ => quote!(#name: &#ty),
+        }
+    }
+
+    /// Type of an argument, without the reference.
+    fn of_argument(&self, argument: Argument) -> TokenStream {
+        let scalar = self.scalar;
+        match argument {
+            Argument::State => self.state(),
+            Argument::Solution => self.solution(),
+            Argument::Accelerations | Argument::Forcing => self.vector(Dimension::Coordinates),
+            Argument::Multipliers | Argument::Bias => self.vector(Dimension::Constraints),
+            Argument::Rates => self.vector(Dimension::Parameters),
             Argument::Direction => {
-                let ty = self.of_lengths(&quote!(Direction), "Direction", &[Dimension::Coordinates]);
-                quote!(&#ty)
+                self.of_lengths(&quote!(Direction), "Direction", &[Dimension::Coordinates])
             }
-            Argument::Rates => {
-                let ty = self.vector(Dimension::Parameters);
-                quote!(&#ty)
-            }
-            Argument::Factor => quote!(&Self::Factor),
-            Argument::Slopes => quote!(&Self::Slopes),
-            Argument::ParameterSlopes => quote!(&Self::ParameterSlopes),
-            Argument::SeriesSlopes => quote!(&Self::SeriesSlopes),
-            Argument::Sums => quote!(&Self::Sums),
-            Argument::Terms => quote!(&Self::SeriesTerms),
-            Argument::Order => quote!(&[#scalar; 4]),
-            Argument::Forcing => {
-                let ty = self.vector(Dimension::Coordinates);
-                quote!(&#ty)
-            }
-            Argument::Bias => {
-                let ty = self.vector(Dimension::Constraints);
-                quote!(&#ty)
-            }
+            Argument::Factor => quote!(Self::Factor),
+            Argument::Slopes => quote!(Self::Slopes),
+            Argument::ParameterSlopes => quote!(Self::ParameterSlopes),
+            Argument::SeriesSlopes => quote!(Self::SeriesSlopes),
+            Argument::Sums => quote!(Self::Sums),
+            Argument::Terms => quote!(Self::SeriesTerms),
+            Argument::Order => quote!([#scalar; 4]),
+            Argument::System | Argument::MutableSystem => quote!(Self),
             Argument::Index => quote!(usize),
             Argument::Value => quote!(#scalar),
-        };
-        let name = format_ident!("{}", argument.name());
-        quote!(#name: #ty)
+        }
     }
 
     fn returns(&self, gives: Gives) -> TokenStream {

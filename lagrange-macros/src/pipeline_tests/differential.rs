@@ -27,8 +27,8 @@ use here::Here;
 use jet::Jet;
 use oracle::Solution;
 
-/// Accepted error, as a multiple of the oracle's bound: a bit more than one digit. The bound holds for elimination
-/// from the top of the matrix down. The emitted code eliminates in other orders and has other expressions for the
+/// Factor by which an error may exceed the bound of the oracle: a bit more than one digit. That bound holds for
+/// elimination from the top of the matrix down. The emitted code eliminates in other orders and has other expressions for the
 /// same entries.
 const ROOM: f64 = 16.0;
 

@@ -81,7 +81,7 @@ const IN_TURN: [[&str; 2]; 7] = [
     ],
 ];
 
-/// Systems of the same form where frames cost about as much, or more.
+/// Systems of the same form for which equations in frames save little work, or need more.
 const NOT_IN_TURN: [[&str; 2]; 3] = [
     // Links at absolute angles, one angle each.
     [

@@ -24,6 +24,7 @@ pub(super) fn slope<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
     inlined_slope::<L, F>(system, point, active, rates, statistics)
 }
 
+/// The same, inlined: for the loop over the stages, where the call would cost.
 #[inline(always)]
 pub(super) fn inlined_slope<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
     system: &L,
