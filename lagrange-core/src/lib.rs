@@ -126,6 +126,7 @@ println!("{}", path.csv(50).energy());
 //! - [`HybridTrajectory`]: a motion in several legs, each with its own system; [`Simulate::impact`].
 //! - [`Lagrangian`]: the trait that generated code implements; [`Solution`]: accelerations and multipliers at a
 //!   state; [`Scalar`]: requirements on the number type.
+//! - [`structure`]: marker traits for the systems that an integrator applies to.
 //! - [`StateOf`], [`SolutionOf`] and [`generic`]: types in functions that work for any system.
 //! - [`embedded`]: programs without an operating system.
 //!
@@ -174,6 +175,7 @@ pub mod prelude;
 mod room;
 mod solution;
 mod statistics;
+pub mod structure;
 mod system;
 #[cfg(feature = "alloc")]
 pub mod trajectory;

@@ -17,6 +17,7 @@ pub(crate) mod pointers;
 #[cfg(feature = "serde")]
 pub(crate) mod serial;
 mod state;
+mod structure;
 mod taylor_series;
 
 #[cfg(feature = "alloc")]
@@ -32,4 +33,5 @@ pub use lagrangian::{ConstraintKind, Lagrangian};
 pub use pack::{Pack, Packed, Shared};
 pub(crate) use state::write_state;
 pub use state::{Solution, SolutionOf, State, StateOf};
+pub use structure::{ConstantMassMatrix, HolonomicConstraints, Unconstrained, VelocityFreeForces};
 pub use taylor_series::{RightHandSides, TaylorSeries};

@@ -8,6 +8,7 @@ use super::integrability::{Classification, Integrals};
 use super::lagrangian::{ConstraintKind, Lagrangian};
 use super::pack::Pack;
 use super::state::{Solution, State};
+use super::structure::{ConstantMassMatrix, HolonomicConstraints, Unconstrained, VelocityFreeForces};
 use super::taylor_series::{RightHandSides, TaylorSeries};
 use crate::number::{Broadcast, PowerSeries};
 use crate::vector::{Matrix, Vector};
@@ -131,12 +132,18 @@ macro_rules! forward {
                 fn place(packed: &mut Self::Packed, lane: usize) -> bool;
             }
         }
+
+        forward! { @markers $pointer; ConstantMassMatrix, VelocityFreeForces, HolonomicConstraints, Unconstrained }
     )*};
     (@methods $(fn $method:ident $(<$wide:ident>)?($($argument:ident: $type:ty),*) -> $result:ty;)*) => {$(
         #[inline]
         fn $method $(<$wide: Broadcast<Self::Scalar>>)?(&self, $($argument: $type),*) -> $result {
             L::$method(self, $($argument),*)
         }
+    )*};
+    (@markers $pointer:ty; $($marker:ident),*) => {$(
+        #[diagnostic::do_not_recommend]
+        impl<L: $marker> $marker for $pointer {}
     )*};
 }
 

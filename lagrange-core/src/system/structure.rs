@@ -1,0 +1,70 @@
+//! Marker traits for the structure of a system.
+
+use super::lagrangian::Lagrangian;
+
+/// A system whose mass matrix M depends on the parameters alone.
+///
+/// M does not depend on the coordinates, the velocities or the time, so the momenta are p = M q̇ + a(q, t) and one
+/// factorization of M serves a whole motion. A change of the parameters may change M.
+///
+/// `#[derive(Lagrangian)]` implements it where the derived entries of M are constant in symbols: masses in Cartesian
+/// coordinates, or a pendulum in its angle, but not a double pendulum.
+///
+/// An implementation by hand promises that [`mass_matrix`](Lagrangian::mass_matrix) returns the same matrix, up to
+/// round-off, for all states.
+#[diagnostic::on_unimplemented(
+    message = "the mass matrix of `{Self}` depends on the coordinates, the velocities or the time",
+    label = "its mass matrix is not known to be constant",
+    note = "`Verlet` needs a constant mass matrix; `Lobatto::<2>` is of the same order and takes any Lagrangian with holonomic constraints, `Gauss` one without constraints",
+    note = "if the mass matrix is constant, but the derive macro cannot prove it, implement `ConstantMassMatrix` by hand"
+)]
+pub trait ConstantMassMatrix: Lagrangian {}
+
+/// A system whose forces do not depend on the velocities.
+///
+/// The vector h of M q̈ = h + Fᵀλ is a function h(q, t). Damping, a magnetic field and a rotating frame add forces
+/// that depend on the velocities. So does a mass matrix that depends on the coordinates, by the centrifugal and
+/// Coriolis terms in h.
+///
+/// `#[derive(Lagrangian)]` implements it where the velocities vanish from the derived h in symbols. A term of L that
+/// is linear in the velocities is allowed if it is a total time derivative of a function of the coordinates.
+///
+/// An implementation by hand promises that [`forcing`](Lagrangian::forcing) returns the same vector, up to round-off,
+/// for all velocities at the same coordinates and time.
+#[diagnostic::on_unimplemented(
+    message = "the forces on `{Self}` depend on the velocities",
+    label = "its forces are not known to be free of velocities",
+    note = "`Verlet` takes no damping, magnetic fields or rotating frames; `Lobatto::<2>` is of the same order and takes any Lagrangian with holonomic constraints, `Gauss` one without constraints",
+    note = "if the forces do not depend on the velocities, but the derive macro cannot prove it, implement `VelocityFreeForces` by hand"
+)]
+pub trait VelocityFreeForces: Lagrangian {}
+
+/// A system whose constraints are all holonomic, Φ(q, t) = 0, or that has none.
+///
+/// `#[derive(Lagrangian)]` implements it if every constraint is written without velocities. A velocity constraint
+/// does not count even if it is integrable: [`constraint_residual`](Lagrangian::constraint_residual) is zero for it,
+/// so a method cannot enforce it on the coordinates.
+///
+/// An implementation by hand promises that every entry of [`CONSTRAINT_KINDS`](Lagrangian::CONSTRAINT_KINDS) is
+/// [`Holonomic`](crate::ConstraintKind::Holonomic).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has a constraint on velocities",
+    label = "its constraints are not known to be holonomic",
+    note = "`Lobatto` and `Verlet` take constraints of the form Φ(q, t) = 0; `DAlembert` takes constraints on velocities",
+    note = "if the constraints of a manual implementation of `Lagrangian` are holonomic, implement `HolonomicConstraints` by hand"
+)]
+pub trait HolonomicConstraints: Lagrangian {}
+
+/// A system without constraints.
+///
+/// `#[derive(Lagrangian)]` implements it if there is no `#[constraint(…)]`, and no coordinate that implies one, as a
+/// unit quaternion does.
+///
+/// An implementation by hand promises that [`M`](Lagrangian::M) is 0.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has constraints",
+    label = "not known to be free of constraints",
+    note = "`Gauss` takes systems without constraints; `Lobatto` is the counterpart of `Gauss` for systems with holonomic constraints",
+    note = "if a manual implementation of `Lagrangian` has no constraints, implement `Unconstrained` by hand"
+)]
+pub trait Unconstrained: Lagrangian {}
