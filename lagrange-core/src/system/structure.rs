@@ -26,8 +26,8 @@ pub trait ConstantMassMatrix: Lagrangian {}
 /// that depend on the velocities. So does a mass matrix that depends on the coordinates, by the centrifugal and
 /// Coriolis terms in h.
 ///
-/// `#[derive(Lagrangian)]` implements it where the velocities vanish from the derived h in symbols. A term of L that
-/// is linear in the velocities is allowed if it is a total time derivative of a function of the coordinates.
+/// `#[derive(Lagrangian)]` implements it where the velocities vanish from the derived h in symbols. A part of L that is
+/// linear in the velocities is allowed if it adds no such force, as a total time derivative does.
 ///
 /// An implementation by hand promises that [`forcing`](Lagrangian::forcing) returns the same vector, up to round-off,
 /// for all velocities at the same coordinates and time.
@@ -50,7 +50,7 @@ pub trait VelocityFreeForces: Lagrangian {}
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has a constraint on velocities",
     label = "its constraints are not known to be holonomic",
-    note = "`Lobatto` and `Verlet` take constraints of the form Φ(q, t) = 0; `DAlembert` takes constraints on velocities",
+    note = "`Lobatto` takes constraints without velocities, Φ(q, t) = 0; `DAlembert` takes constraints on velocities",
     note = "if the constraints of a manual implementation of `Lagrangian` are holonomic, implement `HolonomicConstraints` by hand"
 )]
 pub trait HolonomicConstraints: Lagrangian {}

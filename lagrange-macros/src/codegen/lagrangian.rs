@@ -5,6 +5,7 @@ use quote::quote;
 
 use super::emitter::{Emitter, Written, runtime, too_long};
 use super::kernel::Kernel;
+use super::markers::markers;
 use super::observables::OBSERVABLE;
 use super::pack;
 use super::shape::ResultShape;
@@ -50,6 +51,7 @@ impl Emitter<'_> {
         let (equations, visit_parameters, visit_defects) =
             (self.equations(), self.visit_parameters(), self.visit_defects());
         let (pack, check_members) = (pack::pack(self.declaration, scalar), self.check_members());
+        let markers = markers(self.declaration, &generics, &self.derived.markers);
         let [[_, _, doc], ..] = &self.rendered.forms;
         quote! {
             const _: () = {
@@ -88,6 +90,7 @@ impl Emitter<'_> {
                     #(#parts)*
                 }
 
+                #markers
                 #pack
                 #check_members
             };

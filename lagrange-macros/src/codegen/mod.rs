@@ -13,6 +13,7 @@ mod integrability;
 mod kernel;
 mod lagrangian;
 mod linearized;
+mod markers;
 mod members;
 mod observables;
 mod operation;

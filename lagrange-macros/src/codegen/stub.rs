@@ -6,10 +6,12 @@ use quote::quote;
 
 use super::bounds::bounded_generics;
 use super::emitter::runtime;
+use super::markers::markers;
 use super::observables::method_name;
 use super::pack::pack;
 use super::signature::Types;
 use crate::contract::{LAGRANGIAN, LINEARIZED, Method, STATE_DERIVATIVES, TAYLOR_SERIES};
+use crate::mechanics::Marker;
 use crate::resolve::{Observable, Outline};
 use crate::syntax::Declaration;
 
@@ -42,7 +44,7 @@ pub(crate) fn stub(
         let signature = types.of_observable(&method, lengths, *needs_solution);
         quote! { #visibility #signature { loop {} } }
     });
-    let pack = pack(declaration, scalar);
+    let (markers, pack) = (markers(declaration, &generics, &Marker::ALL), pack(declaration, scalar));
     quote! {
         const _: () = {
             use #runtime as __lagrange;
@@ -97,6 +99,7 @@ pub(crate) fn stub(
                 #(#observables)*
             }
 
+            #markers
             #pack
         };
     }

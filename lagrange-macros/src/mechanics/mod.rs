@@ -21,6 +21,7 @@ mod hamilton;
 mod integrability;
 mod kinetic;
 mod linearization;
+mod marker;
 mod moment;
 mod twists;
 mod velocities;
@@ -46,6 +47,7 @@ pub(crate) use integrability::Kinds;
 pub(crate) use integrability::{Classification, Integrability, Integrals};
 use linearization::linearize;
 pub(crate) use linearization::{Changes, Linearization, changes};
+pub(crate) use marker::Marker;
 
 /// Results derived from a problem. Their expressions are nodes of the graph of the problem.
 pub(crate) struct Derived {
@@ -61,6 +63,8 @@ pub(crate) struct Derived {
     pub(crate) hamilton: Result<Hamilton, NoHamiltonian>,
     /// `None` if exact arithmetic cannot write it
     pub(crate) linearization: Option<Linearization>,
+    /// Marker traits that the system implements
+    pub(crate) markers: Vec<Marker>,
 }
 
 /// Derives the equations of motion and the statements about them. Reports missing equations and wrong declarations,
@@ -79,7 +83,8 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
     let of_frames = potential.filter(|_| problem.frames.len() > 1);
     read.extend(of_frames.map(|id| (id, shorter(graph, id))));
     let hamilton = Hamilton::derive(graph, problem, &equations);
-    Some(Derived { equations, facts, potential, inertia, read, hamilton, linearization })
+    let markers = Marker::proved(graph, &equations);
+    Some(Derived { equations, facts, potential, inertia, read, hamilton, linearization, markers })
 }
 
 /// Replaces the intermediate names of frames by their values, which shortens the printed equations.

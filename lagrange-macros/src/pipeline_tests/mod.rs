@@ -15,6 +15,7 @@ mod integrability;
 mod linearization;
 mod literals;
 mod long;
+mod markers;
 mod nested;
 mod sizes;
 mod stages;

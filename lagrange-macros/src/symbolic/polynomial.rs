@@ -106,6 +106,13 @@ impl ExactPolynomial {
         greatest
     }
 
+    /// The node under each generator.
+    pub(crate) fn bases(&self) -> impl Iterator<Item = Id> {
+        self.generators().into_keys().map(|generator| match generator {
+            Generator::Node(base) | Generator::Root(base, _) | Generator::Reciprocal(base, _) => base,
+        })
+    }
+
     /// Splits p + r g into p and r.
     fn split(&self, by: Generator) -> (Self, Self) {
         let (mut without, mut with) = (Self::default(), Self::default());

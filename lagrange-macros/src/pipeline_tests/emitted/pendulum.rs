@@ -352,6 +352,14 @@ Hamilton's equations
             )
         }
     }
+    #[automatically_derived]
+    impl __lagrange::structure::ConstantMassMatrix for Pendulum {}
+    #[automatically_derived]
+    impl __lagrange::structure::VelocityFreeForces for Pendulum {}
+    #[automatically_derived]
+    impl __lagrange::structure::HolonomicConstraints for Pendulum {}
+    #[automatically_derived]
+    impl __lagrange::structure::Unconstrained for Pendulum {}
 };
 const _: () = {
     use ::lagrange_core as __lagrange;
