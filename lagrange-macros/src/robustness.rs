@@ -42,7 +42,8 @@ fn check(input: &TokenStream) -> TokenStream {
     expansion
 }
 
-/// Returns true if rustc passes the input to a derive. syn also accepts `struct Chain<_>`.
+/// Returns true if the input is an item that rustc accepts and hands to a derive. syn is laxer: it also parses
+/// `struct Chain<_>`, so type parameters named `_` are rejected here.
 fn is_item(input: &TokenStream) -> bool {
     let item = syn::parse2::<syn::DeriveInput>(input.clone());
     item.is_ok_and(|item| item.generics.type_params().all(|parameter| parameter.ident != "_"))

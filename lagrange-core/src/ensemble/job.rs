@@ -124,8 +124,8 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
         )
     }
 
-    /// A job for the members of `list` alone, with its own queue and results. The caller [reports](Self::report) its
-    /// results here.
+    /// Creates a job that integrates only the members of `list`, with its own work queue and results. Rank 0
+    /// [reports](Self::report) the results of all batches to its job of the whole ensemble.
     #[cfg(feature = "mpi")]
     pub(super) fn batch(&self, list: Vec<usize>) -> Job<'_, L> {
         let observer = self.observer.as_ref().map(|observe| {

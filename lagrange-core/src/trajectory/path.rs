@@ -25,7 +25,7 @@ pub(crate) struct Path<T: Element, N: Length, S = Box<dyn Interpolants<T, N> + S
 
 /// Interpolants of steps 0, 1, ….
 pub(crate) trait Interpolants<T: Element, N: Length> {
-    /// Returns the phase at a time within this step.
+    /// Returns the point of the phase space at a time within this step.
     fn at(&self, step: usize, t: T) -> Option<StagePoint<T, N>>;
 }
 
@@ -57,7 +57,7 @@ impl<T: Real, N: Length, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N
         &mut self.interpolants
     }
 
-    /// Appends a step to `state`, whose interpolant is already stored.
+    /// Appends the step that ends at `state`. Its interpolant is already stored.
     #[inline(always)]
     pub(crate) fn push(&mut self, state: State<T, N>) {
         self.times.push(self.last.t);
@@ -86,12 +86,13 @@ impl<T: Real, N: Length, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N
 }
 
 impl<T: Real, N: Length> Path<T, N> {
-    /// Returns the phase at the start of a step.
+    /// Returns the point of the phase space at the start of a step.
     pub(super) fn start_of(&self, step: usize) -> Option<StagePoint<T, N>> {
         self.interpolants.at(step, *self.times.get(step)?)
     }
 
-    /// Returns the phase at a time; `None` before the start and from the last state on.
+    /// Returns the point of the phase space at a time; `None` before the start, and from the time of the last
+    /// state on.
     pub(super) fn at(&self, t: T) -> Option<StagePoint<T, N>> {
         // Backwards in time, the negated times are sorted.
         let backwards = self.last.t < self.start.t;

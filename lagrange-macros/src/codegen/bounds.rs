@@ -27,7 +27,8 @@ pub(super) fn capability(order: usize) -> (&'static str, &'static str) {
 }
 
 impl Emitter<'_> {
-    /// Highest derivative of each user-supplied function in the equations of motion, the observables and `more`.
+    /// Highest order of the derivatives of each user-supplied function in the equations of motion, the observables
+    /// and `more`.
     pub(super) fn orders(&self, more: &[Id]) -> BTreeMap<u32, usize> {
         let (graph, problem) = (self.style.graph, self.problem);
         let mut roots = self.derived.equations.roots();
@@ -54,7 +55,8 @@ impl Emitter<'_> {
         generics
     }
 
-    /// Adds the bounds of user-supplied functions over a scalar.
+    /// Adds a trait bound on each user-supplied function to the `where` clause: it can be evaluated on numbers of
+    /// type `scalar`, with derivatives up to its order in `orders`.
     pub(super) fn ask_for(
         &self,
         generics: &mut syn::Generics,
@@ -73,7 +75,7 @@ impl Emitter<'_> {
     }
 }
 
-/// Highest derivative of each function among `known` and the calls.
+/// Highest order of the derivatives of each function, in `known` and in the calls.
 pub(super) fn orders_of<'c, X: 'c>(
     known: BTreeMap<u32, usize>,
     calls: impl Iterator<Item = &'c Call<X>>,

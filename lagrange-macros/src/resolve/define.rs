@@ -31,7 +31,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Returns whether definition `index` belongs to the family, or the value, that definition `first` begins.
+    /// True if definition `index` has the name and the number of indices of `first`, the first definition of this
+    /// name, and no arguments. It then defines elements of the same family, or the same value.
     fn is_part_of(&self, index: usize, first: usize) -> bool {
         let [one, other] = [index, first].map(|index| &self.defines[index]);
         let is_one = one.target.name.text == other.target.name.text;

@@ -79,9 +79,8 @@ pub(crate) fn outline(declaration: &Declaration) -> Outline {
 }
 
 impl Lowering<'_> {
-    /// Number of scalar equations of a constraint. All elements of a family count as the first does; an unknown value
-    /// counts
-    /// 1.
+    /// Number of scalar equations of a constraint. Each element of a family has as many as the first. A constraint
+    /// of unknown value counts as one equation.
     fn rows(&mut self, constraint: &Constraint) -> usize {
         let indices = &constraint.target.indices;
         let elements = self.elements(indices);
@@ -121,7 +120,7 @@ impl Lowering<'_> {
             .filter(|_| is_simple)
             .filter_map(|part| self.lower(part))
             .collect();
-        // Time stands for an unknown value, because it is neither zero nor any other number.
+        // The symbol t represents the unknown value: a number, such as zero, would let expressions simplify.
         let mut contents = vec![self.graph.symbol(Variable::Time.symbol())];
         contents.extend(parts.iter().flat_map(Value::flat));
         let vector = parts.iter().find_map(Value::length);

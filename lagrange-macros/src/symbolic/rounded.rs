@@ -24,7 +24,7 @@ const SHORT: u128 = 1_000_000;
 pub(super) struct Roundings(FxHashMap<Rational, f64>);
 
 impl Roundings {
-    /// Number of inexact numbers.
+    /// Number of distinct inexact numbers whose relative error is recorded.
     pub(super) fn len(&self) -> usize {
         self.0.len()
     }

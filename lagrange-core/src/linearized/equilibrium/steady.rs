@@ -38,7 +38,8 @@ impl<L: Linearized<Scalar: Real>> Point<L> {
         Ok(Unsteadiness { moving, columns })
     }
 
-    /// Requires the columns of each row to cancel, to √ε of their terms here or at the guess.
+    /// Checks that each residual has a time derivative of zero: the contributions in its row must cancel. Their
+    /// sum may be at most √ε times the sum of their magnitudes, at this point or at the guess, whichever is larger.
     pub(super) fn check_steady(&self, guess: &Unsteadiness<L::Scalar>) -> Result<(), Error> {
         let here = self.unsteadiness()?;
         let part = power_of_epsilon::<L::Scalar>(0.5);

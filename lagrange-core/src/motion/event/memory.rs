@@ -24,7 +24,7 @@ pub struct EventState<T> {
     pub(super) terminal: Option<usize>,
     /// Number of crossings in this run; in a steered motion, since its start.
     pub(super) count: usize,
-    /// Value of the function whose sign is its current side. Zero if the motion started at a zero, and has not left it.
+    /// Value with the current sign of the function. Zero if the motion started at a zero and has not left it.
     pub(super) value: T,
     /// The same value at the end of the interval, where the search continues unless an event crosses before.
     pub(super) next: T,
@@ -35,7 +35,7 @@ pub struct EventState<T> {
     /// Magnitude that the function may have at a zero, in addition to its noise. `Some` from a start at a zero or from
     /// a crossing on, until the function has left the zero.
     pub(super) start: Option<T>,
-    /// Magnitude below which a value at the end of the interval is no change of side.
+    /// Magnitude below which a value at the end of the interval does not count as a change of sign.
     pub(super) noise: T,
     /// Chebyshev degree that the function has needed per unit of time.
     density: Option<T>,
@@ -241,7 +241,8 @@ impl<T: Real> EventState<T> {
         self.view
     }
 
-    /// Records the function at the end of the interval. It keeps its side unless its magnitude exceeds the noise.
+    /// Records the value of the event function at the end of the interval. A value within the noise does not
+    /// count as a change of sign: the function keeps the sign that it had at the start.
     #[inline]
     pub(super) fn look(&mut self, value: T) {
         let is_noise =
@@ -271,7 +272,7 @@ impl<T: Real> EventState<T> {
         }
         self.go_on(t);
         if has_crossed {
-            // The function keeps its new side until it exceeds its round-off.
+            // The function keeps its new sign until its magnitude exceeds its round-off.
             self.start = Some(T::constant(0.0));
         }
     }

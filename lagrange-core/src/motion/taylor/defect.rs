@@ -18,11 +18,12 @@ const DEFECT: f64 = 4096.0;
 /// Largest defect beside kinks of user-supplied functions, and beside poses where constraints become dependent, so that
 /// a step can cross them: a multiple of the tolerance, or a fraction of the velocities, whichever is larger.
 const DEFECT_AT_KINKS: [f64; 2] = [1e4, 1e-10];
-/// Largest defect, in units of the tolerance, at points where the series of a root is below zero: no later step would
-/// correct it. It also applies if the last coefficients are zero, because further ones may not be.
+/// Largest defect, in units of the tolerance, at points where the series of a root is negative. A root never is: the
+/// series of √x² continues as x where x < 0, and no later step would correct the error. At the end of a step, the same
+/// limit applies if the last coefficients of the series are zero, because the omitted ones may not be.
 const STRICT: f64 = 64.0;
-/// Test for rounding errors: perturbation of the state, in units of ε, and largest ratio of a defect to the change of
-/// acceleration that it makes.
+/// Test for rounding errors: perturbation of the state, in units of ε, and largest ratio of a difference of
+/// accelerations to the change of acceleration that the perturbation makes.
 const ROUNDING: [f64; 2] = [4.0, 16.0];
 
 /// A step to check before it is accepted.

@@ -1,8 +1,8 @@
 //! Sums of Taylor's recurrences: convolutions of Taylor coefficients.
 //!
 //! Reading the factors from memory takes most of the time. So two orders are summed in one pass, the later one as far
-//! as its factors are known. Its left factors are those of the earlier order, its right factors those of the previous
-//! term.
+//! as its factors are known. Each of its terms has the same left factor as in the earlier order, and the right factor
+//! of the term before.
 
 mod alone;
 mod group;
@@ -17,7 +17,7 @@ use crate::vector::FixedArray;
 pub(super) use alone::Ends;
 use group::{Group, WIDTH, plus, products};
 
-/// Factors of all sums so far, order by order.
+/// Factors of all convolutions, order by order, up to the newest order.
 #[derive(Clone, Debug)]
 pub(super) struct SeriesFactors<T, S> {
     /// Number of orders that fit; the first is 1.
@@ -56,13 +56,13 @@ impl<T: Scalar, S: FixedArray<T>> SeriesFactors<T, S> {
         }
     }
 
-    /// Coefficients of the right factor of sum `place`, for the orders 1 to `count`.
+    /// Taylor coefficients of orders 1 to `count` of the right factor in the convolution with index `place`.
     pub(super) fn right_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
         (1..=count)
             .map(move |order| self.right[place / WIDTH * self.orders + self.orders - order].0[place % WIDTH])
     }
 
-    /// Coefficients of the left factor of sum `place`, for the orders 1 to `count`.
+    /// Taylor coefficients of orders 1 to `count` of the left factor in the convolution with index `place`.
     pub(super) fn left_factor(&self, place: usize, count: usize) -> impl Iterator<Item = T> + Clone {
         (1..=count).map(move |order| self.left[place / WIDTH * self.orders + order - 1].0[place % WIDTH])
     }

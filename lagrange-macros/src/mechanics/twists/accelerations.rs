@@ -19,8 +19,8 @@ pub(super) struct Acceleration {
 }
 
 impl Twists<'_> {
-    /// Accelerations of all frames, if the fixed frame has the acceleration `fixed`. An acceleration opposite to
-    /// gravity replaces uniform gravity.
+    /// Accelerations of all frames. `fixed` is the acceleration attributed to the fixed frame: −g in place of
+    /// uniform gravity g, else zero.
     pub(super) fn accelerations(
         &self,
         graph: &mut Graph,

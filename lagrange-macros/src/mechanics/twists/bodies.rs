@@ -12,7 +12,8 @@ use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
 
 impl Twists<'_> {
-    /// Adds the inertial forces of the bodies, if the fixed frame has the acceleration `fixed`.
+    /// Adds the inertial forces of the bodies. `fixed` is the acceleration attributed to the fixed frame: −g in
+    /// place of uniform gravity g, else zero.
     pub(super) fn of_bodies(
         &self,
         graph: &mut Graph,
@@ -53,8 +54,9 @@ impl Twists<'_> {
         frame
     }
 
-    /// Removes uniform gravity from the slopes of L by the frame positions. Returns the equivalent acceleration of the
-    /// fixed frame. Only contributions proportional to masses and first moments are removed.
+    /// Removes uniform gravity from `slopes`, the partial derivatives with respect to `places` of L without kinetic
+    /// energies of bodies. Returns the equivalent acceleration of the fixed frame. Only contributions
+    /// proportional to masses and first moments are removed.
     pub(super) fn without_gravity(&self, graph: &mut Graph, places: &[Id], slopes: &mut [Id]) -> Triple {
         let slope = |node: Id| places.iter().position(|place| *place == node);
         let mut fixed = [Id::ZERO; 3];

@@ -28,7 +28,8 @@ pub(crate) struct Frames {
     pub(super) early: FxHashSet<Rc<str>>,
 }
 
-/// A rigid body, by components along the axes of its frame and about the origin of the frame.
+/// A rigid body. First moment and inertia matrix are about the origin of its frame, with components along the
+/// axes of the frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     pub(crate) frame: usize,

@@ -30,7 +30,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns the group of an angle.
+    /// Returns the angles to evaluate together with `x`: `x` and the angles after it in `early`, at most
+    /// [`ABREAST`]. An angle that is not in `early` is evaluated alone.
     fn angles_with(&mut self, x: Register) -> Vec<Register> {
         match self.early.iter().position(|&angle| angle == x) {
             Some(place) => {
