@@ -14,16 +14,16 @@ mod lanes;
 mod robots;
 mod systems;
 
-use lagrange_core::{Solution, prelude::*};
+use lagrange_core::{Solution, nalgebra::Const, prelude::*};
 #[cfg(feature = "robots")]
 use robots::*;
 use systems::*;
 
 #[cfg_attr(feature = "call", inline(never))]
 #[cfg_attr(not(feature = "call"), inline(always))]
-fn solution<L>(system: &L, state: &State<f64, L::N>) -> Solution<f64, L::N, L::M>
+fn solution<L, const N: usize, const M: usize>(system: &L, state: &State<f64, N>) -> Solution<f64, N, M>
 where
-    L: Lagrangian<Scalar = f64>,
+    L: Lagrangian<N = Const<N>, M = Const<M>, Scalar = f64>,
 {
     system.accelerations_unchecked(state)
 }
@@ -33,20 +33,20 @@ where
 /// # Safety
 /// `q`, `v` and `a` point to N numbers, `lambda` to M, and `p` to an `L`, which is `repr(C)` and made of `f64`.
 #[inline(always)]
-unsafe fn evaluate<L>(
+unsafe fn evaluate<L, const N: usize, const M: usize>(
     q: *const f64,
     v: *const f64,
     p: *const f64,
     a: *mut f64,
     lambda: *mut f64,
 ) where
-    L: Lagrangian<Scalar = f64>,
+    L: Lagrangian<N = Const<N>, M = Const<M>, Scalar = f64>,
 {
     unsafe {
-        let state = State::new(*q.cast::<Array<f64, L::N>>(), *v.cast::<Array<f64, L::N>>());
+        let state = State::new(*q.cast::<[f64; N]>(), *v.cast::<[f64; N]>());
         let solution = solution(&*p.cast::<L>(), &state);
-        *a.cast::<Array<f64, L::N>>() = solution.accelerations.into();
-        *lambda.cast::<Array<f64, L::M>>() = solution.multipliers.into();
+        *a.cast::<[f64; N]>() = solution.accelerations.into();
+        *lambda.cast::<[f64; M]>() = solution.multipliers.into();
     }
 }
 

@@ -8,7 +8,7 @@
 use std::io::{BufRead, stdin};
 use std::time::Instant;
 
-use lagrange_core::{Method, TaylorSeries, prelude::*};
+use lagrange_core::{Method, TaylorSeries, nalgebra::Const, prelude::*};
 use systems::*;
 
 #[path = "../systems.rs"]
@@ -28,12 +28,12 @@ struct Task {
 }
 
 impl Task {
-    fn run<L>(&self, system: &L) -> Outcome<()>
+    fn run<L, const N: usize>(&self, system: &L) -> Outcome<()>
     where
-        L: TaylorSeries<Scalar = f64>,
+        L: TaylorSeries<N = Const<N>, Scalar = f64>,
     {
-        let halves: Vec<Array<f64, L::N>> = self.start.as_chunks().0.to_vec();
-        let [q, v] = <[Array<f64, L::N>; 2]>::try_from(halves).map_err(|_| "START is of another length")?;
+        let halves: Vec<[f64; N]> = self.start.as_chunks().0.to_vec();
+        let [q, v] = <[[f64; N]; 2]>::try_from(halves).map_err(|_| "START is of another length")?;
         let start = State::new(q, v);
         match self.method.as_str() {
             "taylor" => self.timed(system, start, Taylor::default()),
@@ -42,14 +42,14 @@ impl Task {
         }
     }
 
-    fn timed<L, P>(
+    fn timed<L, P, const N: usize>(
         &self,
         system: &L,
-        start: State<f64, L::N>,
+        start: State<f64, N>,
         method: P,
     ) -> Outcome<()>
     where
-        L: Lagrangian<Scalar = f64>,
+        L: Lagrangian<N = Const<N>, Scalar = f64>,
         P: for<'l> Method<&'l L> + Copy,
     {
         let mut last = start;
