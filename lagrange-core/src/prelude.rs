@@ -12,7 +12,7 @@ pub use crate::linearized::MotionDerivatives;
 pub use crate::motion::Simulate;
 #[cfg(feature = "alloc")]
 pub use crate::motion::Taylor;
-pub use crate::motion::{Dop853, Dopri5, Motion, RungeKutta4};
+pub use crate::motion::{DAlembert, Dop853, Dopri5, Gauss, Lobatto, Motion, RungeKutta4, Verlet};
 pub use crate::number::Scalar;
 #[cfg(feature = "alloc")]
 pub use crate::trajectory::Trajectory;

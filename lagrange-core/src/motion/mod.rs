@@ -17,6 +17,15 @@
 //! - [`RungeKutta4`], of order 4, takes the same time for every step: control in real time. A step takes 4 evaluations.
 //!   It does not estimate its error; compare with a run at half the step length.
 //!
+//! Methods with steps of one length, whose map keeps the structure of mechanics, are for long motions whose energy must
+//! not drift. The type of a system tells which apply:
+//!
+//! - [`Verlet`], of order 2 and [composed](Composition) up to 8, takes a constant mass matrix and forces without
+//!   velocities; a step takes one evaluation of the forces. With holonomic constraints it is RATTLE.
+//! - [`Gauss`], of order 2 to 8, takes every Lagrangian without constraints, and [`Lobatto`], of order 2 to 6, every one
+//!   with holonomic constraints. Their steps are implicit.
+//! - [`DAlembert`], of order 2 and composed up to 8, takes constraints on velocities. It is reversible.
+//!
 //! None of them is for stiff systems. A motion may end at an isolated pose where constraints become dependent, as in a
 //! linkage that folds flat. [`Taylor`] steps across such a pose if it can; the other methods may continue on another
 //! branch that begins there. The example `methods` prints the cost of an error for the first three methods in eight
@@ -26,6 +35,7 @@ mod advance;
 #[cfg(feature = "alloc")]
 pub(crate) mod builder;
 pub(crate) mod event;
+pub(crate) mod geometric;
 #[cfg(feature = "std")]
 mod lanes;
 pub(crate) mod method;
@@ -46,6 +56,10 @@ mod tests;
 
 #[cfg(feature = "alloc")]
 pub use builder::{AllSteps, EventList, MotionBuilder, Start};
+pub use geometric::{
+    Composition, DAlembert, FixedStep, FixedStepMemory, Gauss, GaussLegendre, LagrangeDAlembert, Lobatto, LobattoPair, Point,
+    Scheme, StageCount, StormerVerlet, Verlet,
+};
 pub use event::{AnyEvent, Event, EventFunction, EventValue};
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;

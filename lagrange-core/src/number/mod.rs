@@ -7,6 +7,7 @@ mod eight;
 #[cfg(feature = "std")]
 mod lanes;
 pub(crate) mod numeric;
+mod parts;
 #[cfg(feature = "std")]
 mod quad;
 mod real;
@@ -24,6 +25,7 @@ pub use lanes::{FourLanes, Lanes};
 pub(crate) use numeric::{
     beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller, sum,
 };
+pub use parts::Parts;
 pub use real::Real;
 pub use scalar::Scalar;
 pub use series::PowerSeries;

@@ -7,6 +7,7 @@ use simba::scalar::{RealField, SupersetOf};
 use simba::simd::SimdRealField;
 
 use super::broadcast::Wide;
+use super::parts::Parts;
 use super::scalar::{FUSED, Scalar, one_by_one};
 #[cfg(feature = "std")]
 use super::sines;
@@ -111,7 +112,7 @@ pub trait Real: Scalar + RealField + PartialOrd + Display {
     const SMALLEST: f64;
 
     /// Preferred SIMD vector of this scalar.
-    type Wide: Wide<Self>;
+    type Wide: Wide<Self> + Parts;
 
     /// Converts the number to `f64`.
     fn to_f64(self) -> f64;

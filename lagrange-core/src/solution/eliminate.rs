@@ -64,6 +64,25 @@ impl<T: Scalar, N: Length, M: Length> LoopFactor<T, N, M> {
         self.solve_completed(h, gamma)
     }
 
+    /// Solves M x = `forcing` without constraints, for a factorization without weights.
+    pub(crate) fn free(&self, forcing: &Array<T, N>) -> Array<T, N> {
+        let mut x = *forcing;
+        self.mass.solve(&mut x);
+        x
+    }
+
+    /// Multipliers ν with F(x + M⁻¹Fᵀν) = −`bias`.
+    pub(crate) fn multipliers(&self, x: &Array<T, N>, bias: &Array<T, M>) -> Array<T, M> {
+        let mut nu = Array::from_fn(|a| -(bias[a] + dot(&self.f[a], x)));
+        self.schur.solve(&mut nu);
+        nu
+    }
+
+    /// Returns x + M⁻¹Fᵀμ.
+    pub(crate) fn held(&self, x: &Array<T, N>, mu: &Array<T, M>) -> Array<T, N> {
+        Array::from_fn(|i| (0..M::COUNT).fold(x[i], |sum, a| sum + self.w[a][i] * mu[a]))
+    }
+
     /// Solves with the completed right-hand side h − Fᵀσγ.
     #[inline]
     fn solve_completed<S: Broadcast<T>>(&self, h: Array<S, N>, gamma: Array<S, M>) -> Solution<S, N, M> {

@@ -145,6 +145,21 @@ pub(crate) fn exact_sum<T: Scalar>(x: T, y: T) -> [T; 2] {
     [sum, (x - (sum - added)) + (y - added)]
 }
 
+/// Compensated sum: x + change, and its rounding error. The old rounding error `rest` is added last: the change may be
+/// as large as the sum, and would absorb it.
+#[inline(always)]
+pub(crate) fn compensated<T: Scalar, N: Length>(
+    x: &Array<T, N>,
+    change: &Array<T, N>,
+    rest: &Array<T, N>,
+) -> (Array<T, N>, Array<T, N>) {
+    let sums: Array<[T; 2], N> = from_fn(|i| {
+        let [sum, left] = exact_sum(x[i], change[i]);
+        exact_sum(sum, left + rest[i])
+    });
+    (sums.map(|[sum, _]| sum), sums.map(|[_, rest]| rest))
+}
+
 /// Counts the entries above `part` of their size; NaN if an entry is NaN.
 #[inline]
 fn excess<T: Scalar, M: Length>(x: &Vector<T, M>, size: &Vector<T, M>, part: f64) -> T {

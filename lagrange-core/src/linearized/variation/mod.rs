@@ -11,6 +11,8 @@
 //! the state.
 
 mod differentiable;
+mod duals;
+mod fixed_step;
 mod stages;
 mod taylor;
 

@@ -10,6 +10,7 @@ use core::convert::Infallible;
 
 use nalgebra::ComplexField;
 
+use super::duals::{Duals, PackedDuals, with_rates};
 use super::{Block, DifferentiableMethod, Variations};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
@@ -24,13 +25,9 @@ use crate::number::{Broadcast, Dual, Real, Scalar, Wide, exceeds, smaller};
 use crate::solution::pivot::least_pivot;
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, StateOf, TaylorSeries};
-use crate::vector::{Array, Element, FixedArray, Length, PhaseVector, Vector, entries, from_fn, vector};
+use crate::vector::{Array, Element, FixedArray, Length, PhaseVector, entries, from_fn, vector};
 use general::DualGeneral;
 
-/// Dual numbers with derivatives along one direction per lane.
-type Duals<L> = Dual<WideOf<L>>;
-/// The system over these dual numbers.
-type PackedDuals<L> = <L as Pack<Duals<L>>>::Packed;
 type Sums<L> = <PackedDuals<L> as TaylorSeries>::Sums;
 
 /// A motion with one variation per lane, as a system and a series over dual numbers.
@@ -191,25 +188,6 @@ impl Taylor {
         variations.slopes_at(&tangent, |_, block| block.y, look)?;
         Ok(worst)
     }
-}
-
-/// Converts the system to dual numbers whose parameters change at these rates.
-fn with_rates<L>(system: &L, rates: Option<&Vector<WideOf<L>, L::P>>) -> Result<PackedDuals<L>, Error>
-where
-    L: Linearized<Scalar: Real> + Pack<Duals<L>>,
-    PackedDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = Duals<L>>,
-{
-    let (mut over, values) = (system.pack(), system.parameters());
-    let Some(rates) = rates else { return Ok(over) };
-    let zero = L::Scalar::constant(0.0);
-    for k in 0..<L::P>::COUNT {
-        let changes = (0..WideOf::<L>::COUNT).any(|lane| rates[k].lane(lane) != zero);
-        let value = Dual { value: WideOf::<L>::of(values[k]), slope: rates[k] };
-        if changes && !over.set_parameter(k, value) {
-            return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
-        }
-    }
-    Ok(over)
 }
 
 impl<S, U: FixedArray<Dual<W>>, W: Scalar, N: Length> Varied<S, U, W, N> {

@@ -1,8 +1,8 @@
 //! Integration methods: Runge–Kutta steps, and the control of their length.
 
 mod adaptive;
-pub(super) mod clock;
-pub(super) mod contract;
+pub(crate) mod clock;
+pub(crate) mod contract;
 pub(crate) mod control;
 mod dop853;
 mod dopri5;

@@ -11,11 +11,11 @@ use super::settings::Taylor;
 use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::solution::consistent::{BOTH, project_by};
-use crate::solution::near::{Corrections, exact_sum};
+use crate::solution::near::{Corrections, compensated};
 use crate::solution::solve::first_row;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
-use crate::vector::{Array, Element, FixedArray, Length, array, from_fn, vector};
+use crate::vector::{Array, Element, FixedArray, Length, array, vector};
 
 impl<S: FixedArray<T>, T: Real, N: Length, M: Length> TaylorMemory<S, T, N, M> {
     /// End of a step of this length, before its projection.
@@ -185,19 +185,4 @@ struct Sum<T: Element, N: Length> {
     rest: [Array<T, N>; 2],
     /// Accelerations of the series there.
     accelerations: Array<T, N>,
-}
-
-/// Compensated sum: x + change, and its rounding error. The old rounding error `rest` is added last: the change may be
-/// as large as the sum, and would absorb it.
-#[inline(always)]
-pub(super) fn compensated<T: Scalar, N: Length>(
-    x: &Array<T, N>,
-    change: &Array<T, N>,
-    rest: &Array<T, N>,
-) -> (Array<T, N>, Array<T, N>) {
-    let sums: Array<[T; 2], N> = from_fn(|i| {
-        let [sum, left] = exact_sum(x[i], change[i]);
-        exact_sum(sum, left + rest[i])
-    });
-    (sums.map(|[sum, _]| sum), sums.map(|[_, rest]| rest))
 }

@@ -1,0 +1,32 @@
+//! Systems over dual numbers, along which steps of a method are differentiated.
+
+use crate::error::Error;
+use crate::linearized::Linearized;
+use crate::linearized::tangent::WideOf;
+use crate::number::{Broadcast, Dual, Real, Scalar, Wide};
+use crate::system::Pack;
+use crate::vector::{Length, Vector};
+
+/// Dual numbers with derivatives along one direction per lane.
+pub(super) type Duals<L> = Dual<WideOf<L>>;
+/// The system over these dual numbers.
+pub(super) type PackedDuals<L> = <L as Pack<Duals<L>>>::Packed;
+
+/// Converts the system to dual numbers whose parameters change at these rates.
+pub(super) fn with_rates<L>(system: &L, rates: Option<&Vector<WideOf<L>, L::P>>) -> Result<PackedDuals<L>, Error>
+where
+    L: Linearized<Scalar: Real> + Pack<Duals<L>>,
+    PackedDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = Duals<L>>,
+{
+    let (mut over, values) = (system.pack(), system.parameters());
+    let Some(rates) = rates else { return Ok(over) };
+    let zero = L::Scalar::constant(0.0);
+    for k in 0..<L::P>::COUNT {
+        let changes = (0..WideOf::<L>::COUNT).any(|lane| rates[k].lane(lane) != zero);
+        let value = Dual { value: WideOf::<L>::of(values[k]), slope: rates[k] };
+        if changes && !over.set_parameter(k, value) {
+            return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
+        }
+    }
+    Ok(over)
+}

@@ -1,0 +1,243 @@
+//! Methods with steps of one length: the loop over the steps of a composition, and the interface of a method.
+
+use core::fmt::{self, Debug};
+
+use super::composition::Composition;
+use super::dense::{Coefficients, cubic, septic};
+use super::scheme::{Point, Scheme};
+use super::settle::NotSettled;
+use crate::error::{Ending, Error};
+use crate::motion::method::clock::Clock;
+use crate::motion::method::contract::{Limits, Method, Step, check_settings};
+use crate::number::{Parts, Real, Scalar};
+use crate::solution::interpolant::Polynomial;
+use crate::solution::solve::{first_row, solve, solve_near};
+use crate::statistics::Statistics;
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Element, Entrywise, Length, array};
+
+/// A method whose steps all have one length, but for the last before an end, which may be shorter.
+///
+/// The scheme `S` is one step: [`Verlet`](super::Verlet), [`Gauss`](super::Gauss), [`Lobatto`](super::Lobatto) and
+/// [`DAlembert`](super::DAlembert) are methods of this type. Such a method keeps the structure of mechanics because
+/// its steps do not adapt; it does not estimate its error, so compare with a run at half the step length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
+pub struct FixedStep<S> {
+    step: f64,
+    scheme: S,
+    composition: Option<Composition>,
+    limits: Limits,
+}
+
+impl<S: Default> FixedStep<S> {
+    /// Sets the step length, in units of time. The limit is 100 000 steps.
+    pub fn with_step(step: f64) -> Self {
+        Self { step, scheme: S::default(), composition: None, limits: Limits::default() }
+    }
+
+    /// Sets the limit on the number of steps.
+    pub fn max_steps(mut self, steps: usize) -> Self {
+        self.limits.max_steps = steps;
+        self
+    }
+
+    /// Sets the limit on the wall-clock time of the integration.
+    #[cfg(feature = "std")]
+    pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
+        self.limits.wall_time = Some(limit);
+        self
+    }
+
+    pub(super) fn compose(self, composition: Composition) -> Self {
+        Self { composition: Some(composition), ..self }
+    }
+
+    /// Lengths of the steps of the scheme within one step, in units of it.
+    fn lengths(&self) -> &'static [f64] {
+        self.composition.map_or(&[1.0], Composition::lengths)
+    }
+
+    /// Moves a point by a step of length `h` to the time `to`. Returns the number of evaluations of the forces.
+    pub(crate) fn advance<L: Lagrangian<Scalar: Parts>>(
+        &self,
+        system: &L,
+        point: &mut Point<L::Scalar, L::N>,
+        carried: &mut S::Carried,
+        (h, to): (L::Scalar, L::Scalar),
+    ) -> Result<usize, NotSettled>
+    where
+        S: Scheme<L>,
+    {
+        let (start, lengths) = (point.state.t, self.lengths());
+        let (mut sum, mut evaluations) = (0.0, 0);
+        for (k, length) in lengths.iter().enumerate() {
+            sum += length;
+            let time = if k + 1 == lengths.len() { to } else { start + L::Scalar::constant(sum) * h };
+            evaluations += S::advance(system, point, carried, time)?;
+        }
+        Ok(evaluations)
+    }
+
+    /// Order of the method.
+    fn order<L: Lagrangian<Scalar: Parts>>(&self) -> usize
+    where
+        S: Scheme<L>,
+    {
+        self.composition.map_or(S::ORDER, Composition::order)
+    }
+
+    /// Coefficients of the dense output of a step.
+    ///
+    /// # Errors
+    /// Those of `accelerations`.
+    pub(crate) fn coefficients<L: Lagrangian<Scalar: Parts>, E>(
+        &self,
+        [start, end]: [&StateOf<L>; 2],
+        accelerations: impl FnMut(&StateOf<L>) -> Result<Array<L::Scalar, L::N>, E>,
+    ) -> Result<Coefficients<L::Scalar, L::N>, E>
+    where
+        S: Scheme<L>,
+    {
+        match self.order::<L>() {
+            ..=4 => cubic(start, end, accelerations),
+            _ => septic(start, end, accelerations),
+        }
+    }
+}
+
+/// State that the method carries from step to step.
+#[derive(Clone, Debug)]
+pub struct FixedStepMemory<T: Element, N: Length, C> {
+    clock: Clock<T>,
+    /// Length of the next step.
+    planned: T,
+    before: State<T, N>,
+    point: Point<T, N>,
+    carried: C,
+}
+
+impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedStep<S> {
+    type Memory = FixedStepMemory<L::Scalar, L::N, S::Carried>;
+    type Interpolant = Polynomial<L::Scalar, Coefficients<L::Scalar, L::N>>;
+
+    fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result {
+        S::identify(to)?;
+        write!(to, " {:?} {:?}", self.step, self.lengths())
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        check_settings([("fixed step", Some(self.step))])
+    }
+
+    fn begin(
+        &self,
+        system: &L,
+        start: &StateOf<L>,
+        statistics: &mut Statistics,
+    ) -> Result<Self::Memory, Error> {
+        statistics.evaluations += 1;
+        let planned = L::Scalar::constant(self.step);
+        Ok(FixedStepMemory {
+            clock: Clock::new(start.t, Some(planned)),
+            planned,
+            before: *start,
+            point: Point::at(start),
+            carried: S::start(system, start),
+        })
+    }
+
+    fn resume(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        state: &StateOf<L>,
+        statistics: &mut Statistics,
+    ) -> Result<(), Error> {
+        statistics.evaluations += 1;
+        memory.clock.set(state.t);
+        (memory.before, memory.point) = (*state, Point::at(state));
+        memory.carried = S::start(system, state);
+        Ok(())
+    }
+
+    #[inline]
+    fn step(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        end: L::Scalar,
+        statistics: &mut Statistics,
+    ) -> Step<L::Scalar, L::N> {
+        let FixedStepMemory { clock, planned, before, point, carried } = memory;
+        clock.aim(end);
+        let (h, time) = clock.next(*planned);
+        let start = point.state;
+        if !clock.is_ahead(time) {
+            return Step::Failed(Ending::TimeTooCoarse { time: start.t.to_f64(), step: self.step });
+        }
+        let moved = self.advance(system, point, carried, (h, time));
+        match moved {
+            Ok(evaluations) if is_finite(&point.state) => {
+                statistics.evaluations += evaluations;
+                *planned = clock.tick((h, time), *planned, L::Scalar::constant(self.step));
+                *before = start;
+                Step::Accepted(point.state)
+            }
+            _ => Step::Failed(failure(system, (&start, h), moved.map(|_| point.state))),
+        }
+    }
+
+    fn interpolant(
+        &self,
+        system: &L,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Self::Interpolant, Error> {
+        let FixedStepMemory { before, point, .. } = memory;
+        let coefficients = self.coefficients::<L, Error>([before, &point.state], |state| {
+            statistics.evaluations += 1;
+            solve_near(system, state, None, |solution, _| array(solution.accelerations))
+        })?;
+        Ok(Polynomial::new(before.t, point.state.t - before.t, coefficients))
+    }
+}
+
+fn is_finite<T: Real, N: Length>(state: &State<T, N>) -> bool {
+    let all_finite = |x: &[T]| x.iter().fold(true, |all, x| all & Parts::is_finite(*x));
+    all_finite(state.q.as_slice()) & all_finite(state.v.as_slice())
+}
+
+/// The reason why no step from `start` leads to a state: the equations have no solution there, the end is not finite,
+/// or the iteration does not converge.
+#[cold]
+fn failure<L: Lagrangian<Scalar: Real>>(
+    system: &L,
+    (start, h): (&StateOf<L>, L::Scalar),
+    end: Result<StateOf<L>, NotSettled>,
+) -> Ending {
+    let time = start.t.to_f64();
+    // Where the equations end within the step, they have no solution beyond it either.
+    let beyond = State { t: start.t + h, q: start.q.each_with(&start.v, |q, v| q + v * h), v: start.v };
+    for state in [start, &beyond] {
+        match solve(system, state) {
+            Err(error) if state.t == start.t => return Ending::of(error, time),
+            Err(error @ Error::EquationsNotFinite { .. }) => return Ending::of(error, time),
+            _ => {}
+        }
+    }
+    let row = end.ok().and_then(|end| {
+        first_row::<L>(|i| !(Parts::is_finite(end.q[i]) && Parts::is_finite(end.v[i])), |_| false)
+    });
+    match row {
+        Some(row) => Ending::NotFinite { time, row },
+        None => Ending::MethodFailed {
+            time,
+            reason: "the iteration of a step does not converge; take shorter steps, or check whether constraints depend on one another",
+        },
+    }
+}

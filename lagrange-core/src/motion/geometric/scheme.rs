@@ -1,0 +1,128 @@
+//! The trait [`Scheme`]: one step of a method as a map of coordinates and velocities.
+
+use core::fmt::{self, Debug};
+
+use super::settle::NotSettled;
+use crate::number::{Parts, Scalar};
+use crate::solution::near::compensated;
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Element, Length, Vector, array, vector};
+
+/// A one-step method, for any number type: a map (q, q̇) → (q, q̇) over a given time.
+///
+/// The same code maps numbers, and dual numbers to differentiate the map.
+#[diagnostic::on_unimplemented(message = "`{Self}` is not a method that integrates `{L}`")]
+pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
+    /// Data carried from the end of a step to the start of the next one.
+    type Carried: Clone + Debug + Send + Sync;
+
+    /// Order of the method.
+    const ORDER: usize;
+
+    /// Name of the method, with its number of stages.
+    ///
+    /// # Errors
+    /// Those of writing to `to`.
+    fn identify(to: &mut dyn fmt::Write) -> fmt::Result;
+
+    /// Evaluates what a step needs at its start.
+    fn start(system: &L, state: &StateOf<L>) -> Self::Carried;
+
+    /// Moves a point to the time `to`. Returns the number of evaluations of the forces. After an error, the point and
+    /// the data are undefined.
+    ///
+    /// # Errors
+    /// If an iteration does not converge.
+    fn advance(
+        system: &L,
+        point: &mut Point<L::Scalar, L::N>,
+        carried: &mut Self::Carried,
+        to: L::Scalar,
+    ) -> Result<usize, NotSettled>;
+}
+
+/// A state, and the rounding errors of its coordinates and velocities.
+#[derive(Clone, Copy, Debug)]
+pub struct Point<T: Element, N: Length> {
+    pub(crate) state: State<T, N>,
+    rest: [Array<T, N>; 2],
+}
+
+impl<T: Parts, N: Length> Point<T, N> {
+    pub(crate) fn at(state: &State<T, N>) -> Self {
+        Self { state: *state, rest: [Array::filled(T::constant(0.0)); 2] }
+    }
+
+    /// Adds a change to the coordinates, and returns them with their rounding errors.
+    pub(super) fn moved(&self, change: &Array<T, N>) -> [Array<T, N>; 2] {
+        compensated(&array(self.state.q), change, &self.rest[0]).into()
+    }
+
+    /// Adds a change to the velocities, and returns them with their rounding errors.
+    pub(super) fn pushed(&self, change: &Array<T, N>) -> [Array<T, N>; 2] {
+        compensated(&array(self.state.v), change, &self.rest[1]).into()
+    }
+
+    /// Sets the point, from coordinates and velocities with their rounding errors.
+    pub(super) fn set(&mut self, t: T, [q, rest_q]: [Array<T, N>; 2], [v, rest_v]: [Array<T, N>; 2]) {
+        self.state = State { t, q: vector(q), v: vector(v) };
+        self.rest = [rest_q, rest_v];
+    }
+}
+
+/// Returns Σₖ `weights`ₖ `terms`ₖ.
+#[inline]
+pub(super) fn combined<T: Parts, N: Length, const S: usize>(
+    weights: &[f64; S],
+    terms: &[Array<T, N>; S],
+) -> Array<T, N> {
+    let mut sum = Array::filled(T::constant(0.0));
+    for (weight, term) in weights.iter().zip(terms).filter(|(weight, _)| **weight != 0.0) {
+        for i in 0..N::COUNT {
+            sum[i] = T::constant(*weight).multiply_add(term[i], sum[i]);
+        }
+    }
+    sum
+}
+
+/// Returns the magnitude of each entry.
+#[inline]
+pub(super) fn magnitudes<T: Parts, K: Length>(x: &Vector<T, K>) -> Array<T, K> {
+    Array::from_fn(|k| x[k].magnitude())
+}
+
+/// Magnitudes of the terms of Φ, Σᵢ |Fₐᵢ qᵢ|.
+#[inline]
+pub(super) fn terms_of_positions<L: Lagrangian<Scalar: Parts>>(
+    system: &L,
+    state: &StateOf<L>,
+) -> Array<L::Scalar, L::M> {
+    match const { <L::Scalar as Parts>::HAS_SLOPES } {
+        false => array(system.residual_magnitude(state)),
+        true => terms(system, state, &state.q),
+    }
+}
+
+/// Magnitudes of the terms of F q̇ + b, Σᵢ |Fₐᵢ q̇ᵢ|.
+#[inline]
+pub(super) fn terms_of_rates<L: Lagrangian<Scalar: Parts>>(
+    system: &L,
+    state: &StateOf<L>,
+) -> Array<L::Scalar, L::M> {
+    match const { <L::Scalar as Parts>::HAS_SLOPES } {
+        false => array(system.rate_magnitude(state)),
+        true => terms(system, state, &state.v),
+    }
+}
+
+/// Σᵢ |Fₐᵢ||xᵢ|, with |F||x'| + |F'||x| for the slopes: the derivative of the sum of magnitudes would miss slopes that
+/// cancel.
+fn terms<L: Lagrangian<Scalar: Parts>>(
+    system: &L,
+    state: &StateOf<L>,
+    x: &Vector<L::Scalar, L::N>,
+) -> Array<L::Scalar, L::M> {
+    let f = system.constraint_jacobian(state);
+    let term = |a: usize, i: usize| f[(a, i)].magnitude() * x[i].magnitude();
+    Array::from_fn(|a| (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, i| sum + term(a, i)))
+}

@@ -1,0 +1,178 @@
+//! The method of Störmer and Verlet; with holonomic constraints, RATTLE.
+//!
+//! Half a step of the forces, a step of the coordinates, half a step of the forces. The multipliers of the first half
+//! lead to coordinates on the constraints, those of the second half to velocities along them (Andersen, *Journal of
+//! Computational Physics* 52, 1983; Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VII.1.3).
+
+use core::fmt::{self, Debug};
+
+use super::composition::Composition;
+use super::fixed_step::FixedStep;
+use super::scheme::{Point, Scheme, magnitudes, terms_of_positions, terms_of_rates};
+use super::settle::{NotSettled, Residuals};
+use crate::number::{Parts, Scalar};
+use crate::solution::near::compensated;
+use crate::structure::{ConstantMassMatrix, HolonomicConstraints, VelocityFreeForces};
+use crate::system::{Lagrangian, State, StateOf};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, array, vector};
+
+/// The method of Störmer and Verlet, symplectic and of order 2; with holonomic constraints it is RATTLE.
+///
+/// A step takes one evaluation of the forces. It applies if the mass matrix is constant and the forces depend on
+/// coordinates and time alone, which the derive macro finds out ([`structure`](crate::structure)): for other systems it
+/// does not compile. [`composed`](Self::composed) makes it a method of order 4, 6 or 8.
+///
+/// ```
+/// use lagrange_core::motion::Composition;
+/// use lagrange_core::prelude::*;
+///
+/// #[derive(Lagrangian)]
+/// #[coordinates(x, y)]
+/// #[lagrangian((x_dot^2 + y_dot^2)/2 + 1/sqrt(x^2 + y^2))]
+/// struct Kepler;
+///
+/// // A thousand turns on an ellipse of eccentricity 0.5.
+/// let start = State::new([0.5, 0.0], [0.0, 3.0_f64.sqrt()]);
+/// let method = Verlet::with_step(0.02).composed(Composition::KahanLi8).max_steps(1_000_000);
+/// let mut motion = Motion::new(Kepler, start, method)?;
+/// motion.advance_to(1000.0 * core::f64::consts::TAU)?;
+/// assert!((Kepler.energy(motion.state()) / Kepler.energy(&start) - 1.0).abs() < 1e-13);
+/// # Ok::<(), Error>(())
+/// ```
+///
+/// Coordinates and velocities carry their rounding errors (compensated summation). On constraints, every step ends with
+/// Φ and F q̇ + b at round-off.
+pub type Verlet = FixedStep<StormerVerlet>;
+
+impl Verlet {
+    /// Composes steps to a method of higher order.
+    pub fn composed(self, composition: Composition) -> Self {
+        self.compose(composition)
+    }
+}
+
+/// The scheme of [`Verlet`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StormerVerlet;
+
+/// Forces at a state.
+#[derive(Clone, Copy, Debug)]
+pub struct Forces<F, T: Element, N: Length> {
+    /// Factorization of the equations; `None` without constraints.
+    factor: Option<F>,
+    /// Accelerations without constraints, h with constraints.
+    push: Vector<T, N>,
+}
+
+impl<L> Scheme<L> for StormerVerlet
+where
+    L: Lagrangian<Scalar: Parts, Factor: Send + Sync>
+        + ConstantMassMatrix
+        + VelocityFreeForces
+        + HolonomicConstraints,
+{
+    type Carried = Forces<L::Factor, L::Scalar, L::N>;
+
+    const ORDER: usize = 2;
+
+    fn identify(to: &mut dyn fmt::Write) -> fmt::Result {
+        to.write_str("Verlet")
+    }
+
+    #[inline]
+    fn start(system: &L, state: &StateOf<L>) -> Self::Carried {
+        match <L::M>::COUNT {
+            0 => Forces { factor: None, push: system.accelerations_unchecked(state).accelerations },
+            _ => Forces { factor: Some(system.factor(state)), push: system.forcing(state) },
+        }
+    }
+
+    #[inline]
+    fn advance(
+        system: &L,
+        point: &mut Point<L::Scalar, L::N>,
+        forces: &mut Self::Carried,
+        to: L::Scalar,
+    ) -> Result<usize, NotSettled> {
+        let h = to - point.state.t;
+        let half = h * L::Scalar::constant(0.5);
+        let Some(factor) = forces.factor else {
+            let kick = array(forces.push.each(|a| half * a));
+            let drift = Array::from_fn(|i| h * (point.state.v[i] + kick[i]));
+            let q = point.moved(&drift);
+            *forces = Self::start(system, &State { t: to, q: vector(q[0]), v: point.state.v });
+            let kicks = Array::from_fn(|i| kick[i] + half * forces.push[i]);
+            point.set(to, q, point.pushed(&kicks));
+            return Ok(1);
+        };
+        let (kick, q) = onto_constraints(system, point, (&factor, &forces.push), (h, to))?;
+        let state = State { t: to, q: vector(q[0]), v: point.state.v.plus(&kick) };
+        *forces = Self::start(system, &state);
+        let v = along_constraints(system, point, &kick, forces, (half, &state))?;
+        point.set(to, q, v);
+        Ok(1)
+    }
+}
+
+/// Returns the change of the velocities over the first half of a step, with the multipliers that lead to coordinates on
+/// the constraints, and these coordinates.
+#[inline]
+fn onto_constraints<L: Lagrangian<Scalar: Parts>>(
+    system: &L,
+    point: &Point<L::Scalar, L::N>,
+    (factor, h_vector): (&L::Factor, &Vector<L::Scalar, L::N>),
+    (h, to): (L::Scalar, L::Scalar),
+) -> Result<(Vector<L::Scalar, L::N>, [Array<L::Scalar, L::N>; 2]), NotSettled> {
+    let (half, none) = (h * L::Scalar::constant(0.5), vector(Array::filled(L::Scalar::constant(0.0))));
+    let bias = system.constraint_bias(&point.state).each(|x| half * x);
+    let mut kick = system.solve_with(factor, &h_vector.each(|x| half * x), &bias).accelerations;
+    let mut residuals = Residuals::new();
+    loop {
+        let drift = |kick: &Vector<_, _>| Array::from_fn(|i| h * (point.state.v[i] + kick[i]));
+        let q = point.moved(&drift(&kick));
+        let there = State { t: to, q: vector(q[0]), v: point.state.v };
+        let residual = system.constraint_residual(&there);
+        let terms = terms_of_positions(system, &there);
+        let is_last = residuals.settle(&magnitudes(&residual), &terms, || {
+            let rate = terms_of_rates(system, &there);
+            Array::from_fn(|a| h.magnitude() * rate[a])
+        })?;
+        let correction = system.solve_with(factor, &none, &residual.each(|x| x / h));
+        kick = kick.plus(&correction.accelerations);
+        if is_last {
+            return Ok((kick, point.moved(&drift(&kick))));
+        }
+    }
+}
+
+/// Returns the velocities at the end of a step, with the multipliers that lead to velocities on the constraints.
+#[inline]
+fn along_constraints<L: Lagrangian<Scalar: Parts>>(
+    system: &L,
+    point: &Point<L::Scalar, L::N>,
+    kick: &Vector<L::Scalar, L::N>,
+    forces: &Forces<L::Factor, L::Scalar, L::N>,
+    (half, state): (L::Scalar, &StateOf<L>),
+) -> Result<[Array<L::Scalar, L::N>; 2], NotSettled> {
+    let Some(factor) = &forces.factor else { return Err(NotSettled) };
+    let push = forces.push.each(|x| half * x);
+    let second = system.solve_with(factor, &push, &system.constraint_rate(state));
+    let [mut v, mut rest] = point.pushed(&array(kick.plus(&second.accelerations)));
+    let mut residuals = Residuals::new();
+    let none = vector(Array::filled(L::Scalar::constant(0.0)));
+    loop {
+        let state = State { v: vector(v), ..*state };
+        let rate = system.constraint_rate(&state);
+        let terms = terms_of_rates(system, &state);
+        let is_last = residuals.settle(&magnitudes(&rate), &terms, || {
+            let residual = terms_of_positions(system, &state);
+            Array::from_fn(|a| residual[a] / half.magnitude())
+        })?;
+        // Added to the velocities, which may be smaller than their change.
+        let correction = system.solve_with(factor, &none, &rate).accelerations;
+        (v, rest) = compensated(&v, &array(correction), &rest);
+        if is_last {
+            return Ok([v, rest]);
+        }
+    }
+}

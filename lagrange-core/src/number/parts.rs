@@ -1,0 +1,132 @@
+//! Scalars as collections of plain numbers, for iterations that end at round-off.
+
+use nalgebra::ComplexField;
+
+#[cfg(feature = "std")]
+use super::lanes::FourLanes;
+use super::{Dual, Real, Scalar};
+
+/// Largest residual of an iteration that counts as round-off, in units of ε of its terms.
+const ROUND_OFF: f64 = 4.0;
+/// Smallest reduction of a residual from one sweep to the next that counts as progress.
+const PROGRESS: f64 = 0.75;
+
+/// A scalar whose parts can be compared: the value and the slopes of a dual number, the lanes of a vector.
+pub trait Parts: Scalar {
+    /// Distance from 1 to the next larger number.
+    const EPSILON: f64;
+
+    /// True if the number carries derivatives.
+    const HAS_SLOPES: bool;
+
+    /// Returns the magnitude of each part.
+    #[must_use]
+    fn magnitude(self) -> Self;
+
+    /// Returns the smaller of both numbers, part by part.
+    #[must_use]
+    fn least(self, other: Self) -> Self;
+
+    /// True if each part is at most `factor` times the same part of `bound`. False for NaN.
+    fn is_within(self, factor: f64, bound: Self) -> bool;
+
+    /// True if each part is finite.
+    fn is_finite(self) -> bool;
+
+    /// True if each part of this residual is round-off of terms of the size `terms`, or is no longer smaller than
+    /// `before`, the least residual of earlier sweeps.
+    fn has_settled(self, before: Self, terms: Self) -> bool;
+}
+
+impl<T: Real> Parts for T {
+    const EPSILON: f64 = <T as Real>::EPSILON;
+    const HAS_SLOPES: bool = false;
+
+    #[inline]
+    fn magnitude(self) -> Self {
+        Scalar::abs(self)
+    }
+
+    #[inline]
+    fn least(self, other: Self) -> Self {
+        Scalar::min(self, other)
+    }
+
+    #[inline]
+    fn is_within(self, factor: f64, bound: Self) -> bool {
+        self <= T::constant(factor) * bound
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        ComplexField::is_finite(&self)
+    }
+
+    #[inline]
+    fn has_settled(self, before: Self, terms: Self) -> bool {
+        self.is_within(ROUND_OFF * <T as Real>::EPSILON, terms) || !self.is_within(PROGRESS, before)
+    }
+}
+
+#[cfg(feature = "std")]
+impl Parts for FourLanes {
+    const EPSILON: f64 = f64::EPSILON;
+    const HAS_SLOPES: bool = false;
+
+    #[inline]
+    fn magnitude(self) -> Self {
+        self.abs()
+    }
+
+    #[inline]
+    fn least(self, other: Self) -> Self {
+        self.min(other)
+    }
+
+    #[inline]
+    fn is_within(self, factor: f64, bound: Self) -> bool {
+        let pairs = self.to_array().into_iter().zip(bound.to_array());
+        pairs.fold(true, |all, (x, bound)| all & x.is_within(factor, bound))
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        self.to_array().iter().all(|x| x.is_finite())
+    }
+
+    #[inline]
+    fn has_settled(self, before: Self, terms: Self) -> bool {
+        let (x, before, terms) = (self.to_array(), before.to_array(), terms.to_array());
+        (0..Self::COUNT).all(|k| x[k].has_settled(before[k], terms[k]))
+    }
+}
+
+impl<S: Parts> Parts for Dual<S> {
+    const EPSILON: f64 = S::EPSILON;
+    const HAS_SLOPES: bool = true;
+
+    #[inline]
+    fn magnitude(self) -> Self {
+        Self { value: self.value.magnitude(), slope: self.slope.magnitude() }
+    }
+
+    #[inline]
+    fn least(self, other: Self) -> Self {
+        Self { value: self.value.least(other.value), slope: self.slope.least(other.slope) }
+    }
+
+    #[inline]
+    fn is_within(self, factor: f64, bound: Self) -> bool {
+        self.value.is_within(factor, bound.value) && self.slope.is_within(factor, bound.slope)
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        self.value.is_finite() && self.slope.is_finite()
+    }
+
+    #[inline]
+    fn has_settled(self, before: Self, terms: Self) -> bool {
+        self.value.has_settled(before.value, terms.value) && self.slope.has_settled(before.slope, terms.slope)
+    }
+}

@@ -1,0 +1,16 @@
+//! Methods with steps of one length that keep the structure of mechanics: their orders, and what they keep.
+
+// What helps tests may panic as they do.
+#![allow(clippy::unwrap_used)]
+
+mod applicability;
+mod faults;
+mod long_time;
+mod orders;
+mod symplectic;
+mod systems;
+
+/// A number that an environment variable states, for the long checks.
+fn count(variable: &str, default: usize) -> usize {
+    std::env::var(variable).map_or(default, |text| text.parse().unwrap())
+}
