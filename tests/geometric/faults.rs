@@ -178,7 +178,9 @@ fn dependent_constraints_are_refused() {
     by_all!(|method| {
         let path = system.motion(start).by(method).towards(1.0).unwrap();
         match path.ending() {
-            Ending::MethodFailed { reason, .. } => assert!(reason.contains("depend on one another"), "{reason}"),
+            Ending::MethodFailed { reason, .. } => {
+                assert!(reason.contains("depend on one another"), "{reason}")
+            }
             other => panic!("{other}"),
         }
     });

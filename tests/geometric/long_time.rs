@@ -36,7 +36,9 @@ fn stays_on_the_sphere<P: Method<Spherical<f64>> + Copy>(name: &str, method: P, 
     }
     assert!(worst.iter().all(|worst| *worst <= 4.0), "{name}: {worst:?} units of round-off");
     let moved = means.iter().map(|mean| (mean - means[0]).abs()).fold(0.0, f64::max) / (range[1] - range[0]);
-    println!("{name}: residuals {worst:.2?} units of round-off, means of the energy move by {moved:.1e} of its swing");
+    println!(
+        "{name}: residuals {worst:.2?} units of round-off, means of the energy move by {moved:.1e} of its swing"
+    );
     assert!(moved < drift, "{name}: the energy moves by {moved}");
 
     let mut motion = Motion::new(system, start, method).unwrap();

@@ -3,7 +3,9 @@
 //! The error is the largest of all coordinates and velocities at the end. References are a closed form, and motions by
 //! `Dop853`, which shares no code with the methods, with a tolerance of 10⁻¹⁴.
 
-use lagrange_core::motion::Composition::{self, KahanLi6, KahanLi8, Suzuki4, SuzukiUmeno8, Yoshida4, Yoshida6};
+use lagrange_core::motion::Composition::{
+    self, KahanLi6, KahanLi8, Suzuki4, SuzukiUmeno8, Yoshida4, Yoshida6,
+};
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{Method, prelude::*};
 

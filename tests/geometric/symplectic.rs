@@ -20,7 +20,11 @@ where
         }
         let at = |by: f64| {
             let mut state = *state;
-            if column < N { state.q[column] += by } else { state.v[column - N] += by }
+            if column < N {
+                state.q[column] += by
+            } else {
+                state.v[column - N] += by
+            }
             match row < constraints {
                 true => system.constraint_residual(&state)[row],
                 false => system.constraint_rate(&state)[row - constraints],
@@ -37,7 +41,11 @@ where
 
 /// δp for a change of (q, q̇), by central differences with Richardson's extrapolation in the coordinates; p is linear in
 /// the velocities.
-fn momenta_along<L, const N: usize>(system: &L, state: &State<f64, N>, change: &DVector<f64>) -> SVector<f64, N>
+fn momenta_along<L, const N: usize>(
+    system: &L,
+    state: &State<f64, N>,
+    change: &DVector<f64>,
+) -> SVector<f64, N>
 where
     L: Lagrangian<N = Const<N>, Scalar = f64>,
 {

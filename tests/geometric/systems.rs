@@ -53,7 +53,10 @@ pub(crate) struct Spherical<T> {
 pub(crate) fn spherical() -> (Spherical<f64>, State<f64, 3>) {
     let sine = 3.0_f64.sqrt() / 2.0;
     let system = Spherical { m: 1.0, g: 9.81, l: 1.0 };
-    (system.clone(), system.make_consistent(&State::new([sine, 0.0, -0.5], [0.0, 1.5 * sine, 0.0])).unwrap().0)
+    (
+        system.clone(),
+        system.make_consistent(&State::new([sine, 0.0, -0.5], [0.0, 1.5 * sine, 0.0])).unwrap().0,
+    )
 }
 
 /// Two bobs on rods in a plane.

@@ -22,6 +22,7 @@ mod jacobian;
 mod linearization;
 #[cfg(feature = "alloc")]
 mod lyapunov;
+mod radau;
 #[cfg(feature = "alloc")]
 mod sampled_sensitivity;
 #[cfg(feature = "alloc")]
@@ -58,6 +59,7 @@ pub use jacobian::{Jacobian, PartialDerivatives};
 pub use linearization::Linearization;
 #[cfg(feature = "alloc")]
 pub use lyapunov::LyapunovSpectrum;
+pub use radau::{Radau, RadauMemory};
 #[cfg(feature = "alloc")]
 pub use sampled_sensitivity::SampledSensitivity;
 #[cfg(feature = "alloc")]

@@ -56,11 +56,11 @@ mod tests;
 
 #[cfg(feature = "alloc")]
 pub use builder::{AllSteps, EventList, MotionBuilder, Start};
-pub use geometric::{
-    Composition, DAlembert, FixedStep, FixedStepMemory, Gauss, GaussLegendre, LagrangeDAlembert, Lobatto, LobattoPair, Point,
-    Scheme, StageCount, StormerVerlet, Verlet,
-};
 pub use event::{AnyEvent, Event, EventFunction, EventValue};
+pub use geometric::{
+    Composition, DAlembert, FixedStep, FixedStepMemory, Gauss, GaussLegendre, LagrangeDAlembert, Lobatto,
+    LobattoPair, Point, Scheme, StageCount, StormerVerlet, Verlet,
+};
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;
 #[cfg(feature = "std")]

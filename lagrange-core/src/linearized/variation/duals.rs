@@ -13,7 +13,10 @@ pub(super) type Duals<L> = Dual<WideOf<L>>;
 pub(super) type PackedDuals<L> = <L as Pack<Duals<L>>>::Packed;
 
 /// Converts the system to dual numbers whose parameters change at these rates.
-pub(super) fn with_rates<L>(system: &L, rates: Option<&Vector<WideOf<L>, L::P>>) -> Result<PackedDuals<L>, Error>
+pub(super) fn with_rates<L>(
+    system: &L,
+    rates: Option<&Vector<WideOf<L>, L::P>>,
+) -> Result<PackedDuals<L>, Error>
 where
     L: Linearized<Scalar: Real> + Pack<Duals<L>>,
     PackedDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = Duals<L>>,

@@ -61,13 +61,16 @@ where
             let start = with_slopes(before, &block.y);
             let mut point = Point::at(&start);
             let mut carried = <S as Scheme<PackedDuals<L>>>::start(&varied.system, &start);
-            let constant = |x: L::Scalar| Dual { value: WideOf::<L>::of(x), slope: WideOf::<L>::constant(0.0) };
+            let constant =
+                |x: L::Scalar| Dual { value: WideOf::<L>::of(x), slope: WideOf::<L>::constant(0.0) };
             let (h, to) = (constant(after.t - before.t), constant(after.t));
             let moved = self.advance(&varied.system, &mut point, &mut carried, (h, to));
-            let y = PhaseVector::new([&point.state.q, &point.state.v].map(|x| Array::from_fn(|i| x[i].slope)));
+            let y =
+                PhaseVector::new([&point.state.q, &point.state.v].map(|x| Array::from_fn(|i| x[i].slope)));
             let lanes = block.lanes;
             let broken = |lane: usize, i: usize| !(0..2).all(|half| Parts::is_finite(y[half][i].lane(lane)));
-            let fault = (0..lanes).find_map(|lane| Some((first_row::<L>(|i| broken(lane, i), |_| false)?, lane)));
+            let fault =
+                (0..lanes).find_map(|lane| Some((first_row::<L>(|i| broken(lane, i), |_| false)?, lane)));
             let time = before.t.to_f64();
             match (moved, fault) {
                 (_, Some((row, lane))) => {
@@ -75,7 +78,10 @@ where
                     return Err(Ending::of(Error::DerivativeNotFinite { row, entry, time }, time));
                 }
                 (Err(_), None) => {
-                    return Err(Ending::MethodFailed { time, reason: "the derivatives of a step do not converge" });
+                    return Err(Ending::MethodFailed {
+                        time,
+                        reason: "the derivatives of a step do not converge",
+                    });
                 }
                 (Ok(_), None) => varied.ends = Some([start, point.state]),
             }
@@ -99,7 +105,9 @@ where
             let Ok(found) = self.coefficients::<PackedDuals<L>, Infallible>([start, end], |state| {
                 Ok(array(system.accelerations_unchecked(state).accelerations))
             });
-            let slopes = |y: &PhaseVector<Duals<L>, L::N>| PhaseVector::new(y.arrays().map(|half| half.map(|x| x.slope)));
+            let slopes = |y: &PhaseVector<Duals<L>, L::N>| {
+                PhaseVector::new(y.arrays().map(|half| half.map(|x| x.slope)))
+            };
             coefficients.extend(found.iter().map(slopes));
         }
         Ok(())

@@ -84,8 +84,7 @@ fn complete<T: Scalar, N: Length>(
     });
     for (r, row) in FROM_SLOPES.iter().enumerate() {
         for i in 0..N::COUNT {
-            let entry =
-                (0..4).fold(T::constant(0.0), |sum, k| sum + T::constant(row[k]) * left[k][i]);
+            let entry = (0..4).fold(T::constant(0.0), |sum, k| sum + T::constant(row[k]) * left[k][i]);
             coefficients[4 + r][half][i] = entry;
         }
     }

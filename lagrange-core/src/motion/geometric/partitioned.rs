@@ -105,9 +105,7 @@ fn interpolated<T: Scalar, K: Length, const S: usize>(
     weights: &[T; S],
     values: &[Array<T, K>; S],
 ) -> Array<T, K> {
-    Array::from_fn(|i| {
-        (0..S).fold(T::constant(0.0), |sum, j| weights[j].multiply_add(values[j][i], sum))
-    })
+    Array::from_fn(|i| (0..S).fold(T::constant(0.0), |sum, j| weights[j].multiply_add(values[j][i], sum)))
 }
 
 /// A step in progress.
@@ -166,10 +164,12 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
             let mut terms = Array::filled(L::Scalar::constant(0.0));
             let [momenta, mut forces] = self.momenta_and_forces(&states, &stages.multipliers, &mut terms);
             let residuals = self.residuals(&momenta, &forces, &states, &stages.velocities);
-            let mut are_last = of_momenta.settle(&sizes(&residuals.momenta), &terms, || self.displacement())?;
+            let mut are_last =
+                of_momenta.settle(&sizes(&residuals.momenta), &terms, || self.displacement())?;
             if <L::M>::COUNT > 0 {
                 let [terms, displacements] = self.constraint_terms(&states);
-                are_last &= of_constraints.settle(&sizes(&residuals.constraints), &terms, || displacements)?;
+                are_last &=
+                    of_constraints.settle(&sizes(&residuals.constraints), &terms, || displacements)?;
             }
             match &matrices {
                 None => self.correct(stages, &residuals),
@@ -312,10 +312,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
     /// fewest sweeps with the matrices of the start (8 against 13 on a sphere, in steps of a 30th of a turn); with more
     /// stages, with those of the middle, which the initial guess gives (11 against 14).
     #[inline(never)]
-    fn matrices(
-        &self,
-        velocities: &[Array<L::Scalar, L::N>; S],
-    ) -> Room<LoopFactor<L::Scalar, L::N, L::M>> {
+    fn matrices(&self, velocities: &[Array<L::Scalar, L::N>; S]) -> Room<LoopFactor<L::Scalar, L::N, L::M>> {
         let half = L::Scalar::constant(if S == 2 { 0.0 } else { 0.5 }) * self.h;
         let mean = combined(&self.tableau.weights, velocities);
         let State { t, q, .. } = self.from.state;

@@ -7,12 +7,10 @@ use super::fixed_step::FixedStep;
 use super::partitioned::{Stages, advance};
 use super::scheme::{Point, Scheme};
 use super::settle::NotSettled;
-use super::tableau::{
-    GAUSS_1, GAUSS_2, GAUSS_3, GAUSS_4, LOBATTO_2, LOBATTO_3, LOBATTO_4, Tableau,
-};
-use crate::number::Parts;
+use super::tableau::{GAUSS_1, GAUSS_2, GAUSS_3, GAUSS_4, LOBATTO_2, LOBATTO_3, LOBATTO_4, Tableau};
 #[cfg(doc)]
 use super::verlet::Verlet;
+use crate::number::Parts;
 use crate::structure::{HolonomicConstraints, Unconstrained};
 use crate::system::{Lagrangian, StateOf};
 

@@ -1,0 +1,137 @@
+//! Coordinates of the constraint manifold near a state: the tangent plane there.
+//!
+//! A point of the manifold has the coordinates Π(q − q₀), where Π projects onto the tangent plane along M⁻¹Fᵀ (tangent
+//! space parametrization: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, IV.5.3). In these coordinates a
+//! stiff force along the constraints stays one. On all coordinates, a turn ε of the constraints in a step of length h
+//! would feed h c ε² of a damping c into the iteration, which then diverges.
+
+use crate::error::Error;
+use crate::number::{Real, Scalar};
+use crate::room::Room;
+use crate::solution::consistent::BOTH;
+use crate::solution::consistent::level::Level;
+use crate::solution::kkt::{Factors, Rank};
+use crate::solution::pivot::is_trustworthy;
+use crate::solution::solve::fault;
+use crate::system::{ConstraintKind, Lagrangian, StateOf};
+use crate::vector::{Array, Length, PhaseVector, rows, vector};
+
+/// Largest number of corrections towards the constraints. Each multiplies the residual by the turn of the constraints
+/// since the chart was made.
+const CORRECTIONS: usize = 30;
+/// Residual, in units of ε of its terms, at which corrections end.
+const ROUND_OFF: f64 = 4.0;
+
+/// The tangent plane at a state.
+pub(super) struct Chart<L: Lagrangian> {
+    /// Constraint Jacobian, row by row.
+    f: Room<Array<Array<L::Scalar, L::N>, L::M>>,
+    /// For the velocities, which all constraints hold; `None` without constraints.
+    velocities: Option<Solver<L>>,
+    /// For the coordinates, which only holonomic constraints hold, if there are others.
+    coordinates: Option<Solver<L>>,
+}
+
+/// Factorization for the least x with F x = −γ: the emitted one, or the general one where constraints are dependent.
+enum Solver<L: Lagrangian> {
+    Emitted(L::Factor),
+    General(Room<Factors<L::Scalar, L::N, L::M>>),
+}
+
+impl<L: Lagrangian<Scalar: Real>> Chart<L> {
+    pub(super) fn at(system: &L, state: &StateOf<L>) -> Self {
+        let general = |level: Level| {
+            let (m, f) = (system.mass_matrix(state).into(), level.jacobian(system, state));
+            Solver::General(Room::of(Factors::of(&m, &f, Rank::off_constraints())))
+        };
+        let zeros = (vector(Array::filled(zero::<L>())), vector(Array::filled(zero::<L>())));
+        let emitted = || {
+            let factor = system.factor(state);
+            is_trustworthy(&system.solve_with(&factor, &zeros.0, &zeros.1)).then_some(Solver::Emitted(factor))
+        };
+        let is_mixed = L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity);
+        let velocities = (<L::M>::COUNT > 0).then(|| emitted().unwrap_or_else(|| general(Level::Velocity)));
+        let coordinates = is_mixed.then(|| general(Level::Position));
+        Self { f: Room::of(rows(&system.constraint_jacobian(state))), velocities, coordinates }
+    }
+
+    /// The least x with F x = −`residual` on a level; `None` without constraints.
+    fn correction(
+        &self,
+        system: &L,
+        level: Level,
+        residual: &Array<L::Scalar, L::M>,
+        time: L::Scalar,
+    ) -> Result<Option<Array<L::Scalar, L::N>>, Error> {
+        let own = self.coordinates.as_ref().filter(|_| level == Level::Position);
+        let none = Array::filled(zero::<L>());
+        let found = match own.or(self.velocities.as_ref()) {
+            None => return Ok(None),
+            Some(Solver::Emitted(factor)) => system.solve_with(factor, &vector(none), &vector(*residual)),
+            Some(Solver::General(factors)) => {
+                factors.solve(&none, residual).map_err(|found| fault::<L>(&found, time.to_f64()))?
+            }
+        };
+        Ok(Some(found.accelerations.into()))
+    }
+
+    /// Projects a vector of coordinates or velocities onto the tangent plane.
+    pub(super) fn tangent(
+        &self,
+        system: &L,
+        level: Level,
+        x: &Array<L::Scalar, L::N>,
+        time: L::Scalar,
+    ) -> Result<Array<L::Scalar, L::N>, Error> {
+        if <L::M>::COUNT == 0 {
+            return Ok(*x);
+        }
+        let row = |a: usize| (0..<L::N>::COUNT).fold(zero::<L>(), |sum, i| sum + self.f[a][i] * x[i]);
+        let residual =
+            Array::from_fn(|a| if level.is_active(L::CONSTRAINT_KINDS[a]) { row(a) } else { zero::<L>() });
+        let correction = self.correction(system, level, &residual, time)?;
+        Ok(correction.map_or(*x, |correction| Array::from_fn(|i| x[i] + correction[i])))
+    }
+
+    /// Projects both halves onto the tangent plane.
+    pub(super) fn tangents(
+        &self,
+        system: &L,
+        y: &PhaseVector<L::Scalar, L::N>,
+        time: L::Scalar,
+    ) -> Result<PhaseVector<L::Scalar, L::N>, Error> {
+        let [q, v] = y.arrays();
+        Ok(PhaseVector::new([
+            self.tangent(system, Level::Position, &q, time)?,
+            self.tangent(system, Level::Velocity, &v, time)?,
+        ]))
+    }
+
+    /// Moves a state onto the constraints along M⁻¹Fᵀ, without a change of its coordinates in the tangent plane.
+    pub(super) fn onto(&self, system: &L, mut state: StateOf<L>) -> Result<StateOf<L>, Error> {
+        let bound = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
+        for level in BOTH.into_iter().filter(|level| level.concerns::<L>()) {
+            let mut before = L::Scalar::constant(f64::INFINITY);
+            for _ in 0..CORRECTIONS {
+                let (residual, terms) = (level.residual(system, &state), level.magnitude(system, &state));
+                let size = |a: usize| Scalar::abs(residual[a]);
+                let total = (0..<L::M>::COUNT).fold(zero::<L>(), |sum, a| sum + size(a));
+                // At round-off, or no longer shrinking: dependent constraints agree on the manifold only.
+                if (0..<L::M>::COUNT).all(|a| size(a) <= bound * terms[a]) || total >= before {
+                    break;
+                }
+                before = total;
+                let correction = self.correction(system, level, &residual.into(), state.t)?;
+                let unknowns = level.unknowns(&mut state);
+                for (x, change) in unknowns.iter_mut().zip(correction.iter().flatten()) {
+                    *x += *change;
+                }
+            }
+        }
+        Ok(state)
+    }
+}
+
+fn zero<L: Lagrangian>() -> L::Scalar {
+    L::Scalar::constant(0.0)
+}

@@ -1,0 +1,124 @@
+//! The method Radau IIA of order 5, for stiff systems.
+
+mod chart;
+mod equations;
+mod iteration;
+mod lu;
+mod step;
+
+use core::fmt;
+
+use crate::error::Error;
+use crate::motion::Limits;
+use crate::motion::method::contract::check_settings;
+use crate::motion::method::control::Tolerance;
+use crate::number::{Real, Scalar};
+
+pub use step::RadauMemory;
+
+/// The implicit Runge–Kutta method Radau IIA with three stages, of order 5: for stiff systems.
+///
+/// Strong damping and stiff springs force an explicit method to steps as short as their time constants. The steps of this
+/// method are as long as the motion allows, because it is L-stable: what decays fast is damped out. It takes any system
+/// with derivatives ([`StateDerivatives`](crate::StateDerivatives)): the iteration for the stages uses the exact ∂q̈/∂q
+/// and ∂q̈/∂q̇. The constraints are eliminated from the accelerations, redundant ones by their rank, and each step ends
+/// on them.
+///
+/// Step-size control, the simplified Newton iteration and the starting values are those of Hairer and Wanner (*Solving
+/// Ordinary Differential Equations II*, IV.8). Dense output is the collocation polynomial, of third order.
+///
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// /// A spring in honey.
+/// #[derive(Lagrangian)]
+/// #[coordinates(x)]
+/// #[lagrangian(x_dot^2/2 - x^2/2)]
+/// #[dissipation(c/2 * x_dot^2)]
+/// struct Slow { c: f64 }
+///
+/// let path = Slow { c: 1e6 }.integrate(State::at_rest([1.0]), 1e6, Radau::default())?;
+/// // x = e^(−t/c), but for the start.
+/// assert!((path.end().coordinate("x")? - (-1.0_f64).exp()).abs() < 1e-6);
+/// assert!(path.statistics().accepted < 200);
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[must_use]
+pub struct Radau {
+    relative: f64,
+    absolute: f64,
+    max_step: Option<f64>,
+    first_step: Option<f64>,
+    limits: Limits,
+}
+
+/// Relative and absolute tolerance 10⁻⁹, at most 100 000 steps, no limit on wall-clock time.
+impl Default for Radau {
+    fn default() -> Self {
+        Self::with_tolerance(1e-9)
+    }
+}
+
+impl Radau {
+    /// Sets relative and absolute tolerance to the same number.
+    pub fn with_tolerance(tolerance: f64) -> Self {
+        let (max_step, first_step) = (None, None);
+        Self { relative: tolerance, absolute: tolerance, max_step, first_step, limits: Limits::default() }
+    }
+
+    /// Sets the relative tolerance: the error allowed as a fraction of each entry of the state.
+    pub fn relative_tolerance(self, tolerance: f64) -> Self {
+        Self { relative: tolerance, ..self }
+    }
+
+    /// Sets the absolute tolerance: the error allowed in the unit of each entry.
+    pub fn absolute_tolerance(self, tolerance: f64) -> Self {
+        Self { absolute: tolerance, ..self }
+    }
+
+    /// Sets the limit on steps, rejected ones included.
+    pub fn max_steps(mut self, steps: usize) -> Self {
+        self.limits.max_steps = steps;
+        self
+    }
+
+    /// Sets the longest step allowed, in units of time.
+    pub fn max_step(self, step: f64) -> Self {
+        Self { max_step: Some(step), ..self }
+    }
+
+    /// Sets the first step to try, instead of an estimate.
+    pub fn first_step(self, step: f64) -> Self {
+        Self { first_step: Some(step), ..self }
+    }
+
+    /// Sets the limit on the wall-clock time of the integration.
+    #[cfg(feature = "std")]
+    pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
+        self.limits.wall_time = Some(limit);
+        self
+    }
+
+    fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result {
+        let Self { relative, absolute, max_step, first_step, .. } = self;
+        write!(to, "Radau 5 {relative:?} {absolute:?} {max_step:?} {first_step:?}")
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        check_settings([
+            ("relative tolerance", Some(self.relative)),
+            ("absolute tolerance", Some(self.absolute)),
+            ("longest step", self.max_step),
+            ("first step", self.first_step),
+        ])
+    }
+
+    /// Tolerances of the error estimate. It is of third order, and overestimates the error of a method of fifth order:
+    /// as in Hairer and Wanner's program, the tolerance is its power 2/3, times a tenth.
+    fn tolerance<T: Real>(&self) -> Tolerance {
+        let wanted = self.relative.max(16.0 * T::EPSILON);
+        let relative = 0.1 * Scalar::powf(wanted, 2.0 / 3.0);
+        Tolerance { relative, absolute: relative * (self.absolute / wanted) }
+    }
+}
