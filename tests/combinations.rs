@@ -5,8 +5,8 @@
 //! |---|---|---|---|---|
 //! | `State` | all steps | all | no: a state between steps would be one of other parameters; who asks for it keeps samples alone | all |
 //! | `State` | samples | all | yes | all |
-//! | `PhaseState` | all steps, samples | as `State` | as `State` | pairs; not `Taylor`, whose series are those of Lagrange's equations, nor `RungeKutta4` (does not compile) |
-//! | `StateSensitivity` | all steps, samples | all; events that can be differentiated, others do not compile | no: what it sets depends on the state by a function that is not differentiated (does not compile) | pairs, `Taylor` where the number type is a parameter |
+//! | `PhaseState` | all steps, samples | as `State` | as `State` | pairs; not `Taylor`, whose series are those of Lagrange's equations, nor `Radau` and the methods of fixed steps (does not compile) |
+//! | `StateSensitivity` | all steps, samples | all; events that can be differentiated, others do not compile | no: what it sets depends on the state by a function that is not differentiated (does not compile) | pairs; `Taylor`, `Verlet`, `Gauss`, `Lobatto` and `DAlembert` where the number type is a parameter; not `Radau` (does not compile) |
 //! | member of an `Ensemble` | samples | all; progress is `observe` | yes | all |
 //! | the same on lanes | samples | all; progress is `observe` | yes | pairs, `Taylor` |
 //!
@@ -14,7 +14,7 @@
 
 use core::ops::ControlFlow;
 
-use lagrange_core::motion::{Arrival, Progress};
+use lagrange_core::motion::{Arrival, Composition::KahanLi8, Progress};
 use lagrange_core::{Ending, linearized::TrajectorySensitivity, nalgebra::Const, prelude::*};
 
 #[derive(Clone, Lagrangian)]
@@ -90,6 +90,11 @@ fn a_motion_from_a_state_is_asked_for_everything() {
     asked!(motion(start), Dopri5::default(), event, |path| path);
     asked!(motion(start), Taylor::default(), event, |path| path);
     asked!(motion(start), RungeKutta4::with_step(1e-2), event, |path| path);
+    asked!(motion(start), Verlet::with_step(0.2).composed(KahanLi8), event, |path| path);
+    asked!(motion(start), Gauss::<3>::with_step(0.1), event, |path| path);
+    asked!(motion(start), Lobatto::<4>::with_step(0.1), event, |path| path);
+    asked!(motion(start), DAlembert::with_step(0.2).composed(KahanLi8), event, |path| path);
+    asked!(motion(start), Radau::with_tolerance(1e-12), event, |path| path);
 }
 
 #[test]
@@ -109,6 +114,9 @@ fn a_motion_with_derivatives_is_asked_for_everything() {
     asked!(motion_with_derivatives(&start), Dop853::default(), differentiable_event, path_of);
     asked!(motion_with_derivatives(&start), Dopri5::default(), differentiable_event, path_of);
     asked!(motion_with_derivatives(&start), Taylor::default(), differentiable_event, path_of);
+    let verlet = Verlet::with_step(0.2).composed(KahanLi8);
+    asked!(motion_with_derivatives(&start), verlet, differentiable_event, path_of);
+    asked!(motion_with_derivatives(&start), Gauss::<3>::with_step(0.1), differentiable_event, path_of);
 }
 
 /// Keeps samples alone, from this start by this method: they are those of the motion that is stored, with the same steps and crossings.
@@ -254,6 +262,9 @@ fn a_motion_is_sampled_instead_of_stored() {
     sampled!(motion(start), Dopri5::default());
     sampled!(motion(start), Taylor::default());
     sampled!(motion(start), RungeKutta4::with_step(1e-2));
+    sampled!(motion(start), Verlet::with_step(0.2).composed(KahanLi8));
+    sampled!(motion(start), Gauss::<3>::with_step(0.1));
+    sampled!(motion(start), Radau::with_tolerance(1e-12));
     sampled!(motion_in_momenta(momenta), Dop853::default());
     sampled!(motion_in_momenta(momenta), Dopri5::default());
 }
@@ -269,6 +280,12 @@ fn a_motion_is_steered() {
         .expect("a start"));
     let fixed = RungeKutta4::with_step(1e-2);
     steered!(motion(start), fixed, |s| Motion::new(s, start, fixed).expect("a start"));
+    let verlet = Verlet::with_step(0.1);
+    steered!(motion(start), verlet, |s| Motion::new(s, start, verlet).expect("a start"));
+    let gauss = Gauss::<2>::with_step(0.1);
+    steered!(motion(start), gauss, |s| Motion::new(s, start, gauss).expect("a start"));
+    let radau = Radau::default();
+    steered!(motion(start), radau, |s| Motion::new(s, start, radau).expect("a start"));
     let dop853 = Dop853::default();
     steered!(motion_in_momenta(momenta), dop853, |s| Motion::in_momenta(s, momenta, dop853)
         .expect("a start"));

@@ -14,13 +14,17 @@ use crate::solution::kkt::{Factors, Rank};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::fault;
 use crate::system::{ConstraintKind, Lagrangian, StateOf};
-use crate::vector::{Array, Length, PhaseVector, rows, vector};
+use crate::vector::{Array, Length, PhaseVector, Vector, rows, vector};
 
-/// Largest number of corrections towards the constraints. Each multiplies the residual by the turn of the constraints
-/// since the chart was made.
+/// Largest number of corrections towards the constraints; each divides the residual by four or more.
 const CORRECTIONS: usize = 30;
 /// Residual, in units of ε of its terms, at which corrections end.
 const ROUND_OFF: f64 = 4.0;
+/// Residual, in the same units, that may remain where it no longer shrinks.
+const NEAR: f64 = 4096.0;
+/// Largest ratio of the residual after a correction to that before. With a quarter, all corrections together are at most
+/// 4/3 of the first.
+const CONTRACTION: f64 = 0.25;
 
 /// The tangent plane at a state.
 pub(super) struct Chart<L: Lagrangian> {
@@ -107,20 +111,31 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
         ]))
     }
 
-    /// Moves a state onto the constraints along M⁻¹Fᵀ, without a change of its coordinates in the tangent plane.
-    pub(super) fn onto(&self, system: &L, mut state: StateOf<L>) -> Result<StateOf<L>, Error> {
-        let bound = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
+    /// Moves a state onto the constraints along M⁻¹Fᵀ, without a change of its coordinates in the tangent plane. `None` if
+    /// the step of length `h` is too long for the chart: corrections that contract by less than [`CONTRACTION`] may lead to
+    /// another branch.
+    pub(super) fn onto(
+        &self,
+        system: &L,
+        mut state: StateOf<L>,
+        h: L::Scalar,
+    ) -> Result<Option<StateOf<L>>, Error> {
         for level in BOTH.into_iter().filter(|level| level.concerns::<L>()) {
-            let mut before = L::Scalar::constant(f64::INFINITY);
+            let mut before = None;
             for _ in 0..CORRECTIONS {
-                let (residual, terms) = (level.residual(system, &state), level.magnitude(system, &state));
-                let size = |a: usize| Scalar::abs(residual[a]);
-                let total = (0..<L::M>::COUNT).fold(zero::<L>(), |sum, a| sum + size(a));
-                // At round-off, or no longer shrinking: dependent constraints agree on the manifold only.
-                if (0..<L::M>::COUNT).all(|a| size(a) <= bound * terms[a]) || total >= before {
+                let residual = level.residual(system, &state);
+                let total = total::<L>(&residual);
+                let terms = level.magnitude(system, &state);
+                let bound = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
+                let is_there = (0..<L::M>::COUNT).all(|a| Scalar::abs(residual[a]) <= bound * terms[a]);
+                let shrinks = before.is_none_or(|before| total <= before * L::Scalar::constant(CONTRACTION));
+                if is_there || !shrinks && is_near_round_off(system, level, &state, (total, h)) {
                     break;
                 }
-                before = total;
+                if !shrinks {
+                    return Ok(None);
+                }
+                before = Some(total);
                 let correction = self.correction(system, level, &residual.into(), state.t)?;
                 let unknowns = level.unknowns(&mut state);
                 for (x, change) in unknowns.iter_mut().zip(correction.iter().flatten()) {
@@ -128,8 +143,29 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
                 }
             }
         }
-        Ok(state)
+        Ok(Some(state))
     }
+}
+
+/// True if a residual is near the round-off of its terms, or of those of a motion over the step. Projection at the end of
+/// a step has a criterion of its own.
+fn is_near_round_off<L: Lagrangian<Scalar: Real>>(
+    system: &L,
+    level: Level,
+    state: &StateOf<L>,
+    (residual, h): (L::Scalar, L::Scalar),
+) -> bool {
+    let [positions, rates] = BOTH.map(|level| total::<L>(&level.magnitude(system, state)));
+    let terms = match level {
+        Level::Position => positions + rates * Scalar::abs(h),
+        Level::Velocity => rates + positions / Scalar::abs(h),
+    };
+    residual <= terms * L::Scalar::constant(NEAR * L::Scalar::EPSILON)
+}
+
+/// Sum of the magnitudes.
+fn total<L: Lagrangian<Scalar: Real>>(x: &Vector<L::Scalar, L::M>) -> L::Scalar {
+    x.iter().fold(zero::<L>(), |sum, x| sum + Scalar::abs(*x))
 }
 
 fn zero<L: Lagrangian>() -> L::Scalar {

@@ -42,6 +42,12 @@ pub(super) enum NoSolution {
     TooSlow(f64),
 }
 
+impl From<Error> for NoSolution {
+    fn from(error: Error) -> Self {
+        Self::Unsolved(error)
+    }
+}
+
 impl<T: Real, N: Length> StageChanges<T, N> {
     fn transformed(&self, matrix: &[[f64; 3]; 3]) -> Self {
         let entry = |row: &[f64; 3], half: usize, i: usize| {
@@ -56,7 +62,7 @@ impl<T: Real, N: Length> StageChanges<T, N> {
         &mut self,
         (derivatives, factorizations): (&Derivatives<T, N>, &Factorizations<T, N>),
         (tolerance, y, allowed): (Tolerance, &PhaseVector<T, N>, f64),
-        mut rates: impl FnMut(usize, &PhaseVector<T, N>) -> Result<PhaseVector<T, N>, Error>,
+        mut rates: impl FnMut(usize, &PhaseVector<T, N>) -> Result<PhaseVector<T, N>, NoSolution>,
     ) -> Result<Converged, NoSolution> {
         let one = T::constant(1.0);
         let mut w = self.transformed(&TO_EIGENVECTORS);
@@ -67,7 +73,7 @@ impl<T: Real, N: Length> StageChanges<T, N> {
         for iteration in 1..=ITERATIONS {
             let mut f = *self;
             for (k, (rate, change)) in f.0.iter_mut().zip(&self.0).enumerate() {
-                *rate = rates(k, change).map_err(NoSolution::Unsolved)?;
+                *rate = rates(k, change)?;
             }
             let correction =
                 factorizations.corrections(derivatives, &w.0, &f.transformed(&TO_EIGENVECTORS).0);

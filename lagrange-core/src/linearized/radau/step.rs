@@ -35,6 +35,8 @@ pub struct RadauMemory<L: Lagrangian<Scalar: Real>> {
     at: Place<L::Scalar, L::N, L::M>,
     derivatives: Option<(Chart<L>, Derivatives<L::Scalar, L::N>)>,
     factorizations: Option<Factorizations<L::Scalar, L::N>>,
+    /// True if the derivatives are those of an earlier state.
+    are_derivatives_old: bool,
     contraction: f64,
     /// Length and error of the last accepted step, for the controller.
     accepted: Option<(f64, f64)>,
@@ -106,6 +108,15 @@ enum Refusal {
     Unsolved(Error),
 }
 
+impl From<NoSolution> for Refusal {
+    fn from(reason: NoSolution) -> Self {
+        match reason {
+            NoSolution::Unsolved(error) => Self::Unsolved(error),
+            NoSolution::TooSlow(part) => Self::TooSlow(part),
+        }
+    }
+}
+
 impl From<Error> for Refusal {
     fn from(error: Error) -> Self {
         Self::Unsolved(error)
@@ -142,6 +153,7 @@ impl<L: StateDerivatives<Scalar: Real>> Method<L> for Radau {
             at,
             derivatives: None,
             factorizations: None,
+            are_derivatives_old: false,
             contraction: 1.0,
             accepted: None,
             was_refused: false,
@@ -185,6 +197,11 @@ impl<L: StateDerivatives<Scalar: Real>> Method<L> for Radau {
             Err(Refusal::Inaccurate(error, entry)) => {
                 let part = if memory.accepted.is_none() { 0.1 } else { growth(error, 1).min(0.9) };
                 (part, Ending::StepTooSmall { time: now, entry })
+            }
+            Err(Refusal::TooSlow(_)) if memory.are_derivatives_old => {
+                // The same step again, with the derivatives and the tangent plane of its start.
+                (memory.derivatives, memory.factorizations) = (None, None);
+                return Step::Rejected;
             }
             Err(Refusal::TooSlow(part)) => {
                 let reason = "the iteration of a step does not converge, however short it is";
@@ -260,46 +277,29 @@ impl Radau {
             *change = chart.tangents(system, change, at.t)?;
         }
         let there = |k: usize, change: &PhaseVector<_, L::N>| {
-            chart.onto(system, at.moved(h * L::Scalar::constant(NODES[k]), change))
+            let moved = at.moved(h * L::Scalar::constant(NODES[k]), change);
+            chart.onto(system, moved, h)?.ok_or(NoSolution::TooSlow(0.5))
         };
         let mut rates = |state: &StateOf<L>| rates_at(system, chart, state, &at.active, statistics);
-        let Converged { iterations, contraction: found } = z
-            .solve(
-                (derivatives, factorizations),
-                (tolerance, &at.y, allowed::<L::Scalar>(tolerance.relative)),
-                |k, change| rates(&there(k, change)?),
-            )
-            .map_err(|reason| match reason {
-                NoSolution::Unsolved(error) => Refusal::Unsolved(error),
-                NoSolution::TooSlow(part) => Refusal::TooSlow(part),
-            })?;
+        let Converged { iterations, contraction: found } = z.solve(
+            (derivatives, factorizations),
+            (tolerance, &at.y, allowed::<L::Scalar>(tolerance.relative)),
+            |k, change| Ok(rates(&there(k, change)?)?),
+        )?;
         *contraction = found;
-        let weighted = |half: usize, i: usize| {
-            (0..3).fold(L::Scalar::constant(0.0), |sum, k| {
-                sum + L::Scalar::constant(ERROR[k]) * z.0[k][half][i]
-            })
-        };
-        let estimate = |rates: &PhaseVector<_, L::N>| {
-            let right =
-                PhaseVector::new(from_fn(|half| Array::from_fn(|i| rates[half][i] + weighted(half, i) / h)));
-            factorizations.real(derivatives, &right)
-        };
-        let one = L::Scalar::constant(1.0);
-        let mut off = estimate(&chart.tangents(system, &at.rates, at.t)?);
-        let mut error = tolerance.part(one, &off, &at.y).to_f64();
-        if is_too_large(error) && (memory.accepted.is_none() || memory.was_refused) {
-            // The estimate is filtered once more: the first one overestimates the error of stiff components.
-            let moved = chart.onto(system, at.moved(L::Scalar::constant(0.0), &off))?;
-            off = estimate(&rates(&moved)?);
-            error = tolerance.part(one, &off, &at.y).to_f64();
+        // Stages on the constraints: for dense output, and because the error of the motion along the normals counts, too.
+        for (k, change) in z.0.iter_mut().enumerate() {
+            *change = at.change_to(&there(k, change)?);
         }
+        let weighted = |half: usize, i: usize| {
+            let sum = (0..3).map(|k| L::Scalar::constant(ERROR[k]) * z.0[k][half][i]);
+            at.rates[half][i] + sum.fold(L::Scalar::constant(0.0), |sum, x| sum + x) / h
+        };
+        let right = PhaseVector::new(from_fn(|half| Array::from_fn(|i| weighted(half, i))));
+        let off = factorizations.real(derivatives, &right);
+        let error = tolerance.part(L::Scalar::constant(1.0), &off, &at.y).to_f64();
         if is_too_large(error) {
             return Err(Refusal::Inaccurate(error, worst::<L>(&off, &at.y, tolerance)));
-        }
-        // Stages on the constraints, for dense output; the last is the end of the step.
-        for (k, change) in z.0.iter_mut().enumerate() {
-            let state = chart.onto(system, at.moved(h * L::Scalar::constant(NODES[k]), change))?;
-            *change = at.change_to(&state);
         }
         let y = at.moved(h, &z.0[2]);
         let point = StagePoint { t: time, y: PhaseVector::of(y.q, y.v), velocity: array(y.v) };
@@ -332,6 +332,7 @@ impl<L: StateDerivatives<Scalar: Real>> RadauMemory<L> {
             let derivatives = Derivatives::at(system, &state, solution, &chart)?;
             self.derivatives = Some((chart, derivatives));
             self.factorizations = None;
+            self.are_derivatives_old = false;
         }
         if self.factorizations.as_ref().is_none_or(|found| found.h != h) {
             let derivatives = self.derivatives.as_ref();
@@ -368,6 +369,7 @@ impl<L: StateDerivatives<Scalar: Real>> RadauMemory<L> {
         }
         let planned = self.planned;
         let step = if keeps_length { Scalar::abs(h) } else { Scalar::abs(h) * L::Scalar::constant(ratio) };
+        self.are_derivatives_old = true;
         self.taken = Some((from, h));
         self.clock.now = self.at.t;
         // If the end has shortened this step, the planned length serves a continued motion.

@@ -1,0 +1,263 @@
+//! Radau IIA: its order, stiff systems with and without constraints, redundant constraints, and what goes wrong.
+
+// What helps tests may panic as they do.
+#![allow(clippy::unwrap_used)]
+
+use core::ops::ControlFlow;
+use std::f64::consts::FRAC_PI_2;
+use std::time::Duration;
+
+use lagrange_core::nalgebra::Const;
+use lagrange_core::{Ending, prelude::*};
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(a, b)]
+#[lagrangian(a_dot^2 + b_dot^2/2 + a_dot*b_dot*cos(a - b) + 9.81*(2*cos(a) + cos(b)))]
+#[dissipation(c/2*(a_dot^2 + b_dot^2))]
+struct DoublePendulum {
+    c: f64,
+}
+
+/// Two bobs on rods, the upper pivot shaken along the horizontal.
+#[derive(Clone, Lagrangian)]
+#[coordinates(r: [2], s: [2])]
+#[lagrangian((dot(r_dot, r_dot) + dot(s_dot, s_dot))/2 - 9.81*(r[1] + s[1]))]
+#[constraint(upper: (r[0] - sin(3*t)/5)^2 + r[1]^2 = 1)]
+#[constraint(lower: dot(s - r, s - r) = 1)]
+struct Shaken;
+
+/// Chaplygin's sleigh with friction on the turn.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, theta)]
+#[lagrangian((x_dot - theta_dot*sin(theta)/4)^2 + (y_dot + theta_dot*cos(theta)/4)^2 + theta_dot^2/5)]
+#[dissipation(theta_dot^2/20)]
+#[constraint(blade: x_dot*sin(theta) - y_dot*cos(theta) = 0)]
+struct Sleigh;
+
+fn off<const N: usize>(state: &State<f64, N>, exact: &State<f64, N>) -> f64 {
+    (state.q - exact.q).amax().max((state.v - exact.v).amax())
+}
+
+/// Asserts order 5, the slope of log error over log number of steps, for tolerances of 10⁻⁴ … 10⁻¹¹.
+fn is_of_order_five<L, const N: usize>(name: &str, system: &L, start: State<f64, N>, end: f64)
+where
+    L: lagrange_core::StateDerivatives<N = Const<N>, Scalar = f64>,
+{
+    let exact = *system.integrate(start, end, Dop853::with_tolerance(1e-14)).unwrap().end().state();
+    let points: Vec<(f64, f64)> = (8..23)
+        .map(|k| {
+            let tolerance = 10.0_f64.powf(-0.5 * f64::from(k));
+            let path = system.integrate(start, end, Radau::with_tolerance(tolerance)).unwrap();
+            ((path.statistics().accepted as f64).log2(), off(path.end().state(), &exact).log2())
+        })
+        .collect();
+    let count = points.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / count;
+    let (n, e) = (mean(|point| point.0), mean(|point| point.1));
+    let slope = points.iter().map(|point| (point.0 - n) * (point.1 - e)).sum::<f64>()
+        / points.iter().map(|point| (point.0 - n).powi(2)).sum::<f64>();
+    let least = points[points.len() - 1].1.exp2();
+    println!("{name}: order {:.2}, least error {least:.1e}", -slope);
+    assert!(-slope > 4.7, "{name}: order {}", -slope);
+    assert!(least < 1e-8, "{name}: {least:e}");
+}
+
+#[test]
+fn its_order_is_five() {
+    let start = State::new([1.0, 0.5], [0.0, 0.3]);
+    is_of_order_five("double pendulum", &DoublePendulum { c: 0.1 }, start, 3.0);
+    let (start, _) = Shaken.make_consistent(&State::at_rest([0.6, -0.8, 1.6, -0.8])).unwrap();
+    is_of_order_five("rods with a shaken pivot", &Shaken, start, 2.0);
+    is_of_order_five("sleigh", &Sleigh, State::new([0.0; 3], [1.0, 0.0, 1.5]), 3.0);
+}
+
+/// A spring in honey.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - x^2/2)]
+#[dissipation(c/2*x_dot^2)]
+struct Slow {
+    c: f64,
+}
+
+impl Slow {
+    /// The motion from rest at 1, in closed form.
+    fn at(&self, t: f64) -> State<f64, 1> {
+        let root = (self.c * self.c / 4.0 - 1.0).sqrt();
+        let fast = -self.c / 2.0 - root;
+        let slow = 1.0 / fast;
+        let [a, b] = [fast / (fast - slow), -slow / (fast - slow)];
+        let (x, y) = (a * (slow * t).exp(), b * (fast * t).exp());
+        State::new([x + y], [slow * x + fast * y]).at_time(t)
+    }
+}
+
+#[test]
+fn stiff_damping_takes_few_steps() {
+    let slow = Slow { c: 1e6 };
+    for (tolerance, steps) in [(1e-6, 30), (1e-9, 50), (1e-12, 150)] {
+        let path = slow.integrate(State::at_rest([1.0]), 1e6, Radau::with_tolerance(tolerance)).unwrap();
+        assert!(off(path.end().state(), &slow.at(1e6)) < tolerance.max(1e-12), "{tolerance}");
+        assert!(path.statistics().accepted < steps, "{:?}", path.statistics());
+        // Dense output, from the steep start on.
+        for t in [1e-5, 1e-2, 10.0, 3e3, 7e5] {
+            let error = off(path.at(t).unwrap().state(), &slow.at(t));
+            assert!(error < 30.0 * tolerance.powf(0.75), "{error:e} at {t}, tolerance {tolerance}");
+        }
+    }
+    // Backwards in time the spring flees from its end, and is followed.
+    let end = slow.at(2e-6);
+    let path = slow.integrate(end, 0.0, Radau::default()).unwrap();
+    let back = off(path.end().state(), &slow.at(0.0));
+    assert!(back < 1e-7, "{back:e}");
+}
+
+/// A pendulum in honey, by its angle from the horizontal and by a rod.
+#[derive(Clone, Lagrangian)]
+#[coordinates(a)]
+#[lagrangian(a_dot^2/2 - 9.81*sin(a))]
+#[dissipation(c/2*a_dot^2)]
+struct Angle {
+    c: f64,
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - 9.81*y)]
+#[constraint(rod: x^2 + y^2 = 1)]
+#[constraint(again: a*x^2 + b*y^2 = 1)]
+#[dissipation(c/2*(x_dot^2 + y_dot^2))]
+struct Rods {
+    a: f64,
+    b: f64,
+    c: f64,
+}
+
+/// The stiff component lies along the constraint, which turns by 90°; the constraint is there twice.
+#[test]
+fn stiff_motions_on_redundant_constraints_take_few_steps() {
+    let (angle, rods) = (Angle { c: 1e6 }, Rods { a: 1.0, b: 1.0, c: 1e6 });
+    let reference = angle.integrate(State::at_rest([0.0]), 3e5, Radau::with_tolerance(1e-13)).unwrap();
+    let path = rods.integrate(State::at_rest([1.0, 0.0]), 3e5, Radau::with_tolerance(1e-9)).unwrap();
+    assert!(path.statistics().accepted < 200, "{:?}", path.statistics());
+    assert!(!path.statistics().multipliers_are_unique);
+    for k in 0..=100 {
+        let t = 3e3 * f64::from(k);
+        let (state, a) = (*path.at(t).unwrap().state(), reference.at(t).unwrap().coordinate("a").unwrap());
+        assert!((state.q[0] - a.cos()).abs().max((state.q[1] - a.sin()).abs()) < 1e-6, "at {t}");
+    }
+    let a = reference.end().coordinate("a").unwrap();
+    assert!(
+        (a + FRAC_PI_2).abs() < 0.2
+            && off(path.end().state(), &State::new([a.cos(), a.sin()], [0.0; 2])) < 1e-5
+    );
+}
+
+/// A crank that a motor turns at a constant rate: no freedom is left.
+#[derive(Clone, Lagrangian)]
+#[coordinates(crank, rod, slider)]
+#[lagrangian(crank_dot^2/2 + rod_dot^2/3 + cos(crank - rod)*crank_dot*rod_dot/4 + slider_dot^2/2)]
+#[constraint(height: sin(crank)/2 + sin(rod) = 0)]
+#[constraint(length: slider - cos(crank)/2 - cos(rod) = 0)]
+#[constraint(motor: crank - 3*t = 0)]
+struct Crank;
+
+#[test]
+fn a_motion_without_freedom_follows_its_constraints() {
+    let (start, _) = Crank.make_consistent(&State::at_rest([0.0, 0.0, 1.5])).unwrap();
+    let path = Crank.integrate(start, 5.0, Radau::default()).unwrap();
+    for sample in path.samples(50) {
+        let crank = 3.0 * sample.time();
+        let rod = -(crank.sin() / 2.0).asin();
+        let exact = [crank, rod, crank.cos() / 2.0 + rod.cos()];
+        assert!(
+            (0..3).all(|i| (sample.state().q[i] - exact[i]).abs() < 1e-6),
+            "{:?} at {crank}",
+            sample.state()
+        );
+    }
+    let exact = Crank.integrate(start, 5.0, Dop853::default()).unwrap();
+    for name in ["height", "length", "motor"] {
+        let [found, exact] = [&path, &exact].map(|path| path.end().multiplier(name).unwrap());
+        assert!((found - exact).abs() < 1e-7, "{name}");
+    }
+}
+
+/// A linkage of four equal sides that folds flat: a heavy bar and a bob on a light one. By themselves they would swing at
+/// different rates, so that the coupler must push without bound where it lies along both.
+#[derive(Clone, Lagrangian)]
+#[coordinates(p: [2], q: [2])]
+#[lagrangian(m[0]/6*dot(p_dot, p_dot) + m[1]/2*dot(q_dot, q_dot) - 9.81*(m[0]*p[1]/2 + m[1]*q[1]))]
+#[constraint(left: dot(p, p) = 1)]
+#[constraint(right: (q[0] - 1)^2 + q[1]^2 = 1)]
+#[constraint(coupler: dot(q - p, q - p) = 1)]
+struct FourBar {
+    m: [f64; 2],
+}
+
+#[test]
+fn a_pose_with_multipliers_without_bound_ends_the_motion_or_is_crossed_on_its_branch() {
+    let linkage = FourBar { m: [1.0, 3.0] };
+    let start = State::new([0.0, 1.0, 1.0, 1.0], [1.0, 0.0, 1.0, 0.0]);
+    let path = linkage.motion(start).by(Radau::default()).towards(3.0).unwrap();
+    // Past the horizontal after half a second.
+    assert!(path.end().time() > 0.5, "{}", path.ending());
+    let mut states = path.steps().map(|step| *step.state());
+    // The bars stay parallel: the other branch, on which they cross, begins in the same pose.
+    assert!(states.all(|state| (state.q[2] - state.q[0] - 1.0).abs() < 1e-6), "another branch");
+}
+
+#[test]
+fn what_goes_wrong_is_said() {
+    let (pendulum, start) = (DoublePendulum { c: 0.0 }, State::new([1.0, 0.5], [0.0, 0.3]));
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused =
+            |method: Radau| matches!(pendulum.integrate(start, 1.0, method), Err(Error::Setting { .. }));
+        assert!(refused(Radau::with_tolerance(wrong)) && refused(Radau::default().max_step(wrong)));
+        assert!(
+            refused(Radau::default().first_step(wrong))
+                && refused(Radau::default().absolute_tolerance(wrong))
+        );
+    }
+    let ending = |method| pendulum.motion(start).by(method).towards(10.0).unwrap().ending().clone();
+    assert!(matches!(ending(Radau::default().max_steps(5)), Ending::StepLimit { steps: 5, .. }));
+    assert!(matches!(ending(Radau::default().wall_time(Duration::ZERO)), Ending::WallTimeLimit { .. }));
+    let broken = pendulum.event("broken", |sample| if sample.time() > 0.3 { f64::NAN } else { 1.0 });
+    let path = pendulum.motion(start).by(Radau::default()).event(broken).towards(1.0).unwrap();
+    assert!(matches!(path.ending(), Ending::EventNotFinite { .. }));
+    let stop = |_| ControlFlow::Break(());
+    let path = pendulum.motion(start).by(Radau::default()).on_progress(stop).towards(1.0).unwrap();
+    assert!(matches!(path.ending(), Ending::Cancelled { .. }));
+    // Tolerances at and below round-off come to an end, one way or the other.
+    let path = pendulum.motion(start).by(Radau::with_tolerance(1e-16)).towards(1.0).unwrap();
+    assert!(
+        off(
+            path.end().state(),
+            pendulum
+                .integrate(start, path.end().time(), Dop853::with_tolerance(1e-14))
+                .unwrap()
+                .end()
+                .state()
+        ) < 1e-11
+    );
+}
+
+/// A root that ends, and a stone that falls on a star.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - sqrt(1 - x))]
+struct Cliff;
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(r)]
+#[lagrangian(r_dot^2/2 + 1/r)]
+struct Stone;
+
+#[test]
+fn singular_motions_end_where_they_are_singular() {
+    let path = Cliff.motion(State::new([0.0], [0.5])).by(Radau::default()).towards(10.0).unwrap();
+    assert!(path.ending().is_failure() && path.end().coordinate("x").unwrap() > 0.99, "{}", path.ending());
+    let path = Stone.motion(State::at_rest([1.0])).by(Radau::default()).towards(10.0).unwrap();
+    let fall = FRAC_PI_2 / 2.0_f64.sqrt();
+    assert!(path.ending().is_failure() && (path.end().time() - fall).abs() < 1e-6, "{}", path.ending());
+}
