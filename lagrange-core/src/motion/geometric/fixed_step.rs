@@ -176,19 +176,18 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
         let FixedStepMemory { clock, planned, before, point, carried } = memory;
         clock.aim(end);
         let (h, time) = clock.next(*planned);
-        let start = point.state;
+        *before = point.state;
         if !clock.is_ahead(time) {
-            return Step::Failed(Ending::TimeTooCoarse { time: start.t.to_f64(), step: self.step });
+            return Step::Failed(Ending::TimeTooCoarse { time: before.t.to_f64(), step: self.step });
         }
         let moved = self.advance(system, point, carried, (h, time));
         match moved {
             Ok(evaluations) if is_finite(&point.state) => {
                 statistics.evaluations += evaluations;
                 *planned = clock.tick((h, time), *planned, L::Scalar::constant(self.step));
-                *before = start;
                 Step::Accepted(point.state)
             }
-            _ => Step::Failed(failure(system, (&start, h), moved.map(|_| point.state))),
+            _ => Step::Failed(failure(system, (before, h), moved.map(|_| point.state))),
         }
     }
 

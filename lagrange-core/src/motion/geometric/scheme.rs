@@ -4,7 +4,7 @@ use core::fmt::{self, Debug};
 
 use super::settle::NotSettled;
 use crate::number::{Parts, Scalar};
-use crate::solution::near::compensated;
+use crate::solution::near::exact_sum;
 use crate::system::{Lagrangian, State, StateOf};
 use crate::vector::{Array, Element, Length, Vector, array, vector};
 
@@ -53,14 +53,34 @@ impl<T: Parts, N: Length> Point<T, N> {
         Self { state: *state, rest: [Array::filled(T::constant(0.0)); 2] }
     }
 
+    /// Adds a change to each coordinate in place, from its velocity and its acceleration.
+    #[inline(always)]
+    pub(super) fn move_by(&mut self, accelerations: &Vector<T, N>, change: impl Fn(T, T) -> T) {
+        let Self { state: State { q, v, .. }, rest: [rest, _] } = self;
+        let known = v.as_slice().iter().zip(accelerations.as_slice());
+        for ((x, rest), (v, a)) in q.as_mut_slice().iter_mut().zip(rest.iter_mut()).zip(known) {
+            [*x, *rest] = exact_sum(*x, change(*v, *a) + *rest);
+        }
+    }
+
+    /// Adds a change to each velocity in place, from the accelerations at both ends.
+    #[inline(always)]
+    pub(super) fn push_by(&mut self, ends: [&Vector<T, N>; 2], change: impl Fn(T, T) -> T) {
+        let Self { state: State { v, .. }, rest: [_, rest] } = self;
+        let known = ends[0].as_slice().iter().zip(ends[1].as_slice());
+        for ((x, rest), (a, b)) in v.as_mut_slice().iter_mut().zip(rest.iter_mut()).zip(known) {
+            [*x, *rest] = exact_sum(*x, change(*a, *b) + *rest);
+        }
+    }
+
     /// Adds a change to the coordinates, and returns them with their rounding errors.
     pub(super) fn moved(&self, change: &Array<T, N>) -> [Array<T, N>; 2] {
-        compensated(&array(self.state.q), change, &self.rest[0]).into()
+        summed(&self.state.q, change, &self.rest[0])
     }
 
     /// Adds a change to the velocities, and returns them with their rounding errors.
     pub(super) fn pushed(&self, change: &Array<T, N>) -> [Array<T, N>; 2] {
-        compensated(&array(self.state.v), change, &self.rest[1]).into()
+        summed(&self.state.v, change, &self.rest[1])
     }
 
     /// Sets the point, from coordinates and velocities with their rounding errors.
@@ -68,6 +88,20 @@ impl<T: Parts, N: Length> Point<T, N> {
         self.state = State { t, q: vector(q), v: vector(v) };
         self.rest = [rest_q, rest_v];
     }
+}
+
+/// Compensated sum: x + change + rest, and its rounding error.
+#[inline(always)]
+fn summed<T: Parts, N: Length>(
+    x: &Vector<T, N>,
+    change: &Array<T, N>,
+    rest: &Array<T, N>,
+) -> [Array<T, N>; 2] {
+    let [mut sums, mut errors] = [*change, *rest];
+    for i in 0..N::COUNT {
+        [sums[i], errors[i]] = exact_sum(x[i], change[i] + rest[i]);
+    }
+    [sums, errors]
 }
 
 /// Returns Σₖ `weights`ₖ `terms`ₖ.

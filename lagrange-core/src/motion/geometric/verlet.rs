@@ -97,12 +97,11 @@ where
         let h = to - point.state.t;
         let half = h * L::Scalar::constant(0.5);
         let Some(factor) = forces.factor else {
-            let kick = array(forces.push.each(|a| half * a));
-            let drift = Array::from_fn(|i| h * (point.state.v[i] + kick[i]));
-            let q = point.moved(&drift);
-            *forces = Self::start(system, &State { t: to, q: vector(q[0]), v: point.state.v });
-            let kicks = Array::from_fn(|i| kick[i] + half * forces.push[i]);
-            point.set(to, q, point.pushed(&kicks));
+            let before = forces.push;
+            point.move_by(&before, |v, a| h * (v + half * a));
+            point.state.t = to;
+            forces.push = system.accelerations_unchecked(&point.state).accelerations;
+            point.push_by([&before, &forces.push], |a, b| half * (a + b));
             return Ok(1);
         };
         let (kick, q) = onto_constraints(system, point, (&factor, &forces.push), (h, to))?;
