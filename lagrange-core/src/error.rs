@@ -122,6 +122,15 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// Constraints that do not hold together near a guess.
+    Conflicting {
+        /// The constraints that remain violated where the sum of squared residuals is least.
+        constraints: Names,
+        /// Largest residual there, in units of the gradient of its constraint at the guess: a distance.
+        distance: f64,
+        /// The time of the guess.
+        time: f64,
+    },
     /// Newton's iteration found no state on the constraints near the given one.
     NotProjected {
         /// Constraint farthest from being satisfied.

@@ -79,6 +79,7 @@ pub use steered::Motion;
 #[cfg(feature = "alloc")]
 pub use taylor::{Taylor, TaylorPolynomial};
 
+pub use crate::solution::consistent::assembly::Assembly;
 pub use crate::solution::crossing::Crossing;
 pub use crate::solution::interpolant::{HermiteNode, Interpolant, Polynomial};
 pub use crate::solution::vector_field::{ActiveConstraints, LagrangianVectorField, StagePoint, VectorField};

@@ -11,6 +11,7 @@ use crate::number::Real;
 #[cfg(feature = "alloc")]
 use crate::number::Scalar;
 use crate::solution::Sample;
+use crate::solution::consistent::assembly::Assembly;
 use crate::solution::consistent::{self, Consistent};
 #[cfg(feature = "alloc")]
 use crate::solution::impact::{Impact, impact};
@@ -89,6 +90,41 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     fn make_consistent(&self, state: &StateOf<Self>) -> Result<Consistent<Self::Scalar, Self::N>, Error> {
         check_finite(self, state)?;
         consistent::make_consistent(self, state, &[Array::filled(false); 2])
+    }
+
+    /// Assembles a mechanism from a rough guess: finds consistent coordinates, and velocities along the constraints, near
+    /// the guess. Reports the number of independent constraints, the degrees of freedom and redundant constraints.
+    ///
+    /// From a guess where [`make_consistent`](Self::make_consistent) fails, the coordinates with the least squared
+    /// residuals are sought first (Levenberg and Marquardt). If the constraints do not hold there, those that remain
+    /// violated are named.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// /// Two rods from pivots a distance d apart, and a coupler.
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(p: [2], q: [2])]
+    /// #[lagrangian((dot(p_dot, p_dot) + dot(q_dot, q_dot))/2)]
+    /// #[constraint(left: dot(p, p) = 1)]
+    /// #[constraint(right: (q[0] - d)^2 + q[1]^2 = 1)]
+    /// #[constraint(coupler: dot(q - p, q - p) = 4)]
+    /// struct Linkage { d: f64 }
+    ///
+    /// let guess = State::at_rest([0.0, 0.3, 5.0, 0.1]);
+    /// let assembly = Linkage { d: 3.0 }.assemble(&guess)?;
+    /// assert_eq!((assembly.rank, assembly.degrees_of_freedom), (3, 1));
+    ///
+    /// // The rods and the coupler do not reach from one pivot to the other.
+    /// let error = Linkage { d: 6.0 }.assemble(&guess).unwrap_err();
+    /// assert!(error.to_string().starts_with("the constraints `left`, `right`, `coupler` conflict"), "{error}");
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Conflicting`]; the errors of [`make_consistent`](Self::make_consistent).
+    fn assemble(&self, guess: &StateOf<Self>) -> Result<Assembly<Self::Scalar, Self::N>, Error> {
+        check_finite(self, guess)?;
+        consistent::assembly::assemble(self, guess)
     }
 
     /// Like [`make_consistent`](Self::make_consistent), with some entries held at their given values. They are named as

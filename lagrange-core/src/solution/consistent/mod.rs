@@ -6,6 +6,7 @@
 //! is not. For a state within round-off of the constraints the difference is negligible; from farther away the
 //! [nearest] point is then sought.
 
+pub(crate) mod assembly;
 pub(crate) mod dependence;
 pub(crate) mod gradient;
 pub(crate) mod level;

@@ -79,7 +79,7 @@ pub(crate) fn solve<T: Real, N: Length, M: Length>(
 ) -> Result<Solved<T, N, M>, Fault<T, N>> {
     let factors = Factors::of(&equations.m, &equations.f, rank);
     let solution = factors.solve(&equations.h, &equations.gamma)?;
-    Ok((solution, factors.active()))
+    Ok((solution, factors.rows.independent()))
 }
 
 /// Factorization of the left-hand sides M and F for any number of right-hand sides, in units in which masses
@@ -156,12 +156,6 @@ impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
         })
     }
 
-    /// Returns true for each constraint that belongs to the independent ones.
-    fn active(&self) -> Array<bool, M> {
-        let split = &self.rows.split;
-        from_fn(|a| split.order.iter().take(split.rank).any(|&row| row == a))
-    }
-
     /// Returns the free accelerations from ZᵀMZ y = Zᵀ(h − M x), where x is `fixed`.
     fn free_accelerations(&self, h: &Array<T, N>, fixed: &Array<T, N>) -> Result<Array<T, N>, Fault<T, N>> {
         let zero = T::constant(0.0);
@@ -202,6 +196,12 @@ impl<T: Real, N: Length, M: Length> Rows<T, N, M> {
         let units = Units::of(m, f);
         let rows = from_fn(|a| units.unit_row(a, &f[a]));
         Self { units, split: Qr::of(rows, rank.tolerance) }
+    }
+
+    /// Returns true for each constraint that belongs to a largest independent set.
+    pub(crate) fn independent(&self) -> Array<bool, M> {
+        let Qr { order, rank, .. } = &self.split;
+        from_fn(|a| order.iter().take(*rank).any(|&row| row == a))
     }
 
     /// Returns a basis of the null space F x = 0.
