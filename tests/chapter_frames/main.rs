@@ -1,11 +1,10 @@
-//! Noninertial frames: Milton (8.32)–(8.51), and systems in them with a known motion.
+//! Noninertial frames: Milton (8.32)–(8.51).
 
 mod accelerating;
 mod declared;
 mod functions;
 #[path = "../random/mod.rs"]
 mod random;
-mod references;
 mod rotating;
 
 /// The largest of some deviations; not a number if one of them is not.

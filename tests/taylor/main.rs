@@ -8,7 +8,6 @@ mod events;
 mod functions;
 #[path = "../random/mod.rs"]
 mod random;
-mod references;
 mod short_ranged;
 mod singular;
 mod supplied;

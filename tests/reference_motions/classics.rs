@@ -1,32 +1,9 @@
-//! Textbook systems against closed forms, and against motions recomputed by a Taylor method in 113 and 170 bits.
-
-// What helps tests may panic as they do.
-#![allow(clippy::unwrap_used)]
-
-use std::f64::consts::{FRAC_PI_2, TAU};
+//! Systems of textbooks: pendulums, orbits, pulleys, a bead on a wire, a cylinder that rolls.
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use lagrange_core::{nalgebra::Const, prelude::*};
+use lagrange_core::prelude::*;
 
-/// The states of a motion at given times are these, to `epsilon`.
-fn compare<L, const N: usize>(
-    system: &L,
-    start: State<f64, N>,
-    reference: &[(f64, [f64; N], [f64; N])],
-    epsilon: f64,
-) where
-    L: Lagrangian<N = Const<N>, Scalar = f64>,
-{
-    let end = reference[reference.len() - 1].0;
-    let path = system.integrate(start, end, Dop853::with_tolerance(1e-14)).unwrap();
-    for (t, q, v) in reference {
-        let sample = path.at(*t).unwrap();
-        for i in 0..N {
-            assert_abs_diff_eq!(sample.state().q[i], q[i], epsilon = epsilon);
-            assert_abs_diff_eq!(sample.state().v[i], v[i], epsilon = epsilon);
-        }
-    }
-}
+use crate::reference::{BAR, Known, Problem, table};
 
 /// Two bobs on rods in a plane, the angles from the vertical.
 #[derive(Lagrangian)]
@@ -56,55 +33,24 @@ struct TwoBobs {
 /// A perturbation of the start grows by 143 until t = 10.
 #[test]
 fn double_pendulum_from_the_horizontal() {
-    let reference = [
-        (
-            1.0,
-            [-0.625_087_699_806_390_6, -1.034_585_085_680_012_3],
-            [-3.922_279_572_887_977, -1.303_099_248_696_331],
-        ),
-        (
-            10.0,
-            [-0.568_474_664_015_950_2, -0.526_393_727_932_404_7],
-            [6.078_384_885_761_965, -9.681_360_681_708_88],
-        ),
-    ];
-    compare(&DOUBLE, State::at_rest([FRAC_PI_2, FRAC_PI_2]), &reference, 1e-10);
+    let problem =
+        Problem { name: "double pendulum, angles", system: DOUBLE, known: table!("double_pendulum") };
+    problem.check(&[("Taylor", [1e-13, 1e-14, 0.0]), ("Dop853", [1e-9, 1e-10, 0.0])]);
 }
 
+/// A perturbation of the start grows by 43 until t = 10.
 #[test]
 fn double_pendulum_swinging_mildly() {
-    let reference = [
-        (
-            1.0,
-            [-0.035_279_954_660_697_96, -0.254_824_827_543_254_6],
-            [1.777_825_196_998_367_6, -3.043_351_243_762_965],
-        ),
-        (
-            10.0,
-            [-0.107_542_332_622_360_97, 0.387_937_148_385_276_4],
-            [1.800_047_274_824_571_6, -1.734_236_997_102_352],
-        ),
-    ];
-    compare(&DOUBLE, State::at_rest([0.5, -0.3]), &reference, 1e-11);
+    let known = table!("double_pendulum_mild");
+    let problem = Problem { name: "double pendulum, mild swing", system: DOUBLE, known };
+    problem.check(&[("Taylor", [1e-13, 1e-13, 0.0]), ("Dop853", [1e-10, 1e-10, 0.0]), ("Dopri5", BAR)]);
 }
 
 #[test]
 fn double_pendulum_with_multipliers() {
-    let bobs = TwoBobs { m: [1.0, 1.0], l: [1.0, 1.0], g: 9.81 };
-    let start = State::at_rest([1.0, 0.0, 2.0, 0.0]);
-    let path = bobs.integrate(start, 10.0, Dop853::with_tolerance(1e-14)).unwrap();
-    let end = path.end();
-    let expected = [
-        -0.538_347_239_612_226_4,
-        -0.842_723_115_620_959,
-        -1.040_765_783_246_170_5,
-        -1.707_347_662_469_327_6,
-    ];
-    for (q, expected) in end.state().q.iter().zip(expected) {
-        assert_abs_diff_eq!(*q, expected, epsilon = 1e-10);
-    }
-    assert_abs_diff_eq!(end.multiplier("upper").unwrap(), -91.874_165_954_158_46, epsilon = 1e-8);
-    assert_abs_diff_eq!(end.multiplier("lower").unwrap(), -69.328_602_328_745_26, epsilon = 1e-8);
+    let system = TwoBobs { m: [1.0, 1.0], l: [1.0, 1.0], g: 9.81 };
+    let problem = Problem { name: "double pendulum, x, y of both bobs", system, known: table!("two_bobs") };
+    problem.check(&[("Taylor", [1e-12, 1e-11, 1e-12]), ("Dop853", [1e-11, 1e-11, 1e-11])]);
 }
 
 #[derive(Lagrangian)]
@@ -115,19 +61,8 @@ struct HenonHeiles;
 /// A regular orbit.
 #[test]
 fn henon_heiles() {
-    let reference = [
-        (
-            10.0,
-            [-0.193_267_618_716_460_4, -0.094_652_061_864_295_68],
-            [-0.319_097_902_378_887_5, -0.082_789_545_732_032_39],
-        ),
-        (
-            100.0,
-            [-0.323_724_224_978_209_76, -0.225_657_616_590_660_48],
-            [0.172_222_885_324_254_46, 0.052_345_010_029_249_28],
-        ),
-    ];
-    compare(&HenonHeiles, State::new([0.1, -0.05], [0.35, 0.12]), &reference, 1e-11);
+    let problem = Problem { name: "Hénon and Heiles", system: HenonHeiles, known: table!("henon_heiles") };
+    problem.check(&[("Taylor", [1e-13, 1e-13, 0.0]), ("Dop853", [1e-10, 1e-10, 0.0])]);
 }
 
 #[derive(Lagrangian)]
@@ -140,15 +75,8 @@ struct Kepler {
 /// With the eccentricity 0.6 and the period 2π.
 #[test]
 fn kepler_ellipse() {
-    let reference = [
-        (TAU, [0.4, 0.0], [0.0, 2.0]),
-        (
-            10.0,
-            [-1.535_023_591_909_813_7, -0.283_668_406_499_780_86],
-            [0.227_150_732_077_498_34, -0.479_187_758_203_219_5],
-        ),
-    ];
-    compare(&Kepler { k: 1.0 }, State::new([0.4, 0.0], [0.0, 2.0]), &reference, 1e-11);
+    let problem = Problem { name: "Kepler's ellipse", system: Kepler { k: 1.0 }, known: table!("kepler") };
+    problem.check(&[("Taylor", [1e-12, 1e-12, 0.0]), ("Dop853", [1e-9, 1e-9, 0.0])]);
 }
 
 /// Two weights on a string over a pulley that turns with it; both coordinates count downward.
@@ -217,15 +145,15 @@ struct BeadOnWire {
 /// r = r₀ cosh ωt, and the torque of the drive is 2 m ω r ṙ.
 #[test]
 fn bead_on_a_rotating_wire() {
-    let bead = BeadOnWire { m: 0.3, omega: 1.7 };
-    let path =
-        bead.integrate(State::new([0.2, 0.0], [0.0, 1.7]), 3.0, Dop853::with_tolerance(1e-13)).unwrap();
-    for sample in path.samples(31) {
-        let [cosh, sinh] = [f64::cosh(1.7 * sample.time()), f64::sinh(1.7 * sample.time())];
-        assert_relative_eq!(sample.coordinate("r").unwrap(), 0.2 * cosh, max_relative = 1e-11);
-        let torque = 2.0 * 0.3 * 1.7 * (0.2 * cosh) * (0.2 * 1.7 * sinh);
-        assert_abs_diff_eq!(sample.multiplier("drive").unwrap(), torque, epsilon = 1e-10 * (1.0 + torque));
-    }
+    let (m, omega, start) = (0.3, 1.7, 0.2);
+    let at = |t: f64| {
+        let (r, rate) = (start * (omega * t).cosh(), start * omega * (omega * t).sinh());
+        Known { t, q: [r, omega * t], v: [rate, omega], lambda: Some([2.0 * m * omega * r * rate]) }
+    };
+    let known = (0..=30).map(|k| at(0.1 * f64::from(k))).collect();
+    let problem =
+        Problem { name: "bead on a turning wire, r and angle", system: BeadOnWire { m, omega }, known };
+    problem.check(&[("Taylor", [1e-14, 1e-13, 1e-13]), ("Dop853", [1e-11, 1e-11, 1e-11]), ("Dopri5", BAR)]);
 }
 
 /// A cylinder of radius a inside a fixed one of radius R: θ is the angle of the line of centres, φ that by which the
