@@ -7,7 +7,10 @@
 //! `recompute.py` computes the tables that name it.
 
 mod classics;
+mod fekete;
 mod noninertial;
+mod particles;
+mod rattleback;
 mod reference;
 mod spherical_pendulum;
 mod three_bodies;
