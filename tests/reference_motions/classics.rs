@@ -18,7 +18,7 @@ struct DoublePendulum {
 
 const DOUBLE: DoublePendulum = DoublePendulum { m: [1.0, 1.0], l: [1.0, 1.0], g: 9.81 };
 
-/// The same in Cartesian coordinates. λ is half of the tension over the length: Φ is not halved here.
+/// The bobs in Cartesian coordinates. λ is −½ of the tension over the length: Φ is not halved here.
 #[derive(Lagrangian)]
 #[coordinates(r: [2], s: [2])]
 #[lagrangian(m[0]/2*dot(r_dot, r_dot) + m[1]/2*dot(s_dot, s_dot) - m[0]*g*r[1] - m[1]*g*s[1])]

@@ -1,8 +1,8 @@
 //! Fekete's points: 20 particles on a sphere that repel each other and come to rest.
 //!
-//! The IVP test set (Hairer and Wanner; Mazzia and Magherini) states it as a system of index 2, in positions p, velocities
-//! q and two multipliers for each particle: ṗ = q + Gᵀμ, q̇ = f(p, q) + Gᵀλ, 0 = φ(p), 0 = G q. On the motion μ = 0. So it
-//! is a mechanical system of second order with the friction −½ q: the constraints φ = 0 have the multipliers λ and imply
+//! The IVP test set (Hairer and Wanner; Mazzia and Magherini) states the problem as a system of index 2, in positions p, velocities
+//! q and two multipliers for each particle: ṗ = q + Gᵀμ, q̇ = f(p, q) + Gᵀλ, 0 = φ(p), 0 = G q. On the motion μ = 0. So
+//! this is a mechanical system of second order with the friction −½ q: the constraints φ = 0 have the multipliers λ and imply
 //! G q = 0.
 
 use lagrange_core::prelude::*;

@@ -1,8 +1,8 @@
 //! A rattleback: an ellipsoid whose axes of inertia are turned against those of its shape, rolling on a plane.
 //!
-//! T. R. Kane and D. A. Levinson, *Realistic mathematical modeling of the rattleback*, International Journal of
-//! Non-Linear Mechanics 17 (1982), 175–186, without their friction: the parameters and the start. They show curves, so
-//! the numbers are recomputed from the equations of Newton and Euler.
+//! Parameters and start after T. R. Kane and D. A. Levinson, *Realistic mathematical modeling of the rattleback*,
+//! International Journal of Non-Linear Mechanics 17 (1982), 175–186, without friction. The values are recomputed from the
+//! equations of Newton and Euler, as the paper shows curves only.
 
 use lagrange_core::nalgebra::{Matrix3, Vector3};
 use lagrange_core::prelude::*;
@@ -42,7 +42,7 @@ fn rattleback_slows_down() {
     problem.until(0.5).check(&[("Taylor", [1e-12, 1e-12, 1e-12]), ("Dop853", [1e-10, 1e-10, 1e-10])]);
 }
 
-/// At t = 3 it spins the other way.
+/// The spin has reversed by t = 3.
 #[test]
 fn rattleback_reverses() {
     if are_spans_whole() {

@@ -6,7 +6,7 @@ use lagrange_core::prelude::*;
 
 use crate::reference::{BAR, Known, Problem, table};
 
-/// The constraint is not halved: λ is half of that with ½(r² − l²), and the tension −2λl.
+/// Φ = r² − l² is not halved: λ is half of that for ½(r² − l²), and the tension is −2λl.
 #[derive(Lagrangian)]
 #[coordinates(x, y, z)]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2 + z_dot^2) - m*g*z)]

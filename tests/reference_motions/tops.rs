@@ -33,7 +33,7 @@ struct FreeBody {
     I: [f64; 3],
 }
 
-/// A rigid body by a quaternion, its weight 1 above the point that stands still, about which its inertia is.
+/// A rigid body by a quaternion. Its inertia is about the fixed point, and its centre of mass 1 above that.
 #[derive(Lagrangian)]
 #[coordinates(q: [4])]
 #[frame(body: rotate(q))]
@@ -49,8 +49,7 @@ impl BodyInSpace {
     }
 }
 
-/// The same motion by the quaternion of Euler's angles, about z, x and z. The multiplier of its unit length is not
-/// compared.
+/// Converts Euler's angles, about z, x and z, to a quaternion. The multiplier of its unit length is not known.
 fn by_quaternion(known: Vec<Known<3, 0>>) -> Vec<Known<4, 1>> {
     let each = |Known { t, q: [phi, theta, psi], v: [phi_dot, theta_dot, psi_dot], .. }: Known<3, 0>| {
         let (s, c) = (theta / 2.0).sin_cos();
@@ -70,7 +69,7 @@ fn by_quaternion(known: Vec<Known<3, 0>>) -> Vec<Known<4, 1>> {
     known.into_iter().map(each).collect()
 }
 
-/// Its axis comes to rest once in each nutation, the second time at one of the known times.
+/// The axis comes to rest once in each nutation; the second known time is the end of the first nutation.
 #[test]
 fn heavy_top_with_cusps() {
     let problem = Problem { name: "heavy top with cusps", system: TOP, known: table!("heavy_top_cusp") };
