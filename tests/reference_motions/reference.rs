@@ -122,15 +122,18 @@ where
         );
     }
 
-    /// Runs a method and prints its row. The name contains the setting, a tolerance or a step.
+    /// Runs a method and prints its row. The name contains the setting, a tolerance or a step. A run that does not reach
+    /// the end has infinite errors.
     pub(crate) fn row<P: Method<L>>(&self, method: &'static str, settings: P) -> Row {
-        let row =
-            self.run(method, settings).unwrap_or_else(|error| panic!("{}, {method}: {error}", self.name));
+        let name = self.name;
+        let row = self.run(method, settings).unwrap_or_else(|error| {
+            println!("{name:<46} {method:<13} {error}");
+            Row { method, errors: [f64::INFINITY; 3], steps: 0, milliseconds: 0.0 }
+        });
         let Row { errors: [q, v, lambda], steps, milliseconds, .. } = row;
         let is_known = M > 0 && self.known.iter().all(|known| known.lambda.is_some());
         let lambda = if is_known { format!("{lambda:.0e}") } else { String::new() };
         let reaches = if is_within(row.errors, BAR) { "reaches the bar" } else { "" };
-        let name = self.name;
         println!(
             "{name:<46} {method:<13} {q:>6.0e} {v:>6.0e} {lambda:>6} {steps:>6} steps {milliseconds:>9.2} ms {reaches}"
         );
