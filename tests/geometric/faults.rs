@@ -179,7 +179,7 @@ fn dependent_constraints_are_refused() {
         let path = system.motion(start).by(method).towards(1.0).unwrap();
         match path.ending() {
             Ending::MethodFailed { reason, .. } => {
-                assert!(reason.contains("depend on one another"), "{reason}")
+                assert!(reason.contains("depend on one another"), "{reason}");
             }
             other => panic!("{other}"),
         }

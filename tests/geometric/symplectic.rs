@@ -21,9 +21,9 @@ where
         let at = |by: f64| {
             let mut state = *state;
             if column < N {
-                state.q[column] += by
+                state.q[column] += by;
             } else {
-                state.v[column - N] += by
+                state.v[column - N] += by;
             }
             match row < constraints {
                 true => system.constraint_residual(&state)[row],

@@ -19,11 +19,11 @@ use crate::system::{Direction, SolutionOf, StateOf};
 use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
 
 /// Real eigenvalue of the inverse of the matrix of the method.
-pub(super) const GAMMA: f64 = 3.637_834_252_744_495_7;
+pub(super) const GAMMA: f64 = 3.637_834_252_744_496;
 /// Real part of the complex eigenvalues.
 const ALPHA: f64 = 2.681_082_873_627_752;
 /// Imaginary part of the complex eigenvalues.
-const BETA: f64 = 3.050_430_199_247_410_6;
+const BETA: f64 = 3.050_430_199_247_410_5;
 
 /// Π ∂q̈/∂q Π and Π ∂q̈/∂q̇ Π at a state, row by row.
 pub(super) struct Derivatives<T: Element, N: Length> {

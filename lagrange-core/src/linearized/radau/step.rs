@@ -32,7 +32,7 @@ pub struct RadauMemory<L: Lagrangian<Scalar: Real>> {
     clock: Clock<L::Scalar>,
     /// Length of the next step; zero before the first is estimated.
     planned: L::Scalar,
-    at: Place<L::Scalar, L::N, L::M>,
+    at: PlaceOf<L>,
     derivatives: Option<(Chart<L>, Derivatives<L::Scalar, L::N>)>,
     factorizations: Option<Factorizations<L::Scalar, L::N>>,
     /// True if the derivatives are those of an earlier state.
@@ -42,7 +42,7 @@ pub struct RadauMemory<L: Lagrangian<Scalar: Real>> {
     accepted: Option<(f64, f64)>,
     was_refused: bool,
     /// The last accepted step, and its dense output.
-    taken: Option<(Place<L::Scalar, L::N, L::M>, L::Scalar)>,
+    taken: Option<(PlaceOf<L>, L::Scalar)>,
     coefficients: [PhaseVector<L::Scalar, L::N>; 4],
 }
 
@@ -100,6 +100,8 @@ impl<T: Real, N: Length, M: Length> Place<T, N, M> {
         State { t: self.t, q: vector(self.y.half(0)), v: vector(self.y.half(1)) }
     }
 }
+
+type PlaceOf<L> = Place<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, <L as Lagrangian>::M>;
 
 /// Reason to reject a step.
 enum Refusal {
@@ -345,7 +347,7 @@ impl<L: StateDerivatives<Scalar: Real>> RadauMemory<L> {
     fn accept(
         &mut self,
         method: &Radau,
-        (from, h): (Place<L::Scalar, L::N, L::M>, L::Scalar),
+        (from, h): (PlaceOf<L>, L::Scalar),
         z: &StageChanges<L::Scalar, L::N>,
         (error, iterations): (f64, usize),
     ) {

@@ -41,6 +41,9 @@ pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
     ) -> Result<usize, NotSettled>;
 }
 
+/// Coordinates or velocities, and their rounding errors.
+pub(super) type Compensated<T, N> = [Array<T, N>; 2];
+
 /// A state, and the rounding errors of its coordinates and velocities.
 #[derive(Clone, Copy, Debug)]
 pub struct Point<T: Element, N: Length> {
@@ -74,17 +77,17 @@ impl<T: Parts, N: Length> Point<T, N> {
     }
 
     /// Adds a change to the coordinates, and returns them with their rounding errors.
-    pub(super) fn moved(&self, change: &Array<T, N>) -> [Array<T, N>; 2] {
+    pub(super) fn moved(&self, change: &Array<T, N>) -> Compensated<T, N> {
         summed(&self.state.q, change, &self.rest[0])
     }
 
     /// Adds a change to the velocities, and returns them with their rounding errors.
-    pub(super) fn pushed(&self, change: &Array<T, N>) -> [Array<T, N>; 2] {
+    pub(super) fn pushed(&self, change: &Array<T, N>) -> Compensated<T, N> {
         summed(&self.state.v, change, &self.rest[1])
     }
 
     /// Sets the point, from coordinates and velocities with their rounding errors.
-    pub(super) fn set(&mut self, t: T, [q, rest_q]: [Array<T, N>; 2], [v, rest_v]: [Array<T, N>; 2]) {
+    pub(super) fn set(&mut self, t: T, [q, rest_q]: Compensated<T, N>, [v, rest_v]: Compensated<T, N>) {
         self.state = State { t, q: vector(q), v: vector(v) };
         self.rest = [rest_q, rest_v];
     }
@@ -96,7 +99,7 @@ fn summed<T: Parts, N: Length>(
     x: &Vector<T, N>,
     change: &Array<T, N>,
     rest: &Array<T, N>,
-) -> [Array<T, N>; 2] {
+) -> Compensated<T, N> {
     let [mut sums, mut errors] = [*change, *rest];
     for i in 0..N::COUNT {
         [sums[i], errors[i]] = exact_sum(x[i], change[i] + rest[i]);

@@ -8,7 +8,7 @@ use core::fmt::{self, Debug};
 
 use super::composition::Composition;
 use super::fixed_step::FixedStep;
-use super::scheme::{Point, Scheme, magnitudes, terms_of_positions, terms_of_rates};
+use super::scheme::{Compensated, Point, Scheme, magnitudes, terms_of_positions, terms_of_rates};
 use super::settle::{NotSettled, Residuals};
 use crate::number::{Parts, Scalar};
 use crate::solution::near::compensated;
@@ -104,7 +104,8 @@ where
             point.push_by([&before, &forces.push], |a, b| half * (a + b));
             return Ok(1);
         };
-        let (kick, q) = onto_constraints(system, point, (&factor, &forces.push), (h, to))?;
+        let kick = onto_constraints(system, point, (&factor, &forces.push), (h, to))?;
+        let q = point.moved(&Array::from_fn(|i| h * (point.state.v[i] + kick[i])));
         let state = State { t: to, q: vector(q[0]), v: point.state.v.plus(&kick) };
         *forces = Self::start(system, &state);
         let v = along_constraints(system, point, &kick, forces, (half, &state))?;
@@ -114,21 +115,20 @@ where
 }
 
 /// Returns the change of the velocities over the first half of a step, with the multipliers that lead to coordinates on
-/// the constraints, and these coordinates.
+/// the constraints.
 #[inline]
 fn onto_constraints<L: Lagrangian<Scalar: Parts>>(
     system: &L,
     point: &Point<L::Scalar, L::N>,
     (factor, h_vector): (&L::Factor, &Vector<L::Scalar, L::N>),
     (h, to): (L::Scalar, L::Scalar),
-) -> Result<(Vector<L::Scalar, L::N>, [Array<L::Scalar, L::N>; 2]), NotSettled> {
+) -> Result<Vector<L::Scalar, L::N>, NotSettled> {
     let (half, none) = (h * L::Scalar::constant(0.5), vector(Array::filled(L::Scalar::constant(0.0))));
     let bias = system.constraint_bias(&point.state).each(|x| half * x);
     let mut kick = system.solve_with(factor, &h_vector.each(|x| half * x), &bias).accelerations;
     let mut residuals = Residuals::new();
     loop {
-        let drift = |kick: &Vector<_, _>| Array::from_fn(|i| h * (point.state.v[i] + kick[i]));
-        let q = point.moved(&drift(&kick));
+        let q = point.moved(&Array::from_fn(|i| h * (point.state.v[i] + kick[i])));
         let there = State { t: to, q: vector(q[0]), v: point.state.v };
         let residual = system.constraint_residual(&there);
         let terms = terms_of_positions(system, &there);
@@ -139,7 +139,7 @@ fn onto_constraints<L: Lagrangian<Scalar: Parts>>(
         let correction = system.solve_with(factor, &none, &residual.each(|x| x / h));
         kick = kick.plus(&correction.accelerations);
         if is_last {
-            return Ok((kick, point.moved(&drift(&kick))));
+            return Ok(kick);
         }
     }
 }
@@ -152,7 +152,7 @@ fn along_constraints<L: Lagrangian<Scalar: Parts>>(
     kick: &Vector<L::Scalar, L::N>,
     forces: &Forces<L::Factor, L::Scalar, L::N>,
     (half, state): (L::Scalar, &StateOf<L>),
-) -> Result<[Array<L::Scalar, L::N>; 2], NotSettled> {
+) -> Result<Compensated<L::Scalar, L::N>, NotSettled> {
     let Some(factor) = &forces.factor else { return Err(NotSettled) };
     let push = forces.push.each(|x| half * x);
     let second = system.solve_with(factor, &push, &system.constraint_rate(state));
