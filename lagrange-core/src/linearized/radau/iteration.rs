@@ -3,7 +3,7 @@
 use super::equations::{Derivatives, Factorizations};
 use crate::error::Error;
 use crate::motion::method::control::Tolerance;
-use crate::number::{Real, Scalar, exceeds, larger, smaller};
+use crate::number::{Real, Scalar, larger, smaller};
 use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
 
 /// Times of the stages, in units of the step: (4 − √6)/10, (4 + √6)/10 and 1.
@@ -86,16 +86,16 @@ impl<T: Real, N: Length> StageChanges<T, N> {
             }
             if iteration > 1 {
                 let ratio = size / before;
-                contraction = if iteration == 2 { ratio } else { Scalar::sqrt(ratio * ratio_before) };
+                contraction = if iteration == 2 { ratio } else { power::<T>(ratio * ratio_before, 0.5) };
                 ratio_before = ratio;
                 if contraction >= 0.99 {
                     return Err(NoSolution::TooSlow(0.5));
                 }
                 remaining = contraction / (1.0 - contraction);
                 let left = ITERATIONS - iteration;
-                let at_last = remaining * size * power(contraction, left as f64) / allowed;
+                let at_last = remaining * size * power::<T>(contraction, left as f64) / allowed;
                 if at_last >= 1.0 {
-                    let part = 0.8 * power(at_last.clamp(1e-4, 20.0), -1.0 / (4 + left) as f64);
+                    let part = 0.8 * power::<T>(at_last.clamp(1e-4, 20.0), -1.0 / (4 + left) as f64);
                     return Err(NoSolution::TooSlow(part));
                 }
             }
@@ -114,22 +114,22 @@ impl<T: Real, N: Length> StageChanges<T, N> {
 
 /// Largest ratio of the error of the iteration to the tolerance, for a relative tolerance.
 pub(super) fn allowed<T: Real>(relative: f64) -> f64 {
-    (10.0 * T::EPSILON / relative).max(Scalar::sqrt(relative).min(0.03))
+    (10.0 * T::EPSILON / relative).max(power::<T>(relative, 0.5).min(0.03))
 }
 
 /// Ratio of the next step to this one, from the error in units of the tolerance and the number of iterations.
-pub(super) fn growth(error: f64, iterations: usize) -> f64 {
+pub(super) fn growth<T: Real>(error: f64, iterations: usize) -> f64 {
     let safety = 0.9 * (1 + 2 * ITERATIONS) as f64 / (iterations + 2 * ITERATIONS) as f64;
     let safety = safety.min(0.9);
-    smaller(larger(safety * power(error, -0.25), 0.2), 8.0)
+    smaller(larger(safety * power::<T>(error, -0.25), 0.2), 8.0)
 }
 
-/// x to a power, also without the standard library.
-pub(super) fn power(x: f64, exponent: f64) -> f64 {
-    Scalar::powf(x, exponent)
+/// x to a power, by the functions of the scalar: `f64` has none without the standard library.
+pub(super) fn power<T: Real>(x: f64, exponent: f64) -> f64 {
+    Scalar::powf(T::constant(x), T::constant(exponent)).to_f64()
 }
 
 /// True if an error, in units of the tolerance, rejects a step.
 pub(super) fn is_too_large(error: f64) -> bool {
-    exceeds(error, 1.0)
+    error.is_nan() || error > 1.0
 }

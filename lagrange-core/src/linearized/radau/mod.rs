@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::motion::Limits;
 use crate::motion::method::contract::check_settings;
 use crate::motion::method::control::Tolerance;
-use crate::number::{Real, Scalar};
+use crate::number::Real;
 
 pub use step::RadauMemory;
 
@@ -118,7 +118,7 @@ impl Radau {
     /// as in Hairer and Wanner's program, the tolerance is its power 2/3, times a tenth.
     fn tolerance<T: Real>(&self) -> Tolerance {
         let wanted = self.relative.max(16.0 * T::EPSILON);
-        let relative = 0.1 * Scalar::powf(wanted, 2.0 / 3.0);
+        let relative = 0.1 * iteration::power::<T>(wanted, 2.0 / 3.0);
         Tolerance { relative, absolute: relative * (self.absolute / wanted) }
     }
 }

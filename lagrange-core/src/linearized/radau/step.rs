@@ -197,7 +197,8 @@ impl<L: StateDerivatives<Scalar: Real>> Method<L> for Radau {
         let (part, ending) = match attempt {
             Ok(()) => return Step::Accepted(memory.at.state()),
             Err(Refusal::Inaccurate(error, entry)) => {
-                let part = if memory.accepted.is_none() { 0.1 } else { growth(error, 1).min(0.9) };
+                let part =
+                    if memory.accepted.is_none() { 0.1 } else { growth::<L::Scalar>(error, 1).min(0.9) };
                 (part, Ending::StepTooSmall { time: now, entry })
             }
             Err(Refusal::TooSlow(_)) if memory.are_derivatives_old => {
@@ -354,10 +355,11 @@ impl<L: StateDerivatives<Scalar: Real>> RadauMemory<L> {
         self.coefficients = collocation(&from.y, &self.at.y, &z.0);
         let length = Scalar::abs(h).to_f64();
         let error = error.max(1e-10);
-        let mut ratio = growth(error, iterations);
+        let mut ratio = growth::<L::Scalar>(error, iterations);
         if let Some((length_before, error_before)) = self.accepted {
             // The controller of Gustafsson, from two errors.
-            let predicted = 0.9 * length / length_before * power(error * error / error_before, -0.25);
+            let predicted =
+                0.9 * length / length_before * power::<L::Scalar>(error * error / error_before, -0.25);
             ratio = ratio.min(predicted.clamp(0.2, 8.0));
         }
         if self.was_refused {
