@@ -58,8 +58,8 @@ mod tests;
 pub use builder::{AllSteps, EventList, MotionBuilder, Start};
 pub use event::{AnyEvent, Event, EventFunction, EventValue};
 pub use geometric::{
-    Composition, DAlembert, FixedStep, FixedStepMemory, Gauss, GaussLegendre, LagrangeDAlembert, Lobatto,
-    LobattoPair, Point, Scheme, StageCount, StormerVerlet, Verlet,
+    CompensatedState, Composition, DAlembert, FixedStep, FixedStepMemory, Gauss, GaussLegendre,
+    LagrangeDAlembert, Lobatto, LobattoPair, Scheme, StageCount, StormerVerlet, Verlet,
 };
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;

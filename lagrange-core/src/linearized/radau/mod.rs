@@ -4,6 +4,7 @@ mod chart;
 mod equations;
 mod iteration;
 mod lu;
+mod memory;
 mod step;
 
 use core::fmt;
@@ -14,7 +15,7 @@ use crate::motion::method::contract::check_settings;
 use crate::motion::method::control::Tolerance;
 use crate::number::Real;
 
-pub use step::RadauMemory;
+pub use memory::RadauMemory;
 
 /// The implicit Runge–Kutta method Radau IIA with three stages, of order 5: for stiff systems.
 ///

@@ -12,7 +12,7 @@ use super::{Block, DifferentiableMethod, Variations};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
 use crate::linearized::tangent::WideOf;
-use crate::motion::geometric::{FixedStep, Point, Scheme};
+use crate::motion::geometric::{CompensatedState, FixedStep, Scheme};
 use crate::motion::run::Run;
 use crate::number::{Broadcast, Dual, Parts, Real, Scalar, Wide};
 use crate::solution::interpolant::evaluate;
@@ -59,7 +59,7 @@ where
         for (k, varied) in companion.iter_mut().enumerate() {
             let block = &variations.blocks[k];
             let start = with_slopes(before, &block.y);
-            let mut point = Point::at(&start);
+            let mut point = CompensatedState::at(&start);
             let mut carried = <S as Scheme<PackedDuals<L>>>::start(&varied.system, &start);
             let constant =
                 |x: L::Scalar| Dual { value: WideOf::<L>::of(x), slope: WideOf::<L>::constant(0.0) };

@@ -4,7 +4,7 @@ use core::fmt::{self, Debug};
 
 use super::composition::Composition;
 use super::dense::{Coefficients, cubic, septic};
-use super::scheme::{Point, Scheme};
+use super::scheme::{CompensatedState, Scheme};
 use super::settle::NotSettled;
 use crate::error::{Ending, Error};
 use crate::motion::method::clock::Clock;
@@ -62,7 +62,7 @@ impl<S: Default> FixedStep<S> {
     pub(crate) fn advance<L: Lagrangian<Scalar: Parts>>(
         &self,
         system: &L,
-        point: &mut Point<L::Scalar, L::N>,
+        point: &mut CompensatedState<L::Scalar, L::N>,
         carried: &mut S::Carried,
         (h, to): (L::Scalar, L::Scalar),
     ) -> Result<usize, NotSettled>
@@ -113,7 +113,7 @@ pub struct FixedStepMemory<T: Element, N: Length, C> {
     /// Length of the next step.
     planned: T,
     before: State<T, N>,
-    point: Point<T, N>,
+    point: CompensatedState<T, N>,
     carried: C,
 }
 
@@ -146,7 +146,7 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
             clock: Clock::new(start.t, Some(planned)),
             planned,
             before: *start,
-            point: Point::at(start),
+            point: CompensatedState::at(start),
             carried: S::start(system, start),
         })
     }
@@ -160,7 +160,7 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
     ) -> Result<(), Error> {
         statistics.evaluations += 1;
         memory.clock.set(state.t);
-        (memory.before, memory.point) = (*state, Point::at(state));
+        (memory.before, memory.point) = (*state, CompensatedState::at(state));
         memory.carried = S::start(system, state);
         Ok(())
     }

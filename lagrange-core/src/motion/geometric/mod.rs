@@ -10,12 +10,13 @@ mod fixed_step;
 mod partitioned;
 mod scheme;
 mod settle;
+mod stage_memory;
 mod stages;
 mod tableau;
 mod verlet;
 
 pub use composition::Composition;
 pub use fixed_step::{FixedStep, FixedStepMemory};
-pub use scheme::{Point, Scheme};
+pub use scheme::{CompensatedState, Scheme};
 pub use stages::{DAlembert, Gauss, GaussLegendre, LagrangeDAlembert, Lobatto, LobattoPair, StageCount};
 pub use verlet::{StormerVerlet, Verlet};

@@ -13,8 +13,9 @@
 //! The iteration is that of Newton with the derivatives of M q̇ and Fᵀλ alone, at the start of the step. It contracts by
 //! a factor that is proportional to the step length.
 
-use super::scheme::{Point, combined, magnitudes, terms_of_positions, terms_of_rates};
+use super::scheme::{CompensatedState, combined, magnitudes, terms_of_positions, terms_of_rates};
 use super::settle::{NotSettled, Residuals};
+use super::stage_memory::StageMemory;
 use super::tableau::Tableau;
 use crate::number::{Parts, Scalar};
 use crate::room::Room;
@@ -23,96 +24,11 @@ use crate::solution::near::compensated;
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
 use crate::vector::{Array, Element, Entrywise, Length, Vector, array, from_fn, rows, vector};
 
-/// Data carried from step to step.
-#[derive(Clone, Debug)]
-pub struct Stages<F, T: Element, N: Length, M: Length, const S: usize> {
-    /// Factorization of the equations at the state.
-    factor: F,
-    /// Momenta, and their rounding errors.
-    momenta: [Array<T, N>; 2],
-    /// Velocities and multipliers of the stages of the last step; at the start those of a step of length `length`.
-    velocities: [Array<T, N>; S],
-    multipliers: [Array<T, M>; S],
-    /// Length of that step; zero if there is none, and all stages equal the start.
-    length: T,
-    /// Accelerations at the start, for the first step.
-    accelerations: Array<T, N>,
-}
-
-impl<F: Copy, T: Parts, N: Length, M: Length, const S: usize> Stages<F, T, N, M, S> {
-    /// Evaluates what the first step from a state needs.
-    pub(super) fn start<L>(system: &L, state: &StateOf<L>) -> Self
-    where
-        L: Lagrangian<Scalar = T, N = N, M = M, Factor = F>,
-    {
-        let solution = system.accelerations_unchecked(state);
-        Self {
-            factor: system.factor(state),
-            momenta: [array(system.momentum(state)), Array::filled(T::constant(0.0))],
-            velocities: [array(state.v); S],
-            multipliers: [array(solution.multipliers); S],
-            length: T::constant(0.0),
-            accelerations: array(solution.accelerations),
-        }
-    }
-
-    /// Initial guess for the stages of a step of length `h`: the polynomials through the stages of the last step, or the
-    /// accelerations at the start.
-    fn guess(&mut self, nodes: &[f64; S], h: T) {
-        let zero = T::constant(0.0);
-        if self.length == zero {
-            let grown = |c: f64, v: &Array<T, N>| {
-                Array::from_fn(|i| v[i] + T::constant(c) * h * self.accelerations[i])
-            };
-            self.velocities = from_fn(|i| grown(nodes[i], &self.velocities[i]));
-        } else {
-            let ratio = h / self.length;
-            let at: [T; S] = from_fn(|i| T::constant(1.0) + T::constant(nodes[i]) * ratio);
-            let weights: [[T; S]; S] = from_fn(|i| lagrange(nodes, at[i]));
-            let (velocities, multipliers) = (self.velocities, self.multipliers);
-            self.velocities = from_fn(|i| interpolated(&weights[i], &velocities));
-            self.multipliers = match S {
-                2 => multipliers,
-                _ => from_fn(|i| interpolated(&without_last(nodes, at[i]), &multipliers)),
-            };
-        }
-        self.length = h;
-    }
-}
-
-/// Values at `x` of Lagrange's polynomials on the nodes.
-fn lagrange<T: Scalar, const S: usize>(nodes: &[f64; S], x: T) -> [T; S] {
-    from_fn(|j| {
-        let others = (0..S).filter(|&k| k != j);
-        others.fold(T::constant(1.0), |product, k| {
-            product * (x - T::constant(nodes[k])) * T::constant(1.0 / (nodes[j] - nodes[k]))
-        })
-    })
-}
-
-/// The same on all nodes but the last, at which there is no multiplier.
-fn without_last<T: Scalar, const S: usize>(nodes: &[f64; S], x: T) -> [T; S] {
-    from_fn(|j| {
-        let others = (0..S - 1).filter(|&k| k != j);
-        let one = T::constant(if j + 1 < S { 1.0 } else { 0.0 });
-        others.fold(one, |product, k| {
-            product * (x - T::constant(nodes[k])) * T::constant(1.0 / (nodes[j] - nodes[k]))
-        })
-    })
-}
-
-fn interpolated<T: Scalar, K: Length, const S: usize>(
-    weights: &[T; S],
-    values: &[Array<T, K>; S],
-) -> Array<T, K> {
-    Array::from_fn(|i| (0..S).fold(T::constant(0.0), |sum, j| weights[j].multiply_add(values[j][i], sum)))
-}
-
 /// A step in progress.
 struct PartitionedStep<'a, L: Lagrangian, const S: usize> {
     system: &'a L,
     tableau: &'static Tableau<S>,
-    from: &'a Point<L::Scalar, L::N>,
+    from: &'a CompensatedState<L::Scalar, L::N>,
     momenta: [Array<L::Scalar, L::N>; 2],
     h: L::Scalar,
     to: L::Scalar,
@@ -132,8 +48,8 @@ struct StageResiduals<T: Element, N: Length, M: Length, const S: usize> {
 pub(super) fn advance<L: Lagrangian<Scalar: Parts>, const S: usize>(
     tableau: &'static Tableau<S>,
     system: &L,
-    point: &mut Point<L::Scalar, L::N>,
-    stages: &mut Stages<L::Factor, L::Scalar, L::N, L::M, S>,
+    point: &mut CompensatedState<L::Scalar, L::N>,
+    stages: &mut StageMemory<L::Factor, L::Scalar, L::N, L::M, S>,
     to: L::Scalar,
 ) -> Result<usize, NotSettled> {
     let h = to - point.state.t;
@@ -153,7 +69,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
     /// Iterates until the stages satisfy their equations. Returns the forces of the stages, and the number of sweeps.
     fn solve(
         &self,
-        stages: &mut Stages<L::Factor, L::Scalar, L::N, L::M, S>,
+        stages: &mut StageMemory<L::Factor, L::Scalar, L::N, L::M, S>,
     ) -> Result<(StageForces<L::Scalar, L::N, S>, usize), NotSettled> {
         let matrices = (<L::M>::COUNT > 0).then(|| self.matrices(&stages.velocities));
         let (mut of_momenta, mut of_constraints) = (Residuals::new(), Residuals::new());
@@ -297,7 +213,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
     /// Corrects the stages without constraints: M δVᵢ = −Gᵢ.
     fn correct(
         &self,
-        stages: &mut Stages<L::Factor, L::Scalar, L::N, L::M, S>,
+        stages: &mut StageMemory<L::Factor, L::Scalar, L::N, L::M, S>,
         residuals: &StageResiduals<L::Scalar, L::N, L::M, S>,
     ) {
         let none = vector(Array::filled(L::Scalar::constant(0.0)));
@@ -328,7 +244,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
     /// Returns δΛ. With x = −M⁻¹G, the multipliers νᵢ = Σⱼ aᵢⱼ μⱼ = h Σₖ (a â)ᵢₖ δΛₖ satisfy F M⁻¹Fᵀ νᵢ = −Φᵢ/h − F Σⱼ aᵢⱼ xⱼ.
     fn correct_on_constraints(
         &self,
-        stages: &mut Stages<L::Factor, L::Scalar, L::N, L::M, S>,
+        stages: &mut StageMemory<L::Factor, L::Scalar, L::N, L::M, S>,
         residuals: &StageResiduals<L::Scalar, L::N, L::M, S>,
         matrices: &LoopFactor<L::Scalar, L::N, L::M>,
     ) -> [Array<L::Scalar, L::M>; S] {
@@ -366,7 +282,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
     /// velocities. Keeps the momenta.
     fn arrive(
         &self,
-        stages: &mut Stages<L::Factor, L::Scalar, L::N, L::M, S>,
+        stages: &mut StageMemory<L::Factor, L::Scalar, L::N, L::M, S>,
         q: &Array<L::Scalar, L::N>,
         push: &Array<L::Scalar, L::N>,
     ) -> Result<Array<L::Scalar, L::N>, NotSettled> {

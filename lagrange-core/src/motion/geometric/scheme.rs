@@ -35,7 +35,7 @@ pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
     /// If an iteration does not converge.
     fn advance(
         system: &L,
-        point: &mut Point<L::Scalar, L::N>,
+        point: &mut CompensatedState<L::Scalar, L::N>,
         carried: &mut Self::Carried,
         to: L::Scalar,
     ) -> Result<usize, NotSettled>;
@@ -46,12 +46,12 @@ pub(super) type Compensated<T, N> = [Array<T, N>; 2];
 
 /// A state, and the rounding errors of its coordinates and velocities.
 #[derive(Clone, Copy, Debug)]
-pub struct Point<T: Element, N: Length> {
+pub struct CompensatedState<T: Element, N: Length> {
     pub(crate) state: State<T, N>,
     rest: [Array<T, N>; 2],
 }
 
-impl<T: Parts, N: Length> Point<T, N> {
+impl<T: Parts, N: Length> CompensatedState<T, N> {
     pub(crate) fn at(state: &State<T, N>) -> Self {
         Self { state: *state, rest: [Array::filled(T::constant(0.0)); 2] }
     }

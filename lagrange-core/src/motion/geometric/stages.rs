@@ -4,9 +4,10 @@ use core::fmt;
 
 use super::composition::Composition;
 use super::fixed_step::FixedStep;
-use super::partitioned::{Stages, advance};
-use super::scheme::{Point, Scheme};
+use super::partitioned::advance;
+use super::scheme::{CompensatedState, Scheme};
 use super::settle::NotSettled;
+use super::stage_memory::StageMemory;
 use super::tableau::{GAUSS_1, GAUSS_2, GAUSS_3, GAUSS_4, LOBATTO_2, LOBATTO_3, LOBATTO_4, Tableau};
 #[cfg(doc)]
 use super::verlet::Verlet;
@@ -150,7 +151,7 @@ macro_rules! schemes {
         where
             L: Lagrangian<Scalar: Parts, Factor: Send + Sync> $($bound)*
         {
-            type Carried = Stages<L::Factor, L::Scalar, L::N, L::M, { $stages }>;
+            type Carried = StageMemory<L::Factor, L::Scalar, L::N, L::M, { $stages }>;
 
             const ORDER: usize = $order;
 
@@ -159,12 +160,12 @@ macro_rules! schemes {
             }
 
             fn start(system: &L, state: &StateOf<L>) -> Self::Carried {
-                Stages::start(system, state)
+                StageMemory::start(system, state)
             }
 
             fn advance(
                 system: &L,
-                point: &mut Point<L::Scalar, L::N>,
+                point: &mut CompensatedState<L::Scalar, L::N>,
                 carried: &mut Self::Carried,
                 to: L::Scalar,
             ) -> Result<usize, NotSettled> {

@@ -8,7 +8,7 @@ use core::fmt::{self, Debug};
 
 use super::composition::Composition;
 use super::fixed_step::FixedStep;
-use super::scheme::{Compensated, Point, Scheme, magnitudes, terms_of_positions, terms_of_rates};
+use super::scheme::{Compensated, CompensatedState, Scheme, magnitudes, terms_of_positions, terms_of_rates};
 use super::settle::{NotSettled, Residuals};
 use crate::number::{Parts, Scalar};
 use crate::solution::near::compensated;
@@ -90,7 +90,7 @@ where
     #[inline]
     fn advance(
         system: &L,
-        point: &mut Point<L::Scalar, L::N>,
+        point: &mut CompensatedState<L::Scalar, L::N>,
         forces: &mut Self::Carried,
         to: L::Scalar,
     ) -> Result<usize, NotSettled> {
@@ -119,7 +119,7 @@ where
 #[inline]
 fn onto_constraints<L: Lagrangian<Scalar: Parts>>(
     system: &L,
-    point: &Point<L::Scalar, L::N>,
+    point: &CompensatedState<L::Scalar, L::N>,
     (factor, h_vector): (&L::Factor, &Vector<L::Scalar, L::N>),
     (h, to): (L::Scalar, L::Scalar),
 ) -> Result<Vector<L::Scalar, L::N>, NotSettled> {
@@ -148,7 +148,7 @@ fn onto_constraints<L: Lagrangian<Scalar: Parts>>(
 #[inline]
 fn along_constraints<L: Lagrangian<Scalar: Parts>>(
     system: &L,
-    point: &Point<L::Scalar, L::N>,
+    point: &CompensatedState<L::Scalar, L::N>,
     kick: &Vector<L::Scalar, L::N>,
     forces: &Forces<L::Factor, L::Scalar, L::N>,
     (half, state): (L::Scalar, &StateOf<L>),

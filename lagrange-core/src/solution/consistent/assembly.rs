@@ -77,14 +77,14 @@ pub(crate) fn assemble<L: Lagrangian<Scalar: Real>>(
     Ok(Assembly { state, adjustment, rank, degrees_of_freedom: <L::N>::COUNT - rank, redundant })
 }
 
-/// Residuals of the holonomic constraints in units of their gradients at the guess, with the Jacobian in these units.
-struct Residuals<T: Element, N: Length, M: Length> {
+/// LinearResiduals of the holonomic constraints in units of their gradients at the guess, with the Jacobian in these units.
+struct LinearResiduals<T: Element, N: Length, M: Length> {
     value: Array<T, M>,
     jacobian: Array<Array<T, N>, M>,
     square: T,
 }
 
-impl<T: Real, N: Length, M: Length> Residuals<T, N, M> {
+impl<T: Real, N: Length, M: Length> LinearResiduals<T, N, M> {
     fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(
         system: &L,
         state: &StateOf<L>,
@@ -153,7 +153,7 @@ fn minimum<L: Lagrangian<Scalar: Real>>(
         if length > L::Scalar::constant(0.0) { length } else { one }
     });
     let mut damping = L::Scalar::constant(1e-3);
-    let mut residuals = Residuals::at(system, &state, &units);
+    let mut residuals = LinearResiduals::at(system, &state, &units);
     for _ in 0..STEPS {
         let (slope, square) = residuals.normal_equations();
         // At a minimum the residuals are orthogonal to every column of the Jacobian.
@@ -173,7 +173,7 @@ fn minimum<L: Lagrangian<Scalar: Real>>(
         let step = eliminate::<_, L::N, Const<0>>(damped, slope.map(|x| -x), [].into(), [].into());
         let mut next = state;
         (0..<L::N>::COUNT).for_each(|i| next.q[i] += step.accelerations[i]);
-        let there = Residuals::at(system, &next, &units);
+        let there = LinearResiduals::at(system, &next, &units);
         let is_nearer = is_trustworthy(&step) && there.square < residuals.square;
         damping *= L::Scalar::constant(DAMPING[usize::from(!is_nearer)]);
         if is_nearer {
