@@ -1,0 +1,192 @@
+//! A02 of the IFToMM benchmark: N windows of four bars side by side, in the coordinates of their corners. Each time all bars are level
+//! the constraints depend on one another, and each coupler could go another way.
+//!
+//! From the upright pose all bars stay parallel: θ̈ = k sin θ with k = (g/l) 3(3N + 1)/2(4N + 1), which Jacobi's functions solve.
+//! Table values were recomputed with 26 digits.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use lagrange_core::nalgebra::Const;
+use lagrange_core::{TaylorSeries, prelude::*};
+
+use crate::reference::{Errors, Moment, Problem, Row, Scale, assert_relative, is_long};
+
+const G: f64 = 9.81;
+
+/// Bars of length and mass 1. Verticals stand on (i, 0), couplers lie between their upper ends B_i. A uniform bar between P and Q
+/// has T = (Ṗ² + ṖQ̇ + Q̇²)/6.
+macro_rules! windows {
+    ($name:ident, $n:literal, $corners:literal) => {
+        #[derive(Lagrangian)]
+        #[coordinates(b: [$corners, 2])]
+        #[lagrangian(sum(i in 0..$corners, dot(b_dot[i], b_dot[i])/6 - g*b[i][1]/2)
+                            + sum(i in 0..$n, (dot(b_dot[i], b_dot[i]) + dot(b_dot[i], b_dot[i+1]) + dot(b_dot[i+1], b_dot[i+1]))/6
+                                - g*(b[i][1] + b[i+1][1])/2))]
+        #[constraint(vertical[i in 0..$corners]: (b[i][0] - i)^2 + b[i][1]^2 - 1 = 0)]
+        #[constraint(coupler[i in 0..$n]: dot(b[i+1] - b[i], b[i+1] - b[i]) - 1 = 0)]
+        struct $name {
+            g: f64,
+        }
+    };
+}
+windows!(OneWindow, 1, 2);
+windows!(TwoWindows, 2, 3);
+windows!(FortyWindows, 40, 41);
+
+/// The angle of the bars from the upright, its rate and its acceleration.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    angle: f64,
+    rate: f64,
+    acceleration: f64,
+}
+
+fn stiffness(n: usize) -> f64 {
+    let n = n as f64;
+    G * 3.0 * (3.0 * n + 1.0) / (2.0 * (4.0 * n + 1.0))
+}
+
+/// Jacobi's amplitude am(u | m) and the quarter period K(m), by the arithmetic-geometric mean (Abramowitz and Stegun 16.4, 17.6).
+fn amplitude(u: f64, m: f64) -> (f64, f64) {
+    let mut means = vec![(1.0, m.sqrt())];
+    let mut b = (1.0 - m).sqrt();
+    while let Some(&(a, c)) = means.last()
+        && c > 1e-16 * a
+    {
+        means.push(((a + b) / 2.0, (a - b) / 2.0));
+        b = (a * b).sqrt();
+    }
+    let (last, count) = (means[means.len() - 1].0, means.len() as i32 - 1);
+    let begin = 2.0_f64.powi(count) * last * u;
+    let phase = means[1..].iter().rev().fold(begin, |phase, (a, c)| f64::midpoint(phase, (c / a * phase.sin()).asin()));
+    (phase, FRAC_PI_2 / last)
+}
+
+/// The motion of n windows from the upright with θ̇ = 1. With χ = (θ − π)/2, χ̇² = ¼(1 + 4k)(1 − m sin² χ) for m = 4k/(1 + 4k).
+fn turn(n: usize, t: f64) -> Turn {
+    let k = stiffness(n);
+    let rate = (1.0 + 4.0 * k).sqrt() / 2.0;
+    let m = 4.0 * k / (1.0 + 4.0 * k);
+    let (_, quarter) = amplitude(0.0, m);
+    let (chi, _) = amplitude(rate * t - quarter, m);
+    let angle = PI + 2.0 * chi;
+    Turn { angle, rate: 2.0 * rate * (1.0 - m * chi.sin().powi(2)).sqrt(), acceleration: k * angle.sin() }
+}
+
+fn period(n: usize) -> f64 {
+    let k = stiffness(n);
+    let (_, quarter) = amplitude(0.0, 4.0 * k / (1.0 + 4.0 * k));
+    4.0 * quarter / (1.0 + 4.0 * k).sqrt()
+}
+
+/// Coordinates, velocities and multipliers at a time. The multipliers follow from the balance of each corner, first along y, then
+/// along x from one corner to the next; where the bars are level, those of more than one window are infinite.
+fn moment<const N: usize, const M: usize>(n: usize, t: f64) -> Moment<N, M> {
+    let Turn { angle, rate, acceleration } = turn(n, t);
+    let (s, c) = angle.sin_cos();
+    let (mut q, mut v, mut lambda) = ([0.0; N], [0.0; N], [0.0; M]);
+    let [ax, ay] = [acceleration * c - rate * rate * s, -acceleration * s - rate * rate * c];
+    let mut push = 0.0;
+    for i in 0..=n {
+        (q[2 * i], q[2 * i + 1]) = (i as f64 + s, c);
+        (v[2 * i], v[2 * i + 1]) = (rate * c, -rate * s);
+        let couplers = if i == 0 || i == n { 1.0 } else { 2.0 };
+        let mass = 1.0 / 3.0 + couplers / 2.0;
+        lambda[i] = (mass * ay + G / 2.0 * (1.0 + couplers)) / (2.0 * c);
+        push += lambda[i] * s - mass * ax / 2.0;
+        if i < n {
+            lambda[n + 1 + i] = push;
+        }
+    }
+    // Nothing pushes the last corner from beyond.
+    assert!(push.abs() < 1e-9 * (1.0 + lambda[0].abs() * n as f64), "{n} windows at {t}: {push}");
+    Moment { t, q, v, lambda: Some(lambda) }
+}
+
+fn upright<const N: usize>() -> State<f64, N> {
+    let q = std::array::from_fn(|k| if k % 2 == 0 { (k / 2) as f64 } else { 1.0 });
+    State::new(q, std::array::from_fn(|k| if k % 2 == 0 { 1.0 } else { 0.0 }))
+}
+
+/// B₀ and its velocity, recomputed with 26 digits.
+type Table = [(f64, [f64; 2], [f64; 2]); 7];
+
+const ONE: Table = [
+    (0.5, [0.701_512_678_910_476_9, 0.712_656_973_113_886_1], [1.985_898_190_114_29, -1.954_843_370_581_758_7]),
+    (1.0, [-0.260_712_675_183_650_4, -0.965_416_439_159_073_2], [-6.637_809_496_121_751_5, 1.792_553_970_388_930_6]),
+    (2.0, [0.077_085_471_792_867_08, 0.997_024_488_183_951_8], [1.031_356_872_689_423, -0.079_739_898_127_168]),
+    (4.0, [0.158_955_504_257_117_77, 0.987_285_747_727_761_7], [1.125_395_047_766_197, -0.181_191_451_125_319_23]),
+    (5.0, [-0.944_908_186_042_953_9, -0.327_335_485_318_983_5], [-1.858_930_891_262_724_5, 5.366_112_429_670_042]),
+    (10.0, [0.478_385_057_760_970_57, 0.878_150_178_791_209_3], [1.727_264_075_547_153_6, -0.940_952_179_371_515_7]),
+    (20.0, [0.959_099_959_630_668, -0.283_067_602_237_435_6], [-1.581_346_047_362_513_4, -5.357_974_272_574_397]),
+];
+
+const TWO: Table = [
+    (0.5, [0.695_286_633_164_400_5, 0.718_732_563_435_741_7], [1.960_205_425_371_833_3, -1.896_261_140_586_576_6]),
+    (1.0, [-0.195_020_301_949_435_1, -0.980_799_205_662_173_8], [-6.676_678_036_881_158_5, 1.327_578_325_160_487_1]),
+    (2.0, [0.057_815_795_768_011_43, 0.998_327_267_863_455_5], [1.017_260_136_620_436_6, -0.058_912_248_713_445_65]),
+    (4.0, [0.117_616_102_376_808_61, 0.993_059_138_451_325_1], [1.069_039_265_028_968_6, -0.126_615_049_166_720_28]),
+    (5.0, [-0.811_310_461_005_107_4, -0.584_615_545_348_975_5], [-3.569_117_397_193_209_3, 4.953_105_171_313_327]),
+    (10.0, [0.328_458_111_540_815_4, 0.944_518_538_178_601], [1.423_051_470_206_944_1, -0.494_868_845_487_042_96]),
+    (20.0, [0.839_746_574_306_843_5, 0.542_978_536_352_884_6], [1.838_222_644_196_742_6, -2.842_913_789_274_097]),
+];
+
+#[test]
+fn the_closed_form_is_the_table() {
+    for (n, table, time) in [(1, ONE, 1.923_711_817_338_965_8), (2, TWO, 1.942_514_922_607_083_7)] {
+        assert_relative("time of one turn", period(n), time, 1e-14);
+        for (t, place, velocity) in table {
+            let Turn { angle, rate, .. } = turn(n, t);
+            let (s, c) = angle.sin_cos();
+            let found = [s, c, rate * c, -rate * s];
+            for (found, expected) in found.into_iter().zip(place.into_iter().chain(velocity)) {
+                assert!((found - expected).abs() < 2e-13, "{n} at {t}: {found} in place of {expected}");
+            }
+        }
+    }
+}
+
+fn windows<L, const N: usize, const M: usize>(
+    (name, system, n): (&'static str, L, usize),
+    end: f64,
+) -> Problem<L, N, M>
+where
+    L: Lagrangian<N = Const<N>, M = Const<M>, Scalar = f64>,
+{
+    let times = [0.5, 1.0, 2.0, 4.0, 5.0, 10.0, 20.0].into_iter().filter(|t| *t <= end);
+    Problem {
+        name,
+        system,
+        start: upright(),
+        moments: times.map(|t| moment(n, t)).collect(),
+        scale: Scale::Moments,
+        bar: Errors { q: 1e-6, v: 1e-6, lambda: Some(1e-6) },
+    }
+}
+
+#[test]
+fn explore() {
+    for tol in [f64::EPSILON, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7] {
+        let _ = windows::<_, 4, 3>(("one window", OneWindow { g: G }, 1), 10.0)
+            .run(&format!("Taylor {tol:e}"), Taylor::with_tolerance(tol));
+        let _ = windows::<_, 6, 5>(("two windows", TwoWindows { g: G }, 2), 10.0)
+            .run(&format!("Taylor {tol:e}"), Taylor::with_tolerance(tol));
+        let _ = windows::<_, 4, 3>(("one window", OneWindow { g: G }, 1), 10.0)
+            .run(&format!("Dop853 {tol:e}"), Dop853::with_tolerance(tol));
+        let _ = windows::<_, 6, 5>(("two windows", TwoWindows { g: G }, 2), 10.0)
+            .run(&format!("Dop853 {tol:e}"), Dop853::with_tolerance(tol));
+    }
+}
+
+#[test]
+fn explore40() {
+    let thread = std::thread::Builder::new().stack_size(256 << 20);
+    thread.spawn(|| {
+        for tol in [f64::EPSILON, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6] {
+            let _ = windows::<_, 82, 81>(("forty windows", FortyWindows { g: G }, 40), 10.0)
+                .run(&format!("Taylor {tol:e}"), Taylor::with_tolerance(tol));
+            let _ = windows::<_, 82, 81>(("forty windows", FortyWindows { g: G }, 40), 10.0)
+                .run(&format!("Dop853 {tol:e}"), Dop853::with_tolerance(tol).max_steps(20000));
+        }
+    }).unwrap().join().unwrap();
+}
