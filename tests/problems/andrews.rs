@@ -211,10 +211,11 @@ fn the_published_values_have_fewer_digits_than_are_printed() {
         ]),
         ..END
     };
-    let Errors { q, v, lambda } = Problem { name: "the same, published", moments: vec![published], ..squeezer() }
-        .run("Taylor 2⁻⁵²", Taylor::default())
-        .outcome
-        .unwrap();
+    let Errors { q, v, lambda } =
+        Problem { name: "the same, published", moments: vec![published], ..squeezer() }
+            .run("Taylor 2⁻⁵²", Taylor::default())
+            .outcome
+            .unwrap();
     for (error, least, most) in [(q, 1e-11, 1e-9), (v, 1e-11, 1e-7), (lambda.unwrap(), 1e-8, 1e-5)] {
         assert!(least < error && error < most, "{error:e}");
     }
@@ -229,7 +230,8 @@ fn the_squeezer_keeps_its_energy_and_symmetry() {
         path.samples(501).map(|sample| quantity(sample.state()).abs()).fold(0.0, f64::max)
     };
     let energy = largest(|state| SQUEEZER.energy(state) - ENERGY);
-    let [angles, rates] = [largest(|state| state.q[5] + state.q[3]), largest(|state| state.v[5] + state.v[3])];
+    let [angles, rates] =
+        [largest(|state| state.q[5] + state.q[3]), largest(|state| state.v[5] + state.v[3])];
     println!("energy {energy:e}, ω + φ {angles:e}, its rate {rates:e}");
     assert!(energy < 1e-12 && angles < 1e-12 && rates < 1e-9, "{energy:e} {angles:e} {rates:e}");
 }

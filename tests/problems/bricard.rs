@@ -81,7 +81,8 @@ fn pose(bricard: &Bricard, tau: f64) -> Pose {
         let (next, next_velocity): (Vector3<f64>, Vector3<f64>) = (place + bar, velocity + spin.cross(&bar));
         kinetic +=
             (velocity.norm_squared() + velocity.dot(&next_velocity) + next_velocity.norm_squared()) / 6.0;
-        kinetic += (thick_along * spin.dot(&bar).powi(2) + thick_across * spin.cross(&bar).norm_squared()) / 2.0;
+        kinetic +=
+            (thick_along * spin.dot(&bar).powi(2) + thick_across * spin.cross(&bar).norm_squared()) / 2.0;
         potential += bricard.g * (place[1] + next[1]) / 2.0;
         (place, velocity) = (next, next_velocity);
     }
@@ -139,11 +140,11 @@ fn problem(name: &'static str, system: Bricard, swings: usize) -> Problem<Bricar
 fn the_mechanism_reaches_the_branch() {
     for (name, system) in [("A04 Bricard, thin", THIN), ("A04 Bricard, square", SQUARE)] {
         let problem = problem(name, system, if is_long() { 6 } else { 2 });
-        let _ = problem.run("Taylor 2⁻⁵²", Taylor::default());
-        let _ = problem.run("Dop853 1e-12", Dop853::with_tolerance(1e-12));
+        problem.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
+        problem.run("Dop853 1e-12", Dop853::with_tolerance(1e-12)).reaches_bar();
         if is_long() {
-            let _ = problem.run("Dopri5 1e-10", Dopri5::with_tolerance(1e-10));
-            let _ = problem.run("RungeKutta4 1e-3 s", RungeKutta4::with_step(1e-3));
+            problem.run("Dopri5 1e-10", Dopri5::with_tolerance(1e-10)).reaches_bar();
+            problem.run("RungeKutta4 1e-3 s", RungeKutta4::with_step(1e-3)).reaches_bar();
         }
     }
 }

@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{TaylorSeries, prelude::*};
 
-use crate::reference::{Errors, Moment, Problem, Row, Scale, assert_relative, is_long};
+use crate::reference::{Errors, Moment, Problem, Scale, assert_relative, is_long};
 
 const G: f64 = 9.81;
 
@@ -58,7 +58,10 @@ fn amplitude(u: f64, m: f64) -> (f64, f64) {
     }
     let (last, count) = (means[means.len() - 1].0, means.len() as i32 - 1);
     let begin = 2.0_f64.powi(count) * last * u;
-    let phase = means[1..].iter().rev().fold(begin, |phase, (a, c)| f64::midpoint(phase, (c / a * phase.sin()).asin()));
+    let phase = means[1..]
+        .iter()
+        .rev()
+        .fold(begin, |phase, (a, c)| f64::midpoint(phase, (c / a * phase.sin()).asin()));
     (phase, FRAC_PI_2 / last)
 }
 
@@ -112,23 +115,79 @@ fn upright<const N: usize>() -> State<f64, N> {
 type Table = [(f64, [f64; 2], [f64; 2]); 7];
 
 const ONE: Table = [
-    (0.5, [0.701_512_678_910_476_9, 0.712_656_973_113_886_1], [1.985_898_190_114_29, -1.954_843_370_581_758_7]),
-    (1.0, [-0.260_712_675_183_650_4, -0.965_416_439_159_073_2], [-6.637_809_496_121_751_5, 1.792_553_970_388_930_6]),
-    (2.0, [0.077_085_471_792_867_08, 0.997_024_488_183_951_8], [1.031_356_872_689_423, -0.079_739_898_127_168]),
-    (4.0, [0.158_955_504_257_117_77, 0.987_285_747_727_761_7], [1.125_395_047_766_197, -0.181_191_451_125_319_23]),
-    (5.0, [-0.944_908_186_042_953_9, -0.327_335_485_318_983_5], [-1.858_930_891_262_724_5, 5.366_112_429_670_042]),
-    (10.0, [0.478_385_057_760_970_57, 0.878_150_178_791_209_3], [1.727_264_075_547_153_6, -0.940_952_179_371_515_7]),
-    (20.0, [0.959_099_959_630_668, -0.283_067_602_237_435_6], [-1.581_346_047_362_513_4, -5.357_974_272_574_397]),
+    (
+        0.5,
+        [0.701_512_678_910_476_9, 0.712_656_973_113_886_1],
+        [1.985_898_190_114_29, -1.954_843_370_581_758_7],
+    ),
+    (
+        1.0,
+        [-0.260_712_675_183_650_4, -0.965_416_439_159_073_2],
+        [-6.637_809_496_121_751_5, 1.792_553_970_388_930_6],
+    ),
+    (
+        2.0,
+        [0.077_085_471_792_867_08, 0.997_024_488_183_951_8],
+        [1.031_356_872_689_423, -0.079_739_898_127_168],
+    ),
+    (
+        4.0,
+        [0.158_955_504_257_117_77, 0.987_285_747_727_761_7],
+        [1.125_395_047_766_197, -0.181_191_451_125_319_23],
+    ),
+    (
+        5.0,
+        [-0.944_908_186_042_953_9, -0.327_335_485_318_983_5],
+        [-1.858_930_891_262_724_5, 5.366_112_429_670_042],
+    ),
+    (
+        10.0,
+        [0.478_385_057_760_970_57, 0.878_150_178_791_209_3],
+        [1.727_264_075_547_153_6, -0.940_952_179_371_515_7],
+    ),
+    (
+        20.0,
+        [0.959_099_959_630_668, -0.283_067_602_237_435_6],
+        [-1.581_346_047_362_513_4, -5.357_974_272_574_397],
+    ),
 ];
 
 const TWO: Table = [
-    (0.5, [0.695_286_633_164_400_5, 0.718_732_563_435_741_7], [1.960_205_425_371_833_3, -1.896_261_140_586_576_6]),
-    (1.0, [-0.195_020_301_949_435_1, -0.980_799_205_662_173_8], [-6.676_678_036_881_158_5, 1.327_578_325_160_487_1]),
-    (2.0, [0.057_815_795_768_011_43, 0.998_327_267_863_455_5], [1.017_260_136_620_436_6, -0.058_912_248_713_445_65]),
-    (4.0, [0.117_616_102_376_808_61, 0.993_059_138_451_325_1], [1.069_039_265_028_968_6, -0.126_615_049_166_720_28]),
-    (5.0, [-0.811_310_461_005_107_4, -0.584_615_545_348_975_5], [-3.569_117_397_193_209_3, 4.953_105_171_313_327]),
-    (10.0, [0.328_458_111_540_815_4, 0.944_518_538_178_601], [1.423_051_470_206_944_1, -0.494_868_845_487_042_96]),
-    (20.0, [0.839_746_574_306_843_5, 0.542_978_536_352_884_6], [1.838_222_644_196_742_6, -2.842_913_789_274_097]),
+    (
+        0.5,
+        [0.695_286_633_164_400_5, 0.718_732_563_435_741_7],
+        [1.960_205_425_371_833_3, -1.896_261_140_586_576_6],
+    ),
+    (
+        1.0,
+        [-0.195_020_301_949_435_1, -0.980_799_205_662_173_8],
+        [-6.676_678_036_881_158_5, 1.327_578_325_160_487_1],
+    ),
+    (
+        2.0,
+        [0.057_815_795_768_011_43, 0.998_327_267_863_455_5],
+        [1.017_260_136_620_436_6, -0.058_912_248_713_445_65],
+    ),
+    (
+        4.0,
+        [0.117_616_102_376_808_61, 0.993_059_138_451_325_1],
+        [1.069_039_265_028_968_6, -0.126_615_049_166_720_28],
+    ),
+    (
+        5.0,
+        [-0.811_310_461_005_107_4, -0.584_615_545_348_975_5],
+        [-3.569_117_397_193_209_3, 4.953_105_171_313_327],
+    ),
+    (
+        10.0,
+        [0.328_458_111_540_815_4, 0.944_518_538_178_601],
+        [1.423_051_470_206_944_1, -0.494_868_845_487_042_96],
+    ),
+    (
+        20.0,
+        [0.839_746_574_306_843_5, 0.542_978_536_352_884_6],
+        [1.838_222_644_196_742_6, -2.842_913_789_274_097],
+    ),
 ];
 
 #[test]
@@ -146,8 +205,11 @@ fn the_closed_form_is_the_table() {
     }
 }
 
+/// To the time `end`, across a level pose about once a second.
 fn windows<L, const N: usize, const M: usize>(
-    (name, system, n): (&'static str, L, usize),
+    name: &'static str,
+    system: L,
+    n: usize,
     end: f64,
 ) -> Problem<L, N, M>
 where
@@ -164,29 +226,60 @@ where
     }
 }
 
+/// `Taylor` steps across level poses if its tolerance leaves room between truncation and round-off. Other settings may end before
+/// such a pose, and a pair may leave it along another branch: what they do is in the table alone.
+fn other_methods<L, const N: usize, const M: usize>(problem: &Problem<L, N, M>)
+where
+    L: TaylorSeries<N = Const<N>, M = Const<M>, Scalar = f64>,
+{
+    problem.run("Taylor 1e-9", Taylor::with_tolerance(1e-9)).reaches_bar();
+    let _ = problem.run("Taylor 2⁻⁵²", Taylor::default());
+    let _ = problem.run("Dop853 1e-10", Dop853::with_tolerance(1e-10));
+    let _ = problem.run("Dopri5 1e-8", Dopri5::with_tolerance(1e-8));
+    let _ = problem.run("RungeKutta4 2e-3 s", RungeKutta4::with_step(2e-3));
+}
+
 #[test]
-fn explore() {
-    for tol in [f64::EPSILON, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7] {
-        let _ = windows::<_, 4, 3>(("one window", OneWindow { g: G }, 1), 10.0)
-            .run(&format!("Taylor {tol:e}"), Taylor::with_tolerance(tol));
-        let _ = windows::<_, 6, 5>(("two windows", TwoWindows { g: G }, 2), 10.0)
-            .run(&format!("Taylor {tol:e}"), Taylor::with_tolerance(tol));
-        let _ = windows::<_, 4, 3>(("one window", OneWindow { g: G }, 1), 10.0)
-            .run(&format!("Dop853 {tol:e}"), Dop853::with_tolerance(tol));
-        let _ = windows::<_, 6, 5>(("two windows", TwoWindows { g: G }, 2), 10.0)
-            .run(&format!("Dop853 {tol:e}"), Dop853::with_tolerance(tol));
+fn one_and_two_windows_cross_level_poses() {
+    let end = if is_long() { 20.0 } else { 10.0 };
+    let one = windows("A02, 1 window", OneWindow { g: G }, 1, end);
+    let two = windows("A02, 2 windows", TwoWindows { g: G }, 2, end);
+    one.run("Taylor 1e-10", Taylor::with_tolerance(1e-10)).reaches_bar();
+    two.run("Taylor 1e-10", Taylor::with_tolerance(1e-10)).reaches_bar();
+    if is_long() {
+        other_methods(&one);
+        other_methods(&two);
+    }
+}
+
+/// Forty windows, of 82 coordinates and 81 constraints; unoptimised across one level pose.
+fn forty_windows() {
+    let end = if is_long() { 20.0 } else { 1.0 };
+    let forty = windows("A02, 40 windows", FortyWindows { g: G }, 40, end);
+    forty.run("Taylor 1e-10", Taylor::with_tolerance(1e-10)).reaches_bar();
+    if is_long() {
+        other_methods(&forty);
     }
 }
 
 #[test]
-fn explore40() {
-    let thread = std::thread::Builder::new().stack_size(256 << 20);
-    thread.spawn(|| {
-        for tol in [f64::EPSILON, 1e-13, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6] {
-            let _ = windows::<_, 82, 81>(("forty windows", FortyWindows { g: G }, 40), 10.0)
-                .run(&format!("Taylor {tol:e}"), Taylor::with_tolerance(tol));
-            let _ = windows::<_, 82, 81>(("forty windows", FortyWindows { g: G }, 40), 10.0)
-                .run(&format!("Dop853 {tol:e}"), Dop853::with_tolerance(tol).max_steps(20000));
+fn forty_windows_cross_level_poses() {
+    // At the poses the general solver takes over, whose matrices need more stack than a test has.
+    std::thread::Builder::new().stack_size(64 << 20).spawn(forty_windows).unwrap().join().unwrap();
+}
+
+/// With any tolerance `Taylor` either ends before a level pose, and says so, or goes on along the right branch.
+#[test]
+fn no_tolerance_leads_along_another_branch() {
+    let tolerances = [f64::EPSILON, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8];
+    let (one, two) = (
+        windows("A02, 1 window", OneWindow { g: G }, 1, 10.0),
+        windows("A02, 2 windows", TwoWindows { g: G }, 2, 10.0),
+    );
+    for tolerance in tolerances {
+        let (method, label) = (Taylor::with_tolerance(tolerance), format!("Taylor {tolerance:.0e}"));
+        for row in [one.run(&label, method), two.run(&label, method)] {
+            assert!(row.outcome.is_err() || row.is_within_bar(), "{row}");
         }
-    }).unwrap().join().unwrap();
+    }
 }

@@ -190,10 +190,7 @@ fn the_ball_on_a_turntable_reaches_its_reference() {
         Problem {
             name: "ball on a turntable",
             system: BallOnTurntable { m: 0.5, r: 0.1, Omega: 3.0 },
-            start: State::new(
-                [0.3, 0.0, 0.0, 1.2, 0.0],
-                [0.093_203_908_596_722_63, 0.7, 0.5, 2.0, -1.0]
-            ),
+            start: State::new([0.3, 0.0, 0.0, 1.2, 0.0], [0.093_203_908_596_722_63, 0.7, 0.5, 2.0, -1.0]),
             moments: vec![
                 Moment {
                     t: 1.0,
