@@ -396,7 +396,7 @@ const TURNING: [[f64; 8]; 2] = [
 
 /// Accelerations, multipliers and energy there, computed from L and the constraints by differences with 60 digits.
 const ACCELERATIONS: [f64; 8] = [
-    -1.407_192_171_918_602_9,
+    -1.407_192_171_918_603,
     5.675_025_024_992_209,
     -2.509_255_723_357_932,
     -2.523_344_945_593_721,
@@ -406,13 +406,13 @@ const ACCELERATIONS: [f64; 8] = [
     0.026_944_109_275_675_238,
 ];
 const MULTIPLIERS: [f64; 5] = [
-    -332.430_418_664_392_27,
+    -332.430_418_664_392_3,
     -66.108_175_543_391_61,
     153.365_511_910_063_16,
     -43.887_868_116_853_08,
     53.140_677_736_693_05,
 ];
-const ENERGY: f64 = 1717.288_905_892_992_1;
+const ENERGY: f64 = 1_717.288_905_892_992;
 
 fn accelerates_as_known<L>(bicycle: &L)
 where

@@ -118,7 +118,7 @@ fn moments(bricard: &Bricard, swings: usize, per_swing: usize) -> Vec<Moment<5, 
         let xi = (k + 1) as f64 * PI / per_swing as f64;
         let pose = pose(bricard, at(xi));
         // At the end of a swing it is at rest, which the energy says only to its root.
-        let tau_dot = if (k + 1) % per_swing == 0 { 0.0 } else { xi.sin().signum() * speed(&pose) };
+        let tau_dot = if (k + 1).is_multiple_of(per_swing) { 0.0 } else { xi.sin().signum() * speed(&pose) };
         Moment { t, q: pose.q, v: pose.by_tau.map(|x| x * tau_dot), lambda: None }
     };
     (0..swings * per_swing).map(after).collect()

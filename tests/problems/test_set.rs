@@ -306,6 +306,7 @@ struct FlexibleSliderCrank {
     p: f64,
 }
 
+#[allow(clippy::approx_constant, reason = "the test set has π to eight digits")]
 const FLEXIBLE: FlexibleSliderCrank = FlexibleSliderCrank {
     L1: 0.15,
     L2: 0.3,
