@@ -166,14 +166,14 @@ impl Display for Pace {
         if let Some(rate) = self.stiffness {
             return write!(
                 f,
-                ": the problem looks stiff, something in it grows or dies at a rate of {rate:.1e}, which keeps steps short whatever the tolerance; put a constraint in the place of a stiff spring, leave out a mass that friction governs, or raise the limit with `max_steps`"
+                ": the problem looks stiff, something in it grows or dies at a rate of {rate:.1e}, which keeps steps short whatever the tolerance; take `Radau`, put a constraint in the place of a stiff spring, leave out a mass that friction governs, or raise the limit with `max_steps`"
             );
         }
         match self.step {
             None => f.write_str("; raise it with `max_steps`"),
             Some(step) => write!(
                 f,
-                ", where the next is {step:.1e} long; raise it with `max_steps`, unless steps only shrink: then the motion falls into a singularity, or forces jump, as friction by `abs` does where it sticks (smooth it, as by `tanh`)"
+                ", where the next is {step:.1e} long; raise it with `max_steps`, unless steps only shrink: then the motion falls into a singularity, or forces jump, as friction by `abs` does where it sticks (smooth it, as by `tanh`, and take `Radau`)"
             ),
         }
     }

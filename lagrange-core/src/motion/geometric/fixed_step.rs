@@ -236,7 +236,12 @@ fn failure<L: Lagrangian<Scalar: Real>>(
         Some(row) => Ending::NotFinite { time, row },
         None => Ending::MethodFailed {
             time,
-            reason: "the iteration of a step does not converge; take shorter steps, or check whether constraints depend on one another",
+            reason: match <L::M>::COUNT {
+                0 => "the iteration of a step does not converge; take shorter steps",
+                _ => {
+                    "the iteration of a step does not converge; take shorter steps, or, if constraints depend on one another or the mass matrix is singular, as that of a unit quaternion, `Dop853`, `Taylor` or `Radau`"
+                }
+            },
         },
     }
 }
