@@ -30,7 +30,7 @@ use crate::number::{Dual, Scalar};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a function of {I} number(s) with {O} result(s) over every scalar",
     label = "not known over every scalar",
-    note = "implement `lagrange_core::Function<{I}, {O}>` for it; `WithDerivatives` and `Table` are known over `f64` alone, which is enough for `Dop853`"
+    note = "implement `lagrange_core::Function<{I}, {O}>` for it; `WithDerivatives` and `Table` are known over `f64` alone, which is enough for `Dop853`; `SmoothTable` also for Jacobians and `Radau`"
 )]
 pub trait Function<const I: usize, const O: usize> {
     /// Returns the values at `x`.

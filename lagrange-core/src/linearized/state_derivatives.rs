@@ -4,9 +4,9 @@ use core::fmt::Debug;
 
 use nalgebra::Const;
 
-#[cfg(doc)]
-use super::Linearized;
 use super::jacobian::{self, Jacobian};
+#[cfg(doc)]
+use super::{Linearized, Radau};
 use crate::error::Error;
 use crate::number::{Broadcast, Real};
 use crate::system::pointers::forward;
@@ -15,12 +15,13 @@ use crate::system::{Direction, Lagrangian, ResidualChange, Solution, SolutionOf,
 /// A system whose equations of motion can be differentiated by the time and the state, as implicit methods and
 /// sensitivities need.
 ///
-/// `#[derive(Lagrangian)]` implements it together with [`Linearized`], which adds derivatives by the `P` parameters. A
-/// method for stiff systems requires this trait, `impl<L: StateDerivatives> Method<L> for …`.
+/// `#[derive(Lagrangian)]` implements it together with [`Linearized`], which adds derivatives by the `P` parameters. The
+/// method for stiff systems, [`Radau`], requires this trait: `impl<L: StateDerivatives> Method<L> for …`.
 #[diagnostic::on_unimplemented(
     message = "the derivatives of the equations of motion of `{Self}` are not known",
     label = "no `StateDerivatives`",
-    note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need"
+    note = "`#[derive(Lagrangian)]` gives it to every system whose functions (`#[function(…)]`) have one derivative more than the equations of motion need",
+    note = "`Radau` needs the derivatives; `Dop853`, `Dopri5` and `RungeKutta4` do not"
 )]
 pub trait StateDerivatives: Lagrangian {
     /// Plain numbers from which the derivatives of the residual along all directions are computed.

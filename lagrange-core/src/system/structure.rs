@@ -15,7 +15,7 @@ use super::lagrangian::Lagrangian;
 #[diagnostic::on_unimplemented(
     message = "the mass matrix of `{Self}` depends on the coordinates, the velocities or the time",
     label = "its mass matrix is not known to be constant",
-    note = "`Verlet` needs a constant mass matrix; `Lobatto::<2>` is of the same order and takes any Lagrangian with holonomic constraints, `Gauss` one without constraints",
+    note = "`Verlet` needs a constant mass matrix; in its place take `Gauss::<1>` without constraints, `Lobatto::<2>` with holonomic ones, `DAlembert` with constraints on velocities: all are of order 2",
     note = "if the mass matrix is constant, but the derive macro cannot prove it, implement `ConstantMassMatrix` by hand"
 )]
 pub trait ConstantMassMatrix: Lagrangian {}
@@ -34,7 +34,7 @@ pub trait ConstantMassMatrix: Lagrangian {}
 #[diagnostic::on_unimplemented(
     message = "the forces on `{Self}` depend on the velocities",
     label = "its forces are not known to be free of velocities",
-    note = "`Verlet` takes no damping, magnetic fields or rotating frames; `Lobatto::<2>` is of the same order and takes any Lagrangian with holonomic constraints, `Gauss` one without constraints",
+    note = "`Verlet` takes no damping, magnetic field, rotating frame or mass matrix that depends on the coordinates; in its place take `Gauss::<1>` without constraints, `Lobatto::<2>` with holonomic ones, `DAlembert` with constraints on velocities: all are of order 2",
     note = "if the forces do not depend on the velocities, but the derive macro cannot prove it, implement `VelocityFreeForces` by hand"
 )]
 pub trait VelocityFreeForces: Lagrangian {}
@@ -50,7 +50,7 @@ pub trait VelocityFreeForces: Lagrangian {}
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has a constraint on velocities",
     label = "its constraints are not known to be holonomic",
-    note = "`Lobatto` takes constraints without velocities, Φ(q, t) = 0; `DAlembert` takes constraints on velocities",
+    note = "`Verlet` and `Lobatto` take constraints on coordinates and time alone, Φ(q, t) = 0; in their place take `DAlembert`, or write an integrable constraint on velocities as its integral",
     note = "if the constraints of a manual implementation of `Lagrangian` are holonomic, implement `HolonomicConstraints` by hand"
 )]
 pub trait HolonomicConstraints: Lagrangian {}
@@ -64,7 +64,7 @@ pub trait HolonomicConstraints: Lagrangian {}
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has constraints",
     label = "not known to be free of constraints",
-    note = "`Gauss` takes systems without constraints; `Lobatto` is the counterpart of `Gauss` for systems with holonomic constraints",
+    note = "`Gauss` takes no constraints, and a unit quaternion implies one; in its place take `Lobatto` with holonomic constraints, `DAlembert` with constraints on velocities",
     note = "if a manual implementation of `Lagrangian` has no constraints, implement `Unconstrained` by hand"
 )]
 pub trait Unconstrained: Lagrangian {}

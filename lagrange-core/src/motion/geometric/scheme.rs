@@ -11,7 +11,10 @@ use crate::vector::{Array, Element, Length, Vector, array, vector};
 /// A one-step method, for any number type: a map (q, q̇) → (q, q̇) over a given time.
 ///
 /// The same code maps numbers, and dual numbers to differentiate the map.
-#[diagnostic::on_unimplemented(message = "`{Self}` is not a method that integrates `{L}`")]
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a scheme for the steps of `{L}`",
+    note = "`Verlet`, `Gauss`, `Lobatto` and `DAlembert` are methods with steps of one length; `FixedStep` takes the scheme of one of them"
+)]
 pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
     /// Data carried from the end of a step to the start of the next one.
     type Carried: Clone + Debug + Send + Sync;

@@ -121,8 +121,9 @@ pub struct LagrangeDAlembert;
 
 /// A number of stages with coefficients.
 #[diagnostic::on_unimplemented(
-    message = "there are no coefficients for this number of stages",
-    note = "`Gauss` has 1 to 4 stages, `Lobatto` 2 to 4"
+    message = "there are no coefficients for `{Self}`",
+    label = "no such number of stages",
+    note = "`Gauss` has 1 to 4 stages and the orders 2 to 8, `Lobatto` 2 to 4 stages and the orders 2 to 6; for smaller errors take shorter steps, or `Taylor`"
 )]
 pub trait StageCount {
     #[doc(hidden)]
