@@ -30,6 +30,14 @@ pub trait Parts: Scalar {
     /// True if each part is at most `factor` times the same part of `bound`. False for NaN.
     fn is_within(self, factor: f64, bound: Self) -> bool;
 
+    /// True if each value is at most `factor` times that of `bound`, whatever the slopes. False for NaN.
+    fn is_value_within(self, factor: f64, bound: Self) -> bool {
+        self.is_within(factor, bound)
+    }
+
+    /// True if each value is at most `bound`, whatever the slopes. False for NaN.
+    fn is_at_most(self, bound: f64) -> bool;
+
     /// True if each part is finite.
     fn is_finite(self) -> bool;
 
@@ -55,6 +63,11 @@ impl<T: Real> Parts for T {
     #[inline]
     fn is_within(self, factor: f64, bound: Self) -> bool {
         self <= T::constant(factor) * bound
+    }
+
+    #[inline]
+    fn is_at_most(self, bound: f64) -> bool {
+        self <= T::constant(bound)
     }
 
     #[inline]
@@ -90,6 +103,11 @@ impl Parts for FourLanes {
     }
 
     #[inline]
+    fn is_at_most(self, bound: f64) -> bool {
+        self.to_array().iter().all(|x| *x <= bound)
+    }
+
+    #[inline]
     fn is_finite(self) -> bool {
         self.to_array().iter().all(|x| x.is_finite())
     }
@@ -118,6 +136,16 @@ impl<S: Parts> Parts for Dual<S> {
     #[inline]
     fn is_within(self, factor: f64, bound: Self) -> bool {
         self.value.is_within(factor, bound.value) && self.slope.is_within(factor, bound.slope)
+    }
+
+    #[inline]
+    fn is_value_within(self, factor: f64, bound: Self) -> bool {
+        self.value.is_value_within(factor, bound.value)
+    }
+
+    #[inline]
+    fn is_at_most(self, bound: f64) -> bool {
+        self.value.is_at_most(bound)
     }
 
     #[inline]

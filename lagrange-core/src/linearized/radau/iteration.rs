@@ -23,6 +23,9 @@ const TO_EIGENVECTORS: [[f64; 3]; 3] = [
 /// Largest number of iterations. Near the solution each multiplies the error by less than 10⁻².
 pub(super) const ITERATIONS: usize = 10;
 
+/// Largest correction that may be round-off, in units of ε of the state.
+const ROUND_OFF: f64 = 100.0;
+
 /// Stages of a step, as differences from its start.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StageChanges<T: Element, N: Length>(pub(super) [PhaseVector<T, N>; 3]);
@@ -64,7 +67,10 @@ impl<T: Real, N: Length> StageChanges<T, N> {
         (tolerance, y, allowed): (Tolerance, &PhaseVector<T, N>, f64),
         mut rates: impl FnMut(usize, &PhaseVector<T, N>) -> Result<PhaseVector<T, N>, NoSolution>,
     ) -> Result<Converged, NoSolution> {
-        let one = T::constant(1.0);
+        let (one, half) = (T::constant(1.0), T::constant(0.5));
+        let round_off = T::constant(ROUND_OFF * T::EPSILON);
+        let typical = T::constant(tolerance.absolute / tolerance.relative);
+        let mut largest = [PhaseVector::<T, N>::filled(T::constant(0.0)); 3];
         let mut w = self.transformed(&TO_EIGENVECTORS);
         // Bound on the ratio of the remaining error to the last correction. A single correction tells nothing about the
         // contraction, so it must be small itself.
@@ -104,7 +110,16 @@ impl<T: Real, N: Length> StageChanges<T, N> {
                 w.flat_mut().iter_mut().zip(x.flat()).for_each(|(w, x)| *w += *x);
             }
             *self = w.transformed(&FROM_EIGENVECTORS);
-            if remaining * size <= allowed {
+            // A correction may be small only because the derivatives are much too large: it then stays as large.
+            let has_shrunk = (0..3).fold(true, |all, k| {
+                let entries = correction[k].flat().iter().zip(largest[k].flat_mut()).zip(y.flat());
+                entries.fold(all, |all, ((x, largest), y)| {
+                    let (size, before) = (Scalar::abs(*x), *largest);
+                    *largest = larger(before, size);
+                    all & (size <= half * before || size <= round_off * (typical + Scalar::abs(*y)))
+                })
+            });
+            if has_shrunk && remaining * size <= allowed {
                 return Ok(Converged { iterations: iteration, contraction });
             }
         }

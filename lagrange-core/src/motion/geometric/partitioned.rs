@@ -14,7 +14,7 @@
 //! a factor that is proportional to the step length.
 
 use super::scheme::{CompensatedState, combined, magnitudes, terms_of_positions, terms_of_rates};
-use super::settle::{NotSettled, Residuals};
+use super::settle::{NotSettled, Residuals, are_within, have_hardly_turned};
 use super::stage_memory::StageMemory;
 use super::tableau::Tableau;
 use crate::number::{Parts, Scalar};
@@ -23,6 +23,9 @@ use crate::solution::eliminate::LoopFactor;
 use crate::solution::near::compensated;
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
 use crate::vector::{Array, Element, Entrywise, Length, Vector, array, from_fn, rows, vector};
+
+/// Largest part of the terms that may be round-off of hidden ones.
+const HIDDEN: f64 = 1e-3;
 
 /// A step in progress.
 struct PartitionedStep<'a, L: Lagrangian, const S: usize> {
@@ -50,9 +53,9 @@ pub(super) fn advance<L: Lagrangian<Scalar: Parts>, const S: usize>(
     system: &L,
     point: &mut CompensatedState<L::Scalar, L::N>,
     stages: &mut StageMemory<L::Factor, L::Scalar, L::N, L::M, S>,
-    to: L::Scalar,
+    (h, to): (L::Scalar, L::Scalar),
 ) -> Result<usize, NotSettled> {
-    let h = to - point.state.t;
+    stages.forget_a_short_step(system, &point.state, h);
     stages.guess(&tableau.nodes, h);
     let step = PartitionedStep { system, tableau, from: point, momenta: stages.momenta, h, to };
     let (forces, sweeps) = step.solve(stages)?;
@@ -80,12 +83,21 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
             let mut terms = Array::filled(L::Scalar::constant(0.0));
             let [momenta, mut forces] = self.momenta_and_forces(&states, &stages.multipliers, &mut terms);
             let residuals = self.residuals(&momenta, &forces, &states, &stages.velocities);
-            let mut are_last =
-                of_momenta.settle(&sizes(&residuals.momenta), &terms, || self.displacement())?;
-            if <L::M>::COUNT > 0 {
-                let [terms, displacements] = self.constraint_terms(&states);
-                are_last &=
-                    of_constraints.settle(&sizes(&residuals.constraints), &terms, || displacements)?;
+            let size = sizes(&residuals.momenta);
+            let mut are_last = of_momenta.settle(
+                &size,
+                &terms,
+                || self.wider(&terms, &stages.multipliers[0]),
+                |wider| are_hidden(&size, wider, &stages.largest),
+            )?;
+            if let Some(matrices) = &matrices {
+                let [terms, wider] = self.constraint_terms(&states);
+                let is_noise = |_: &_| {
+                    let jacobian = self.system.constraint_jacobian(&states[S - 1]);
+                    have_hardly_turned(&jacobian, |a| moved_by(matrices, a))
+                };
+                let size = sizes(&residuals.constraints);
+                are_last &= of_constraints.settle(&size, &terms, || wider, is_noise)?;
             }
             match &matrices {
                 None => self.correct(stages, &residuals),
@@ -97,6 +109,8 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
                 }
             }
             if are_last {
+                let largest = |k: usize| -(-stages.largest[k]).least(-terms[k]);
+                stages.largest = Array::from_fn(largest);
                 return Ok((forces, sweeps));
             }
         }
@@ -184,7 +198,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         }
     }
 
-    /// Mean magnitudes of the terms of the constraints at the stages, and of those of a displacement.
+    /// Mean magnitudes of the terms of the constraints at the stages, and with those of a displacement.
     fn constraint_terms(&self, states: &[StateOf<L>; S]) -> [Array<L::Scalar, L::M>; 2] {
         let mut all = [Array::filled(L::Scalar::constant(0.0)); 2];
         for state in &states[1..] {
@@ -197,17 +211,42 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
                     ConstraintKind::Velocity => (rates[a], position),
                 };
                 let part = L::Scalar::constant(1.0 / (S - 1) as f64);
-                (all[0][a], all[1][a]) = (all[0][a] + part * terms, all[1][a] + part * others);
+                (all[0][a], all[1][a]) = (all[0][a] + part * terms, all[1][a] + part * (terms + others));
             }
         }
         all
     }
 
-    /// Momenta that move each coordinate by its own size during the step.
-    fn displacement(&self) -> Array<L::Scalar, L::N> {
-        let state = &self.from.state;
-        let moving = State { v: state.q.each(|x| x / self.h), ..*state };
-        magnitudes(&self.system.momentum(&moving).minus(&self.system.momentum(state)))
+    /// Terms of the momenta, each part of a sum on its own, with those of moving each coordinate by its own size during the
+    /// step: of M q̇, of the change of the forces with each coordinate, and of Fᵀλ.
+    #[inline(never)]
+    fn wider(
+        &self,
+        terms: &Array<L::Scalar, L::N>,
+        multipliers: &Array<L::Scalar, L::M>,
+    ) -> Array<L::Scalar, L::N> {
+        let (system, state, length) = (self.system, &self.from.state, self.h.magnitude());
+        let (m, f) = (system.mass_matrix(state), system.constraint_jacobian(state));
+        let mut wider = *terms;
+        for j in 0..<L::N>::COUNT {
+            let part = L::Scalar::constant(0.125);
+            let mut moved = *state;
+            moved.q[j] = moved.q[j] + part * moved.q[j];
+            let change = system.momentum_rate(&moved).minus(&system.momentum_rate(state));
+            let speed = state.v[j].magnitude() + state.q[j].magnitude() / length;
+            for k in 0..<L::N>::COUNT {
+                let change = change[k].magnitude() * length / part;
+                // Forces may end near the coordinates.
+                let change = if change.is_finite() { change } else { L::Scalar::constant(0.0) };
+                wider[k] = wider[k] + m[(k, j)].magnitude() * speed + change;
+            }
+        }
+        for a in 0..<L::M>::COUNT {
+            for k in 0..<L::N>::COUNT {
+                wider[k] = wider[k] + length * f[(a, k)].magnitude() * multipliers[a].magnitude();
+            }
+        }
+        wider
     }
 
     /// Corrects the stages without constraints: M δVᵢ = −Gᵢ.
@@ -302,12 +341,20 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
                 momenta[k].magnitude() + start[k].magnitude() + push[k].magnitude() + force[k].magnitude()
             });
             let rate = system.constraint_rate(&state);
-            let mut is_last =
-                of_momenta.settle(&magnitudes(&vector(residual)), &terms, || self.displacement())?;
-            is_last &= of_rates.settle(&magnitudes(&rate), &terms_of_rates(system, &state), || {
+            let size = magnitudes(&vector(residual));
+            let mut is_last = of_momenta.settle(
+                &size,
+                &terms,
+                || self.wider(&terms, &array(multipliers)),
+                |wider| are_hidden(&size, wider, &stages.largest),
+            )?;
+            let terms = terms_of_rates(system, &state);
+            let wider = || {
                 let positions = terms_of_positions(system, &state);
-                Array::from_fn(|a| positions[a] / self.h.magnitude())
-            })?;
+                Array::from_fn(|a| terms[a] + positions[a] / self.h.magnitude())
+            };
+            // The equations are linear, and factorized at this state.
+            is_last &= of_rates.settle(&magnitudes(&rate), &terms, wider, |_| true)?;
             let correction = system.solve_with(&stages.factor, &vector(residual.map(|x| -x)), &rate);
             state.v = state.v.plus(&correction.accelerations);
             multipliers = multipliers.plus(&correction.multipliers);
@@ -324,6 +371,19 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
 /// True if a constraint is imposed on the velocities alone.
 fn has_velocity_constraint<L: Lagrangian>() -> bool {
     L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity)
+}
+
+/// True if residuals may be round-off of terms that are hidden in these: within a thousandth of them, or of the largest so
+/// far, because a motion that comes to rest leaves terms of the size of its whole way.
+fn are_hidden<T: Parts, N: Length>(size: &Array<T, N>, wider: &Array<T, N>, largest: &Array<T, N>) -> bool {
+    are_within(HIDDEN, size, &Array::from_fn(|k| wider[k] + largest[k]))
+}
+
+/// The move that changes constraint `a` by −1, and no other.
+fn moved_by<T: Parts, N: Length, M: Length>(matrices: &LoopFactor<T, N, M>, a: usize) -> Array<T, N> {
+    let none = Array::filled(T::constant(0.0));
+    let unit = Array::from_fn(|b| T::constant(if a == b { 1.0 } else { 0.0 }));
+    matrices.held(&none, &matrices.multipliers(&none, &unit))
 }
 
 /// Sums of the magnitudes over the stages.

@@ -31,8 +31,8 @@ pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
     /// Evaluates what a step needs at its start.
     fn start(system: &L, state: &StateOf<L>) -> Self::Carried;
 
-    /// Moves a point to the time `to`. Returns the number of evaluations of the forces. After an error, the point and
-    /// the data are undefined.
+    /// Moves a point by a step (h, t) of length h to the time t. The time is rounded; the length is the given one. Returns the
+    /// number of evaluations of the forces. After an error, the point and the data are undefined.
     ///
     /// # Errors
     /// If an iteration does not converge.
@@ -40,7 +40,7 @@ pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
         system: &L,
         point: &mut CompensatedState<L::Scalar, L::N>,
         carried: &mut Self::Carried,
-        to: L::Scalar,
+        step: (L::Scalar, L::Scalar),
     ) -> Result<usize, NotSettled>;
 }
 

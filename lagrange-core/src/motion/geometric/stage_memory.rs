@@ -4,6 +4,10 @@ use crate::number::{Parts, Scalar};
 use crate::system::{Lagrangian, StateOf};
 use crate::vector::{Array, Element, Length, array, from_fn};
 
+/// Largest ratio of a step to the one before for which the stages of that one are extrapolated. A polynomial of degree S − 1
+/// amplifies their rounding errors by the ratio to this power.
+const FARTHEST: f64 = 16.0;
+
 /// Data carried from step to step.
 #[derive(Clone, Debug)]
 pub struct StageMemory<F, T: Element, N: Length, M: Length, const S: usize> {
@@ -18,6 +22,8 @@ pub struct StageMemory<F, T: Element, N: Length, M: Length, const S: usize> {
     length: T,
     /// Accelerations at the start, for the first step.
     accelerations: Array<T, N>,
+    /// Largest terms of the momenta so far.
+    pub(super) largest: Array<T, N>,
 }
 
 impl<F: Copy, T: Parts, N: Length, M: Length, const S: usize> StageMemory<F, T, N, M, S> {
@@ -34,6 +40,18 @@ impl<F: Copy, T: Parts, N: Length, M: Length, const S: usize> StageMemory<F, T, 
             multipliers: [array(solution.multipliers); S],
             length: T::constant(0.0),
             accelerations: array(solution.accelerations),
+            largest: Array::filled(T::constant(0.0)),
+        }
+    }
+
+    /// Sets the stages to the start of the next step, of length `h`, if the last one was much shorter.
+    pub(super) fn forget_a_short_step<L>(&mut self, system: &L, state: &StateOf<L>, h: T)
+    where
+        L: Lagrangian<Scalar = T, N = N, M = M, Factor = F>,
+    {
+        if self.length != T::constant(0.0) && !h.magnitude().is_within(FARTHEST, self.length.magnitude()) {
+            let Self { momenta, largest, .. } = *self;
+            *self = Self { momenta, largest, ..Self::start(system, state) };
         }
     }
 

@@ -168,9 +168,9 @@ macro_rules! schemes {
                 system: &L,
                 point: &mut CompensatedState<L::Scalar, L::N>,
                 carried: &mut Self::Carried,
-                to: L::Scalar,
+                step: (L::Scalar, L::Scalar),
             ) -> Result<usize, NotSettled> {
-                advance($table, system, point, carried, to)
+                advance($table, system, point, carried, step)
             }
         }
     )*};

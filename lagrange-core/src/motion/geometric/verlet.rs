@@ -9,7 +9,7 @@ use core::fmt::{self, Debug};
 use super::composition::Composition;
 use super::fixed_step::FixedStep;
 use super::scheme::{Compensated, CompensatedState, Scheme, magnitudes, terms_of_positions, terms_of_rates};
-use super::settle::{NotSettled, Residuals};
+use super::settle::{NotSettled, Residuals, have_hardly_turned};
 use crate::number::{Parts, Scalar};
 use crate::solution::near::compensated;
 use crate::structure::{ConstantMassMatrix, HolonomicConstraints, VelocityFreeForces};
@@ -92,9 +92,8 @@ where
         system: &L,
         point: &mut CompensatedState<L::Scalar, L::N>,
         forces: &mut Self::Carried,
-        to: L::Scalar,
+        (h, to): (L::Scalar, L::Scalar),
     ) -> Result<usize, NotSettled> {
-        let h = to - point.state.t;
         let half = h * L::Scalar::constant(0.5);
         let Some(factor) = forces.factor else {
             let before = forces.push;
@@ -132,10 +131,17 @@ fn onto_constraints<L: Lagrangian<Scalar: Parts>>(
         let there = State { t: to, q: vector(q[0]), v: point.state.v };
         let residual = system.constraint_residual(&there);
         let terms = terms_of_positions(system, &there);
-        let is_last = residuals.settle(&magnitudes(&residual), &terms, || {
+        let wider = || {
             let rate = terms_of_rates(system, &there);
-            Array::from_fn(|a| h.magnitude() * rate[a])
-        })?;
+            Array::from_fn(|a| terms[a] + h.magnitude() * rate[a])
+        };
+        let is_noise = |_: &_| {
+            have_hardly_turned(&system.constraint_jacobian(&there), |a| {
+                let unit = Array::from_fn(|b| L::Scalar::constant(if a == b { 1.0 } else { 0.0 }));
+                array(system.solve_with(factor, &none, &vector(unit)).accelerations)
+            })
+        };
+        let is_last = residuals.settle(&magnitudes(&residual), &terms, wider, is_noise)?;
         let correction = system.solve_with(factor, &none, &residual.each(|x| x / h));
         kick = kick.plus(&correction.accelerations);
         if is_last {
@@ -163,10 +169,12 @@ fn along_constraints<L: Lagrangian<Scalar: Parts>>(
         let state = State { v: vector(v), ..*state };
         let rate = system.constraint_rate(&state);
         let terms = terms_of_rates(system, &state);
-        let is_last = residuals.settle(&magnitudes(&rate), &terms, || {
+        let wider = || {
             let residual = terms_of_positions(system, &state);
-            Array::from_fn(|a| residual[a] / half.magnitude())
-        })?;
+            Array::from_fn(|a| terms[a] + residual[a] / half.magnitude())
+        };
+        // The equations are linear, and factorized at this state.
+        let is_last = residuals.settle(&magnitudes(&rate), &terms, wider, |_| true)?;
         // Added to the velocities, which may be smaller than their change.
         let correction = system.solve_with(factor, &none, &rate).accelerations;
         (v, rest) = compensated(&v, &array(correction), &rest);
