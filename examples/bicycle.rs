@@ -177,8 +177,8 @@ fn draw(bicycle: &Bicycle, rides: &[(f64, Trajectory<&Bicycle>)], file: &std::pa
     let root = picture::sheet(file, (1200, 950))?;
     let panels = root.split_evenly((2, 2));
     let (mut real, mut imaginary) = (Points::new(), Points::new());
-    for k in 0..=500 {
-        let speed = f64::from(k) / 50.0;
+    for k in 0..=200 {
+        let speed = f64::from(k) / 20.0;
         for s in bicycle.modes(speed)? {
             real.push((speed, s.re));
             if s.im > 0.0 {
