@@ -394,7 +394,8 @@ const TURNING: [[f64; 8]; 2] = [
     ],
 ];
 
-/// Accelerations, multipliers and energy there, computed from L and the constraints by differences with 60 digits.
+/// Accelerations, multipliers and energy there, computed by `recompute.py bicycle` from L and the constraints, by differences with 60
+/// digits.
 const ACCELERATIONS: [f64; 8] = [
     -1.407_192_171_918_603,
     5.675_025_024_992_209,
