@@ -1,5 +1,5 @@
 //! Benchmark problems of multibody dynamics against reference values: each in the coordinates and with the constraints of its
-//! source, by several methods. With `--nocapture` the errors are printed as a table; `LAGRANGE_PROBLEMS=1` adds long motions and
+//! source, by several methods. With `--nocapture` the errors are printed as a table; `LAGRANGE_WHOLE_SPANS=1` adds long motions and
 //! methods that take many steps.
 
 // A test that fails says why by a panic.

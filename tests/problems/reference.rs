@@ -204,7 +204,7 @@ impl Display for Row {
 
 /// True if long motions and costly methods are asked for.
 pub(crate) fn is_long() -> bool {
-    std::env::var_os("LAGRANGE_PROBLEMS").is_some()
+    std::env::var_os("LAGRANGE_WHOLE_SPANS").is_some()
 }
 
 /// Asserts that a number is another to a relative error.
