@@ -244,6 +244,8 @@ fn one_and_two_windows_cross_level_poses() {
     let one = windows("A02, 1 window", OneWindow { g: G }, 1, end);
     let two = windows("A02, 2 windows", TwoWindows { g: G }, 2, end);
     one.run("Taylor 1e-10", Taylor::with_tolerance(1e-10)).reaches_bar();
+    let _ = one.run("Radau 1e-9", Radau::with_tolerance(1e-9));
+    let _ = two.run("Radau 1e-9", Radau::with_tolerance(1e-9));
     two.run("Taylor 1e-10", Taylor::with_tolerance(1e-10)).reaches_bar();
     if is_long() {
         other_methods(&one);

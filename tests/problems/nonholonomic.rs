@@ -4,6 +4,7 @@
 //! The reference values were recomputed by another Taylor method with 113 and 170 bits, and agree with the closed forms to 5·10⁻³⁰.
 //! Vakonomic equations would give other motions in every case.
 
+use lagrange_core::motion::Composition::KahanLi8;
 use lagrange_core::prelude::*;
 
 use crate::reference::{BAR, Moment, Problem, Scale, assert_relative, is_long};
@@ -14,6 +15,8 @@ macro_rules! every_method_reaches {
         let problem = $problem;
         problem.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
         problem.run("Dop853 1e-13", Dop853::with_tolerance(1e-13)).reaches_bar();
+        let _ = problem.run("DAlembert Kahan–Li 8 0.02 s", DAlembert::with_step(0.02).composed(KahanLi8));
+        let _ = problem.run("Radau 1e-12", Radau::with_tolerance(1e-12));
         if is_long() {
             problem.run("Dopri5 1e-12", Dopri5::with_tolerance(1e-12)).reaches_bar();
             let fixed = RungeKutta4::with_step($step).max_steps(1_000_000);

@@ -6,6 +6,7 @@
 //! would feed h c ε² of a damping c into the iteration, which then diverges.
 
 use crate::error::Error;
+use crate::motion::method::control::Tolerance;
 use crate::number::{Real, Scalar};
 use crate::room::Room;
 use crate::solution::consistent::BOTH;
@@ -14,17 +15,17 @@ use crate::solution::kkt::{Factors, Rank};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::fault;
 use crate::system::{ConstraintKind, Lagrangian, StateOf};
-use crate::vector::{Array, Length, PhaseVector, Vector, rows, vector};
+use crate::vector::{Array, Length, PhaseVector, rows, vector};
 
-/// Largest number of corrections towards the constraints; each divides the residual by four or more.
+/// Largest number of corrections towards the constraints. Those that are not round-off shrink by four each.
 const CORRECTIONS: usize = 30;
 /// Residual, in units of ε of its terms, at which corrections end.
 const ROUND_OFF: f64 = 4.0;
-/// Residual, in the same units, that may remain where it no longer shrinks.
-const NEAR: f64 = 4096.0;
-/// Largest ratio of the residual after a correction to that before. With a quarter, all corrections together are at most
-/// 4/3 of the first.
-const CONTRACTION: f64 = 0.25;
+/// Largest ratio of a correction to the one before: with a quarter, all together are at most 4/3 of the first.
+const TURN: f64 = 0.25;
+/// Size of a correction, in units of the tolerance, below which corrections need not shrink: they are round-off, or those
+/// of dependent constraints, which agree on the manifold only.
+const SMALL: f64 = 1e-3;
 
 /// The tangent plane at a state.
 pub(super) struct Chart<L: Lagrangian> {
@@ -111,61 +112,43 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
         ]))
     }
 
-    /// Moves a state onto the constraints along M⁻¹Fᵀ, without a change of its coordinates in the tangent plane. `None` if
-    /// the step of length `h` is too long for the chart: corrections that contract by less than [`CONTRACTION`] may lead to
-    /// another branch.
+    /// Moves a state onto the constraints along M⁻¹Fᵀ, without a change of its coordinates in the tangent plane. Corrections
+    /// are measured in units of the tolerance at the state `y`. `None` if they shrink by less than [`TURN`]: the step is too
+    /// long for the chart, and might lead to another branch.
     pub(super) fn onto(
         &self,
         system: &L,
         mut state: StateOf<L>,
-        h: L::Scalar,
+        (tolerance, y): (Tolerance, &PhaseVector<L::Scalar, L::N>),
     ) -> Result<Option<StateOf<L>>, Error> {
+        let bound = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
         for level in BOTH.into_iter().filter(|level| level.concerns::<L>()) {
-            let mut before = None;
+            let mut before = f64::INFINITY;
             for _ in 0..CORRECTIONS {
-                let residual = level.residual(system, &state);
-                let total = total::<L>(&residual);
-                let terms = level.magnitude(system, &state);
-                let bound = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
-                let is_there = (0..<L::M>::COUNT).all(|a| Scalar::abs(residual[a]) <= bound * terms[a]);
-                let shrinks = before.is_none_or(|before| total <= before * L::Scalar::constant(CONTRACTION));
-                if is_there || !shrinks && is_near_round_off(system, level, &state, (total, h)) {
+                let (residual, terms) = (level.residual(system, &state), level.magnitude(system, &state));
+                if (0..<L::M>::COUNT).all(|a| Scalar::abs(residual[a]) <= bound * terms[a]) {
                     break;
                 }
-                if !shrinks {
+                let Some(correction) = self.correction(system, level, &residual.into(), state.t)? else {
+                    break;
+                };
+                let mut halves = [Array::filled(zero::<L>()); 2];
+                halves[level as usize] = correction;
+                let size = tolerance.part(L::Scalar::constant(1.0), &PhaseVector::new(halves), y).to_f64();
+                let is_small = size <= SMALL;
+                if is_small && size >= before {
+                    break;
+                }
+                if !(is_small || size <= TURN * before) {
                     return Ok(None);
                 }
-                before = Some(total);
-                let correction = self.correction(system, level, &residual.into(), state.t)?;
+                before = size;
                 let unknowns = level.unknowns(&mut state);
-                for (x, change) in unknowns.iter_mut().zip(correction.iter().flatten()) {
-                    *x += *change;
-                }
+                unknowns.iter_mut().zip(correction).for_each(|(x, change)| *x += change);
             }
         }
         Ok(Some(state))
     }
-}
-
-/// True if a residual is near the round-off of its terms, or of those of a motion over the step. Projection at the end of
-/// a step has a criterion of its own.
-fn is_near_round_off<L: Lagrangian<Scalar: Real>>(
-    system: &L,
-    level: Level,
-    state: &StateOf<L>,
-    (residual, h): (L::Scalar, L::Scalar),
-) -> bool {
-    let [positions, rates] = BOTH.map(|level| total::<L>(&level.magnitude(system, state)));
-    let terms = match level {
-        Level::Position => positions + rates * Scalar::abs(h),
-        Level::Velocity => rates + positions / Scalar::abs(h),
-    };
-    residual <= terms * L::Scalar::constant(NEAR * L::Scalar::EPSILON)
-}
-
-/// Sum of the magnitudes.
-fn total<L: Lagrangian<Scalar: Real>>(x: &Vector<L::Scalar, L::M>) -> L::Scalar {
-    x.iter().fold(zero::<L>(), |sum, x| sum + Scalar::abs(*x))
 }
 
 fn zero<L: Lagrangian>() -> L::Scalar {

@@ -201,7 +201,7 @@ impl Radau {
         }
         let there = |k: usize, change: &PhaseVector<_, L::N>| {
             let moved = at.moved(h * L::Scalar::constant(NODES[k]), change);
-            chart.onto(system, moved, h)?.ok_or(NoSolution::TooSlow(0.5))
+            chart.onto(system, moved, (tolerance, &at.y))?.ok_or(NoSolution::TooSlow(0.5))
         };
         let mut rates = |state: &StateOf<L>| rates_at(system, chart, state, &at.active, statistics);
         let Converged { iterations, contraction: found } = z.solve(
