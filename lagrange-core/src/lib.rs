@@ -63,7 +63,8 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //! # Motions
 //!
 //! [`integrate`](Simulate::integrate) integrates from a state to an end time by the method given: [`Dop853`] by
-//! default, [`Taylor`] for errors near round-off, [`Dopri5`] for coarse tolerances ([`motion`] compares them).
+//! default, [`Taylor`] for errors near round-off, [`Dopri5`] for coarse tolerances, [`Radau`](linearized::Radau) for stiff
+//! systems, and methods such as [`Verlet`](motion::Verlet) for energies that must not drift ([`motion`] compares them).
 //! Every step ends on the constraints. A [`Trajectory`] returns the state at any time and its entries by name;
 //! an [`Ending`] tells why the trajectory ends. An [`Event`] locates the zero crossings of a function of the
 //! motion.

@@ -50,7 +50,8 @@ pub type Gauss<const S: usize> = FixedStep<GaussLegendre<S>>;
 /// end (Jay, *SIAM Journal on Numerical Analysis* 33, 1996; Hairer, Lubich and Wanner, *Geometric Numerical Integration*,
 /// VII.1.4). `Lobatto<2>` generalizes [`Verlet`] to mass matrices that depend on the coordinates, moving frames and
 /// forces that depend on the velocities; where both apply, they give the same motion. Constraints must be independent,
-/// and the mass matrix regular. Otherwise as [`Gauss`].
+/// and the mass matrix regular. That of a unit quaternion `q` is singular: add `dot(q, q_dot)^2/2` to the Lagrangian, which
+/// vanishes on |q| = 1. Otherwise as [`Gauss`].
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -76,7 +77,8 @@ pub type Lobatto<const S: usize> = FixedStep<LobattoPair<S>>;
 /// It is a discrete Lagrange–d'Alembert principle: the change of the coordinates over a step satisfies the constraints at
 /// its middle, and the velocities at its end satisfy them there (Cortés and Martínez, *Nonlinearity* 14, 2001; McLachlan
 /// and Perlmutter, *Journal of Nonlinear Science* 16, 2006). [`composed`](Self::composed) makes it a method of order 4,
-/// 6 or 8. With holonomic constraints alone it is [`Lobatto<2>`](Lobatto).
+/// 6 or 8. With holonomic constraints alone it is [`Lobatto<2>`](Lobatto). Constraints must be independent, and the mass
+/// matrix regular, as there.
 ///
 /// The method is reversible. It does not keep a symplectic form, because a nonholonomic motion has none, and it does not
 /// promise the energy: no method is known that keeps it on all nonholonomic problems (Modin and Verdier, *Numerische
