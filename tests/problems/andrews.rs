@@ -173,9 +173,9 @@ fn the_squeezer_reaches_its_reference() {
     let squeezer = squeezer();
     squeezer.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     squeezer.run("Dop853 1e-13", Dop853::with_tolerance(1e-13)).reaches_bar();
-    let _ = squeezer.run("Radau 1e-12", Radau::with_tolerance(1e-12));
-    let _ = squeezer.run("Lobatto 4 1e-5 s", Lobatto::<4>::with_step(1e-5));
     if is_long() {
+        squeezer.run("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches_bar();
+        squeezer.run("Lobatto 4 1e-5 s", Lobatto::<4>::with_step(1e-5)).reaches_bar();
         squeezer.run("Dopri5 1e-13", Dopri5::with_tolerance(1e-13)).reaches_bar();
         squeezer.run("RungeKutta4 1e-7 s", RungeKutta4::with_step(1e-7).max_steps(1_000_000)).reaches_bar();
     }

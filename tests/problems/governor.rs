@@ -75,7 +75,7 @@ fn methods_and_step_lengths_agree_and_energy_balances() {
     };
     problem.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     problem.run("Dop853 1e-10", Dop853::with_tolerance(1e-10).max_steps(1_000_000)).reaches_bar();
-    let _ = problem.run("Radau 1e-10", Radau::with_tolerance(1e-10));
+    problem.run("Radau 1e-10", Radau::with_tolerance(1e-10)).reaches_bar();
     problem.run("RungeKutta4 1e-4 s", RungeKutta4::with_step(1e-4).max_steps(1_000_000)).reaches_bar();
     problem.run("RungeKutta4 5e-5 s", RungeKutta4::with_step(5e-5).max_steps(1_000_000)).reaches_bar();
     if is_long() {

@@ -108,10 +108,10 @@ fn the_car_axis_reaches_its_reference() {
     };
     axis.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     axis.run("Dop853 1e-13", Dop853::with_tolerance(1e-13)).reaches_bar();
-    let _ = axis.run("Verlet Kahan–Li 8 5e-3 s", Verlet::with_step(5e-3).composed(KahanLi8));
-    let _ = axis.run("Lobatto 4 1e-3 s", Lobatto::<4>::with_step(1e-3));
-    let _ = axis.run("Radau 1e-12", Radau::with_tolerance(1e-12));
     if is_long() {
+        axis.run("Verlet Kahan–Li 8 5e-3 s", Verlet::with_step(5e-3).composed(KahanLi8)).reaches_bar();
+        axis.run("Lobatto 4 1e-3 s", Lobatto::<4>::with_step(1e-3)).reaches_bar();
+        axis.run("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches_bar();
         axis.run("Dopri5 1e-13", Dopri5::with_tolerance(1e-13)).reaches_bar();
         axis.run("RungeKutta4 1e-5 s", RungeKutta4::with_step(1e-5).max_steps(1_000_000)).reaches_bar();
     }
@@ -178,9 +178,9 @@ fn the_driven_slider_crank_reaches_its_reference() {
     assert!(begins[0].abs() < 1e-12 && begins[2].abs() < 1e-12, "{begins}");
     crank.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     crank.run("Dop853 1e-12", Dop853::with_tolerance(1e-12)).reaches_bar();
-    let _ = crank.run("Radau 1e-12", Radau::with_tolerance(1e-12));
-    let _ = crank.run("Lobatto 4 1e-4 s", Lobatto::<4>::with_step(1e-4));
+    crank.run("Lobatto 4 1e-4 s", Lobatto::<4>::with_step(1e-4)).reaches_bar();
     if is_long() {
+        crank.run("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches_bar();
         crank.run("Dopri5 1e-12", Dopri5::with_tolerance(1e-12)).reaches_bar();
         crank.run("RungeKutta4 1e-4 s", RungeKutta4::with_step(1e-4)).reaches_bar();
     }
@@ -256,10 +256,10 @@ fn the_pendulum_reaches_its_reference() {
     let pendulum = pendulum("A01 pendulum, 10 s", 4);
     pendulum.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     pendulum.run("Dop853 1e-12", Dop853::with_tolerance(1e-12)).reaches_bar();
-    let _ = pendulum.run("Verlet Kahan–Li 8 0.02 s", Verlet::with_step(0.02).composed(KahanLi8));
-    let _ = pendulum.run("Lobatto 4 5e-3 s", Lobatto::<4>::with_step(5e-3));
-    let _ = pendulum.run("Radau 1e-12", Radau::with_tolerance(1e-12));
+    pendulum.run("Verlet Kahan–Li 8 0.02 s", Verlet::with_step(0.02).composed(KahanLi8)).reaches_bar();
     if is_long() {
+        pendulum.run("Lobatto 4 5e-3 s", Lobatto::<4>::with_step(5e-3)).reaches_bar();
+        pendulum.run("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches_bar();
         pendulum.run("Dopri5 1e-12", Dopri5::with_tolerance(1e-12)).reaches_bar();
         pendulum.run("RungeKutta4 1e-4 s", RungeKutta4::with_step(1e-4).max_steps(1_000_000)).reaches_bar();
     }
