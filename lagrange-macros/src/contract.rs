@@ -247,12 +247,13 @@ const CONSTANTS: [&str; 16] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
-const PROVIDED: [&str; 35] = [
+const PROVIDED: [&str; 36] = [
     "visit_parameters",
     "visit_defects",
     "solve",
     "check_consistent",
     "make_consistent",
+    "assemble",
     "make_consistent_holding",
     "state_from",
     "integrate",
