@@ -201,6 +201,33 @@ fn events_and_controllers_that_fail_end_a_motion() {
     });
 }
 
+/// A motion that is led to a time just after a step goes on with steps of its length.
+#[test]
+fn short_steps_do_not_spoil_the_next() {
+    fn check<L: Lagrangian<N = Const<N>, Scalar = f64> + Clone, P: Method<L> + Copy, const N: usize>(
+        system: &L,
+        start: State<f64, N>,
+        method: P,
+    ) {
+        let straight = *system.integrate(start, 2.0, method).unwrap().end().state();
+        for length in [1e-3, 1e-6, 1e-9, 1e-12, 1e-14] {
+            let mut motion = Motion::new(system.clone(), start, method).unwrap();
+            motion.advance_to(1.0).unwrap();
+            motion.advance_to(1.0 + length).unwrap();
+            motion.advance_to(2.0).unwrap();
+            assert!(error(motion.state(), &straight) < 1e-5, "{}", error(motion.state(), &straight));
+        }
+    }
+    let (system, start) = spherical();
+    check(&system, start, Verlet::with_step(0.001));
+    check(&system, start, Lobatto::<2>::with_step(0.001));
+    check(&system, start, Lobatto::<3>::with_step(0.01));
+    check(&system, start, Lobatto::<4>::with_step(0.02));
+    let (system, start) = double_pendulum();
+    check(&system, start, Gauss::<3>::with_step(0.02));
+    check(&system, start, Gauss::<4>::with_step(0.02));
+}
+
 /// Backwards and forwards in time, the end of the last step is exact.
 #[test]
 fn ends_are_reached_exactly() {
