@@ -20,6 +20,9 @@ pub(crate) enum Quantity {
     Momentum,
     MomentumRate,
     MassMatrix,
+    CompletedMomentum,
+    CompletedMomentumRate,
+    CompletedMassMatrix,
     Forcing,
     Residual,
     Rate,
@@ -171,6 +174,13 @@ pub(crate) const LAGRANGIAN: [Method; 20] = [
     method(Quantity::Conserved, "conserved", &[System, Index, State], Optional),
 ];
 
+/// Methods of `Lagrangian` that are emitted where constraints complete M.
+pub(crate) const COMPLETED: [Method; 3] = [
+    of_state(Quantity::CompletedMomentum, "completed_momentum", Vector(Coordinates)),
+    of_state(Quantity::CompletedMomentumRate, "completed_momentum_rate", Vector(Coordinates)),
+    of_state(Quantity::CompletedMassMatrix, "completed_mass_matrix", Matrix(Coordinates, Coordinates)),
+];
+
 /// Required methods of `StateDerivatives`.
 pub(crate) const STATE_DERIVATIVES: [Method; 2] = [
     method(Quantity::Slopes, "residual_slopes", &[System, State, Solution], Gives::Slopes),
@@ -247,7 +257,10 @@ const CONSTANTS: [&str; 16] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
-const PROVIDED: [&str; 36] = [
+const PROVIDED: [&str; 39] = [
+    "completed_momentum",
+    "completed_momentum_rate",
+    "completed_mass_matrix",
     "visit_parameters",
     "visit_defects",
     "solve",

@@ -112,6 +112,9 @@ fn maps_are_symplectic() {
     check("Lobatto 2", &spherical(), Lobatto::<2>::with_step(0.02));
     check("Lobatto 3", &bowl(), Lobatto::<3>::with_step(0.05));
     check("Lobatto 4", &bowl(), Lobatto::<4>::with_step(0.1));
+    check("Lobatto 2 with a unit quaternion", &top(), Lobatto::<2>::with_step(0.01));
+    check("Lobatto 4 with a unit quaternion", &top(), Lobatto::<4>::with_step(0.05));
+    check("Lobatto 3 with a massless weight", &weight(), Lobatto::<3>::with_step(0.05));
     check("DAlembert on holonomic constraints", &bowl(), DAlembert::with_step(0.02));
 }
 

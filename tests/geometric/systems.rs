@@ -196,6 +196,65 @@ pub(crate) fn wheel() -> (Wheel<f64>, State<f64, 5>) {
     (system.clone(), system.make_consistent(&start).unwrap().0)
 }
 
+/// A heavy top by a unit quaternion, whose length has no inertia.
+#[derive(Clone, Lagrangian)]
+#[coordinates(q: [4])]
+#[frame(body: rotate(q))]
+#[define(w = quat_rate_body(q, q_dot))]
+#[lagrangian((a*(w[0]^2 + w[1]^2) + c*w[2]^2)/2 - mgl*position(body, [0, 0, 1])[2])]
+pub(crate) struct Top<T> {
+    a: T,
+    c: T,
+    mgl: T,
+}
+
+/// Leaning by 0.6, and turning about its axis.
+pub(crate) fn top() -> (Top<f64>, State<f64, 4>) {
+    let (sine, cosine) = 0.3_f64.sin_cos();
+    let start = State::new([cosine, sine, 0.0, 0.0], [0.0, 0.2 * cosine, -2.0 * sine, 2.0 * cosine]);
+    let system = Top { a: 0.4, c: 0.25, mgl: 2.0 };
+    (system.clone(), system.make_consistent(&start).unwrap().0)
+}
+
+/// A weight without inertia, at the place (x, y), on a wheel that a spring holds.
+#[derive(Clone, Lagrangian)]
+#[coordinates(phi, x, y)]
+#[lagrangian(i/2*phi_dot^2 - k/2*phi^2 - w*y)]
+#[constraint(across: x - sin(phi) = 0)]
+#[constraint(along: y + cos(phi) = 0)]
+pub(crate) struct Weight<T> {
+    i: T,
+    k: T,
+    w: T,
+}
+
+pub(crate) fn weight() -> (Weight<f64>, State<f64, 3>) {
+    let system = Weight { i: 0.5, k: 1.0, w: 3.0 };
+    (system.clone(), system.make_consistent(&State::new([0.7, 0.0, 0.0], [0.4, 0.0, 0.0])).unwrap().0)
+}
+
+/// A ball, by a quaternion, that rolls on a turntable, drawn to its centre by a spring.
+#[derive(Clone, Lagrangian)]
+#[coordinates(r: [2], q: [4])]
+#[define(w = quat_rate(q, q_dot))]
+#[lagrangian(m/2*dot(r_dot, r_dot) + j/2*dot(w, w) - k/2*dot(r, r))]
+#[constraint(rolling_x: r_dot[0] - a*w[1] = -spin*r[1])]
+#[constraint(rolling_y: r_dot[1] + a*w[0] = spin*r[0])]
+#[constraint(unit: dot(q, q) = 1)]
+pub(crate) struct Ball<T> {
+    m: T,
+    j: T,
+    a: T,
+    k: T,
+    spin: T,
+}
+
+pub(crate) fn ball() -> (Ball<f64>, State<f64, 6>) {
+    let system = Ball { m: 1.0, j: 0.1, a: 0.5, k: 2.0, spin: 0.8 };
+    let start = State::new([0.5, 0.0, 0.8, 0.0, 0.6, 0.0], [0.1, 0.7, 0.3, 0.5, -0.4, 0.2]);
+    (system.clone(), system.make_consistent(&start).unwrap().0)
+}
+
 /// The motion by an independent method, to about 10⁻¹³.
 pub(crate) fn reference<L, const N: usize>((system, start): &(L, State<f64, N>), end: f64) -> State<f64, N>
 where

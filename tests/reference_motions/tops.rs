@@ -95,7 +95,12 @@ fn heavy_top_on_a_wave_by_quaternion() {
     let system = BodyInSpace::with([0.4, 0.4, 0.25], 2.0);
     let known = by_quaternion(table!("heavy_top_wave"));
     let problem = Problem { name: "heavy top on a wave, quaternion", system, known };
-    problem.check(&[("Taylor", [2e-12, 2e-12, 0.0]), ("Dop853", [1e-10, 1e-10, 0.0])]);
+    let mut rows = problem.rows();
+    rows.push(problem.row("Lobatto 4 2 ms", Lobatto::<4>::with_step(2e-3)));
+    problem.check_rows(
+        &rows,
+        &[("Taylor", [2e-12, 2e-12, 0.0]), ("Dop853", [1e-10, 1e-10, 0.0]), ("Lobatto", BAR)],
+    );
 }
 
 /// A Ω² cos θ − C ω₃ Ω + m g l = 0 has a slow and a fast root; ω₃ = ψ̇ + Ω cos θ.

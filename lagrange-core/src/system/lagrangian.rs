@@ -67,7 +67,7 @@ pub trait Lagrangian {
     type M: Length;
 
     /// Factorization of the matrix of the equations of motion at a state, without heap data.
-    type Factor: Copy + Debug;
+    type Factor: Copy + Debug + Send + Sync;
 
     /// Name of the struct.
     const NAME: &'static str;
@@ -122,6 +122,25 @@ pub trait Lagrangian {
 
     /// Mass matrix M = ∂p/∂q̇ (symmetric).
     fn mass_matrix(&self, state: &StateOf<Self>) -> Matrix<Self::Scalar, Self::N, Self::N>;
+
+    /// Momenta ∂L̄/∂q̇ of the completed Lagrangian L̄ = L + Σ_a σ_a (F_a q̇ + b_a)²/2, whose mass matrix is regular where
+    /// constraints complete a singular M: the length of a unit quaternion has no inertia. L̄ has the motions and the
+    /// multipliers of L, and where velocities satisfy the constraints, its momenta. The derive macro chooses the
+    /// constraints a and their weights σ_a; where M is regular there are none.
+    fn completed_momentum(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::N> {
+        self.momentum(state)
+    }
+
+    /// ∂L̄/∂q + Q with the completed Lagrangian of [`completed_momentum`](Self::completed_momentum).
+    fn completed_momentum_rate(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::N> {
+        self.momentum_rate(state)
+    }
+
+    /// M + Σ_a σ_a F_aᵀF_a, the mass matrix of the completed Lagrangian of
+    /// [`completed_momentum`](Self::completed_momentum) where velocities satisfy the constraints.
+    fn completed_mass_matrix(&self, state: &StateOf<Self>) -> Matrix<Self::Scalar, Self::N, Self::N> {
+        self.mass_matrix(state)
+    }
 
     /// h = ∂L/∂q + Q − (dp/dt at q̈ = 0), so M q̈ = h without constraints.
     fn forcing(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::N>;

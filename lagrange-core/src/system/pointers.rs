@@ -50,6 +50,9 @@ macro_rules! forward {
                 fn momentum(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
                 fn momentum_rate(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
                 fn mass_matrix(state: &State<Self::Scalar, L::N>) -> Matrix<Self::Scalar, L::N, L::N>;
+                fn completed_momentum(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
+                fn completed_momentum_rate(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
+                fn completed_mass_matrix(state: &State<Self::Scalar, L::N>) -> Matrix<Self::Scalar, L::N, L::N>;
                 fn forcing(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
                 fn constraint_residual(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::M>;
                 fn constraint_integral(index: usize, state: &State<Self::Scalar, L::N>) -> Option<Self::Scalar>;

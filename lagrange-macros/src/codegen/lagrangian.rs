@@ -9,9 +9,9 @@ use super::markers::markers;
 use super::observables::OBSERVABLE;
 use super::pack;
 use super::shape::ResultShape;
-use crate::contract::{Gives, LAGRANGIAN, Method, Quantity};
+use crate::contract::{COMPLETED, Gives, LAGRANGIAN, Method, Quantity};
 use crate::diagnostics::Diagnostics;
-use crate::mechanics::ConstraintKind;
+use crate::mechanics::{Completed, ConstraintKind};
 use crate::symbolic::Id;
 
 impl Emitter<'_> {
@@ -41,7 +41,8 @@ impl Emitter<'_> {
         let are_linear = self.derived.equations.momenta_are_linear;
         let (integrability, facts) = (self.integrability(), self.facts());
         let observables = self.observable_names();
-        let methods: Written = LAGRANGIAN.iter().map(|method| self.method(method)).collect();
+        let completed = self.derived.equations.completed.iter().flat_map(|_| &COMPLETED);
+        let methods: Written = LAGRANGIAN.iter().chain(completed).map(|method| self.method(method)).collect();
         let inherent: Written =
             problem.observables.iter().map(|observable| self.observable(observable)).collect();
         let kernels = || methods.kernels.iter().chain(&inherent.kernels);
@@ -102,12 +103,17 @@ impl Emitter<'_> {
         let columns = |rows: &[Vec<Id>]| -> Vec<Id> {
             (0..problem.coordinates.len()).flat_map(|j| rows.iter().map(move |row| row[j])).collect()
         };
-        let entries = match method.quantity {
+        let completed =
+            |of: &dyn Fn(&Completed) -> Vec<Id>| equations.completed.iter().flat_map(of).collect();
+        let entries: Vec<Id> = match method.quantity {
             Quantity::Lagrangian => vec![problem.lagrangian],
             Quantity::Energy => vec![equations.energy],
             Quantity::Momentum => equations.momentum.clone(),
             Quantity::MomentumRate => equations.momentum_rate.clone(),
             Quantity::MassMatrix => columns(&equations.mass),
+            Quantity::CompletedMomentum => completed(&|found| found.momentum.clone()),
+            Quantity::CompletedMomentumRate => completed(&|found| found.rate.clone()),
+            Quantity::CompletedMassMatrix => completed(&|found| columns(&found.mass)),
             Quantity::Forcing => equations.forcing.clone(),
             Quantity::Residual => equations.residual.clone(),
             Quantity::Rate => equations.rate.clone(),

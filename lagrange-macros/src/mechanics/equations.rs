@@ -1,6 +1,7 @@
 //! The equations of motion in symbols, with the momenta, the energy and the constraint residuals that a simulation
 //! evaluates.
 
+use super::completion::Completed;
 use super::constraints::ConstraintKind;
 use super::coordinates::Coordinates;
 use super::euler_lagrange::{Momenta, energy};
@@ -51,6 +52,8 @@ pub(crate) struct Equations {
     /// Equivalent quadratic forms of M and h, completed by constraints where M is singular. The first has the
     /// accelerations as its only variables.
     pub(crate) forms: Vec<Form>,
+    /// The same motions, of a Lagrangian whose mass matrix is regular; `None` if no constraint completes M.
+    pub(crate) completed: Option<Completed>,
 }
 
 impl Equations {
@@ -73,6 +76,7 @@ impl Equations {
         determinacy::check(problem, &mass, &constraints, diagnostics)?;
         let integrability = integrability::classify(graph, problem, &constraints);
         let forms = Form::all(graph, problem, formulation, (&mass, &forcing), &constraints);
+        let completed = Completed::of(graph, (&momenta, &mass), &constraints, &forms[0].completing);
         let constraint_force = constraints.force(graph);
         let mut along_motion = total_time_derivative(graph, problem.coordinates.len());
         let constraint_acceleration =
@@ -80,6 +84,7 @@ impl Equations {
         Some(Self {
             balance: balance(graph, formulation, &constraint_force),
             forms,
+            completed,
             integrability,
             momenta_are_linear: !has_velocity(graph, &mass.concat()),
             momentum: momenta.momentum,

@@ -32,6 +32,7 @@ use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use crate::variables::{Variable, nodes};
+pub(crate) use completion::Completed;
 pub(crate) use conservation::{Conserved, ConservedKind, EnergyChange};
 pub(crate) use constraints::ConstraintKind;
 pub(crate) use energy_form::EnergyForm;

@@ -5,7 +5,7 @@ use super::{equations, systems};
 use crate::codegen::{operations, solutions, solving};
 use crate::mechanics::Equations;
 use crate::resolve::Problem;
-use crate::symbolic::{Approximate, Graph, Id, Sample, Symbol, solve};
+use crate::symbolic::{Approximate, Graph, Id, Rational, Sample, Symbol, solve};
 use crate::variables::{Variable, symbols};
 
 /// A rigid body of any inertia, rotating about its centre of mass. `HAND` marks where a test may add a vanishing
@@ -317,5 +317,53 @@ fn a_weight_is_positive_whichever_way_arms_point() {
             let pivot = solution.and_then(|solution| solution.last().copied());
             assert!(pivot.is_some_and(|pivot| pivot > 1e-3), "arm {l}, centre {c}: {pivot:?}");
         }
+    }
+}
+
+/// Derivatives of `roots` at a state by each of `symbols`, by differences: a row for each symbol.
+fn differences(graph: &Graph, state: &mut Sample, symbols: &[Symbol], roots: &[Id]) -> Vec<Vec<f64>> {
+    let slopes = symbols.iter().map(|&symbol| {
+        let x = state.get(symbol).value;
+        let mut at = |by: f64| -> Vec<f64> {
+            state.set([(symbol, Approximate::exact(x + by))]);
+            state.values(graph, roots).iter().map(|value| value.value).collect()
+        };
+        let [near, far] = [1e-3, 2e-3].map(|h| [at(h), at(-h)]);
+        at(0.0);
+        let slope = |k: usize| (8.0 * (near[0][k] - near[1][k]) - (far[0][k] - far[1][k])) / 12e-3;
+        (0..roots.len()).map(slope).collect()
+    });
+    slopes.collect()
+}
+
+/// Momenta and rates of the completed Lagrangian against differences of L + Σ σ c²/2 off the constraints, and M against
+/// those of the momenta on them.
+#[test]
+fn the_completed_lagrangian_is_differentiated() {
+    let sources = [systems::TOP, BALL, SINGULAR[0].0, SINGULAR[4].0, SINGULAR[8].0].map(without);
+    for source in sources.into_iter().chain([joints(2, true)].map(|source| without(&source))) {
+        let (mut graph, problem, equations) = equations(&source);
+        let completed = equations.completed.as_ref().expect("a singular M");
+        let squares = equations.forms[0].completing.iter().map(|&(a, weight)| {
+            let square = graph.square(equations.rate[a]);
+            (graph.mul(weight, square), Rational::new(1, 2))
+        });
+        let terms: Vec<_> = squares.chain([(problem.lagrangian, Rational::new(1, 1))]).collect();
+        let lagrangian = graph.sum(terms);
+        let n = problem.coordinates.len();
+        let [q, v] = [Variable::Coordinate, Variable::Velocity].map(|variable| symbols(n, variable));
+        let known: Vec<Symbol> = graph.symbols(&[lagrangian]).chain([&q[..], &v].concat()).collect();
+        let mut off = Sample::new(known, 7, |symbol, draw| problem.drawn(symbol, draw));
+        let mut on = state(&graph, &problem, &equations, 7);
+        let check = |name: &str, state: &mut Sample, roots: &[Id], of: &[Id], symbols: &[Symbol]| {
+            let expected = differences(&graph, state, symbols, of).concat();
+            for (found, expected) in state.values(&graph, roots).iter().zip(expected) {
+                let off = (found.value - expected).abs();
+                assert!(off < 1e-8 * (1.0 + expected.abs()), "{source}: {name} {found:?}, not {expected}");
+            }
+        };
+        check("∂L/∂q", &mut off, &completed.rate, &[lagrangian], &q);
+        check("∂L/∂q̇", &mut off, &completed.momentum, &[lagrangian], &v);
+        check("∂p/∂q̇", &mut on, &completed.mass.concat(), &completed.momentum, &v);
     }
 }

@@ -240,7 +240,7 @@ fn failure<L: Lagrangian<Scalar: Real>>(
             reason: match <L::M>::COUNT {
                 0 => "the iteration of a step does not converge; take shorter steps",
                 _ => {
-                    "the iteration of a step does not converge; take shorter steps, or, if constraints depend on one another or the mass matrix is singular, as that of a unit quaternion, `Dop853`, `Taylor` or `Radau`"
+                    "the iteration of a step does not converge; take shorter steps, or, if constraints depend on one another, `Dop853`, `Taylor` or `Radau`"
                 }
             },
         },

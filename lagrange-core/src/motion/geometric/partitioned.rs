@@ -138,7 +138,8 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         let mut both = [[Array::filled(L::Scalar::constant(0.0)); S]; 2];
         let length = self.h.magnitude();
         for (i, state) in states.iter().enumerate() {
-            let (p, mut r) = (self.system.momentum(state), self.system.momentum_rate(state));
+            let (p, mut r) =
+                (self.system.completed_momentum(state), self.system.completed_momentum_rate(state));
             let mut size = magnitudes(&r);
             if <L::M>::COUNT > 0 && i + 1 < S {
                 let force = self.system.constraint_force(state, &vector(multipliers[i]));
@@ -226,13 +227,13 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         multipliers: &Array<L::Scalar, L::M>,
     ) -> Array<L::Scalar, L::N> {
         let (system, state, length) = (self.system, &self.from.state, self.h.magnitude());
-        let (m, f) = (system.mass_matrix(state), system.constraint_jacobian(state));
+        let (m, f) = (system.completed_mass_matrix(state), system.constraint_jacobian(state));
         let mut wider = *terms;
         for j in 0..<L::N>::COUNT {
             let part = L::Scalar::constant(0.125);
             let mut moved = *state;
             moved.q[j] = moved.q[j] + part * moved.q[j];
-            let change = system.momentum_rate(&moved).minus(&system.momentum_rate(state));
+            let change = system.completed_momentum_rate(&moved).minus(&system.completed_momentum_rate(state));
             let speed = state.v[j].magnitude() + state.q[j].magnitude() / length;
             for k in 0..<L::N>::COUNT {
                 let change = change[k].magnitude() * length / part;
@@ -274,7 +275,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         let q = vector(Array::from_fn(|i| q[i] + half * mean[i]));
         let state = &State { t: t + half, q, v: vector(mean) };
         let none = Array::filled(L::Scalar::constant(0.0));
-        let (m, f) = (self.system.mass_matrix(state), self.system.constraint_jacobian(state));
+        let (m, f) = (self.system.completed_mass_matrix(state), self.system.constraint_jacobian(state));
         Room::of(LoopFactor::of(m.into(), rows(&f), none))
     }
 
@@ -335,7 +336,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
             let force = system.constraint_force(&state, &multipliers);
             let total = Array::from_fn(|k| push[k] + force[k]);
             let p = compensated(start, &total, rest);
-            let momenta = system.momentum(&state);
+            let momenta = system.completed_momentum(&state);
             let residual = Array::from_fn(|k| (momenta[k] - p.0[k]) - p.1[k]);
             let terms = Array::from_fn(|k| {
                 momenta[k].magnitude() + start[k].magnitude() + push[k].magnitude() + force[k].magnitude()

@@ -35,7 +35,7 @@ impl<F: Copy, T: Parts, N: Length, M: Length, const S: usize> StageMemory<F, T, 
         let solution = system.accelerations_unchecked(state);
         Self {
             factor: system.factor(state),
-            momenta: [array(system.momentum(state)), Array::filled(T::constant(0.0))],
+            momenta: [array(system.completed_momentum(state)), Array::filled(T::constant(0.0))],
             velocities: [array(state.v); S],
             multipliers: [array(solution.multipliers); S],
             length: T::constant(0.0),

@@ -49,9 +49,9 @@ pub type Gauss<const S: usize> = FixedStep<GaussLegendre<S>>;
 /// The constraints hold at every stage and at the end of a step, to round-off, and so do those of the velocities at the
 /// end (Jay, *SIAM Journal on Numerical Analysis* 33, 1996; Hairer, Lubich and Wanner, *Geometric Numerical Integration*,
 /// VII.1.4). `Lobatto<2>` generalizes [`Verlet`] to mass matrices that depend on the coordinates, moving frames and
-/// forces that depend on the velocities; where both apply, they give the same motion. Constraints must be independent,
-/// and the mass matrix regular. That of a unit quaternion `q` is singular: add `dot(q, q_dot)^2/2` to the Lagrangian, which
-/// vanishes on |q| = 1. Otherwise as [`Gauss`].
+/// forces that depend on the velocities; where both apply, they give the same motion. Constraints must be independent. A
+/// singular mass matrix, as that of a unit quaternion, is completed by constraints
+/// ([`completed_momentum`](crate::Lagrangian::completed_momentum)). Otherwise as [`Gauss`].
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -152,7 +152,7 @@ macro_rules! schemes {
     ($([$($generic:tt)*] $scheme:ty, $stages:expr, $order:expr, $name:literal, $table:expr, [$($bound:tt)*];)*) => {$(
         impl<L, $($generic)*> Scheme<L> for $scheme
         where
-            L: Lagrangian<Scalar: Parts, Factor: Send + Sync> $($bound)*
+            L: Lagrangian<Scalar: Parts> $($bound)*
         {
             type Carried = StageMemory<L::Factor, L::Scalar, L::N, L::M, { $stages }>;
 

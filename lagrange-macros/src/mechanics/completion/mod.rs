@@ -7,6 +7,7 @@
 //! The rows of F that are needed are found at random states. If that choice is wrong, a bad pivot reveals it at run
 //! time.
 
+mod completed;
 mod pivots;
 mod positive;
 mod states;
@@ -16,6 +17,7 @@ mod weight;
 use super::constraints::Constraints;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational};
+pub(crate) use completed::Completed;
 use pivots::{Wanted, add_square, pivots};
 use states::State;
 use system::System;
