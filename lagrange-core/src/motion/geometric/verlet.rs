@@ -66,10 +66,7 @@ pub struct Forces<F, T: Element, N: Length> {
 
 impl<L> Scheme<L> for StormerVerlet
 where
-    L: Lagrangian<Scalar: Parts, Factor: Send + Sync>
-        + ConstantMassMatrix
-        + VelocityFreeForces
-        + HolonomicConstraints,
+    L: Lagrangian<Scalar: Parts> + ConstantMassMatrix + VelocityFreeForces + HolonomicConstraints,
 {
     type Carried = Forces<L::Factor, L::Scalar, L::N>;
 
