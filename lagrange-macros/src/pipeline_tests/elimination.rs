@@ -30,6 +30,17 @@ fn a_chain_of_rods_is_solved_in_linearly_many_operations() {
     assert!(counts[3] <= 45 * 20, "{counts:?}");
 }
 
+/// Each multiplier follows the coordinates of its own constraint. After those of all constraints, every multiplier would
+/// couple to every other.
+#[test]
+fn neighbouring_loops_are_solved_in_linearly_many_operations() {
+    let counts: Vec<usize> =
+        [10, 20, 30, 40].map(|n| last(&counts(&systems::windows(n))[0]).expect("short enough")).to_vec();
+    println!("operations of the accelerations and all multipliers, 10 to 40 windows: {counts:?}");
+    assert!(counts.windows(3).all(|c| c[2] + c[0] == 2 * c[1]), "{counts:?}");
+    assert!(counts[3] <= 205 * 40, "{counts:?}");
+}
+
 /// The derive finds the articulated-body algorithm from the definitions of the links' velocities.
 #[test]
 fn a_chain_in_angles_is_solved_in_linearly_many_operations() {

@@ -43,6 +43,19 @@ pub(super) fn rods(n: usize) -> String {
     )
 }
 
+/// `n` windows of four bars side by side. M couples neighbouring corners, so its inverse is dense.
+pub(super) fn windows(n: usize) -> String {
+    let corners = n + 1;
+    format!(
+        "#[coordinates(b: [{corners}, 2])]
+         #[lagrangian(sum(i in 0..{corners}, dot(b_dot[i], b_dot[i])/6 - g*b[i][1]/2)
+             + sum(i in 0..{n}, dot(b_dot[i] + b_dot[i+1], b_dot[i] + b_dot[i+1])/6))]
+         #[constraint(vertical[i in 0..{corners}]: (b[i][0] - i)^2 + b[i][1]^2 - 1 = 0)]
+         #[constraint(coupler[i in 0..{n}]: dot(b[i+1] - b[i], b[i+1] - b[i]) - 1 = 0)]
+         struct Windows {{ g: f64 }}"
+    )
+}
+
 /// A heavy top with a unit quaternion as orientation: M is singular.
 pub(super) const TOP: &str = "
     #[coordinates(q: [4])]

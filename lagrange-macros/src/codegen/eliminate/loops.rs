@@ -1,6 +1,7 @@
-//! Elimination order for closed kinematic loops that share bodies, such as a plate on several legs. The multipliers
-//! of a loop follow its own coordinates and precede the shared ones. So each loop is closed on its own, and the rest
-//! is as large as the plate. If the multipliers followed the shared coordinates, all loops would couple.
+//! Elimination order for constraints that share few coordinates. Bars in a row: each multiplier follows the coordinates
+//! of its constraint, and precedes the other coordinates. If the multipliers followed all coordinates, and M⁻¹ is dense,
+//! each would couple to each. A plate on several legs: the multipliers of a loop follow its own coordinates and precede
+//! the shared ones. So each loop is closed on its own, and the rest is as large as the plate.
 //!
 //! M is positive definite and remains so when a multiplier is eliminated, which has a negative pivot (Vanderbei,
 //! "Symmetric quasidefinite matrices", *SIAM Journal on Optimization* 5, 1995). The exception is a loop whose own
@@ -22,7 +23,8 @@ pub(super) fn order(matrix: &[Vec<bool>], rows: &[Vec<bool>]) -> Option<Vec<usiz
     };
     let levels: std::collections::BTreeSet<usize> = sharing.iter().copied().collect();
     let (order, cost) = levels.iter().filter_map(closed).min_by_key(|&(_, cost)| cost)?;
-    (4 * cost <= 3 * in_order(&held).1).then_some(order)
+    let last = vec![(0..n).collect(); rows.len()];
+    (4 * cost <= 3 * in_order(&last).1).then_some(order)
 }
 
 /// Coordinates of a constraint that occur in at most `most` constraints. If there are none, all its coordinates.
