@@ -26,7 +26,7 @@ pub(crate) struct Mechanism<const N: usize, const M: usize, const H: usize> {
     pub(crate) bias: fn(&At<N>) -> [f64; M],
 }
 
-/// The first of the names; all of them if there are too few.
+/// The first `count` names; all of them if there are fewer.
 const fn first(all: &'static [&'static str], count: usize) -> &'static [&'static str] {
     if count < all.len() { all.split_at(count).0 } else { all }
 }

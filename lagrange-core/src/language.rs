@@ -492,7 +492,7 @@
 //! let state = State::new([0.5], [1.0]);
 //! let solution = oscillator.solve(&state)?;
 //! assert_eq!(oscillator.power(&state), 1.0);
-//! // What needs accelerations or multipliers takes the solution too.
+//! // Observables of accelerations or multipliers take the solution too.
 //! assert!((oscillator.felt(&state, &solution) - (1.0 - 0.1 - 2.0)).abs() < 1e-15);
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```

@@ -107,9 +107,10 @@ pub(crate) enum Gives {
     Slopes,
     ParameterSlopes,
     SeriesSlopes,
-    /// Right-hand sides in place of h and γ, and the known parts of the newest Taylor coefficients.
+    /// Right-hand sides in place of h and γ for one Taylor order, and the parts of the coefficients of this
+    /// order that are known before the accelerations.
     RightHandSides,
-    /// Newest terms of the left and right factors of each convolution sum.
+    /// Coefficients of one Taylor order of the left and right factors of each convolution sum.
     Factors,
     ResidualChange,
     /// `Option` of a number: `None` if there is none of that index.

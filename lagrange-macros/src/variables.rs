@@ -24,16 +24,16 @@ pub(crate) enum Variable {
     ParameterChange(usize),
     /// Coefficient that the directional derivatives at one state share, whatever the direction.
     Slope(usize),
-    /// Newest Taylor coefficient of an acceleration.
+    /// Taylor coefficient of order k of an acceleration.
     AccelerationChange(usize),
-    /// Newest Taylor coefficient of a multiplier.
+    /// Taylor coefficient of order k of a multiplier.
     MultiplierChange(usize),
     /// Convolution sum over Taylor coefficients of lower orders.
     Sum(usize),
-    /// Part of a newest Taylor coefficient that does not depend on the accelerations and multipliers of the same
-    /// order.
+    /// Part of a Taylor coefficient of order k that does not depend on the accelerations and multipliers of
+    /// order k.
     Term(usize),
-    /// Order k of the newest Taylor coefficients.
+    /// Order k of the Taylor coefficients to compute.
     Order,
     /// 1/k.
     OrderReciprocal,

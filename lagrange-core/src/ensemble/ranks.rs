@@ -157,7 +157,7 @@ fn check_threads(world: &SimpleCommunicator) -> Result<(), Error> {
     }
 }
 
-/// Checks, before any rank integrates, that all ranks can and that they agree with rank 0.
+/// Checks, before any rank integrates, that every rank can integrate and agrees with rank 0.
 fn agreed<'a, L: Lagrangian<Scalar: Real>>(
     world: &SimpleCommunicator,
     job: Result<Job<'a, L>, Error>,

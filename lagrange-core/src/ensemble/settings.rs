@@ -164,9 +164,9 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
         self.run(end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
     }
 
-    /// Skips the members that this table contains, and takes their rows over into the outcome. The table comes from
-    /// [`Outcome::csv`] or from rows of [`Member::csv`](super::Member::csv); it may be one run's or those of several
-    /// concatenated. Repeated calls add tables. If a member has several rows, the first counts.
+    /// Skips the members that this table contains, and takes their rows over into the outcome. The table
+    /// comes from [`Outcome::csv`] or from rows of [`Member::csv`](super::Member::csv); tables of several
+    /// runs may be concatenated. Repeated calls add tables. If a member has several rows, the first counts.
     ///
     /// Members that failed are integrated again: with the same settings they fail in the same way, except at a limit on
     /// wall-clock time. Rows of another part are ignored. So are incomplete lines, even if another row was appended to

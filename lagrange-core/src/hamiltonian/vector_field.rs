@@ -56,7 +56,8 @@ fn phase_state<T: Real, N: Length>(point: &StagePoint<T, N>) -> PhaseState<T, N>
     PhaseState { t: point.t, q: vector(point.y.half(0)), p: vector(point.y.half(1)) }
 }
 
-/// Returns the state with the nearby velocity of `point`, instead of the one that belongs to the momenta.
+/// Returns the state with the initial guess `point.velocity`, instead of the velocity that belongs to the
+/// momenta.
 fn nearby<T: Real, N: Length>(point: &StagePoint<T, N>) -> State<T, N> {
     State { t: point.t, q: vector(point.y.half(0)), v: vector(point.velocity) }
 }

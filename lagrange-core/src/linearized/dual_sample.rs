@@ -155,7 +155,8 @@ impl<'a, L: Linearized<Scalar: Real>> DualSample<'a, L> {
         (state, Direction { t: t.slope, q: q.each(|x| x.slope), v: v.each(|x| x.slope) })
     }
 
-    /// Derivative of the residual by the argument and along the direction.
+    /// Derivative of the residual if the state changes along `direction` and the parameter of
+    /// differentiation, if any, at unit rate.
     fn change_at(
         &self,
         tangent: &Tangent<'_, L>,

@@ -183,7 +183,8 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
         self.changes(&Direction { t: of(*t), q: q.each(of), v: v.each(of) })
     }
 
-    /// Derivative of the residual along this direction and by this parameter, the same in all lanes.
+    /// Derivative of the residual if the state changes along this direction and this parameter at unit rate,
+    /// the same in all lanes.
     #[cfg(feature = "alloc")]
     pub(super) fn change_with(
         &self,

@@ -125,7 +125,8 @@ where
     }
 
     /// Takes one accepted step. If the observer cannot follow it, undoes the step and tries a shorter one.
-    // Its own frame without optimization: what looking into a step takes is not to lie below the search for events.
+    // A function of its own: in an unoptimized build, the stack space of `follow` is free again before events
+    // are searched.
     #[inline]
     fn step_with<O: Observer<L, P, F>>(
         &mut self,

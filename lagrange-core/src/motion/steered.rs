@@ -242,7 +242,7 @@ where
         let found = search.due(at)?;
         let mut search = FindCrossing { system: &*system, last_step, end, search, at, found };
         if search.found.is_none() {
-            // FindCrossing the rest of the step within which the motion has stopped.
+            // Search the rest of the step within which the motion has stopped.
             search.look::<F>(&run.before, &run.state)?;
         }
         run.drive(method, &limits, &mut search)?;

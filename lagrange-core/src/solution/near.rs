@@ -13,15 +13,16 @@ use crate::number::{Real, Scalar, sum};
 use crate::system::{Lagrangian, SolutionOf, State, StateOf};
 use crate::vector::{Array, Entrywise, Length, Vector, from_fn, vector};
 
-/// Strategy of the corrections: when and how often to correct, and whether velocities follow the coordinates.
+/// Strategy of the corrections: when and how often to correct, and whether a correction of the coordinates
+/// also changes the velocities.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Corrections<T> {
     /// Correct each level up to three times, until its residual is at most 4 ε of its terms. After an integration
     /// step, one correction usually suffices.
     ToRoundOff,
-    /// One correction after a step of this length, whatever the residual. A threshold would ignore small
-    /// residuals of the same sign for many steps in a row, which makes the energy drift. Velocities follow the
-    /// coordinates.
+    /// One correction at the end of an integration step of this length, however small the residual. A
+    /// threshold would ignore small residuals of the same sign for many steps in a row, which makes the
+    /// energy drift. A correction of the coordinates also changes the velocities.
     #[cfg_attr(not(feature = "alloc"), expect(dead_code, reason = "of a method that allocates"))]
     OnceAfter(T),
 }
@@ -44,8 +45,8 @@ impl<T: Scalar> Corrections<T> {
     }
 }
 
-/// Returns the state on the constraints of these levels, and a doubt: zero, lane by lane, if the projection
-/// reached round-off in the precision of `R`.
+/// Returns the state projected onto the constraints of these levels. The second result is zero, lane by lane,
+/// if the projection reached round-off in the precision of `R`.
 ///
 /// `rest` holds the rounding errors of coordinates and velocities, before and after. They are added to the
 /// corrections before rounding: most corrections are below a unit of round-off, and alone they would be rounded

@@ -13,26 +13,27 @@ pub type RightHandSides<T, N, M> = (Vector<T, N>, Vector<T, M>);
 /// A system whose motion can be expanded in a Taylor series, order by order, as [`Taylor`](crate::Taylor) does.
 ///
 /// `#[derive(Lagrangian)]` implements it if every function in the equations has a Taylor series. The
-/// coefficients of accelerations and multipliers of every order k solve one linear system, M x − Fᵀλ = h, F x =
-/// −γ. M and F are those of the expansion point; only the right-hand sides depend on k. The right-hand sides,
-/// and the coefficients of intermediate expressions, are linear in the newest coefficients. Their terms consist
-/// of numbers of the state, the [slopes](Self::series_slopes), and of convolutions Σ x_j y_{k−j} of earlier
-/// coefficients (Griewank and Walther, *Evaluating Derivatives*, 13.2).
+/// coefficients of accelerations and multipliers of every order k solve one linear system, M x − Fᵀλ = h, F x
+/// = −γ. M and F are those of the expansion point; only the right-hand sides depend on k. The right-hand
+/// sides, and the coefficients of intermediate expressions, are linear in the coefficients of order k. Their
+/// other factors and terms are numbers of the state, the [slopes](Self::series_slopes), and convolutions Σ
+/// x_j y_{k−j} of coefficients of lower orders (Griewank and Walther, *Evaluating Derivatives*, 13.2).
 #[diagnostic::on_unimplemented(
     message = "the Taylor series of the motion of `{Self}` is not known",
     label = "no `TaylorSeries`",
     note = "`#[derive(Lagrangian)]` gives it to every system but those whose equations of motion have `abs`, `min`, `max` or `clamp`, take third derivatives of a function of yours, or have a series of more than 50,000 operations: use `Dop853` there"
 )]
 pub trait TaylorSeries: Lagrangian {
-    /// Numbers of the state that the recurrences of all orders share.
+    /// Coefficients at a state that the recurrences of all orders share.
     type SeriesSlopes: Copy + Debug + AsRef<[Self::Scalar]>;
     /// One number for each convolution sum, padded with zeros to a multiple of four.
     type Sums: FixedArray<Self::Scalar>;
-    /// Parts of the newest coefficients that are known before the accelerations of their order.
+    /// Parts of the coefficients of one order that are known before the accelerations and multipliers of this
+    /// order.
     type SeriesTerms: Copy + Debug;
 
     /// For each root of a varying quantity, √x or x²ᐟ⁵: index of a sum whose right factor is the root, and
-    /// index of its value among the slopes. Below zero the series of a root continues but the root does not:
+    /// index of its value among the slopes. The series of a root may become negative, but the root cannot:
     /// the series of √x² is ±x.
     const ROOTS: &'static [[usize; 2]] = &[];
     /// For each argument of a user-supplied function: index of a sum whose left factor is the argument, and
@@ -53,10 +54,10 @@ pub trait TaylorSeries: Lagrangian {
         let _ = (order, arguments, sums);
     }
 
-    /// Returns the right-hand sides h and γ of the linear system for the accelerations and multipliers of order
-    /// k, and the known parts of the factors of the sums. `order` holds k, 1/k, c/(k + 1) and 1/c², where c is
-    /// a common multiple of all orders. `direction` holds the coefficients of order k of the time, the
-    /// coordinates and the velocities.
+    /// Returns the right-hand sides h and γ of the linear system for the accelerations and multipliers of
+    /// order k, and the parts of the factors of the sums that do not depend on these. `order` holds k, 1/k,
+    /// c/(k + 1) and 1/c², where c is a common multiple of all orders. `direction` holds the coefficients of
+    /// order k of the time, the coordinates and the velocities.
     fn series_right_hand_sides(
         &self,
         slopes: &Self::SeriesSlopes,
@@ -65,8 +66,8 @@ pub trait TaylorSeries: Lagrangian {
         direction: &Direction<Self::Scalar, Self::N>,
     ) -> (RightHandSides<Self::Scalar, Self::N, Self::M>, Self::SeriesTerms);
 
-    /// Returns the coefficients of this order of the two factors of each sum, from the known parts and the new
-    /// accelerations and multipliers.
+    /// Returns the coefficients of order k of the two factors of each sum, from their known parts `terms` and
+    /// from the accelerations and multipliers of order k.
     fn series_factors(
         &self,
         slopes: &Self::SeriesSlopes,

@@ -42,9 +42,9 @@ pub(super) struct Solved {
 /// Factorization of the KKT matrix, which has M and −Fᵀ above F and 0.
 pub(super) struct Factorization {
     form: FormFactors,
-    /// Number of multipliers among the variables of the form: all or none.
+    /// Number of multipliers that are variables of the form: all or none.
     among: usize,
-    /// Z = F L⁻ᵀ of the multipliers outside of the form.
+    /// Rows of Z = F L⁻ᵀ for the multipliers that are not variables of the form.
     rows: Vec<Sparse>,
     schur: FormFactors,
     /// Rows σ_a F_a of the constraints a that complete M. A solve subtracts γ_a times this row from h.
@@ -56,7 +56,7 @@ pub(super) struct Factorization {
 #[derive(Clone, Copy)]
 struct PivotCheck {
     pivot: Register,
-    /// Zero, or NaN if the factorization cannot be trusted; `None` if it always can.
+    /// Zero, or NaN if the factorization is unreliable; `None` if it always is reliable.
     doubt: Option<Register>,
 }
 
@@ -135,7 +135,7 @@ fn pattern(matrix: &[Vec<Id>]) -> Vec<Vec<bool>> {
     matrix.iter().map(|row| row.iter().map(|&id| id != Id::ZERO).collect()).collect()
 }
 
-/// Elimination order, and the number of multipliers in it.
+/// Elimination order, and the number of multipliers that it contains.
 fn order(form: &Form, equations: &Equations) -> Option<(Vec<usize>, usize)> {
     let (matrix, rows) = (pattern(&form.matrix), pattern(&equations.jacobian));
     if form.definitions.is_empty()
@@ -156,7 +156,7 @@ fn short(pattern: &Pattern) -> Option<Vec<usize>> {
     (is_worth_it && cost <= OPERATION_LIMIT).then_some(order)
 }
 
-/// Result of a solve.
+/// Registers of the accelerations and multipliers that a solve computes.
 struct Found {
     accelerations: Vec<SparseEntry>,
     multipliers: Vec<SparseEntry>,
@@ -216,7 +216,8 @@ impl Solver<'_> {
         h
     }
 
-    /// D⁻¹L⁻¹b. For a variable without coupling the graph computes the quotient, because it may simplify it.
+    /// D⁻¹L⁻¹b, the start of back-substitution. For an uncoupled variable it is b_i/H_ii, a quotient that the
+    /// graph may have simplified.
     fn starts(
         &mut self,
         form: &Form,
@@ -258,8 +259,8 @@ impl Solver<'_> {
     ) -> Found {
         let Factorization { form, among, rows, schur, check: PivotCheck { doubt, .. }, .. } = factorization;
         let multipliers = self.multipliers(schur, &starts, rows, bias);
-        // Add the doubt to the finished multipliers. It is known late, and adding it earlier would delay every
-        // multiplier that depends on another.
+        // Add `doubt` (zero or NaN) to the finished multipliers. It is known late, and adding it earlier
+        // would delay every multiplier that depends on another.
         let mut multipliers: Vec<SparseEntry> =
             multipliers.into_iter().map(|one| self.add(one, *doubt)).collect();
         let pushes = self.pushes(&multipliers, rows, starts.len());

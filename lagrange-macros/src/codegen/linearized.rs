@@ -30,7 +30,7 @@ impl Changing {
         }
     }
 
-    /// Number of slopes, the larger of the two.
+    /// Number of slopes: the larger of the numbers for states and for parameters.
     pub(super) fn slopes(&self) -> usize {
         [&self.by_state, &self.by_parameters]
             .into_iter()

@@ -31,7 +31,7 @@ impl Types<'_> {
         quote!(fn #name #generics(#(#arguments),*) -> #returns)
     }
 
-    /// Generic parameter of a method that accepts such numbers.
+    /// Generic parameter, with its bound, of a method over [`wide`] numbers.
     pub(super) fn over(&self) -> TokenStream {
         let (wide, scalar) = (wide(), self.scalar);
         quote!(<#wide: __lagrange::Broadcast<#scalar>>)

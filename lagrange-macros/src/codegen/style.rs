@@ -22,11 +22,12 @@ pub(super) struct FunctionContext<'a> {
     pub(super) factor: TokenStream,
     /// Number type of the system, for functions that are generic over a wider type; else `None`.
     pub(super) narrow: Option<&'a syn::Type>,
-    /// Number of slopes that the functions read.
+    /// Number of [slopes](Variable::Slope) that the functions read: coefficients that all directional
+    /// derivatives at one state share.
     slopes: usize,
-    /// Number of convolution sums over Taylor coefficients that the functions read.
+    /// Number of convolution sums of Taylor coefficients that the functions read.
     pub(super) sums: usize,
-    /// Number of known parts of newest Taylor coefficients, which the functions read.
+    /// Number of inputs of the kind [`Variable::Term`], the known parts of Taylor coefficients.
     pub(super) terms: usize,
     /// True if the scalar is `f64`. Constants are then plain literals.
     is_f64: bool,
@@ -139,13 +140,14 @@ impl<'a> FunctionContext<'a> {
         }
     }
 
-    /// Context of functions that are generic over a `wide` number type and read `slopes` slopes.
+    /// Context of functions that are generic over the number type `wide`, with `slopes` [`Variable::Slope`]s
+    /// as inputs.
     pub(super) fn over<'w>(&'w self, wide: &'w syn::Type, slopes: usize) -> FunctionContext<'w> {
         let types = Types { scalar: wide, ..self.types };
         FunctionContext { types, narrow: Some(self.types.scalar), slopes, is_f64: false, ..self.clone() }
     }
 
-    /// Context of functions that read `slopes` slopes.
+    /// Context of functions with `slopes` [`Variable::Slope`]s as inputs.
     pub(super) fn reading(&self, slopes: usize) -> Self {
         FunctionContext { slopes, ..self.clone() }
     }
@@ -155,7 +157,7 @@ impl<'a> FunctionContext<'a> {
         self.narrow.map(|scalar| Types { scalar, ..self.types }.over())
     }
 
-    /// Type of the array of slopes.
+    /// Type of the array of [slopes](Variable::Slope).
     pub(super) fn slopes_type(&self) -> TokenStream {
         let (number, slopes) = (self.narrow.unwrap_or(self.types.scalar), self.slopes);
         quote!([#number; #slopes])

@@ -57,7 +57,7 @@ use crate::vector::{Element, Length};
 ///         Err(_) => ControlFlow::Break(()),
 ///     })
 ///     .integrate_on_lanes(1.0, Dop853::default())?;
-/// // The disk may have been full: what is waiting is written, or the error told.
+/// // Write the rows that still wait, and return errors: the disk may have been full.
 /// table.flush()?;
 /// assert_eq!(table.read()?.rows().len(), 100);
 /// # std::fs::remove_dir_all(&directory).unwrap();

@@ -79,7 +79,7 @@ pub(super) struct Shape<T> {
     bend: T,
     /// Largest magnitude of a sample.
     pub(super) most: T,
-    /// Highest degree whose coefficient exceeds 1/256 of the swing.
+    /// Highest degree whose coefficient exceeds 1/256 of `swing`.
     pub(super) order: usize,
 }
 

@@ -26,7 +26,7 @@ pub struct EventState<T> {
     pub(super) count: usize,
     /// Value with the current sign of the function. Zero if the motion started at a zero and has not left it.
     pub(super) value: T,
-    /// The same value at the end of the interval, where the search continues unless an event crosses before.
+    /// New `value` for the search after the interval, if no event crosses within it.
     pub(super) next: T,
     /// Samples of the function on the interval, from its start.
     pub(super) samples: Samples<T>,
@@ -39,7 +39,7 @@ pub struct EventState<T> {
     pub(super) noise: T,
     /// Chebyshev degree that the function has needed per unit of time.
     density: Option<T>,
-    /// The same for the last interval alone.
+    /// Chebyshev degree per unit of time that the last interval needed.
     needed: Option<T>,
     /// Direction of a crossing that coincides with one of another event reported first: true if rising.
     pub(super) due: Option<bool>,
@@ -75,13 +75,13 @@ pub(super) struct Interval<T> {
 /// Decision about a function on an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum View {
-    /// It crosses zero at most once.
+    /// The function crosses zero at most once.
     Plain,
-    /// It may cross zero more than once.
+    /// The function may cross zero more than once.
     Bent,
     /// Undecided at this degree.
     Open,
-    /// Undecided at this degree, and its samples may be all noise.
+    /// Undecided at this degree; the samples may be all noise.
     Rough,
 }
 

@@ -187,8 +187,8 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
         is_terminal.then(|| Ending::Event { time: state.t.to_f64(), event })
     }
 
-    /// Moves `from` to `t`, or to an earlier crossing. If a function may cross twice on the way and the interval can be
-    /// halved, asks for that instead.
+    /// Moves `from` to `t`, or to an earlier crossing. If a function may cross twice on the way and the
+    /// interval can be halved, returns [`Look::Halve`] instead.
     #[inline]
     fn look<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
         &mut self,

@@ -61,8 +61,8 @@ pub trait LaneMethod<L: Lagrangian<Scalar = f64>>: Method<L> + Sized {
     #[doc(hidden)]
     fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, L::N>;
 
-    /// End of the last step tried in a lane. After the step is accepted, [`phase`](Self::phase) is the same, but would
-    /// wait for its stores.
+    /// End of the last step tried in a lane. After the step is accepted, [`phase`](Self::phase) returns the
+    /// same numbers, but its loads wait for recent stores.
     #[doc(hidden)]
     fn reached(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, L::N>;
 

@@ -19,7 +19,8 @@ pub(crate) struct Clock<T> {
     farthest: T,
     /// Step length, if all steps have the same length.
     fixed_step: Option<T>,
-    /// Excess that the last of these steps may have, for the round-off of start, end and step length.
+    /// Largest excess of the last step over the fixed step length, which covers the round-off of start, end
+    /// and step length.
     slack: T,
 }
 
@@ -82,12 +83,12 @@ impl<T: Real> Clock<T> {
         if self.is_at_end() { size } else { size + (planned - Scalar::abs(h)) }
     }
 
-    /// Length of time left to the end, or to zero if the former overflows.
+    /// Time left to the end, or to time zero if the difference overflows.
     pub(crate) fn left(&self) -> T {
         self.directed(self.goal() - self.now)
     }
 
-    /// The step, but at least ε|t|, the shortest that surely advances the time t.
+    /// The larger of `step` and ε|t|, the shortest length that surely advances the time t.
     pub(crate) fn at_least(&self, step: T) -> T {
         larger(step, T::constant(T::EPSILON) * Scalar::abs(self.now))
     }
@@ -97,7 +98,7 @@ impl<T: Real> Clock<T> {
         self.is_ahead(self.next(step).1)
     }
 
-    /// The end, or zero on the way if the end is farther away than the largest number.
+    /// The end; time zero, which lies before it, if the distance to the end overflows.
     fn goal(&self) -> T {
         if (self.end - self.now).is_finite() { self.end } else { T::constant(0.0) }
     }

@@ -209,7 +209,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
         &self.samples
     }
 
-    /// Why the motion ends where it starts, if it does.
+    /// Ending of a motion that ends at its start, else `None`.
     pub(crate) fn stopped(&mut self) -> Option<Ending> {
         self.stopped.take()
     }

@@ -1,9 +1,9 @@
 //! Steps across poses at which constraints become dependent.
 //!
-//! The motion is smooth there, but the nearer a state is to the pose, the more rounding error its coefficients contain.
-//! At a distance τ in time, the rounding error of order k grows by 1/τᵏ, and steps that heed all orders never reach the
-//! pose. A sum of few orders is accurate over several times τ, with an error far below its terms, if it is used early
-//! enough.
+//! The motion is smooth there, but the nearer a state is to the pose, the more rounding error its
+//! coefficients contain. At a distance τ in time, the rounding error of order k grows by 1/τᵏ, and steps
+//! limited by all orders never reach the pose. The series truncated after a few orders is accurate over
+//! several times τ, with an error far below its terms, if it is used early enough.
 
 use super::expansion::{Expansion, SolvedState};
 use super::last::log2_roughly;
@@ -12,8 +12,8 @@ use crate::number::{Real, Scalar, larger};
 use crate::solution::pivot::is_trustworthy;
 use crate::vector::{FixedArray, Length};
 
-/// Independence of the constraints, from 0 to 1, below which a singular pose may be near; and ratio of a step to the
-/// step before, below which it may be near.
+/// Signs of a nearby singular pose: an independence of the constraints, from 0 to 1, below `NEAR`, or a ratio
+/// of a step to the step before below `COLLAPSE`.
 const NEAR: f64 = 0.3;
 const COLLAPSE: f64 = 0.5;
 /// Independence below which orthogonal factors solve for the series: products of two small numbers lose too many
@@ -22,16 +22,16 @@ const CLOSE: f64 = 0.02;
 /// Independence below which no step ends: rounding errors of the velocities are as large as the difference between
 /// branches of the motion.
 const NEAREST: f64 = 1e-6;
-/// Largest size of each of the last [`LAST`] terms of a sum of fewer orders: a number, or a multiple of the tolerance,
-/// whichever is larger.
+/// Largest size of each of the last [`LAST`] terms of a truncated series: a number, or a multiple of the
+/// tolerance, whichever is larger.
 const ERROR: [f64; 2] = [1e-12, 10.0];
 const LAST: usize = 3;
-/// Conditions for a step by fewer orders, as ratios of lengths. It must be [`WORTH`] times as long as the planned step.
-/// It must also be [`ROUNDING`] times as long as a step by all orders with the same error, which shows that the last
-/// coefficients are rounding errors.
+/// Conditions for a step by a truncated series, as ratios of step lengths. The step must be [`WORTH`] times
+/// as long as the planned step. It must also be [`ROUNDING`] times as long as a step by the full series with
+/// the same error, which shows that the last coefficients are rounding errors.
 const WORTH: f64 = 1.5;
 const ROUNDING: f64 = 1.2;
-/// Number of longer attempts after a step by fewer orders is rejected.
+/// Number of longer attempts after a step by a truncated series is rejected.
 const LONGER: usize = 2;
 
 impl<T: Real, N: Length, M: Length> SolvedState<T, N, M> {
@@ -67,7 +67,7 @@ impl<T: Real, N: Length, M: Length> SolvedState<T, N, M> {
 }
 
 impl Taylor {
-    /// Plans a step by fewer orders, if it is much longer than the planned step.
+    /// Plans a step by a truncated series, if it is much longer than the planned step.
     #[cold]
     pub(super) fn cross<S: FixedArray<T>, T: Real, N: Length>(
         &self,
@@ -97,18 +97,19 @@ impl Taylor {
     }
 }
 
-/// A step by fewer orders, across a pose where constraints become dependent.
+/// A step by a truncated series, across a pose where constraints become dependent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SingularStep<T> {
     pub(super) length: T,
     /// Number of longer attempts left. After a rejection near the singular pose, a longer step may pass the pose.
     left: usize,
-    /// Length of the step by all orders.
+    /// Length of the step by the full series.
     planned: T,
 }
 
 impl<T: Real> SingularStep<T> {
-    /// Returns the next, longer attempt after a rejection, or the length of the step by all orders if none is left.
+    /// Returns the next, longer attempt after a rejection, or the length of the step by the full series if
+    /// none is left.
     pub(super) fn longer(self) -> Result<Self, T> {
         let left = self.left.checked_sub(1).ok_or(self.planned)?;
         Ok(Self { length: self.length * T::constant(WORTH), left, ..self })

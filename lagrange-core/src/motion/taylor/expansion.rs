@@ -19,8 +19,9 @@ const UNITS: usize = 40;
 /// Multiple c of all orders, scaled by a power of two to about 1, so that division by any order is exact. Among these
 /// numbers, it has the smallest rounding error of 1/c², 10⁻²⁰ of it.
 const MULTIPLE: f64 = 3_185_466_681_422_025.0 / (1_u64 << 51) as f64;
-/// Margin in the test whether the last coefficients have underflowed, as a power of two per order. They may have if
-/// coefficients fall per order nearly as fast as those that reach the smallest number at the highest order.
+/// Margin in the test whether the last coefficients have underflowed, in bits per order. They may have if the
+/// known coefficients fall nearly as fast per order as coefficients that reach the smallest number at the
+/// highest order.
 const MARGIN: f64 = 8.0;
 /// Smallest reduction of the unit of time after an overflow, as a power of two. The first order that overflows may be
 /// far larger than the highest finite one.
@@ -58,7 +59,7 @@ pub(crate) struct Expansion<S, T: Element, N: Length> {
     /// Coefficients from order 0 on; the coordinates have one order more than the velocities.
     pub(crate) q: Vec<Array<T, N>>,
     pub(crate) v: Vec<Array<T, N>>,
-    /// Highest order that is summed: all orders, or fewer if the others are rounding errors.
+    /// Highest order that is summed; higher orders are left out if they are rounding errors.
     pub(crate) summed: usize,
     pub(super) factors: SeriesFactors<T, S>,
     /// Values of the roots at the start, in the order of [`TaylorSeries::ROOTS`].
@@ -229,7 +230,8 @@ impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
         self.in_units::<L>(unit, slack, expand)
     }
 
-    /// Expands in this unit of time, and in better ones as long as there are any.
+    /// Expands the motion in this unit of time. Repeats the expansion in a better unit while the last
+    /// coefficients overflow or underflow.
     #[cold]
     fn in_units<L: TaylorSeries>(
         &mut self,
@@ -288,8 +290,8 @@ impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
     }
 }
 
-/// Coefficient of the integration to order `order`, unit/order. It divides: the rounding error of 1/k has the same sign
-/// in every step, and made the energy drift.
+/// Factor unit/order of the integration from the order before to this one. A division, not a product with
+/// 1/order: the rounding error of 1/order has the same sign in every step, and made the energy drift.
 fn unit_over<T: Scalar>(unit: T, order: usize) -> T {
     unit / T::constant(order as f64)
 }

@@ -21,7 +21,7 @@ pub struct TaylorMemory<S, T: Element, N: Length, M: Length> {
     /// Length of the next step; zero before the motion begins.
     pub(crate) planned: T,
     pub(super) sampling: Sampling<T>,
-    /// The step by fewer orders, if one is planned.
+    /// Step by a truncated series, if one is planned.
     pub(super) crossing: Option<SingularStep<T>>,
     /// Data of the start of the last accepted step, to undo the step.
     pub(super) before: Option<Before<T, N, M>>,

@@ -1,13 +1,13 @@
-//! Detection of steps in which the series of a root is not the root: that of √x² continues as x after x changes its
-//! sign.
+//! Detection of steps in which the series of a root becomes negative, which the root cannot: the series of
+//! √x² at x > 0 is x, also where x < 0.
 
 use super::expansion::Expansion;
 use crate::number::{Real, Scalar, exceeds};
 use crate::system::TaylorSeries;
 use crate::vector::{FixedArray, Length};
 
-/// Number of parts in which the minimum of a root over a step is searched, and number of reductions of the interval
-/// around it, by a third each.
+/// Search for the minimum of a series over a step: number of points to compare, then number of reductions of
+/// the interval around the lowest point, by a third each.
 const PARTS: usize = 8;
 const THIRDS: usize = 40;
 

@@ -1,9 +1,10 @@
 //! Sampling of the equations within a step, to check the series.
 //!
-//! A force that vanishes to round-off at the start of a step is not in the series of the motion, however strong it is
-//! later: a Gaussian pulse, or a step of the potential by tanh. Samples of the equations detect it. Their distance is
-//! at most [twice](WIDER) that of the step before, unless there are [`MOST`] of them. Few samples suffice if the terms
-//! of the series decay as they usually do in a step of its length: then the series knows its surroundings.
+//! A force that vanishes to round-off at the start of a step is not in the series of the motion, however
+//! strong it is later: a Gaussian pulse, or a step of the potential by tanh. Samples of the equations detect
+//! it. The distance between samples is at most [twice](WIDER) that of the step before, unless there are
+//! [`MOST`] samples. Few samples suffice if terms of middle orders are significant, as is usual in a step
+//! whose length follows from the last terms.
 
 use super::expansion::{Expansion, is_linear};
 use super::roots::WatchedSeries;
@@ -28,7 +29,7 @@ const AT_KINKS: usize = 3;
 const STEEP: f64 = 8.0;
 /// Magnitude of an argument beyond which a steep function is negligible, as e⁻¹⁰⁰ = 10⁻⁴⁴, or constant, as tanh.
 const FAR: f64 = 100.0;
-/// Number of middle orders whose terms tell whether a series knows its surroundings.
+/// Number of middle orders that [`has_middle_terms`](Expansion::has_middle_terms) examines.
 const MIDDLE: usize = 5;
 
 /// Length of the last step, and distance between its samples.
@@ -40,7 +41,7 @@ pub(super) struct Sampling<T> {
 }
 
 impl<T: Real> Sampling<T> {
-    /// Value before a first step that is at most this long.
+    /// Initial value, for a first step of at most this length.
     pub(super) fn of_first(longest: T) -> Self {
         Self { step: T::constant(0.0), distance: longest / T::constant(WIDER * MOST as f64) }
     }
@@ -59,7 +60,7 @@ impl<T: Real> Sampling<T> {
         }
     }
 
-    /// Number of samples in a step of this length, if its series may not know its surroundings.
+    /// Number of samples in a step of this length whose series lacks terms of middle orders.
     pub(super) fn count<L: TaylorSeries>(&self, length: T) -> usize {
         let few = few::<L>();
         if is_linear::<L>() {
@@ -100,9 +101,10 @@ pub(super) fn samples_of_steep([value, change]: [f64; 2], exponent: usize) -> us
 }
 
 impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
-    /// True if terms of middle orders are significant in a step of this length, as in one that the last terms limit.
+    /// True if terms of middle orders are significant in a step of this length. If they are not, the series
+    /// may lack a force that is negligible at the start of the step.
     #[cold]
-    pub(super) fn knows_surroundings(&self, length: T, [tolerance, slack]: [f64; 2]) -> bool {
+    pub(super) fn has_middle_terms(&self, length: T, [tolerance, slack]: [f64; 2]) -> bool {
         let (scales, theta) = (self.scales(T::constant(slack)), Scalar::abs(length / self.unit));
         let first = (self.order() / 4).max(1);
         let powers = (0..first + MIDDLE).scan(T::constant(1.0), |power, _| {
@@ -116,8 +118,8 @@ impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
     }
 }
 
-/// Number of samples within a step whose series knows its surroundings. The check at the end suffices without
-/// user-supplied functions.
+/// Number of samples within a step whose series [has middle terms](Expansion::has_middle_terms). The check at
+/// the end suffices without user-supplied functions.
 pub(super) const fn few<L: TaylorSeries>() -> usize {
     if L::ARGUMENTS.is_empty() { 0 } else { AT_KINKS }
 }

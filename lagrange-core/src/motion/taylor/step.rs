@@ -174,7 +174,7 @@ impl Taylor {
             .steep::<L>(h)
             .map(|([value, change], exponent)| samples_of_steep([value.to_f64(), change.to_f64()], exponent));
         let least = steep.fold(few, usize::max);
-        if count > least && !series.knows_surroundings(h, measures) { count } else { least }
+        if count > least && !series.has_middle_terms(h, measures) { count } else { least }
     }
 }
 
@@ -183,6 +183,6 @@ struct Sum<T: Element, N: Length> {
     phase: [Array<T, N>; 2],
     /// Compensation terms of `phase`: its rounding errors.
     rest: [Array<T, N>; 2],
-    /// Accelerations of the series there.
+    /// Accelerations of the series at this end.
     accelerations: Array<T, N>,
 }

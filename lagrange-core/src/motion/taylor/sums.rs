@@ -17,7 +17,7 @@ use crate::vector::FixedArray;
 pub(super) use alone::Ends;
 use group::{Group, WIDTH, plus, products};
 
-/// Factors of all convolutions, order by order, up to the newest order.
+/// Factors of all convolutions, order by order, up to the order last computed.
 #[derive(Clone, Debug)]
 pub(super) struct SeriesFactors<T, S> {
     /// Number of orders that fit; the first is 1.
@@ -25,7 +25,8 @@ pub(super) struct SeriesFactors<T, S> {
     left: Vec<Group<T>>,
     /// Right factors from the highest order down, so that a sum reads both arrays in the same direction.
     right: Vec<Group<T>>,
-    /// Sums of the next order, without the terms with the newest factors, which are not known yet.
+    /// Sums of the next order, without the terms that contain factors of the current order, which are not
+    /// known yet.
     ahead: Vec<Group<T>>,
     sums: PhantomData<S>,
 }

@@ -30,7 +30,7 @@ const DAMPING: [f64; 2] = [0.3, 4.0];
 pub struct Assembly<T: Element, N: Length> {
     /// Consistent state.
     pub state: State<T, N>,
-    /// Its displacement from the guess.
+    /// Displacement of the state from the guess.
     pub adjustment: Adjustment<T, N>,
     /// Number of independent constraints at the state.
     pub rank: usize,
@@ -77,7 +77,8 @@ pub(crate) fn assemble<L: Lagrangian<Scalar: Real>>(
     Ok(Assembly { state, adjustment, rank, degrees_of_freedom: <L::N>::COUNT - rank, redundant })
 }
 
-/// LinearResiduals of the holonomic constraints in units of their gradients at the guess, with the Jacobian in these units.
+/// Residuals of the holonomic constraints in units of their gradients at the guess, with the Jacobian in
+/// these units.
 struct LinearResiduals<T: Element, N: Length, M: Length> {
     value: Array<T, M>,
     jacobian: Array<Array<T, N>, M>,
@@ -119,7 +120,8 @@ fn least_residuals<L: Lagrangian<Scalar: Real>>(system: &L, guess: &StateOf<L>) 
     for start in 0..STARTS {
         let mut state = *guess;
         for i in 0..<L::N>::COUNT {
-            // A guess at which a gradient vanishes is no minimum: it is left along a direction without symmetry.
+            // A guess at which a gradient vanishes is no minimum: the search leaves it along a direction
+            // without symmetry.
             let part = if start == 0 { 1e-6 } else { start as f64 / STARTS as f64 };
             let direction = GOLDEN * ((i + 1) * (start + 1)) as f64 % 1.0 - 0.5;
             state.q[i] += size * L::Scalar::constant(part * direction);
@@ -139,8 +141,9 @@ fn least_residuals<L: Lagrangian<Scalar: Real>>(system: &L, guess: &StateOf<L>) 
     }
 }
 
-/// The minimum of the squared residuals near a state, by the method of Levenberg and Marquardt (Nocedal and Wright,
-/// *Numerical Optimization*, 10.3). If the constraints do not hold there, the largest residual and the error.
+/// Returns the minimum of the squared residuals near a state, by the method of Levenberg and Marquardt
+/// (Nocedal and Wright, *Numerical Optimization*, 10.3). If the constraints do not hold there, returns the
+/// largest residual and the error.
 fn minimum<L: Lagrangian<Scalar: Real>>(
     system: &L,
     guess: &StateOf<L>,
@@ -165,7 +168,8 @@ fn minimum<L: Lagrangian<Scalar: Real>>(
             break;
         }
         let trace = (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, i| sum + square[i][i]);
-        // In the unit of each coordinate, so that those apart from a conflict converge as fast as without one.
+        // Damping in the unit of each coordinate: coordinates outside of a conflict converge as fast as
+        // without it.
         let own = |i: usize| square[i][i] + L::Scalar::constant(1e-9) * trace;
         let damped = Array::from_fn(|i| {
             entries(|j| if i == j { square[i][i] + damping * own(i) } else { square[i][j] })

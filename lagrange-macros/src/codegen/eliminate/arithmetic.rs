@@ -16,9 +16,10 @@ pub(super) fn sparse(x: &[SparseEntry]) -> Sparse {
 /// Builder that appends operations to a schedule.
 pub(super) struct Solver<'s> {
     pub(super) schedule: &'s mut Schedule,
-    /// Ratio of the diagonal entry before elimination to the pivot, for each pivot that differs from it.
+    /// For each pivot that differs from its diagonal entry before elimination, the ratio of that entry to the
+    /// pivot.
     pub(super) growth: Vec<Register>,
-    /// All other pivots, with their reciprocals.
+    /// Pivots that equal their diagonal entry before elimination, with their reciprocals.
     pub(super) plain: Vec<[Register; 2]>,
     /// Reciprocals of all pivots.
     pub(super) reciprocals: Vec<Register>,

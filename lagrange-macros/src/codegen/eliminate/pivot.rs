@@ -27,7 +27,8 @@ impl Solver<'_> {
     /// Appends the check of the factorization.
     pub(super) fn pivot_check(&mut self, is_constrained: bool) -> PivotCheck {
         let mut doubts = Vec::new();
-        // Check both: an infinite pivot gives finite results, and a zero pivot may cancel from them.
+        // Check pivots and reciprocals: an infinite pivot gives finite results, and a zero pivot may cancel
+        // from the results.
         for [pivot, reciprocal] in self.plain.clone() {
             doubts.extend((!self.is_input(pivot)).then_some(pivot));
             doubts.extend((!is_constrained).then_some(reciprocal));

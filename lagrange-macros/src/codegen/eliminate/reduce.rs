@@ -6,7 +6,7 @@ use crate::codegen::operation::{Operation, Register};
 /// Record of the reduction of a form, step by step.
 pub(super) struct FormFactors {
     steps: Vec<ReductionStep>,
-    /// 1/D of the eliminated variables.
+    /// 1/D of M = L D Lᵀ, for each eliminated variable.
     pub(super) reciprocals: Vec<SparseEntry>,
 }
 
@@ -16,9 +16,9 @@ struct ReductionStep {
 }
 
 enum StepKind {
-    /// Free variable, eliminated; with its column of L below the diagonal.
+    /// Elimination of a free variable: its column of L below the diagonal.
     Eliminated(Sparse),
-    /// Defined variable, substituted; with its definition.
+    /// Substitution of a defined variable: its definition.
     Substituted(Sparse),
 }
 
@@ -51,8 +51,8 @@ impl StepKind {
     }
 }
 
-/// Number of leading variables in `order` that are defined and occur in none of each other's definitions. They can be
-/// substituted together.
+/// Number of leading variables in `order` that can be substituted together: they are defined, and no
+/// definition of one contains another.
 fn independent(order: &[usize], free: usize, definitions: &[Sparse]) -> usize {
     let contains = |k: usize, variable: usize| definitions[k - free].iter().any(|&(i, _)| i == variable);
     let is_apart = |position: usize| {
@@ -62,8 +62,8 @@ fn independent(order: &[usize], free: usize, definitions: &[Sparse]) -> usize {
     (1..order.len()).find(|&position| !is_apart(position)).unwrap_or(order.len())
 }
 
-/// Coupling of a variable to the substituted ones: its coefficients g in their definitions, its entries c of the
-/// form, and w = K g + c.
+/// Coupling of a variable to the substituted ones: its coefficients g in their definitions, its entries c of
+/// the form, and w = K g + c with the block K of the substituted variables.
 struct Tie {
     variable: usize,
     g: Vec<SparseEntry>,
@@ -80,7 +80,7 @@ impl Tie {
 /// Form during the reduction.
 struct Reduced {
     matrix: Vec<Vec<SparseEntry>>,
-    /// Diagonal before any subtraction, the reference for pivots.
+    /// Diagonal entries before elimination, to which pivots are compared.
     scale: Vec<SparseEntry>,
     /// Index of the first multiplier among the variables. The diagonal of a multiplier is zero at first, and negative
     /// once coordinates are eliminated.
@@ -205,7 +205,7 @@ impl Solver<'_> {
         Tie { variable: i, g, c, w }
     }
 
-    /// Diagonal term Σ_k g_k (w_k + c_k).
+    /// Term Σ_k g_k (w_k + c_k) that the substituted variables k add to the diagonal entry of [`x`](Tie).
     fn own(&mut self, x: &Tie) -> SparseEntry {
         let mut sum = None;
         for k in 0..x.g.len() {
@@ -216,7 +216,8 @@ impl Solver<'_> {
         sum
     }
 
-    /// Off-diagonal term Σ_k (g_k w'_k + c_k g'_k), evaluated from the side that takes fewer multiplications.
+    /// Term Σ_k (g_k w'_k + c_k g'_k) that the substituted variables k add to the entry of [`x` and
+    /// `y`](Tie). `x` and `y` change places if that takes fewer multiplications.
     fn mutual(&mut self, x: &Tie, y: &Tie) -> SparseEntry {
         let one = self.schedule.constant(1.0);
         let cost = |x: &Tie, y: &Tie| {
@@ -269,8 +270,9 @@ impl Solver<'_> {
         x
     }
 
-    /// Back-substitution L⁻ᵀ(x + D⁻¹y), in the reverse order. Each variable follows from those found before. A
-    /// variable that depends on no other has its doubt in y; without y, `doubt` is added.
+    /// Back-substitution L⁻ᵀ(x + D⁻¹y), in the reverse order. Each variable follows from those found before.
+    /// `doubt`, zero or NaN, is added to variables that depend on no other and have no entry in y, so that a
+    /// NaN reaches every variable.
     pub(super) fn backward(
         &mut self,
         factors: &FormFactors,

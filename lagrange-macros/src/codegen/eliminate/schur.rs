@@ -5,12 +5,13 @@ use super::order::Pattern;
 use super::reduce::FormFactors;
 use super::short;
 
-/// Maximum constraints on a coordinate i for which z_i z'_i is formed before the division by D_i, so that a pass can
-/// factor the sum. With more constraints, z_i / D_i is formed first, once per row.
+/// Maximum constraints on a coordinate i for which the entry z_i z'_i / D_i of S = Z D⁻¹ Zᵀ is computed as
+/// (z_i z'_i) / D_i, so that a pass can factor the sum. With more constraints, z_i / D_i is computed first,
+/// once per row.
 const FEW: usize = 2;
 
 impl Solver<'_> {
-    /// Factorizes S = Z D⁻¹ Zᵀ. `None` if this takes too many operations.
+    /// Factorizes the Schur complement S = Z D⁻¹ Zᵀ. `None` if this takes too many operations.
     pub(super) fn schur_factors(&mut self, factors: &FormFactors, rows: &[Sparse]) -> Option<FormFactors> {
         let schur = self.complement(factors, rows);
         let matrix = schur.iter().map(|row| row.iter().map(Option::is_some).collect()).collect();
@@ -18,7 +19,7 @@ impl Solver<'_> {
         Some(self.factor(schur, Vec::new(), &order, 0))
     }
 
-    /// Solves S λ = −γ − Z D⁻¹L⁻¹b; `starts` is D⁻¹L⁻¹b.
+    /// Solves S λ = −γ − Z D⁻¹L⁻¹b for the multipliers λ; `starts` is D⁻¹L⁻¹b.
     pub(super) fn multipliers(
         &mut self,
         schur: &FormFactors,
@@ -52,7 +53,7 @@ impl Solver<'_> {
         schur
     }
 
-    /// Σ_i z_i z'_i / D_i
+    /// Entry Σ_i z_i z'_i / D_i of the Schur complement, for two rows z and z' of Z.
     fn product(
         &mut self,
         row: &Sparse,

@@ -8,7 +8,7 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::variables::Variable;
 
-/// Linear function of rates, in two parts.
+/// Linear function of rates of change, as two schedules.
 pub(super) struct TwoParts {
     /// Schedule that does not depend on rates, and the registers that the other part reads as [`Variable::Slope`] 0,
     /// 1, …
@@ -82,7 +82,7 @@ struct Split {
     numbers: Schedule,
     changes: Schedule,
     slopes: Vec<Register>,
-    /// Index of the slope that holds a number.
+    /// Index among `slopes` of each number of the first schedule that the second reads.
     known: FxHashMap<Register, usize>,
 }
 

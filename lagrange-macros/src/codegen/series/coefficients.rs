@@ -16,32 +16,32 @@ pub(super) struct SeriesQuantity(pub(super) usize);
 pub(super) struct Coefficients {
     /// Coefficient of order 0.
     first: Register,
-    /// Newest coefficient, in its two [parts](Stage); `None` for a part that is zero. `None` as a whole for a
-    /// constant of the motion.
+    /// Coefficient of the current order k, in its two [parts](Stage); `None` for a part that is zero. `None`
+    /// as a whole for a constant of the motion.
     pub(super) newest: Option<[Option<Register>; 2]>,
 }
 
-/// Parts of the newest coefficient of a quantity, which is linear in the unknown accelerations and multipliers of the
-/// same order.
+/// Parts of the coefficient of order k of a quantity. The coefficient is linear in the unknown accelerations
+/// and multipliers of order k.
 #[derive(Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Stage {
-    /// Value at zero accelerations and multipliers of this order.
+    /// Value with zero in place of the accelerations and multipliers of order k.
     #[default]
     Known,
-    /// Contribution of the accelerations and multipliers of this order.
+    /// Contribution of the accelerations and multipliers of order k.
     Added,
 }
 
 pub(super) const STAGES: [Stage; 2] = [Stage::Known, Stage::Added];
 
-/// Entry of `sums`. In the sums, j runs from 1 to k − 1.
+/// Convolution sum for order k, over j from 1 to k − 1.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Sum {
     /// Σ x_j y_{k−j}
     Product(SeriesQuantity, SeriesQuantity),
     /// Σ j x_j y_{k−j}
     Weighted(SeriesQuantity, SeriesQuantity),
-    /// Σ x_j y_{k−j}/((j + 1)(k − j + 1)): convolution of the mean values of x and y since order 0
+    /// Σ x_j y_{k−j}/((j + 1)(k − j + 1)): convolution of the mean values of x and y since t₀
     Mean(SeriesQuantity, SeriesQuantity),
     /// Storage for the series of an argument of a user-supplied function; not a sum.
     Argument(SeriesQuantity),
@@ -50,15 +50,16 @@ pub(super) enum Sum {
     Value(usize, u32),
 }
 
-/// Recurrences for one order of coefficients. Their schedule also computes the values of order 0.
+/// Recurrences for the Taylor coefficients of order k from those of lower orders. Their schedule also
+/// computes the values of order 0.
 #[derive(Default)]
 pub(super) struct Recurrences {
     pub(super) schedule: Schedule,
-    /// Part of the newest coefficients under construction.
+    /// Part of the coefficients of order k that is under construction.
     stage: Stage,
     pub(super) coordinates: usize,
-    /// If set, velocity inputs are mean velocities since order 0. The newest coefficient of a velocity is k + 1 times
-    /// that of its mean.
+    /// If set, velocities stand for their mean values since t₀. The coefficient v_k of a velocity is (k + 1)
+    /// times that of its mean.
     pub(super) of_means: bool,
     pub(super) quantities: Vec<Coefficients>,
     pub(super) sums: IndexSet<Sum>,
@@ -82,7 +83,7 @@ impl Recurrences {
         Self { coordinates, ..Self::default() }
     }
 
-    /// Returns a part of the newest coefficient; a register that holds 0 if the part vanishes.
+    /// Returns a part of the coefficient of order k; a register that holds 0 if the part vanishes.
     pub(super) fn newest(&mut self, of: SeriesQuantity, stage: Stage) -> Register {
         self.part(of, stage).unwrap_or_else(|| self.schedule.constant(0.0))
     }
@@ -110,8 +111,8 @@ impl Recurrences {
         self.quantities[of.0].newest.is_none()
     }
 
-    /// Adds a quantity with value `first` at order 0. `newest` computes each part of its newest coefficient from the
-    /// same part of `operands`.
+    /// Adds a quantity with value `first` at order 0. `newest` computes each part of its coefficient of order
+    /// k from the same part of `operands`.
     pub(super) fn moving<const K: usize>(
         &mut self,
         first: Register,
@@ -126,8 +127,8 @@ impl Recurrences {
         self.add(first, Some(both))
     }
 
-    /// Returns a term without newest coefficients if the known part is under construction, else `None`: the term
-    /// belongs to that part alone.
+    /// Returns a term of lower orders while the known part is under construction, else `None`: such a term
+    /// belongs to the known part alone.
     pub(super) fn known(&self, x: Register) -> Option<Register> {
         (self.stage == Stage::Known).then_some(x)
     }

@@ -37,7 +37,7 @@ impl Recurrences {
         })
     }
 
-    /// From s′ = c x′ and c′ = ∓s x′: s_k = c₀ x_k + Σ j x_j c_{k−j}/k, and c_k alike.
+    /// From s′ = c x′ and c′ = ∓s x′: s_k = c₀ x_k + Σ j x_j c_{k−j}/k, and similarly for c_k.
     fn pair(&mut self, [sine, cosine]: [Function; 2], x: SeriesQuantity) -> [SeriesQuantity; 2] {
         if let Some(&known) = self.turns.get(&(sine, x)) {
             return known;
@@ -86,7 +86,7 @@ impl Recurrences {
         })
     }
 
-    /// tan and tanh, from z′ = d x′ with d = 1 + z² or 1 − z². The slope d is a series of its own.
+    /// tan and tanh, from z′ = d x′ with d = 1 + z² or 1 − z². The derivative d is a series of its own.
     fn tangent(&mut self, function: Function, x: SeriesQuantity) -> SeriesQuantity {
         let x0 = self.first(x);
         let z0 = self.schedule.push(Operation::Function(function, x0));

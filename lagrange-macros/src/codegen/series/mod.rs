@@ -30,15 +30,15 @@ const WIDTH: usize = 4;
 pub(super) struct TaylorPrograms {
     /// Computes the numbers of order 0 that the programs of all later orders read.
     slopes: Program,
-    /// Computes the right-hand sides for the coefficients of accelerations and multipliers, and the known parts of
-    /// the factors of the sums.
+    /// Computes the right-hand sides for the coefficients of order k of accelerations and multipliers, and
+    /// the parts of the factors of the sums that do not depend on these.
     right_hand_sides: Program,
-    /// Computes the newest terms of the factors of each sum.
+    /// Computes the coefficients of order k of the factors of each sum.
     factors: Program,
     /// Number of sums, padded to a multiple of [`WIDTH`].
     pub(super) sums: usize,
-    /// Number of values that `right_hand_sides` passes to `factors`: parts of the newest Taylor coefficients that do
-    /// not depend on the accelerations and multipliers of the same order.
+    /// Number of values that `right_hand_sides` passes to `factors`: parts of the coefficients of order k
+    /// that do not depend on the accelerations and multipliers of order k.
     pub(super) terms: usize,
     /// For each root: index of a sum whose right factor is the root, and index of its value of order 0 in the results
     /// of `slopes`.

@@ -1,10 +1,11 @@
 //! Taylor coefficients of the results of a schedule along a motion, order by order.
 //!
-//! The newest coefficient of a product, (xy)_k = x₀ y_k + y₀ x_k + Σ x_j y_{k−j} with j from 1 to k − 1, is linear in
-//! the newest coefficients of its factors. The same holds for every other operation, by a recurrence with sums of the
-//! same form (Griewank and Walther, *Evaluating Derivatives*, table 13.2; Jorba and Zou, *Experimental Mathematics*
-//! 14 (2005), proposition 2.1). The runtime computes these sums, all by the same code. The rest of an order is a
-//! linear function of the newest coefficients; its coefficients are numbers of order 0.
+//! The coefficient of order k of a product, (xy)_k = x₀ y_k + y₀ x_k + Σ x_j y_{k−j} with j from 1 to k − 1,
+//! is linear in the coefficients of order k of its factors. The same holds for every other operation, by a
+//! recurrence with sums of the same form (Griewank and Walther, *Evaluating Derivatives*, table 13.2; Jorba
+//! and Zou, *Experimental Mathematics* 14 (2005), proposition 2.1). The runtime computes these sums, all by
+//! the same code. All other terms are linear in the coefficients of order k, with numbers of order 0 as
+//! factors.
 
 use rustc_hash::FxHashMap;
 

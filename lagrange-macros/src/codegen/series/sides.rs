@@ -1,7 +1,7 @@
 //! Right-hand sides of the linear system for the Taylor coefficients of accelerations and multipliers.
 //!
-//! The right-hand sides of one order are the values of dp/dt − ∂L/∂q − Q − Fᵀλ and F q̈ + γ with zeros in place of
-//! these coefficients.
+//! The right-hand sides for order k are the coefficients of order k of dp/dt − ∂L/∂q − Q − Fᵀλ and F q̈ + γ,
+//! with zeros in place of the unknown coefficients.
 //!
 //! Constraints of second degree are expanded directly, two orders ahead. In terms of the mean velocities v̄ since t₀,
 //! q = q₀ + (t − t₀) v̄. Taylor's formula then ends after three terms,
@@ -39,14 +39,15 @@ impl Recurrences {
         Some(sides)
     }
 
-    /// Returns the known part of the newest coefficient of each row.
+    /// Returns the known part of the coefficient of order k of each row.
     fn rows(&mut self, graph: &Graph, rows: &[Id]) -> Option<Vec<Register>> {
         let Program { schedule, results, .. } = Program::of(graph, rows).without_zeros();
         let rows = self.add_up(&schedule, &results)?;
         Some(rows.into_iter().map(|row| self.newest(row, Stage::Known)).collect())
     }
 
-    /// Returns (k + 1) (k + 2)/2 γ(v̄)_k. With `of_means` set, `rows` yields k + 1 times γ(v̄)_k.
+    /// Returns (k + 1) (k + 2)/2 γ(v̄)_k for constraints of second degree, where v̄ is the mean velocity
+    /// since t₀. With `of_means` set, `rows` returns k + 1 times γ(v̄)_k.
     fn ahead(&mut self, graph: &Graph, bias: &[Id]) -> Option<Vec<Register>> {
         self.of_means = true;
         let rows = self.rows(graph, bias)?;

@@ -1,4 +1,5 @@
-//! Convolution sums over lower orders, which the runtime accumulates, and the terms that each order adds to them.
+//! Convolution sums over lower orders, which the runtime computes, and the coefficients of each order that
+//! enter them.
 
 use indexmap::IndexSet;
 
@@ -7,7 +8,8 @@ use crate::codegen::operation::{Operation, Register};
 use crate::variables::Variable;
 
 impl Recurrences {
-    /// Σ x_j y_{k−j}. While [`of_means`](Self::of_means) is set, k + 1 times the sum of the means.
+    /// Convolution Σ x_j y_{k−j}. While [`of_means`](Self::of_means) is set, k + 1 times the convolution of
+    /// the mean values of x and y.
     pub(super) fn product_sum(&mut self, x: SeriesQuantity, y: SeriesQuantity) -> Register {
         let (x, y) = (x.min(y), x.max(y));
         if !self.of_means {
@@ -24,7 +26,7 @@ impl Recurrences {
         self.schedule.push(Operation::Multiply(sum, reciprocal))
     }
 
-    /// Returns the register that holds a sum, an input computed by the runtime.
+    /// Returns the register of a sum, which is an input: the runtime computes it.
     pub(super) fn place(&mut self, sum: Sum) -> Register {
         let (place, _) = self.sums.insert_full(sum);
         self.schedule.push(Operation::Input(Variable::Sum(place).symbol()))
@@ -35,16 +37,16 @@ impl Recurrences {
         self.times(input, x)
     }
 
-    /// Registers a root for a check of its sign. Past a zero of x the series of √x continues to negative values, the
-    /// root does not: the series of √x² is ±x.
+    /// Registers a root for a check of its sign. Past a zero of x, the series of √x may become negative, but
+    /// the root cannot: the series of √x² is ±x.
     pub(super) fn watch(&mut self, sum: Sum, first: Register) {
         let (place, _) = self.sums.insert_full(sum);
         self.roots.push((place, first));
     }
 
-    /// Returns the parts of the factors that are known before the accelerations and multipliers of an order, and the
-    /// newest terms of all factors, computed from these parts. The terms of the left factors come first; both lists
-    /// are padded with zeros to `count`.
+    /// Returns the coefficients of order k of all factors, left ones first, each list padded with zeros to
+    /// `count`. Also returns the parts of them that are known before the accelerations and multipliers of
+    /// order k.
     pub(super) fn factors(&mut self, count: usize) -> (IndexSet<Register>, Vec<Register>) {
         let (mut known, zero) = (IndexSet::new(), self.schedule.constant(0.0));
         let mut terms = vec![zero; 2 * count];
@@ -71,8 +73,8 @@ impl Recurrences {
         (known, terms)
     }
 
-    /// Returns the newest coefficient, from its known part. Inputs are read directly, other known parts are stored in
-    /// `known`.
+    /// Returns the coefficient of order k, from its known part. Inputs are read directly, other known parts
+    /// are stored in `known`.
     fn term(&mut self, of: SeriesQuantity, known: &mut IndexSet<Register>) -> Option<Register> {
         let first = self.part(of, Stage::Known).map(|part| match self.schedule.operations[part.index()] {
             Operation::Input(symbol) if !matches!(Variable::of(symbol), Variable::Sum(_)) => part,

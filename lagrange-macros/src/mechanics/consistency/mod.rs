@@ -121,8 +121,8 @@ impl<'a> ConstraintRows<'a> {
         expressions.iter().map(|&expression| self.ring.of(&mut self.graph, expression)).collect()
     }
 
-    /// Remainder of a combination; `None` if it contains a coordinate. The constraints may then all hold, together
-    /// with another one.
+    /// Remainder of a combination; `None` if it contains a coordinate. The constraints may then all hold, and
+    /// the remainder restricts coordinates.
     fn rest(&mut self, combination: &RowCombination, others: &[usize]) -> Option<Rest> {
         let rows = others.iter().chain([&self.circuit[combination.index]]);
         let are_holonomic = rows.into_iter().all(|&row| self.constraints.kinds[row] == Holonomic);

@@ -44,7 +44,8 @@ fn divided(graph: &mut Graph, form: &OneForm) -> Vec<OneForm> {
         .collect()
 }
 
-/// Integrates along one variable after the other what the earlier integrals leave of the form.
+/// Sum of integrals along one variable after the other, each of the part of the form that the earlier
+/// integrals do not yet give.
 fn potential(graph: &mut Graph, symbols: &[Symbol], form: &OneForm) -> Option<Id> {
     let mut rest = form.clone();
     let mut integral = Id::ZERO;

@@ -26,7 +26,7 @@ pub(super) struct Space {
     pub(super) symbols: Vec<Symbol>,
     /// dΦ of the holonomic constraints.
     pub(super) holonomic: Vec<OneForm>,
-    /// Forms of the velocity constraints, with the indices of these.
+    /// Forms of the velocity constraints, each with the index of its constraint.
     pub(super) velocity: Vec<(usize, OneForm)>,
     samples: Vec<Sample>,
 }

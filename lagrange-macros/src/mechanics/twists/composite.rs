@@ -120,8 +120,9 @@ impl Carried {
         }
     }
 
-    /// Shifts every position r to s + r. The tensor ∫ r² 1 − r rᵀ grows by the terms in p_i = s_i (h + h')_i and s hᵀ
-    /// + h' sᵀ.
+    /// Shifts every position r to s + r. This changes the first moment h to h' = h + m s. With p_i = s_i (h_i
+    /// + h'_i), the diagonal entry J_ii of the inertia grows by p_j + p_k, and J_ij decreases by s_i h_j +
+    /// h'_i s_j.
     fn moved(self, s: Triple, graph: &mut Graph) -> Self {
         let moment = pairs(self.moment, s).map(|(h, s)| {
             let shift = graph.mul(self.mass, s);

@@ -24,7 +24,8 @@ impl Twists<'_> {
         TwistParts(vec![Vec::new(); self.velocities.nodes.len()])
     }
 
-    /// Adds the component `axis` of `vector` × ξ, times `weight`, where ξ is the displacement with the rate `of`.
+    /// Adds `weight` times the component `axis` of `vector` × ξ, where the displacement ξ has the rate `of`:
+    /// each component of ξ contributes to the force conjugate to its rate.
     pub(super) fn across(
         &self,
         graph: &mut Graph,
@@ -42,7 +43,8 @@ impl Twists<'_> {
         }
     }
 
-    /// Adds the product for each component of the displacement with the rate `of`.
+    /// Adds one product for each component of a displacement with the rate `of`, to the force conjugate to
+    /// that component.
     pub(super) fn along(
         &self,
         graph: &mut Graph,

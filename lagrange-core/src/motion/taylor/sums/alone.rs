@@ -1,10 +1,10 @@
 //! Sums of the smallest systems, which fit into one group of plain numbers.
 //!
-//! Their time is latency: each result waits for the one before. So the code is unrolled for each number of terms. The
-//! terms at both ends, which contain the newest factors, are added last, from the variables in which they were
-//! computed. Numbers just stored one by one cannot be loaded as a vector before they reach the cache; the other factors
-//! were stored an order earlier. With more groups, the processor works on other groups meanwhile, and none of this is
-//! needed.
+//! Latency determines their time: each result waits for the one before. So the code is unrolled for each
+//! number of terms. The first and the last term, which contain the factors of the order before, are added
+//! last, from the variables in which these were computed. Numbers just stored one by one cannot be loaded as
+//! a vector before they reach the cache; the other factors were stored an order earlier. With more groups,
+//! the processor works on other groups meanwhile, and none of this is needed.
 
 use super::group::{Group, WIDTH, plus};
 use crate::number::{ROOM, Scalar};
@@ -18,8 +18,8 @@ pub(super) const fn is<T, S>() -> bool {
 /// Factors of the terms at both ends of the sums.
 pub(crate) struct Ends<S> {
     newest: [S; 2],
-    /// Left and right factors of order 1. The left one is zero until it differs from the newest, from the sums of order
-    /// 3 on.
+    /// Left and right factors of order 1. The left one is zero until `newest` holds a higher order, from the
+    /// sums of order 3 on.
     first: [S; 2],
 }
 

@@ -12,8 +12,9 @@ pub(super) const WIDTH: usize = 4;
 #[repr(align(32))]
 pub(super) struct Group<T>(pub(super) [T; WIDTH]);
 
-/// Σ x_j y_j and Σ x_j+1 y_j, each in `PARTS` partial sums: in a single one, each product waits for the one before. The
-/// newest factors, at both ends, come last: the other terms do not wait for them.
+/// Σ x_j y_j and Σ x_j+1 y_j, each in `PARTS` partial sums: in a single one, each product waits for the one
+/// before. The first and the last term contain the factors computed last, and are added last: the other terms
+/// do not wait for them.
 #[inline(always)]
 pub(super) fn products<T: Scalar, const PARTS: usize>(x: &[Group<T>], y: &[Group<T>]) -> [[T; WIDTH]; 2] {
     let none = [T::constant(0.0); WIDTH];

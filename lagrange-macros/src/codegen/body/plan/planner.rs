@@ -42,7 +42,7 @@ pub(super) struct Planner<'p> {
     pub(super) plain: Vec<Vec<Register>>,
     /// Plain angles of the current chunk that are not yet evaluated.
     pub(super) early: Vec<Register>,
-    /// First angle of the group evaluated last.
+    /// First angle of the last group emitted. The next group is emitted where this angle is used.
     pub(super) leader: Option<Register>,
     /// Angles of the current chunk that are available as small angles.
     pub(super) small: BTreeSet<Register>,
@@ -141,7 +141,8 @@ impl<'p> Planner<'p> {
         }
     }
 
-    /// Computes one operation, unless another has computed it too, and stores a result.
+    /// Computes the operation at this index, unless it was computed together with another, and stores its
+    /// result if it is a result of the function.
     pub(super) fn compute(&mut self, index: usize) {
         let register = Register::at(index);
         match self.schedule.operations[index] {

@@ -36,7 +36,8 @@ impl RoundRows {
 }
 
 impl Planner<'_> {
-    /// Reserves slots for the inputs and outputs of a loop, and copies the inputs there that are elsewhere.
+    /// Reserves slots for the inputs and outputs of a loop. Copies inputs that iterations cannot read where
+    /// they are into these slots.
     pub(super) fn lay_out(&mut self, repeat: &Repeat, sequence: &[usize]) -> RoundLayout {
         // Keep results of the function alive past the loop: the chunk after it stores them.
         for &index in sequence.iter().filter(|&&index| self.places.contains_key(&Register::at(index))) {
@@ -91,8 +92,8 @@ impl Planner<'_> {
         left
     }
 
-    /// Returns where iterations can read registers computed before the loop without copying: inputs, or slots at a
-    /// constant stride.
+    /// Returns the inputs, or the slots at a constant stride, that already hold these registers, so that
+    /// iterations can read them without a copy. `None` if there are none.
     fn as_they_are(&self, registers: &[Register]) -> Option<Given> {
         let symbol = |register: &Register| match self.schedule.operations[register.index()] {
             Operation::Input(symbol) => Some(symbol),
