@@ -302,8 +302,8 @@ impl<L: Lagrangian<Scalar = f64>> Job<'_, L> {
         Member { index, fingerprint, result: Ok(record.arrive(state, ending, statistics)) }
     }
 
-    /// Next member that has a motion. Members without one, because their start is at fault or they end there, are
-    /// reported.
+    /// Next member that has a motion. Members without a motion, because their start has an error or they end
+    /// there, are reported.
     fn next_seat<P: LaneMethod<L>, const HAS_DENSE_OUTPUT: bool>(
         &self,
         method: &P,

@@ -69,7 +69,8 @@ impl<T: Real, N: Length, M: Length> Linear<'_, T, N, M> {
     }
 
     /// Returns the distance from the solution, in natural units of the dynamics, and the magnitude of its
-    /// terms. Round-off of the terms of a row does not count: it must not hide another row.
+    /// terms. A residual within the round-off of its terms counts as zero, so that it does not hide another
+    /// row.
     fn distance(&self, trial: &VelocityTrial<T, N, M>) -> (T, T) {
         let momenta = (0..N::COUNT).map(|i| {
             let (residual, terms) = self.momentum_residual(trial, i);
@@ -90,7 +91,8 @@ impl<T: Real, N: Length, M: Length> Linear<'_, T, N, M> {
 }
 
 impl<L: Lagrangian<Scalar: Real>> Inversion<'_, L> {
-    /// Momenta linear in the velocities: a single solve, and a second one if the first lost a digit.
+    /// Inverts momenta that are linear in the velocities by one linear solve, and by a second one if the
+    /// first lost a digit.
     #[inline]
     fn at_once(&self, mut state: StateOf<L>) -> Option<StateOf<L>> {
         if !L::MOMENTA_ARE_LINEAR || self.active.contains(&false) {
@@ -112,7 +114,7 @@ impl<L: Lagrangian<Scalar: Real>> Inversion<'_, L> {
         Some(state)
     }
 
-    /// Any number of Newton steps. Not inlined, since its matrices are large.
+    /// Takes Newton steps until they converge. Not inlined, because its matrices are large.
     #[inline(never)]
     fn by_steps(mut self, state: StateOf<L>) -> Result<StateOf<L>, Error> {
         let start = self.trial(state, Array::filled(L::Scalar::constant(0.0)));
@@ -133,7 +135,7 @@ impl<L: Lagrangian<Scalar: Real>> Inversion<'_, L> {
         }
     }
 
-    /// Newton's step from a state: change of the velocity, and the new μ.
+    /// Newton's step from a state: change of the velocity, and the new multipliers μ.
     fn step(
         &self,
         state: &StateOf<L>,

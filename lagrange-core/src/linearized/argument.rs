@@ -16,7 +16,7 @@ pub(crate) enum Argument {
     Parameter(usize),
 }
 
-/// Checks that a manual implementation names all parameters: at compile time, where a program is built that uses the
+/// Checks at compile time that a manual implementation names all parameters, in a program that uses the
 /// names.
 pub(crate) const fn check_parameters<L: Linearized>() {
     assert!(L::PARAMETERS.len() == <L::P>::COUNT, "`PARAMETERS` must have `P` names");

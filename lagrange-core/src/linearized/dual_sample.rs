@@ -100,7 +100,8 @@ impl<'a, L: Linearized<Scalar: Real>> DualSample<'a, L> {
         let (solution, (state, direction)) = (self.solution()?, self.parts());
         let [multipliers, changes] =
             [solution.multipliers.each(|x| x.value), solution.multipliers.each(|x| x.slope)];
-        // Slope of Fᵀλ at fixed λ: M q̈ − h − Fᵀλ changes by δFᵀ λ less than it does with λ = 0.
+        // Derivative of Fᵀλ at fixed λ, from two derivatives of M q̈ − h − Fᵀλ: the one with zero multipliers
+        // minus the one with λ.
         let accelerations = solution.accelerations.each(|x| x.value);
         let motion = |multipliers| {
             let solution =

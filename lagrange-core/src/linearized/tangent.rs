@@ -34,8 +34,8 @@ pub(crate) struct Tangent<'a, L: StateDerivatives> {
 /// SIMD type of preferred width for the numbers of the system.
 pub(crate) type WideOf<L> = <<L as Lagrangian>::Scalar as Real>::Wide;
 
-/// Mass matrix, constraint Jacobian and general factors, for use where the emitted factorization is not enough: its
-/// pivot is too small, or rows and null spaces are needed.
+/// Mass matrix, constraint Jacobian and factors of the general solver. They are used if the pivot of the
+/// emitted factorization is too small, or if rows and null spaces are needed.
 pub(crate) struct Matrices<T: Element, N: Length, M: Length> {
     /// Mass matrix, row by row.
     #[cfg_attr(not(feature = "alloc"), allow(dead_code, reason = "what reads it allocates"))]
@@ -64,8 +64,8 @@ fn constraint_rows<L: Lagrangian>(
 impl<T: Real, N: Length, M: Length> Matrices<T, N, M> {
     fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(system: &L, state: &State<T, N>) -> Self {
         let (m, f) = (mass_rows(system, state), constraint_rows(system, state));
-        // A change that leaves the constraints may make dependent ones contradict each other: rows left out as
-        // dependent are not checked.
+        // Off the constraints, dependent ones may contradict each other: rows left out as dependent are not
+        // checked.
         let factors = Room::of(Factors::of(&m, &f, Rank::off_constraints()));
         Self { m, f, factors }
     }
@@ -83,7 +83,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
         Self { system, state, solution, factor, slopes, matrices: OnceCell::new() }
     }
 
-    /// The general matrices and factors, computed at first use.
+    /// Returns the matrices and the factors of the general solver, computed at first use.
     pub(super) fn matrices(&self) -> &Matrices<L::Scalar, L::N, L::M> {
         self.matrices.get_or_init(|| Matrices::at(self.system, self.state))
     }

@@ -253,7 +253,7 @@ pub trait Lagrangian {
     fn conserved(&self, index: usize, state: &StateOf<Self>) -> Option<Self::Scalar>;
 }
 
-/// Checks that a manual implementation names all coordinates and constraints: at compile time, where a program is built
+/// Checks at compile time that a manual implementation names all coordinates and constraints, in a program
 /// that uses the names.
 pub(crate) const fn check_names<L: Lagrangian>() {
     assert!(L::COORDINATES.len() == <L::N>::COUNT, "`COORDINATES` must have `N` names");

@@ -63,8 +63,8 @@ impl Emitter<'_> {
         })
     }
 
-    /// M, h, F and γ of the first form, where M is completed if it is singular. Matrices are row-major. The runtime
-    /// reads the lower triangle of M.
+    /// M, h, F and γ for the solver in the runtime; M is completed if it is singular. Matrices are row-major.
+    /// The runtime reads the lower triangle of M only.
     fn equations_by_rows(&self) -> [(Vec<Id>, ResultShape); 4] {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let Equations { forms, jacobian, bias, .. } = &self.derived.equations;

@@ -20,7 +20,7 @@ use crate::variables::{Variable, has_velocity, total_time_derivative};
 pub(crate) struct Equations {
     /// p = ∂L/∂q̇
     pub(crate) momentum: Vec<Id>,
-    /// Whether M is free of velocities
+    /// True if M does not depend on the velocities.
     pub(crate) momenta_are_linear: bool,
     /// M = ∂p/∂q̇, row by row
     pub(crate) mass: Vec<Vec<Id>>,
@@ -31,7 +31,7 @@ pub(crate) struct Equations {
     /// E = p·q̇ − L
     pub(crate) energy: Id,
     pub(crate) kinds: Vec<ConstraintKind>,
-    /// Which constraints are integrable
+    /// Integrability of each constraint, and of the set.
     pub(crate) integrability: Kinds,
     /// Φ of holonomic constraints, zero for velocity constraints
     pub(crate) residual: Vec<Id>,
@@ -52,7 +52,7 @@ pub(crate) struct Equations {
     /// Equivalent quadratic forms of M and h, completed by constraints where M is singular. The first has the
     /// accelerations as its only variables.
     pub(crate) forms: Vec<Form>,
-    /// The same motions, of a Lagrangian whose mass matrix is regular; `None` if no constraint completes M.
+    /// Lagrangian with the same motions and a regular mass matrix; `None` if no constraint completes M.
     pub(crate) completed: Option<Completed>,
 }
 

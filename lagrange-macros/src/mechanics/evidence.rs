@@ -3,7 +3,7 @@
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Verdict};
 
-/// How a statement was established: by proof or by random tests.
+/// Evidence for a statement: a proof, or tests at random points.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Evidence {
     /// Zeros vanish in canonical form; nonzeros have a value whose error bound excludes 0.

@@ -10,7 +10,7 @@ use crate::variables::{Variable, drift, nodes};
 pub(super) struct Velocities {
     /// q̇, then the named velocities.
     pub(super) nodes: Vec<Id>,
-    /// For each named velocity, its partial derivatives by each earlier node
+    /// For each named velocity, its partial derivatives by the earlier entries of `nodes`.
     pub(super) rows: Vec<Vec<Id>>,
 }
 
@@ -43,17 +43,17 @@ impl Velocities {
         named
     }
 
-    /// Form over the rates of q̇ and w. Let L = ℓ(q, q̇, w), with named velocities w = f(q, q̇, w), each in terms of
-    /// earlier ones. The adjoints of w are μ = ∂ℓ/∂w + Σ μ ∂f/∂w. Then p = ∂ℓ/∂q̇ + Σ μ ∂f/∂q̇. Each term of d/dt p =
-    /// ∂L/∂q + Q is assigned to the variable x whose coefficient it is.
+    /// Form over the rates of q̇ and of the named velocities w. Let L = ℓ(q, q̇, w) with w = f(q, q̇, w),
+    /// each in terms of earlier ones. The adjoints of w are μ = ∂ℓ/∂w + Σ μ ∂f/∂w. Then p = ∂ℓ/∂q̇ + Σ μ
+    /// ∂f/∂q̇. Each term of d/dt p = ∂L/∂q + Q is assigned to the variable x whose coefficient it is.
     pub(super) fn form(&self, graph: &mut Graph, problem: &Problem) -> Form {
         let local = graph.gradient_to(problem.lagrangian, &self.nodes);
         let linear = self.linear(graph, problem, &local);
         self.form_of(graph, &local, linear)
     }
 
-    /// Returns the quadratic form ½ xᵀHx − bᵀx. H is the derivative of the momenta `local` = ∂ℓ/∂(q̇, w) by (q̇, w),
-    /// and b is `linear`.
+    /// Returns the quadratic form ½ xᵀHx − bᵀx with b = `linear`. H is the derivative by (q̇, w), with w the
+    /// named velocities, of the momenta `local` conjugate to these.
     pub(super) fn form_of(&self, graph: &mut Graph, local: &[Id], linear: Vec<Id>) -> Form {
         let matrix = self.hessian(graph, local);
         Form::over(matrix, linear, &self.rows)
@@ -91,7 +91,8 @@ impl Velocities {
         linear.into_iter().map(|terms| graph.sum(terms)).collect()
     }
 
-    /// Adjoints μ, from the last named velocity to the first: each adds its share to the velocities it is defined by.
+    /// Adjoints μ of the named velocities, from the last to the first: each adds its share to the velocities
+    /// in its definition.
     fn adjoints(&self, graph: &mut Graph, local: &[Id]) -> Vec<Id> {
         let n = local.len() - self.rows.len();
         let one = Rational::from_integer(1);
@@ -108,7 +109,8 @@ impl Velocities {
         adjoints
     }
 
-    /// ∂L/∂q + Q by its terms: ∂ℓ/∂q, Q and Σ μ ∂f/∂q.
+    /// Terms of ∂L/∂q + Q for each coordinate: ∂L/∂q at fixed named velocities, the changes of named
+    /// velocities times their adjoints, and Q.
     fn forces(&self, graph: &mut Graph, problem: &Problem, adjoints: &[Id]) -> Vec<Vec<Id>> {
         let n = problem.coordinates.len();
         let q = nodes(graph, n, Variable::Coordinate);

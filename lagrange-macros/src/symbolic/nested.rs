@@ -33,7 +33,7 @@ struct Nesting {
     /// Last term of the prefix; `None` for the root.
     term: Option<Term>,
     depth: usize,
-    /// Number of paths that continue from here or end here.
+    /// Number of paths that continue from this node or end at it.
     ways: usize,
     is_named: bool,
     /// The prefix as a node of the new graph.

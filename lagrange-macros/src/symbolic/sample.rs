@@ -1,4 +1,4 @@
-//! A random point, with the values of expressions there.
+//! A random point, with the values of expressions at this point.
 
 use rustc_hash::FxHashMap;
 

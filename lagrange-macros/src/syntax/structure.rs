@@ -27,7 +27,7 @@ pub(crate) enum MemberShape {
     Struct(Structure),
 }
 
-/// Numbers without a stated property.
+/// Creates the shape of a member that consists of numbers, without a property such as `symmetric`.
 pub(super) fn numbers(layout: Layout) -> MemberShape {
     MemberShape::Numbers(layout, None)
 }

@@ -60,7 +60,7 @@ fn target_index(cursor: &mut Cursor) -> Result<TargetIndex> {
     }
 }
 
-/// Reads `i in 0..3` if the cursor is there.
+/// Reads a range such as `i in 0..3`; `None` if the next tokens are none.
 pub(super) fn running(cursor: &mut Cursor) -> Result<Option<TargetIndex>> {
     let mut ahead = cursor.clone();
     let Some(ident) = ahead.take_ident().filter(|_| ahead.take_word("in")) else { return Ok(None) };

@@ -203,7 +203,8 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
         Ok(paths)
     }
 
-    /// Reads the rows of a file, and checks that its member 0 has the same start and parameters as here.
+    /// Reads the rows of a file, and checks that its member 0 has the start and the parameters that `member`
+    /// gives.
     fn rows_in(&self, path: &Path) -> Result<Vec<MemberRow<L::Scalar, L::N>>, FileFault> {
         let file = File::open(path).map_err(|error| FileFault::Other(error.to_string()))?;
         let read = file::read(file, columns::<L>(&[], &[]))?;
@@ -222,8 +223,8 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
         })
     }
 
-    /// Checks that the rows of a file belong to the run of the waiting rows, and that members below `end` have the same
-    /// start and parameters as here.
+    /// Checks that the rows of a file belong to the run of the waiting rows, and that members below `end`
+    /// have the starts and the parameters that `member` gives.
     fn compare(&self, path: &Path, end: usize) -> Result<(), Error> {
         let rows = match self.rows_in(path) {
             Ok(rows) => rows,

@@ -124,7 +124,7 @@ impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
         trial.residual.component_mul(&self.weights).norm()
     }
 
-    /// True if every row is round-off of its terms.
+    /// True if every row of the residual is within the round-off of its terms.
     fn is_rounded(&self, trial: &Iterate<L>) -> bool {
         let part = L::Scalar::constant(4.0 * L::Scalar::EPSILON);
         let bound = self.terms(trial, |_, x| part * x);

@@ -20,7 +20,7 @@ use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, State, StateOf};
 use crate::vector::{Array, Element, Length, PhaseVector, array, from_fn, vector};
 
-/// A system over dual numbers, and the last step there.
+/// A system over dual numbers, and the last step computed with it.
 #[derive(Debug)]
 pub struct VariedSteps<S, W: Element, N: Length> {
     /// System over dual numbers; the slope of each parameter is its rate of change in [`Block::rates`].

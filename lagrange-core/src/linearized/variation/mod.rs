@@ -206,7 +206,7 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
         self.blocks[index].projected(tangent, &self.parameter_slopes(tangent), y, &names)
     }
 
-    /// Numbers for the derivatives by parameters; `None` if no variation changes a parameter.
+    /// Coefficients of the derivatives by parameters; `None` if no variation changes a parameter.
     fn parameter_slopes(&self, tangent: &Tangent<'_, L>) -> Option<L::ParameterSlopes> {
         self.blocks.iter().any(|block| block.rates.is_some()).then(|| tangent.parameter_slopes())
     }

@@ -226,7 +226,8 @@ impl<S, U: FixedArray<Dual<W>>, W: Scalar, N: Length> Varied<S, U, W, N> {
         self.check::<L>(block.lanes, at.t, entry)
     }
 
-    /// Like `expand`, by the general factors. A separate function, because the matrices are large.
+    /// Like `expand`, by the factors of the general solver. A separate function, because the matrices are
+    /// large.
     #[cold]
     #[inline(never)]
     fn expand_in_general<L>(

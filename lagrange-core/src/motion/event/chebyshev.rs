@@ -158,8 +158,8 @@ impl<T: Real> Shape<T> {
         self.degree > COARSEST && self.has_level_end()
     }
 
-    /// True if the coefficients do not fall: the last are at least 1/16 of the sum of all and, from degree 8 on, at
-    /// least half their mean. A dip of which one sample sees a flank has such coefficients.
+    /// True if the coefficients do not fall: the last are at least 1/16 of the sum of all and, from degree 8
+    /// on, at least half their mean. A narrow dip has such coefficients if only one sample lies on its slope.
     fn has_level_end(&self) -> bool {
         let factor = if self.degree > 8 { 2 * self.degree } else { 16 };
         T::constant(factor as f64) * self.tail >= self.swing
@@ -239,7 +239,7 @@ mod tests {
         }
     }
 
-    /// A dip through zero between two points, with a flank seen by one sample: the coefficients do not fall.
+    /// A dip through zero between two points, with one sample on its slope: the coefficients do not fall.
     #[test]
     fn what_is_seen_of_a_dip_is_not_plain() {
         for degree in [8, 16, 32] {

@@ -1,4 +1,4 @@
-//! Rates at a stage of a step, counted, and the entry at fault if they are not finite.
+//! Evaluates and counts the rates at a stage of a step, and names an entry that is not finite.
 
 use nalgebra::ComplexField;
 
@@ -24,7 +24,7 @@ pub(super) fn slope<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
     inlined_slope::<L, F>(system, point, active, rates, statistics)
 }
 
-/// The same, inlined: for the loop over the stages, where the call would cost.
+/// Inlined variant of [`slope`], for the loop over the stages, where a call would take time.
 #[inline(always)]
 pub(super) fn inlined_slope<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
     system: &L,

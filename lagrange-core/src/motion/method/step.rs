@@ -294,9 +294,9 @@ impl<P: Pair> Adaptive<P> {
         Ok(error)
     }
 
-    /// Spacing of representable times near the current time, if the rates change so much over one spacing that a step
-    /// errs by half its tolerance or more. Stages are evaluated at rounded times. From the whole tolerance on, this
-    /// rounding costs steps.
+    /// Spacing of representable times near the current time; `None` if it is fine enough. Stages are
+    /// evaluated at rounded times. The spacing is too coarse if the rates change so much over it that the
+    /// error of a step is half the tolerance or more.
     #[cold]
     fn find_coarseness<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
         &self,

@@ -30,7 +30,7 @@ use crate::vector::{Element, Length};
 pub struct Arrival<T: Element, N: Length> {
     /// Last state.
     pub state: State<T, N>,
-    /// Reason why the motion ended there.
+    /// Reason why the motion ended at this state.
     pub ending: Ending,
     /// Numbers of steps and evaluations.
     pub statistics: Statistics,

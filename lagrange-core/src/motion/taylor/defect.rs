@@ -18,12 +18,13 @@ const DEFECT: f64 = 4096.0;
 /// Largest defect beside kinks of user-supplied functions, and beside poses where constraints become dependent, so that
 /// a step can cross them: a multiple of the tolerance, or a fraction of the velocities, whichever is larger.
 const DEFECT_AT_KINKS: [f64; 2] = [1e4, 1e-10];
-/// Largest defect, in units of the tolerance, at points where the series of a root is negative. A root never is: the
-/// series of √x² continues as x where x < 0, and no later step would correct the error. At the end of a step, the same
-/// limit applies if the last coefficients of the series are zero, because the omitted ones may not be.
+/// Largest defect, in units of the tolerance, at points where the series of a root is negative. A root never
+/// is negative: the series of √x² at x > 0 is x, also where x < 0, and no later step would correct the error.
+/// At the end of a step, the same limit applies if the last coefficients of the series are zero, because the
+/// omitted ones may not be.
 const STRICT: f64 = 64.0;
-/// Test for rounding errors: perturbation of the state, in units of ε, and largest ratio of a difference of
-/// accelerations to the change of acceleration that the perturbation makes.
+/// Test whether a defect is a rounding error: the state is perturbed by `ROUNDING[0]` ε. The defect passes as
+/// a rounding error if it is at most `ROUNDING[1]` times the change of acceleration due to the perturbation.
 const ROUNDING: [f64; 2] = [4.0, 16.0];
 
 /// A step to check before it is accepted.
@@ -35,7 +36,7 @@ pub(super) struct CandidateStep<'a, S, T: Element, N: Length, M: Length> {
     pub(super) length: T,
     /// Accelerations of the series at the end.
     pub(super) accelerations: &'a Array<T, N>,
-    /// Number of samples within.
+    /// Number of samples within the step.
     pub(super) count: usize,
     /// True if the constraints are nearly dependent at the start or the end, so that accelerations have large rounding
     /// errors.

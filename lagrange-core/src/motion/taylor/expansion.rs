@@ -16,8 +16,8 @@ use crate::vector::{Array, Element, FixedArray, Length, array, from_fn, rows, ve
 
 /// Largest number of units of time tried for one expansion.
 const UNITS: usize = 40;
-/// Multiple c of all orders, scaled by a power of two to about 1, so that division by any order is exact. Among these
-/// numbers, it has the smallest rounding error of 1/c², 10⁻²⁰ of it.
+/// Common multiple c of all orders, scaled by a power of two to about 1, so that division by any order is
+/// exact. Among such multiples, this one has the smallest relative rounding error of 1/c², 10⁻²⁰.
 const MULTIPLE: f64 = 3_185_466_681_422_025.0 / (1_u64 << 51) as f64;
 /// Margin in the test whether the last coefficients have underflowed, in bits per order. They may have if the
 /// known coefficients fall nearly as fast per order as coefficients that reach the smallest number at the

@@ -33,7 +33,7 @@ pub struct TaylorLanes<S, U, N: Length, M: Length> {
     next: LaneState<N, M>,
 }
 
-/// States of the motions, their compensation terms, and the solution of the equations there.
+/// States of the motions, their compensation terms, and the solution of the equations at these states.
 #[derive(Clone, Copy, Debug)]
 struct LaneState<N: Length, M: Length> {
     y: PhaseVector<Lanes, N>,
@@ -145,8 +145,8 @@ where
             let motion = motions[lane].as_mut()?;
             let TaylorMemory { clock, solved, is_expanded, planned, sampling, .. } = &mut motion.memory;
             let (length, few) = (plan[lane].h.abs(), few::<L>());
-            // If the last coefficients are zero, or the step is much longer than the one before, the scalar method
-            // samples it.
+            // If the last coefficients are zero, or the step is much longer than the one before, samples
+            // within the step are needed: the scalar method takes it.
             let can_go = !*is_expanded
                 && solved.solution.multipliers_are_unique()
                 && allowed[lane].is_finite()
@@ -286,7 +286,7 @@ impl<S: TaylorSeries<Scalar = Lanes, Sums = U>, U: FixedArray<Lanes>> TaylorLane
 }
 
 impl<N: Length, M: Length> LaneState<N, M> {
-    /// `self` in the chosen lanes, `other` in the rest.
+    /// Returns the lanes of `self` where `chosen` is true, else those of `other`.
     fn select(&self, chosen: Lanes, other: &Self) -> Self {
         let select = |x: Lanes, y: Lanes| x.select(chosen, y);
         let y = from_fn(|half| from_fn(|i| select(self.y[half][i], other.y[half][i])));

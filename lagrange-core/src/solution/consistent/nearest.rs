@@ -207,7 +207,7 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         })
     }
 
-    /// A step along ±`down`, as long as the distance, on the side of the given point.
+    /// Step along `down` or against it, toward the given point and as long as the distance from it.
     fn as_long_as_the_way(
         &self,
         place: &ConstrainedPoint<L::Scalar, L::N, L::M>,

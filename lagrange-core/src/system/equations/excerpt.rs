@@ -134,7 +134,7 @@ impl Display for Excerpt {
     }
 }
 
-/// Rows inside a frame (its start and end), followed by a note.
+/// Rows of equations between an opening and a closing text, followed by a note.
 #[derive(Clone, Copy)]
 struct Framed {
     frame: [&'static str; 2],

@@ -18,8 +18,8 @@ use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
 
 impl Recurrences {
-    /// Returns the right-hand sides in place of h, then those in place of γ. `None` if an operation has no Taylor
-    /// series.
+    /// Returns the right-hand sides for order k, first those in place of h, then those in place of γ. `None`
+    /// if an operation has no Taylor series.
     pub(super) fn right_hand_sides(&mut self, graph: &Graph, equations: &Equations) -> Option<Vec<Register>> {
         let Equations { balance, kinds, bias, constraint_acceleration, .. } = equations;
         let holonomic = |a: usize| kinds[a] == ConstraintKind::Holonomic;

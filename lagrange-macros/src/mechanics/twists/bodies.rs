@@ -46,7 +46,7 @@ impl Twists<'_> {
         }
     }
 
-    /// The first frame with the origin of this one.
+    /// First frame of the chain whose origin is that of `frame`.
     fn unturned(&self, mut frame: usize) -> usize {
         while let Step::Turned(_) = self.problem.frames[frame].step {
             frame = self.problem.frames[frame].before;

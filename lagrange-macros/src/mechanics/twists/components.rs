@@ -89,7 +89,8 @@ impl<'p> Twists<'p> {
         self.velocities.rows.push(row);
     }
 
-    /// ∂(vector)/∂(velocity), with the index of the velocity, for each outer velocity that the vector depends on.
+    /// For each [outer velocity](Self::outer) that the vector depends on, its index and
+    /// ∂(vector)/∂(velocity).
     pub(super) fn columns(&self, graph: &mut Graph, vector: Triple) -> Vec<(usize, Triple)> {
         let outer = &self.velocities.nodes[..self.outer];
         let rows = vector.map(|component| graph.gradient_to(component, outer));

@@ -24,8 +24,8 @@ struct Momentum {
 }
 
 impl Twists<'_> {
-    /// Mass matrix over the outer velocities. Bodies contribute by the recursion from frame to frame, all other terms
-    /// of L by differentiation.
+    /// Mass matrix over the [outer velocities](Twists::outer). Bodies contribute by the recursion from frame
+    /// to frame, all other terms of L by differentiation.
     pub(super) fn mass(&self, graph: &mut Graph) -> Vec<Vec<Id>> {
         let momenta = graph.gradient_to(self.others, &self.velocities.nodes[..self.outer]);
         let mut mass = hessian(graph, &momenta, &self.velocities.nodes[..self.outer]);
@@ -82,7 +82,8 @@ impl Twists<'_> {
         }
     }
 
-    /// Twist that a unit rate of each outer velocity causes by the step to a frame, with the index of the velocity.
+    /// For each [outer velocity](Twists::outer) that the step to a frame depends on, its index and the part
+    /// of the frame's twist due to a unit rate.
     fn columns_of(&self, graph: &mut Graph, frame: usize) -> Vec<(usize, Triple)> {
         match &self.problem.frames[frame].step {
             Step::None => Vec::new(),
@@ -120,9 +121,9 @@ impl Carried {
         }
     }
 
-    /// Shifts every position r to s + r. This changes the first moment h to h' = h + m s. With p_i = s_i (h_i
-    /// + h'_i), the diagonal entry J_ii of the inertia grows by p_j + p_k, and J_ij decreases by s_i h_j +
-    /// h'_i s_j.
+    /// Shifts every position r to s + r. The first moment h becomes h' = h + m s. For different i, j, k the
+    /// entry J_ij of the inertia decreases by s_i h_j + h'_i s_j. With p_i = s_i (h_i + h'_i), J_ii grows by
+    /// p_j + p_k.
     fn moved(self, s: Triple, graph: &mut Graph) -> Self {
         let moment = pairs(self.moment, s).map(|(h, s)| {
             let shift = graph.mul(self.mass, s);

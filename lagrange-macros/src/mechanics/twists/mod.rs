@@ -44,8 +44,8 @@ impl Formulation for Twists<'_> {
         self.row(graph, constraint, self.problem.coordinates.len())
     }
 
-    /// Returns the form over the rates of all velocities. If some outer velocities are not generalized ones, returns
-    /// the form over the rates of the outer velocities first.
+    /// Returns the form over the rates of all velocities. If some [outer velocities](Twists::outer) are not
+    /// generalized ones, returns the form over the rates of the outer velocities first.
     fn forms(&self, graph: &mut Graph) -> Vec<Form> {
         let n = self.problem.coordinates.len();
         let mut forms = Vec::new();
@@ -97,14 +97,15 @@ impl Twists<'_> {
         parts
     }
 
-    /// Generalized forces conjugate to the first velocities, including those of the other velocities that depend on
-    /// them.
+    /// Generalized forces conjugate to the first `first` velocities. The other velocities depend on these, so
+    /// the forces conjugate to them contribute.
     fn handed_back(&self, graph: &mut Graph, in_time: InTime, first: usize) -> Vec<Id> {
         let parts = self.parts(graph, in_time);
         self.hand_back(graph, parts, first)
     }
 
-    /// Propagates the generalized forces of all velocities back to the first ones, and sums them.
+    /// Propagates the generalized forces conjugate to all velocities back to the first `first` velocities,
+    /// and sums them.
     fn hand_back(&self, graph: &mut Graph, mut parts: TwistParts, first: usize) -> Vec<Id> {
         let n = self.problem.coordinates.len();
         for k in (first - n..self.velocities.rows.len()).rev() {
@@ -119,7 +120,7 @@ impl Twists<'_> {
         parts.sums(graph)
     }
 
-    /// Row of F of a constraint, over the first velocities.
+    /// Row of F of a constraint, with one column for each of the first `first` velocities.
     fn row(&self, graph: &mut Graph, constraint: Id, first: usize) -> Vec<Id> {
         let mut parts = self.nothing();
         if has_velocity(graph, &[constraint]) {

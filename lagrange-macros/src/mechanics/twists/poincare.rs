@@ -104,7 +104,8 @@ impl Twists<'_> {
         }
     }
 
-    /// Time derivative by known frame rates. Frame positions have known second rates, too: the accelerations.
+    /// Time derivative along the motion, from the known twists of frames. Second derivatives of frame
+    /// positions are known too, as accelerations.
     pub(super) fn rates(&self, graph: &mut Graph, in_time: InTime) -> Forward {
         let accelerations = self.accelerations(graph, in_time, [Id::ZERO; 3]);
         let mut rates: Vec<(Id, Id)> = Vec::new();

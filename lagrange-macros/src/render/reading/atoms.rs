@@ -130,8 +130,8 @@ impl Atoms {
         Some(Polynomial::term(monomial.power(exponent)?.times(&Monomial::of(sum, exponent))?, number))
     }
 
-    /// Factor of a sum that is raised to the power by itself. Under a square root it is a square number, since other
-    /// factors are not known to be positive.
+    /// Common factor of `base` that leaves the power as a factor of its own. Out of a square root only a
+    /// square number is taken, since other factors are not known to be positive.
     fn taken_out(&self, base: &Polynomial, exponent: Rational) -> (Rational, Monomial) {
         let (number, monomial) = base.content();
         if exponent.is_integer() {

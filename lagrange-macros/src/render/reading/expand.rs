@@ -146,7 +146,7 @@ pub(crate) fn readings<'a>(
         .collect()
 }
 
-/// Whether definitions appear by name or written out.
+/// Form in which definitions appear: by name or written out.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Names {
     /// Whichever is shorter.

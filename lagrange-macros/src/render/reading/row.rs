@@ -15,7 +15,7 @@ use crate::variables::Variable;
 type Variables<C> = fn(&C, Atom) -> Option<usize>;
 
 impl Collector<'_, '_> {
-    /// Left and right side of the equation Σ = 0, whose terms contain accelerations.
+    /// Left and right side of the equation `all` = 0, which contains accelerations.
     pub(super) fn row(&self, all: &Polynomial) -> Option<[Formula; 2]> {
         let all = self.divided(all)?;
         let (mut left, mut right) = (Polynomial::default(), Polynomial::default());

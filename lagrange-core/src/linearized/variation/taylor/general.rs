@@ -6,7 +6,7 @@ use crate::number::{Dual, Real, Wide};
 use crate::system::{Lagrangian, RightHandSides, Solution, State};
 use crate::vector::{Array, Element, Entrywise, Length, entries, from_fn, vector};
 
-/// General factors at a state, with the derivatives of M and F.
+/// Factors of the general solver at a state, with the derivatives of M and F.
 pub(super) struct DualGeneral<T: Element, W: Element, N: Length, M: Length> {
     general: General<T, N, M>,
     /// δM and δF, row by row.
