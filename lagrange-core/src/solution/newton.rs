@@ -67,9 +67,11 @@ pub(crate) fn find<S: Search>(search: &mut S, start: S::Trial) -> Result<(S::Tri
                 }
             }
             Err(error) if steps == 0 => return Err(error),
-            // A residual of round-off may have no correction.
+            // If the residual is round-off already, the trial is a solution even without a further
+            // correction.
             _ if converged => return Ok((trial, steps)),
-            // The iteration may have run to a trial without a correction, which is not an error of the start.
+            // If a later trial has no correction, the iteration has failed: this is not an error of the
+            // start.
             _ => return Err(search.not_found(&linear, &trial, steps)),
         }
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Maximum operations of an emitted function. A longer function is an error.
+/// Maximum number of operations of an emitted function. A longer function is an error.
 pub(super) const OPERATION_LIMIT: usize = 50_000;
 
 /// Operation count of a function. `arithmetic` counts each + − × ÷ √ as 1; elementary functions count separately.

@@ -25,7 +25,7 @@ use arithmetic::{Solver, Sparse, SparseEntry};
 use order::{Pattern, reduction_order};
 use reduce::FormFactors;
 
-/// Maximum operations of an elimination in straight-line code, even if the matrix is dense.
+/// Maximum number of operations of an elimination in straight-line code, even if the matrix is dense.
 const UNROLLED: usize = 2_500;
 /// Longer code is emitted only if dense loops over arrays take at least this many times as many operations. Otherwise
 /// they are as fast, and spare rustc the code.

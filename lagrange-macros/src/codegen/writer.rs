@@ -10,13 +10,14 @@ use super::rounds::waiting;
 use super::shape::ResultArrays;
 use super::style::FunctionContext;
 
-/// Maximum locals with a `let` each. More locals are declared in batches of this size, as tuples, and assigned later:
-/// one `let` each overflows the stack of rustc near 3,000 in a build with debug information.
+/// Maximum number of locals with a `let` each. More locals are declared in batches of this size, as tuples,
+/// and assigned later: one `let` each overflows the stack of rustc near 3,000 in a build with debug
+/// information.
 const BATCH: usize = 256;
 
-/// Minimum angles for which sines and cosines of several at once are function calls instead of inline code. The calls
-/// halve the code of ten links and its compile time. 8 to 20 links run 2 to 20 % faster; the time of robots changes
-/// by 2 % either way.
+/// Minimum number of angles for which sines and cosines of several at once are function calls instead of
+/// inline code. The calls halve the code of ten links and its compile time. 8 to 20 links run 2 to 20 %
+/// faster; the time of robots changes by 2 % either way.
 const MANY_ANGLES: usize = 8;
 
 impl FunctionContext<'_> {

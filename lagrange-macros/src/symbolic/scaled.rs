@@ -136,7 +136,8 @@ impl Scaled {
         to_f64(self.fraction).abs().log10() + f64::from(self.exponent)
     }
 
-    /// Nearest `f64` for finite decimals and for numbers without a power of ten; otherwise within two roundings.
+    /// Nearest `f64` for finite decimals and for numbers without a power of ten; otherwise an `f64` with the
+    /// error of two roundings.
     pub(crate) fn to_f64(self) -> f64 {
         let Self { fraction, exponent } = self;
         let read = |text: String| text.parse::<f64>().unwrap_or(f64::NAN);

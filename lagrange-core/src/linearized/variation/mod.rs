@@ -222,7 +222,8 @@ fn lane_names<L: StateDerivatives<Scalar: Real>>(
 }
 
 impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
-    /// A block of zero variations by these parameters, one per lane; `None` is an entry of the state.
+    /// Creates a block of variations that are zero, one per lane. Each is by the parameter of this index, or
+    /// by an entry of the state if it is `None`.
     fn of<T: Real>(parameters: &[Option<usize>], values: &Vector<T, P>) -> Self
     where
         W: Wide<T>,

@@ -286,7 +286,7 @@ impl<S: TaylorSeries<Scalar = Lanes, Sums = U>, U: FixedArray<Lanes>> TaylorLane
 }
 
 impl<N: Length, M: Length> LaneState<N, M> {
-    /// Returns the lanes of `self` where `chosen` is true, else those of `other`.
+    /// Returns the lanes of `self` where `chosen` is positive, else those of `other`.
     fn select(&self, chosen: Lanes, other: &Self) -> Self {
         let select = |x: Lanes, y: Lanes| x.select(chosen, y);
         let y = from_fn(|half| from_fn(|i| select(self.y[half][i], other.y[half][i])));

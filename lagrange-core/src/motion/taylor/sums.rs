@@ -81,8 +81,8 @@ impl<T: Scalar, S: FixedArray<T>> SeriesFactors<T, S> {
             let (left, right) = (group * self.orders, (group + 1) * self.orders - terms);
             let (left, right) = (&self.left[left..left + terms], &self.right[right..right + terms]);
             if order.is_multiple_of(2) {
-                // A group of plain numbers is one SIMD vector, a group of lanes four: then registers suffice for one
-                // set of sums.
+                // A group of plain numbers fills one SIMD vector, and the registers hold two sets of partial
+                // sums. A group of lanes fills four, and the registers hold one set.
                 let [now, next] = match const { size_of::<T>() > size_of::<f64>() } {
                     true => products::<T, 1>(left, right),
                     false => products::<T, 2>(left, right),

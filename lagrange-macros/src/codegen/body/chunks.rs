@@ -10,10 +10,10 @@ use super::order_of_evaluation::Order;
 use super::repeats::Repeat;
 use crate::codegen::operation::Register;
 
-/// Maximum operations of a function with a single chunk, since the time that LLVM takes grows faster than linearly.
-/// Longer functions are also searched for loops.
+/// Maximum number of operations of a function with a single chunk, since the time that LLVM takes grows
+/// faster than linearly. Longer functions are also searched for loops.
 const LONGEST: usize = 4_000;
-/// Minimum operations of a chunk. The maximum is twice as many.
+/// Minimum number of operations of a chunk. The maximum is twice the number.
 const SHORTEST: usize = 1_000;
 
 /// Range of the sequence that becomes a chunk; with `repeat`, a loop.

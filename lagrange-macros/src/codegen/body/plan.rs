@@ -20,7 +20,8 @@ use crate::symbolic::Id;
 use angles::plain_angles;
 use planner::Planner;
 
-/// Minimum results of a function that skips zeros, if more than half of its results are zero.
+/// Minimum number of results for which a function does not store zeros, if more than half of its results are
+/// zero.
 const MANY: usize = 256;
 
 impl FunctionBody {

@@ -15,7 +15,8 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::variables::Variable;
 
-/// Minimum operations in one loop iteration ([`SHORTEST`]), and in all iterations after the first ([`LEAST`]).
+/// Minimum number of operations in one loop iteration ([`SHORTEST`]), and in all iterations after the first
+/// ([`LEAST`]).
 const SHORTEST: usize = 24;
 const LEAST: usize = 128;
 /// Maximum distance, in operations, at which an operand must recur at the same distance. An older operand may differ,

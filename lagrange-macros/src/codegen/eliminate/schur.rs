@@ -5,9 +5,9 @@ use super::order::Pattern;
 use super::reduce::FormFactors;
 use super::short;
 
-/// Maximum constraints on a coordinate i for which the entry z_i z'_i / D_i of S = Z D⁻¹ Zᵀ is computed as
-/// (z_i z'_i) / D_i, so that a pass can factor the sum. With more constraints, z_i / D_i is computed first,
-/// once per row.
+/// Maximum number of constraints on a coordinate i for which the entry z_i z'_i / D_i of S = Z D⁻¹ Zᵀ is
+/// computed as (z_i z'_i) / D_i, so that a pass can factor the sum. With more constraints, z_i / D_i is
+/// computed first, once per row.
 const FEW: usize = 2;
 
 impl Solver<'_> {

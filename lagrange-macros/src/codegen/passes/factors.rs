@@ -11,9 +11,11 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
 
-/// Maximum terms of a sum. Longer sums stay unchanged, because all pairs of terms would be compared.
+/// Maximum number of terms of a sum. Longer sums stay unchanged, because all pairs of terms would be
+/// compared.
 const TERMS: usize = 256;
-/// Maximum factors of a product. Longer products stay whole, because each factor taken out is a level of recursion.
+/// Maximum number of factors of a product. Longer products stay whole, because each factor taken out is a
+/// level of recursion.
 const FACTORS: usize = 64;
 
 pub(super) fn taken_out(old: &Schedule, results: &[Register]) -> (Schedule, Vec<Register>) {

@@ -19,8 +19,8 @@ use super::time::Time;
 use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
 
-/// Maximum operations of a function that is optimized. The passes do not halve a function, so a longer one would
-/// exceed the limit anyway.
+/// Maximum number of operations of a function that is optimized. The passes do not halve a function, so a
+/// longer one would exceed the limit anyway.
 const HOPELESS: usize = 2 * OPERATION_LIMIT;
 
 /// Schedule with the registers of its results, and its operation count after each pass.

@@ -9,9 +9,9 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Function;
 
-/// Number of angles whose sines and cosines are evaluated together on the lanes of a vector ([`ABREAST`]), and
-/// minimum angles in a chunk for this ([`FEWEST`]). A processor evaluates fewer angles one by one as fast, as long as
-/// it predicts their branches.
+/// Number of angles whose sines and cosines are evaluated together on the lanes of a vector ([`ABREAST`]),
+/// and minimum number of angles in a chunk for this ([`FEWEST`]). A processor evaluates fewer angles one by
+/// one as fast, as long as it predicts their branches.
 const ABREAST: usize = 4;
 const FEWEST: usize = 4;
 
