@@ -43,7 +43,7 @@ const IN_FRAMES: &str =
 
 /// Written forms of a system.
 pub(crate) struct Rendered {
-    /// Outer index: definitions as is shorter (by name or written out), always by name, always written out. Inner
+    /// Outer index: form of definitions, which is the shorter of the two, by name, or written out. Inner
     /// index: text, LaTeX, HTML with MathML.
     pub(crate) forms: [[String; 3]; 3],
     /// Terms of the Lagrangian that are total time derivatives, in the order of the facts.

@@ -181,7 +181,7 @@ impl<T: Real> EventState<T> {
         self.view == View::Plain
     }
 
-    /// Decides on the function by its samples of this degree, unless it is decided.
+    /// Decides on the function by its samples of this degree, unless it is already decided.
     #[inline]
     pub(super) fn judge(&mut self, degree: usize, interval: &Interval<T>) -> View {
         if self.is_known() {

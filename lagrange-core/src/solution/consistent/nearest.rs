@@ -131,7 +131,8 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         })
     }
 
-    /// Returns a nearer point, or one with half the slip if round-off hides which point is nearer.
+    /// Returns a nearer point. If round-off hides which point is nearer, returns one whose `slip_part` is
+    /// less than half as large.
     fn nearer(
         &self,
         place: &ConstrainedPoint<L::Scalar, L::N, L::M>,
@@ -163,9 +164,9 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         self.place(state)
     }
 
-    /// Returns trial steps, none at a minimum. First, Newton's step; where the distance has negative curvature,
-    /// a damped step, or next to a saddle a step of the length of the distance along a direction of negative
-    /// curvature. Second, the slip.
+    /// Returns trial steps, none at a minimum. First, Newton's step; where the distance has negative
+    /// curvature, a damped step, or next to a saddle a step of the length of the distance along a direction
+    /// of negative curvature. Second, a step by `slip`.
     #[inline(never)]
     fn steps(&self, place: &ConstrainedPoint<L::Scalar, L::N, L::M>) -> [Option<Vector<L::Scalar, L::N>>; 2] {
         let hessian = self.hessian(place);
@@ -220,8 +221,8 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         vector(entries(|i| down[i] * scale))
     }
 
-    /// Hessian M − Σ μ ∇²Φ, from central differences of Fᵀμ over ε^(1/3) of the distance. |Fᵀμ| is M times the
-    /// distance, so the error is ε^(2/3) of M: a Newton step reduces the slip by that factor.
+    /// Hessian M − Σ μ ∇²Φ, from central differences of Fᵀμ over ε^(1/3) of the distance. |Fᵀμ| is M times
+    /// the distance, so the error is ε^(2/3) of M: a Newton step reduces `slip` by that factor.
     #[inline(never)]
     fn hessian(
         &self,

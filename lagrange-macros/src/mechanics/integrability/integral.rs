@@ -44,8 +44,8 @@ fn divided(graph: &mut Graph, form: &OneForm) -> Vec<OneForm> {
         .collect()
 }
 
-/// Sum of integrals along one variable after the other, each of the part of the form that the earlier
-/// integrals do not yet give.
+/// Integrates the form along one variable after the other. The gradient of each integral is subtracted from
+/// the form before the next.
 fn potential(graph: &mut Graph, symbols: &[Symbol], form: &OneForm) -> Option<Id> {
     let mut rest = form.clone();
     let mut integral = Id::ZERO;
