@@ -7,7 +7,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::reference::{BAR, Errors, Moment, Problem, Scale, assert_relative, is_long};
+use crate::reference::{BAR, Errors, IS_LONG, Moment, Problem, Scale, assert_relative};
 
 /// Bodies are numbered from 0. The constant torque of the motor on β is a term of the potential.
 #[derive(Lagrangian)]
@@ -173,7 +173,7 @@ fn the_squeezer_reaches_its_reference() {
     let squeezer = squeezer();
     squeezer.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     squeezer.run("Dop853 1e-13", Dop853::with_tolerance(1e-13)).reaches_bar();
-    if is_long() {
+    if IS_LONG {
         squeezer.run("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches_bar();
         squeezer.run("Lobatto 4 1e-5 s", Lobatto::<4>::with_step(1e-5)).reaches_bar();
         squeezer.run("Dopri5 1e-13", Dopri5::with_tolerance(1e-13)).reaches_bar();

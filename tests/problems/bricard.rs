@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, LN_2, PI};
 use lagrange_core::nalgebra::{Rotation3, Unit, Vector3};
 use lagrange_core::prelude::*;
 
-use crate::reference::{Errors, Moment, Problem, Scale, is_long};
+use crate::reference::{Errors, IS_LONG, Moment, Problem, Scale};
 
 const G: f64 = 9.81;
 
@@ -139,10 +139,10 @@ fn problem(name: &'static str, system: Bricard, swings: usize) -> Problem<Bricar
 #[test]
 fn the_mechanism_reaches_the_branch() {
     for (name, system) in [("A04 Bricard, thin", THIN), ("A04 Bricard, square", SQUARE)] {
-        let problem = problem(name, system, if is_long() { 6 } else { 2 });
+        let problem = problem(name, system, if IS_LONG { 6 } else { 2 });
         problem.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
         problem.run("Dop853 1e-12", Dop853::with_tolerance(1e-12)).reaches_bar();
-        if is_long() {
+        if IS_LONG {
             let _ = problem.run("Radau 1e-10", Radau::with_tolerance(1e-10));
             problem.run("Dopri5 1e-10", Dopri5::with_tolerance(1e-10)).reaches_bar();
             problem.run("RungeKutta4 1e-3 s", RungeKutta4::with_step(1e-3)).reaches_bar();

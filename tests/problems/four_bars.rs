@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{TaylorSeries, prelude::*};
 
-use crate::reference::{Errors, Moment, Problem, Scale, assert_relative, is_long};
+use crate::reference::{Errors, IS_LONG, Moment, Problem, Scale, assert_relative};
 
 const G: f64 = 9.81;
 
@@ -240,12 +240,12 @@ where
 
 #[test]
 fn one_and_two_windows_cross_level_poses() {
-    let end = if is_long() { 20.0 } else { 10.0 };
+    let end = if IS_LONG { 20.0 } else { 10.0 };
     let one = windows("A02, 1 window", OneWindow { g: G }, 1, end);
     let two = windows("A02, 2 windows", TwoWindows { g: G }, 2, end);
     one.run("Taylor 1e-10", Taylor::with_tolerance(1e-10)).reaches_bar();
     two.run("Taylor 1e-10", Taylor::with_tolerance(1e-10)).reaches_bar();
-    if is_long() {
+    if IS_LONG {
         other_methods(&one);
         other_methods(&two);
         one.run("Radau 1e-9", Radau::with_tolerance(1e-9)).reaches_bar();
@@ -257,10 +257,10 @@ fn one_and_two_windows_cross_level_poses() {
 
 /// Forty windows, of 82 coordinates and 81 constraints; unoptimised across one level pose.
 fn forty_windows() {
-    let end = if is_long() { 20.0 } else { 1.0 };
+    let end = if IS_LONG { 20.0 } else { 1.0 };
     let forty = windows("A02, 40 windows", FortyWindows { g: G }, 40, end);
     forty.run("Taylor 1e-10", Taylor::with_tolerance(1e-10)).reaches_bar();
-    if is_long() {
+    if IS_LONG {
         other_methods(&forty);
     }
 }

@@ -5,7 +5,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::reference::{Errors, Moment, Problem, Scale, is_long};
+use crate::reference::{Errors, IS_LONG, Moment, Problem, Scale};
 
 /// The angle of the shaft, that of the arms from the downward vertical, and the height of the slider. Shaft and arms are bars
 /// 1 m × 1 cm × 1 cm of mass m, the slider is a cube of 10 cm, and point masses hang at the ends of the arms.
@@ -58,7 +58,7 @@ fn lost(path: &Trajectory<&Governor>) -> f64 {
 
 #[test]
 fn methods_and_step_lengths_agree_and_energy_balances() {
-    let end = if is_long() { 10.0 } else { 1.0 };
+    let end = if IS_LONG { 10.0 } else { 1.0 };
     let fine =
         GOVERNOR.motion(start()).by(Dop853::with_tolerance(1e-13).max_steps(1_000_000)).to(end).unwrap();
     let moments = (1..=4).map(|k| {
@@ -78,7 +78,7 @@ fn methods_and_step_lengths_agree_and_energy_balances() {
     problem.run("Radau 1e-10", Radau::with_tolerance(1e-10)).reaches_bar();
     problem.run("RungeKutta4 1e-4 s", RungeKutta4::with_step(1e-4).max_steps(1_000_000)).reaches_bar();
     problem.run("RungeKutta4 5e-5 s", RungeKutta4::with_step(5e-5).max_steps(1_000_000)).reaches_bar();
-    if is_long() {
+    if IS_LONG {
         problem.run("Dopri5 1e-10", Dopri5::with_tolerance(1e-10).max_steps(1_000_000)).reaches_bar();
     }
     let (energy, lost) = (GOVERNOR.energy(&start()), lost(&fine));

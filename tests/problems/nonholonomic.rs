@@ -7,7 +7,7 @@
 use lagrange_core::motion::Composition::KahanLi8;
 use lagrange_core::prelude::*;
 
-use crate::reference::{BAR, Moment, Problem, Scale, assert_relative, is_long};
+use crate::reference::{BAR, IS_LONG, Moment, Problem, Scale, assert_relative};
 
 /// Runs a problem by the methods of this file. All must reach the bar.
 macro_rules! every_method_reaches {
@@ -15,7 +15,7 @@ macro_rules! every_method_reaches {
         let problem = $problem;
         problem.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
         problem.run("Dop853 1e-13", Dop853::with_tolerance(1e-13)).reaches_bar();
-        if is_long() {
+        if IS_LONG {
             let dalembert = DAlembert::with_step(0.005).composed(KahanLi8);
             problem.run("DAlembert Kahan–Li 8 5e-3 s", dalembert).reaches_bar();
             problem.run("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches_bar();

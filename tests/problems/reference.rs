@@ -202,10 +202,8 @@ impl Display for Row {
     }
 }
 
-/// True if long motions and costly methods are asked for.
-pub(crate) fn is_long() -> bool {
-    std::env::var_os("LAGRANGE_WHOLE_SPANS").is_some()
-}
+/// True if long motions and costly methods are asked for. A constant, so that what they need is compiled only then.
+pub(crate) const IS_LONG: bool = option_env!("LAGRANGE_WHOLE_SPANS").is_some();
 
 /// Asserts that a number is another to a relative error.
 #[track_caller]

@@ -7,7 +7,7 @@
 use lagrange_core::motion::Composition::KahanLi8;
 use lagrange_core::prelude::*;
 
-use crate::reference::{BAR, Errors, Moment, Problem, Scale, assert_relative, is_long};
+use crate::reference::{BAR, Errors, IS_LONG, Moment, Problem, Scale, assert_relative};
 
 /// Two wheels of a car axis on a bumpy road: the left one on a cylinder of given height, both at a given distance.
 #[derive(Lagrangian)]
@@ -108,7 +108,7 @@ fn the_car_axis_reaches_its_reference() {
     };
     axis.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     axis.run("Dop853 1e-13", Dop853::with_tolerance(1e-13)).reaches_bar();
-    if is_long() {
+    if IS_LONG {
         axis.run("Verlet Kahan–Li 8 5e-3 s", Verlet::with_step(5e-3).composed(KahanLi8)).reaches_bar();
         axis.run("Lobatto 4 1e-3 s", Lobatto::<4>::with_step(1e-3)).reaches_bar();
         axis.run("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches_bar();
@@ -179,7 +179,7 @@ fn the_driven_slider_crank_reaches_its_reference() {
     crank.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     crank.run("Dop853 1e-12", Dop853::with_tolerance(1e-12)).reaches_bar();
     crank.run("Lobatto 4 1e-4 s", Lobatto::<4>::with_step(1e-4)).reaches_bar();
-    if is_long() {
+    if IS_LONG {
         crank.run("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches_bar();
         crank.run("Dopri5 1e-12", Dopri5::with_tolerance(1e-12)).reaches_bar();
         crank.run("RungeKutta4 1e-4 s", RungeKutta4::with_step(1e-4)).reaches_bar();
@@ -257,7 +257,7 @@ fn the_pendulum_reaches_its_reference() {
     pendulum.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     pendulum.run("Dop853 1e-12", Dop853::with_tolerance(1e-12)).reaches_bar();
     pendulum.run("Verlet Kahan–Li 8 0.02 s", Verlet::with_step(0.02).composed(KahanLi8)).reaches_bar();
-    if is_long() {
+    if IS_LONG {
         pendulum.run("Lobatto 4 5e-3 s", Lobatto::<4>::with_step(5e-3)).reaches_bar();
         pendulum.run("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches_bar();
         pendulum.run("Dopri5 1e-12", Dopri5::with_tolerance(1e-12)).reaches_bar();
@@ -268,10 +268,10 @@ fn the_pendulum_reaches_its_reference() {
 /// A01 lasts 2000 s, 845 periods.
 #[test]
 fn the_pendulum_reaches_its_reference_after_many_periods() {
-    let (name, moments) = if is_long() { ("A01 pendulum, 2000 s", 7) } else { ("A01 pendulum, 100 s", 5) };
+    let (name, moments) = if IS_LONG { ("A01 pendulum, 2000 s", 7) } else { ("A01 pendulum, 100 s", 5) };
     let pendulum = pendulum(name, moments);
     pendulum.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
-    if is_long() {
+    if IS_LONG {
         let _ = pendulum.run("Dop853 1e-14", Dop853::with_tolerance(1e-14).max_steps(10_000_000));
     }
 }
@@ -424,7 +424,7 @@ fn the_flexible_slider_crank_reaches_its_reference_to_the_rounding_of_its_start(
     );
     crank.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     let _ = crank.run("Dop853 1e-14", Dop853::with_tolerance(1e-14));
-    if is_long() {
+    if IS_LONG {
         let _ = crank.run("Dopri5 1e-13", Dopri5::with_tolerance(1e-13));
         let _ = crank.run("RungeKutta4 1e-7 s", RungeKutta4::with_step(1e-7).max_steps(1_100_000));
     }

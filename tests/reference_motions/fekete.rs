@@ -7,7 +7,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::reference::{BAR, Known, Problem, are_spans_whole, table};
+use crate::reference::{ARE_SPANS_WHOLE, BAR, Known, Problem, table};
 
 #[derive(Lagrangian)]
 #[coordinates(p: [20, 3])]
@@ -27,7 +27,7 @@ fn fekete_points() {
 
 #[test]
 fn fekete_points_come_nearly_to_rest() {
-    if are_spans_whole() {
+    if ARE_SPANS_WHOLE {
         let known = table!("fekete");
         let problem = Problem { name: "Fekete's points, t = 20", system: Fekete { alpha: 0.5 }, known };
         problem.check(&[("Taylor", [1e-12, 1e-12, 1e-14]), ("Dop853", BAR)]);
@@ -37,7 +37,7 @@ fn fekete_points_come_nearly_to_rest() {
 /// The published positions have eleven correct digits: `Taylor` and `Dop853` differ less from each other than from them.
 #[test]
 fn fekete_points_come_to_rest() {
-    if are_spans_whole() {
+    if ARE_SPANS_WHOLE {
         let mut known: Vec<Known<60, 20>> = table!("fekete");
         known.truncate(1);
         known.append(&mut table!("fekete_published"));

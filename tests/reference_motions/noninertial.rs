@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use lagrange_core::linearized::Stability;
 use lagrange_core::prelude::*;
 
-use crate::reference::{BAR, Known, Problem, are_spans_whole, largest, table};
+use crate::reference::{ARE_SPANS_WHOLE, BAR, Known, Problem, largest, table};
 
 /// A bead on a hoop that turns about its vertical diameter, by its angle from the lowest point.
 #[derive(Lagrangian)]
@@ -266,7 +266,7 @@ fn foucault_pendulum() {
 /// The plane turns by 11.325111831508° in an hour, up to a precession of the ellipse of the order of (a/l)².
 #[test]
 fn foucault_pendulum_for_an_hour() {
-    if are_spans_whole() {
+    if ARE_SPANS_WHOLE {
         let known = table!("foucault");
         let Known { q: [x, y, _], v: [u, v, _], .. } = known[known.len() - 1];
         let square = 9.81 / 67.0;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use lagrange_core::prelude::*;
 
-use crate::reference::{BAR, Known, Problem, are_spans_whole, table};
+use crate::reference::{ARE_SPANS_WHOLE, BAR, Known, Problem, table};
 
 /// Seven stars in a plane.
 #[derive(Lagrangian)]
@@ -68,7 +68,7 @@ fn outer_solar_system() {
 /// The span of the book, 46 turns of Jupiter.
 #[test]
 fn outer_solar_system_over_centuries() {
-    if are_spans_whole() {
+    if ARE_SPANS_WHOLE {
         let known: Vec<Known<18, 0>> = table!("outer_solar_system");
         let problem =
             Problem { name: "outer solar system, 2·10⁵ days", system: OUTER_SOLAR_SYSTEM, known };
@@ -136,7 +136,7 @@ fn first_mode(state: &State<f64, 31>) -> f64 {
 /// The energy leaves the first mode and is back in it after 157 of its periods, t = 10,053.
 #[test]
 fn fput_lattice_recurs() {
-    if are_spans_whole() {
+    if ARE_SPANS_WHOLE {
         let known: Vec<Known<31, 0>> = table!("fput");
         let energy = |known: &Known<31, 0>| first_mode(&State::new(known.q, known.v));
         let part = |k: usize| energy(&known[k]) / energy(&known[0]);

@@ -7,7 +7,7 @@
 use lagrange_core::nalgebra::{Matrix3, Vector3};
 use lagrange_core::prelude::*;
 
-use crate::reference::{BAR, Known, Problem, are_spans_whole, table};
+use crate::reference::{ARE_SPANS_WHOLE, BAR, Known, Problem, table};
 
 /// Coordinates of the centre of mass, and angles of successive rotations about axes of the body. The centre of the
 /// ellipsoid is `h` above the centre of mass along the third axis.
@@ -45,7 +45,7 @@ fn rattleback_slows_down() {
 /// The spin has reversed by t = 3.
 #[test]
 fn rattleback_reverses() {
-    if are_spans_whole() {
+    if ARE_SPANS_WHOLE {
         let known: Vec<Known<6, 3>> = table!("rattleback");
         assert!(known[0].v[5] == -5.0 && known[known.len() - 1].v[5] > 0.0);
         let problem = Problem { name: "rattleback, t = 3", system: rattleback(), known };
