@@ -5,7 +5,7 @@ use core::fmt::{self, Debug};
 use super::settle::NotSettled;
 use crate::number::{Parts, Scalar};
 use crate::solution::near::exact_sum;
-use crate::system::{Lagrangian, State, StateOf};
+use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
 use crate::vector::{Array, Element, Length, Vector, array, vector};
 
 /// A one-step method, for any number type: a map (q, q̇) → (q, q̇) over a given time.
@@ -131,16 +131,20 @@ pub(super) fn magnitudes<T: Parts, K: Length>(x: &Vector<T, K>) -> Array<T, K> {
     Array::from_fn(|k| x[k].magnitude())
 }
 
-/// Magnitudes of the terms of Φ, Σᵢ |Fₐᵢ qᵢ|.
+/// Magnitudes of the terms of Φ; of a constraint on velocities, those of a displacement, Σᵢ |Fₐᵢ qᵢ|.
 #[inline]
 pub(super) fn terms_of_positions<L: Lagrangian<Scalar: Parts>>(
     system: &L,
     state: &StateOf<L>,
 ) -> Array<L::Scalar, L::M> {
-    match const { <L::Scalar as Parts>::HAS_SLOPES } {
-        false => array(system.residual_magnitude(state)),
-        true => terms(system, state, &state.q),
+    let is_displacement =
+        |a: usize| <L::Scalar as Parts>::HAS_SLOPES || L::CONSTRAINT_KINDS[a] == ConstraintKind::Velocity;
+    let mut magnitudes = array(system.residual_magnitude(state));
+    if (0..<L::M>::COUNT).any(is_displacement) {
+        let displacements = terms(system, state, &state.q);
+        (0..<L::M>::COUNT).filter(|a| is_displacement(*a)).for_each(|a| magnitudes[a] = displacements[a]);
     }
+    magnitudes
 }
 
 /// Magnitudes of the terms of F q̇ + b, Σᵢ |Fₐᵢ q̇ᵢ|.
