@@ -6,6 +6,7 @@
 mod applicability;
 mod faults;
 mod long_time;
+mod nonholonomic;
 mod orders;
 mod symplectic;
 mod systems;
