@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod applicability;
+mod dense_output;
 mod faults;
 mod long_time;
 mod nonholonomic;

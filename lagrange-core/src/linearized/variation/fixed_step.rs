@@ -102,8 +102,10 @@ where
         run.look_within(system, self, within)?;
         for VariedSteps { system, ends } in companion {
             let Some([start, end]) = ends else { continue };
-            let Ok(found) = self.coefficients::<PackedDuals<L>, Infallible>([start, end], |state| {
-                Ok(array(system.accelerations_unchecked(state).accelerations))
+            let accelerations = |state: &_| array(system.accelerations_unchecked(state).accelerations);
+            let ends = [accelerations(start), accelerations(end)];
+            let Ok(found) = self.coefficients::<PackedDuals<L>, Infallible>([start, end], &ends, |state| {
+                Ok(accelerations(state))
             });
             let slopes = |y: &PhaseVector<Duals<L>, L::N>| {
                 PhaseVector::new(y.arrays().map(|half| half.map(|x| x.slope)))

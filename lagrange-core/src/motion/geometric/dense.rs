@@ -21,17 +21,17 @@ const FROM_SLOPES: [[f64; 4]; 4] = [
 ];
 
 /// Cubic Hermite polynomial through states and rates at both ends: an error of fourth order in the step.
-pub(super) fn cubic<T: Scalar, N: Length, E>(
-    start: &State<T, N>,
-    end: &State<T, N>,
-    mut accelerations: impl FnMut(&State<T, N>) -> Result<Array<T, N>, E>,
-) -> Result<Coefficients<T, N>, E> {
+pub(super) fn cubic<T: Scalar, N: Length>(
+    [start, end]: [&State<T, N>; 2],
+    accelerations: &[Array<T, N>; 2],
+) -> Coefficients<T, N> {
     let mut coefficients = [PhaseVector::filled(T::constant(0.0)); 8];
-    let mut rates = |state: &State<T, N>| Ok(PhaseVector::new([array(state.v), accelerations(state)?]));
-    let (first, last) = (rates(start)?, rates(end)?);
-    let [from, to] = [start, end].map(|state| PhaseVector::of(state.q, state.v));
+    let node = |state: &State<T, N>, a: Array<T, N>| {
+        (PhaseVector::of(state.q, state.v), PhaseVector::new([array(state.v), a]))
+    };
+    let [(from, first), (to, last)] = [node(start, accelerations[0]), node(end, accelerations[1])];
     hermite(end.t - start.t, (&from, &first), (&to, &last), &mut coefficients);
-    Ok(coefficients)
+    coefficients
 }
 
 /// Polynomials of degree 7 through states and rates at both ends, and accelerations at four times between: an error of
@@ -40,24 +40,15 @@ pub(super) fn cubic<T: Scalar, N: Length, E>(
 /// Between, accelerations are those of the quintic polynomial through coordinates, velocities and accelerations at both
 /// ends, whose error is of sixth order.
 pub(super) fn septic<T: Scalar, N: Length, E>(
-    start: &State<T, N>,
-    end: &State<T, N>,
-    mut accelerations: impl FnMut(&State<T, N>) -> Result<Array<T, N>, E>,
+    ends: [&State<T, N>; 2],
+    accelerations: &[Array<T, N>; 2],
+    mut between: impl FnMut(&State<T, N>) -> Result<Array<T, N>, E>,
 ) -> Result<Coefficients<T, N>, E> {
-    let (mut ends, h) = ([Array::filled(T::constant(0.0)); 2], end.t - start.t);
-    let mut coefficients = {
-        let mut which = 0;
-        cubic(start, end, |state| {
-            let found = accelerations(state)?;
-            ends[which] = found;
-            which += 1;
-            Ok(found)
-        })?
-    };
+    let h = ends[1].t - ends[0].t;
+    let mut coefficients = cubic(ends, accelerations);
     let mut slopes = [Array::filled(T::constant(0.0)); 4];
     for (slope, node) in slopes.iter_mut().zip(NODES) {
-        let between = quintic([start, end], &ends, h, T::constant(node));
-        *slope = accelerations(&between)?;
+        *slope = between(&quintic(ends, accelerations, h, T::constant(node)))?;
     }
     complete(&mut coefficients, 1, h, &slopes);
     let velocities = NODES.map(|node| {

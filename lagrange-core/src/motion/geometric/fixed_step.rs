@@ -88,24 +88,28 @@ impl<S: Default> FixedStep<S> {
         self.composition.map_or(S::ORDER, Composition::order)
     }
 
-    /// Coefficients of the dense output of a step.
+    /// Coefficients of the dense output of a step, from the accelerations at its ends and, for orders above 4, `between`.
     ///
     /// # Errors
-    /// Those of `accelerations`.
+    /// Those of `between`.
     pub(crate) fn coefficients<L: Lagrangian<Scalar: Parts>, E>(
         &self,
-        [start, end]: [&StateOf<L>; 2],
-        accelerations: impl FnMut(&StateOf<L>) -> Result<Array<L::Scalar, L::N>, E>,
+        ends: [&StateOf<L>; 2],
+        accelerations: &[Array<L::Scalar, L::N>; 2],
+        between: impl FnMut(&StateOf<L>) -> Result<Array<L::Scalar, L::N>, E>,
     ) -> Result<Coefficients<L::Scalar, L::N>, E>
     where
         S: Scheme<L>,
     {
         match self.order::<L>() {
-            ..=4 => cubic(start, end, accelerations),
-            _ => septic(start, end, accelerations),
+            ..=4 => Ok(cubic(ends, accelerations)),
+            _ => septic(ends, accelerations, between),
         }
     }
 }
+
+/// More than one step since the last dense output.
+const NO_STEP: usize = usize::MAX;
 
 /// State that the method carries from step to step.
 #[derive(Clone, Debug)]
@@ -116,6 +120,9 @@ pub struct FixedStepMemory<T: Element, N: Length, C> {
     before: State<T, N>,
     point: CompensatedState<T, N>,
     carried: C,
+    /// Accelerations at the ends of the last step with dense output, and the number of steps since.
+    accelerations: [Array<T, N>; 2],
+    steps_since: usize,
 }
 
 impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedStep<S> {
@@ -149,6 +156,8 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
             before: *start,
             point: CompensatedState::at(start),
             carried: S::start(system, start),
+            accelerations: [Array::filled(L::Scalar::constant(0.0)); 2],
+            steps_since: NO_STEP,
         })
     }
 
@@ -162,7 +171,7 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
         statistics.evaluations += 1;
         memory.clock.set(state.t);
         (memory.before, memory.point) = (*state, CompensatedState::at(state));
-        memory.carried = S::start(system, state);
+        (memory.carried, memory.steps_since) = (S::start(system, state), NO_STEP);
         Ok(())
     }
 
@@ -174,10 +183,10 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
         end: L::Scalar,
         statistics: &mut Statistics,
     ) -> Step<L::Scalar, L::N> {
-        let FixedStepMemory { clock, planned, before, point, carried } = memory;
+        let FixedStepMemory { clock, planned, before, point, carried, steps_since, .. } = memory;
         clock.aim(end);
         let (h, time) = clock.next(*planned);
-        *before = point.state;
+        (*before, *steps_since) = (point.state, steps_since.saturating_add(1));
         if !clock.is_ahead(time) {
             return Step::Failed(Ending::TimeTooCoarse { time: before.t.to_f64(), step: self.step });
         }
@@ -198,13 +207,29 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
-        let FixedStepMemory { before, point, .. } = memory;
-        let coefficients = self.coefficients::<L, Error>([before, &point.state], |state| {
+        let FixedStepMemory { before, point, carried, accelerations, steps_since, .. } = memory;
+        let end = &point.state;
+        let mut evaluate = |state: &StateOf<L>| {
             statistics.evaluations += 1;
-            solve_near(system, state, None, |solution, _| array(solution.accelerations))
-        })?;
+            checked_accelerations(system, state)
+        };
+        accelerations[0] = if *steps_since == 1 { accelerations[1] } else { evaluate(before)? };
+        accelerations[1] = match S::accelerations(system, end, carried) {
+            Some(accelerations) => array(accelerations),
+            None => evaluate(end)?,
+        };
+        *steps_since = 0;
+        let coefficients = self.coefficients::<L, Error>([before, end], accelerations, evaluate)?;
         Ok(Polynomial::new(before.t, point.state.t - before.t, coefficients))
     }
+}
+
+#[inline(never)]
+fn checked_accelerations<L: Lagrangian<Scalar: Real>>(
+    system: &L,
+    state: &StateOf<L>,
+) -> Result<Array<L::Scalar, L::N>, Error> {
+    solve_near(system, state, None, |solution, _| array(solution.accelerations))
 }
 
 fn is_finite<T: Real, N: Length>(state: &State<T, N>) -> bool {

@@ -42,6 +42,17 @@ pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
         carried: &mut Self::Carried,
         step: (L::Scalar, L::Scalar),
     ) -> Result<usize, NotSettled>;
+
+    /// Returns the accelerations at the end of a step, for its dense output. `None` if the data that the step left there
+    /// do not give them without another evaluation of the forces.
+    #[allow(unused_variables)]
+    fn accelerations(
+        system: &L,
+        end: &StateOf<L>,
+        carried: &Self::Carried,
+    ) -> Option<Vector<L::Scalar, L::N>> {
+        None
+    }
 }
 
 /// Coordinates or velocities, and their rounding errors.

@@ -8,7 +8,9 @@ use core::fmt::{self, Debug};
 
 use super::composition::Composition;
 use super::fixed_step::FixedStep;
-use super::scheme::{Compensated, CompensatedState, Scheme, magnitudes, terms_of_positions, terms_of_rates};
+use super::scheme::{
+    Compensated, CompensatedState, Scheme, magnitudes, terms_of_positions, terms_of_rates,
+};
 use super::settle::{NotSettled, Residuals, have_hardly_turned};
 use crate::number::{Parts, Scalar};
 use crate::solution::near::compensated;
@@ -18,9 +20,10 @@ use crate::vector::{Array, Element, Entrywise, Length, Vector, array, vector};
 
 /// The method of Störmer and Verlet, symplectic and of order 2; with holonomic constraints it is RATTLE.
 ///
-/// A step takes one evaluation of the forces. It applies if the mass matrix is constant and the forces depend on
-/// coordinates and time alone, which the derive macro finds out ([`structure`](crate::structure)): for other systems it
-/// does not compile. [`composed`](Self::composed) makes it a method of order 4, 6 or 8.
+/// A step takes one evaluation of the forces, and its dense output none, for orders above 4 four. The method applies if the
+/// mass matrix is constant and the forces depend on coordinates and time alone, which the derive macro finds out
+/// ([`structure`](crate::structure)): for other systems it does not compile. [`composed`](Self::composed) makes it a
+/// method of order 4, 6 or 8.
 ///
 /// ```
 /// use lagrange_core::motion::Composition;
@@ -107,6 +110,20 @@ where
         let v = along_constraints(system, point, &kick, forces, (half, &state))?;
         point.set(to, q, v);
         Ok(1)
+    }
+
+    #[inline]
+    fn accelerations(
+        system: &L,
+        end: &StateOf<L>,
+        forces: &Self::Carried,
+    ) -> Option<Vector<L::Scalar, L::N>> {
+        Some(match &forces.factor {
+            None => forces.push,
+            Some(factor) => {
+                system.solve_with(factor, &forces.push, &system.constraint_bias(end)).accelerations
+            }
+        })
     }
 }
 
