@@ -9,6 +9,7 @@ mod faults;
 mod long_time;
 mod nonholonomic;
 mod orders;
+mod own_scheme;
 mod symplectic;
 mod systems;
 

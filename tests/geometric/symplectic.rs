@@ -65,7 +65,7 @@ where
 
 /// Asserts that the derivative of the map over the time 1 keeps the symplectic form on the tangent space, to 10⁻¹² of
 /// its size.
-fn check<L, P, const N: usize>(name: &str, (system, start): &(L, State<f64, N>), method: P)
+pub(crate) fn check<L, P, const N: usize>(name: &str, (system, start): &(L, State<f64, N>), method: P)
 where
     L: Linearized<N = Const<N>, Scalar = f64>,
     P: DifferentiableMethod<L>,

@@ -66,7 +66,8 @@ pub use builder::{AllSteps, EventList, MotionBuilder, Start};
 pub use event::{AnyEvent, Event, EventFunction, EventValue};
 pub use geometric::{
     CompensatedState, Composition, DAlembert, FixedStep, FixedStepMemory, Gauss, GaussLegendre,
-    LagrangeDAlembert, Lobatto, LobattoPair, Scheme, StageCount, StormerVerlet, Verlet,
+    LagrangeDAlembert, Lobatto, LobattoPair, NotSettled, Scheme, StageCount, StormerVerlet, SymmetricScheme,
+    Verlet,
 };
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;
@@ -86,6 +87,7 @@ pub use steered::Motion;
 #[cfg(feature = "alloc")]
 pub use taylor::{Taylor, TaylorPolynomial};
 
+pub use crate::number::Parts;
 pub use crate::solution::consistent::assembly::Assembly;
 pub use crate::solution::crossing::Crossing;
 pub use crate::solution::interpolant::{HermiteNode, Interpolant, Polynomial};

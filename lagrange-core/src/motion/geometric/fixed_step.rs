@@ -4,7 +4,7 @@ use core::fmt::{self, Debug};
 
 use super::composition::Composition;
 use super::dense::{Coefficients, cubic, septic};
-use super::scheme::{CompensatedState, Scheme};
+use super::scheme::{CompensatedState, Scheme, SymmetricScheme};
 use super::settle::NotSettled;
 use crate::error::{Ending, Error};
 use crate::motion::method::clock::Clock;
@@ -19,7 +19,7 @@ use crate::vector::{Array, Element, Entrywise, Length, array};
 /// A method whose steps all have one length, but for the last before an end, which may be shorter.
 ///
 /// The scheme `S` is one step: [`Verlet`](super::Verlet), [`Gauss`](super::Gauss), [`Lobatto`](super::Lobatto) and
-/// [`DAlembert`](super::DAlembert) are methods of this type. Such a method keeps the structure of mechanics because
+/// [`DAlembert`](super::DAlembert) are methods of this type, and so is a [`Scheme`] of your own. Such a method keeps the structure of mechanics because
 /// its steps do not adapt; it does not estimate its error, so compare with a run at half the step length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
@@ -49,7 +49,11 @@ impl<S: Default> FixedStep<S> {
         self
     }
 
-    pub(super) fn compose(self, composition: Composition) -> Self {
+    /// Composes steps of a symmetric scheme of order 2 to a method of higher order.
+    pub fn composed(self, composition: Composition) -> Self
+    where
+        S: SymmetricScheme,
+    {
         Self { composition: Some(composition), ..self }
     }
 

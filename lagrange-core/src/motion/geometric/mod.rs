@@ -17,6 +17,7 @@ mod verlet;
 
 pub use composition::Composition;
 pub use fixed_step::{FixedStep, FixedStepMemory};
-pub use scheme::{CompensatedState, Scheme};
+pub use scheme::{CompensatedState, Scheme, SymmetricScheme};
+pub use settle::NotSettled;
 pub use stages::{DAlembert, Gauss, GaussLegendre, LagrangeDAlembert, Lobatto, LobattoPair, StageCount};
 pub use verlet::{StormerVerlet, Verlet};

@@ -10,7 +10,60 @@ use crate::vector::{Array, Element, Length, Vector, array, vector};
 
 /// A one-step method, for any number type: a map (q, q̇) → (q, q̇) over a given time.
 ///
-/// The same code maps numbers, and dual numbers to differentiate the map.
+/// The same code maps numbers, and dual numbers to differentiate the map. A type that implements this trait and `Default`
+/// is a [`Method`](crate::Method) as [`FixedStep`](super::FixedStep), with dense output, events and derivatives:
+///
+/// ```
+/// use core::fmt;
+/// use lagrange_core::StateOf;
+/// use lagrange_core::motion::{CompensatedState, FixedStep, NotSettled, Parts, Scheme};
+/// use lagrange_core::prelude::*;
+/// use lagrange_core::structure::{ConstantMassMatrix, Unconstrained, VelocityFreeForces};
+///
+/// /// Half a step of the coordinates, a step of the velocities, half a step of the coordinates.
+/// #[derive(Clone, Copy, Debug, Default)]
+/// struct DriftKickDrift;
+///
+/// impl<L> Scheme<L> for DriftKickDrift
+/// where
+///     L: Lagrangian<Scalar: Parts> + ConstantMassMatrix + VelocityFreeForces + Unconstrained,
+/// {
+///     type Carried = ();
+///     const ORDER: usize = 2;
+///
+///     fn identify(to: &mut dyn fmt::Write) -> fmt::Result {
+///         to.write_str("drift, kick, drift")
+///     }
+///
+///     fn start(_: &L, _: &StateOf<L>) {}
+///
+///     fn advance(
+///         system: &L,
+///         point: &mut CompensatedState<L::Scalar, L::N>,
+///         _: &mut (),
+///         (h, to): (L::Scalar, L::Scalar),
+///     ) -> Result<usize, NotSettled> {
+///         let half = L::Scalar::constant(0.5) * h;
+///         point.set_time(point.state().t + half);
+///         point.change_coordinates(|state, i| half * state.v[i]);
+///         let forces = system.accelerations_unchecked(point.state());
+///         point.change_velocities(|_, i| h * forces.accelerations[i]);
+///         point.change_coordinates(|state, i| half * state.v[i]);
+///         point.set_time(to);
+///         Ok(1)
+///     }
+/// }
+///
+/// #[derive(Lagrangian)]
+/// #[coordinates(x)]
+/// #[lagrangian(x_dot^2/2 - x^2/2)]
+/// struct Spring;
+///
+/// let method = FixedStep::<DriftKickDrift>::with_step(0.01);
+/// let path = Spring.integrate(State::at_rest([1.0]), 10.0, method)?;
+/// assert!((path.end().coordinate("x")? - 10.0_f64.cos()).abs() < 1e-4);
+/// # Ok::<(), Error>(())
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a scheme for the steps of `{L}`",
     note = "`Verlet`, `Gauss`, `Lobatto` and `DAlembert` are methods with steps of one length; `FixedStep` takes the scheme of one of them"
@@ -55,10 +108,15 @@ pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
     }
 }
 
+/// A scheme of order 2 that is its own inverse with the step −h, so that [compositions](super::Composition) of its steps are
+/// of higher order.
+pub trait SymmetricScheme {}
+
 /// Coordinates or velocities, and their rounding errors.
 pub(super) type Compensated<T, N> = [Array<T, N>; 2];
 
-/// A state, and the rounding errors of its coordinates and velocities.
+/// A state, and the rounding errors of its coordinates and velocities: sums of many small changes keep the digits that
+/// rounding would take from each (compensated summation).
 #[derive(Clone, Copy, Debug)]
 pub struct CompensatedState<T: Element, N: Length> {
     pub(crate) state: State<T, N>,
@@ -68,6 +126,28 @@ pub struct CompensatedState<T: Element, N: Length> {
 impl<T: Parts, N: Length> CompensatedState<T, N> {
     pub(crate) fn at(state: &State<T, N>) -> Self {
         Self { state: *state, rest: [Array::filled(T::constant(0.0)); 2] }
+    }
+
+    /// The state, rounded.
+    pub fn state(&self) -> &State<T, N> {
+        &self.state
+    }
+
+    /// Sets the time, and leaves coordinates and velocities as they are.
+    pub fn set_time(&mut self, t: T) {
+        self.state.t = t;
+    }
+
+    /// Adds to each coordinate its change, from the state before and the index.
+    pub fn change_coordinates(&mut self, change: impl Fn(&State<T, N>, usize) -> T) {
+        let [q, rest] = self.moved(&Array::from_fn(|i| change(&self.state, i)));
+        (self.state.q, self.rest[0]) = (vector(q), rest);
+    }
+
+    /// Adds to each velocity its change, from the state before and the index.
+    pub fn change_velocities(&mut self, change: impl Fn(&State<T, N>, usize) -> T) {
+        let [v, rest] = self.pushed(&Array::from_fn(|i| change(&self.state, i)));
+        (self.state.v, self.rest[1]) = (vector(v), rest);
     }
 
     /// Adds a change to each coordinate in place, from its velocity and its acceleration.

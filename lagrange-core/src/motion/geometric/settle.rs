@@ -17,7 +17,7 @@ const LONGEST: usize = 4;
 /// Largest part by which constraints may have turned since their factorization: an iteration with it then converges.
 const TURN: f64 = 0.25;
 
-/// A step for which the iteration does not converge.
+/// Error of a step whose iteration does not converge: the step is too long.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotSettled;
 

@@ -2,10 +2,9 @@
 
 use core::fmt;
 
-use super::composition::Composition;
 use super::fixed_step::FixedStep;
 use super::partitioned::advance;
-use super::scheme::{CompensatedState, Scheme};
+use super::scheme::{CompensatedState, Scheme, SymmetricScheme};
 use super::settle::NotSettled;
 use super::stage_memory::StageMemory;
 use super::tableau::{GAUSS_1, GAUSS_2, GAUSS_3, GAUSS_4, LOBATTO_2, LOBATTO_3, LOBATTO_4, Tableau};
@@ -76,13 +75,13 @@ pub type Lobatto<const S: usize> = FixedStep<LobattoPair<S>>;
 ///
 /// It is a discrete Lagrange–d'Alembert principle: the change of the coordinates over a step satisfies the constraints at
 /// its middle, and the velocities at its end satisfy them there (Cortés and Martínez, *Nonlinearity* 14, 2001; McLachlan
-/// and Perlmutter, *Journal of Nonlinear Science* 16, 2006). [`composed`](Self::composed) makes it a method of order 4,
+/// and Perlmutter, *Journal of Nonlinear Science* 16, 2006). [`composed`](FixedStep::composed) makes it a method of order 4,
 /// 6 or 8. With holonomic constraints alone it is [`Lobatto<2>`](Lobatto). Constraints must be independent, and the mass
 /// matrix regular, as there.
 ///
-/// The method is reversible. It does not keep a symplectic form, because a nonholonomic motion has none, and it does not
-/// promise the energy: no method is known that keeps it on all nonholonomic problems (Modin and Verdier, *Numerische
-/// Mathematik* 145, 2020).
+/// The method is reversible. It does not keep a symplectic form, because a nonholonomic motion has none. It keeps the energy
+/// on the usual problems, but not on motions that no reversal maps to themselves, as no known method does (Modin and
+/// Verdier, *Numerische Mathematik* 145, 2020): the page “Which method” of the book, `book/src/methods.md`, has a table.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -102,13 +101,6 @@ pub type Lobatto<const S: usize> = FixedStep<LobattoPair<S>>;
 /// ```
 pub type DAlembert = FixedStep<LagrangeDAlembert>;
 
-impl DAlembert {
-    /// Composes steps to a method of higher order.
-    pub fn composed(self, composition: Composition) -> Self {
-        self.compose(composition)
-    }
-}
-
 /// The scheme of [`Gauss`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GaussLegendre<const S: usize>;
@@ -120,6 +112,8 @@ pub struct LobattoPair<const S: usize>;
 /// The scheme of [`DAlembert`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LagrangeDAlembert;
+
+impl SymmetricScheme for LagrangeDAlembert {}
 
 /// A number of stages with coefficients.
 #[diagnostic::on_unimplemented(

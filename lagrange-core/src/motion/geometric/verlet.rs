@@ -6,10 +6,9 @@
 
 use core::fmt::{self, Debug};
 
-use super::composition::Composition;
 use super::fixed_step::FixedStep;
 use super::scheme::{
-    Compensated, CompensatedState, Scheme, magnitudes, terms_of_positions, terms_of_rates,
+    Compensated, CompensatedState, Scheme, SymmetricScheme, magnitudes, terms_of_positions, terms_of_rates,
 };
 use super::settle::{NotSettled, Residuals, have_hardly_turned};
 use crate::number::{Parts, Scalar};
@@ -22,7 +21,7 @@ use crate::vector::{Array, Element, Entrywise, Length, Vector, array, vector};
 ///
 /// A step takes one evaluation of the forces, and its dense output none, for orders above 4 four. The method applies if the
 /// mass matrix is constant and the forces depend on coordinates and time alone, which the derive macro finds out
-/// ([`structure`](crate::structure)): for other systems it does not compile. [`composed`](Self::composed) makes it a
+/// ([`structure`](crate::structure)): for other systems it does not compile. [`composed`](FixedStep::composed) makes it a
 /// method of order 4, 6 or 8.
 ///
 /// ```
@@ -47,16 +46,11 @@ use crate::vector::{Array, Element, Entrywise, Length, Vector, array, vector};
 /// Φ and F q̇ + b at round-off.
 pub type Verlet = FixedStep<StormerVerlet>;
 
-impl Verlet {
-    /// Composes steps to a method of higher order.
-    pub fn composed(self, composition: Composition) -> Self {
-        self.compose(composition)
-    }
-}
-
 /// The scheme of [`Verlet`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StormerVerlet;
+
+impl SymmetricScheme for StormerVerlet {}
 
 /// Forces at a state.
 #[derive(Clone, Copy, Debug)]
