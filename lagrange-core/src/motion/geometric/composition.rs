@@ -2,8 +2,9 @@
 
 /// A composition of steps γ₁h, γ₂h, …, γ₁h of a symmetric method of order 2, which is of higher order.
 ///
-/// Some of the γ are negative: a composition goes back in time in between. Its error is the smaller the more steps it
-/// has at the same order, by more than they cost (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.2).
+/// Some of the γ are negative, so the composition partly goes back in time. `Yoshida4`, `Yoshida6` and `SuzukiUmeno8` evaluate
+/// forces up to 0.36 h, 0.16 h and 0.06 h before and after the step; the others stay within it. At equal order, a composition of more steps has an error that is smaller by
+/// more than the steps cost (Hairer, Lubich and Wanner, *Geometric Numerical Integration*, V.3.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Composition {
@@ -114,6 +115,21 @@ mod tests {
             }
             // The next power is an error term of this order.
             assert!(sum(composition.order() as i32 + 1).abs() > 5e-4, "{composition:?}");
+        }
+    }
+    /// Forces that end in time, as a table does, are asked for that far beyond the end.
+    #[test]
+    fn times_lie_within_the_step_or_near_it() {
+        let beyond = |composition: Composition| {
+            let times = composition.lengths().iter().scan(0.0, |time, length| {
+                *time += length;
+                Some(*time)
+            });
+            times.fold(0.0_f64, |beyond, time| beyond.max(time - 1.0).max(-time))
+        };
+        let limits = [0.36, 1e-15, 0.16, 1e-15, 0.06, 1e-15];
+        for (composition, limit) in ALL.into_iter().zip(limits) {
+            assert!(beyond(composition) < limit, "{composition:?}: {}", beyond(composition));
         }
     }
 }

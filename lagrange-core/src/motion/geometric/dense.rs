@@ -34,7 +34,7 @@ pub(super) fn cubic<T: Scalar, N: Length>(
     coefficients
 }
 
-/// Polynomials of degree 7 through states and rates at both ends, and accelerations at four times between: an error of
+/// Polynomials of degree 7 through states and rates at both ends, and accelerations at four times within the step: an error of
 /// seventh order in the step, of sixth if forces depend on velocities.
 ///
 /// Between, accelerations are those of the quintic polynomial through coordinates, velocities and accelerations at both

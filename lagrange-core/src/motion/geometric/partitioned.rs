@@ -24,7 +24,7 @@ use crate::solution::near::compensated;
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
 use crate::vector::{Array, Element, Entrywise, Length, Vector, array, from_fn, rows, vector};
 
-/// Largest part of the terms that may be round-off of hidden ones.
+/// Fraction of the visible terms up to which a residual may be the round-off of hidden terms.
 const HIDDEN: f64 = 1e-3;
 
 /// A step in progress.
@@ -218,8 +218,8 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         all
     }
 
-    /// Terms of the momenta, each part of a sum on its own, with those of moving each coordinate by its own size during the
-    /// step: of M q̇, of the change of the forces with each coordinate, and of Fᵀλ.
+    /// Magnitudes of the terms of the momenta, and of those of a displacement of each coordinate by its own size during the
+    /// step: M q̇, the change of the forces with each coordinate, and Fᵀλ.
     #[inline(never)]
     fn wider(
         &self,
@@ -374,8 +374,8 @@ fn has_velocity_constraint<L: Lagrangian>() -> bool {
     L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity)
 }
 
-/// True if residuals may be round-off of terms that are hidden in these: within a thousandth of them, or of the largest so
-/// far, because a motion that comes to rest leaves terms of the size of its whole way.
+/// True if residuals may be the round-off of hidden terms: they are within a thousandth of the visible ones, or of the largest
+/// so far, because a motion that comes to rest leaves terms of the size of its whole way.
 fn are_hidden<T: Parts, N: Length>(size: &Array<T, N>, wider: &Array<T, N>, largest: &Array<T, N>) -> bool {
     are_within(HIDDEN, size, &Array::from_fn(|k| wider[k] + largest[k]))
 }

@@ -250,8 +250,8 @@ pub(super) fn terms_of_rates<L: Lagrangian<Scalar: Parts>>(
     }
 }
 
-/// Σᵢ |Fₐᵢ||xᵢ|, with |F||x'| + |F'||x| for the slopes: the derivative of the sum of magnitudes would miss slopes that
-/// cancel.
+/// Σᵢ |Fₐᵢ||xᵢ|, with the slope |F||x'| + |F'||x|, where ' is the derivative: a bound, because in the derivative of the sum
+/// slopes could cancel.
 fn terms<L: Lagrangian<Scalar: Parts>>(
     system: &L,
     state: &StateOf<L>,

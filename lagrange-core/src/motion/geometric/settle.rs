@@ -87,15 +87,15 @@ impl<T: Parts, K: Length> Residuals<T, K> {
     }
 }
 
-/// True if each entry is at most `part` of its bound, and so are all slopes together: a slope alone may vanish by
-/// symmetry, and its terms with it.
+/// True if each entry is at most `part` of its bound, and the slopes together are too: a single slope and its terms may
+/// vanish by symmetry.
 pub(super) fn are_within<T: Parts, K: Length>(part: f64, x: &Array<T, K>, bound: &Array<T, K>) -> bool {
     let total = |x: &Array<T, K>| x.iter().fold(T::constant(0.0), |sum, x| sum + *x);
     (0..K::COUNT).all(|k| x[k].is_value_within(part, bound[k])) && total(x).is_within(part, total(bound))
 }
 
-/// True if constraints are nearly those that were factorized: `moves` returns a move that changes the constraint of
-/// this index by −1, and no other, as factorized. `jacobian` is that of now.
+/// True if the constraints in `jacobian` differ little from those factorized. `moves(a)` returns the displacement that changes
+/// factorized constraint a by −1 and no other.
 pub(super) fn have_hardly_turned<T: Parts, N: Length, M: Length>(
     jacobian: &Matrix<T, M, N>,
     moves: impl Fn(usize) -> Array<T, N>,

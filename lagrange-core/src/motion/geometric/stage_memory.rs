@@ -4,8 +4,8 @@ use crate::number::{Parts, Scalar};
 use crate::system::{Lagrangian, StateOf};
 use crate::vector::{Array, Element, Length, array, from_fn};
 
-/// Largest ratio of a step to the one before for which the stages of that one are extrapolated. A polynomial of degree S − 1
-/// amplifies their rounding errors by the ratio to this power.
+/// Largest ratio of a step to the step before up to which the stages of the step before are extrapolated. A polynomial of
+/// degree S − 1 amplifies their rounding errors by the ratio to the power S − 1.
 const FARTHEST: f64 = 16.0;
 
 /// Data carried from step to step.

@@ -76,8 +76,7 @@ pub type Lobatto<const S: usize> = FixedStep<LobattoPair<S>>;
 /// It is a discrete Lagrange–d'Alembert principle: the change of the coordinates over a step satisfies the constraints at
 /// its middle, and the velocities at its end satisfy them there (Cortés and Martínez, *Nonlinearity* 14, 2001; McLachlan
 /// and Perlmutter, *Journal of Nonlinear Science* 16, 2006). [`composed`](FixedStep::composed) makes it a method of order 4,
-/// 6 or 8. With holonomic constraints alone it is [`Lobatto<2>`](Lobatto). Constraints must be independent, and the mass
-/// matrix regular, as there.
+/// 6 or 8. With holonomic constraints alone it is [`Lobatto<2>`](Lobatto). Constraints must be independent.
 ///
 /// The method is reversible. It does not keep a symplectic form, because a nonholonomic motion has none. It keeps the energy
 /// on the usual problems, but not on motions that no reversal maps to themselves, as no known method does (Modin and
