@@ -31,6 +31,9 @@ impl Display for Error {
                     "a table needs at least two points (a smooth one three), finite, with x increasing from one to the next"
                 )
             }
+            Self::Setting { name, value } if *value > 0.0 && value.is_finite() => {
+                write!(f, "the {name} is {value:e}: times this near are not told apart; make it longer")
+            }
             Self::Setting { name, value } => {
                 write!(f, "the {name} is {value}: it must be positive and finite")
             }

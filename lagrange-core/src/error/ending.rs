@@ -169,7 +169,8 @@ impl Display for Pace {
                 ": the problem looks stiff, something in it grows or dies at a rate of {rate:.1e}, which keeps steps short whatever the tolerance; take `Radau`, put a constraint in the place of a stiff spring, leave out a mass that friction governs, or raise the limit with `max_steps`"
             );
         }
-        match self.step {
+        // Before the first step none is planned.
+        match self.step.filter(|step| *step != 0.0) {
             None => f.write_str("; raise it with `max_steps`"),
             Some(step) => write!(
                 f,
@@ -244,12 +245,15 @@ impl Display for Ending {
                 f,
                 "stopped at t = {time}: {error}; if it has mass elsewhere, the motion has come to a pole of the coordinates, as polar ones have at r = 0: choose others"
             ),
-            Self::Contradictory { time, error }
-            | Self::Unsolved { time, error }
-            | Self::OffConstraints { time, error } => write!(f, "stopped at t = {time}: {error}"),
+            Self::Contradictory { time, error } | Self::Unsolved { time, error } => {
+                write!(f, "stopped at t = {time}: {error}")
+            }
+            Self::OffConstraints { time, error } => {
+                write!(f, "stopped at t = {time}: {error}, or take shorter steps")
+            }
             Self::NotFinite { time, row } => write!(
                 f,
-                "stopped at t = {time}: the equations are not finite in the row of {row}; check the parameters, and whether the motion runs into a pole"
+                "stopped at t = {time}: the equations are not finite in the row of {row}; check the parameters, whether the motion runs into a pole, and, with steps of one length, whether shorter ones are stable"
             ),
             Self::MethodFailed { time, reason } => {
                 write!(f, "stopped at t = {time} by the method: {reason}")

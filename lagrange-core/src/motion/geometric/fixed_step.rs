@@ -259,10 +259,10 @@ fn failure<L: Lagrangian<Scalar: Real>>(
             _ => {}
         }
     }
-    let row = end.ok().and_then(|end| {
-        first_row::<L>(|i| !(Parts::is_finite(end.q[i]) && Parts::is_finite(end.v[i])), |_| false)
-    });
-    match row {
+    let momenta = system.momentum(start);
+    let end = end.unwrap_or(*start);
+    let is_finite = |i: usize| [momenta[i], end.q[i], end.v[i]].into_iter().all(Parts::is_finite);
+    match first_row::<L>(|i| !is_finite(i), |_| false) {
         Some(row) => Ending::NotFinite { time, row },
         None => Ending::MethodFailed {
             time,

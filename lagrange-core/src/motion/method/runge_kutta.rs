@@ -104,6 +104,13 @@ impl RungeKutta4 {
         self.limits.max_steps = steps;
         self
     }
+
+    /// Sets the limit on the wall-clock time of the integration.
+    #[cfg(feature = "std")]
+    pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
+        self.limits.wall_time = Some(limit);
+        self
+    }
 }
 
 /// State that the method carries from step to step.
