@@ -31,7 +31,7 @@ use crate::reference::{BAR, Errors, IS_LONG, Moment, Problem, Scale, assert_rela
 #[constraint(fifth: crank = [e*sin(phi + delta) + zt*cos(delta) + xa, zt*sin(delta) - e*cos(phi + delta) + ya])]
 #[constraint(seventh: crank = [zf*cos(omega + epsilon) + u*sin(epsilon) + xa,
     zf*sin(omega + epsilon) - u*cos(epsilon) + ya])]
-struct Squeezer {
+pub(crate) struct Squeezer {
     m: [f64; 7],
     inertia: [f64; 7],
     xa: f64,
@@ -142,7 +142,7 @@ const END: Moment<7, 6> = Moment {
 /// T + V without the motor's share −motor·β at β = 0.
 const ENERGY: f64 = 1.437_832_957_532_139_8;
 
-fn squeezer() -> Problem<Squeezer, 7, 6> {
+pub(crate) fn squeezer() -> Problem<Squeezer, 7, 6> {
     Problem {
         name: "Andrews' squeezer",
         system: SQUEEZER,

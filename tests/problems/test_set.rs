@@ -21,7 +21,7 @@ use crate::reference::{BAR, Errors, IS_LONG, Moment, Problem, Scale, assert_rela
 #[constraint(across: xl*xb + yl*yb = 0)]
 #[constraint(axis: (xl - xr)^2 + (yl - yr)^2 = L^2)]
 #[allow(non_snake_case)]
-struct CarAxis {
+pub(crate) struct CarAxis {
     L: f64,
     L0: f64,
     M: f64,
@@ -31,9 +31,8 @@ struct CarAxis {
     g: f64,
 }
 
-#[test]
-fn the_car_axis_reaches_its_reference() {
-    let axis = Problem {
+pub(crate) fn car_axis() -> Problem<CarAxis, 4, 2> {
+    Problem {
         name: "car axis",
         system: CarAxis { L: 1.0, L0: 0.5, M: 10.0, eps: 0.01, r: 0.1, w: 10.0, g: 1.0 },
         start: State::new([0.0, 0.5, 1.0, 0.5], [-0.5, 0.0, -0.5, 0.0]),
@@ -105,7 +104,12 @@ fn the_car_axis_reaches_its_reference() {
         ],
         scale: Scale::Run,
         bar: BAR,
-    };
+    }
+}
+
+#[test]
+fn the_car_axis_reaches_its_reference() {
+    let axis = car_axis();
     axis.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
     axis.run("Dop853 1e-13", Dop853::with_tolerance(1e-13)).reaches_bar();
     if IS_LONG {

@@ -5,6 +5,7 @@
 //! stiff force along the constraints stays one. On all coordinates, a turn ε of the constraints in a step of length h
 //! would feed h c ε² of a damping c into the iteration, which then diverges.
 
+use super::iteration::NoSolution;
 use crate::error::Error;
 use crate::motion::method::control::Tolerance;
 use crate::number::{Real, Scalar};
@@ -17,12 +18,14 @@ use crate::solution::solve::fault;
 use crate::system::{ConstraintKind, Lagrangian, StateOf};
 use crate::vector::{Array, Length, PhaseVector, rows, vector};
 
-/// Largest number of corrections towards the constraints. Those that are not round-off shrink by four each.
-const CORRECTIONS: usize = 30;
+/// Largest number of corrections towards the constraints. Those that are not round-off shrink by two each.
+const CORRECTIONS: usize = 60;
 /// Residual, in units of ε of its terms, at which corrections end.
 const ROUND_OFF: f64 = 4.0;
-/// Largest ratio of a correction to the one before: with a quarter, all together are at most 4/3 of the first.
-const TURN: f64 = 0.25;
+/// Largest ratio of a correction to the one before: with a half, all together are at most twice the first.
+pub(super) const TURN: f64 = 0.5;
+/// Part of [`TURN`] at which the next step aims: the ratio is proportional to the length of a step.
+pub(super) const MARGIN: f64 = 0.8;
 /// Size of a correction, in units of the tolerance, below which corrections need not shrink: they are round-off, or those
 /// of dependent constraints, which agree on the manifold only.
 const SMALL: f64 = 1e-3;
@@ -43,21 +46,44 @@ enum Solver<L: Lagrangian> {
     General(Room<Factors<L::Scalar, L::N, L::M>>),
 }
 
+impl<L: Lagrangian<Scalar: Real>> Solver<L> {
+    /// Factorizes by the emitted function if that is reliable; `old` gives its storage.
+    fn velocities(system: &L, state: &StateOf<L>, old: Option<Self>) -> Self {
+        let (factor, none) = (system.factor(state), zero::<L>());
+        let zeros = (vector(Array::filled(none)), vector(Array::filled(none)));
+        if is_trustworthy(&system.solve_with(&factor, &zeros.0, &zeros.1)) {
+            return Self::Emitted(factor);
+        }
+        Self::general(Level::Velocity, system, state, old)
+    }
+
+    fn general(level: Level, system: &L, state: &StateOf<L>, old: Option<Self>) -> Self {
+        let (m, f) = (system.mass_matrix(state).into(), level.jacobian(system, state));
+        let factors = Factors::of(&m, &f, Rank::off_constraints());
+        match old {
+            Some(Self::General(mut room)) => {
+                *room = factors;
+                Self::General(room)
+            }
+            _ => Self::General(Room::of(factors)),
+        }
+    }
+}
+
 impl<L: Lagrangian<Scalar: Real>> Chart<L> {
     pub(super) fn at(system: &L, state: &StateOf<L>) -> Self {
-        let general = |level: Level| {
-            let (m, f) = (system.mass_matrix(state).into(), level.jacobian(system, state));
-            Solver::General(Room::of(Factors::of(&m, &f, Rank::off_constraints())))
-        };
-        let zeros = (vector(Array::filled(zero::<L>())), vector(Array::filled(zero::<L>())));
-        let emitted = || {
-            let factor = system.factor(state);
-            is_trustworthy(&system.solve_with(&factor, &zeros.0, &zeros.1)).then_some(Solver::Emitted(factor))
-        };
         let is_mixed = L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity);
-        let velocities = (<L::M>::COUNT > 0).then(|| emitted().unwrap_or_else(|| general(Level::Velocity)));
-        let coordinates = is_mixed.then(|| general(Level::Position));
+        let velocities = (<L::M>::COUNT > 0).then(|| Solver::velocities(system, state, None));
+        let coordinates = is_mixed.then(|| Solver::general(Level::Position, system, state, None));
         Self { f: Room::of(rows(&system.constraint_jacobian(state))), velocities, coordinates }
+    }
+
+    /// Moves the chart to another state, and keeps its storage.
+    pub(super) fn set(&mut self, system: &L, state: &StateOf<L>) {
+        *self.f = rows(&system.constraint_jacobian(state));
+        self.velocities = self.velocities.take().map(|old| Solver::velocities(system, state, Some(old)));
+        let general = |old| Solver::general(Level::Position, system, state, Some(old));
+        self.coordinates = self.coordinates.take().map(general);
     }
 
     /// The least x with F x = −`residual` on a level; `None` without constraints.
@@ -113,19 +139,20 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
     }
 
     /// Moves a state onto the constraints along M⁻¹Fᵀ, without a change of its coordinates in the tangent plane. Corrections
-    /// are measured in units of the tolerance at the state `y`. `None` if they shrink by less than [`TURN`]: the step is too
-    /// long for the chart, and might lead to another branch.
+    /// are measured in units of the tolerance at the state `y`; `turn` is raised to the largest ratio of one to that before.
+    /// [`NoSolution::TooSlow`] if it exceeds [`TURN`]: the step is too long for the chart, and might lead to another branch.
     pub(super) fn onto(
         &self,
         system: &L,
         mut state: StateOf<L>,
         (tolerance, y): (Tolerance, &PhaseVector<L::Scalar, L::N>),
-    ) -> Result<Option<StateOf<L>>, Error> {
+        turn: &mut f64,
+    ) -> Result<StateOf<L>, NoSolution> {
         let bound = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
         for level in BOTH.into_iter().filter(|level| level.concerns::<L>()) {
-            let mut before = f64::INFINITY;
+            let (mut before, terms) = (f64::INFINITY, level.magnitude(system, &state));
             for _ in 0..CORRECTIONS {
-                let (residual, terms) = (level.residual(system, &state), level.magnitude(system, &state));
+                let residual = level.residual(system, &state);
                 if (0..<L::M>::COUNT).all(|a| Scalar::abs(residual[a]) <= bound * terms[a]) {
                     break;
                 }
@@ -139,15 +166,18 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
                 if is_small && size >= before {
                     break;
                 }
+                if before > SMALL {
+                    *turn = turn.max(size / before);
+                }
                 if !(is_small || size <= TURN * before) {
-                    return Ok(None);
+                    return Err(NoSolution::TooSlow((MARGIN * TURN / *turn).clamp(0.1, 0.8)));
                 }
                 before = size;
                 let unknowns = level.unknowns(&mut state);
                 unknowns.iter_mut().zip(correction).for_each(|(x, change)| *x += change);
             }
         }
-        Ok(Some(state))
+        Ok(state)
     }
 }
 

@@ -1,60 +1,92 @@
 //! LU factorization with partial pivoting, for real and complex matrices.
 
+use core::ops::{Deref, DerefMut};
+
 use nalgebra::ComplexField;
 
-use crate::room::Room;
 use crate::vector::{Array, Element, Length};
 
+/// N rows of N entries, on the heap if there is one: they are never on the stack together.
+#[derive(Clone)]
+pub(super) struct Square<F: Element, N: Length>(
+    #[cfg(feature = "alloc")] alloc::vec::Vec<Array<F, N>>,
+    #[cfg(not(feature = "alloc"))] Array<Array<F, N>, N>,
+);
+
+impl<F: Element, N: Length> Square<F, N> {
+    pub(super) fn filled(x: F) -> Self {
+        #[cfg(feature = "alloc")]
+        return Self(alloc::vec![Array::filled(x); N::COUNT]);
+        #[cfg(not(feature = "alloc"))]
+        return Self(Array::filled(Array::filled(x)));
+    }
+}
+
+impl<F: Element, N: Length> Deref for Square<F, N> {
+    type Target = [Array<F, N>];
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
+impl<F: Element, N: Length> DerefMut for Square<F, N> {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.0
+    }
+}
+
 /// L without its diagonal of ones, U, and the row that was exchanged with each row.
+#[derive(Clone)]
 pub(super) struct Lu<F: Element, N: Length> {
-    rows: Room<Array<Array<F, N>, N>>,
+    rows: Square<F, N>,
     exchanged: Array<usize, N>,
 }
 
 impl<F: ComplexField + Element, N: Length> Lu<F, N> {
-    /// Factorizes a matrix, given row by row; `None` if it is singular or not finite (Golub and Van Loan, *Matrix
+    pub(super) fn new() -> Self {
+        Self { rows: Square::filled(F::zero()), exchanged: Array::filled(0) }
+    }
+
+    /// Factorizes a matrix, given by its entries; false if it is singular or not finite (Golub and Van Loan, *Matrix
     /// Computations*, algorithm 3.4.1).
-    pub(super) fn of(mut rows: Room<Array<Array<F, N>, N>>) -> Option<Self> {
-        let mut exchanged = Array::filled(0);
+    pub(super) fn factorize(&mut self, entry: impl Fn(usize, usize) -> F) -> bool {
+        let Self { rows, exchanged } = self;
+        for (i, row) in rows.iter_mut().enumerate() {
+            row.iter_mut().enumerate().for_each(|(j, x)| *x = entry(i, j));
+        }
         for k in 0..N::COUNT {
-            let size = |i: usize, rows: &Array<Array<F, N>, N>| rows[i][k].norm1();
-            let pivot =
-                (k..N::COUNT).fold(k, |best, i| if size(i, &rows) > size(best, &rows) { i } else { best });
+            let size = |i: usize| rows[i][k].norm1();
+            let pivot = (k..N::COUNT).fold(k, |best, i| if size(i) > size(best) { i } else { best });
             exchanged[k] = pivot;
             rows.swap(k, pivot);
-            let diagonal = rows[k][k];
-            if diagonal == F::zero() || !diagonal.is_finite() {
-                return None;
+            let (above, below) = rows.split_at_mut(k + 1);
+            let row = &above[k];
+            if row[k] == F::zero() || !row[k].is_finite() {
+                return false;
             }
-            let row = rows[k];
-            for i in k + 1..N::COUNT {
-                let factor = rows[i][k] / diagonal;
-                rows[i][k] = factor;
-                for j in k + 1..N::COUNT {
-                    rows[i][j] -= factor * row[j];
-                }
+            for other in below {
+                let factor = other[k] / row[k];
+                other[k] = factor;
+                other[k + 1..].iter_mut().zip(&row[k + 1..]).for_each(|(x, y)| *x -= factor * *y);
             }
         }
-        Some(Self { rows, exchanged })
+        true
     }
 
     /// Solves the equations with this right-hand side.
     pub(super) fn solve(&self, mut x: Array<F, N>) -> Array<F, N> {
+        let product = |row: &[F], x: &[F]| row.iter().zip(x).fold(F::zero(), |sum, (a, x)| sum + *a * *x);
         for k in 0..N::COUNT {
             x.swap(k, self.exchanged[k]);
         }
         for k in 0..N::COUNT {
-            for j in 0..k {
-                let known = x[j];
-                x[k] -= self.rows[k][j] * known;
-            }
+            let known = product(&self.rows[k][..k], &x[..k]);
+            x[k] -= known;
         }
         for k in (0..N::COUNT).rev() {
-            for j in k + 1..N::COUNT {
-                let known = x[j];
-                x[k] -= self.rows[k][j] * known;
-            }
-            x[k] /= self.rows[k][k];
+            let known = product(&self.rows[k][k + 1..], &x[k + 1..]);
+            x[k] = (x[k] - known) / self.rows[k][k];
         }
         x
     }

@@ -2,15 +2,18 @@
 
 use core::fmt::{self, Debug, Formatter};
 
+use nalgebra::Const;
+
 use super::Radau;
-use super::chart::Chart;
+use super::chart::{Chart, MARGIN, TURN};
+use super::collocation::Collocation;
 use super::equations::{Derivatives, Factorizations};
-use super::iteration::{NODES, StageChanges, growth, power};
+use super::iteration::{NoSolution, StageChanges, growth, power, zip};
+use super::tableau::{Stages, Tableau};
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::motion::method::clock::Clock;
 use crate::number::{Real, Scalar, larger};
-use crate::solution::interpolant::evaluate;
 use crate::solution::solve::{solve, solve_near};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State, StateOf};
@@ -21,26 +24,37 @@ const REUSED: f64 = 1e-3;
 /// Largest ratio of a step to the one before for which it keeps the length, and the factorizations with it.
 const SAME: f64 = 1.2;
 
+/// State at which the derivatives were evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Age {
+    /// None: they must be evaluated.
+    Unknown,
+    /// An earlier state.
+    Old,
+    /// The start of the step.
+    New,
+}
+
 /// State that the method carries from step to step.
-pub struct RadauMemory<L: Lagrangian<Scalar: Real>> {
+pub struct RadauMemory<L: Lagrangian<Scalar: Real>, const S: usize = 3> {
     pub(super) clock: Clock<L::Scalar>,
     /// Length of the next step; zero before the first is estimated.
     pub(super) planned: L::Scalar,
     pub(super) at: KnownStateOf<L>,
-    pub(super) derivatives: Option<(Chart<L>, Derivatives<L::Scalar, L::N>)>,
-    pub(super) factorizations: Option<Factorizations<L::Scalar, L::N>>,
-    /// True if the derivatives are those of an earlier state.
-    pub(super) are_derivatives_old: bool,
+    pub(super) tableau: Tableau<S>,
+    pub(super) chart: Chart<L>,
+    pub(super) derivatives: Derivatives<L::Scalar, L::N>,
+    pub(super) age: Age,
+    pub(super) factorizations: Factorizations<L::Scalar, L::N, S>,
     pub(super) contraction: f64,
     /// Length and error of the last accepted step, for the controller.
     pub(super) accepted: Option<(f64, f64)>,
     pub(super) was_refused: bool,
-    /// The last accepted step, and its dense output.
-    pub(super) taken: Option<(KnownStateOf<L>, L::Scalar)>,
-    pub(super) coefficients: [PhaseVector<L::Scalar, L::N>; 4],
+    /// The state before the last accepted step, and its dense output.
+    pub(super) taken: Option<(KnownStateOf<L>, Collocation<L::Scalar, L::N, S>)>,
 }
 
-impl<L: Lagrangian<Scalar: Real>> Debug for RadauMemory<L> {
+impl<L: Lagrangian<Scalar: Real>, const S: usize> Debug for RadauMemory<L, S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { planned, at, contraction, .. } = self;
         let mut text = f.debug_struct("RadauMemory");
@@ -80,14 +94,13 @@ impl<T: Real, N: Length, M: Length> KnownState<T, N, M> {
 
     /// The state a time `h` later, with these changes.
     pub(super) fn moved(&self, h: T, change: &PhaseVector<T, N>) -> State<T, N> {
-        let [q, v] = from_fn(|half| Array::from_fn(|i| self.y[half][i] + change[half][i]));
-        State { t: self.t + h, q: vector(q), v: vector(v) }
+        let [q, v] = zip(&self.y, change, |y, change| y + change).arrays().map(vector);
+        State { t: self.t + h, q, v }
     }
 
     /// Changes that lead to the coordinates and velocities of a state.
     pub(super) fn change_to(&self, state: &State<T, N>) -> PhaseVector<T, N> {
-        let there = PhaseVector::<T, N>::of(state.q, state.v);
-        PhaseVector::new(from_fn(|half| Array::from_fn(|i| there[half][i] - self.y[half][i])))
+        zip(&PhaseVector::of(state.q, state.v), &self.y, |there, y| there - y)
     }
 
     pub(super) fn state(&self) -> State<T, N> {
@@ -98,32 +111,35 @@ impl<T: Real, N: Length, M: Length> KnownState<T, N, M> {
 pub(super) type KnownStateOf<L> =
     KnownState<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, <L as Lagrangian>::M>;
 
-impl<L: StateDerivatives<Scalar: Real>> RadauMemory<L> {
+impl<L: StateDerivatives<Scalar: Real>, const S: usize> RadauMemory<L, S>
+where
+    Const<S>: Stages,
+{
     /// Stages on the polynomial of the last step, as changes from the state; zero if there is none.
-    pub(super) fn guess(&self, h: L::Scalar) -> StageChanges<L::Scalar, L::N> {
-        let Some((_, length)) = &self.taken else {
-            return StageChanges([PhaseVector::filled(L::Scalar::constant(0.0)); 3]);
-        };
-        StageChanges(NODES.map(|node| {
-            let theta = L::Scalar::constant(1.0) + L::Scalar::constant(node) * h / *length;
-            let (there, _) = evaluate(&self.coefficients, theta);
-            PhaseVector::new(from_fn(|half| Array::from_fn(|i| there[half][i] - self.at.y[half][i])))
-        }))
+    pub(super) fn guess(&self, h: L::Scalar) -> StageChanges<L::Scalar, L::N, S> {
+        from_fn(|k| match &self.taken {
+            None => PhaseVector::filled(L::Scalar::constant(0.0)),
+            Some((_, last)) => {
+                let [there, _] = last.change(1.0 + <Const<S>>::NODES[k] * (h / last.length).to_f64());
+                zip(&there, &last.changes[S - 1], |there, here| there - here)
+            }
+        })
     }
 
     /// Makes a chart, evaluates derivatives in it and factorizes them, where those of the last step do not serve.
-    pub(super) fn prepare(&mut self, system: &L, h: L::Scalar) -> Result<(), Error> {
-        if self.derivatives.is_none() {
-            let state = self.at.state();
-            let (solution, chart) = (solve(system, &state)?, Chart::at(system, &state));
-            let derivatives = Derivatives::at(system, &state, solution, &chart)?;
-            self.derivatives = Some((chart, derivatives));
-            self.factorizations = None;
-            self.are_derivatives_old = false;
+    pub(super) fn prepare(&mut self, system: &L, h: L::Scalar) -> Result<(), NoSolution> {
+        let Self { at, chart, derivatives, factorizations, .. } = self;
+        let is_unknown = self.age == Age::Unknown;
+        if is_unknown {
+            let state = at.state();
+            let solution = solve(system, &state)?;
+            chart.set(system, &state);
+            derivatives.evaluate(system, &state, solution, chart)?;
+            self.age = Age::New;
         }
-        if self.factorizations.as_ref().is_none_or(|found| found.h != h) {
-            let derivatives = self.derivatives.as_ref();
-            self.factorizations = derivatives.and_then(|(_, found)| Factorizations::of(found, h));
+        if (is_unknown || factorizations.h != h) && !factorizations.factorize(derivatives, h) {
+            self.age = Age::Unknown;
+            return Err(NoSolution::TooSlow(0.5));
         }
         Ok(())
     }
@@ -131,20 +147,19 @@ impl<L: StateDerivatives<Scalar: Real>> RadauMemory<L> {
     /// Moves the clock, keeps dense output, and chooses the next step.
     pub(super) fn accept(
         &mut self,
-        method: &Radau,
-        (from, h): (KnownStateOf<L>, L::Scalar),
-        z: &StageChanges<L::Scalar, L::N>,
-        (error, iterations): (f64, usize),
+        method: &Radau<S>,
+        from: KnownStateOf<L>,
+        changes: StageChanges<L::Scalar, L::N, S>,
+        (error, iterations, turn): (f64, usize, f64),
     ) {
-        self.coefficients = collocation(&from.y, &self.at.y, &z.0);
+        let h = self.factorizations.h;
         let length = Scalar::abs(h).to_f64();
         let error = error.max(1e-10);
-        let mut ratio = growth::<L::Scalar>(error, iterations);
+        let mut ratio = growth::<L::Scalar, S>(error, iterations).min(MARGIN * TURN / turn);
         if let Some((length_before, error_before)) = self.accepted {
             // The controller of Gustafsson, from two errors.
-            let predicted =
-                0.9 * length / length_before * power::<L::Scalar>(error * error / error_before, -0.25);
-            ratio = ratio.min(predicted.clamp(0.2, 8.0));
+            let trend = power::<L::Scalar>(error * error / error_before, -1.0 / (S + 1) as f64);
+            ratio = ratio.min((0.9 * length / length_before * trend).clamp(0.2, 8.0));
         }
         if self.was_refused {
             ratio = ratio.min(1.0);
@@ -152,40 +167,13 @@ impl<L: StateDerivatives<Scalar: Real>> RadauMemory<L> {
         (self.accepted, self.was_refused) = (Some((length, error.max(1e-2))), false);
         let keeps_derivatives = self.contraction <= REUSED;
         let keeps_length = keeps_derivatives && (1.0..=SAME).contains(&ratio);
-        if !keeps_derivatives {
-            (self.derivatives, self.factorizations) = (None, None);
-        }
+        self.age = if keeps_derivatives { Age::Old } else { Age::Unknown };
         let planned = self.planned;
         let step = if keeps_length { Scalar::abs(h) } else { Scalar::abs(h) * L::Scalar::constant(ratio) };
-        self.are_derivatives_old = true;
-        self.taken = Some((from, h));
+        self.taken = Some((from, Collocation { time: from.t, length: h, start: from.y, changes }));
         self.clock.now = self.at.t;
         // If the end has shortened this step, the planned length serves a continued motion.
         let step = if self.clock.is_at_end() { larger(step, planned) } else { step };
         self.planned = method.fit(step, &self.clock);
     }
-}
-
-/// Coefficients of the polynomial through both ends and the stages between.
-fn collocation<T: Real, N: Length>(
-    from: &PhaseVector<T, N>,
-    to: &PhaseVector<T, N>,
-    z: &[PhaseVector<T, N>; 3],
-) -> [PhaseVector<T, N>; 4] {
-    let mut coefficients = [*from; 4];
-    for half in 0..2 {
-        for i in 0..N::COUNT {
-            let rise = to[half][i] - from[half][i];
-            // P(c) = r₀ + c (r₁ + (1 − c)(r₂ + c r₃)) at the first two stages.
-            let [first, second] = [0, 1].map(|k| {
-                let c = T::constant(NODES[k]);
-                (z[k][half][i] - c * rise) / (c * (T::constant(1.0) - c))
-            });
-            let slope = (second - first) / T::constant(NODES[1] - NODES[0]);
-            coefficients[1][half][i] = rise;
-            coefficients[2][half][i] = first - slope * T::constant(NODES[0]);
-            coefficients[3][half][i] = slope;
-        }
-    }
-    coefficients
 }

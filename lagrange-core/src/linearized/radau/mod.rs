@@ -1,13 +1,17 @@
 //! The method Radau IIA of order 5, for stiff systems.
 
 mod chart;
+mod collocation;
 mod equations;
 mod iteration;
 mod lu;
 mod memory;
 mod step;
+mod tableau;
 
 use core::fmt;
+
+use nalgebra::Const;
 
 use crate::error::Error;
 use crate::motion::Limits;
@@ -15,7 +19,9 @@ use crate::motion::method::contract::check_settings;
 use crate::motion::method::control::Tolerance;
 use crate::number::Real;
 
+pub use collocation::Collocation;
 pub use memory::RadauMemory;
+pub use tableau::Stages;
 
 /// The implicit Runge–Kutta method Radau IIA with three stages, of order 5: for stiff systems.
 ///
@@ -46,7 +52,7 @@ pub use memory::RadauMemory;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
-pub struct Radau {
+pub struct Radau<const STAGES: usize = 3> {
     relative: f64,
     absolute: f64,
     max_step: Option<f64>,
@@ -68,6 +74,17 @@ impl Radau {
         Self { relative: tolerance, absolute: tolerance, max_step, first_step, limits: Limits::default() }
     }
 
+    /// Sets the number of stages: 3, 5 or 7, for order 5, 9 or 13.
+    pub fn stages<const STAGES: usize>(self) -> Radau<STAGES>
+    where
+        Const<STAGES>: Stages,
+    {
+        let Self { relative, absolute, max_step, first_step, limits } = self;
+        Radau { relative, absolute, max_step, first_step, limits }
+    }
+}
+
+impl<const STAGES: usize> Radau<STAGES> {
     /// Sets the relative tolerance: the error allowed as a fraction of each entry of the state.
     pub fn relative_tolerance(self, tolerance: f64) -> Self {
         Self { relative: tolerance, ..self }
@@ -103,7 +120,7 @@ impl Radau {
 
     fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result {
         let Self { relative, absolute, max_step, first_step, .. } = self;
-        write!(to, "Radau 5 {relative:?} {absolute:?} {max_step:?} {first_step:?}")
+        write!(to, "Radau {} {relative:?} {absolute:?} {max_step:?} {first_step:?}", 2 * STAGES - 1)
     }
 
     fn check(&self) -> Result<(), Error> {
@@ -115,11 +132,12 @@ impl Radau {
         ])
     }
 
-    /// Tolerances of the error estimate. It is of third order, and overestimates the error of a method of fifth order:
-    /// as in Hairer and Wanner's program, the tolerance is its power 2/3, times a tenth.
+    /// Tolerances of the error estimate. It is of the order of the stages, and overestimates the error of the method: as in
+    /// Hairer and Wanner's program, the tolerance is its power that makes the steps those of the order of the method, times a
+    /// tenth.
     fn tolerance<T: Real>(&self) -> Tolerance {
         let wanted = self.relative.max(16.0 * T::EPSILON);
-        let relative = 0.1 * iteration::power::<T>(wanted, 2.0 / 3.0);
+        let relative = 0.1 * iteration::power::<T>(wanted, (STAGES + 1) as f64 / (2 * STAGES) as f64);
         Tolerance { relative, absolute: relative * (self.absolute / wanted) }
     }
 }

@@ -2,10 +2,17 @@
 
 use core::fmt;
 
+use nalgebra::Const;
+
 use super::Radau;
 use super::chart::Chart;
-use super::iteration::{Converged, NODES, NoSolution, StageChanges, allowed, growth, is_too_large};
-use super::memory::{KnownState, RadauMemory};
+use super::collocation::Collocation;
+use super::equations::{Derivatives, Factorizations};
+use super::iteration::{
+    Converged, Iteration, NoSolution, allowed, combination, is_too_large, reduction, zip,
+};
+use super::memory::{Age, KnownState, RadauMemory};
+use super::tableau::{Stages, Tableau};
 use crate::error::{Ending, Error, Pace};
 use crate::linearized::StateDerivatives;
 use crate::motion::method::clock::Clock;
@@ -13,15 +20,11 @@ use crate::motion::method::control::Tolerance;
 use crate::motion::{Limits, Method, Step};
 use crate::names::Entry;
 use crate::number::{Real, Scalar, smaller};
-use crate::solution::interpolant::Polynomial;
 use crate::solution::solve::solve_near;
 use crate::solution::vector_field::{LagrangianVectorField, StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, StateOf};
 use crate::vector::{Array, Length, PhaseVector, array, from_fn};
-
-/// Weights of the stages in the error estimate: −(13 + 7√6)/3, (−13 + 7√6)/3 and −1/3.
-const ERROR: [f64; 3] = [-10.048_809_399_827_416, 1.382_142_733_160_749, -1.0 / 3.0];
 
 /// Reason to reject a step.
 enum Rejection {
@@ -45,9 +48,12 @@ impl From<Error> for Rejection {
     }
 }
 
-impl<L: StateDerivatives<Scalar: Real>> Method<L> for Radau {
-    type Memory = RadauMemory<L>;
-    type Interpolant = Polynomial<L::Scalar, [PhaseVector<L::Scalar, L::N>; 4]>;
+impl<L: StateDerivatives<Scalar: Real>, const S: usize> Method<L> for Radau<S>
+where
+    Const<S>: Stages,
+{
+    type Memory = RadauMemory<L, S>;
+    type Interpolant = Collocation<L::Scalar, L::N, S>;
 
     fn limits(&self) -> Limits {
         self.limits
@@ -68,19 +74,19 @@ impl<L: StateDerivatives<Scalar: Real>> Method<L> for Radau {
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
         let at = KnownState::at(system, start, statistics)?;
-        let zero = L::Scalar::constant(0.0);
         Ok(RadauMemory {
             clock: Clock::new(start.t, None),
-            planned: zero,
+            planned: L::Scalar::constant(0.0),
             at,
-            derivatives: None,
-            factorizations: None,
-            are_derivatives_old: false,
+            tableau: Tableau::new(),
+            chart: Chart::at(system, start),
+            derivatives: Derivatives::new(),
+            age: Age::Unknown,
+            factorizations: Factorizations::new(),
             contraction: 1.0,
             accepted: None,
             was_refused: false,
             taken: None,
-            coefficients: [PhaseVector::filled(zero); 4],
         })
     }
 
@@ -93,7 +99,7 @@ impl<L: StateDerivatives<Scalar: Real>> Method<L> for Radau {
     ) -> Result<(), Error> {
         memory.clock.set(state.t);
         memory.at = KnownState::at(system, state, statistics)?;
-        (memory.derivatives, memory.factorizations, memory.taken) = (None, None, None);
+        (memory.age, memory.taken) = (Age::Unknown, None);
         Ok(())
     }
 
@@ -117,13 +123,13 @@ impl<L: StateDerivatives<Scalar: Real>> Method<L> for Radau {
         let (part, ending) = match attempt {
             Ok(()) => return Step::Accepted(memory.at.state()),
             Err(Rejection::Inaccurate(error, entry)) => {
-                let part =
-                    if memory.accepted.is_none() { 0.1 } else { growth::<L::Scalar>(error, 1).min(0.9) };
+                let shorter = 0.9 * reduction::<L::Scalar, S>(error);
+                let part = if memory.accepted.is_none() { 0.1 } else { shorter.max(0.2) };
                 (part, Ending::StepTooSmall { time: now, entry })
             }
-            Err(Rejection::TooSlow(_)) if memory.are_derivatives_old => {
+            Err(Rejection::TooSlow(_)) if memory.age == Age::Old => {
                 // The same step again, with the derivatives and the tangent plane of its start.
-                (memory.derivatives, memory.factorizations) = (None, None);
+                memory.age = Age::Unknown;
                 return Step::Rejected;
             }
             Err(Rejection::TooSlow(part)) => {
@@ -145,15 +151,14 @@ impl<L: StateDerivatives<Scalar: Real>> Method<L> for Radau {
     ) -> Result<Self::Interpolant, Error> {
         let now = memory.clock.now.to_f64();
         let no_step = Error::OutsideTrajectory { time: now, start: now, end: now };
-        let (from, h) = memory.taken.as_ref().ok_or(no_step)?;
-        Ok(Polynomial::new(from.t, *h, memory.coefficients))
+        memory.taken.as_ref().map(|(_, last)| *last).ok_or(no_step)
     }
 
     fn undo(&self, memory: &mut Self::Memory) -> bool {
-        let Some((from, h)) = memory.taken.take() else { return false };
+        let Some((from, last)) = memory.taken.take() else { return false };
         (memory.clock.now, memory.at) = (from.t, from);
-        (memory.derivatives, memory.factorizations, memory.was_refused) = (None, None, true);
-        memory.planned = Scalar::abs(h) * L::Scalar::constant(0.5);
+        (memory.age, memory.was_refused) = (Age::Unknown, true);
+        memory.planned = Scalar::abs(last.length) * L::Scalar::constant(0.5);
         memory.clock.advances_by(memory.planned)
     }
 
@@ -162,9 +167,12 @@ impl<L: StateDerivatives<Scalar: Real>> Method<L> for Radau {
     }
 }
 
-impl Radau {
+impl<const S: usize> Radau<S>
+where
+    Const<S>: Stages,
+{
     /// Length of the first step.
-    fn first<L: Lagrangian<Scalar: Real>>(&self, memory: &RadauMemory<L>) -> L::Scalar {
+    fn first<L: Lagrangian<Scalar: Real>>(&self, memory: &RadauMemory<L, S>) -> L::Scalar {
         let left = memory.clock.left();
         let guess = match self.first_step {
             Some(step) => L::Scalar::constant(step),
@@ -184,52 +192,71 @@ impl Radau {
     fn attempt<L: StateDerivatives<Scalar: Real>>(
         &self,
         system: &L,
-        memory: &mut RadauMemory<L>,
+        memory: &mut RadauMemory<L, S>,
         (h, time): (L::Scalar, L::Scalar),
         statistics: &mut Statistics,
     ) -> Result<(), Rejection> {
         let tolerance = self.tolerance::<L::Scalar>();
         memory.prepare(system, h)?;
         let guess = memory.guess(h);
-        let RadauMemory { at, derivatives, factorizations, contraction, .. } = memory;
-        let (Some((chart, derivatives)), Some(factorizations)) = (derivatives, factorizations) else {
-            return Err(Rejection::TooSlow(0.5));
-        };
-        let mut z = StageChanges(guess.0);
-        for change in &mut z.0 {
+        let RadauMemory { at, tableau, chart, derivatives, factorizations, contraction, .. } = memory;
+        let mut z = guess;
+        for change in &mut z {
             *change = chart.tangents(system, change, at.t)?;
         }
-        let there = |k: usize, change: &PhaseVector<_, L::N>| {
-            let moved = at.moved(h * L::Scalar::constant(NODES[k]), change);
-            chart.onto(system, moved, (tolerance, &at.y))?.ok_or(NoSolution::TooSlow(0.5))
+        // Changes along the normals: those of the last evaluation leave few corrections to the next.
+        let mut normal: [_; S] = from_fn(|k| zip(&guess[k], &z[k], |all, tangent| all - tangent));
+        let mut turn = 0.0;
+        let mut there = |k: usize, change: &PhaseVector<_, L::N>| {
+            let moved = zip(change, &normal[k], |tangent, normal| tangent + normal);
+            let moved = at.moved(h * L::Scalar::constant(<Const<S>>::NODES[k]), &moved);
+            let state = chart.onto(system, moved, (tolerance, &at.y), &mut turn)?;
+            normal[k] = zip(&at.change_to(&state), change, |all, tangent| all - tangent);
+            Ok::<_, NoSolution>(state)
         };
-        let mut rates = |state: &StateOf<L>| rates_at(system, chart, state, &at.active, statistics);
-        let Converged { iterations, contraction: found } = z.solve(
-            (derivatives, factorizations),
-            (tolerance, &at.y, allowed::<L::Scalar>(tolerance.relative)),
-            |k, change| Ok(rates(&there(k, change)?)?),
-        )?;
+        let allowed = allowed::<L::Scalar, S>(tolerance.relative);
+        let iteration = Iteration { tableau, derivatives, factorizations, tolerance, y: &at.y, allowed };
+        let Converged { iterations, contraction: found } = iteration.solve(&mut z, |k, change| {
+            Ok(rates_at(system, chart, &there(k, change)?, &at.active, statistics)?)
+        })?;
         *contraction = found;
-        // Stages on the constraints: for dense output, and because the error of the motion along the normals counts, too.
-        for (k, change) in z.0.iter_mut().enumerate() {
+        let slope = combination(&tableau.start, &z);
+        // Stages on the constraints, for dense output.
+        for (k, change) in z.iter_mut().enumerate() {
             *change = at.change_to(&there(k, change)?);
         }
-        let weighted = |half: usize, i: usize| {
-            let sum = (0..3).map(|k| L::Scalar::constant(ERROR[k]) * z.0[k][half][i]);
-            at.rates[half][i] + sum.fold(L::Scalar::constant(0.0), |sum, x| sum + x) / h
+        let normal = zip(&combination(&tableau.start, &z), &slope, |all, tangent| all - tangent);
+        let along = chart.tangents(system, &at.rates, at.t)?;
+        let gamma = L::Scalar::constant(<Const<S>>::REAL);
+        let part = |off: &_| tolerance.part(L::Scalar::constant(1.0), off, &at.y).to_f64();
+        let off = |rates: &_| {
+            let defect = zip(rates, &slope, |rate, slope| rate - slope / h);
+            let mut off = factorizations.real(derivatives, &defect);
+            // Velocities along the normals follow from those in the plane.
+            for i in 0..<L::N>::COUNT {
+                off.flat_mut()[i] += (h * (at.rates[0][i] - along[0][i]) - normal[0][i]) / gamma;
+            }
+            (part(&off), off)
         };
-        let right = PhaseVector::new(from_fn(|half| Array::from_fn(|i| weighted(half, i))));
-        let off = factorizations.real(derivatives, &right);
-        let error = tolerance.part(L::Scalar::constant(1.0), &off, &at.y).to_f64();
-        if is_too_large(error) {
-            return Err(Rejection::Inaccurate(error, worst::<L>(&off, &at.y, tolerance)));
+        let (mut error, mut off_by) = off(&along);
+        let velocities = PhaseVector::new([Array::filled(L::Scalar::constant(0.0)), off_by.half(1)]);
+        if is_too_large(error) && !is_too_large(part(&velocities)) {
+            // The start is off the slow motion by an error δ of the velocities that is allowed. A damping c makes its rates
+            // off by c δ, and the estimate of the coordinates by h δ. At the start moved by the estimate, this is gone.
+            let moved = at.moved(L::Scalar::constant(0.0), &off_by);
+            let state = chart.onto(system, moved, (tolerance, &at.y), &mut turn)?;
+            (error, off_by) = off(&rates_at(system, chart, &state, &at.active, statistics)?);
         }
-        let y = at.moved(h, &z.0[2]);
+        if is_too_large(error) {
+            return Err(Rejection::Inaccurate(error, worst::<L>(&off_by, &at.y, tolerance)));
+        }
+        let y = at.moved(h, &z[S - 1]);
         let point = StagePoint { t: time, y: PhaseVector::of(y.q, y.v), velocity: array(y.v) };
         let end = <LagrangianVectorField as VectorField<L>>::project(system, &point)?;
+        z[S - 1] = at.change_to(&end);
         let next = KnownState::at(system, &end, statistics)?;
         let from = core::mem::replace(at, next);
-        memory.accept(self, (from, h), &z, (error, iterations));
+        memory.accept(self, from, z, (error, iterations, turn));
         Ok(())
     }
 }
