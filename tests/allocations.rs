@@ -77,6 +77,8 @@ fn a_steered_motion_allocates_nothing() {
     steer(Dopri5::with_tolerance(1e-6));
     steer(Dopri5::default().fixed_step(0.01));
     steer(RungeKutta4::with_step(0.01));
+    steer(Radau::default());
+    steer(Radau::default().stages::<7>());
     let (mut acrobot, mut state) = (Acrobot { g: 9.81, u: 0.0 }, State::at_rest([0.1, 0.2]));
     // From the start on.
     free(|| {

@@ -13,6 +13,7 @@ use super::tableau::{Stages, Tableau};
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::motion::method::clock::Clock;
+use crate::motion::method::control::Tolerance;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::solve::{solve, solve_near};
 use crate::statistics::Statistics;
@@ -21,6 +22,9 @@ use crate::vector::{Array, Element, Length, PhaseVector, array, from_fn, vector}
 
 /// Contraction of the iteration below which derivatives are used again in the next step.
 const REUSED: f64 = 1e-3;
+/// Contraction of the iteration that the next step aims at most for (Gustafsson and Söderlind, *Control strategies for the
+/// iterative solution of nonlinear equations in ODE solvers*, 1997). It grows with the length of a step.
+const CONTRACTION: f64 = 0.4;
 /// Largest ratio of a step to the one before for which it keeps the length, and the factorizations with it.
 const SAME: f64 = 1.2;
 
@@ -127,21 +131,44 @@ where
     }
 
     /// Makes a chart, evaluates derivatives in it and factorizes them, where those of the last step do not serve.
-    pub(super) fn prepare(&mut self, system: &L, h: L::Scalar) -> Result<(), NoSolution> {
-        let Self { at, chart, derivatives, factorizations, .. } = self;
+    pub(super) fn prepare(
+        &mut self,
+        system: &L,
+        h: L::Scalar,
+        tolerance: Tolerance,
+    ) -> Result<(), NoSolution> {
         let is_unknown = self.age == Age::Unknown;
         if is_unknown {
-            let state = at.state();
+            let state = self.at.state();
             let solution = solve(system, &state)?;
-            chart.set(system, &state);
-            derivatives.evaluate(system, &state, solution, chart)?;
+            self.chart.set(system, &state);
+            match self.derivatives.evaluate(system, &state, solution, &self.chart) {
+                Err(Error::DerivativeNotFinite { .. }) => self.evaluate_nearby(system, tolerance)?,
+                other => other?,
+            }
             self.age = Age::New;
         }
+        let Self { derivatives, factorizations, .. } = self;
         if (is_unknown || factorizations.h != h) && !factorizations.factorize(derivatives, h) {
             self.age = Age::Unknown;
             return Err(NoSolution::TooSlow(0.5));
         }
         Ok(())
+    }
+
+    /// Evaluates derivatives beside a kink: every entry moves on in its direction by an allowed error, each by another part
+    /// of it, because a kink may depend on differences of entries. The iteration needs no more than nearby derivatives.
+    fn evaluate_nearby(&mut self, system: &L, tolerance: Tolerance) -> Result<(), Error> {
+        let mut moved = self.at;
+        let entries = moved.y.flat_mut().iter_mut().zip(self.at.rates.flat()).enumerate();
+        for (k, (y, rate)) in entries {
+            let allowed = tolerance.absolute + tolerance.relative * Scalar::abs(*y).to_f64();
+            let part = L::Scalar::constant(allowed * (1.0 - k as f64 / (4 * <L::N>::COUNT) as f64));
+            *y += if *rate < L::Scalar::constant(0.0) { -part } else { part };
+        }
+        let state = moved.state();
+        let solution = solve_near(system, &state, Some(&self.at.active), |solution, _| *solution)?;
+        self.derivatives.evaluate(system, &state, solution, &self.chart)
     }
 
     /// Moves the clock, keeps dense output, and chooses the next step.
@@ -156,6 +183,7 @@ where
         let length = Scalar::abs(h).to_f64();
         let error = error.max(1e-10);
         let mut ratio = growth::<L::Scalar, S>(error, iterations).min(MARGIN * TURN / turn);
+        ratio = ratio.min(CONTRACTION / self.contraction);
         if let Some((length_before, error_before)) = self.accepted {
             // The controller of Gustafsson, from two errors.
             let trend = power::<L::Scalar>(error * error / error_before, -1.0 / (S + 1) as f64);

@@ -119,7 +119,12 @@ where
         if !memory.clock.is_ahead(time) {
             return Step::Failed(Ending::TimeTooCoarse { time: now, step: memory.planned.to_f64() });
         }
-        let attempt = self.attempt(system, memory, (h, time), statistics);
+        let attempt = match memory.prepare(system, h, self.tolerance::<L::Scalar>()) {
+            // Shorter steps would find the same equations at the start.
+            Err(NoSolution::Unsolved(error)) => return Step::Failed(Ending::of(error, now)),
+            Err(other) => Err(other.into()),
+            Ok(()) => self.attempt(system, memory, (h, time), statistics),
+        };
         let (part, ending) = match attempt {
             Ok(()) => return Step::Accepted(memory.at.state()),
             Err(Rejection::Inaccurate(error, entry)) => {
@@ -197,7 +202,6 @@ where
         statistics: &mut Statistics,
     ) -> Result<(), Rejection> {
         let tolerance = self.tolerance::<L::Scalar>();
-        memory.prepare(system, h)?;
         let guess = memory.guess(h);
         let RadauMemory { at, tableau, chart, derivatives, factorizations, contraction, .. } = memory;
         let mut z = guess;

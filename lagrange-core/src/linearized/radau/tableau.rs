@@ -6,7 +6,6 @@ use super::lu::Lu;
 
 /// Number of stages of a method: 3, 5 or 7, for order 5, 9 or 13.
 ///
-/// The tables are those of `tests/radau_tables.py`, rounded from 60 digits.
 pub trait Stages {
     /// Times of the stages in units of the step: the zeros of dˢ⁻¹/dxˢ⁻¹ (xˢ⁻¹ (x − 1)ˢ).
     #[doc(hidden)]
@@ -121,4 +120,154 @@ fn inverse<const S: usize>(matrix: &[[f64; S]; S]) -> [[f64; S]; S] {
     let columns: [[f64; S]; S] =
         core::array::from_fn(|j| lu.solve(core::array::from_fn(|i| f64::from(u8::from(i == j))).into()).0);
     core::array::from_fn(|i| core::array::from_fn(|j| columns[j][i]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Error of a sum in units of ε of its terms.
+    fn off(terms: impl Iterator<Item = f64>, expected: f64) -> f64 {
+        let (sum, size) = terms.fold((-expected, expected.abs()), |(sum, size), x| (sum + x, size + x.abs()));
+        sum.abs() / (f64::EPSILON * size)
+    }
+
+    fn powers(x: f64, n: usize) -> f64 {
+        (0..n).fold(1.0, |power, _| power * x)
+    }
+
+    /// The simplifying assumptions B(2s − 1) and C(s), which imply order 2s − 1 (Hairer and Wanner, *Solving Ordinary
+    /// Differential Equations II*, theorem IV.5.1).
+    fn satisfies_its_order_conditions<const S: usize>()
+    where
+        Const<S>: Stages,
+    {
+        let (c, tableau) = (<Const<S>>::NODES, Tableau::<S>::new());
+        let a = inverse(&tableau.slopes);
+        for k in 1..2 * S {
+            let conditions = if k <= S { 0..S } else { S - 1..S };
+            for i in conditions {
+                let terms = (0..S).map(|j| a[i][j] * powers(c[j], k - 1));
+                let error = off(terms, powers(c[i], k) / k as f64);
+                assert!(error < 100.0, "{S} stages, stage {i}, power {k}: {error} ε");
+            }
+        }
+    }
+
+    /// Eigenvectors by the products of matrices; the eigenvalues' sums of powers are the traces of powers of the matrix.
+    fn has_its_eigenvectors<const S: usize>()
+    where
+        Const<S>: Stages,
+    {
+        let Tableau { slopes, from_eigenvectors: t, to_eigenvectors, .. } = Tableau::<S>::new();
+        for i in 0..S {
+            for k in 0..S {
+                let left = (0..S).map(|j| slopes[i][j] * t[j][k]);
+                // Columns x and y = −z of an eigenvector x + iz: Ax = αx + βy, Ay = αy − βx.
+                let right = match k.checked_sub(1) {
+                    None => <Const<S>>::REAL * t[i][0],
+                    Some(k) => {
+                        let ([re, im], first) = (<Const<S>>::COMPLEX[k / 2], 1 + k / 2 * 2);
+                        let (x, y) = (t[i][first], t[i][first + 1]);
+                        if k % 2 == 0 { re * x + im * y } else { re * y - im * x }
+                    }
+                };
+                let error = off(left, right);
+                assert!(error < 1e3, "{S} stages, row {i}, column {k}: {error} ε");
+                let error = off((0..S).map(|j| to_eigenvectors[i][j] * t[j][k]), f64::from(u8::from(i == k)));
+                assert!(error < 1e3, "{S} stages, inverse, {i}, {k}: {error} ε");
+            }
+        }
+    }
+
+    #[test]
+    fn tables_satisfy_the_conditions_of_their_orders() {
+        satisfies_its_order_conditions::<3>();
+        satisfies_its_order_conditions::<5>();
+        satisfies_its_order_conditions::<7>();
+    }
+
+    #[test]
+    fn eigenvectors_uncouple_the_stages() {
+        has_its_eigenvectors::<3>();
+        has_its_eigenvectors::<5>();
+        has_its_eigenvectors::<7>();
+    }
+
+    /// A sum a + b of two numbers, for twice the digits.
+    type Double = (f64, f64);
+
+    fn add(x: Double, y: Double) -> Double {
+        let sum = x.0 + y.0;
+        let part = sum - x.0;
+        let error = (x.0 - (sum - part)) + (y.0 - part) + x.1 + y.1;
+        (sum + error, error - ((sum + error) - sum))
+    }
+
+    fn multiply(x: Double, y: Double) -> Double {
+        let product = x.0 * y.0;
+        let error = x.0.mul_add(y.0, -product) + x.0 * y.1 + x.1 * y.0;
+        (product + error, error - ((product + error) - product))
+    }
+
+    fn negated(x: Double) -> Double {
+        (-x.0, -x.1)
+    }
+
+    /// Newton's correction of a zero of Σ aₖ xᵏ by twice the digits, real and imaginary part. The coefficients are integers.
+    fn correction(a: &[f64], [re, im]: [f64; 2]) -> [f64; 2] {
+        let times = |x: [Double; 2]| {
+            let [p, q] = [(re, 0.0), (im, 0.0)];
+            let minus = negated(multiply(x[1], q));
+            [add(multiply(x[0], p), minus), add(multiply(x[0], q), multiply(x[1], p))]
+        };
+        let none = [(0.0, 0.0); 2];
+        let (mut value, mut slope) = (none, none);
+        for a in a.iter().rev() {
+            slope = times(slope);
+            slope = [add(slope[0], value[0]), add(slope[1], value[1])];
+            value = times(value);
+            value[0] = add(value[0], (*a, 0.0));
+        }
+        let quotient = Complex::new(value[0].0, value[1].0) / Complex::new(slope[0].0, slope[1].0);
+        [quotient.re, quotient.im]
+    }
+
+    fn ulp(x: f64) -> f64 {
+        x.abs().next_up() - x.abs()
+    }
+
+    /// Every number of the tables is the nearest to a zero, by its polynomial with integer coefficients.
+    fn is_rounded<const S: usize>()
+    where
+        Const<S>: Stages,
+    {
+        let factorial = |n: usize| (1..=n).fold(1.0, |product, k| product * k as f64);
+        let binomial = |k: usize| factorial(S) / factorial(k) / factorial(S - k);
+        let sign = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
+        // The derivative of xˢ⁻¹ (x − 1)ˢ, s − 1 times, over (s − 1)!; the denominator of the (s − 1, s) approximation of
+        // eˣ by Padé, times (2s − 1)!/(s − 1)!.
+        let nodal: [f64; 8] = core::array::from_fn(|k| match k <= S {
+            true => sign(S - k) * binomial(k) * (factorial(S - 1 + k) / factorial(k) / factorial(S - 1)),
+            false => 0.0,
+        });
+        let padé: [f64; 8] = core::array::from_fn(|k| match k <= S {
+            true => sign(k) * binomial(k) * (factorial(2 * S - 1 - k) / factorial(S - 1)),
+            false => 0.0,
+        });
+        assert!(nodal.iter().chain(&padé).all(|x| x.fract() == 0.0 && x.abs() < 9e15));
+        let nodes = <Const<S>>::NODES.iter().map(|x| (&nodal, [*x, 0.0]));
+        let complex = <Const<S>>::COMPLEX.iter().map(|x| (&padé, *x));
+        for (polynomial, zero) in nodes.chain(complex).chain([(&padé, [<Const<S>>::REAL, 0.0])]) {
+            let off = correction(polynomial, zero);
+            assert!((0..2).all(|k| off[k].abs() <= 0.51 * ulp(zero[k])), "{zero:?}: {off:?}");
+        }
+    }
+
+    #[test]
+    fn tables_are_rounded_correctly() {
+        is_rounded::<3>();
+        is_rounded::<5>();
+        is_rounded::<7>();
+    }
 }
