@@ -25,11 +25,12 @@ def updated(about, sections, order):
     """What the last full run measured, but for these rows, which were measured by themselves."""
     before, all_sections = load()
     packages = before["packages"] | about["packages"]
-    others = [fact for fact in ("cpu", "rustc", "gcc") if about[fact] != before[fact]]
+    others = [fact for fact in ("rustc", "gcc") if about[fact] != before[fact]]
     others += [name for name, version in before["packages"].items() if packages[name] != version]
     if others:
         sys.exit(f"the last full run had another {', '.join(others)}: run all rows")
-    alone = before["alone"] | dict.fromkeys(sections, f"{about['commit']}, {about['date']}")
+    cpu = "" if about["cpu"] == before["cpu"] else f", on {about['cpu']}"
+    alone = before["alone"] | dict.fromkeys(sections, f"{about['commit']}, {about['date']}{cpu}")
     all_sections |= sections
     return before | {"alone": alone, "packages": packages}, {name: all_sections[name] for name in order if name in all_sections}
 

@@ -19,6 +19,7 @@ import rows_loops
 import rows_planar
 import rows_quantities
 import rows_robots
+import rows_stiff
 import rows_taylor
 import tables
 import workshop
@@ -36,6 +37,7 @@ ROWS = {
     "quantities": rows_quantities.rows,
     "lanes": rows_lanes.rows,
     "taylor": rows_taylor.rows,
+    "stiff": rows_stiff.rows,
     "ensemble": rows_ensemble.rows,
     "duals": rows_duals.rows,
     "growth": rows_growth.rows,
