@@ -16,8 +16,8 @@
 //!   evaluations. It needs many steps for errors below 10⁻⁷.
 //! - [`RungeKutta4`], of order 4, takes the same time for every step: control in real time. A step takes 4 evaluations.
 //!   It does not estimate its error; compare with a run at half the step length.
-//! - [`Radau`](crate::linearized::Radau), implicit and of order 5, is for stiff systems: strong damping and steep
-//!   friction. A step takes some 7 evaluations, the derivatives of the accelerations, and two factorizations.
+//! - [`Radau`](crate::linearized::Radau), implicit and of order 5, 9 or 13, is for stiff systems: strong damping and steep
+//!   friction. A step of order 5 takes some 7 evaluations, the derivatives of the accelerations, and two factorizations.
 //!
 //! Methods with steps of one length, whose map keeps the structure of mechanics, are for long motions whose energy must
 //! not drift. The type of a system tells which apply; they do not estimate their error either:

@@ -196,8 +196,3 @@ pub(super) fn reduction<T: Real, const S: usize>(error: f64) -> f64 {
 pub(super) fn power<T: Real>(x: f64, exponent: f64) -> f64 {
     Scalar::powf(T::constant(x), T::constant(exponent)).to_f64()
 }
-
-/// True if an error, in units of the tolerance, rejects a step.
-pub(super) fn is_too_large(error: f64) -> bool {
-    error.is_nan() || error > 1.0
-}

@@ -1,8 +1,9 @@
-//! The method Radau IIA of order 5, for stiff systems.
+//! The methods Radau IIA of order 5, 9 and 13, for stiff systems.
 
 mod chart;
 mod collocation;
 mod equations;
+mod estimate;
 mod iteration;
 mod lu;
 mod memory;
@@ -23,7 +24,7 @@ pub use collocation::Collocation;
 pub use memory::RadauMemory;
 pub use tableau::Stages;
 
-/// The implicit Runge–Kutta method Radau IIA with three stages, of order 5: for stiff systems.
+/// The implicit Runge–Kutta method Radau IIA with 3, 5 or 7 stages, of order 5, 9 or 13: for stiff systems.
 ///
 /// Strong damping and stiff springs force an explicit method to steps as short as their time constants. The steps of this
 /// method are as long as the motion allows, because it is L-stable: what decays fast is damped out. It takes any system
@@ -32,7 +33,12 @@ pub use tableau::Stages;
 /// on them.
 ///
 /// Step-size control, the simplified Newton iteration and the starting values are those of Hairer and Wanner (*Solving
-/// Ordinary Differential Equations II*, IV.8). Dense output is the collocation polynomial, of third order.
+/// Ordinary Differential Equations II*, IV.8; "Stiff differential equations solved by Radau methods", *Journal of
+/// Computational and Applied Mathematics* 111, 1999). Dense output is the collocation polynomial, of the order of the number
+/// of stages.
+///
+/// Derivatives have no value on the kink of a force, as of |x| at x = 0; there they are evaluated beside it, within the
+/// tolerance.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -74,7 +80,20 @@ impl Radau {
         Self { relative: tolerance, absolute: tolerance, max_step, first_step, limits: Limits::default() }
     }
 
-    /// Sets the number of stages: 3, 5 or 7, for order 5, 9 or 13.
+    /// Sets the number of stages: 3, 5 or 7, for order 5, 9 or 13. More stages take fewer steps to small errors: for 10⁻⁹ of
+    /// a car axis 4,400, 260 and 90.
+    ///
+    /// ```
+    /// # use lagrange_core::prelude::*;
+    /// # #[derive(Lagrangian)]
+    /// # #[coordinates(x)]
+    /// # #[lagrangian(x_dot^2/2 - x^2/2)]
+    /// # struct Spring;
+    /// let method = Radau::with_tolerance(1e-12).stages::<7>();
+    /// let path = Spring.integrate(State::at_rest([1.0]), 10.0, method)?;
+    /// assert!((path.end().coordinate("x")? - 10.0_f64.cos()).abs() < 1e-11);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn stages<const STAGES: usize>(self) -> Radau<STAGES>
     where
         Const<STAGES>: Stages,

@@ -8,15 +8,13 @@ use super::Radau;
 use super::chart::Chart;
 use super::collocation::Collocation;
 use super::equations::{Derivatives, Factorizations};
-use super::iteration::{
-    Converged, Iteration, NoSolution, allowed, combination, is_too_large, reduction, zip,
-};
+use super::estimate::StartSlopes;
+use super::iteration::{Converged, Iteration, NoSolution, allowed, combination, reduction, zip};
 use super::memory::{Age, KnownState, RadauMemory};
 use super::tableau::{Stages, Tableau};
 use crate::error::{Ending, Error, Pace};
 use crate::linearized::StateDerivatives;
 use crate::motion::method::clock::Clock;
-use crate::motion::method::control::Tolerance;
 use crate::motion::{Limits, Method, Step};
 use crate::names::Entry;
 use crate::number::{Real, Scalar, smaller};
@@ -24,7 +22,7 @@ use crate::solution::solve::solve_near;
 use crate::solution::vector_field::{LagrangianVectorField, StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Array, Length, PhaseVector, array, from_fn};
+use crate::vector::{Array, PhaseVector, array, from_fn};
 
 /// Reason to reject a step.
 enum Rejection {
@@ -224,35 +222,16 @@ where
             Ok(rates_at(system, chart, &there(k, change)?, &at.active, statistics)?)
         })?;
         *contraction = found;
-        let slope = combination(&tableau.start, &z);
+        let tangent = combination(&tableau.start, &z);
         // Stages on the constraints, for dense output.
         for (k, change) in z.iter_mut().enumerate() {
             *change = at.change_to(&there(k, change)?);
         }
-        let normal = zip(&combination(&tableau.start, &z), &slope, |all, tangent| all - tangent);
-        let along = chart.tangents(system, &at.rates, at.t)?;
-        let gamma = L::Scalar::constant(<Const<S>>::REAL);
-        let part = |off: &_| tolerance.part(L::Scalar::constant(1.0), off, &at.y).to_f64();
-        let off = |rates: &_| {
-            let defect = zip(rates, &slope, |rate, slope| rate - slope / h);
-            let mut off = factorizations.real(derivatives, &defect);
-            // Velocities along the normals follow from those in the plane.
-            for i in 0..<L::N>::COUNT {
-                off.flat_mut()[i] += (h * (at.rates[0][i] - along[0][i]) - normal[0][i]) / gamma;
-            }
-            (part(&off), off)
-        };
-        let (mut error, mut off_by) = off(&along);
-        let velocities = PhaseVector::new([Array::filled(L::Scalar::constant(0.0)), off_by.half(1)]);
-        if is_too_large(error) && !is_too_large(part(&velocities)) {
-            // The start is off the slow motion by an error δ of the velocities that is allowed. A damping c makes its rates
-            // off by c δ, and the estimate of the coordinates by h δ. At the start moved by the estimate, this is gone.
-            let moved = at.moved(L::Scalar::constant(0.0), &off_by);
-            let state = chart.onto(system, moved, (tolerance, &at.y), &mut turn)?;
-            (error, off_by) = off(&rates_at(system, chart, &state, &at.active, statistics)?);
-        }
-        if is_too_large(error) {
-            return Err(Rejection::Inaccurate(error, worst::<L>(&off_by, &at.y, tolerance)));
+        let slopes = StartSlopes { tangent, all: combination(&tableau.start, &z) };
+        let estimate = memory.estimate(system, &slopes, tolerance, statistics)?;
+        let at = &mut memory.at;
+        if estimate.is_too_large() {
+            return Err(Rejection::Inaccurate(estimate.size, estimate.worst(&at.y, tolerance)));
         }
         let y = at.moved(h, &z[S - 1]);
         let point = StagePoint { t: time, y: PhaseVector::of(y.q, y.v), velocity: array(y.v) };
@@ -260,13 +239,13 @@ where
         z[S - 1] = at.change_to(&end);
         let next = KnownState::at(system, &end, statistics)?;
         let from = core::mem::replace(at, next);
-        memory.accept(self, from, z, (error, iterations, turn));
+        memory.accept(self, from, z, (estimate.size, iterations, turn));
         Ok(())
     }
 }
 
 /// Rates at a stage in the tangent plane, by the constraints that are independent at the start of the step.
-fn rates_at<L: Lagrangian<Scalar: Real>>(
+pub(super) fn rates_at<L: Lagrangian<Scalar: Real>>(
     system: &L,
     chart: &Chart<L>,
     state: &StateOf<L>,
@@ -278,21 +257,4 @@ fn rates_at<L: Lagrangian<Scalar: Real>>(
         PhaseVector::new([array(state.v), array(solution.accelerations)])
     })?;
     chart.tangents(system, &rates, state.t)
-}
-
-/// The entry whose error is the largest part of its tolerance.
-fn worst<L: Lagrangian<Scalar: Real>>(
-    off: &PhaseVector<L::Scalar, L::N>,
-    y: &PhaseVector<L::Scalar, L::N>,
-    tolerance: Tolerance,
-) -> Entry {
-    let part = |k: usize| {
-        let allowed = tolerance.absolute + tolerance.relative * Scalar::abs(y.flat()[k]).to_f64();
-        Scalar::abs(off.flat()[k]).to_f64() / allowed
-    };
-    let k = (0..2 * <L::N>::COUNT).fold(0, |most, k| if part(k) > part(most) { k } else { most });
-    match k.checked_sub(<L::N>::COUNT) {
-        None => Entry::Coordinate(L::COORDINATES[k]),
-        Some(i) => Entry::Velocity(L::COORDINATES[i]),
-    }
 }

@@ -169,7 +169,7 @@ mod tests {
                     Some(k) => {
                         let ([re, im], first) = (<Const<S>>::COMPLEX[k / 2], 1 + k / 2 * 2);
                         let (x, y) = (t[i][first], t[i][first + 1]);
-                        if k % 2 == 0 { re * x + im * y } else { re * y - im * x }
+                        if k.is_multiple_of(2) { re * x + im * y } else { re * y - im * x }
                     }
                 };
                 let error = off(left, right);
@@ -244,7 +244,7 @@ mod tests {
     {
         let factorial = |n: usize| (1..=n).fold(1.0, |product, k| product * k as f64);
         let binomial = |k: usize| factorial(S) / factorial(k) / factorial(S - k);
-        let sign = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         // The derivative of xˢ⁻¹ (x − 1)ˢ, s − 1 times, over (s − 1)!; the denominator of the (s − 1, s) approximation of
         // eˣ by Padé, times (2s − 1)!/(s − 1)!.
         let nodal: [f64; 8] = core::array::from_fn(|k| match k <= S {

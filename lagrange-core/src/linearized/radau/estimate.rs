@@ -1,0 +1,94 @@
+//! Error estimate of a step: the defect of the collocation polynomial at its start, filtered by the derivatives.
+
+use nalgebra::Const;
+
+use super::iteration::{NoSolution, zip};
+use super::memory::RadauMemory;
+use super::step::rates_at;
+use super::tableau::Stages;
+use crate::linearized::StateDerivatives;
+use crate::motion::method::control::Tolerance;
+use crate::names::Entry;
+use crate::number::{Real, Scalar};
+use crate::statistics::Statistics;
+use crate::system::Lagrangian;
+use crate::vector::{Array, Length, PhaseVector};
+
+/// Estimated error of a step.
+pub(super) struct Estimate<L: Lagrangian> {
+    /// In units of the tolerance.
+    pub(super) size: f64,
+    entries: PhaseVector<L::Scalar, L::N>,
+}
+
+impl<L: Lagrangian<Scalar: Real>> Estimate<L> {
+    pub(super) fn is_too_large(&self) -> bool {
+        is_too_large(self.size)
+    }
+
+    /// The entry whose error is the largest part of its tolerance.
+    pub(super) fn worst(&self, y: &PhaseVector<L::Scalar, L::N>, tolerance: Tolerance) -> Entry {
+        let part = |k: usize| {
+            let allowed = tolerance.absolute + tolerance.relative * Scalar::abs(y.flat()[k]).to_f64();
+            Scalar::abs(self.entries.flat()[k]).to_f64() / allowed
+        };
+        let n = <L::N>::COUNT;
+        let k = (0..2 * n).fold(0, |most, k| if part(k) > part(most) { k } else { most });
+        if k < n { Entry::Coordinate(L::COORDINATES[k]) } else { Entry::Velocity(L::COORDINATES[k - n]) }
+    }
+}
+
+/// Slopes of the polynomial at the start, times the length of the step.
+pub(super) struct StartSlopes<L: Lagrangian> {
+    pub(super) tangent: PhaseVector<L::Scalar, L::N>,
+    pub(super) all: PhaseVector<L::Scalar, L::N>,
+}
+
+impl<L: StateDerivatives<Scalar: Real>, const S: usize> RadauMemory<L, S>
+where
+    Const<S>: Stages,
+{
+    /// Estimates the error in the tangent plane, where a damping acts on all of it, and along the normals that of the
+    /// coordinates: velocities along the normals follow from those in the plane.
+    pub(super) fn estimate(
+        &self,
+        system: &L,
+        slopes: &StartSlopes<L>,
+        tolerance: Tolerance,
+        statistics: &mut Statistics,
+    ) -> Result<Estimate<L>, NoSolution> {
+        let tangent = self.chart.tangents(system, &self.at.rates, self.at.t)?;
+        let (h, gamma) = (self.factorizations.h, L::Scalar::constant(<Const<S>>::REAL));
+        let defect =
+            |rates: &_, slopes| zip(rates, slopes, |rate: L::Scalar, slope: L::Scalar| rate - slope / h);
+        let (all, along) = (defect(&self.at.rates, &slopes.all), defect(&tangent, &slopes.tangent));
+        let of = |rates: &_| {
+            let defect = defect(rates, &slopes.tangent);
+            let mut entries = self.factorizations.real(&self.derivatives, &defect);
+            for i in 0..<L::N>::COUNT {
+                entries[0][i] += (all[0][i] - along[0][i]) * h / gamma;
+            }
+            Estimate { size: self.part(tolerance, &entries), entries }
+        };
+        let first = of(&tangent);
+        let none = Array::filled(L::Scalar::constant(0.0));
+        let velocities = PhaseVector::new([none, first.entries.half(1)]);
+        if !first.is_too_large() || is_too_large(self.part(tolerance, &velocities)) {
+            return Ok(first);
+        }
+        // The start is off the slow motion by an error δ of the velocities that is allowed. A damping c makes its rates off
+        // by c δ, and the estimate of the coordinates by h δ. At the start moved by the estimate, this is gone.
+        let moved = self.at.moved(L::Scalar::constant(0.0), &first.entries);
+        let state = self.chart.onto(system, moved, (tolerance, &self.at.y), &mut 0.0)?;
+        Ok(of(&rates_at(system, &self.chart, &state, &self.at.active, statistics)?))
+    }
+
+    fn part(&self, tolerance: Tolerance, entries: &PhaseVector<L::Scalar, L::N>) -> f64 {
+        tolerance.part(L::Scalar::constant(1.0), entries, &self.at.y).to_f64()
+    }
+}
+
+/// True if an error, in units of the tolerance, rejects a step.
+fn is_too_large(error: f64) -> bool {
+    error.is_nan() || error > 1.0
+}
