@@ -71,6 +71,19 @@ fn steps_that_are_too_long_are_refused() {
     assert!(refused(&ending(&system, start, 10.0, DAlembert::with_step(2.0))));
 }
 
+/// A rotation decays to nothing on the straight way that a sleigh ends on, far below the round-off of other velocities.
+#[test]
+fn rotations_that_have_decayed_take_no_more_sweeps() {
+    let (system, _) = sleigh();
+    let start =
+        State::new([24_177.0, 24_704.0, 0.7962], [0.7962_f64.cos() / 2.0, 0.7962_f64.sin() / 2.0, 1e-37]);
+    let (start, _) = system.make_consistent(&start).unwrap();
+    let path = system.integrate(start, 300.0, DAlembert::with_step(0.15)).unwrap();
+    let statistics = path.statistics();
+    // Fifteen sweeps of two evaluations in a step; to round-off of this rotation they would be 21.
+    assert!(statistics.evaluations < 18 * 2 * statistics.accepted, "{statistics:?}");
+}
+
 /// A motion that is led to a time just after a step goes on with steps of its length.
 #[test]
 fn short_steps_do_not_spoil_the_next() {
