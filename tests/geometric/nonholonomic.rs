@@ -5,7 +5,7 @@
 //! chaotic, one whose distribution is perturbed, and two that a pendulum drives. It turns over and over, so that its
 //! velocity never changes sign; if its potential is not symmetric, no reversal maps the motion to itself.
 //!
-//! `LAGRANGE_PERIODS=100000 cargo test --release --test geometric nonholonomic -- --nocapture --test-threads 1` prints the
+//! `LAGRANGE_PERIODS=10000 cargo test --release --test geometric nonholonomic -- --nocapture --test-threads 1` prints the
 //! table of the book.
 
 use std::f64::consts::TAU;
