@@ -41,6 +41,7 @@ dual numbers, which take the same derivatives at run time (num-dual {num_dual}, 
 {duals}
 
 {taylor}
+{stiff}
 2,000 double pendulums from rest to t = 10. By Taylor's method errors are smaller than `Dop853`'s at the same tolerance. Where
 there is AVX-512, ours has eight lanes.
 
@@ -62,6 +63,13 @@ ours computes, and derives the others from the Lagrangian. `Dop853` is at 10⁻�
 {table}
 """
 
+STIFF = """\
+Stiff and constrained motions by implicit methods, `Radau` with 3, 5 and 7 stages. The others integrate the accelerations and their exact
+Jacobian, which are our emitted functions:
+
+{table}
+"""
+
 
 def of_readme(about, sections):
     fast = table(NANOSECONDS, [row for row in fastest(sections) if row[0] in README_ROWS])
@@ -79,6 +87,7 @@ def of_costs(about, sections):
         ensemble=ensemble(sections["ensemble"]),
         taylor=TAYLOR.format(table=table(MOTIONS, taylor(sections))) if "taylor" in sections else "",
         growth=growth(sections["growth"]),
+        stiff=STIFF.format(table=stiff(sections["stiff"])) if "stiff" in sections else "",
     )
 
 
@@ -186,6 +195,19 @@ def taylor(sections):
     return [
         [column, *cells(column, "ours, Taylor"), *best(column), *cells(column, "ours, Dop853")] for column in columns
     ]
+
+
+def stiff(section):
+    """Steps and times to an error of 10⁻⁹; a dash where it is not reached."""
+    captions = [part.caption for part in section.parts if not isinstance(part, str) and part.caption.endswith("1e-09")]
+    names = section.names(captions[0])
+
+    def cells(caption):
+        found = ([section.cell(caption, column, name) for column in ("steps", "ms")] for name in names)
+        return [steps if steps == "–" else f"{steps} / {ms}" for steps, ms in found]
+
+    rows = [[caption.removesuffix(", to an error of 1e-09"), *cells(caption)] for caption in captions]
+    return table(["steps / ms, to an error of 10⁻⁹", *(name.removeprefix("ours, ") for name in names)], rows)
 
 
 def ensemble(section):
