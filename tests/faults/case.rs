@@ -143,7 +143,10 @@ where
                 let late = self.end / 2.0;
                 let controller = move |system: &mut L, state: &State<f64, 2>| match value {
                     _ if state.t < late => Ok(()),
-                    Some(value) => Ok(system.set_first(value)),
+                    Some(value) => {
+                        system.set_first(value);
+                        Ok(())
+                    }
                     None => Err("the battery is empty"),
                 };
                 motion.every(0.1).controlled(interval, controller).towards(self.end)
