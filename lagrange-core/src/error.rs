@@ -122,6 +122,14 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// Multipliers that grow without bound towards a pose at which constraints depend on one another: no bounded force keeps
+    /// the constraints there.
+    UnboundedMultipliers {
+        /// Constraints whose multipliers have a pole.
+        constraints: Names,
+        /// Time at which the motion would pass the pose.
+        time: f64,
+    },
     /// Constraints that do not hold together near a guess.
     Conflicting {
         /// The constraints that remain violated where the sum of squared residuals is least.

@@ -61,6 +61,10 @@ impl Display for Error {
                 f,
                 "constraints {constraints} depend on one another at t = {time} to first order, but not to second, so that they do not determine the accelerations; if they do wherever they hold, they hide a square, as those of |a| = l, |b| = l, |a - b| = 2l hide |a + b|^2 = 0: write its root `a + b = 0` in place of one of them; if at this pose alone, where branches of the motion meet, start beside it"
             ),
+            Self::UnboundedMultipliers { constraints, time } => write!(
+                f,
+                "the multipliers of {constraints} grow without bound towards t = {time}, a pose at which constraints depend on one another, so that no bounded force keeps them; end the motion before it, or give a joint play or a spring"
+            ),
             Self::Conflicting { constraints, distance, time } => write!(
                 f,
                 "the constraints {constraints} conflict near the state given at t = {time}: at best they miss by {distance:.3e}, a distance; change what one of them demands, leave one out, or guess elsewhere"

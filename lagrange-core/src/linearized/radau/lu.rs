@@ -74,6 +74,14 @@ impl<F: ComplexField + Element, N: Length> Lu<F, N> {
         true
     }
 
+    /// True if the determinant of the matrix is negative.
+    pub(super) fn has_negative_determinant(&self) -> bool
+    where
+        F: PartialOrd,
+    {
+        (0..N::COUNT).fold(false, |all, k| all ^ (self.exchanged[k] != k) ^ (self.rows[k][k] < F::zero()))
+    }
+
     /// Solves the equations with this right-hand side.
     pub(super) fn solve(&self, mut x: Array<F, N>) -> Array<F, N> {
         let product = |row: &[F], x: &[F]| row.iter().zip(x).fold(F::zero(), |sum, (a, x)| sum + *a * *x);

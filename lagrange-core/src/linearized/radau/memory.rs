@@ -9,6 +9,7 @@ use super::chart::{Chart, MARGIN, TURN};
 use super::collocation::Collocation;
 use super::equations::{Derivatives, Factorizations};
 use super::iteration::{NoSolution, StageChanges, growth, power, zip};
+use super::lu::Lu;
 use super::tableau::{Stages, Tableau};
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
@@ -51,6 +52,8 @@ pub struct RadauMemory<L: Lagrangian<Scalar: Real>, const S: usize = 3> {
     pub(super) age: Age,
     pub(super) factorizations: Factorizations<L::Scalar, L::N, S>,
     pub(super) contraction: f64,
+    /// Memory to compare the constraints at both ends of a step.
+    pub(super) orientation: Lu<L::Scalar, L::M>,
     /// Length and error of the last accepted step, for the controller.
     pub(super) accepted: Option<(f64, f64)>,
     pub(super) was_refused: bool,
@@ -175,11 +178,10 @@ where
     pub(super) fn accept(
         &mut self,
         method: &Radau<S>,
-        from: KnownStateOf<L>,
-        changes: StageChanges<L::Scalar, L::N, S>,
+        (from, step): (KnownStateOf<L>, Collocation<L::Scalar, L::N, S>),
         (error, iterations, turn): (f64, usize, f64),
     ) {
-        let h = self.factorizations.h;
+        let h = step.length;
         let length = Scalar::abs(h).to_f64();
         let error = error.max(1e-10);
         let mut ratio = growth::<L::Scalar, S>(error, iterations).min(MARGIN * TURN / turn);
@@ -197,11 +199,11 @@ where
         let keeps_length = keeps_derivatives && (1.0..=SAME).contains(&ratio);
         self.age = if keeps_derivatives { Age::Old } else { Age::Unknown };
         let planned = self.planned;
-        let step = if keeps_length { Scalar::abs(h) } else { Scalar::abs(h) * L::Scalar::constant(ratio) };
-        self.taken = Some((from, Collocation { time: from.t, length: h, start: from.y, changes }));
+        let next = if keeps_length { Scalar::abs(h) } else { Scalar::abs(h) * L::Scalar::constant(ratio) };
+        self.taken = Some((from, step));
         self.clock.now = self.at.t;
         // If the end has shortened this step, the planned length serves a continued motion.
-        let step = if self.clock.is_at_end() { larger(step, planned) } else { step };
-        self.planned = method.fit(step, &self.clock);
+        let next = if self.clock.is_at_end() { larger(next, planned) } else { next };
+        self.planned = method.fit(next, &self.clock);
     }
 }

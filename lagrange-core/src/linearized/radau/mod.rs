@@ -7,6 +7,7 @@ mod estimate;
 mod iteration;
 mod lu;
 mod memory;
+mod pose;
 mod step;
 mod tableau;
 
@@ -36,6 +37,10 @@ pub use tableau::Stages;
 /// Ordinary Differential Equations II*, IV.8; "Stiff differential equations solved by Radau methods", *Journal of
 /// Computational and Applied Mathematics* 111, 1999). Dense output is the collocation polynomial, of the order of the number
 /// of stages.
+///
+/// A pose at which constraints depend on one another, as where a linkage folds flat, is crossed on the branch of the motion.
+/// Where multipliers grow without bound towards it, the motion ends before
+/// ([`Error::UnboundedMultipliers`]).
 ///
 /// Derivatives have no value on the kink of a force, as of |x| at x = 0; there they are evaluated beside it, within the
 /// tolerance.

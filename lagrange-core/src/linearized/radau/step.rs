@@ -4,14 +4,15 @@ use core::fmt;
 
 use nalgebra::Const;
 
-use super::Radau;
 use super::chart::Chart;
 use super::collocation::Collocation;
 use super::equations::{Derivatives, Factorizations};
 use super::estimate::StartSlopes;
 use super::iteration::{Converged, Iteration, NoSolution, allowed, combination, reduction, zip};
+use super::lu::Lu;
 use super::memory::{Age, KnownState, RadauMemory};
 use super::tableau::{Stages, Tableau};
+use super::{Radau, pose};
 use crate::error::{Ending, Error, Pace};
 use crate::linearized::StateDerivatives;
 use crate::motion::method::clock::Clock;
@@ -29,6 +30,8 @@ enum Rejection {
     Inaccurate(f64, Entry),
     TooSlow(f64),
     Unsolved(Error),
+    /// Multipliers have a pole within the step.
+    AtPole(Error),
 }
 
 impl From<NoSolution> for Rejection {
@@ -82,6 +85,7 @@ where
             age: Age::Unknown,
             factorizations: Factorizations::new(),
             contraction: 1.0,
+            orientation: Lu::new(),
             accepted: None,
             was_refused: false,
             taken: None,
@@ -140,6 +144,7 @@ where
                 (part, Ending::MethodFailed { time: now, reason })
             }
             Err(Rejection::Unsolved(error)) => (0.5, Ending::of(error, now)),
+            Err(Rejection::AtPole(error)) => return Step::Failed(Ending::of(error, now)),
         };
         memory.planned = Scalar::abs(h) * L::Scalar::constant(part);
         memory.was_refused = true;
@@ -238,8 +243,10 @@ where
         let end = <LagrangianVectorField as VectorField<L>>::project(system, &point)?;
         z[S - 1] = at.change_to(&end);
         let next = KnownState::at(system, &end, statistics)?;
+        let step = Collocation { time: at.t, length: h, start: at.y, changes: z };
+        pose::check(system, &mut memory.orientation, (at, &step, &end)).map_err(Rejection::AtPole)?;
         let from = core::mem::replace(at, next);
-        memory.accept(self, from, z, (estimate.size, iterations, turn));
+        memory.accept(self, (from, step), (estimate.size, iterations, turn));
         Ok(())
     }
 }
