@@ -57,6 +57,8 @@ pub struct RadauMemory<L: Lagrangian<Scalar: Real>, const S: usize = 3> {
     /// Length and error of the last accepted step, for the controller.
     pub(super) accepted: Option<(f64, f64)>,
     pub(super) was_refused: bool,
+    /// Reason why the equations had no solution at a stage of a longer step from the same state.
+    pub(super) obstacle: Option<Error>,
     /// The state before the last accepted step, and its dense output.
     pub(super) taken: Option<(KnownStateOf<L>, Collocation<L::Scalar, L::N, S>)>,
 }
@@ -194,7 +196,7 @@ where
         if self.was_refused {
             ratio = ratio.min(1.0);
         }
-        (self.accepted, self.was_refused) = (Some((length, error.max(1e-2))), false);
+        (self.accepted, self.was_refused, self.obstacle) = (Some((length, error.max(1e-2))), false, None);
         let keeps_derivatives = self.contraction <= REUSED;
         let keeps_length = keeps_derivatives && (1.0..=SAME).contains(&ratio);
         self.age = if keeps_derivatives { Age::Old } else { Age::Unknown };

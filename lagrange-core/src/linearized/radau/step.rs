@@ -88,6 +88,7 @@ where
             orientation: Lu::new(),
             accepted: None,
             was_refused: false,
+            obstacle: None,
             taken: None,
         })
     }
@@ -141,9 +142,13 @@ where
             }
             Err(Rejection::TooSlow(part)) => {
                 let reason = "the iteration of a step does not converge, however short it is";
-                (part, Ending::MethodFailed { time: now, reason })
+                let obstacle = memory.obstacle.clone().map(|error| Ending::of(error, now));
+                (part, obstacle.unwrap_or(Ending::MethodFailed { time: now, reason }))
             }
-            Err(Rejection::Unsolved(error)) => (0.5, Ending::of(error, now)),
+            Err(Rejection::Unsolved(error)) => {
+                memory.obstacle = Some(error.clone());
+                (0.5, Ending::of(error, now))
+            }
             Err(Rejection::AtPole(error)) => return Step::Failed(Ending::of(error, now)),
         };
         memory.planned = Scalar::abs(h) * L::Scalar::constant(part);
