@@ -84,6 +84,96 @@ fn rotations_that_have_decayed_take_no_more_sweeps() {
     assert!(statistics.evaluations < 18 * 2 * statistics.accepted, "{statistics:?}");
 }
 
+/// A free body by its principal moments of inertia.
+#[derive(Clone, Lagrangian)]
+#[coordinates(q: [4])]
+#[frame(body: rotate(q))]
+#[define(w = quat_rate_body(q, q_dot))]
+#[lagrangian((inertia[0]*w[0]^2 + inertia[1]*w[1]^2 + inertia[2]*w[2]^2)/2)]
+struct Free {
+    inertia: [f64; 3],
+}
+
+/// By symmetry, all terms of a momentum cancel but for their round-off.
+#[test]
+fn steady_rotations_of_symmetric_bodies_go_on() {
+    for inertia in [[1.0, 1.0, 2.0], [2.0, 1.0, 2.0], [1.0, 1.0, 1.0], [1.0, 1.0 + 1e-9, 2.0]] {
+        for v in [[0.0, 0.005, 2.0, 0.0], [0.0, 0.0, 2.0, 0.0], [0.0, 0.1, 0.0, 1.0]] {
+            let (free, start) = (Free { inertia }, State::new([1.0, 0.0, 0.0, 0.0], v));
+            let exact = free.integrate(start, 2.0, Taylor::default()).unwrap();
+            let off = |path: Trajectory<&Free>| (path.end().state().q - exact.end().state().q).amax();
+            for h in [0.01, 0.001] {
+                let allowed = 10.0 * h * h;
+                assert!(off(free.integrate(start, 2.0, Lobatto::<2>::with_step(h)).unwrap()) < allowed);
+                assert!(off(free.integrate(start, 2.0, Lobatto::<4>::with_step(h)).unwrap()) < 1e-9);
+                assert!(off(free.integrate(start, 2.0, DAlembert::with_step(h)).unwrap()) < allowed);
+            }
+        }
+    }
+}
+
+/// A mass that depends on the place, beside a force of the velocity squared.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2*(1 + 0.9*cos(x))/2 + cos(x))]
+struct Varying;
+
+/// The terms of a diverged iteration are so large that its residuals are round-off of them.
+#[test]
+fn iterations_that_diverge_are_refused() {
+    let start = State::new([2.721187321062468], [-1.9724775945970947]);
+    for h in [0.215, 0.25, 0.3, 0.4] {
+        let refused = |ending: Ending| matches!(ending, Ending::MethodFailed { .. });
+        assert!(refused(ending(&Varying, start, h, Lobatto::<2>::with_step(h))));
+        assert!(refused(ending(&Varying, start, h, Lobatto::<3>::with_step(h))));
+        assert!(refused(ending(&Varying, start, h, DAlembert::with_step(h))));
+    }
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 + k*cos(x))]
+struct Angle<T> {
+    k: T,
+}
+
+/// What is refused at an angle is refused a thousand turns on, where rounding moves momenta by more.
+#[test]
+fn far_angles_are_no_excuse() {
+    for turns in [0.0, 1e3, 1e4, 1e6] {
+        let start = State::new([turns * std::f64::consts::TAU + 2.4], [1.7]);
+        for h in [3.0, 3.1, 3.214, 3.3, 3.5] {
+            let path = Angle { k: 1.0 }.motion(start).by(Gauss::<1>::with_step(h)).towards(h).unwrap();
+            let Ending::Complete { .. } = path.ending() else { continue };
+            let (first, last) = (path.start(), path.end());
+            let middle = f64::midpoint(first.state().q[0], last.state().q[0]);
+            let off = last.state().v[0] - (first.state().v[0] - h * middle.sin());
+            assert!(off.abs() < 1e-6 * (1.0 + turns * 1e-6), "{turns} turns, {h}: off by {off:e}");
+        }
+    }
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - k*x^2/2)]
+struct Oscillator<T> {
+    k: T,
+}
+
+/// The midpoint rule keeps the energy of a spring, but for the round-off of 10⁴ steps.
+#[test]
+fn single_precision_is_iterated_to_the_end() {
+    for h in [0.5, 1.0, 1.5, 1.75] {
+        let path = Oscillator { k: 1.0_f32 }
+            .motion(State::new([1.0_f32], [0.3]))
+            .by(Gauss::<1>::with_step(h))
+            .towards(1e4 * h as f32)
+            .unwrap();
+        let ratio = path.end().energy() / path.start().energy();
+        assert!(!path.ending().is_complete() || (ratio - 1.0).abs() < 0.05, "{h}: {ratio}");
+    }
+}
+
 /// A motion that is led to a time just after a step goes on with steps of its length.
 #[test]
 fn short_steps_do_not_spoil_the_next() {

@@ -87,17 +87,17 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
             let mut are_last = of_momenta.settle(
                 &size,
                 &terms,
-                || self.wider(&terms, &stages.multipliers[0]),
-                |wider| are_hidden(&size, wider, &stages.largest),
+                [&|| self.hidden(), &|| self.wider(&terms, &stages.multipliers[0])],
+                || are_hidden(&size, &terms, &stages.largest),
             )?;
             if let Some(matrices) = &matrices {
                 let [terms, wider] = self.constraint_terms(&states);
-                let is_noise = |_: &_| {
+                let is_noise = || {
                     let jacobian = self.system.constraint_jacobian(&states[S - 1]);
                     have_hardly_turned(&jacobian, |a| moved_by(matrices, a))
                 };
                 let size = sizes(&residuals.constraints);
-                are_last &= of_constraints.settle(&size, &terms, || wider, is_noise)?;
+                are_last &= of_constraints.settle(&size, &terms, [&|| wider; 2], is_noise)?;
             }
             match &matrices {
                 None => self.correct(stages, &residuals),
@@ -138,6 +138,8 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         let mut both = [[Array::filled(L::Scalar::constant(0.0)); S]; 2];
         let length = self.h.magnitude();
         for (i, state) in states.iter().enumerate() {
+            // The forces of the last stage of a Lobatto pair act on no stage.
+            let acts = self.tableau.hat.iter().any(|row| row[i] != 0.0);
             let (p, mut r) =
                 (self.system.completed_momentum(state), self.system.completed_momentum_rate(state));
             let mut size = magnitudes(&r);
@@ -147,7 +149,8 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
                 r = r.plus(&force);
             }
             for k in 0..<L::N>::COUNT {
-                let all = p[k].magnitude() + self.momenta[0][k].magnitude() + length * size[k];
+                let push = if acts { length * size[k] } else { L::Scalar::constant(0.0) };
+                let all = p[k].magnitude() + self.momenta[0][k].magnitude() + push;
                 terms[k] = terms[k] + all * L::Scalar::constant(1.0 / S as f64);
             }
             (both[0][i], both[1][i]) = (array(p), array(r));
@@ -250,6 +253,17 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         wider
     }
 
+    /// Bounds of the terms Mₖⱼ q̇ⱼ of the momenta that symmetry may hide in an entry of M: by Schwarz's inequality they are at
+    /// most √(Mₖₖ Mⱼⱼ) |q̇ⱼ|.
+    #[inline(never)]
+    fn hidden(&self) -> Array<L::Scalar, L::N> {
+        let m = self.system.completed_mass_matrix(&self.from.state);
+        let root = |k: usize| Scalar::sqrt(m[(k, k)].magnitude());
+        let speed = |j: usize| root(j) * self.from.state.v[j].magnitude();
+        let sum = (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, j| sum + speed(j));
+        Array::from_fn(|k| root(k) * sum)
+    }
+
     /// Corrects the stages without constraints: M δVᵢ = −Gᵢ.
     fn correct(
         &self,
@@ -346,8 +360,8 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
             let mut is_last = of_momenta.settle(
                 &size,
                 &terms,
-                || self.wider(&terms, &array(multipliers)),
-                |wider| are_hidden(&size, wider, &stages.largest),
+                [&|| self.hidden(), &|| self.wider(&terms, &array(multipliers))],
+                || are_hidden(&size, &terms, &stages.largest),
             )?;
             let terms = terms_of_rates(system, &state);
             let wider = || {
@@ -355,7 +369,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
                 Array::from_fn(|a| terms[a] + positions[a] / self.h.magnitude())
             };
             // The equations are linear, and factorized at this state.
-            is_last &= of_rates.settle(&magnitudes(&rate), &terms, wider, |_| true)?;
+            is_last &= of_rates.settle(&magnitudes(&rate), &terms, [&wider; 2], || true)?;
             let correction = system.solve_with(&stages.factor, &vector(residual.map(|x| -x)), &rate);
             state.v = state.v.plus(&correction.accelerations);
             multipliers = multipliers.plus(&correction.multipliers);
@@ -376,8 +390,8 @@ fn has_velocity_constraint<L: Lagrangian>() -> bool {
 
 /// True if residuals may be the round-off of hidden terms: they are within a thousandth of the visible ones, or of the largest
 /// so far, because a motion that comes to rest leaves terms of the size of its whole way.
-fn are_hidden<T: Parts, N: Length>(size: &Array<T, N>, wider: &Array<T, N>, largest: &Array<T, N>) -> bool {
-    are_within(HIDDEN, size, &Array::from_fn(|k| wider[k] + largest[k]))
+fn are_hidden<T: Parts, N: Length>(size: &Array<T, N>, terms: &Array<T, N>, largest: &Array<T, N>) -> bool {
+    are_within(HIDDEN, size, &Array::from_fn(|k| terms[k] + largest[k]))
 }
 
 /// The move that changes constraint `a` by −1, and no other.

@@ -143,13 +143,13 @@ fn onto_constraints<L: Lagrangian<Scalar: Parts>>(
             let rate = terms_of_rates(system, &there);
             Array::from_fn(|a| terms[a] + h.magnitude() * rate[a])
         };
-        let is_noise = |_: &_| {
+        let is_noise = || {
             have_hardly_turned(&system.constraint_jacobian(&there), |a| {
                 let unit = Array::from_fn(|b| L::Scalar::constant(if a == b { 1.0 } else { 0.0 }));
                 array(system.solve_with(factor, &none, &vector(unit)).accelerations)
             })
         };
-        let is_last = residuals.settle(&magnitudes(&residual), &terms, wider, is_noise)?;
+        let is_last = residuals.settle(&magnitudes(&residual), &terms, [&wider; 2], is_noise)?;
         let correction = system.solve_with(factor, &none, &residual.each(|x| x / h));
         kick = kick.plus(&correction.accelerations);
         if is_last {
@@ -182,7 +182,7 @@ fn along_constraints<L: Lagrangian<Scalar: Parts>>(
             Array::from_fn(|a| terms[a] + residual[a] / half.magnitude())
         };
         // The equations are linear, and factorized at this state.
-        let is_last = residuals.settle(&magnitudes(&rate), &terms, wider, |_| true)?;
+        let is_last = residuals.settle(&magnitudes(&rate), &terms, [&wider; 2], || true)?;
         // Added to the velocities, which may be smaller than their change.
         let correction = system.solve_with(factor, &none, &rate).accelerations;
         (v, rest) = compensated(&v, &array(correction), &rest);
