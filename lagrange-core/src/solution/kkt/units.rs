@@ -54,10 +54,13 @@ impl<T: Real, N: Length, M: Length> Units<T, N, M> {
 
     fn of_massless(&self, i: usize, m: &Array<Array<T, N>, N>, f: &Array<Array<T, N>, M>) -> T {
         let (zero, one) = (T::constant(0.0), T::constant(1.0));
-        let unit = |j: usize| if self.coordinates[j] > zero { self.coordinates[j] } else { one };
-        let inertia = (0..N::COUNT).map(|j| Scalar::abs(m[i][j]) * unit(j));
+        // Two coordinates that have an inertia only together share it.
+        let inertia = |j: usize| match m[j][j] == zero {
+            true => Scalar::sqrt(Scalar::abs(m[i][j])),
+            false => Scalar::abs(m[i][j]) * self.coordinates[j],
+        };
         let couplings = (0..M::COUNT).map(|a| Scalar::abs(self.of_row(a, f[a][i])));
-        let strongest = inertia.chain(couplings).fold(zero, larger);
+        let strongest = (0..N::COUNT).map(inertia).chain(couplings).fold(zero, larger);
         if strongest > zero { one / strongest } else { one }
     }
 }
