@@ -5,7 +5,11 @@ use nalgebra::{Complex, Const};
 use super::lu::Lu;
 
 /// Number of stages of a method: 3, 5 or 7, for order 5, 9 or 13.
-///
+#[diagnostic::on_unimplemented(
+    message = "`Radau` has 3, 5 or 7 stages",
+    label = "no such number of stages",
+    note = "`.stages::<5>()` for errors below 10⁻⁶, `.stages::<7>()` below 10⁻⁹"
+)]
 pub trait Stages {
     /// Times of the stages in units of the step: the zeros of dˢ⁻¹/dxˢ⁻¹ (xˢ⁻¹ (x − 1)ˢ).
     #[doc(hidden)]

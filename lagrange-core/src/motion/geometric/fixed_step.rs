@@ -267,9 +267,11 @@ fn failure<L: Lagrangian<Scalar: Real>>(
         None => Ending::MethodFailed {
             time,
             reason: match <L::M>::COUNT {
-                0 => "the iteration of a step does not converge; take shorter steps",
+                0 => {
+                    "the iteration of a step does not converge; take shorter steps, or with strong damping or stiff springs `Radau`"
+                }
                 _ => {
-                    "the iteration of a step does not converge; take shorter steps, or, if constraints depend on one another, `Dop853`, `Taylor` or `Radau`"
+                    "the iteration of a step does not converge; take shorter steps, or with strong damping or stiff springs `Radau`, or, if constraints depend on one another, `Dop853`, `Taylor` or `Radau`"
                 }
             },
         },

@@ -110,6 +110,11 @@ pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
 
 /// A scheme of order 2 that is its own inverse with the step −h, so that [compositions](super::Composition) of its steps are
 /// of higher order.
+#[diagnostic::on_unimplemented(
+    message = "steps of `{Self}` are not composed",
+    label = "`Verlet` and `DAlembert` are composed",
+    note = "`Gauss` and `Lobatto` are of higher order with more stages: `Gauss::<4>`, `Lobatto::<4>`"
+)]
 pub trait SymmetricScheme {}
 
 /// Coordinates or velocities, and their rounding errors.
