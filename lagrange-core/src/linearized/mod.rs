@@ -59,7 +59,7 @@ pub use jacobian::{Jacobian, PartialDerivatives};
 pub use linearization::Linearization;
 #[cfg(feature = "alloc")]
 pub use lyapunov::LyapunovSpectrum;
-pub use radau::{Collocation, Radau, RadauMemory, Stages};
+pub use radau::{Collocation, Radau, RadauMemory, RadauStages};
 #[cfg(feature = "alloc")]
 pub use sampled_sensitivity::SampledSensitivity;
 #[cfg(feature = "alloc")]

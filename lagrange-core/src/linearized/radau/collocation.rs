@@ -3,7 +3,7 @@
 use nalgebra::Const;
 
 use super::iteration::StageChanges;
-use super::tableau::{Stages, basis};
+use super::tableau::{RadauStages, basis};
 use crate::number::Real;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
@@ -21,7 +21,7 @@ pub struct Collocation<T: Element, N: Length, const S: usize> {
 
 impl<T: Real, N: Length, const S: usize> Collocation<T, N, S>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     /// Change since the start of the step and its derivative, at θ steps after the start.
     pub(super) fn change(&self, theta: f64) -> [PhaseVector<T, N>; 2] {
@@ -38,7 +38,7 @@ where
 
 impl<T: Real, N: Length, const S: usize> Interpolant<T, N> for Collocation<T, N, S>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     fn at(&self, t: T) -> StagePoint<T, N> {
         let [mut y, slope] = self.change(((t - self.time) / self.length).to_f64());

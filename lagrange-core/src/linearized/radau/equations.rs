@@ -7,7 +7,7 @@ use nalgebra::{Complex, ComplexField, Const};
 
 use super::chart::Chart;
 use super::lu::{Lu, Square};
-use super::tableau::Stages;
+use super::tableau::RadauStages;
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::linearized::jacobian::name_of;
@@ -104,7 +104,7 @@ pub(super) struct Factorizations<T: Real, N: Length, const S: usize> {
 
 impl<T: Real, N: Length, const S: usize> Factorizations<T, N, S>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     pub(super) fn new() -> Self {
         let complex = from_fn(|k| (k < <Const<S>>::COMPLEX.len()).then(Lu::new));
@@ -144,14 +144,14 @@ fn from_real<T: Real>(x: T) -> Complex<T> {
 
 fn real<T: Real, const S: usize>(h: T) -> T
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     T::constant(<Const<S>>::REAL) / h
 }
 
 fn complex<T: Real, const S: usize>(k: usize, h: T) -> Complex<T>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     let [re, im] = <Const<S>>::COMPLEX[k].map(T::constant);
     Complex::new(re / h, im / h)

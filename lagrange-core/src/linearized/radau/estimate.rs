@@ -5,7 +5,7 @@ use nalgebra::Const;
 use super::iteration::{NoSolution, zip};
 use super::memory::RadauMemory;
 use super::step::rates_at;
-use super::tableau::Stages;
+use super::tableau::RadauStages;
 use crate::linearized::StateDerivatives;
 use crate::motion::method::control::Tolerance;
 use crate::names::Entry;
@@ -46,7 +46,7 @@ pub(super) struct StartSlopes<L: Lagrangian> {
 
 impl<L: StateDerivatives<Scalar: Real>, const S: usize> RadauMemory<L, S>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     /// Estimates the error in the tangent plane, where a damping acts on all of it, and along the normals that of the
     /// coordinates: velocities along the normals follow from those in the plane.

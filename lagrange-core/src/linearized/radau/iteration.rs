@@ -3,7 +3,7 @@
 use nalgebra::Const;
 
 use super::equations::{Derivatives, Factorizations};
-use super::tableau::{Stages, Tableau};
+use super::tableau::{RadauStages, Transformation};
 use crate::error::Error;
 use crate::motion::method::control::Tolerance;
 use crate::number::{Real, Scalar, larger, smaller};
@@ -75,7 +75,7 @@ pub(super) fn zip<T: Element, N: Length>(
 
 /// Linear equations of an iteration for the stages of a method.
 pub(super) struct Iteration<'a, T: Real, N: Length, const S: usize> {
-    pub(super) tableau: &'a Tableau<S>,
+    pub(super) transformation: &'a Transformation<S>,
     pub(super) derivatives: &'a Derivatives<T, N>,
     pub(super) factorizations: &'a Factorizations<T, N, S>,
     /// An error counts in units of this tolerance at the state `y`, and may be `allowed` of them.
@@ -86,18 +86,18 @@ pub(super) struct Iteration<'a, T: Real, N: Length, const S: usize> {
 
 impl<T: Real, N: Length, const S: usize> Iteration<'_, T, N, S>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     /// Corrections of the stages `z` with these rates.
     fn corrections(&self, z: &StageChanges<T, N, S>, rates: &StageChanges<T, N, S>) -> StageChanges<T, N, S> {
         let h = self.factorizations.h;
-        let mut residual = product(&self.tableau.slopes, z);
+        let mut residual = product(&self.transformation.slopes, z);
         for (slope, rate) in residual.iter_mut().zip(rates) {
             *slope = zip(slope, rate, |slope, rate| rate - slope / h);
         }
-        let mut right = product(&self.tableau.to_eigenvectors, &residual);
+        let mut right = product(&self.transformation.to_eigenvectors, &residual);
         self.factorizations.solve(self.derivatives, &mut right);
-        product(&self.tableau.from_eigenvectors, &right)
+        product(&self.transformation.from_eigenvectors, &right)
     }
 
     /// Iterates from the guess `z`. `rates` evaluates the equations at a stage with these changes.

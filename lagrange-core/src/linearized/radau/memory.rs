@@ -10,7 +10,7 @@ use super::collocation::Collocation;
 use super::equations::{Derivatives, Factorizations};
 use super::iteration::{NoSolution, StageChanges, growth, power, zip};
 use super::lu::Lu;
-use super::tableau::{Stages, Tableau};
+use super::tableau::{RadauStages, Transformation};
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::motion::method::clock::Clock;
@@ -46,7 +46,7 @@ pub struct RadauMemory<L: Lagrangian<Scalar: Real>, const S: usize = 3> {
     /// Length of the next step; zero before the first is estimated.
     pub(super) planned: L::Scalar,
     pub(super) at: KnownStateOf<L>,
-    pub(super) tableau: Tableau<S>,
+    pub(super) transformation: Transformation<S>,
     pub(super) chart: Chart<L>,
     pub(super) derivatives: Derivatives<L::Scalar, L::N>,
     pub(super) age: Age,
@@ -122,7 +122,7 @@ pub(super) type KnownStateOf<L> =
 
 impl<L: StateDerivatives<Scalar: Real>, const S: usize> RadauMemory<L, S>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     /// Stages on the polynomial of the last step, as changes from the state; zero if there is none.
     pub(super) fn guess(&self, h: L::Scalar) -> StageChanges<L::Scalar, L::N, S> {

@@ -23,7 +23,7 @@ use crate::number::Real;
 
 pub use collocation::Collocation;
 pub use memory::RadauMemory;
-pub use tableau::Stages;
+pub use tableau::RadauStages;
 
 /// The implicit Runge–Kutta method Radau IIA with 3, 5 or 7 stages, of order 5, 9 or 13: for stiff systems.
 ///
@@ -101,7 +101,7 @@ impl Radau {
     /// ```
     pub fn stages<const STAGES: usize>(self) -> Radau<STAGES>
     where
-        Const<STAGES>: Stages,
+        Const<STAGES>: RadauStages,
     {
         let Self { relative, absolute, max_step, first_step, limits } = self;
         Radau { relative, absolute, max_step, first_step, limits }

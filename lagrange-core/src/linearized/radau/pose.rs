@@ -10,7 +10,7 @@ use nalgebra::Const;
 use super::collocation::Collocation;
 use super::lu::Lu;
 use super::memory::KnownStateOf;
-use super::tableau::Stages;
+use super::tableau::RadauStages;
 use crate::error::Error;
 use crate::number::{Real, Scalar, power_of_epsilon};
 use crate::solution::interpolant::Interpolant;
@@ -34,7 +34,7 @@ pub(super) fn check<L: Lagrangian<Scalar: Real>, const S: usize>(
     (from, step, end): (&KnownStateOf<L>, &Collocation<L::Scalar, L::N, S>, &StateOf<L>),
 ) -> Result<(), Error>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     if <L::M>::COUNT == 0 || !is_turned(system, orientation, from, end) {
         return Ok(());
@@ -72,7 +72,7 @@ struct Loads<T: Element, N: Length, M: Length> {
 }
 
 impl<T: Real, N: Length, M: Length> Loads<T, N, M> {
-    /// Those at a point, once it is on the constraints. `None` if the equations leave less than half of the digits.
+    /// Loads at a point, which is moved onto the constraints. `None` if rounding leaves less than half of the digits.
     fn at<L: Lagrangian<Scalar = T, N = N, M = M>>(
         system: &L,
         from: &KnownStateOf<L>,
@@ -111,7 +111,7 @@ fn is_turned<L: Lagrangian<Scalar: Real>>(
 /// The point at a part of a step.
 fn within<T: Real, N: Length, const S: usize>(step: &Collocation<T, N, S>, part: f64) -> StagePoint<T, N>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     step.at(step.time + T::constant(part) * step.length)
 }

@@ -11,7 +11,7 @@ use super::estimate::StartSlopes;
 use super::iteration::{Converged, Iteration, NoSolution, allowed, combination, reduction, zip};
 use super::lu::Lu;
 use super::memory::{Age, KnownState, RadauMemory};
-use super::tableau::{Stages, Tableau};
+use super::tableau::{RadauStages, Transformation};
 use super::{Radau, pose};
 use crate::error::{Ending, Error, Pace};
 use crate::linearized::StateDerivatives;
@@ -51,7 +51,7 @@ impl From<Error> for Rejection {
 
 impl<L: StateDerivatives<Scalar: Real>, const S: usize> Method<L> for Radau<S>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     type Memory = RadauMemory<L, S>;
     type Interpolant = Collocation<L::Scalar, L::N, S>;
@@ -79,7 +79,7 @@ where
             clock: Clock::new(start.t, None),
             planned: L::Scalar::constant(0.0),
             at,
-            tableau: Tableau::new(),
+            transformation: Transformation::new(),
             chart: Chart::at(system, start),
             derivatives: Derivatives::new(),
             age: Age::Unknown,
@@ -182,7 +182,7 @@ where
 
 impl<const S: usize> Radau<S>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     /// Length of the first step.
     fn first<L: Lagrangian<Scalar: Real>>(&self, memory: &RadauMemory<L, S>) -> L::Scalar {
@@ -211,7 +211,7 @@ where
     ) -> Result<(), Rejection> {
         let tolerance = self.tolerance::<L::Scalar>();
         let guess = memory.guess(h);
-        let RadauMemory { at, tableau, chart, derivatives, factorizations, contraction, .. } = memory;
+        let RadauMemory { at, transformation, chart, derivatives, factorizations, contraction, .. } = memory;
         let mut z = guess;
         for change in &mut z {
             *change = chart.tangents(system, change, at.t)?;
@@ -227,17 +227,18 @@ where
             Ok::<_, NoSolution>(state)
         };
         let allowed = allowed::<L::Scalar, S>(tolerance.relative);
-        let iteration = Iteration { tableau, derivatives, factorizations, tolerance, y: &at.y, allowed };
+        let iteration =
+            Iteration { transformation, derivatives, factorizations, tolerance, y: &at.y, allowed };
         let Converged { iterations, contraction: found } = iteration.solve(&mut z, |k, change| {
             Ok(rates_at(system, chart, &there(k, change)?, &at.active, statistics)?)
         })?;
         *contraction = found;
-        let tangent = combination(&tableau.start, &z);
+        let tangent = combination(&transformation.start, &z);
         // Stages on the constraints, for dense output.
         for (k, change) in z.iter_mut().enumerate() {
             *change = at.change_to(&there(k, change)?);
         }
-        let slopes = StartSlopes { tangent, all: combination(&tableau.start, &z) };
+        let slopes = StartSlopes { tangent, all: combination(&transformation.start, &z) };
         let estimate = memory.estimate(system, &slopes, tolerance, statistics)?;
         let at = &mut memory.at;
         if estimate.is_too_large() {

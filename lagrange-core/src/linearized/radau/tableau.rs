@@ -10,7 +10,7 @@ use super::lu::Lu;
     label = "no such number of stages",
     note = "`.stages::<5>()` for errors below 10⁻⁶, `.stages::<7>()` below 10⁻⁹"
 )]
-pub trait Stages {
+pub trait RadauStages {
     /// Times of the stages in units of the step: the zeros of dˢ⁻¹/dxˢ⁻¹ (xˢ⁻¹ (x − 1)ˢ).
     #[doc(hidden)]
     const NODES: &'static [f64];
@@ -22,13 +22,13 @@ pub trait Stages {
     const COMPLEX: &'static [[f64; 2]];
 }
 
-impl Stages for Const<3> {
+impl RadauStages for Const<3> {
     const NODES: &'static [f64] = &[0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
     const REAL: f64 = 3.637_834_252_744_496;
     const COMPLEX: &'static [[f64; 2]] = &[[2.681_082_873_627_752_3, 3.050_430_199_247_410_5]];
 }
 
-impl Stages for Const<5> {
+impl RadauStages for Const<5> {
     const NODES: &'static [f64] = &[
         0.057_104_196_114_517_68,
         0.276_843_013_638_123_8,
@@ -41,7 +41,7 @@ impl Stages for Const<5> {
         &[[5.700_953_298_671_79, 3.210_265_600_308_549_7], [3.655_694_325_463_572, 6.543_736_899_360_077]];
 }
 
-impl Stages for Const<7> {
+impl RadauStages for Const<7> {
     const NODES: &'static [f64] = &[
         0.029_316_427_159_784_893,
         0.148_078_599_668_484_3,
@@ -70,7 +70,7 @@ pub(super) fn basis(nodes: &[f64], j: usize, x: f64) -> [f64; 2] {
 
 /// What follows from the nodes and eigenvalues. Stages are differences z from the start of a step, on a polynomial.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Tableau<const S: usize> {
+pub(super) struct Transformation<const S: usize> {
     /// Slopes of the polynomial at the stages by z: the inverse of the method's matrix.
     pub(super) slopes: [[f64; S]; S],
     /// Slope of the polynomial at the start of the step by z.
@@ -81,9 +81,9 @@ pub(super) struct Tableau<const S: usize> {
     pub(super) to_eigenvectors: [[f64; S]; S],
 }
 
-impl<const S: usize> Tableau<S>
+impl<const S: usize> Transformation<S>
 where
-    Const<S>: Stages,
+    Const<S>: RadauStages,
 {
     pub(super) fn new() -> Self {
         let nodes = <Const<S>>::NODES;
@@ -144,10 +144,10 @@ mod tests {
     /// Differential Equations II*, theorem IV.5.1).
     fn satisfies_its_order_conditions<const S: usize>()
     where
-        Const<S>: Stages,
+        Const<S>: RadauStages,
     {
-        let (c, tableau) = (<Const<S>>::NODES, Tableau::<S>::new());
-        let a = inverse(&tableau.slopes);
+        let (c, transformation) = (<Const<S>>::NODES, Transformation::<S>::new());
+        let a = inverse(&transformation.slopes);
         for k in 1..2 * S {
             let conditions = if k <= S { 0..S } else { S - 1..S };
             for i in conditions {
@@ -161,9 +161,9 @@ mod tests {
     /// Eigenvectors by the products of matrices; the eigenvalues' sums of powers are the traces of powers of the matrix.
     fn has_its_eigenvectors<const S: usize>()
     where
-        Const<S>: Stages,
+        Const<S>: RadauStages,
     {
-        let Tableau { slopes, from_eigenvectors: t, to_eigenvectors, .. } = Tableau::<S>::new();
+        let Transformation { slopes, from_eigenvectors: t, to_eigenvectors, .. } = Transformation::<S>::new();
         for i in 0..S {
             for k in 0..S {
                 let left = (0..S).map(|j| slopes[i][j] * t[j][k]);
@@ -244,7 +244,7 @@ mod tests {
     /// Every number of the tables is the nearest to a zero, by its polynomial with integer coefficients.
     fn is_rounded<const S: usize>()
     where
-        Const<S>: Stages,
+        Const<S>: RadauStages,
     {
         let factorial = |n: usize| (1..=n).fold(1.0, |product, k| product * k as f64);
         let binomial = |k: usize| factorial(S) / factorial(k) / factorial(S - k);

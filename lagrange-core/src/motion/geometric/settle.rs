@@ -9,8 +9,8 @@ use crate::vector::{Array, Length, Matrix};
 
 /// Largest number of sweeps. An iteration that contracts by a factor of ½ reaches round-off in 52.
 const SWEEPS: usize = 60;
-/// Number of sweeps after which terms that an equation may hide count as its own. An iteration that contracts so slowly that
-/// it has not come to their round-off by then is no shorter for it.
+/// Number of sweeps after which the hidden terms of an equation count, too. A slow iteration does not end early by them,
+/// because its residuals are then far above their round-off.
 const PATIENCE: usize = 20;
 /// Largest residual that may remain where it no longer shrinks, as a part of its terms: 4096 ε in double precision, and 32 ε
 /// in single precision, where 4096 ε would be an error of 5·10⁻⁴.

@@ -19,8 +19,8 @@ pub(crate) struct Clock<T> {
     farthest: T,
     /// Step length, if all steps have the same length.
     fixed_step: Option<T>,
-    /// Largest excess of the last step over the fixed step length, which covers the round-off of start, end
-    /// and step length.
+    /// The last step may be longer than the fixed step length by this much: the round-off of the start, the end and
+    /// the step length.
     slack: T,
 }
 

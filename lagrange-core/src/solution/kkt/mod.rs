@@ -72,7 +72,7 @@ impl<T: Real> Rank<T> {
 /// A solution, and for each constraint whether it belongs to the independent ones that determine it.
 pub(crate) type Solved<T, N, M> = (Solution<T, N, M>, Array<bool, M>);
 
-/// Number of corrections of a solution. Each takes off some four digits of an error, and round-off remains.
+/// Number of refinements. On independent constraints, errors of multipliers up to 10⁷ of 1 were gone after four.
 const REFINEMENTS: usize = 4;
 
 /// Solves the equations; see [`Factors`].
@@ -86,9 +86,9 @@ pub(crate) fn solve<T: Real, N: Length, M: Length>(
     Ok((solution, factors.rows.independent()))
 }
 
-/// Corrects a solution by that for its residuals (iterative refinement: Higham, *Accuracy and Stability of Numerical
-/// Algorithms*, 12.2). A multiplier that is tiny beside others in natural units is off by the round-off of these before,
-/// and by its own after.
+/// Solves the equations for the residuals of a solution, and adds the result to it (iterative refinement: Higham, *Accuracy
+/// and Stability of Numerical Algorithms*, 12.2). In natural units, a multiplier may be tiny beside the others, and has the
+/// round-off of the others; each refinement reduces this error.
 fn refined<T: Real, N: Length, M: Length>(
     equations: &KktSystem<T, N, M>,
     factors: &Factors<T, N, M>,

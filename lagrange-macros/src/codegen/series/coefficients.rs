@@ -83,7 +83,7 @@ impl Recurrences {
         Self { coordinates, ..Self::default() }
     }
 
-    /// Returns a part of the coefficient of order k; a register that holds 0 if the part vanishes.
+    /// Returns the register of a part of the coefficient of order k. If the part vanishes, the register holds 0.
     pub(super) fn newest(&mut self, of: SeriesQuantity, stage: Stage) -> Register {
         self.part(of, stage).unwrap_or_else(|| self.schedule.constant(0.0))
     }

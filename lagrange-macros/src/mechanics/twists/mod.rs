@@ -45,7 +45,7 @@ impl Formulation for Twists<'_> {
     }
 
     /// Returns the form over the rates of all velocities. If some [outer velocities](Twists::outer) are not
-    /// generalized ones, returns the form over the rates of the outer velocities first.
+    /// generalized velocities, a form over the rates of the outer velocities precedes it.
     fn forms(&self, graph: &mut Graph) -> Vec<Form> {
         let n = self.problem.coordinates.len();
         let mut forms = Vec::new();

@@ -141,8 +141,8 @@ impl<'p> Planner<'p> {
         }
     }
 
-    /// Computes the operation at this index, unless it was computed together with another, and stores its
-    /// result if it is a result of the function.
+    /// Computes the operation at this index, unless an earlier operation was computed together with it. Stores the
+    /// value if it is a result of the function.
     pub(super) fn compute(&mut self, index: usize) {
         let register = Register::at(index);
         match self.schedule.operations[index] {

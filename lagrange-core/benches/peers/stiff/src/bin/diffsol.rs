@@ -1,5 +1,5 @@
-//! `diffsol SYSTEM TOLERANCE ENDS` integrates by the BDF method of diffsol once for each line on the standard input, answers with what
-//! that took, and at its end writes the last state to ENDS.
+//! `diffsol SYSTEM TOLERANCE ENDS` integrates by the BDF method of diffsol once for each line of the standard input, and answers
+//! with the costs of each run. At the end of the input it writes the last state to the file ENDS.
 
 use std::cell::{Cell, RefCell};
 use std::io::{BufRead, stdin};

@@ -1,5 +1,6 @@
 //! `ours SYSTEM about` prints end, start and the known last state as JSON. `ours SYSTEM STAGES TOLERANCE ENDS` integrates by
-//! `Radau` with so many stages once for each line on the standard input, answers with what that took, and at its end writes the last state to ENDS.
+//! `Radau` with this number of stages once for each line of the standard input, and answers with the costs of each run. At the end
+//! of the input it writes the last state to the file ENDS.
 
 use std::io::{BufRead, stdin};
 use std::time::Instant;
