@@ -17,3 +17,6 @@ mod systems;
 fn count(variable: &str, default: usize) -> usize {
     std::env::var(variable).map_or(default, |text| text.parse().unwrap())
 }
+
+/// Whether problems are taken that compile for long and move for long, by all methods.
+const IS_LONG: bool = option_env!("LAGRANGE_WHOLE_SPANS").is_some();
