@@ -267,10 +267,38 @@ pub enum Error {
     /// An error of an ensemble as a whole, or of one of its members.
     #[cfg(feature = "std")]
     Ensemble(EnsembleError),
-    /// A coefficient of restitution is negative or not finite.
+    /// A coefficient of restitution is negative or not finite, or that of a contact exceeds 1.
     Restitution {
         /// Its value.
         value: f64,
+    },
+    /// The gap of a contact is negative: at the start, or because a motion passed through it unnoticed.
+    Penetration {
+        /// Name of the contact.
+        contact: &'static str,
+        /// Its gap.
+        gap: f64,
+        /// The time of the state.
+        time: f64,
+    },
+    /// No impulses or forces keep the gaps of these contacts from becoming negative, as between walls that close in.
+    ContactsContradict {
+        /// The contacts that touch.
+        contacts: Names,
+        /// The time of the state.
+        time: f64,
+    },
+    /// Impacts follow one another at one time without end.
+    ImpactsDoNotEnd {
+        /// Their time.
+        time: f64,
+    },
+    /// A motion with impacts was asked to go back in time, which impacts do not determine.
+    MotionBackwards {
+        /// Time of the start.
+        start: f64,
+        /// End time requested.
+        end: f64,
     },
     /// A leg of a hybrid trajectory does not continue from the end of the previous leg, in the same direction
     /// of time.

@@ -10,29 +10,32 @@ pub use crate::solution::eliminate::nan_if_ill_conditioned;
 pub use crate::system::defect::{Defect, asymmetry, distortion};
 pub use crate::system::equations::equations;
 pub use crate::system::member::FieldMember;
+pub use crate::system::switch::{Switch, switch};
 
 /// Factorizations computed in loops, for `N` coordinates and `M` constraints.
 pub type LoopFactor<T, const N: usize, const M: usize> = eliminate::LoopFactor<T, Const<N>, Const<M>>;
 
-/// Factorizes the completed mass matrix M + FᵀσF, given the rows of M and F and the weights σ.
+/// Factorizes the completed mass matrix M + FᵀσF, given the rows of M and F, the weights σ and the compliances c.
 #[inline]
 pub fn factor<T: Scalar, const N: usize, const M: usize>(
     m: [[T; N]; N],
     f: [[T; N]; M],
     weights: [T; M],
+    compliance: [T; M],
 ) -> LoopFactor<T, N, M> {
-    eliminate::LoopFactor::of(m.into(), f.into(), weights.into())
+    eliminate::LoopFactor::of(m.into(), f.into(), weights.into(), compliance.into())
 }
 
-/// Solves M q̈ − Fᵀλ = h, F q̈ = −γ without pivoting, given the rows of M and F.
+/// Solves M q̈ − Fᵀλ = h, F q̈ + c λ = −γ without pivoting, given the rows of M and F.
 #[inline]
 pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
     m: [[T; N]; N],
     h: [T; N],
     f: [[T; N]; M],
     gamma: [T; M],
+    compliance: [T; M],
 ) -> crate::Solution<T, N, M> {
-    eliminate::eliminate(m.into(), h.into(), f.into(), gamma.into())
+    factor(m, f, [T::constant(0.0); M], compliance).solve_completed(h.into(), gamma.into())
 }
 
 /// Converts an array to a column vector, without a copy.

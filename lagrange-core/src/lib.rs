@@ -155,6 +155,7 @@ println!("{}", path.csv(50).energy());
 extern crate alloc;
 extern crate self as lagrange_core;
 
+pub mod contact;
 pub mod embedded;
 #[cfg(feature = "std")]
 pub mod ensemble;

@@ -23,6 +23,8 @@ pub(crate) enum Quantity {
     CompletedMomentum,
     CompletedMomentumRate,
     CompletedMassMatrix,
+    Compliance,
+    Restitution,
     Forcing,
     Residual,
     Rate,
@@ -182,6 +184,14 @@ pub(crate) const COMPLETED: [Method; 3] = [
     of_state(Quantity::CompletedMassMatrix, "completed_mass_matrix", Matrix(Coordinates, Coordinates)),
 ];
 
+/// Method of `Lagrangian` that is emitted where a field switches a constraint.
+pub(crate) const SWITCHED: [Method; 1] =
+    [method(Quantity::Compliance, "compliance", &[System], Vector(Constraints))];
+
+/// Method of `Contacts`.
+pub(crate) const RESTITUTION: Method =
+    method(Quantity::Restitution, "restitution", &[System, Index, State], Optional);
+
 /// Required methods of `StateDerivatives`.
 pub(crate) const STATE_DERIVATIVES: [Method; 2] = [
     method(Quantity::Slopes, "residual_slopes", &[System, State, Solution], Gives::Slopes),
@@ -237,7 +247,8 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// Associated constants of these traits.
-const CONSTANTS: [&str; 16] = [
+const CONSTANTS: [&str; 17] = [
+    "HAS_CONTACTS",
     "ARGUMENTS",
     "NAME",
     "DIGEST",
@@ -258,7 +269,8 @@ const CONSTANTS: [&str; 16] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
-const PROVIDED: [&str; 39] = [
+const PROVIDED: [&str; 40] = [
+    "compliance",
     "completed_momentum",
     "completed_momentum_rate",
     "completed_mass_matrix",

@@ -43,6 +43,7 @@ use syntax::Declaration;
         frame,
         lagrangian,
         constraint,
+        contact,
         force,
         power,
         dissipation,

@@ -12,6 +12,8 @@ pub(crate) enum Variable {
     Multiplier(usize),
     /// Parameter, by its index in the list of parameters that expressions use.
     Parameter(usize),
+    /// Switch of a constraint, by its index in the list of switches: 1 while the constraint holds, else 0.
+    Switch(usize),
     /// Component of a direction in the space of states: time, then coordinates, then velocities.
     Change(usize),
     /// Entry of the factorization of the KKT matrix.
@@ -72,6 +74,7 @@ impl Variable {
             Self::Given(k) => (19, k),
             Self::NextWeight => (20, 0),
             Self::WeightsReciprocal => (21, 0),
+            Self::Switch(k) => (22, k),
         };
         Symbol { family, index: index as u32 }
     }
@@ -123,6 +126,7 @@ impl Variable {
             18 => Self::Term(index),
             19 => Self::Given(index),
             20 => Self::NextWeight,
+            22 => Self::Switch(index),
             _ => Self::WeightsReciprocal,
         }
     }

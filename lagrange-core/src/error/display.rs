@@ -137,9 +137,29 @@ impl Display for Error {
             ),
             #[cfg(feature = "std")]
             Self::Ensemble(error) => write!(f, "{error}"),
+            Self::Restitution { value } if *value > 1.0 => write!(
+                f,
+                "the coefficient of restitution is {value}: an impact that is elastic has 1, and none has more"
+            ),
             Self::Restitution { value } => {
                 write!(f, "the coefficient of restitution is {value}: it must not be negative, and finite")
             }
+            Self::Penetration { contact, gap, time } => write!(
+                f,
+                "the gap of contact `{contact}` is {gap:e} at t = {time}: start where no gap is negative, and if a motion came here, take shorter steps, so that no contact is passed within one"
+            ),
+            Self::ContactsContradict { contacts, time } => write!(
+                f,
+                "no forces keep the gaps of {contacts} open at t = {time}: they close in on one another, so make one of them yield"
+            ),
+            Self::ImpactsDoNotEnd { time } => write!(
+                f,
+                "impacts follow one another without end at t = {time}: give one of the contacts a restitution below 1"
+            ),
+            Self::MotionBackwards { start, end } => write!(
+                f,
+                "a motion with contacts cannot go back from t = {start} to {end}: impacts do not determine what was before them"
+            ),
             Self::LegApart { start, end, expected } => write!(
                 f,
                 "the leg from t = {start} to {end} does not go on from t = {expected}, where the hybrid trajectory has come to: start it there, and lead it the same way in time"

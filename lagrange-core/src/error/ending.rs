@@ -88,6 +88,13 @@ pub enum Ending {
         /// Length of the next step, and the cause of short steps.
         pace: Pace,
     },
+    /// The limit on the transitions of contacts is reached.
+    TransitionLimit {
+        /// Last time reached.
+        time: f64,
+        /// Number of transitions.
+        transitions: usize,
+    },
     /// The limit on wall-clock time is reached.
     WallTimeLimit {
         /// Last time reached.
@@ -194,6 +201,7 @@ impl Ending {
             | Self::OffConstraints { time, .. }
             | Self::MethodFailed { time, .. }
             | Self::StepLimit { time, .. }
+            | Self::TransitionLimit { time, .. }
             | Self::WallTimeLimit { time }
             | Self::Event { time, .. }
             | Self::EventsAccumulate { time, .. }
@@ -261,6 +269,10 @@ impl Display for Ending {
             Self::StepLimit { time, steps, pace } => {
                 write!(f, "stopped at t = {time} after {steps} steps, the limit{pace}")
             }
+            Self::TransitionLimit { time, transitions } => write!(
+                f,
+                "stopped at t = {time}, after {transitions} transitions of contacts, the limit; raise it with `max_transitions`"
+            ),
             Self::WallTimeLimit { time } => {
                 write!(f, "stopped at t = {time} by the limit on wall time; raise it with `wall_time`")
             }

@@ -54,6 +54,10 @@ impl<T: Element, N: Length, F> Start<T, N, F> {
     pub(crate) fn new(state: Result<State<T, N>, Error>) -> Self {
         Self { state: Box::new(state), field: PhantomData }
     }
+
+    pub(crate) fn into_state(self) -> Result<State<T, N>, Error> {
+        *self.state
+    }
 }
 
 /// Settings of a motion without derivatives, with the equations of motion `F`.
@@ -112,7 +116,7 @@ impl<'a, 'w, L: Lagrangian, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
         MotionBuilder { system, start, method, events: events(self.events), on_progress, kept }
     }
 
-    pub(super) fn keeping<J>(self, kept: impl FnOnce(K) -> J) -> MotionBuilder<'a, 'w, L, S, P, E, J> {
+    pub(crate) fn keeping<J>(self, kept: impl FnOnce(K) -> J) -> MotionBuilder<'a, 'w, L, S, P, E, J> {
         let Self { system, start, method, events, on_progress, .. } = self;
         MotionBuilder { system, start, method, events, on_progress, kept: kept(self.kept) }
     }
@@ -175,6 +179,20 @@ where
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
     pub fn towards(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error>
+    where
+        P: Method<L, F>,
+    {
+        const {
+            assert!(
+                !L::HAS_CONTACTS,
+                "this system has contacts: write `.with_contacts()` before `.to(end)` or `.towards(end)`, so that they open and close, or move it by a `Motion`, which leaves them as they are"
+            );
+        }
+        self.with_contacts_as_they_are(end)
+    }
+
+    /// Integrates towards the time `end`, while contacts stay open or closed.
+    pub(crate) fn with_contacts_as_they_are(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error>
     where
         P: Method<L, F>,
     {

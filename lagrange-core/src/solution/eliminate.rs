@@ -17,10 +17,12 @@ pub(crate) fn eliminate<T: Scalar, N: Length, M: Length>(
     f: Array<Array<T, N>, M>,
     gamma: Array<T, M>,
 ) -> Solution<T, N, M> {
-    LoopFactor::of(m, f, Array::filled(T::constant(0.0))).solve_completed(h, gamma)
+    let none = Array::filled(T::constant(0.0));
+    LoopFactor::of(m, f, none, none).solve_completed(h, gamma)
 }
 
-/// Factorizations of M and F M⁻¹ Fᵀ, computed in loops.
+/// Factorizations of M and F M⁻¹ Fᵀ + c, computed in loops. The compliance c is zero, but 1 for a constraint that is
+/// switched off, whose row of F and γ are zero.
 #[derive(Clone, Copy, Debug)]
 pub struct LoopFactor<T: Element, N: Length, M: Length> {
     mass: Ldl<T, N>,
@@ -34,9 +36,14 @@ pub struct LoopFactor<T: Element, N: Length, M: Length> {
 
 impl<T: Scalar, N: Length, M: Length> LoopFactor<T, N, M> {
     /// Factorizes the completed mass matrix M + FᵀσF, whose lower triangle is read row by row. `f` holds one
-    /// row per constraint, `weights` is σ.
+    /// row per constraint, `weights` is σ, `compliance` is c.
     #[inline]
-    pub fn of(m: Array<Array<T, N>, N>, f: Array<Array<T, N>, M>, weights: Array<T, M>) -> Self {
+    pub fn of(
+        m: Array<Array<T, N>, N>,
+        f: Array<Array<T, N>, M>,
+        weights: Array<T, M>,
+        compliance: Array<T, M>,
+    ) -> Self {
         let mass = Ldl::of(m);
         let mut w = f;
         for row in &mut w {
@@ -47,6 +54,7 @@ impl<T: Scalar, N: Length, M: Length> LoopFactor<T, N, M> {
             for b in 0..=a {
                 schur[a][b] = dot(&f[a], &w[b]);
             }
+            schur[a][a] = schur[a][a] + compliance[a];
         }
         Self { mass, f, w, schur: Ldl::of(schur), weights }
     }
@@ -85,7 +93,11 @@ impl<T: Scalar, N: Length, M: Length> LoopFactor<T, N, M> {
 
     /// Solves with the completed right-hand side h − Fᵀσγ.
     #[inline]
-    fn solve_completed<S: Broadcast<T>>(&self, h: Array<S, N>, gamma: Array<S, M>) -> Solution<S, N, M> {
+    pub(crate) fn solve_completed<S: Broadcast<T>>(
+        &self,
+        h: Array<S, N>,
+        gamma: Array<S, M>,
+    ) -> Solution<S, N, M> {
         let mut q = h;
         self.mass.solve(&mut q);
         let mut lambda = gamma;

@@ -62,7 +62,7 @@ pub(crate) fn solve_near<L: Lagrangian<Scalar: Real>, R>(
 /// Solves M x = h + Fᵀλ and F x + γ = 0 with M and F of a state by the general solver. Also returns which of
 /// the `active` constraints determine the solution.
 #[cold]
-pub(super) fn solve_in_general<L: Lagrangian<Scalar: Real>>(
+pub(crate) fn solve_in_general<L: Lagrangian<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     (h, gamma): (Vector<L::Scalar, L::N>, Vector<L::Scalar, L::M>),

@@ -8,7 +8,7 @@ use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
 use super::state::{Solution, SolutionOf, StateOf};
 use crate::number::{Broadcast, Scalar};
-use crate::vector::{Length, Matrix, Vector};
+use crate::vector::{Array, Length, Matrix, Vector, vector};
 
 /// Form in which a constraint is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -81,6 +81,9 @@ pub trait Lagrangian {
     const CONSTRAINT_CLASSES: &'static [Classification] = &[];
     /// Number of integrals of the velocity constraints; `None` if it could not be decided.
     const INTEGRALS: Option<Integrals> = None;
+    /// True for a system with [contacts](crate::contact), whose motions go
+    /// [across them](crate::MotionBuilder::with_contacts).
+    const HAS_CONTACTS: bool = false;
     /// True if the momenta are linear in the velocities, p = M(q, t) q̇ + a(q, t), so that one linear solve
     /// inverts the Legendre transform.
     const MOMENTA_ARE_LINEAR: bool = false;
@@ -140,6 +143,12 @@ pub trait Lagrangian {
     /// [`completed_momentum`](Self::completed_momentum) where velocities satisfy the constraints.
     fn completed_mass_matrix(&self, state: &StateOf<Self>) -> Matrix<Self::Scalar, Self::N, Self::N> {
         self.mass_matrix(state)
+    }
+
+    /// 1 for each constraint that its field switches off, `#[constraint(…, when: field)]`, else 0: the c of
+    /// F q̈ + γ + c λ = 0. While a constraint is off, its Φ, F, b and γ are zero, and so is its λ.
+    fn compliance(&self) -> Vector<Self::Scalar, Self::M> {
+        vector(Array::filled(Self::Scalar::constant(0.0)))
     }
 
     /// h = ∂L/∂q + Q − (dp/dt at q̈ = 0), so M q̈ = h without constraints.

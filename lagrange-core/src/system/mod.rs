@@ -18,6 +18,7 @@ pub(crate) mod pointers;
 pub(crate) mod serial;
 mod state;
 mod structure;
+pub(crate) mod switch;
 mod taylor_series;
 
 #[cfg(feature = "alloc")]

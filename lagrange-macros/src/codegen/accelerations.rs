@@ -21,7 +21,8 @@ impl Emitter<'_> {
             Some(solving) => self.solution(method, &solving.accelerations),
             None => {
                 let [mass, forcing, jacobian, bias] = self.equations_by_rows();
-                self.in_loops(method, [mass, forcing, jacobian, bias], &quote!(eliminate))
+                let arguments = [mass, forcing, jacobian, bias, self.compliance()];
+                self.in_loops(method, arguments, &quote!(eliminate))
             }
         }
     }
@@ -30,7 +31,11 @@ impl Emitter<'_> {
     pub(super) fn factor(&self, method: &Method) -> Written {
         let Some(Solving { factor, .. }) = &self.solving else {
             let [mass, _, jacobian, _] = self.equations_by_rows();
-            return self.in_loops(method, [mass, jacobian, self.weights()], &quote!(factor));
+            return self.in_loops(
+                method,
+                [mass, jacobian, self.weights(), self.compliance()],
+                &quote!(factor),
+            );
         };
         let kernel = self.style.write(method.name, factor, &[ResultShape::Vector(factor.results.len())]);
         self.function(method, kernel, |results| quote!(#(#results)*))
@@ -90,6 +95,12 @@ impl Emitter<'_> {
         let mut weights = vec![Id::ZERO; bias.len()];
         forms[0].completing.iter().for_each(|&(a, weight)| weights[a] = weight);
         (weights, ResultShape::Vector(bias.len()))
+    }
+
+    /// Compliance c of each constraint.
+    fn compliance(&self) -> (Vec<Id>, ResultShape) {
+        let compliance = &self.derived.equations.compliance;
+        (compliance.clone(), ResultShape::Vector(compliance.len()))
     }
 
     /// Emits a call of a runtime function. Its arguments are computed by one kernel, so that they share

@@ -39,7 +39,7 @@ pub(super) struct Solved {
     pub(super) pivot: Register,
 }
 
-/// Factorization of the KKT matrix, which has M and −Fᵀ above F and 0.
+/// Factorization of the KKT matrix, which has M and −Fᵀ above F and c.
 pub(super) struct Factorization {
     form: FormFactors,
     /// Number of multipliers that are variables of the form: all or none.
@@ -167,20 +167,21 @@ impl Solver<'_> {
         let (order, among) = order(form, equations)?;
         let mut matrix: Vec<Vec<SparseEntry>> = form.matrix.iter().map(|row| self.entries(row)).collect();
         if among > 0 {
-            self.put_among(&mut matrix, &equations.jacobian);
+            self.put_among(&mut matrix, equations);
         }
         let definitions = form.definitions.iter().map(|row| self.sparse_entries(row)).collect();
         let reduced = self.factor(matrix, definitions, &order, among);
         let rows = if among > 0 { Vec::new() } else { self.rows(form, equations, &reduced) };
-        let schur = self.schur_factors(&reduced, &rows)?;
+        let compliance = if among > 0 { Vec::new() } else { self.entries(&equations.compliance) };
+        let schur = self.schur_factors(&reduced, &rows, &compliance)?;
         let completing = self.completing(form, equations);
         let check = self.pivot_check(!equations.jacobian.is_empty());
         Some(Factorization { form: reduced, among, rows, schur, completing, check })
     }
 
-    /// Appends −Fᵀ to the right of a matrix, and −F below it.
-    fn put_among(&mut self, matrix: &mut Vec<Vec<SparseEntry>>, jacobian: &[Vec<Id>]) {
-        let n = matrix.len();
+    /// Appends −Fᵀ to the right of a matrix, −F below it, and −c on the diagonal.
+    fn put_among(&mut self, matrix: &mut Vec<Vec<SparseEntry>>, equations: &Equations) {
+        let (n, jacobian) = (matrix.len(), &equations.jacobian);
         for row in jacobian {
             let mut below = self.entries(row);
             below.iter_mut().for_each(|entry| *entry = self.negate(*entry));
@@ -188,6 +189,9 @@ impl Solver<'_> {
             matrix.push(below);
         }
         matrix[n..].iter_mut().for_each(|row| row.resize(n + jacobian.len(), None));
+        for (a, compliance) in self.entries(&equations.compliance).into_iter().enumerate() {
+            matrix[n + a][n + a] = self.negate(compliance);
+        }
     }
 
     /// Rows σ_a F_a of the constraints that complete M.

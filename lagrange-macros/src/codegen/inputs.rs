@@ -30,6 +30,17 @@ impl FunctionContext<'_> {
         self.number(self.problem.parameters.entries[k])
     }
 
+    /// Reads a switch from its field, as 0 or 1.
+    fn switch(&self, k: usize) -> TokenStream {
+        let (scalar, place) = (self.types.scalar, self.place_of_switch(k));
+        quote!(__lagrange::generated::switch::<#scalar>(&#place))
+    }
+
+    /// Place expression of a switch.
+    pub(super) fn place_of_switch(&self, k: usize) -> TokenStream {
+        self.place(self.problem.parameters.switches[k], None)
+    }
+
     /// Reads a number of a field.
     pub(super) fn number(&self, entry: Entry) -> TokenStream {
         self.number_of_rounds(entry, None)
@@ -122,6 +133,7 @@ impl FunctionContext<'_> {
                 self.widened(symbol, &quote!(#array[#place]))
             }
             (Variable::Parameter(k), None) => self.parameter(k),
+            (Variable::Switch(k), None) => self.switch(k),
             (Variable::Change(_), None) => quote!(direction.t),
             _ => quote!(state.t),
         }
@@ -153,6 +165,7 @@ impl FunctionContext<'_> {
             Variable::Time
             | Variable::Change(0)
             | Variable::Parameter(_)
+            | Variable::Switch(_)
             | Variable::Momentum(_)
             | Variable::Given(_) => return None,
         })

@@ -9,7 +9,7 @@ use super::markers::markers;
 use super::observables::OBSERVABLE;
 use super::pack;
 use super::shape::ResultShape;
-use crate::contract::{COMPLETED, Gives, LAGRANGIAN, Method, Quantity};
+use crate::contract::{COMPLETED, Gives, LAGRANGIAN, Method, Quantity, SWITCHED};
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::{Completed, ConstraintKind};
 use crate::symbolic::Id;
@@ -42,10 +42,14 @@ impl Emitter<'_> {
         let (integrability, facts) = (self.integrability(), self.facts());
         let observables = self.observable_names();
         let completed = self.derived.equations.completed.iter().flat_map(|_| &COMPLETED);
-        let methods: Written = LAGRANGIAN.iter().chain(completed).map(|method| self.method(method)).collect();
+        let switched = SWITCHED.iter().filter(|_| !problem.parameters.switches.is_empty());
+        let methods: Written =
+            LAGRANGIAN.iter().chain(completed).chain(switched).map(|method| self.method(method)).collect();
         let inherent: Written =
             problem.observables.iter().map(|observable| self.observable(observable)).collect();
-        let kernels = || methods.kernels.iter().chain(&inherent.kernels);
+        let contacts = self.contacts();
+        let of_contacts = contacts.iter().flat_map(|contacts| &contacts.kernels);
+        let kernels = || methods.kernels.iter().chain(&inherent.kernels).chain(of_contacts.clone());
         self.report_refused(kernels(), diagnostics);
         let parts = kernels().flat_map(|kernel| &kernel.parts);
         let (methods, inherent) = (&methods.tokens, &inherent.tokens);
@@ -54,6 +58,20 @@ impl Emitter<'_> {
         let (pack, check_members) = (pack::pack(self.declaration, scalar), self.check_members());
         let markers = markers(self.declaration, &generics, &self.derived.markers);
         let [[_, _, doc], ..] = &self.rendered.forms;
+        let has_contacts = contacts.iter().map(|_| {
+            quote!(
+                const HAS_CONTACTS: bool = true;
+            )
+        });
+        let contacts = contacts.iter().map(|Written { tokens, .. }| {
+            quote! {
+                #[automatically_derived]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
+                impl #impl_generics __lagrange::contact::Contacts for #ident #type_generics #where_clause {
+                    #tokens
+                }
+            }
+        });
         quote! {
             const _: () = {
                 // Import a single name that users will not choose.
@@ -76,6 +94,7 @@ impl Emitter<'_> {
                     const DIGEST: u32 = #digest;
                     #supplied
                     #facts
+                    #(#has_contacts)*
                     const EQUATIONS: __lagrange::facts::Equations = Self::equations();
                     #methods
                     #visit_parameters
@@ -91,6 +110,7 @@ impl Emitter<'_> {
                     #(#parts)*
                 }
 
+                #(#contacts)*
                 #markers
                 #pack
                 #check_members
@@ -114,6 +134,7 @@ impl Emitter<'_> {
             Quantity::CompletedMomentum => completed(&|found| found.momentum.clone()),
             Quantity::CompletedMomentumRate => completed(&|found| found.rate.clone()),
             Quantity::CompletedMassMatrix => completed(&|found| columns(&found.mass)),
+            Quantity::Compliance => equations.compliance.clone(),
             Quantity::Forcing => equations.forcing.clone(),
             Quantity::Residual => equations.residual.clone(),
             Quantity::Rate => equations.rate.clone(),
@@ -133,6 +154,7 @@ impl Emitter<'_> {
             Quantity::Observable => return self.observable_by_index(method),
             Quantity::Conserved => return self.conserved_by_index(method),
             Quantity::Parameters
+            | Quantity::Restitution
             | Quantity::SetParameter
             | Quantity::Slopes
             | Quantity::ResidualChange

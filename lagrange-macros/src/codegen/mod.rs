@@ -3,6 +3,7 @@
 mod accelerations;
 mod body;
 mod bounds;
+mod contacts;
 mod count;
 mod defects;
 mod eliminate;

@@ -52,7 +52,8 @@ fn entries<'a>(form: &'a Form, equations: &'a Equations, others: impl Iterator<I
     let matrices = form.matrix.iter().chain(&equations.jacobian).flatten();
     let weights = form.completing.iter().map(|(_, weight)| weight);
     let rows = form.rows.iter().flatten().flatten();
-    matrices.chain(definitions).chain(rows).chain(weights).chain(others).copied().collect()
+    let compliance = &equations.compliance;
+    matrices.chain(compliance).chain(definitions).chain(rows).chain(weights).chain(others).copied().collect()
 }
 
 fn results(Solved { accelerations, multipliers, pivot }: Solved) -> Vec<Register> {

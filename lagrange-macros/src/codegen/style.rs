@@ -90,6 +90,9 @@ impl<'a> FunctionContext<'a> {
         for k in 0..problem.parameters.entries.len() {
             names.insert(Variable::Parameter(k).symbol(), unique(problem.parameters.name(k)));
         }
+        for k in 0..problem.parameters.switches.len() {
+            names.insert(Variable::Switch(k).symbol(), unique(problem.parameters.name_of_switch(k)));
+        }
         let mut definitions: Vec<_> = problem.names.iter().collect();
         definitions.sort_unstable();
         let definition_names =

@@ -25,9 +25,16 @@ pub(super) struct Constraints {
     pub(super) rate: Vec<Id>,
     pub(super) jacobian: Vec<Vec<Id>>,
     pub(super) bias: Vec<Id>,
+    /// c of F q̈ + γ + c λ = 0: zero, but 1 while a switched constraint does not hold, so that its λ is zero.
+    pub(super) compliance: Vec<Id>,
 }
 
 impl Constraints {
+    /// True if the constraint holds whatever the fields are.
+    pub(super) fn always_holds(&self, a: usize) -> bool {
+        self.compliance[a] == Id::ZERO
+    }
+
     /// Adds a constraint with its derivatives. Returns the error message if the constraint is malformed.
     fn push(
         &mut self,
@@ -42,6 +49,8 @@ impl Constraints {
             true => (Velocity, Id::ZERO, expression),
         };
         let jacobian = formulation.jacobian_row(graph, expression);
+        let switch = problem.switches.get(self.kinds.len()).copied().flatten();
+        self.compliance.push(switch.map_or(Id::ZERO, |switch| graph.sub(Id::ONE, switch)));
         let wrong = malformed(graph, problem, (label, expression), kind, &jacobian);
         self.kinds.push(kind);
         self.residual.push(residual);
@@ -51,11 +60,18 @@ impl Constraints {
         wrong
     }
 
-    /// Σ_α λ_α F_αa for each coordinate a.
+    /// Σ_α λ_α F_αa for each coordinate a, with F where all constraints hold: those that do not have λ = 0.
     pub(super) fn force(&self, graph: &mut Graph) -> Vec<Id> {
         let multipliers = nodes(graph, self.kinds.len(), Variable::Multiplier);
         let coordinates = self.jacobian.first().map_or(0, Vec::len);
-        let column = |i: usize| self.jacobian.iter().map(|row| row[i]).collect::<Vec<Id>>();
+        let one = |symbol| matches!(Variable::of(symbol), Variable::Switch(_)).then_some(Id::ONE);
+        let mut jacobian = self.jacobian.clone();
+        for row in
+            jacobian.iter_mut().zip(&self.compliance).filter(|(_, c)| **c != Id::ZERO).map(|(row, _)| row)
+        {
+            row.iter_mut().for_each(|entry| *entry = graph.substituted(*entry, one));
+        }
+        let column = |i: usize| jacobian.iter().map(|row| row[i]).collect::<Vec<Id>>();
         (0..coordinates).map(|i| graph.dot(&multipliers, &column(i))).collect()
     }
 

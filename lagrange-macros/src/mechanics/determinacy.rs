@@ -16,7 +16,8 @@ pub(super) fn check(
     constraints: &Constraints,
     diagnostics: &mut Diagnostics,
 ) -> Option<()> {
-    let rows: Vec<&Vec<Id>> = mass.iter().chain(&constraints.jacobian).collect();
+    let held = constraints.jacobian.iter().enumerate().filter(|&(a, _)| constraints.always_holds(a));
+    let rows: Vec<&Vec<Id>> = mass.iter().chain(held.map(|(_, row)| row)).collect();
     let mut owner = vec![None; rows.len()];
     let mut sound = true;
     for column in 0..problem.coordinates.len() {

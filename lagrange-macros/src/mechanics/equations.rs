@@ -15,7 +15,7 @@ use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use crate::variables::{Variable, has_velocity, total_time_derivative};
 
-/// M q̈ − Fᵀλ = h and F q̈ + γ = 0, every entry a node of the problem's graph.
+/// M q̈ − Fᵀλ = h and F q̈ + γ + c λ = 0, every entry a node of the problem's graph.
 #[derive(Debug)]
 pub(crate) struct Equations {
     /// p = ∂L/∂q̇
@@ -43,6 +43,8 @@ pub(crate) struct Equations {
     pub(crate) jacobian: Vec<Vec<Id>>,
     /// γ of F q̈ + γ = 0
     pub(crate) bias: Vec<Id>,
+    /// c of F q̈ + γ + c λ = 0: zero, but 1 while a switched constraint does not hold
+    pub(crate) compliance: Vec<Id>,
     /// Fᵀλ, with the multipliers λ as symbols
     pub(crate) constraint_force: Vec<Id>,
     /// d/dt p − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols
@@ -103,6 +105,7 @@ impl Equations {
             rate: constraints.rate,
             jacobian: constraints.jacobian,
             bias: constraints.bias,
+            compliance: constraints.compliance,
         })
     }
 

@@ -36,13 +36,27 @@ impl<'a> Moments<'a> {
 /// Values of parameters, time, coordinates, velocities, accelerations and multipliers at one instant of a motion.
 pub(super) struct Moment(Sample);
 
+/// Whether switch `k` is on in a draw: all are in the first, none is in the second, some are in the others.
+fn is_on(k: usize, draw: u64) -> bool {
+    match draw {
+        0 => true,
+        1 => false,
+        _ => (draw + 2) >> (k % 5) & 1 == 1,
+    }
+}
+
 impl Moment {
     fn drawn(graph: &Graph, problem: &Problem, equations: &Equations, draw: u64) -> Option<Self> {
         let n = problem.coordinates.len();
         let (coordinates, velocities) = (symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity));
         let parameters = symbols(problem.parameters.entries.len(), Variable::Parameter);
-        let all = [&parameters[..], &coordinates, &velocities, &[Variable::Time.symbol()]].concat();
-        let mut moment = Sample::new(all, draw, |symbol, draw| problem.drawn(symbol, draw));
+        let switches = symbols(problem.parameters.switches.len(), Variable::Switch);
+        let all =
+            [&parameters[..], &switches, &coordinates, &velocities, &[Variable::Time.symbol()]].concat();
+        let mut moment = Sample::new(all, draw, |symbol, draw| match Variable::of(symbol) {
+            Variable::Switch(k) => Approximate::exact(f64::from(u8::from(is_on(k, draw)))),
+            _ => problem.drawn(symbol, draw),
+        });
         let slopes: Vec<&[Id]> = equations.jacobian.iter().map(Vec::as_slice).collect();
         let is_holonomic = |a: &usize| equations.kinds[*a] == ConstraintKind::Holonomic;
         let holonomic = (0..equations.kinds.len()).filter(is_holonomic);

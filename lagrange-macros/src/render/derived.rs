@@ -72,6 +72,7 @@ impl Page<'_> {
         match self.graph.node(factor) {
             Node::Symbol(symbol) => match Variable::of(*symbol) {
                 Variable::Parameter(k) => (0, self.ranks[k] as u32),
+                Variable::Switch(_) => (0, u32::MAX),
                 Variable::Multiplier(_) => (1, symbol.index),
                 Variable::Time => (3, 0),
                 Variable::Coordinate(_) => (4, symbol.index),
@@ -94,6 +95,7 @@ impl Page<'_> {
             Variable::Acceleration(i) => coordinate(i, 2),
             Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
             Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
+            Variable::Switch(k) => Formula::labelled(&self.problem.parameters.name_of_switch(k), 0),
             Variable::Momentum(i) => Formula::momentum(&self.problem.coordinates[i].text, 0),
             // All other variables occur in generated functions only, never in an equation.
             only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),

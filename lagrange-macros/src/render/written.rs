@@ -7,6 +7,7 @@ use super::lines::{Equation, Line};
 use super::notation::Notation;
 use super::page::Page;
 use super::reading::Names;
+use super::remark::Fragment;
 use crate::symbolic::{Rational, Scaled};
 use crate::syntax::{
     Constraint, Declaration, Define, Expression, FrameDeclaration, Kind, Operator, Power, Sign, Target,
@@ -76,7 +77,7 @@ impl Page<'_> {
     }
 
     pub(super) fn constraints(&self) -> Vec<Line> {
-        let line = |Constraint { target, left, right, is_implied }: &Constraint| {
+        let line = |Constraint { target, left, right, is_implied, when, contact }: &Constraint| {
             let name = &target.name.text;
             let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
             let rows = self.problem.constraints.iter().enumerate();
@@ -86,10 +87,19 @@ impl Page<'_> {
             if *is_implied && rows.is_empty() {
                 return None;
             }
+            let mut remark = self.kinds(rows.into_iter());
+            if let Some(field) = when {
+                let field = Formula::labelled(&field.text, 0);
+                let is = if contact.is_some() { " is closed" } else { " is true" };
+                remark.and(vec![Fragment::words("while "), Fragment::Formula(field), Fragment::words(is)]);
+            }
+            if contact.is_some() {
+                remark.and(vec![Fragment::words("a contact, whose gap and multiplier are never negative")]);
+            }
             Some(Line {
                 label: Some(Notation::UNICODE.write(&self.target(target))),
                 equation: Equation::Known(self.written(left), self.written(right)),
-                remark: self.kinds(rows.into_iter()),
+                remark,
             })
         };
         self.declaration.constraints.iter().filter_map(line).collect()

@@ -7,6 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::family::Family;
 use super::frames::Frames;
 use super::parameters::Parameters;
+use super::problem::ContactRow;
 use super::scope::Scope;
 use super::turns::Turns;
 use super::value::Value;
@@ -83,6 +84,9 @@ pub(super) struct Lowering<'a> {
     pub(super) definitions: Vec<Definition>,
     pub(super) progress: Progress,
     pub(super) multipliers: Vec<MultiplierGroup>,
+    /// Switch of each constraint that has one.
+    pub(super) switches: Vec<Option<Id>>,
+    pub(super) contacts: Vec<ContactRow>,
     pub(super) observables: Vec<(String, Value)>,
     pub(super) setting: Setting,
     /// True while the outline is read: an erroneous expression gets a stand-in value.
@@ -136,6 +140,8 @@ impl<'a> Lowering<'a> {
             definitions: defines.iter().map(|_| Definition::Pending).collect(),
             progress: Progress::default(),
             multipliers: Vec::new(),
+            switches: Vec::new(),
+            contacts: Vec::new(),
             observables: Vec::new(),
             setting: Setting::Equations,
             is_guessing: false,

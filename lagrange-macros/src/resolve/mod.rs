@@ -69,7 +69,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let names = lowering.names(declaration);
     let frames_are_cheaper = lowering.frames_are_cheaper();
     let coordinates = labels(declaration);
-    let Lowering { mut graph, parameters, diagnostics, frames, mut rates, .. } = lowering;
+    let Lowering { mut graph, parameters, diagnostics, frames, mut rates, switches, contacts, .. } = lowering;
     rates.sort_unstable();
     rates.dedup();
     // Scalar types are checked after the shapes: a shape error may come from a type mistaken for a number.
@@ -90,6 +90,8 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         powers,
         dissipation,
         constraints,
+        switches,
+        contacts,
         observables,
         conserved,
         parameters,

@@ -8,9 +8,13 @@ use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::Graph;
 use crate::syntax::{
-    Declaration, Expression, Fact, Field, FieldShape, Kind, Layout, Operator, Parameter, Property, numbers,
+    Declaration, Expression, Fact, Field, FieldShape, Kind, Layout, Name, Operator, Parameter, Property,
+    numbers,
 };
 use crate::variables::Variable;
+
+/// Type of the field that says whether a contact is open or closed.
+pub(super) const CONTACT: &str = "Contact";
 
 /// Maximum number of parameters. Each one has a name and a place in the generated code.
 const NUMBER_LIMIT: usize = 10_000;
@@ -27,6 +31,8 @@ pub(crate) struct Parameters {
     pub(crate) fields: Vec<Field>,
     /// Entries of fields that expressions use; `Variable::Parameter(k)` is entry k.
     pub(crate) entries: IndexSet<Entry>,
+    /// Entries of fields that switch constraints; `Variable::Switch(k)` is switch k.
+    pub(crate) switches: IndexSet<Entry>,
     /// Interval of each field from which random test values are drawn.
     pub(crate) ranges: Vec<(f64, f64)>,
     /// Matrix property of each field, as given by a `parameter` attribute.
@@ -47,8 +53,8 @@ impl Parameters {
         let fields = declaration.fields.clone();
         let ranges = vec![(0.5, 1.5); fields.len()];
         let properties = vec![None; fields.len()];
-        let mut parameters =
-            Self { fields, entries: IndexSet::new(), ranges, properties, reported: Vec::new() };
+        let (entries, switches) = (IndexSet::new(), IndexSet::new());
+        let mut parameters = Self { fields, entries, switches, ranges, properties, reported: Vec::new() };
         parameters.add_known_structures();
         let is_struct = |(_, parameter): &(usize, &Parameter)| matches!(parameter.fact, Fact::Struct(_));
         let said = || declaration.parameters.iter().enumerate();
@@ -181,6 +187,57 @@ impl Parameters {
                 self.report_once(index, field.error_beside(reason, place, note), diagnostics)
             }
         }
+    }
+
+    /// Index of the switch of a constraint, or of this element of a family of constraints. Its field has the type
+    /// `ty`, or is an array of it with an entry for each element.
+    pub(super) fn switch(
+        &mut self,
+        (name, ty): (&Name, &str),
+        element: &[usize],
+        diagnostics: &mut Diagnostics,
+    ) -> Option<usize> {
+        let written = element.iter().rfold(ty.to_owned(), |ty, i| format!("[{ty}; {}]", i + 1));
+        let Some(field) = self.fields.iter().position(|field| field.name.text == name.text) else {
+            let message = match ty {
+                CONTACT => format!(
+                    "a contact is open or closed, which a field of its name says: add `{}: {written}`",
+                    name.text
+                ),
+                _ => {
+                    let fields = || self.fields.iter().map(|field| field.name.text.as_str());
+                    let advice = or_meant(nearest(&name.text, fields()), "field", fields());
+                    format!("there is no field `{}`{advice}", name.text)
+                }
+            };
+            diagnostics.error(name.place, message);
+            return None;
+        };
+        let lengths = self.lengths_of_switch(field, ty);
+        let is_shared = ty != CONTACT && lengths.as_ref().is_some_and(Vec::is_empty);
+        let holds = |lengths: &Vec<usize>| {
+            lengths.len() == element.len() && element.iter().zip(lengths).all(|(i, length)| i < length)
+        };
+        let Some(lengths) = lengths.filter(|lengths| is_shared || holds(lengths)) else {
+            let message = format!("`{}` switches this, so its type has to be `{written}`", name.text);
+            let error = self.fields[field].place.error_beside(message, name.place, "it switches this");
+            return self.report_once(field, error, diagnostics);
+        };
+        let number = element.iter().zip(&lengths).fold(0, |number, (i, length)| number * length + i);
+        Some(self.switches.insert_full(Entry { field, number }).0)
+    }
+
+    /// Lengths of a field of switches of this type; `None` for a field of another type.
+    fn lengths_of_switch(&self, field: usize, ty: &str) -> Option<Vec<usize>> {
+        let FieldShape { layout, scalar, .. } = self.fields[field].shape.as_ref().ok()?;
+        let name = text(scalar.as_ref()?);
+        (name.rsplit("::").next() == Some(ty)).then(|| layout.lengths.clone())
+    }
+
+    /// Name of switch `k`: that of its field.
+    pub(crate) fn name_of_switch(&self, k: usize) -> String {
+        let entry = self.switches[k];
+        self.element(entry.field, &self.indices(entry))
     }
 
     /// Name of entry `k`, as written in an expression.

@@ -27,6 +27,9 @@ pub(crate) struct Problem {
     pub(crate) dissipation: Option<(Id, Place)>,
     /// Residual of each constraint as written, left − right: Φ or F q̇ + b.
     pub(crate) constraints: Vec<(Label, Id)>,
+    /// Switch of each constraint that has one: its factor in the residual, 1 while the constraint holds, else 0.
+    pub(crate) switches: Vec<Option<Id>>,
+    pub(crate) contacts: Vec<ContactRow>,
     pub(crate) observables: Vec<Observed>,
     /// Indices of the observables declared as conserved, with the source position of each.
     pub(crate) conserved: Vec<(usize, Place)>,
@@ -41,6 +44,16 @@ pub(crate) struct Problem {
     pub(crate) frames_are_cheaper: bool,
     /// Names of nodes that are definitions.
     pub(crate) names: FxHashMap<Id, String>,
+}
+
+/// A contact: a constraint that holds while its gap is closed.
+pub(crate) struct ContactRow {
+    /// Index of the constraint.
+    pub(crate) row: usize,
+    /// Index of its switch.
+    pub(crate) switch: usize,
+    /// Newton's coefficient of restitution
+    pub(crate) restitution: Id,
 }
 
 /// An observable: a scalar, a vector or a matrix.

@@ -7,13 +7,14 @@ use super::expression::is_literal_zero;
 use super::family::Family;
 use super::label::{Label, element_name, entry_names};
 use super::lowering::{Definition, Lowering, MultiplierGroup, Setting};
-use super::problem::Observed;
+use super::parameters::CONTACT;
+use super::problem::{ContactRow, Observed};
 use super::value::Value;
 use crate::contract::is_reserved;
 use crate::diagnostics::Place;
 use crate::symbolic::{Id, Rational};
-use crate::syntax::{Constraint, Declaration, Expression, Name, Named, Sign};
-use crate::variables::Variable;
+use crate::syntax::{Constraint, ContactLaw, Declaration, Expression, Name, Named, Sign};
+use crate::variables::{Variable, has_velocity};
 
 /// Maximum number of constraints. It equals the limit on coordinates: more constraints would be dependent.
 const CONSTRAINT_LIMIT: usize = 1000;
@@ -111,6 +112,15 @@ impl Lowering<'_> {
         }
         let place = constraint.left.place.to(constraint.right.place);
         residual.flat().into_iter().for_each(|row| self.reject_kink("a constraint", row, place));
+        let switch = self.switch(constraint, element);
+        if let Some(law) = &constraint.contact {
+            self.contact(law, (constraint, element), rows.len(), switch);
+            self.check_gap(&residual, place);
+        }
+        let switch = switch.map(|switch| self.graph.symbol(Variable::Switch(switch).symbol()));
+        // A switch of 0 leaves the equation 0 = 0, and no force.
+        let residual =
+            switch.map_or(residual.clone(), |switch| residual.map(&mut |row| self.graph.mul(switch, row)));
         let name = &constraint.target.name;
         let mut row = rows.len();
         let symbols = residual.map(&mut |_| {
@@ -122,6 +132,7 @@ impl Lowering<'_> {
             if rows.iter().any(|(label, _)| label.text == text) {
                 self.diagnostics.error(name.place, format!("the constraint `{text}` is given twice"));
             }
+            self.switches.push(switch);
             rows.push((Label { text, place: constraint.left.place.to(constraint.right.place) }, id));
         }
         let known = self.multipliers.iter().position(|group| group.name == name.text);
@@ -130,6 +141,38 @@ impl Lowering<'_> {
             self.multipliers.len() - 1
         });
         self.multipliers[group].elements.insert(element.to_vec(), symbols);
+    }
+
+    fn check_gap(&mut self, gap: &Value, place: Place) {
+        if gap.as_scalar().is_none() {
+            self.diagnostics.error(place, format!("a gap is a number, but this is {}", gap.shape()));
+        }
+        if has_velocity(&self.graph, &gap.flat()) {
+            let message = "a gap is a distance, a function of the coordinates and the time: velocities have no place in it";
+            self.diagnostics.error(place, message);
+        }
+    }
+
+    /// Index of the switch of a constraint, if it has one.
+    fn switch(&mut self, constraint: &Constraint, element: &[usize]) -> Option<usize> {
+        let ty = if constraint.contact.is_some() { CONTACT } else { "bool" };
+        let field = constraint.when.as_ref()?;
+        self.parameters.switch((field, ty), element, self.diagnostics)
+    }
+
+    fn contact(
+        &mut self,
+        law: &ContactLaw,
+        (constraint, element): (&Constraint, &[usize]),
+        row: usize,
+        switch: Option<usize>,
+    ) {
+        let restitution = self.with_indices(&constraint.target.indices, element, |lowering| {
+            law.restitution.as_ref().map_or(Some(Id::ZERO), |value| lowering.scalar(value))
+        });
+        if let (Some(switch), Some(restitution)) = (switch, restitution) {
+            self.contacts.push(ContactRow { row, switch, restitution });
+        }
     }
 
     /// Returns whether the residual |q|² − 1 belongs to a quaternion that turns a frame. After an error this may be

@@ -8,7 +8,7 @@ use super::declaration::{Declaration, Options};
 use super::digest::digest;
 use super::field::Field;
 use super::forms::{
-    FORMS, constraint, coordinates, define, force, form, function, observable, only, options, power,
+    FORMS, constraint, contact, coordinates, define, force, form, function, observable, only, options, power,
 };
 use super::frame::{frame, unit_constraints};
 use super::parameter::parameter;
@@ -123,6 +123,7 @@ fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Res
         "frame" => declaration.frames.push(frame(cursor, declaration.defines.len())?),
         "lagrangian" => only(cursor, &mut declaration.lagrangian)?,
         "constraint" => constraint(cursor, &mut declaration.constraints)?,
+        "contact" => contact(cursor, &mut declaration.constraints)?,
         "force" => force(cursor, &mut declaration.forces)?,
         "power" => declaration.powers.push(power(cursor)?),
         "dissipation" => only(cursor, &mut declaration.dissipation)?,

@@ -193,7 +193,19 @@ impl Cursor {
         self.until(|cursor| cursor.is_punct('='))
     }
 
-    fn until(&mut self, stop: impl Fn(&Self) -> bool) -> Self {
+    /// Skips this many tokens.
+    pub(super) fn skip(&mut self, count: usize) {
+        self.position += count;
+    }
+
+    /// Moves to the next token where `stop` is true, or to the end.
+    pub(super) fn find(mut self, stop: impl Fn(&Self) -> bool) -> Self {
+        self.until(stop);
+        self
+    }
+
+    /// Consumes and returns the tokens before the next one where `stop` is true.
+    pub(super) fn until(&mut self, stop: impl Fn(&Self) -> bool) -> Self {
         let start = self.position;
         while !self.is_empty() && !stop(self) {
             self.position += 1;

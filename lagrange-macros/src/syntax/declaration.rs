@@ -80,7 +80,7 @@ pub(crate) struct FunctionDeclaration {
     pub(crate) field: Name,
 }
 
-/// `#[constraint(name: left = right)]`
+/// `#[constraint(name: left = right)]` or `#[constraint(name: left = right, when: field)]`
 #[derive(Debug)]
 pub(crate) struct Constraint {
     pub(crate) target: Target,
@@ -88,6 +88,17 @@ pub(crate) struct Constraint {
     pub(crate) right: Expression,
     /// True for the unit constraint that is implied by a frame rotated by a quaternion.
     pub(crate) is_implied: bool,
+    /// Field that says whether the constraint holds; without one it always does. That of a contact has its name.
+    pub(crate) when: Option<Name>,
+    /// Law of a contact, `#[contact(name: left >= right)]`, whose gap is left − right.
+    pub(crate) contact: Option<ContactLaw>,
+}
+
+/// What follows the gap in `#[contact(name: gap >= 0, restitution: e)]`.
+#[derive(Debug)]
+pub(crate) struct ContactLaw {
+    /// Newton's coefficient of restitution; zero if it is not given.
+    pub(crate) restitution: Option<Expression>,
 }
 
 /// `#[force(coordinate: expression)]`

@@ -5,7 +5,9 @@ use quote::ToTokens;
 use syn::Result;
 
 use super::cursor::Cursor;
-use super::declaration::{Constraint, Coordinate, Define, Force, FunctionDeclaration, Named, Options, Power};
+use super::declaration::{
+    Constraint, ContactLaw, Coordinate, Define, Force, FunctionDeclaration, Named, Options, Power,
+};
 use super::expression::{self, Expression, Kind};
 use super::field::{LENGTH_LIMIT, NOT_A_LITERAL, numbers};
 use super::name::Name;
@@ -21,13 +23,14 @@ const COORDINATE_LIMIT: usize = 1000;
 const RESULT_LIMIT: usize = 1000;
 
 /// Names of the attributes, with an example of each for error messages.
-pub(super) const FORMS: [(&str, &str); 13] = [
+pub(super) const FORMS: [(&str, &str); 14] = [
     ("coordinates", "#[coordinates(x, y)]"),
     ("define", "#[define(name = expression)]"),
     ("function", "#[function(U(r))]` or `#[function(Omega(t): [3] = field)]"),
     ("frame", "#[frame(body in parent: translate(v), rotate_z(angle))]"),
     ("lagrangian", "#[lagrangian(expression)]"),
     ("constraint", "#[constraint(name: expression = expression)]"),
+    ("contact", "#[contact(name: gap >= 0)]"),
     ("force", "#[force(coordinate: expression)]"),
     ("power", "#[power(force, velocity)]` or `#[power(i in 0..3, force, velocity)]"),
     ("dissipation", "#[dissipation(expression)]"),
@@ -233,34 +236,97 @@ pub(super) fn colon(cursor: &mut Cursor, word: &str) -> Result<()> {
 /// the count.
 pub(super) fn constraint(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) -> Result<()> {
     let written = cursor.clone();
-    let target = constraint_target(cursor);
+    let target = target_before_colon(cursor, "constraint");
     let sides = target.clone().and_then(|_| {
         colon(cursor, "constraint")?;
         let sides = sides(&mut cursor.until_comma())?;
+        let when = when(cursor)?;
         finish(cursor, "constraint")?;
-        Ok(sides)
+        Ok((sides, when))
     });
     let name = Name { text: String::new(), place: written.place() };
     let target = target.unwrap_or(Target::whole(name));
-    let (left, right, result) = match sides {
-        Ok((left, right)) => (left, right, Ok(())),
+    let (left, right, when, result) = match sides {
+        Ok(((left, right), when)) => (left, right, when, Ok(())),
         Err(error) => {
             let left = unread(written);
-            (left.clone(), left, Err(error))
+            (left.clone(), left, None, Err(error))
         }
     };
-    constraints.push(Constraint { target, left, right, is_implied: false });
+    constraints.push(Constraint { target, left, right, is_implied: false, when, contact: None });
     result
 }
 
-fn constraint_target(cursor: &mut Cursor) -> Result<Target> {
+/// Reads a contact. After an error, still adds one of the same name and number, as [`constraint`] does.
+pub(super) fn contact(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) -> Result<()> {
+    let written = cursor.clone();
+    let target = target_before_colon(cursor, "contact");
+    let read = target.clone().and_then(|_| {
+        colon(cursor, "contact")?;
+        let sides = gap(&mut cursor.until_comma())?;
+        Ok((sides, law(cursor)?))
+    });
+    let name = Name { text: String::new(), place: written.place() };
+    let target = target.unwrap_or(Target::whole(name));
+    let ((left, right), contact, result) = match read {
+        Ok((sides, law)) => (sides, law, Ok(())),
+        Err(error) => {
+            let left = unread(written);
+            ((left.clone(), left), ContactLaw { restitution: None }, Err(error))
+        }
+    };
+    let when = Some(target.name.clone());
+    constraints.push(Constraint { target, left, right, is_implied: false, when, contact: Some(contact) });
+    result
+}
+
+/// Reads `left >= right`.
+fn gap(inequality: &mut Cursor) -> Result<(Expression, Expression)> {
+    let mut left = inequality.until(|cursor| cursor.is_pair('>', '='));
+    if inequality.is_empty() {
+        let message = format!("the gap of a contact is at least zero: write `{}`", form("contact"));
+        return Err(left
+            .find(|cursor| ['<', '>', '='].iter().any(|&sign| cursor.is_punct(sign)))
+            .error(message));
+    }
+    let left = expression::whole(&mut left)?;
+    inequality.skip(2);
+    Ok((left, expression::whole(inequality)?))
+}
+
+/// Reads `restitution: e` after the gap.
+fn law(cursor: &mut Cursor) -> Result<ContactLaw> {
+    let mut law = ContactLaw { restitution: None };
+    while !cursor.is_empty() {
+        if !cursor.take_word("restitution") {
+            return Err(cursor.error("a contact has `restitution: e` after its gap"));
+        }
+        cursor.expect_punct(':', "expected `:` after `restitution`, as in `restitution: 0.8`")?;
+        if law.restitution.is_some() {
+            return Err(cursor.last_place().error("the restitution of this contact is given twice"));
+        }
+        law.restitution = Some(expression::whole(&mut cursor.until_comma())?);
+    }
+    Ok(law)
+}
+
+/// Reads `when: field` after a constraint.
+fn when(cursor: &mut Cursor) -> Result<Option<Name>> {
+    if !cursor.take_word("when") {
+        return Ok(None);
+    }
+    cursor.expect_punct(':', "expected `:` after `when`, as in `when: held`")?;
+    cursor.name("the name of a field of type `bool`").map(Some)
+}
+
+/// Reads the name of a constraint or a contact.
+fn target_before_colon(cursor: &mut Cursor, word: &str) -> Result<Target> {
     let start = cursor.place();
-    match target(cursor, "the name of the constraint") {
+    match target(cursor, &format!("the name of the {word}")) {
         Ok(target) if cursor.is_punct(':') => Ok(target),
         // Point the error at the start: without a name, the equation begins there.
         _ => {
-            let message =
-                format!("a constraint begins with a name of one word: write `{}`", form("constraint"));
+            let message = format!("a {word} begins with a name of one word: write `{}`", form(word));
             Err(start.error(message))
         }
     }

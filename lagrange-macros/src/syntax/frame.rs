@@ -101,5 +101,7 @@ fn unit_constraint(q: &Name, rows: &[usize]) -> Constraint {
         left: at(Kind::Call(name("dot"), vec![factor.clone(), factor])),
         right: number(1),
         is_implied: true,
+        when: None,
+        contact: None,
     }
 }

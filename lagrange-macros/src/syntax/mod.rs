@@ -20,8 +20,8 @@ mod unread;
 pub(crate) use attribute::declaration;
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
 pub(crate) use declaration::{
-    Constraint, Coordinate, Declaration, Define, Fact, Force, FrameDeclaration, FunctionDeclaration, Named,
-    Parameter, Power,
+    Constraint, ContactLaw, Coordinate, Declaration, Define, Fact, Force, FrameDeclaration,
+    FunctionDeclaration, Named, Parameter, Power,
 };
 pub(crate) use expression::{Expression, Kind, Operator, Sign, Slice, SumOver};
 pub(crate) use field::{

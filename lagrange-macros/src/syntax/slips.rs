@@ -60,7 +60,7 @@ fn unexpected_sign(cursor: &Cursor, sign: char) -> syn::Error {
         }
         '|' => "the absolute value is written `abs(x)`, and there is no logic here",
         '<' | '>' | '!' | '&' => {
-            "there are no comparisons or logic here: expressions are smooth, and constraints are equations; where a motion reaches a bound is an event, `system.event(…)`"
+            "there are no comparisons or logic here: expressions are smooth, and constraints are equations; a gap that is never negative is a contact, `#[contact(name: gap >= 0)]`, and where a motion reaches a bound is an event, `system.event(…)`"
         }
         '.' => return unexpected_point(cursor),
         ':' if cursor.is_pair(':', ':') => {

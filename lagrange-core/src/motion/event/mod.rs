@@ -14,4 +14,6 @@ mod search;
 pub(crate) use definition::DynEvent;
 pub use definition::{AnyEvent, Event, EventFunction, EventValue};
 pub(crate) use dense::DenseStep;
+#[cfg(feature = "alloc")]
+pub(crate) use noise::noise;
 pub(crate) use search::EventSearch;

@@ -10,7 +10,7 @@ use crate::system::{Lagrangian, StateOf};
 /// not known more accurately, and the function's own rounding errors change along with them.
 #[cold]
 #[inline(never)]
-pub(super) fn noise<L: Lagrangian<Scalar: Real>>(
+pub(crate) fn noise<L: Lagrangian<Scalar: Real>>(
     event: &impl AnyEvent<L>,
     system: &L,
     state: &StateOf<L>,

@@ -290,7 +290,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         let state = &State { t: t + half, q, v: vector(mean) };
         let none = Array::filled(L::Scalar::constant(0.0));
         let (m, f) = (self.system.completed_mass_matrix(state), self.system.constraint_jacobian(state));
-        Room::of(LoopFactor::of(m.into(), rows(&f), none))
+        Room::of(LoopFactor::of(m.into(), rows(&f), none, array(self.system.compliance())))
     }
 
     /// Corrects the stages and multipliers: M δVᵢ − Fᵀμᵢ = −Gᵢ with μᵢ = h Σₖ âᵢₖ δΛₖ, and F Σⱼ aᵢⱼ δVⱼ = −Φᵢ/h.

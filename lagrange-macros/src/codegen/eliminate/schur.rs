@@ -11,9 +11,17 @@ use super::short;
 const FEW: usize = 2;
 
 impl Solver<'_> {
-    /// Factorizes the Schur complement S = Z D⁻¹ Zᵀ. `None` if this takes too many operations.
-    pub(super) fn schur_factors(&mut self, factors: &FormFactors, rows: &[Sparse]) -> Option<FormFactors> {
-        let schur = self.complement(factors, rows);
+    /// Factorizes the Schur complement S = Z D⁻¹ Zᵀ + c. `None` if this takes too many operations.
+    pub(super) fn schur_factors(
+        &mut self,
+        factors: &FormFactors,
+        rows: &[Sparse],
+        compliance: &[SparseEntry],
+    ) -> Option<FormFactors> {
+        let mut schur = self.complement(factors, rows);
+        for (a, &compliance) in compliance.iter().enumerate().take(rows.len()) {
+            schur[a][a] = self.add(schur[a][a], compliance);
+        }
         let matrix = schur.iter().map(|row| row.iter().map(Option::is_some).collect()).collect();
         let order = short(&Pattern { matrix, definitions: Vec::new(), after: Vec::new() })?;
         Some(self.factor(schur, Vec::new(), &order, 0))

@@ -74,7 +74,7 @@ fn is_quadratic(graph: &Graph, bias: Id) -> bool {
         let both = |x, y| Some([of(x)?, of(y)?]);
         let degree = match *operation {
             Operation::Input(symbol) => match Variable::of(symbol) {
-                Variable::Parameter(_) => Some(0),
+                Variable::Parameter(_) | Variable::Switch(_) => Some(0),
                 Variable::Velocity(_) => Some(1),
                 _ => None,
             },

@@ -11,7 +11,7 @@ pub(super) struct System<'e> {
 }
 
 impl System<'_> {
-    /// Indices of the constraints, sorted by the number of zeros of M that they fill in, then by the number of
+    /// Indices of the constraints that always hold, sorted by the number of zeros of M that they fill in, then by the number of
     /// coordinates that they couple.
     pub(super) fn by_fill(&self) -> Vec<usize> {
         let jacobian = &self.constraints.jacobian;
@@ -20,7 +20,8 @@ impl System<'_> {
             let pairs = tied.iter().flat_map(|&i| tied.iter().map(move |&j| (i, j)));
             (pairs.filter(|&(i, j)| self.mass[i][j] == Id::ZERO).count(), tied.len())
         };
-        let mut order: Vec<usize> = (0..jacobian.len()).collect();
+        let mut order: Vec<usize> =
+            (0..jacobian.len()).filter(|&a| self.constraints.always_holds(a)).collect();
         order.sort_by_cached_key(|&a| fill(&jacobian[a]));
         order
     }

@@ -29,7 +29,11 @@ pub(super) fn check(
     constraints: &Constraints,
     diagnostics: &mut Diagnostics,
 ) -> Option<()> {
-    let of = |kind| (0..constraints.kinds.len()).filter(move |&row| constraints.kinds[row] == kind);
+    // Of switched constraints, never all hold at once, as far as is known.
+    let of = |kind| {
+        (0..constraints.kinds.len())
+            .filter(move |&row| constraints.kinds[row] == kind && constraints.always_holds(row))
+    };
     let order: Vec<usize> = of(Holonomic).chain(of(Velocity)).collect();
     for circuit in circuits::find(graph, problem, constraints, &order) {
         if let Some(Redundancy { index, others, message }) =

@@ -20,8 +20,17 @@ impl System {
         let kinds = [Variable::Coordinate, Variable::Velocity, Variable::Acceleration];
         let all = kinds.into_iter().flat_map(|kind| (0..n).map(kind));
         let parameters = (0..self.problem.parameters.entries.len()).map(Variable::Parameter);
-        let all = all.chain(parameters).chain((0..m).map(Variable::Multiplier)).chain([Variable::Time]);
-        Sample::new(all.map(Variable::symbol), draw, |symbol, draw| self.problem.drawn(symbol, draw))
+        // What is printed holds while all constraints do.
+        let switches = (0..self.problem.parameters.switches.len()).map(Variable::Switch);
+        let all = all
+            .chain(parameters)
+            .chain(switches)
+            .chain((0..m).map(Variable::Multiplier))
+            .chain([Variable::Time]);
+        Sample::new(all.map(Variable::symbol), draw, |symbol, draw| match Variable::of(symbol) {
+            Variable::Switch(_) => Approximate::exact(1.0),
+            _ => self.problem.drawn(symbol, draw),
+        })
     }
 
     /// Redraws the accelerations and multipliers of a sample, and keeps its state.

@@ -1,0 +1,213 @@
+//! Motion from transition to transition.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::ops::ControlFlow;
+
+use super::instant::{Bodies, Decided};
+use super::trajectory::{ContactTrajectory, Transition};
+use super::{Contact, Contacts};
+use crate::error::{Ending, Error};
+use crate::motion::event::noise;
+use crate::motion::{
+    AllSteps, DynEvent, LagrangianVectorField, Method, MotionBuilder, OnProgress, Progress, Simulate, Start,
+};
+use crate::names::name;
+use crate::number::{Real, Scalar, larger};
+use crate::solution::Sample;
+use crate::system::{Lagrangian, StateOf};
+use crate::trajectory::{HybridTrajectory, Trajectory};
+
+/// Largest number of legs unless [`max_transitions`](MotionBuilder::max_transitions) sets another.
+const LEGS: usize = 100_000;
+
+/// Marks a motion across contacts: `to` returns a [`ContactTrajectory`].
+#[derive(Clone, Copy, Debug)]
+pub struct AcrossContacts {
+    legs: usize,
+}
+
+/// Settings of a motion from a state.
+type Builder<'a, 'w, L, P, K> = MotionBuilder<
+    'a,
+    'w,
+    L,
+    Start<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, LagrangianVectorField>,
+    P,
+    (),
+    K,
+>;
+
+impl<'a, 'w, L: Contacts + Clone, P> Builder<'a, 'w, L, P, AllSteps> {
+    /// Moves across the [contacts](crate::contact) of the system: gaps close and open, and velocities jump at impacts.
+    pub fn with_contacts(self) -> Builder<'a, 'w, L, P, AcrossContacts> {
+        self.keeping(|AllSteps| AcrossContacts { legs: LEGS })
+    }
+}
+
+impl<L, P> Builder<'_, '_, L, P, AcrossContacts>
+where
+    L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static,
+    P: Method<L> + Clone,
+{
+    /// Sets the largest number of legs, 100,000 if it is not set.
+    pub fn max_transitions(self, count: usize) -> Self {
+        self.keeping(|_| AcrossContacts { legs: count })
+    }
+
+    /// Moves to the time `end`.
+    ///
+    /// # Errors
+    /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
+    pub fn to(self, end: L::Scalar) -> Result<ContactTrajectory<L>, Error> {
+        self.towards(end)?.finished()
+    }
+
+    /// Moves towards the time `end`. If the motion fails on the way, the result holds what was computed until then, and its
+    /// [`ending`](ContactTrajectory::ending) the reason.
+    ///
+    /// # Errors
+    /// Those of [`integrate`](Simulate::integrate) before the first step; [`Error::Penetration`] if a gap is negative at the
+    /// start; [`Error::MotionBackwards`] if `end` lies before the start.
+    pub fn towards(self, end: L::Scalar) -> Result<ContactTrajectory<L>, Error> {
+        let Self { system, start, method, on_progress, kept, .. } = self;
+        let state = start.into_state()?;
+        if end < state.t {
+            let [start, end] = [state.t, end].map(Real::to_f64);
+            return Err(Error::MotionBackwards { start, end });
+        }
+        Journey::begin(system, state, on_progress)?.run(&method, end, kept.legs)
+    }
+}
+
+/// A motion under way.
+struct Journey<'w, L: Lagrangian> {
+    bodies: Bodies<L>,
+    decided: Decided<L::Scalar>,
+    state: StateOf<L>,
+    legs: HybridTrajectory<L::Scalar>,
+    transitions: Vec<Transition<L::Scalar>>,
+    on_progress: Option<OnProgress<'w>>,
+}
+
+impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, L> {
+    fn begin(system: &L, mut state: StateOf<L>, on_progress: Option<OnProgress<'w>>) -> Result<Self, Error> {
+        let (mut bodies, mut transitions) = (Bodies::new(system), Vec::new());
+        bodies.passes(&state);
+        bodies.crossed(&state).map_or(Ok(()), Err)?;
+        let was_closed: Vec<bool> =
+            (0..L::CONTACTS.len()).map(|k| system.contact(k) == Some(Contact::Closed)).collect();
+        bodies.with(&was_closed).check_consistent(&state)?;
+        let decided = bodies.settle(&mut state, (&was_closed, None, None), &mut transitions)?;
+        Ok(Self { bodies, decided, state, legs: HybridTrajectory::new(), transitions, on_progress })
+    }
+
+    fn run<P: Method<L> + Clone>(
+        mut self,
+        method: &P,
+        end: L::Scalar,
+        legs: usize,
+    ) -> Result<ContactTrajectory<L>, Error> {
+        let mut ending = Ok(None);
+        for leg in 0..legs {
+            ending = match self.leg(method, end) {
+                Err(error) if leg == 0 => return Err(error),
+                Err(error) => Err(error),
+                Ok(path) => self.goes_on(path, end),
+            };
+            if !matches!(ending, Ok(None)) {
+                break;
+            }
+        }
+        let time = self.state.t.to_f64();
+        let ending = ending.unwrap_or_else(|error| Some(Ending::of(error, time)));
+        Ok(self.ended(ending.unwrap_or(Ending::TransitionLimit { time, transitions: legs })))
+    }
+
+    fn ended(self, ending: Ending) -> ContactTrajectory<L> {
+        let Self { bodies, decided, state, legs, transitions, .. } = self;
+        let system = bodies.with(&decided.is_closed);
+        ContactTrajectory { legs, transitions, system, end: state, ending }
+    }
+
+    /// Moves until the next gap closes or the next multiplier becomes zero.
+    fn leg<P: Method<L> + Clone>(&mut self, method: &P, end: L::Scalar) -> Result<Trajectory<L>, Error> {
+        let Self { bodies, decided, state, on_progress, .. } = self;
+        let system = bodies.with(&decided.is_closed);
+        let mut events: Vec<Box<DynEvent<'_, L>>> = Vec::new();
+        for (k, &row) in L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]) {
+            let (name, bodies) = (name(L::CONSTRAINTS, row), &*bodies);
+            let force = move |sample: &Sample<&L>| Ok(sample.solution()?.multipliers[row]);
+            let gap = move |sample: &Sample<&L>| Ok(bodies.gap(k, sample.state()));
+            let is_resting = decided.is_resting[k];
+            events.push(match decided.is_closed[k] {
+                true => watched(&system, state, name, is_resting, force)?,
+                false => watched(&system, state, name, is_resting, gap)?,
+            });
+        }
+        let mut motion = system.motion(*state).by(method.clone()).events(events);
+        if let Some(look) = on_progress {
+            motion = motion.on_progress(|progress: Progress| -> ControlFlow<()> { look(progress) });
+        }
+        // A bounce is searched for within its own time: a step as long as that of a flight would be halved many times.
+        let bounce = decided.bounce.take().map(|bounce| state.t + bounce);
+        let end = bounce.filter(|&bounce| state.t < bounce && bounce < end).unwrap_or(end);
+        Ok(motion.with_contacts_as_they_are(end)?.into_owned())
+    }
+
+    /// Keeps a leg, and decides what follows at its end. Returns the ending if it is the last one.
+    fn goes_on(&mut self, path: Trajectory<L>, end: L::Scalar) -> Result<Option<Ending>, Error> {
+        let crossed = path.steps().find_map(|step| {
+            self.bodies.passes(step.state());
+            self.bodies.crossed(step.state())
+        });
+        self.state = *path.end().state();
+        let ending = path.ending().clone();
+        self.legs.push(path)?;
+        if let Some(error) = crossed {
+            return Err(error);
+        }
+        let event = match ending {
+            Ending::Event { event, .. } => event,
+            Ending::Complete { .. } if self.state.t < end => return Ok(None),
+            other => return Ok(Some(other)),
+        };
+        let changes = L::CONTACTS.iter().position(|&row| L::CONSTRAINTS[row] == event);
+        let is_closed = core::mem::take(&mut self.decided.is_closed);
+        let is = |closed| changes.filter(|&k| is_closed[k] == closed);
+        let changed = (&is_closed[..], is(false), is(true));
+        let settled = self.bodies.settle(&mut self.state, changed, &mut self.transitions);
+        match settled {
+            Ok(decided) => self.decided = decided,
+            Err(error) => {
+                self.decided.is_closed = is_closed;
+                return Err(error);
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// The event that a gap or a multiplier becomes negative. If it rests at zero, it may do so at once, without a sign before: it
+/// is then watched for exceeding four times its round-off.
+fn watched<'w, L: Lagrangian<Scalar: Real>>(
+    system: &L,
+    state: &StateOf<L>,
+    name: &'static str,
+    is_resting: bool,
+    function: impl Fn(&Sample<&L>) -> Result<L::Scalar, Error> + Copy + 'w,
+) -> Result<Box<DynEvent<'w, L>>, Error>
+where
+    L: 'w,
+{
+    let [zero, four] = [0.0, 4.0].map(L::Scalar::constant);
+    let (value, allowed) = match is_resting {
+        true => {
+            (function(&system.sample(*state))?, four * noise(&system.event(name, function), system, state)?)
+        }
+        false => (four, zero),
+    };
+    let margin = if value <= allowed { allowed + larger(-value, zero) } else { zero };
+    let event = system.event(name, move |sample| Ok(function(sample)? + margin));
+    Ok(Box::new(event.falling().terminal()))
+}

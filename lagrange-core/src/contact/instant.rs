@@ -1,0 +1,398 @@
+//! What happens at one instant: which contacts hit, which of them close, and which open.
+
+use alloc::vec::Vec;
+
+use super::complementarity::{Complementarity, Solved};
+use super::trajectory::Transition;
+use super::{Contact, Contacts};
+use crate::error::Error;
+use crate::names::name;
+use crate::number::{Real, Scalar, larger};
+use crate::solution::kkt::Rank;
+use crate::solution::pivot::is_trustworthy;
+use crate::solution::solve::{solve_in_general, solve_near};
+use crate::system::{Lagrangian, StateOf};
+use crate::vector::{Array, Length, Vector, vector};
+
+/// Round-off of gaps and rates, in units of the round-off of the sums Σ |Wᵢ qᵢ| and Σ |Wᵢ q̇ᵢ| over the largest entries so
+/// far. A gap comes from a projection to 4 units and a location to one unit of time; a rate from a solve.
+const UNITS: f64 = 8.0;
+
+/// Gap, relative to its sum Σ |Wᵢ qᵢ|, below which a contact is not closed but crossed.
+const CROSSED: f64 = 1e-9;
+
+/// Height of a bounce, in units of the round-off of its gap, up to which it counts as rest. A gap that rests is found closed
+/// by up to 25 units below zero (four times the round-off that events estimate), and is seen positive from 6 units on.
+const LOW: f64 = 64.0;
+
+/// Gap, in units of its round-off, up to which bodies touch: twice the round-off that events estimate, below which they do not
+/// see a gap close.
+const TOUCHING: f64 = 4.0;
+
+/// Largest number of impacts at one time. Each takes energy, or passes it on to the next of bodies in a row.
+const IMPACTS: usize = 10_000;
+
+/// Largest number of rounds that stop contacts which approach at rest.
+const STOPS: usize = 8;
+
+/// A system with its contacts open and with its contacts closed, and the largest entries of its motion so far.
+pub(super) struct Bodies<L: Lagrangian> {
+    open: L,
+    closed: L,
+    largest: [Array<L::Scalar, L::N>; 2],
+}
+
+/// Contacts after an instant.
+pub(super) struct Decided<T> {
+    pub(super) is_closed: Vec<bool>,
+    /// Open contacts whose gaps remain zero because of the closed ones.
+    pub(super) is_implied: Vec<bool>,
+    /// Contacts whose gaps are zero and do not change: closed ones, and open ones that nothing presses together.
+    pub(super) is_resting: Vec<bool>,
+    /// Time within which the next bounce ends, if one begins.
+    pub(super) bounce: Option<T>,
+}
+
+/// Responses of gaps to impulses, and the changes of velocities for an impulse of each contact.
+type Delassus<L> =
+    (Vec<Vec<<L as Lagrangian>::Scalar>>, Vec<Vector<<L as Lagrangian>::Scalar, <L as Lagrangian>::N>>);
+
+/// What can be said of one contact at a state.
+struct Measured<T> {
+    gap: T,
+    rate: T,
+    /// Round-off of gap and rate.
+    noise: [T; 2],
+}
+
+impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
+    pub(super) fn new(system: &L) -> Self {
+        let all = |contact| {
+            let mut system = system.clone();
+            (0..L::CONTACTS.len()).for_each(|k| {
+                system.set_contact(k, contact);
+            });
+            system
+        };
+        let largest = [Array::filled(L::Scalar::constant(0.0)); 2];
+        Self { open: all(Contact::Open), closed: all(Contact::Closed), largest }
+    }
+
+    /// The system with these contacts closed.
+    pub(super) fn with(&self, is_closed: &[bool]) -> L {
+        let mut system = self.open.clone();
+        for (k, &is_closed) in is_closed.iter().enumerate() {
+            system.set_contact(k, if is_closed { Contact::Closed } else { Contact::Open });
+        }
+        system
+    }
+
+    pub(super) fn gap(&self, k: usize, state: &StateOf<L>) -> L::Scalar {
+        self.closed.constraint_residual(state)[L::CONTACTS[k]]
+    }
+
+    /// Takes note of the entries of a state.
+    pub(super) fn passes(&mut self, state: &StateOf<L>) {
+        for (largest, entries) in self.largest.iter_mut().zip([&state.q, &state.v]) {
+            *largest = Array::from_fn(|i| larger(largest[i], Scalar::abs(entries[i])));
+        }
+    }
+
+    /// The row W of a contact.
+    fn row(&self, k: usize, state: &StateOf<L>) -> Vector<L::Scalar, L::N> {
+        let jacobian = self.closed.constraint_jacobian(state);
+        vector(Array::from_fn(|i| jacobian[(L::CONTACTS[k], i)]))
+    }
+
+    fn measured(&self, k: usize, state: &StateOf<L>) -> Measured<L::Scalar> {
+        let (row, rate) = (self.row(k, state), self.closed.constraint_rate(state)[L::CONTACTS[k]]);
+        let unit = L::Scalar::constant(L::Scalar::EPSILON * UNITS);
+        let [of_gap, of_rate] = self.largest.each_ref().map(|largest| {
+            (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, i| sum + Scalar::abs(row[i]) * largest[i])
+        });
+        let in_time = Scalar::abs(rate * state.t);
+        Measured { gap: self.gap(k, state), rate, noise: [unit * (of_gap + in_time), unit * of_rate] }
+    }
+
+    /// Contact that is crossed at a state, its gap being negative.
+    pub(super) fn crossed(&self, state: &StateOf<L>) -> Option<Error> {
+        (0..L::CONTACTS.len()).find_map(|k| {
+            let Measured { gap, noise: [noise, _], .. } = self.measured(k, state);
+            let least = -(noise * L::Scalar::constant(CROSSED / (L::Scalar::EPSILON * UNITS)));
+            let is_open = gap >= least || (gap + noise >= L::Scalar::constant(0.0));
+            let (contact, time) = (self.name(k), state.t.to_f64());
+            (!is_open).then(|| Error::Penetration { contact, gap: gap.to_f64(), time })
+        })
+    }
+
+    fn name(&self, k: usize) -> &'static str {
+        name(L::CONSTRAINTS, L::CONTACTS[k])
+    }
+
+    /// Decides what follows at a state: velocities after impacts, and the contacts that are closed. `was_closed` marks those
+    /// that were closed until then, `hit` the one whose gap has just become zero, `opens` the one whose multiplier has.
+    pub(super) fn settle(
+        &self,
+        state: &mut StateOf<L>,
+        (was_closed, hit, opens): (&[bool], Option<usize>, Option<usize>),
+        transitions: &mut Vec<Transition<L::Scalar>>,
+    ) -> Result<Decided<L::Scalar>, Error> {
+        let is_touching = |k: usize| {
+            let Measured { gap, noise: [noise, _], .. } = self.measured(k, state);
+            was_closed[k] || hit == Some(k) || gap <= noise * L::Scalar::constant(TOUCHING)
+        };
+        let touching: Vec<usize> = (0..L::CONTACTS.len()).filter(|&k| is_touching(k)).collect();
+        let delassus = self.delassus(&touching, state)?;
+        for _ in 0..IMPACTS {
+            let pressing = self.pressing(&touching, state)?;
+            let resting: Vec<bool> =
+                touching.iter().zip(&pressing).map(|(&k, &[a, _])| self.rests(k, a, state)).collect();
+            let approaches = |place: usize| {
+                !resting[place] && self.measured(touching[place], state).rate < L::Scalar::constant(0.0)
+            };
+            if (0..touching.len()).any(approaches) {
+                self.impact((&touching, &resting), &delassus, state, transitions)?;
+                continue;
+            }
+            return self.close(
+                (&touching, &resting, &pressing),
+                &delassus,
+                state,
+                (was_closed, opens),
+                transitions,
+            );
+        }
+        Err(Error::ImpactsDoNotEnd { time: state.t.to_f64() })
+    }
+
+    /// Accelerations W q̈ + γ of gaps without forces of contacts, and their round-off.
+    fn pressing(&self, touching: &[usize], state: &StateOf<L>) -> Result<Vec<[L::Scalar; 2]>, Error> {
+        let free = solve_near(&self.open, state, None, |solution, _| solution.accelerations)?;
+        let (bias, unit) =
+            (self.closed.constraint_bias(state), L::Scalar::constant(L::Scalar::EPSILON * UNITS));
+        let of = |&k: &usize| {
+            let (row, bias) = (self.row(k, state), bias[L::CONTACTS[k]]);
+            let terms = || (0..<L::N>::COUNT).map(|i| row[i] * free[i]).chain([bias]);
+            let size = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + Scalar::abs(term));
+            [terms().fold(L::Scalar::constant(0.0), |sum, term| sum + term), unit * size]
+        };
+        Ok(touching.iter().map(of).collect())
+    }
+
+    /// Whether a gap that is zero remains so but for round-off: its rate is none, or a bounce would rise by none.
+    fn rests(&self, k: usize, acceleration: L::Scalar, state: &StateOf<L>) -> bool {
+        let Measured { rate, noise: [of_gap, of_rate], .. } = self.measured(k, state);
+        let low = L::Scalar::constant(2.0 * LOW) * of_gap * larger(-acceleration, L::Scalar::constant(0.0));
+        Scalar::abs(rate) <= of_rate || rate * rate <= low
+    }
+
+    /// Responses W K⁻¹ Wᵀ of the gaps to impulses, and K⁻¹ Wᵀ, the changes of the velocities.
+    fn delassus(&self, touching: &[usize], state: &StateOf<L>) -> Result<Delassus<L>, Error> {
+        let rows: Vec<Vector<L::Scalar, L::N>> = touching.iter().map(|&k| self.row(k, state)).collect();
+        let none = vector(Array::filled(L::Scalar::constant(0.0)));
+        let factor = self.open.factor(state);
+        let respond = |row: &Vector<L::Scalar, L::N>| {
+            let fast = self.open.solve_with(&factor, row, &none);
+            if is_trustworthy(&fast) {
+                return Ok(fast.accelerations);
+            }
+            let all = Array::filled(true);
+            let solved = solve_in_general(&self.open, state, (*row, none), &all, Rank::on_constraints())?;
+            Ok(solved.0.accelerations)
+        };
+        let responses: Vec<Vector<L::Scalar, L::N>> =
+            rows.iter().map(respond).collect::<Result<_, Error>>()?;
+        let matrix = rows.iter().map(|row| responses.iter().map(|change| row.dot(change)).collect());
+        Ok((matrix.collect(), responses))
+    }
+
+    /// An impact: Newton's law for the contacts that approach, and those that rest push too.
+    fn impact(
+        &self,
+        (touching, resting): (&[usize], &[bool]),
+        (matrix, responses): &Delassus<L>,
+        state: &mut StateOf<L>,
+        transitions: &mut Vec<Transition<L::Scalar>>,
+    ) -> Result<(), Error> {
+        let zero = L::Scalar::constant(0.0);
+        let measured: Vec<Measured<L::Scalar>> = touching.iter().map(|&k| self.measured(k, state)).collect();
+        // Those that part take part in the next impact, if this one makes them approach.
+        let takes_part = |place: &usize| resting[*place] || measured[*place].rate < zero;
+        let places: Vec<usize> = (0..touching.len()).filter(takes_part).collect();
+        let mut returned = Vec::with_capacity(places.len());
+        for &place in &places {
+            let restitution = self.restitution(touching[place], state)?;
+            returned.push(if resting[place] { zero } else { restitution * measured[place].rate });
+        }
+        let rates = |state: &StateOf<L>| {
+            let of = |(&place, &returned): (&usize, &L::Scalar)| {
+                self.measured(touching[place], state).rate + returned
+            };
+            places.iter().zip(&returned).map(of).collect::<Vec<_>>()
+        };
+        let problem = Complementarity {
+            matrix: places.iter().map(|&j| places.iter().map(|&k| matrix[j][k]).collect()).collect(),
+            noise: places.iter().map(|&place| measured[place].noise[1]).collect(),
+            constant: rates(state),
+        };
+        let Solved { z: mut impulses, is_active, .. } =
+            problem.solve().ok_or_else(|| self.contradiction(touching, state))?;
+        let push = |state: &mut StateOf<L>, impulses: &[L::Scalar]| {
+            for (&place, &impulse) in places.iter().zip(impulses) {
+                state.v = vector(Array::from_fn(|i| state.v[i] + responses[place][i] * impulse));
+            }
+        };
+        push(state, &impulses);
+        // What is left by the round-off of the matrix would take or give energy at each impact, always of one sign.
+        let active: Vec<usize> = (0..places.len()).filter(|&place| is_active[place]).collect();
+        let more = Complementarity { constant: rates(state), ..problem }.equality(&active);
+        push(state, &more);
+        impulses.iter_mut().zip(more).for_each(|(impulse, more)| *impulse += more);
+        let pushes = places.iter().zip(&impulses).filter(|(_, impulse)| **impulse > zero);
+        let impulses = pushes.map(|(&place, &impulse)| (self.name(touching[place]), impulse)).collect();
+        transitions.push(Transition::Impact { time: state.t, impulses });
+        Ok(())
+    }
+
+    fn restitution(&self, k: usize, state: &StateOf<L>) -> Result<L::Scalar, Error> {
+        let value = self.open.restitution(k, state).unwrap_or(L::Scalar::constant(0.0));
+        let is_one = value >= L::Scalar::constant(0.0) && value <= L::Scalar::constant(1.0);
+        if is_one { Ok(value) } else { Err(Error::Restitution { value: value.to_f64() }) }
+    }
+
+    fn contradiction(&self, touching: &[usize], state: &StateOf<L>) -> Error {
+        let contacts = touching.iter().map(|&k| self.name(k)).collect();
+        Error::ContactsContradict { contacts, time: state.t.to_f64() }
+    }
+
+    /// Closes the resting contacts that have to push, and takes what is left of their rates.
+    #[allow(clippy::type_complexity, reason = "slices that belong together")]
+    fn close(
+        &self,
+        (touching, resting, pressing): (&[usize], &[bool], &[[L::Scalar; 2]]),
+        (matrix, responses): &Delassus<L>,
+        state: &mut StateOf<L>,
+        (was_closed, opens): (&[bool], Option<usize>),
+        transitions: &mut Vec<Transition<L::Scalar>>,
+    ) -> Result<Decided<L::Scalar>, Error> {
+        let mut resting = resting.to_vec();
+        let (places, problem, solved, accelerations) = loop {
+            let rests = |place: &usize| resting[*place] && opens != Some(touching[*place]);
+            let places: Vec<usize> = (0..touching.len()).filter(rests).collect();
+            let of = |place: usize| places.iter().map(|&k| matrix[place][k]).collect::<Vec<_>>();
+            let problem = Complementarity {
+                matrix: places.iter().map(|&place| of(place)).collect(),
+                constant: places.iter().map(|&place| pressing[place][0]).collect(),
+                noise: places.iter().map(|&place| pressing[place][1]).collect(),
+            };
+            let solved = problem.solve().ok_or_else(|| self.contradiction(touching, state))?;
+            let acceleration = |place: usize| {
+                let forces = places.iter().zip(&solved.z).map(|(&k, &z)| matrix[place][k] * z);
+                forces.fold(pressing[place][0], |sum, part| sum + part)
+            };
+            let accelerations: Vec<L::Scalar> = (0..touching.len()).map(acceleration).collect();
+            // The forces of contacts may press others together, whose bounces are then low.
+            let joins =
+                |&place: &usize| !resting[place] && self.rests(touching[place], accelerations[place], state);
+            match (0..touching.len()).find(joins) {
+                Some(place) => resting[place] = true,
+                None => break (places, problem, solved, accelerations),
+            }
+        };
+        let mut decided = Self::decided((touching, &places), (&problem, &solved), opens);
+        // One that parts ever faster is watched as one that rests, since it may start below zero by its round-off.
+        for place in (0..touching.len()).filter(|&place| !resting[place]) {
+            decided.is_resting[touching[place]] = accelerations[place] >= L::Scalar::constant(0.0);
+        }
+        decided.bounce = self.bounce((touching, &resting, &accelerations), state);
+        self.report((touching, pressing), state, (was_closed, &decided.is_closed), transitions)?;
+        self.stop((touching, &places), (problem, &solved.is_active), responses, state);
+        Ok(decided)
+    }
+
+    /// Takes the rates, all but zero, of resting contacts: those that are closed stay so, and no other one approaches.
+    fn stop(
+        &self,
+        (touching, places): (&[usize], &[usize]),
+        (problem, is_active): (Complementarity<L::Scalar>, &[bool]),
+        responses: &[Vector<L::Scalar, L::N>],
+        state: &mut StateOf<L>,
+    ) {
+        let active: Vec<usize> = (0..places.len()).filter(|&place| is_active[place]).collect();
+        let mut problem = problem;
+        for _ in 0..STOPS {
+            let measured: Vec<Measured<L::Scalar>> =
+                places.iter().map(|&place| self.measured(touching[place], state)).collect();
+            problem.constant = measured.iter().map(|measured| measured.rate).collect();
+            let is_wrong = |k: &usize| !is_active[*k] && measured[*k].rate < -measured[*k].noise[1];
+            let wrong: Vec<usize> = (0..places.len()).filter(is_wrong).collect();
+            let together = [&active[..], &wrong].concat();
+            for (&place, &impulse) in places.iter().zip(&problem.equality(&together)) {
+                state.v = vector(Array::from_fn(|i| state.v[i] + responses[place][i] * impulse));
+            }
+            if wrong.is_empty() {
+                break;
+            }
+        }
+    }
+
+    /// Which contacts are closed, and which are implied by those.
+    fn decided(
+        (touching, places): (&[usize], &[usize]),
+        (problem, solved): (&Complementarity<L::Scalar>, &Solved<L::Scalar>),
+        opens: Option<usize>,
+    ) -> Decided<L::Scalar> {
+        let none = || alloc::vec![false; L::CONTACTS.len()];
+        let mut decided = Decided { is_closed: none(), is_implied: none(), is_resting: none(), bounce: None };
+        let active: Vec<usize> = (0..places.len()).filter(|&place| solved.is_active[place]).collect();
+        for (place, &of_touching) in places.iter().enumerate() {
+            let (k, is_active) = (touching[of_touching], solved.is_active[place]);
+            let is_still = solved.w[place] <= solved.noise[place];
+            (decided.is_closed[k], decided.is_resting[k]) = (is_active, true);
+            decided.is_implied[k] = !is_active && is_still && problem.depends(place, &active);
+        }
+        // Its multiplier has just become zero, so that its gap begins to open without an acceleration.
+        if let Some(k) = opens {
+            decided.is_resting[k] = true;
+        }
+        decided
+    }
+
+    /// Twice the time of the shortest bounce that begins: 2 v/a with the rate v of the gap and its acceleration −a.
+    fn bounce(
+        &self,
+        (touching, resting, accelerations): (&[usize], &[bool], &[L::Scalar]),
+        state: &StateOf<L>,
+    ) -> Option<L::Scalar> {
+        let falls = |place: &usize| !resting[*place] && accelerations[*place] < L::Scalar::constant(0.0);
+        let time = |place: usize| {
+            L::Scalar::constant(-4.0) * self.measured(touching[place], state).rate / accelerations[place]
+        };
+        (0..touching.len()).filter(falls).map(time).reduce(|one, other| if other < one { other } else { one })
+    }
+
+    /// Reports the contacts that close and open.
+    fn report(
+        &self,
+        (touching, pressing): (&[usize], &[[L::Scalar; 2]]),
+        state: &StateOf<L>,
+        (was_closed, is_closed): (&[bool], &[bool]),
+        transitions: &mut Vec<Transition<L::Scalar>>,
+    ) -> Result<(), Error> {
+        let one = L::Scalar::constant(1.0);
+        for k in (0..is_closed.len()).filter(|&k| was_closed[k] != is_closed[k]) {
+            let (contact, time) = (self.name(k), state.t);
+            let place = touching.iter().position(|&other| other == k);
+            transitions.push(match (is_closed[k], place) {
+                (true, Some(place)) if self.measured(k, state).rate > self.measured(k, state).noise[1] => {
+                    let apart = pressing[place][0] * (one - self.restitution(k, state)?);
+                    let rest = -(L::Scalar::constant(2.0) * self.measured(k, state).rate / apart);
+                    Transition::Rests { contact, time: time + rest }
+                }
+                (true, _) => Transition::Closes { contact, time },
+                (false, _) => Transition::Opens { contact, time },
+            });
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,97 @@
+//! Contacts: gaps that never become negative, whose multipliers never become negative either.
+//!
+//! `#[contact(floor: y - r >= 0, restitution: e)]` states a gap, and a field of the same name and of the type
+//! [`Contact`] says whether it is closed. While it is, the gap is a constraint, and its multiplier the force that keeps the
+//! bodies apart: d/dt(∂L/∂q̇) = ∂L/∂q + Q + Fᵀλ with λ ≥ 0. While it is open, λ = 0.
+//!
+//! [`MotionBuilder::with_contacts`](crate::MotionBuilder::with_contacts) moves such a system from transition to transition:
+//! gaps that close, and multipliers that become zero, are located as events. Which contacts push is decided by linear
+//! complementarity problems (Pfeiffer and Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996, chapters 5 and 6),
+//! solved exactly. Restitution is Newton's: a gap that closes at the rate v opens at the rate −e v.
+//!
+#![cfg_attr(
+    feature = "std",
+    doc = r#"
+```
+use lagrange_core::contact::{Contact, Transition};
+use lagrange_core::prelude::*;
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+#[contact(floor: y >= 0, restitution: e)]
+struct Ball { m: f64, g: f64, e: f64, floor: Contact }
+
+let ball = Ball { m: 0.2, g: 9.81, e: 0.8, floor: Contact::Open };
+let path = ball.motion(State::new([0.0, 1.0], [0.5, 0.0])).with_contacts().to(10.0)?;
+
+// It falls for T, bounces for 2 e T, 2 e² T …, and rests after the sum of them.
+let fall = (2.0 / 9.81_f64).sqrt();
+let Transition::Impact { time, .. } = path.transitions()[0] else { panic!() };
+assert!((time - fall).abs() < 1e-14);
+let rests = path.transitions().iter().find(|transition| matches!(transition, Transition::Rests { .. }));
+assert!((rests.expect("it rests").time() - fall * 1.8 / 0.2).abs() < 1e-12);
+assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
+# Ok::<(), Error>(())
+```
+"#
+)]
+//!
+//! # Accumulating impacts
+//!
+//! A contact rests once a bounce would rise by no more than 64 units of round-off of its gap, the sum Σ |Wᵢ qᵢ| with the
+//! largest qᵢ so far. The bounces to come take 2 v/(a (1 − e)) in total, with the rate v after the impact and the
+//! acceleration a towards the contact; [`Transition::Rests`] has the time when they end. What they would move is
+//! below the round-off of the gap.
+//!
+//! # Several contacts at once
+//!
+//! Bodies that touch several others at an impact share its impulses as the complementarity problem of Newton's law says:
+//! each impulse pushes, and each gap that closes reopens at least at the rate −e v. Of contacts that depend on one another,
+//! such as the fourth leg of a table, one that is not needed stays open; its gap is zero as long as the others hold.
+
+#[cfg(feature = "alloc")]
+mod complementarity;
+#[cfg(feature = "alloc")]
+mod driver;
+#[cfg(feature = "alloc")]
+mod instant;
+#[cfg(feature = "alloc")]
+mod trajectory;
+
+use crate::system::{Lagrangian, StateOf};
+#[cfg(feature = "alloc")]
+pub use driver::AcrossContacts;
+#[cfg(feature = "alloc")]
+pub use trajectory::{ContactTrajectory, Transition};
+
+/// Whether a contact is open or closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Contact {
+    /// The bodies may part: no force acts.
+    #[default]
+    Open,
+    /// The bodies touch and stay together: the gap is a constraint.
+    Closed,
+}
+
+/// A system with contacts. The derive macro implements it for a struct with `#[contact(…)]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no contacts",
+    label = "no contacts",
+    note = "a contact is stated by `#[contact(floor: y >= 0)]`, with a field `floor: Contact`"
+)]
+pub trait Contacts: Lagrangian {
+    /// Index, among the constraints, of each contact.
+    const CONTACTS: &'static [usize];
+
+    /// Returns whether contact `index` is open or closed; `None` if there is none of this index.
+    fn contact(&self, index: usize) -> Option<Contact>;
+
+    /// Opens or closes contact `index`. Returns `false` if there is none of this index.
+    fn set_contact(&mut self, index: usize, contact: Contact) -> bool;
+
+    /// Newton's coefficient of restitution of contact `index`, from 0 for a plastic impact to 1 for an elastic one.
+    fn restitution(&self, index: usize, state: &StateOf<Self>) -> Option<Self::Scalar>;
+}

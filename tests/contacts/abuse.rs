@@ -1,0 +1,84 @@
+//! Rods that are thrown at a floor and a wall: at every stored state no gap is negative, no multiplier pulls, no force acts
+//! across a gap, and no energy is gained.
+
+use lagrange_core::contact::Contact;
+use lagrange_core::{Ending, prelude::*};
+
+use crate::count;
+
+/// A rod whose two ends may touch a floor and a wall.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, theta)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*a^2/6 * theta_dot^2 - m*g*y)]
+#[define(end(s) = [x + s*a*cos(theta), y + s*a*sin(theta)])]
+#[contact(floor[i in 0..2]: end(2*i - 1)[1] >= 0, restitution: e)]
+#[contact(wall[i in 0..2]: end(2*i - 1)[0] >= 0, restitution: e)]
+struct Rod {
+    m: f64,
+    a: f64,
+    g: f64,
+    e: f64,
+    floor: [Contact; 2],
+    wall: [Contact; 2],
+}
+
+impl Rod {
+    /// Gaps of both ends to the floor and to the wall, by hand.
+    fn gaps(&self, state: &State<f64, 3>) -> [f64; 4] {
+        let [x, y, theta] = [0, 1, 2].map(|i| state.q[i]);
+        let (s, c) = theta.sin_cos();
+        [y - self.a * s, y + self.a * s, x - self.a * c, x + self.a * c]
+    }
+}
+
+/// A number between two others, by a linear congruence.
+fn random(seed: &mut u64, low: f64, high: f64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    low + (high - low) * (*seed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+#[test]
+fn rods_on_a_floor_and_a_wall() {
+    let (mut seed, mut endings) = (1, [0; 3]);
+    for case in 0..count("LAGRANGE_DROPS", 60) {
+        let mut next = |low, high| random(&mut seed, low, high);
+        let e = [0.0, 0.3, 0.7, 1.0][case % 4];
+        let contacts = [Contact::Open; 2];
+        let rod = Rod { m: next(0.3, 3.0), a: next(0.2, 1.0), g: 9.81, e, floor: contacts, wall: contacts };
+        let start = State::new(
+            [next(1.0, 2.0), next(1.0, 2.0), next(-3.0, 3.0)],
+            [next(-4.0, 1.0), next(-3.0, 3.0), next(-4.0, 4.0)],
+        );
+        let path = rod
+            .motion(start)
+            .by(Dop853::with_tolerance(1e-10))
+            .with_contacts()
+            .max_transitions(1_000)
+            .towards(5.0)
+            .unwrap();
+        match path.ending() {
+            Ending::Complete { .. } => endings[0] += 1,
+            Ending::TransitionLimit { .. } => endings[1] += 1,
+            other => panic!("case {case}: {other}, e = {e}, from {start}"),
+        }
+        endings[2] += path.transitions().len();
+        let mut energy = rod.energy(&start);
+        for leg in 0..path.legs().legs().len() {
+            let leg = path.legs().leg::<Trajectory<Rod>>(leg).unwrap();
+            for step in leg.steps() {
+                let (state, multipliers) = (step.state(), step.solution().unwrap().multipliers);
+                for (k, gap) in rod.gaps(state).into_iter().enumerate() {
+                    let scale = 1.0 + state.q.amax();
+                    assert!(gap > -1e-11 * scale, "case {case}: gap {k} is {gap:e} at {}", state.t);
+                    assert!(multipliers[k] > -1e-6, "case {case}: {k} pulls by {}", multipliers[k]);
+                    assert!(multipliers[k] * gap < 1e-9, "case {case}: {k} acts at {gap:e}");
+                }
+                let now = rod.energy(state);
+                assert!(now < energy + 1e-8 * (1.0 + energy.abs()), "case {case}: gains {:e}", now - energy);
+                energy = energy.min(now);
+            }
+        }
+    }
+    println!("{} complete, {} at the limit, {} transitions", endings[0], endings[1], endings[2]);
+    assert_eq!(endings[1], 0);
+}

@@ -1,0 +1,115 @@
+//! Contacts without friction, against closed solutions.
+
+use lagrange_core::contact::{Contact, Transition};
+use lagrange_core::prelude::*;
+
+/// A ball over a floor.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+#[contact(floor: y >= 0, restitution: e)]
+struct Ball {
+    m: f64,
+    g: f64,
+    e: f64,
+    floor: Contact,
+}
+
+fn impacts<T: Copy>(transitions: &[Transition<T>]) -> impl Iterator<Item = T> {
+    transitions.iter().filter_map(|transition| match transition {
+        Transition::Impact { time, .. } => Some(*time),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_ball_bounces_and_rests() {
+    let ball = Ball { m: 0.2, g: 9.81, e: 0.8, floor: Contact::Open };
+    for method in [1e-13, 1e-15].map(Taylor::with_tolerance) {
+        let path =
+            ball.motion(State::new([0.0, 1.0], [0.5, 0.0])).by(method).with_contacts().to(10.0).unwrap();
+        let fall = (2.0 / 9.81_f64).sqrt();
+        let bounce = |n: i32| fall * (1.0 + 2.0 * 0.8 * (1.0 - 0.8_f64.powi(n)) / 0.2);
+        for (n, time) in impacts(path.transitions()).take(20).enumerate() {
+            assert!((time - bounce(n as i32)).abs() < 1e-14, "{n}: {time} {}", bounce(n as i32));
+        }
+        let [.., Transition::Rests { contact: "floor", time }] = path.transitions() else {
+            panic!("{:?}", path.transitions().last())
+        };
+        assert!((time - fall * 1.8 / 0.2).abs() < 1e-12, "{:e}", time - fall * 1.8 / 0.2);
+        assert_eq!((path.end().q[1], path.end().v[1], path.system().floor), (0.0, 0.0, Contact::Closed));
+        let floor = path.at(9.0).unwrap().multiplier("floor").unwrap();
+        assert!((floor - 0.2 * 9.81).abs() < 1e-15);
+    }
+}
+
+/// Two blocks and a wall, without any force.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(light/2 * x_dot^2 + heavy/2 * y_dot^2)]
+#[contact(wall: x >= 0, restitution: 1)]
+#[contact(blocks: y - x >= 0, restitution: 1)]
+struct Blocks {
+    light: f64,
+    heavy: f64,
+    wall: Contact,
+    blocks: Contact,
+}
+
+/// The heavy block comes with 100ⁿ times the mass of the light one: their collisions are the digits of π (Galperin,
+/// *Regular and Chaotic Dynamics* 8, 2003).
+#[test]
+fn collisions_count_the_digits_of_pi() {
+    for (heavy, count) in [(1.0, 3), (1e2, 31), (1e4, 314), (1e6, 3141)] {
+        let blocks = Blocks { light: 1.0, heavy, wall: Contact::Open, blocks: Contact::Open };
+        let start = State::new([1.0, 2.0], [0.0, -1.0]);
+        let path = blocks.motion(start).by(Taylor::default()).with_contacts().to(1e3).unwrap();
+        assert_eq!(impacts(path.transitions()).count(), count);
+        let energy = blocks.energy(path.end()) / blocks.energy(&start) - 1.0;
+        assert!(energy.abs() < 1e-13, "{energy:e}");
+    }
+}
+
+/// Five balls in a row, with small gaps.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x: [5])]
+#[lagrangian(dot(x_dot, x_dot)/2)]
+#[contact(balls[i in 0..4]: x[i + 1] - x[i] >= 0, restitution: 1)]
+struct Cradle {
+    balls: [Contact; 4],
+}
+
+#[test]
+fn balls_in_a_row_exchange_their_velocities() {
+    let cradle = Cradle { balls: [Contact::Open; 4] };
+    let start = State::new([-1.0, 0.0, 1e-6, 2e-6, 3e-6], [1.0, 0.0, 0.0, 0.0, 0.0]);
+    let path = cradle.motion(start).with_contacts().to(3.0).unwrap();
+    assert_eq!(impacts(path.transitions()).count(), 4);
+    for (v, expected) in path.end().v.iter().zip([0.0, 0.0, 0.0, 0.0, 1.0]) {
+        assert!((v - expected).abs() < 1e-12, "{}", path.end().v);
+    }
+}
+
+/// A bead that slides off a sphere.
+#[derive(Clone, Lagrangian)]
+#[coordinates(r, theta)]
+#[lagrangian(m/2 * (r_dot^2 + r^2 * theta_dot^2) - m*g*r*cos(theta))]
+#[contact(sphere: r - a >= 0)]
+struct Bead {
+    m: f64,
+    g: f64,
+    a: f64,
+    sphere: Contact,
+}
+
+#[test]
+fn a_bead_leaves_its_sphere_where_it_would_pull() {
+    let bead = Bead { m: 1.0, g: 9.81, a: 1.0, sphere: Contact::Closed };
+    let start = State::new([1.0, 0.0], [0.0, 0.1]);
+    let path = bead.motion(start).by(Dop853::with_tolerance(1e-12)).with_contacts().to(1.5).unwrap();
+    let [Transition::Opens { contact: "sphere", time }] = path.transitions() else {
+        panic!("{:?}", path.transitions())
+    };
+    let angle = path.at(*time).unwrap().coordinate("theta").unwrap();
+    assert!((angle.cos() - (2.0 + 0.01 / 9.81) / 3.0).abs() < 1e-11);
+}

@@ -1,0 +1,12 @@
+//! Contacts: gaps that close and open.
+
+// What helps tests may panic as they do.
+#![allow(clippy::unwrap_used)]
+
+mod abuse;
+mod frictionless;
+
+/// A number that an environment variable states, for the long checks.
+fn count(variable: &str, default: usize) -> usize {
+    std::env::var(variable).map_or(default, |text| text.parse().unwrap())
+}
