@@ -6,7 +6,7 @@
 //! | `State` | all steps | all | no: a state between steps would be one of other parameters; who asks for it keeps samples alone | all |
 //! | `State` | samples | all | yes | all |
 //! | `PhaseState` | all steps, samples | as `State` | as `State` | pairs; not `Taylor`, whose series are those of Lagrange's equations, nor `Radau` and the methods of fixed steps (does not compile) |
-//! | `StateSensitivity` | all steps, samples | all; events that can be differentiated, others do not compile | no: what it sets depends on the state by a function that is not differentiated (does not compile) | pairs; `Taylor`, `Verlet`, `Gauss`, `Lobatto` and `DAlembert` where the number type is a parameter; not `Radau` (does not compile) |
+//! | `StateSensitivity` | all steps, samples | all; events that can be differentiated, others do not compile | no: what it sets depends on the state by a function that is not differentiated (does not compile) | pairs and `Radau`; `Taylor`, `Verlet`, `Gauss`, `Lobatto` and `DAlembert` where the number type is a parameter; not `RungeKutta4` (does not compile) |
 //! | member of an `Ensemble` | samples | all; progress is `observe` | yes | all |
 //! | the same on lanes | samples | all; progress is `observe` | yes | pairs, `Taylor` |
 //!
@@ -117,6 +117,7 @@ fn a_motion_with_derivatives_is_asked_for_everything() {
     let verlet = Verlet::with_step(0.2).composed(KahanLi8);
     asked!(motion_with_derivatives(&start), verlet, differentiable_event, path_of);
     asked!(motion_with_derivatives(&start), Gauss::<3>::with_step(0.1), differentiable_event, path_of);
+    asked!(motion_with_derivatives(&start), Radau::with_tolerance(1e-12), differentiable_event, path_of);
 }
 
 /// Keeps samples alone, from this start by this method: they are those of the motion that is stored, with the same steps and crossings.
@@ -183,6 +184,7 @@ fn derivatives_are_sampled_instead_of_stored() {
     let start = SPRING.sensitivity(&State::at_rest([1.0]), &["x", "k"]).expect("names");
     let dop853 = || SPRING.motion_with_derivatives(&start).by(Dop853::default());
     let taylor = || SPRING.motion_with_derivatives(&start).by(Taylor::default());
+    let radau = || SPRING.motion_with_derivatives(&start).by(Radau::with_tolerance(1e-12));
     let zero = || SPRING.differentiable_event("zero", |s| s.coordinate("x"));
     for sign in [1.0, -1.0] {
         let end = 10.0 * sign;
@@ -195,6 +197,7 @@ fn derivatives_are_sampled_instead_of_stored() {
                 7,
             ),
             (dop853().to(end), dop853().samples_at([0.0, 2.5 * sign]).to(end), 2),
+            (radau().event(zero()).to(end), radau().event(zero()).every(0.25).to(end), 41),
         ];
         for (stored, sampled, count) in ends {
             let (stored, sampled) = (stored.expect("a motion"), sampled.expect("a motion"));

@@ -52,7 +52,8 @@ where
     DVector::from_iterator(2 * N * times.len(), states)
 }
 
-/// [`check`]s the derivatives by pairs and by Taylor's method, which give the same.
+/// [`check`]s the derivatives by pairs and by Taylor's method, which give the same, and by Radau at the end: its dense output has
+/// fewer digits than its steps.
 pub(crate) fn check_each<S, const N: usize>(system: &S, start: State<f64, N>, end: f64)
 where
     S: Linearized<N = Const<N>, Scalar = f64> + Clone,
@@ -60,6 +61,26 @@ where
 {
     check(system, start, end, crate::method());
     check(system, start, end, Taylor::default());
+    let start = system.make_consistent(&start).unwrap().0;
+    let (names, radau) = (names::<S>(), Radau::with_tolerance(1e-13).stages::<7>());
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let exact = system.integrate_sensitivities(start, end, Taylor::default(), &names).unwrap();
+    let found = system.integrate_sensitivities(start, end, radau, &names).unwrap();
+    let (exact, found) = (exact.end().unwrap(), found.end().unwrap());
+    for (j, name) in names.iter().enumerate() {
+        let off = (found.q.column(j) - exact.q.column(j)).amax();
+        let off = off.max((found.v.column(j) - exact.v.column(j)).amax());
+        let size = exact.q.column(j).amax().max(exact.v.column(j).amax()).max(1e-3);
+        assert!(off < 1e-10 * size, "{} by {name}, by Radau: off by {off:e} of {size:e}", S::NAME);
+    }
+}
+
+/// Names of all entries of the state, and of all parameters.
+fn names<S: Linearized>() -> Vec<String> {
+    let mut names: Vec<String> = S::COORDINATES.iter().copied().map(String::from).collect();
+    names.extend(S::COORDINATES.iter().map(|name| Entry::Velocity(name).to_string()));
+    names.extend(S::PARAMETERS.iter().copied().map(String::from));
+    names
 }
 
 /// Compares the derivatives by everything at two times within and at the end; gives the largest error.
@@ -69,9 +90,7 @@ where
     D: DifferentiableMethod<S> + Copy,
 {
     let start = system.make_consistent(&start).unwrap().0;
-    let mut names: Vec<String> = S::COORDINATES.iter().copied().map(String::from).collect();
-    names.extend(S::COORDINATES.iter().map(|name| Entry::Velocity(name).to_string()));
-    names.extend(S::PARAMETERS.iter().copied().map(String::from));
+    let names = names::<S>();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let motion = system.integrate_sensitivities(start, end, method, &names).unwrap();
     assert!(motion.arguments().iter().map(Entry::to_string).eq(names.iter().copied()));

@@ -12,6 +12,7 @@ mod mixed;
 #[path = "../random/mod.rs"]
 mod random;
 mod steps;
+mod stiff;
 
 use std::f64::consts::PI;
 

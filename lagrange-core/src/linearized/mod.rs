@@ -235,10 +235,10 @@ pub trait Linearized: StateDerivatives {
     /// state is. [`MotionDerivatives`] continues across events.
     ///
     /// Supported methods: [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded
-    /// [`Pair`](crate::motion::Pair)s, on Lagrange's equations. If the number type of the system is a type parameter, also
-    /// [`Taylor`](crate::Taylor) and the methods of type [`FixedStep`](crate::motion::FixedStep): the derivatives along these
-    /// are those of the discrete map, so they are a symplectic matrix along a symplectic method, to round-off. Motions by
-    /// other methods, and in momenta, are not differentiated.
+    /// [`Pair`](crate::motion::Pair)s, on Lagrange's equations, and [`Radau`], along whose steps the derivatives do not limit the
+    /// length. If the number type of the system is a type parameter, also [`Taylor`](crate::Taylor) and the methods of type
+    /// [`FixedStep`](crate::motion::FixedStep): the derivatives along these are those of the discrete map, so they are a symplectic
+    /// matrix along a symplectic method, to round-off. Motions by other methods, and in momenta, are not differentiated.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -287,7 +287,8 @@ pub trait Linearized: StateDerivatives {
     ///
     /// Exponents are in descending order. Backwards in time they are rates d(ln |δ|)/dt too: a variation that grows on
     /// the way back has a negative exponent. Lengths are those of (q, q̇) in the units of the system, which make no
-    /// difference in the limit. Methods are those of [`integrate_sensitivities`](Self::integrate_sensitivities).
+    /// difference in the limit. Methods are those of [`integrate_sensitivities`](Self::integrate_sensitivities). By [`Radau`],
+    /// exponents of changes that decay within a step are those of the step.
     ///
     /// ```
     /// use lagrange_core::prelude::*;

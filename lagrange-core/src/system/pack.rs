@@ -32,7 +32,7 @@ use crate::vector::{Array, Element, Length, PhaseVector};
 /// assert_eq!(accelerations[0].to_array()[2..4], [-8.0, -3.0]);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` cannot be computed with other numbers, as SIMD lanes require, and derivatives of motions by methods other than `Dop853` and `Dopri5`",
+    message = "`{Self}` cannot be computed with other numbers, as SIMD lanes require, and derivatives of motions by methods other than `Dop853`, `Dopri5` and `Radau`",
     label = "its number type is fixed",
     note = "make the number type a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`, and derive `Lagrangian` for that; of its fields the expressions must name one",
     note = "of any system, `Ensemble::integrate` integrates one member at a time, and `Dop853` differentiates motions"

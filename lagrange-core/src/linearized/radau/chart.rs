@@ -87,7 +87,7 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
     }
 
     /// The least x with F x = −`residual` on a level; `None` without constraints.
-    fn correction(
+    pub(super) fn correction(
         &self,
         system: &L,
         level: Level,

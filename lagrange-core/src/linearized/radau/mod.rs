@@ -10,6 +10,8 @@ mod memory;
 mod pose;
 mod step;
 mod tableau;
+#[cfg(feature = "alloc")]
+mod variations;
 
 use core::fmt;
 
@@ -44,6 +46,11 @@ pub use tableau::RadauStages;
 ///
 /// Derivatives have no value on the kink of a force, as of |x| at x = 0; there they are evaluated beside it, within the
 /// tolerance.
+///
+/// Derivatives of a motion ([`integrate_sensitivities`](crate::Linearized::integrate_sensitivities)) are those of its steps at
+/// fixed step lengths, by the implicit function theorem at the stages: the motion is the same with them and without. Their own
+/// error is not estimated, and does not limit a step. Where a motion rests its steps are long, and derivatives that would swing
+/// on are damped out; set [`max_step`](Self::max_step) to a part of their period.
 ///
 /// ```
 /// use lagrange_core::prelude::*;

@@ -118,7 +118,7 @@ fn eigenvector(nodes: &[f64], i: usize, lambda: Complex<f64>) -> Complex<f64> {
     (1..=nodes.len()).rev().fold(Complex::new(0.0, 0.0), |sum, k| (sum + taylor[k]) * k as f64 / lambda)
 }
 
-fn inverse<const S: usize>(matrix: &[[f64; S]; S]) -> [[f64; S]; S] {
+pub(super) fn inverse<const S: usize>(matrix: &[[f64; S]; S]) -> [[f64; S]; S] {
     let mut lu = Lu::<f64, Const<S>>::new();
     let _ = lu.factorize(|i, j| matrix[i][j]);
     let columns: [[f64; S]; S] =

@@ -14,13 +14,14 @@ use crate::vector::PhaseVector;
 /// A [`Method`] whose steps can be differentiated, so that derivatives of a motion can be integrated with it.
 ///
 /// [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded [`Pair`](crate::motion::Pair)s differentiate their
-/// stages. [`Taylor`](crate::Taylor) expands the motion over dual numbers, and the methods with steps of one length
-/// ([`FixedStep`](crate::motion::FixedStep)) take their steps over dual numbers; for both, the number type of the system must
-/// be a type parameter. [`RungeKutta4`](crate::RungeKutta4) and [`Radau`](crate::linearized::Radau) are not differentiated.
+/// stages, and [`Radau`](crate::linearized::Radau) the equations of its stages. [`Taylor`](crate::Taylor) expands the motion over
+/// dual numbers, and the methods with steps of one length ([`FixedStep`](crate::motion::FixedStep)) take their steps over dual
+/// numbers; for both, the number type of the system must be a type parameter. [`RungeKutta4`](crate::RungeKutta4) is not
+/// differentiated.
 #[diagnostic::on_unimplemented(
     message = "the steps of `{Self}` cannot be differentiated along motions of `{L}`",
     label = "no derivatives of its steps",
-    note = "take `Dop853` or `Dopri5`, for every system",
+    note = "take `Dop853` or `Dopri5`, for every system, or `Radau` if it is stiff",
     note = "or, where the number type is a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`: `Taylor`, `Verlet`, `Gauss`, `Lobatto` or `DAlembert`"
 )]
 pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> + Sized {
