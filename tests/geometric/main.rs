@@ -5,6 +5,7 @@
 
 mod applicability;
 mod dense_output;
+mod far_from_zero;
 mod faults;
 mod long_time;
 mod nonholonomic;

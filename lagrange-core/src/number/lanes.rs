@@ -33,12 +33,6 @@ macro_rules! lanes {
             pub fn to_array(self) -> [f64; Self::COUNT] {
                 self.0.into()
             }
-
-            /// Returns `self` in lanes where `chosen` is positive, `other` elsewhere.
-            #[inline(always)]
-            pub(crate) fn select(self, chosen: Self, other: Self) -> Self {
-                Self(self.0.select(chosen.0, other.0))
-            }
         }
 
         impl From<[f64; $lanes::COUNT]> for $lanes {
@@ -76,8 +70,7 @@ macro_rules! lanes {
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 let (sin, cos) = Scalar::sin_cos(self.0);
-                let (left, nan) = (Self::constant(LARGEST_ANGLE) - self.abs(), Self::constant(f64::NAN));
-                (Self(sin).select(left, nan), Self(cos).select(left, nan))
+                self.where_exact((Self(sin), Self(cos)))
             }
 
             #[inline]
@@ -134,6 +127,43 @@ lanes! {
     /// [`Lanes`] with four lanes on every CPU, for directional derivatives of one system, which are seldom
     /// many.
     FourLanes of Quad
+}
+
+impl Lanes {
+    /// Returns `self` in lanes where `chosen` is positive, `other` elsewhere.
+    #[inline(always)]
+    pub(crate) fn select(self, chosen: Self, other: Self) -> Self {
+        Self(self.0.select(chosen.0, other.0))
+    }
+
+    /// Sines and cosines from the vector functions; NaN for larger angles.
+    #[inline(always)]
+    fn where_exact(self, (sin, cos): (Self, Self)) -> (Self, Self) {
+        let (left, nan) = (Self::constant(LARGEST_ANGLE) - self.abs(), Self::constant(f64::NAN));
+        (sin.select(left, nan), cos.select(left, nan))
+    }
+}
+
+impl FourLanes {
+    /// Sines and cosines from the vector functions; for larger angles, which no caller computes again, from those of `f64`.
+    #[inline(always)]
+    fn where_exact(self, both: (Self, Self)) -> (Self, Self) {
+        let is_large = self.to_array().into_iter().fold(false, |any, x| any | (x.abs() >= LARGEST_ANGLE));
+        if is_large { self.lane_by_lane(both) } else { both }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn lane_by_lane(self, (mut sin, mut cos): (Self, Self)) -> (Self, Self) {
+        for (lane, angle) in self.to_array().into_iter().enumerate() {
+            if angle.abs() >= LARGEST_ANGLE {
+                let exact = Scalar::sin_cos(angle);
+                sin.put(lane, exact.0);
+                cos.put(lane, exact.1);
+            }
+        }
+        (sin, cos)
+    }
 }
 
 impl Wide<f64> for FourLanes {

@@ -137,6 +137,18 @@ fn sines_are_accurate_up_to_the_largest_angle() {
     }
 }
 
+/// Derivatives have no scalar arithmetic to fall back on. A lane beside large angles keeps its bits.
+#[test]
+fn sines_of_large_angles_are_those_of_the_number_alone() {
+    let small = FourLanes::constant(1.25).sin_cos().0.to_array()[0];
+    for angle in [LARGEST_ANGLE, -1.5e8, 3e10, -1e15, 1e22, f64::INFINITY, f64::NAN] {
+        let (sin, cos) = FourLanes::from([angle, 1.25, -angle, angle]).sin_cos();
+        let (sin, cos) = (sin.to_array(), cos.to_array());
+        assert!(same(sin[0], angle.sin()) && same(cos[3], angle.cos()) && same(sin[2], (-angle).sin()));
+        assert_eq!(sin[1].to_bits(), small.to_bits());
+    }
+}
+
 /// Zero where the activity is zero, whatever the value; NaN where the activity is NaN.
 #[test]
 fn values_are_there_only_where_something_changes() {
