@@ -7,10 +7,13 @@ mod applicability;
 mod dense_output;
 mod far_from_zero;
 mod faults;
+mod long_steps;
 mod long_time;
 mod nonholonomic;
 mod orders;
 mod own_scheme;
+#[path = "../random/mod.rs"]
+mod random;
 mod symplectic;
 mod systems;
 

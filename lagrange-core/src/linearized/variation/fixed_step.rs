@@ -14,18 +14,29 @@ use crate::linearized::Linearized;
 use crate::linearized::tangent::WideOf;
 use crate::motion::geometric::{CompensatedState, FixedStep, Scheme};
 use crate::motion::run::Run;
-use crate::number::{Broadcast, Dual, Parts, Real, Scalar, Wide};
+use crate::number::{Broadcast, Dual, Parts, Real, Scalar, Wide, is_within, larger, power_of_epsilon};
 use crate::solution::interpolant::evaluate;
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, State, StateOf};
 use crate::vector::{Array, Element, Length, PhaseVector, array, from_fn, vector};
 
+/// Round-off of an iteration, in units of ε of the largest coordinate: at most the residual at which it may end.
+const ROUND_OFF: f64 = 4096.0;
+
 /// A system over dual numbers, and the last step computed with it.
 #[derive(Debug)]
-pub struct VariedSteps<S, W: Element, N: Length> {
+pub struct VariedSteps<S, C, W: Element, N: Length> {
     /// System over dual numbers; the slope of each parameter is its rate of change in [`Block::rates`].
     system: S,
-    ends: Option<[State<Dual<W>, N>; 2]>,
+    last: Option<VariedStep<C, W, N>>,
+}
+
+/// A step over dual numbers.
+#[derive(Debug)]
+struct VariedStep<C, W: Element, N: Length> {
+    ends: [State<Dual<W>, N>; 2],
+    /// Data that the step left: the next one begins its iteration where that of the motion does.
+    carried: C,
 }
 
 impl<L, S> DifferentiableMethod<L> for FixedStep<S>
@@ -34,7 +45,8 @@ where
     PackedDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = Duals<L>>,
     S: Scheme<L> + Scheme<PackedDuals<L>> + Default,
 {
-    type VariationMemory = Vec<VariedSteps<PackedDuals<L>, WideOf<L>, L::N>>;
+    type VariationMemory =
+        Vec<VariedSteps<PackedDuals<L>, <S as Scheme<PackedDuals<L>>>::Carried, WideOf<L>, L::N>>;
 
     fn companion(
         &self,
@@ -43,7 +55,7 @@ where
         variations: &Variations<L>,
     ) -> Result<Self::VariationMemory, Error> {
         let varied = |block: &Block<_, L::N, L::P>| {
-            Ok(VariedSteps { system: with_rates::<L>(system, block.rates.as_ref())?, ends: None })
+            Ok(VariedSteps { system: with_rates::<L>(system, block.rates.as_ref())?, last: None })
         };
         variations.blocks.iter().map(varied).collect()
     }
@@ -60,7 +72,10 @@ where
             let block = &variations.blocks[k];
             let start = with_slopes(before, &block.y);
             let mut point = CompensatedState::at(&start);
-            let mut carried = <S as Scheme<PackedDuals<L>>>::start(&varied.system, &start);
+            let mut carried = match &varied.last {
+                None => <S as Scheme<PackedDuals<L>>>::start(&varied.system, &start),
+                Some(last) => S::start_after(&varied.system, &start, &last.carried),
+            };
             let constant =
                 |x: L::Scalar| Dual { value: WideOf::<L>::of(x), slope: WideOf::<L>::constant(0.0) };
             let (h, to) = (constant(after.t - before.t), constant(after.t));
@@ -80,10 +95,16 @@ where
                 (Err(_), None) => {
                     return Err(Ending::MethodFailed {
                         time,
-                        reason: "the derivatives of a step do not converge",
+                        reason: "the derivatives of a step do not converge; take shorter steps",
                     });
                 }
-                (Ok(_), None) => varied.ends = Some([start, point.state]),
+                (Ok(_), None) if !is_near(&start, &point.state, after) => {
+                    return Err(Ending::MethodFailed {
+                        time,
+                        reason: "the derivatives of a step lead to another solution of its equations; take shorter steps",
+                    });
+                }
+                (Ok(_), None) => varied.last = Some(VariedStep { ends: [start, point.state], carried }),
             }
             variations.blocks[k].y = y;
         }
@@ -100,8 +121,8 @@ where
         coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending> {
         run.look_within(system, self, within)?;
-        for VariedSteps { system, ends } in companion {
-            let Some([start, end]) = ends else { continue };
+        for VariedSteps { system, last } in companion {
+            let Some(VariedStep { ends: [start, end], .. }) = last else { continue };
             let accelerations = |state: &_| array(system.accelerations_unchecked(state).accelerations);
             let ends = [accelerations(start), accelerations(end)];
             let Ok(found) = self.coefficients::<PackedDuals<L>, Infallible>([start, end], &ends, |state| {
@@ -121,6 +142,23 @@ where
     ) -> PhaseVector<WideOf<L>, L::N> {
         evaluate(coefficients, part).0
     }
+}
+
+/// True if a step over dual numbers from `start` ends at the state of the motion, to half of the digits of each coordinate or
+/// to round-off of the largest. Iterations that end at one solution agree to their round-off; others are as far apart as the
+/// step is long.
+fn is_near<T: Real<Wide = W>, W: Wide<T>, N: Length>(
+    start: &State<Dual<W>, N>,
+    end: &State<Dual<W>, N>,
+    motion: &State<T, N>,
+) -> bool {
+    let size = |i: usize| Scalar::abs(start.q[i].value.lane(0)) + Scalar::abs(motion.q[i]);
+    let largest = (0..N::COUNT).fold(T::constant(0.0), |most, i| larger(most, size(i)));
+    let round_off = T::constant(ROUND_OFF * T::EPSILON) * largest;
+    (0..N::COUNT).all(|i| {
+        let off = Scalar::abs(end.q[i].value.lane(0) - motion.q[i]);
+        is_within(off, power_of_epsilon::<T>(0.5) * size(i) + round_off)
+    })
 }
 
 /// A state whose coordinates and velocities change along the variations.

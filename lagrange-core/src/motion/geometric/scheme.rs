@@ -84,6 +84,13 @@ pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
     /// Evaluates what a step needs at its start.
     fn start(system: &L, state: &StateOf<L>) -> Self::Carried;
 
+    /// Like [`start`](Self::start), with an initial guess for the iteration of the next step from `before`, the data that the
+    /// step to this state left. Where the equations of a long step have several solutions, the guess decides between them.
+    #[allow(unused_variables)]
+    fn start_after(system: &L, state: &StateOf<L>, before: &Self::Carried) -> Self::Carried {
+        Self::start(system, state)
+    }
+
     /// Moves a point by a step (h, t) of length h to the time t. The time is rounded; the length is the given one. Returns the
     /// number of evaluations of the forces. After an error, the point and the data are undefined.
     ///

@@ -44,6 +44,15 @@ impl<F: Copy, T: Parts, N: Length, M: Length, const S: usize> StageMemory<F, T, 
         }
     }
 
+    /// The same, with the stages of the step before.
+    pub(super) fn start_after<L>(system: &L, state: &StateOf<L>, before: &Self) -> Self
+    where
+        L: Lagrangian<Scalar = T, N = N, M = M, Factor = F>,
+    {
+        let Self { velocities, multipliers, length, largest, .. } = *before;
+        Self { velocities, multipliers, length, largest, ..Self::start(system, state) }
+    }
+
     /// Sets the stages to the start of the next step, of length `h`, if the last one was much shorter.
     pub(super) fn forget_a_short_step<L>(&mut self, system: &L, state: &StateOf<L>, h: T)
     where

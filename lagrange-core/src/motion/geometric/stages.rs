@@ -159,6 +159,10 @@ macro_rules! schemes {
                 StageMemory::start(system, state)
             }
 
+            fn start_after(system: &L, state: &StateOf<L>, before: &Self::Carried) -> Self::Carried {
+                StageMemory::start_after(system, state, before)
+            }
+
             fn advance(
                 system: &L,
                 point: &mut CompensatedState<L::Scalar, L::N>,
