@@ -4,6 +4,8 @@ use core::fmt::{self, Debug, Display, Formatter};
 
 use super::Error;
 use crate::names::Row;
+#[cfg(feature = "alloc")]
+use crate::system::lookup::listed;
 
 impl Display for Error {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -127,7 +129,7 @@ impl Display for Error {
             #[cfg(feature = "alloc")]
             Self::UnknownName { name, kind, hint: None, known } => match known.as_slice() {
                 [] => write!(f, "there is no {kind} `{name}`; the system has none"),
-                _ => write!(f, "there is no {kind} `{name}`; there are `{}`", known.join("`, `")),
+                _ => write!(f, "there is no {kind} `{name}`; there are {}", listed(name, known)),
             },
             #[cfg(feature = "alloc")]
             Self::RepeatedName { name } => write!(f, "`{name}` is given twice: give each entry once"),

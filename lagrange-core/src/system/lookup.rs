@@ -14,6 +14,9 @@ use crate::error::Error;
 use crate::names::Entry;
 use crate::vector::Length;
 
+/// Number of names listed in a message that counts the others; a single other one is listed too.
+const LISTED: usize = 3;
+
 /// Returns the names of the coordinates, followed by those of the velocities.
 pub(crate) fn entries<L: Lagrangian>() -> Vec<String> {
     const { check_names::<L>() };
@@ -73,9 +76,9 @@ pub(crate) fn unknown<L: Lagrangian>(known: &[impl AsRef<str>], kind: &'static s
         let near = || Some(format!("did you mean `{}`?", nearest(name, &known)?));
         // A name unlike all others is probably a field that occurs in no expression.
         let idle = || {
-            let names = known.join("`, `");
+            let names = listed(name, &known);
             kind.ends_with("parameter").then(|| {
-                format!("there are `{names}`; a field is a parameter if an expression of the system names it")
+                format!("there are {names}; a field is a parameter if an expression of the system names it")
             })
         };
         meaning::<L>(name).or_else(near).or_else(idle)
@@ -119,7 +122,21 @@ fn meaning<L: Lagrangian>(name: &str) -> Option<String> {
     })
 }
 
-/// Returns the most similar name, if it is similar enough. Differences of case alone count as zero.
+/// Lists names for a message: up to four; of more, the three most similar to `name`, and the number of the others.
+pub(crate) fn listed(name: &str, known: &[String]) -> String {
+    let quoted = |names: &[&String]| {
+        let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+        names.join(", ")
+    };
+    let mut names: Vec<&String> = known.iter().collect();
+    if names.len() <= LISTED + 1 {
+        return quoted(&names);
+    }
+    names.sort_by_key(|known| apart(name, known));
+    format!("{} and {} more", quoted(&names[..LISTED]), names.len() - LISTED)
+}
+
+/// Returns the most similar name, if it is similar enough.
 fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a String> {
     let allowed = match name.chars().count() {
         0 | 1 => return None,
@@ -127,8 +144,12 @@ fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a String> {
         5..=8 => 2,
         _ => 3,
     };
-    let distance = |known: &&String| if known.eq_ignore_ascii_case(name) { 0 } else { distance(name, known) };
-    known.iter().filter(|known| distance(known) <= allowed).min_by_key(distance)
+    known.iter().filter(|known| apart(name, known) <= allowed).min_by_key(|known| apart(name, known))
+}
+
+/// Distance of two names. Differences of case alone count as zero.
+fn apart(name: &str, known: &str) -> usize {
+    if known.eq_ignore_ascii_case(name) { 0 } else { distance(name, known) }
 }
 
 /// Damerau–Levenshtein distance (Damerau 1964): number of letters changed, deleted, inserted or swapped with

@@ -113,9 +113,9 @@ fn no_guesses() {
     }
 }
 
-/// If no name is similar, the error lists all names, or the first eight of many.
+/// If no name is similar, the error lists up to four names; of more, the three least unlike, and the number of the others.
 #[test]
-fn where_nothing_is_near_all_names_are_told() {
+fn where_nothing_is_near_the_nearest_names_are_told() {
     let said = |constraints: usize| {
         let constraints: String =
             (0..constraints).map(|k| format!("#[constraint(stop{k}: x[{k}] = 0)]")).collect();
@@ -132,9 +132,22 @@ fn where_nothing_is_near_all_names_are_told() {
         (0, "`wall`: there are no constraints"),
         (1, "`wall`: the only constraint is `stop0`"),
         (3, "`wall`: the constraints are `stop0`, `stop1` and `stop2`"),
-        (11, "`stop6`, `stop7` and 3 more"),
+        (4, "`wall`: the constraints are `stop0`, `stop1`, `stop2` and `stop3`"),
+        (5, "`wall`: the constraints are `stop0`, `stop1`, `stop2` and 2 more"),
+        (11, "`stop0`, `stop1`, `stop2` and 8 more"),
     ] {
         let found = said(constraints);
         assert!(found.contains(wanted), "{constraints}: {found:.300}");
     }
+    let unlike = "#[coordinates(x, y)]
+         #[lagrangian(x_dot^2 + y_dot^2)]
+         #[constraint(spring: x = 0)]
+         #[constraint(belt: y = 0)]
+         #[constraint(wheel: x = y)]
+         #[constraint(floor: x = -y)]
+         #[constraint(walled: x = 2*y)]
+         #[observable(push = lambda(wand))]
+         struct System;";
+    let found = expand(tokens(unlike)).to_string();
+    assert!(found.contains("the constraints are `walled`, `belt`, `wheel` and 2 more"), "{found:.900}");
 }

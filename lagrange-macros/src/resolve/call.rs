@@ -241,7 +241,8 @@ impl Lowering<'_> {
     fn multiplier(&mut self, constraint: &Name, indices: &[i128]) -> Option<Value> {
         let Some(group) = self.multipliers.iter().find(|group| group.name == constraint.text) else {
             let names = || self.multipliers.iter().map(|group| group.name.as_str());
-            let advice = or_meant(nearest(&constraint.text, names()), "constraint", names());
+            let advice =
+                or_meant(&constraint.text, nearest(&constraint.text, names()), "constraint", names());
             return self
                 .report(constraint.place, format!("no constraint is called `{}`{advice}", constraint.text));
         };

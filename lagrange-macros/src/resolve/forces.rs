@@ -45,7 +45,7 @@ impl Lowering<'_> {
         };
         format!(
             "a force acts on a coordinate, and `{name}` is none{}",
-            or_meant(near, "coordinate", coordinates())
+            or_meant(name, near, "coordinate", coordinates())
         )
     }
 

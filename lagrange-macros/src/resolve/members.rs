@@ -101,7 +101,7 @@ impl Parameters {
         let mut names: Vec<&str> = siblings.map(|other| other[members].name.text.as_str()).collect();
         names.dedup();
         let near = name.and_then(|name| nearest(name, names.iter().copied()));
-        or_meant(near, "member", names.into_iter())
+        or_meant(name.unwrap_or_default(), near, "member", names.into_iter())
     }
 
     /// Spells a field and the first `members` names of its path, with the known indices.

@@ -64,7 +64,7 @@ impl Parameters {
             let name = &parameter.name;
             let Some(index) = declaration.fields.iter().position(|field| field.name.text == name.text) else {
                 let fields = || declaration.fields.iter().map(|field| field.name.text.as_str());
-                let advice = or_meant(nearest(&name.text, fields()), "field", fields());
+                let advice = or_meant(&name.text, nearest(&name.text, fields()), "field", fields());
                 diagnostics.error(name.place, format!("there is no field `{}`{advice}", name.text));
                 continue;
             };

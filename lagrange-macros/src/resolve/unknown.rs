@@ -203,14 +203,24 @@ fn did_you_mean(name: &str) -> String {
     format!("did you mean `{name}`?")
 }
 
-/// Ends a message about an unknown name: suggests the nearest name, or lists all names.
-pub(super) fn or_meant<'n>(near: Option<&str>, kind: &str, names: impl Iterator<Item = &'n str>) -> String {
+/// Ends a message about the unknown name `text`: suggests the nearest name, or lists the names that are least unlike it and
+/// the number of the others.
+pub(super) fn or_meant<'n>(
+    text: &str,
+    near: Option<&str>,
+    kind: &str,
+    names: impl Iterator<Item = &'n str>,
+) -> String {
     if let Some(near) = near {
         return format!(": {}", did_you_mean(near));
     }
-    let mut names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
-    let more = names.len().saturating_sub(NAMED);
-    names.truncate(NAMED);
+    let mut names: Vec<&str> = names.collect();
+    let more = if names.len() > NAMED + 1 { names.len() - NAMED } else { 0 };
+    if more > 0 {
+        names.sort_by_key(|name| distance(text, name));
+        names.truncate(NAMED);
+    }
+    let mut names: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
     let last = if more > 0 { format!("{more} more") } else { names.pop().unwrap_or_default() };
     match (&names[..], &*last) {
         ([], "") => format!(": there are no {kind}s"),
@@ -219,8 +229,8 @@ pub(super) fn or_meant<'n>(near: Option<&str>, kind: &str, names: impl Iterator<
     }
 }
 
-/// Maximum number of names listed in a message.
-const NAMED: usize = 8;
+/// Number of names listed in a message that counts the others; a single other one is listed too.
+const NAMED: usize = 3;
 
 /// Advice for the name of a function in the place of a value, such as `Sin`.
 fn is_function(text: &str) -> Option<String> {

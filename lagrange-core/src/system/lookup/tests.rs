@@ -98,6 +98,11 @@ fn a_name_that_is_nearly_right_is_suggested() {
     // A name that is not similar to any gets the list of names.
     let expected = "there is no coordinate `length`; there are `theta`, `phi`, `r[0]`, `r[1]`";
     assert_eq!(said(|s| s.coordinate("length")), expected);
+    let error = NAMED.state_from(&[("radius", 1.0)]).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "there is no coordinate or velocity `radius`; there are `phi`, `r[0]`, `r[1]` and 5 more"
+    );
     let error = said(|s| s.coordinate(""));
     assert!(error.starts_with("there is no coordinate ``; there are"), "{error}");
 }

@@ -151,7 +151,7 @@ impl Lowering<'_> {
                     let names = self.frame_names();
                     let meant = match nearest(&name.text, names.iter().copied()) {
                         None if self.declared_frames.is_empty() => format!(": {example}"),
-                        near => or_meant(near, "frame", names.into_iter()),
+                        near => or_meant(&name.text, near, "frame", names.into_iter()),
                     };
                     format!("no frame is called `{}`{meant}", name.text)
                 }
