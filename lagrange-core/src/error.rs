@@ -36,6 +36,18 @@ pub enum Error {
         /// finite.
         defect: f64,
     },
+    /// The equations of motion have no value, and a parameter is infinite or NaN.
+    ParameterNotFinite {
+        /// Name of the first such parameter.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// All four entries of a unit quaternion are zero.
+    ZeroQuaternion {
+        /// Name of the quaternion.
+        name: &'static str,
+    },
     /// The equations of motion evaluate to infinity or NaN.
     EquationsNotFinite {
         /// First row of the equations with an entry that is not finite.

@@ -41,7 +41,7 @@ impl Fingerprint {
         let mut hash = Hash::new();
         hash.number(start.t.to_f64());
         start.q.iter().chain(&start.v).for_each(|x| hash.number(x.to_f64()));
-        system.visit_parameters(&mut |x| hash.number(x.to_f64()));
+        system.visit_parameters(&mut |_, x| hash.number(x.to_f64()));
         Self { start: hash.0, ..self }
     }
 

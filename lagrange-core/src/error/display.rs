@@ -19,6 +19,16 @@ impl Display for Error {
             Self::ParameterNotAsSaid { name, wanted, defect } => {
                 write!(f, "the parameter `{name}` is not {wanted}: it is off by {defect:.1e} of its size")
             }
+            Self::ParameterNotFinite { name, value } => {
+                write!(
+                    f,
+                    "the parameter `{name}` is {value}: every parameter in the equations must be finite"
+                )
+            }
+            Self::ZeroQuaternion { name } => write!(
+                f,
+                "the quaternion `{name}` is zero, which is no rotation: its length must be 1; for no turn at all set `{name}[0]` to 1"
+            ),
             Self::EquationsNotFinite { row, time } => write!(
                 f,
                 "the equations are not finite at t = {time}; row of {row}: check the parameters, and whether the state is at a pole"

@@ -15,6 +15,7 @@ use crate::solution::consistent::assembly::Assembly;
 use crate::solution::consistent::{self, Consistent};
 #[cfg(feature = "alloc")]
 use crate::solution::impact::{Impact, impact};
+use crate::solution::reason::reason;
 use crate::solution::solve::solve;
 #[cfg(feature = "alloc")]
 use crate::solution::vector_field::LagrangianVectorField;
@@ -39,7 +40,8 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     ///
     /// # Errors
     /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`], even for entries that the equations do not use;
-    /// [`Error::EquationsNotFinite`]; [`Error::Singular`] if an acceleration is undetermined; [`Error::Contradictory`]
+    /// [`Error::EquationsNotFinite`], [`Error::ParameterNotFinite`] and [`Error::ZeroQuaternion`]; [`Error::Singular`] if an
+    /// acceleration is undetermined; [`Error::Contradictory`]
     /// if dependent constraints demand different accelerations; [`Error::NoGradient`] if the row of a constraint is
     /// zero; [`Error::DependentToFirstOrder`] if the row of a combination of constraints is zero. Each names the
     /// coordinates or the constraint. [`check_consistent`](Self::check_consistent) checks that the state is on the
@@ -90,6 +92,7 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     fn make_consistent(&self, state: &StateOf<Self>) -> Result<Consistent<Self::Scalar, Self::N>, Error> {
         check_finite(self, state)?;
         consistent::make_consistent(self, state, &[Array::filled(false); 2])
+            .map_err(|error| reason(self, state, error))
     }
 
     /// Assembles a mechanism from a rough guess: finds consistent coordinates, and velocities along the constraints, near

@@ -10,6 +10,7 @@ pub(crate) mod kkt;
 pub(crate) mod near;
 pub(crate) mod newton;
 pub(crate) mod pivot;
+pub(crate) mod reason;
 pub(crate) mod round_off;
 mod sample;
 pub(crate) mod solve;

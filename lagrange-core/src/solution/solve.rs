@@ -9,6 +9,7 @@ use crate::number::{Real, Scalar, larger};
 use crate::solution::consistent::{dependence, gradient};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
 use crate::solution::pivot::is_trustworthy;
+use crate::solution::reason::reason;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Solution, SolutionOf, StateOf};
 use crate::vector::{Array, Length, Vector, rows};
@@ -20,7 +21,8 @@ pub(crate) fn solve<L: Lagrangian<Scalar: Real>>(
     state: &StateOf<L>,
 ) -> Result<SolutionOf<L>, Error> {
     check_finite(system, state)?;
-    let solution = solve_near(system, state, None, |solution, _| *solution)?;
+    let solution = solve_near(system, state, None, |solution, _| *solution)
+        .map_err(|error| reason(system, state, error))?;
     if !solution.multipliers_are_unique() {
         gradient::check(system, state)?;
     }

@@ -101,10 +101,10 @@ pub trait Lagrangian {
     /// Readable equations of motion; empty for a manual implementation.
     const EQUATIONS: Equations = equations([[""; 3]; 3]);
 
-    /// Calls `visit` with every parameter: each number that the expressions name, in the order of the fields.
-    /// Numbers inside a user-supplied function are not included.
+    /// Calls `visit` with the name and value of every parameter: each number that the expressions name, in the order of the
+    /// fields. Numbers inside a user-supplied function are not included.
     #[allow(unused_variables)]
-    fn visit_parameters(&self, visit: &mut dyn FnMut(Self::Scalar)) {}
+    fn visit_parameters(&self, visit: &mut dyn FnMut(&'static str, Self::Scalar)) {}
 
     /// Calls `visit` with the name of each parameter matrix declared symmetric or a rotation, and its deviation
     /// from that property.

@@ -36,7 +36,7 @@ macro_rules! forward {
             const FACTS: Facts = L::FACTS;
             const EQUATIONS: Equations = L::EQUATIONS;
 
-            fn visit_parameters(&self, visit: &mut dyn FnMut(Self::Scalar)) {
+            fn visit_parameters(&self, visit: &mut dyn FnMut(&'static str, Self::Scalar)) {
                 L::visit_parameters(self, visit);
             }
 

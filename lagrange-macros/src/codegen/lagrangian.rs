@@ -242,11 +242,13 @@ impl Emitter<'_> {
 
     fn visit_parameters(&self) -> TokenStream {
         let scalar = self.style.types.scalar;
-        let values = self.problem.parameters.by_field().into_iter().map(|k| self.style.parameter(k));
+        let order = self.problem.parameters.by_field();
+        let names = order.iter().map(|&k| self.problem.parameters.name(k));
+        let values = order.iter().map(|&k| self.style.parameter(k));
         quote! {
             #[allow(unused_variables)]
-            fn visit_parameters(&self, visit: &mut dyn ::core::ops::FnMut(#scalar)) {
-                #(visit(#values);)*
+            fn visit_parameters(&self, visit: &mut dyn ::core::ops::FnMut(&'static str, #scalar)) {
+                #(visit(#names, #values);)*
             }
         }
     }

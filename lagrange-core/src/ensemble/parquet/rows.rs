@@ -30,7 +30,7 @@ pub(super) fn columns<L: Linearized<Scalar: Real>>(
     let mut parameters = vec![Vec::new(); <L::P>::COUNT];
     for (system, _) in made {
         let mut columns = parameters.iter_mut();
-        system.visit_parameters(&mut |x| columns.next().into_iter().for_each(|of| of.push(x.to_f64())));
+        system.visit_parameters(&mut |_, x| columns.next().into_iter().for_each(|of| of.push(x.to_f64())));
     }
     columns.extend(L::PARAMETERS.iter().zip(parameters).map(|(name, values)| Column {
         group: "parameters",

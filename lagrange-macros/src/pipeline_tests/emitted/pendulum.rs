@@ -274,10 +274,13 @@ const _: () = {
             }
         }
         #[allow(unused_variables)]
-        fn visit_parameters(&self, visit: &mut dyn ::core::ops::FnMut(f64)) {
-            visit(self.m);
-            visit(self.l);
-            visit(self.g);
+        fn visit_parameters(
+            &self,
+            visit: &mut dyn ::core::ops::FnMut(&'static str, f64),
+        ) {
+            visit("m", self.m);
+            visit("l", self.l);
+            visit("g", self.g);
         }
     }
     /**<div class="equations" style="overflow-x:auto">
