@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use lagrange_core::nalgebra::Const;
-use lagrange_core::{TaylorSeries, prelude::*};
+use lagrange_core::{StateDerivatives, TaylorSeries, prelude::*};
 
 use crate::reference::{Errors, IS_LONG, Moment, Problem, Scale, assert_relative};
 
@@ -238,6 +238,18 @@ where
     let _ = problem.run("Dopri5 1e-8", Dopri5::with_tolerance(1e-8));
 }
 
+/// `Radau` crosses level poses at every tolerance.
+fn radau<L, const N: usize, const M: usize>(problem: &Problem<L, N, M>, tolerance: f64)
+where
+    L: StateDerivatives<N = Const<N>, M = Const<M>, Scalar = f64>,
+{
+    let (method, label) =
+        (Radau::with_tolerance(tolerance), |s| format!("Radau, {s} stages {tolerance:.0e}"));
+    problem.run(&label(3), method).reaches_bar();
+    problem.run(&label(5), method.stages::<5>()).reaches_bar();
+    problem.run(&label(7), method.stages::<7>()).reaches_bar();
+}
+
 #[test]
 fn one_and_two_windows_cross_level_poses() {
     let end = if IS_LONG { 20.0 } else { 10.0 };
@@ -245,12 +257,15 @@ fn one_and_two_windows_cross_level_poses() {
     let two = windows("A02, 2 windows", TwoWindows { g: G }, 2, end);
     one.run("Taylor 1e-10", Taylor::with_tolerance(1e-10)).reaches_bar();
     two.run("Taylor 1e-10", Taylor::with_tolerance(1e-10)).reaches_bar();
+    radau(&one, 1e-10);
+    radau(&two, 1e-10);
     if IS_LONG {
         other_methods(&one);
         other_methods(&two);
-        // It crosses most level poses, and not all of 28 with a tolerance that would reach the bar.
-        let _ = one.run("Radau 1e-9", Radau::with_tolerance(1e-9));
-        let _ = two.run("Radau 1e-9", Radau::with_tolerance(1e-9));
+        for tolerance in [1e-11, 1e-12, 1e-13] {
+            radau(&one, tolerance);
+            radau(&two, tolerance);
+        }
         let _ = one.run("RungeKutta4 2e-3 s", RungeKutta4::with_step(2e-3));
         let _ = two.run("RungeKutta4 2e-3 s", RungeKutta4::with_step(2e-3));
     }

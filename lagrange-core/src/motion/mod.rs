@@ -32,8 +32,9 @@
 //! [`Radau`](crate::linearized::Radau) alone takes long steps on stiff systems. Explicit methods take steps as short as
 //! the fastest decay, and the iterations of [`Gauss`], [`Lobatto`] and [`DAlembert`] do not converge for longer ones.
 //!
-//! A motion may end at an isolated pose where constraints become dependent, as in a linkage that folds flat. [`Taylor`]
-//! steps across such a pose if it can; the other methods may continue on another branch that begins there.
+//! A motion may end at an isolated pose where constraints become dependent, as in a linkage that folds flat.
+//! [`Radau`](crate::linearized::Radau) steps across such a pose, and [`Taylor`] if it can; the other methods may continue on
+//! another branch that begins there.
 //!
 //! The example `methods` prints the cost of an error for [`Dop853`], [`Taylor`] and [`Dopri5`] in eight systems, and
 //! `long_time` draws it for all methods in six; the book shows both.

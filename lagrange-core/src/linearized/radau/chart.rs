@@ -23,9 +23,7 @@ const CORRECTIONS: usize = 60;
 /// Residual, in units of ε of its terms, at which corrections end.
 const ROUND_OFF: f64 = 4.0;
 /// Largest ratio of a correction to the one before: with a half, all together are at most twice the first.
-pub(super) const TURN: f64 = 0.5;
-/// Part of [`TURN`] at which the next step aims: the ratio is proportional to the length of a step.
-pub(super) const MARGIN: f64 = 0.8;
+const TURN: f64 = 0.5;
 /// Size of a correction, in units of the tolerance, below which corrections need not shrink: they are round-off, or those
 /// of dependent constraints, which agree on the manifold only.
 const SMALL: f64 = 1e-3;
@@ -47,17 +45,15 @@ enum Solver<L: Lagrangian> {
 }
 
 impl<L: Lagrangian<Scalar: Real>> Solver<L> {
-    /// Factorizes by the emitted function if that is reliable; `old` gives its storage.
-    fn velocities(system: &L, state: &StateOf<L>, old: Option<Self>) -> Self {
-        let (factor, none) = (system.factor(state), zero::<L>());
-        let zeros = (vector(Array::filled(none)), vector(Array::filled(none)));
-        if is_trustworthy(&system.solve_with(&factor, &zeros.0, &zeros.1)) {
-            return Self::Emitted(factor);
+    /// Factorizes by the emitted function if that is reliable and has the constraints of this level; `old` gives its storage.
+    fn at(system: &L, level: Level, state: &StateOf<L>, old: Option<Self>) -> Self {
+        if level == Level::Velocity || !is_mixed::<L>() {
+            let (factor, none) = (system.factor(state), zero::<L>());
+            let zeros = (vector(Array::filled(none)), vector(Array::filled(none)));
+            if is_trustworthy(&system.solve_with(&factor, &zeros.0, &zeros.1)) {
+                return Self::Emitted(factor);
+            }
         }
-        Self::general(Level::Velocity, system, state, old)
-    }
-
-    fn general(level: Level, system: &L, state: &StateOf<L>, old: Option<Self>) -> Self {
         let (m, f) = (system.mass_matrix(state).into(), level.jacobian(system, state));
         let factors = Factors::of(&m, &f, Rank::off_constraints());
         match old {
@@ -68,42 +64,62 @@ impl<L: Lagrangian<Scalar: Real>> Solver<L> {
             _ => Self::General(Room::of(factors)),
         }
     }
+
+    /// The least x with F x = −`residual`.
+    fn correction(
+        &self,
+        system: &L,
+        residual: &Array<L::Scalar, L::M>,
+        time: L::Scalar,
+    ) -> Result<Array<L::Scalar, L::N>, Error> {
+        let none = Array::filled(zero::<L>());
+        let found = match self {
+            Self::Emitted(factor) => system.solve_with(factor, &vector(none), &vector(*residual)),
+            Self::General(factors) => {
+                factors.solve(&none, residual).map_err(|found| fault::<L>(&found, time.to_f64()))?
+            }
+        };
+        Ok(found.accelerations.into())
+    }
+}
+
+/// Jacobian F of the corrections towards the constraints.
+#[derive(Clone, Copy)]
+enum Gradients {
+    /// That of the chart, which is factorized.
+    OfChart,
+    /// That at the state of each correction.
+    Own,
 }
 
 impl<L: Lagrangian<Scalar: Real>> Chart<L> {
     pub(super) fn at(system: &L, state: &StateOf<L>) -> Self {
-        let is_mixed = L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity);
-        let velocities = (<L::M>::COUNT > 0).then(|| Solver::velocities(system, state, None));
-        let coordinates = is_mixed.then(|| Solver::general(Level::Position, system, state, None));
+        let velocities = (<L::M>::COUNT > 0).then(|| Solver::at(system, Level::Velocity, state, None));
+        let coordinates = is_mixed::<L>().then(|| Solver::at(system, Level::Position, state, None));
         Self { f: Room::of(rows(&system.constraint_jacobian(state))), velocities, coordinates }
     }
 
     /// Moves the chart to another state, and keeps its storage.
     pub(super) fn set(&mut self, system: &L, state: &StateOf<L>) {
         *self.f = rows(&system.constraint_jacobian(state));
-        self.velocities = self.velocities.take().map(|old| Solver::velocities(system, state, Some(old)));
-        let general = |old| Solver::general(Level::Position, system, state, Some(old));
-        self.coordinates = self.coordinates.take().map(general);
+        for (level, solver) in BOTH.into_iter().zip([&mut self.coordinates, &mut self.velocities]) {
+            *solver = solver.take().map(|old| Solver::at(system, level, state, Some(old)));
+        }
     }
 
-    /// The least x with F x = −`residual` on a level; `None` without constraints.
+    /// The least x with F x = −`residual` on a level.
     pub(super) fn correction(
         &self,
         system: &L,
         level: Level,
         residual: &Array<L::Scalar, L::M>,
         time: L::Scalar,
-    ) -> Result<Option<Array<L::Scalar, L::N>>, Error> {
+    ) -> Result<Array<L::Scalar, L::N>, Error> {
         let own = self.coordinates.as_ref().filter(|_| level == Level::Position);
-        let none = Array::filled(zero::<L>());
-        let found = match own.or(self.velocities.as_ref()) {
-            None => return Ok(None),
-            Some(Solver::Emitted(factor)) => system.solve_with(factor, &vector(none), &vector(*residual)),
-            Some(Solver::General(factors)) => {
-                factors.solve(&none, residual).map_err(|found| fault::<L>(&found, time.to_f64()))?
-            }
-        };
-        Ok(Some(found.accelerations.into()))
+        match own.or(self.velocities.as_ref()) {
+            None => Ok(Array::filled(zero::<L>())),
+            Some(solver) => solver.correction(system, residual, time),
+        }
     }
 
     /// Projects a vector of coordinates or velocities onto the tangent plane.
@@ -121,7 +137,7 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
         let residual =
             Array::from_fn(|a| if level.is_active(L::CONSTRAINT_KINDS[a]) { row(a) } else { zero::<L>() });
         let correction = self.correction(system, level, &residual, time)?;
-        Ok(correction.map_or(*x, |correction| Array::from_fn(|i| x[i] + correction[i])))
+        Ok(Array::from_fn(|i| x[i] + correction[i]))
     }
 
     /// Projects both halves onto the tangent plane.
@@ -139,46 +155,80 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
     }
 
     /// Moves a state onto the constraints along M⁻¹Fᵀ, without a change of its coordinates in the tangent plane. Corrections
-    /// are measured in units of the tolerance at the state `y`; `turn` is raised to the largest ratio of one to that before.
-    /// [`NoSolution::TooSlow`] if it exceeds [`TURN`]: the step is too long for the chart, and might lead to another branch.
+    /// are measured in units of the tolerance at the state `y`.
+    ///
+    /// The gradients of the chart serve near it. Their corrections x shrink by 1 − σ/σ₀ along a combination of constraints with
+    /// F x = σ, and σ₀ at the chart. Past a pose where this combination vanishes, σ and σ₀ have opposite signs and the
+    /// corrections grow, however short the step: there the own gradients of each point serve.
     pub(super) fn onto(
         &self,
         system: &L,
         mut state: StateOf<L>,
-        (tolerance, y): (Tolerance, &PhaseVector<L::Scalar, L::N>),
-        turn: &mut f64,
+        size: (Tolerance, &PhaseVector<L::Scalar, L::N>),
     ) -> Result<StateOf<L>, NoSolution> {
-        let bound = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
         for level in BOTH.into_iter().filter(|level| level.concerns::<L>()) {
-            let (mut before, terms) = (f64::INFINITY, level.magnitude(system, &state));
-            for _ in 0..CORRECTIONS {
-                let residual = level.residual(system, &state);
-                if (0..<L::M>::COUNT).all(|a| Scalar::abs(residual[a]) <= bound * terms[a]) {
-                    break;
-                }
-                let Some(correction) = self.correction(system, level, &residual.into(), state.t)? else {
-                    break;
-                };
-                let mut halves = [Array::filled(zero::<L>()); 2];
-                halves[level as usize] = correction;
-                let size = tolerance.part(L::Scalar::constant(1.0), &PhaseVector::new(halves), y).to_f64();
-                let is_small = size <= SMALL;
-                if is_small && size >= before {
-                    break;
-                }
-                if before > SMALL {
-                    *turn = turn.max(size / before);
-                }
-                if !(is_small || size <= TURN * before) {
-                    return Err(NoSolution::TooSlow((MARGIN * TURN / *turn).clamp(0.1, 0.8)));
-                }
-                before = size;
-                let unknowns = level.unknowns(&mut state);
-                unknowns.iter_mut().zip(correction).for_each(|(x, change)| *x += change);
+            let mut reaches = |gradients| self.reaches(system, level, &mut state, (gradients, size));
+            if !reaches(Gradients::OfChart)? && !reaches(Gradients::Own)? {
+                return Err(NoSolution::TooSlow(0.5));
             }
         }
         Ok(state)
     }
+
+    /// Corrects a state until the constraints hold to round-off. False if corrections shrink by less than [`TURN`]: they might
+    /// lead far, to another branch.
+    fn reaches(
+        &self,
+        system: &L,
+        level: Level,
+        state: &mut StateOf<L>,
+        (gradients, (tolerance, y)): (Gradients, (Tolerance, &PhaseVector<L::Scalar, L::N>)),
+    ) -> Result<bool, Error> {
+        let bound = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
+        let (mut before, terms) = (f64::INFINITY, level.magnitude(system, state));
+        for _ in 0..CORRECTIONS {
+            let residual: Array<_, L::M> = level.residual(system, state).into();
+            if (0..<L::M>::COUNT).all(|a| Scalar::abs(residual[a]) <= bound * terms[a]) {
+                break;
+            }
+            let correction = match gradients {
+                Gradients::OfChart => self.correction(system, level, &residual, state.t)?,
+                Gradients::Own => self.own_correction(system, level, &residual, state)?,
+            };
+            let mut halves = [Array::filled(zero::<L>()); 2];
+            halves[level as usize] = correction;
+            let size = tolerance.part(L::Scalar::constant(1.0), &PhaseVector::new(halves), y).to_f64();
+            let is_small = size <= SMALL;
+            if is_small && size >= before {
+                break;
+            }
+            if !(is_small || size <= TURN * before) {
+                return Ok(false);
+            }
+            before = size;
+            level.unknowns(state).iter_mut().zip(correction).for_each(|(x, change)| *x += change);
+        }
+        Ok(true)
+    }
+
+    /// The part along the normals of the chart of the least x with F x = −`residual`, with F at a state. It leaves a residual
+    /// that is smaller by the square of the sine between the tangent planes of the chart and the state.
+    fn own_correction(
+        &self,
+        system: &L,
+        level: Level,
+        residual: &Array<L::Scalar, L::M>,
+        state: &StateOf<L>,
+    ) -> Result<Array<L::Scalar, L::N>, Error> {
+        let least = Solver::at(system, level, state, None).correction(system, residual, state.t)?;
+        let tangent = self.tangent(system, level, &least, state.t)?;
+        Ok(Array::from_fn(|i| least[i] - tangent[i]))
+    }
+}
+
+/// True if some constraints hold the velocities alone.
+fn is_mixed<L: Lagrangian>() -> bool {
+    L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity)
 }
 
 fn zero<L: Lagrangian>() -> L::Scalar {

@@ -79,7 +79,7 @@ where
         // The start is off the slow motion by an error δ of the velocities that is allowed. A damping c makes its rates off
         // by c δ, and the estimate of the coordinates by h δ. At the start moved by the estimate, this is gone.
         let moved = self.at.moved(L::Scalar::constant(0.0), &first.entries);
-        let state = self.chart.onto(system, moved, (tolerance, &self.at.y), &mut 0.0)?;
+        let state = self.chart.onto(system, moved, (tolerance, &self.at.y))?;
         Ok(of(&rates_at(system, &self.chart, &state, &self.at.active, statistics)?))
     }
 

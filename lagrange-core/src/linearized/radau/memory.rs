@@ -5,7 +5,7 @@ use core::fmt::{self, Debug, Formatter};
 use nalgebra::Const;
 
 use super::Radau;
-use super::chart::{Chart, MARGIN, TURN};
+use super::chart::Chart;
 use super::collocation::Collocation;
 use super::equations::{Derivatives, Factorizations};
 use super::iteration::{NoSolution, StageChanges, growth, power, zip};
@@ -181,13 +181,12 @@ where
         &mut self,
         method: &Radau<S>,
         (from, step): (KnownStateOf<L>, Collocation<L::Scalar, L::N, S>),
-        (error, iterations, turn): (f64, usize, f64),
+        (error, iterations): (f64, usize),
     ) {
         let h = step.length;
         let length = Scalar::abs(h).to_f64();
         let error = error.max(1e-10);
-        let mut ratio = growth::<L::Scalar, S>(error, iterations).min(MARGIN * TURN / turn);
-        ratio = ratio.min(CONTRACTION / self.contraction);
+        let mut ratio = growth::<L::Scalar, S>(error, iterations).min(CONTRACTION / self.contraction);
         if let Some((length_before, error_before)) = self.accepted {
             // The controller of Gustafsson, from two errors.
             let trend = power::<L::Scalar>(error * error / error_before, -1.0 / (S + 1) as f64);

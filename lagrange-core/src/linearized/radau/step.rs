@@ -218,11 +218,10 @@ where
         }
         // Changes along the normals: those of the last evaluation leave few corrections to the next.
         let mut normal: [_; S] = from_fn(|k| zip(&guess[k], &z[k], |all, tangent| all - tangent));
-        let mut turn = 0.0;
         let mut there = |k: usize, change: &PhaseVector<_, L::N>| {
             let moved = zip(change, &normal[k], |tangent, normal| tangent + normal);
             let moved = at.moved(h * L::Scalar::constant(<Const<S>>::NODES[k]), &moved);
-            let state = chart.onto(system, moved, (tolerance, &at.y), &mut turn)?;
+            let state = chart.onto(system, moved, (tolerance, &at.y))?;
             normal[k] = zip(&at.change_to(&state), change, |all, tangent| all - tangent);
             Ok::<_, NoSolution>(state)
         };
@@ -252,7 +251,7 @@ where
         let step = Collocation { time: at.t, length: h, start: at.y, changes: z };
         pose::check(system, &mut memory.orientation, (at, &step, &end)).map_err(Rejection::AtPole)?;
         let from = core::mem::replace(at, next);
-        memory.accept(self, (from, step), (estimate.size, iterations, turn));
+        memory.accept(self, (from, step), (estimate.size, iterations));
         Ok(())
     }
 }
