@@ -171,6 +171,76 @@ fn stiff_motions_on_redundant_constraints_take_few_steps() {
     );
 }
 
+/// Bobs on stiff springs, and on rods.
+#[derive(Clone, Lagrangian)]
+#[coordinates(r: [2], s: [2])]
+#[define(stretch = (norm(r) - 1)^2 + (norm(s - r) - 1)^2)]
+#[define(rate = dot(r, r_dot)^2/dot(r, r) + dot(s - r, s_dot - r_dot)^2/dot(s - r, s - r))]
+#[lagrangian((dot(r_dot, r_dot) + dot(s_dot, s_dot))/2 - 9.81*(r[1] + s[1]) - k/2*stretch)]
+#[dissipation(c/2*rate)]
+struct Springs {
+    k: f64,
+    c: f64,
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(r: [2], s: [2])]
+#[lagrangian((dot(r_dot, r_dot) + dot(s_dot, s_dot))/2 - 9.81*(r[1] + s[1]))]
+#[constraint(upper: dot(r, r) = 1)]
+#[constraint(lower: dot(s - r, s - r) = 1)]
+struct TwoRods;
+
+/// The limit of stiff springs are rods; tensions F up to 100 leave errors of the order F/k. With the derivatives at the start of
+/// each step alone, it takes thousands of steps.
+#[test]
+fn stiff_springs_that_swing_take_few_steps() {
+    let start = State::at_rest([1.0, 0.0, 2.0, 0.0]);
+    let exact = *TwoRods.integrate(start, 1.0, Taylor::default()).unwrap().end().state();
+    for (k, c) in [(1e10, 0.0), (1e10, 1e6)] {
+        let springs = Springs { k, c };
+        for (tolerance, most) in [(1e-4, [400, 200, 150]), (1e-6, [400, 200, 150]), (1e-9, [800, 200, 150])] {
+            let method = Radau::with_tolerance(tolerance);
+            let paths = [
+                springs.integrate(start, 1.0, method).unwrap(),
+                springs.integrate(start, 1.0, method.stages::<5>()).unwrap(),
+                springs.integrate(start, 1.0, method.stages::<7>()).unwrap(),
+            ];
+            for (path, most) in paths.iter().zip(most) {
+                let error = (path.end().state().q - exact.q).amax();
+                assert!(error < tolerance + 2e-8, "{k}, {c}, {tolerance}: {error:e}");
+                let steps = path.statistics().accepted + path.statistics().rejected;
+                assert!(steps < most, "{k}, {c}, {tolerance}: {:?}", path.statistics());
+            }
+        }
+    }
+}
+
+/// Dry friction, all but a jump at rest: the bob swings, and sticks.
+#[derive(Clone, Lagrangian)]
+#[coordinates(a)]
+#[lagrangian(a_dot^2/2 + 9.81*cos(a))]
+#[dissipation(3*sqrt(a_dot^2 + 1e-12))]
+struct Sticking;
+
+/// Friction holds it at a constant rate. Guesses far beyond the step before miss that rate: with them it took 100,000 steps.
+#[test]
+fn a_motion_that_sticks_takes_few_steps() {
+    let start = State::new([1.0], [2.0]);
+    let exact = *Sticking.integrate(start, 3.0, Radau::with_tolerance(1e-12)).unwrap().end().state();
+    for tolerance in [1e-4, 1e-6, 1e-9] {
+        let method = Radau::with_tolerance(tolerance);
+        let paths = [
+            Sticking.integrate(start, 3.0, method).unwrap(),
+            Sticking.integrate(start, 3.0, method.stages::<5>()).unwrap(),
+            Sticking.integrate(start, 3.0, method.stages::<7>()).unwrap(),
+        ];
+        for path in paths {
+            assert!(off(path.end().state(), &exact) < tolerance, "{tolerance}");
+            assert!(path.statistics().accepted < 300, "{tolerance}: {:?}", path.statistics());
+        }
+    }
+}
+
 /// A crank that a motor turns at a constant rate: no freedom is left.
 #[derive(Clone, Lagrangian)]
 #[coordinates(crank, rod, slider)]

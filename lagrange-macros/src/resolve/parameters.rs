@@ -206,7 +206,7 @@ impl Parameters {
                 ),
                 _ => {
                     let fields = || self.fields.iter().map(|field| field.name.text.as_str());
-                    let advice = or_meant(nearest(&name.text, fields()), "field", fields());
+                    let advice = or_meant(&name.text, nearest(&name.text, fields()), "field", fields());
                     format!("there is no field `{}`{advice}", name.text)
                 }
             };

@@ -1,4 +1,5 @@
-//! Linear equations of the iteration, (λ − J) w = r with J = ∂(q̇, q̈)/∂(q, q̇) in the coordinates of the tangent plane.
+//! Linear equations of the iteration with the derivatives at the start of a step, (λ − J) w = r with J = ∂(q̇, q̈)/∂(q, q̇) in the
+//! coordinates of the tangent plane.
 //!
 //! The first half is solved by hand, λ w₁ − w₂ = r₁, which leaves N equations (λ − ∂q̈/∂q̇ − ∂q̈/∂q/λ) w₂ = r₂ + ∂q̈/∂q
 //! r₁/λ, with a real λ and complex ones.
@@ -6,8 +7,9 @@
 use nalgebra::{Complex, ComplexField, Const};
 
 use super::chart::Chart;
+use super::iteration::{StageChanges, product, zip};
 use super::lu::{Lu, Square};
-use super::tableau::RadauStages;
+use super::tableau::{RadauStages, Transformation};
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::linearized::jacobian::name_of;
@@ -20,8 +22,8 @@ use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
 
 /// Π ∂q̈/∂q Π and Π ∂q̈/∂q̇ Π at a state, column by column.
 pub(super) struct Derivatives<T: Element, N: Length> {
-    by_q: Square<T, N>,
-    by_v: Square<T, N>,
+    pub(super) by_q: Square<T, N>,
+    pub(super) by_v: Square<T, N>,
     /// Directions Π, of the half in evaluation.
     directions: Square<T, N>,
 }
@@ -126,8 +128,25 @@ where
         PhaseVector::new(derivatives.solve(&self.real, real::<T, S>(self.h), r.arrays(), |x| x))
     }
 
+    /// Corrections of the stages `z` with these rates.
+    pub(super) fn corrections(
+        &self,
+        transformation: &Transformation<S>,
+        derivatives: &Derivatives<T, N>,
+        z: &StageChanges<T, N, S>,
+        rates: &StageChanges<T, N, S>,
+    ) -> StageChanges<T, N, S> {
+        let mut residual = product(&transformation.slopes, z);
+        for (slope, rate) in residual.iter_mut().zip(rates) {
+            *slope = zip(slope, rate, |slope, rate| rate - slope / self.h);
+        }
+        let mut right = product(&transformation.to_eigenvectors, &residual);
+        self.solve(derivatives, &mut right);
+        product(&transformation.from_eigenvectors, &right)
+    }
+
     /// Solves the equations of all eigenvectors, in place.
-    pub(super) fn solve(&self, derivatives: &Derivatives<T, N>, r: &mut [PhaseVector<T, N>; S]) {
+    fn solve(&self, derivatives: &Derivatives<T, N>, r: &mut [PhaseVector<T, N>; S]) {
         r[0] = self.real(derivatives, &r[0]);
         for (k, (lu, pair)) in self.complex.iter().flatten().zip(r[1..].chunks_exact_mut(2)).enumerate() {
             let right = from_fn(|half| Array::from_fn(|i| Complex::new(pair[0][half][i], pair[1][half][i])));

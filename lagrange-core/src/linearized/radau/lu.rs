@@ -6,7 +6,7 @@ use nalgebra::ComplexField;
 
 use crate::vector::{Array, Element, Length};
 
-/// N rows of N entries, on the heap if there is one: they are never on the stack together.
+/// N rows, or columns, of N entries, on the heap if there is one: they are never on the stack together.
 #[derive(Clone)]
 pub(super) struct Square<F: Element, N: Length>(
     #[cfg(feature = "alloc")] alloc::vec::Vec<Array<F, N>>,

@@ -7,6 +7,7 @@ use nalgebra::Const;
 use super::Radau;
 use super::chart::Chart;
 use super::collocation::Collocation;
+use super::coupled::Coupled;
 use super::equations::{Derivatives, Factorizations};
 use super::iteration::{NoSolution, StageChanges, growth, power, zip};
 use super::lu::Lu;
@@ -23,9 +24,17 @@ use crate::vector::{Array, Element, Length, PhaseVector, array, from_fn, vector}
 
 /// Contraction of the iteration below which derivatives are used again in the next step.
 const REUSED: f64 = 1e-3;
-/// Contraction of the iteration that the next step aims at most for (Gustafsson and Söderlind, *Control strategies for the
+/// Largest contraction of the iteration that the next step aims for (Gustafsson and Söderlind, *Control strategies for the
 /// iterative solution of nonlinear equations in ODE solvers*, 1997). It grows with the length of a step.
 const CONTRACTION: f64 = 0.4;
+/// Ratio of a step to the longest with the derivatives at its start, above which it takes those at each stage. Of 1.2, 2, 3 and 5,
+/// times of swinging springs were least with 1.2 and 2.
+const WORTH: f64 = 2.0;
+/// Growth of the longest step with the derivatives at its start, after one for which the iteration did not converge: a longer one
+/// is tried once in ten.
+const RETRIED: f64 = 1.05;
+/// Largest ratio to a step with the derivatives at each stage: they are evaluated at the extrapolated polynomial.
+const LONGER: f64 = 2.0;
 /// Largest ratio of a step to the one before for which it keeps the length, and the factorizations with it.
 const SAME: f64 = 1.2;
 
@@ -51,6 +60,10 @@ pub struct RadauMemory<L: Lagrangian<Scalar: Real>, const S: usize = 3> {
     pub(super) derivatives: Derivatives<L::Scalar, L::N>,
     pub(super) age: Age,
     pub(super) factorizations: Factorizations<L::Scalar, L::N, S>,
+    /// The linear equations with the derivatives at each stage, once they are needed.
+    pub(super) coupled: Option<Coupled<L::Scalar, L::N, S>>,
+    /// Longest step for which the iteration is expected to converge without them.
+    pub(super) longest: f64,
     pub(super) contraction: f64,
     /// Memory to compare the constraints at both ends of a step.
     pub(super) orientation: Lu<L::Scalar, L::M>,
@@ -124,6 +137,13 @@ impl<L: StateDerivatives<Scalar: Real>, const S: usize> RadauMemory<L, S>
 where
     Const<S>: RadauStages,
 {
+    /// Length of the next step, and whether it takes the derivatives at each stage.
+    pub(super) fn next(&self) -> (L::Scalar, bool) {
+        let (planned, longest) = (self.planned.to_f64(), self.longest);
+        let is_coupled = planned > WORTH * longest;
+        (L::Scalar::constant(if is_coupled { planned } else { planned.min(longest) }), is_coupled)
+    }
+
     /// Stages on the polynomial of the last step, as changes from the state; zero if there is none.
     pub(super) fn guess(&self, h: L::Scalar) -> StageChanges<L::Scalar, L::N, S> {
         from_fn(|k| match &self.taken {
@@ -181,12 +201,18 @@ where
         &mut self,
         method: &Radau<S>,
         (from, step): (KnownStateOf<L>, Collocation<L::Scalar, L::N, S>),
-        (error, iterations): (f64, usize),
+        (error, iterations, is_coupled): (f64, usize, bool),
     ) {
         let h = step.length;
         let length = Scalar::abs(h).to_f64();
         let error = error.max(1e-10);
-        let mut ratio = growth::<L::Scalar, S>(error, iterations).min(CONTRACTION / self.contraction);
+        let mut ratio = growth::<L::Scalar, S>(error, iterations);
+        let converging = CONTRACTION / self.contraction;
+        self.longest *= RETRIED;
+        match is_coupled {
+            true => ratio = ratio.min(converging).min(LONGER),
+            false => self.longest = self.longest.min(length * converging),
+        }
         if let Some((length_before, error_before)) = self.accepted {
             // The controller of Gustafsson, from two errors.
             let trend = power::<L::Scalar>(error * error / error_before, -1.0 / (S + 1) as f64);
@@ -196,7 +222,7 @@ where
             ratio = ratio.min(1.0);
         }
         (self.accepted, self.was_refused, self.obstacle) = (Some((length, error.max(1e-2))), false, None);
-        let keeps_derivatives = self.contraction <= REUSED;
+        let keeps_derivatives = !is_coupled && self.contraction <= REUSED;
         let keeps_length = keeps_derivatives && (1.0..=SAME).contains(&ratio);
         self.age = if keeps_derivatives { Age::Old } else { Age::Unknown };
         let planned = self.planned;

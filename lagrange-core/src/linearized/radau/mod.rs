@@ -2,6 +2,7 @@
 
 mod chart;
 mod collocation;
+mod coupled;
 mod equations;
 mod estimate;
 mod iteration;
@@ -39,6 +40,9 @@ pub use tableau::RadauStages;
 /// Ordinary Differential Equations II*, IV.8; "Stiff differential equations solved by Radau methods", *Journal of
 /// Computational and Applied Mathematics* 111, 1999). Dense output is the collocation polynomial, of the order of the number
 /// of stages.
+///
+/// Where stiff forces turn within a step, as on a stiff spring that swings, the iteration takes the derivatives at each stage. Such
+/// motions lose the order of the method to that of its stages: take 5 or 7.
 ///
 /// A pose at which constraints depend on one another, as where a linkage folds flat, is crossed on the branch of the motion.
 /// Where multipliers grow without bound towards it, the motion ends before

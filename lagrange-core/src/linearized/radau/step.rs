@@ -6,6 +6,7 @@ use nalgebra::Const;
 
 use super::chart::Chart;
 use super::collocation::Collocation;
+use super::coupled::Coupled;
 use super::equations::{Derivatives, Factorizations};
 use super::estimate::StartSlopes;
 use super::iteration::{Converged, Iteration, NoSolution, allowed, combination, reduction, zip};
@@ -84,6 +85,8 @@ where
             derivatives: Derivatives::new(),
             age: Age::Unknown,
             factorizations: Factorizations::new(),
+            coupled: None,
+            longest: f64::INFINITY,
             contraction: 1.0,
             orientation: Lu::new(),
             accepted: None,
@@ -117,17 +120,19 @@ where
         if memory.planned == L::Scalar::constant(0.0) {
             memory.planned = self.first(memory);
         }
-        let (h, time) = memory.clock.next(memory.planned);
+        let (length, is_coupled) = memory.next();
+        let (h, time) = memory.clock.next(length);
         let now = memory.clock.now.to_f64();
         if !memory.clock.is_ahead(time) {
-            return Step::Failed(Ending::TimeTooCoarse { time: now, step: memory.planned.to_f64() });
+            return Step::Failed(Ending::TimeTooCoarse { time: now, step: length.to_f64() });
         }
         let attempt = match memory.prepare(system, h, self.tolerance::<L::Scalar>()) {
             // Shorter steps would find the same equations at the start.
             Err(NoSolution::Unsolved(error)) => return Step::Failed(Ending::of(error, now)),
             Err(other) => Err(other.into()),
-            Ok(()) => self.attempt(system, memory, (h, time), statistics),
+            Ok(()) => self.attempt(system, memory, (h, time, is_coupled), statistics),
         };
+        let is_too_slow = matches!(attempt, Err(Rejection::TooSlow(_)));
         let (part, ending) = match attempt {
             Ok(()) => return Step::Accepted(memory.at.state()),
             Err(Rejection::Inaccurate(error, entry)) => {
@@ -151,9 +156,12 @@ where
             }
             Err(Rejection::AtPole(error)) => return Step::Failed(Ending::of(error, now)),
         };
-        memory.planned = Scalar::abs(h) * L::Scalar::constant(part);
-        memory.was_refused = true;
-        if memory.clock.advances_by(memory.planned) { Step::Rejected } else { Step::Failed(ending) }
+        let shorter = Scalar::abs(h) * L::Scalar::constant(part);
+        match is_too_slow && !is_coupled {
+            true => memory.longest = shorter.to_f64(),
+            false => (memory.planned, memory.was_refused) = (shorter, true),
+        }
+        if memory.clock.advances_by(shorter) { Step::Rejected } else { Step::Failed(ending) }
     }
 
     fn interpolant(
@@ -176,7 +184,7 @@ where
     }
 
     fn pace(&self, _: &L, memory: &Self::Memory, _: L::Scalar) -> Pace {
-        Pace { step: Some(memory.planned.to_f64()), ..Pace::default() }
+        Pace { step: Some(memory.next().0.to_f64()), ..Pace::default() }
     }
 }
 
@@ -206,12 +214,14 @@ where
         &self,
         system: &L,
         memory: &mut RadauMemory<L, S>,
-        (h, time): (L::Scalar, L::Scalar),
+        (h, time, is_coupled): (L::Scalar, L::Scalar, bool),
         statistics: &mut Statistics,
     ) -> Result<(), Rejection> {
         let tolerance = self.tolerance::<L::Scalar>();
         let guess = memory.guess(h);
-        let RadauMemory { at, transformation, chart, derivatives, factorizations, contraction, .. } = memory;
+        let RadauMemory {
+            at, transformation, chart, derivatives, factorizations, coupled, contraction, ..
+        } = memory;
         let mut z = guess;
         for change in &mut z {
             *change = chart.tangents(system, change, at.t)?;
@@ -226,11 +236,26 @@ where
             Ok::<_, NoSolution>(state)
         };
         let allowed = allowed::<L::Scalar, S>(tolerance.relative);
-        let iteration =
-            Iteration { transformation, derivatives, factorizations, tolerance, y: &at.y, allowed };
-        let Converged { iterations, contraction: found } = iteration.solve(&mut z, |k, change| {
-            Ok(rates_at(system, chart, &there(k, change)?, &at.active, statistics)?)
-        })?;
+        let mut coupled =
+            is_coupled.then(|| coupled.get_or_insert_with(|| Coupled::new(transformation.slopes)));
+        if let Some(coupled) = &mut coupled {
+            for (k, change) in z.iter().enumerate() {
+                coupled.evaluate(system, (k, &there(k, change)?), (chart, &at.active))?;
+            }
+            statistics.evaluations += S;
+            if !coupled.factorize(h) {
+                return Err(Rejection::TooSlow(0.5));
+            }
+        }
+        let corrections = |z: &_, rates: &_| match &coupled {
+            Some(coupled) => coupled.corrections(z, rates),
+            None => factorizations.corrections(transformation, derivatives, z, rates),
+        };
+        let iteration = Iteration { tolerance, y: &at.y, allowed, is_coupled };
+        let Converged { iterations, contraction: found } =
+            iteration.solve(&mut z, corrections, |k, change| {
+                Ok(rates_at(system, chart, &there(k, change)?, &at.active, statistics)?)
+            })?;
         *contraction = found;
         let tangent = combination(&transformation.start, &z);
         // Stages on the constraints, for dense output.
@@ -251,7 +276,7 @@ where
         let step = Collocation { time: at.t, length: h, start: at.y, changes: z };
         pose::check(system, &mut memory.orientation, (at, &step, &end)).map_err(Rejection::AtPole)?;
         let from = core::mem::replace(at, next);
-        memory.accept(self, (from, step), (estimate.size, iterations));
+        memory.accept(self, (from, step), (estimate.size, iterations, is_coupled));
         Ok(())
     }
 }
