@@ -3,6 +3,7 @@
 mod adversary;
 mod hybrid;
 mod impacts;
+mod middle;
 #[path = "../random/mod.rs"]
 mod random;
 mod rule;

@@ -242,13 +242,27 @@ impl<T: Real> EventState<T> {
     }
 
     /// Records the value of the event function at the end of the interval. A value within the noise does not
-    /// count as a change of sign: the function keeps the sign that it had at the start.
+    /// count as a change of sign: the function keeps the sign that it had at the start. If it had none, it has that of the
+    /// samples between, where it has left the zero of the start.
     #[inline]
     pub(super) fn look(&mut self, value: T) {
         let is_noise =
             Scalar::abs(value) < self.noise || self.start.is_some() && Scalar::abs(value) <= self.noise;
-        self.next = if is_noise { self.value } else { value };
+        self.next = match is_noise {
+            true if self.value == T::constant(0.0) => self.sign_between(),
+            true => self.value,
+            false => value,
+        };
         self.samples[FINEST] = value;
+    }
+
+    /// A sample between the ends that exceeds the noise; zero if there is none. On an interval where the function crosses
+    /// zero at most once, and is zero at both ends, all of them have one sign.
+    #[cold]
+    fn sign_between(&self) -> T {
+        let between = [1, 2, 3].map(|quarter| self.samples[quarter * FINEST / 4]);
+        let exceeds = |sample: &T| self.is_known() && Scalar::abs(*sample) > self.noise;
+        between.into_iter().find(exceeds).unwrap_or(T::constant(0.0))
     }
 
     /// Continues the search from the end of the interval, at time `t`.
