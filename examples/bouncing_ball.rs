@@ -1,36 +1,27 @@
-//! A ball that bounces: a flight is a motion, an impact is solved for by the system that has the floor, and where the
-//! bounces accumulate the motion ends by that name.
+//! A ball that bounces on a floor and comes to rest: one struct, whose contact opens and closes.
 //!
 //! From the height h the first fall takes T = √(2h/g), the bounce after impact n takes 2 eⁿ T: it is at rest after
 //! (1 + e)/(1 − e) T.
 
 mod picture;
 
-use lagrange_core::{Ending, HybridTrajectory, prelude::*};
+use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
 
-/// In the air.
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
 #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-struct Flying {
+#[contact(floor: y >= 0, restitution: e)]
+struct Ball {
     m: f64,
     g: f64,
+    e: f64,
+    floor: Contact,
 }
 
-/// On the floor.
-#[derive(Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-#[constraint(floor: y = 0)]
-struct Touching {
-    m: f64,
-    g: f64,
-}
-
-const BALL: Flying = Flying { m: 0.2, g: 9.81 };
-const FLOOR: Touching = Touching { m: BALL.m, g: BALL.g };
+const BALL: Ball = Ball { m: 0.2, g: 9.81, e: RESTITUTION, floor: Contact::Open };
 const HEIGHT: f64 = 1.0;
 const RESTITUTION: f64 = 0.8;
 
@@ -38,49 +29,38 @@ const RESTITUTION: f64 = 0.8;
 type Bounce = (f64, f64, f64);
 
 fn main() -> Result<()> {
-    let (trajectory, bounces) = bounce()?;
+    let start = State::new([0.0, HEIGHT], [0.5, 0.0]);
+    let path = BALL.motion(start).by(Taylor::default()).with_contacts().to(5.0)?;
+    let bounces: Vec<Bounce> = bounces(&path).collect();
     println!("A ball dropped from {HEIGHT} m with 0.5 m/s to the side; e = {RESTITUTION}\n");
     println!("{:>6} {:>14} {:>14} {:>18}", "bounce", "t/s", "impulse/Ns", "off the series/s");
     for (k, (t, impulse, off)) in bounces.iter().enumerate().filter(|(k, _)| k % 8 == 0) {
         println!("{:6} {t:14.10} {impulse:14.10} {off:18.1e}", k + 1);
     }
-    let ending = trajectory.ending().ok_or("no leg")?;
-    println!("\n{} flights, then: {ending}", trajectory.legs().len());
+    let last = path.transitions().last().ok_or("no transition")?;
+    println!("\n{} bounces, then {last}", bounces.len());
     let rest = (2.0 * HEIGHT / BALL.g).sqrt() * (1.0 + RESTITUTION) / (1.0 - RESTITUTION);
-    println!("by the series it is at rest at t = {rest}, {:.0e} s later", rest - ending.time());
+    println!("by the series it is at rest at t = {rest}, {:.0e} s later", rest - last.time());
     identify()?;
     let file = picture::path("bouncing_ball")?;
-    draw(&trajectory, &bounces, &file)?;
+    draw(&path, &bounces, &file)?;
     println!("\npicture: {}", file.display());
     Ok(())
 }
 
-/// Flights from impact to impact, until they accumulate.
-fn bounce() -> Result<(HybridTrajectory<f64>, Vec<Bounce>)> {
-    let (mut trajectory, mut bounces) = (HybridTrajectory::new(), Vec::new());
-    let mut state = State::new([0.0, HEIGHT], [0.5, 0.0]);
-    let mut lands = BALL.event("lands", |sample| sample.coordinate("y")).falling().terminal();
-    let method = Dop853::with_tolerance(1e-12).max_step(0.1);
-    loop {
-        let flight = BALL.motion(state).by(method).event(&mut lands).towards(100.0)?;
-        let landing = *flight.end().state();
-        let has_landed = matches!(flight.ending(), Ending::Event { .. });
-        trajectory.push(flight.into_owned())?;
-        if !has_landed {
-            return Ok((trajectory, bounces));
-        }
-        let impact = FLOOR.impact(&landing, "floor", RESTITUTION)?;
-        let expected = series(bounces.len() as i32);
-        bounces.push((landing.t, impact.impulse("floor")?, (landing.t - expected).abs()));
-        state = impact.state;
-    }
+fn bounces(path: &ContactTrajectory<Ball>) -> impl Iterator<Item = Bounce> {
+    let impacts = path.transitions().iter().filter_map(|transition| match transition {
+        Transition::Impact { time, impulses } => Some((*time, impulses.first()?.1)),
+        _ => None,
+    });
+    impacts.enumerate().map(|(n, (time, impulse))| (time, impulse, (time - series(n as i32)).abs()))
 }
 
 /// Which restitution makes it land 0.8 m aside the third time? Newton's method, with the derivative of that place across
 /// the impacts.
 fn identify() -> Result<()> {
     println!("\nit lands 0.8 m aside the third time: e by Newton's method");
-    let (mut restitution, aside) = (0.5, 0.8);
+    let (mut restitution, aside, floor) = (0.5, 0.8, Ball { floor: Contact::Closed, ..BALL });
     for _ in 0..5 {
         let mut lands =
             BALL.differentiable_event("lands", |sample| sample.coordinate("y")).falling().terminal();
@@ -91,7 +71,7 @@ fn identify() -> Result<()> {
             let flight = BALL.motion_with_derivatives(&at).by(method).event(&mut lands).towards(100.0)?;
             at = flight.end()?.clone();
             if landing < 3 {
-                at = FLOOR.impact_sensitivity(&at, "floor", ("e", restitution))?;
+                at = floor.impact_sensitivity(&at, "floor", ("e", restitution))?;
             }
         }
         let (x, by_restitution) = (at.state.q[0], at.q[(0, 0)]);
@@ -109,11 +89,11 @@ fn series(n: i32) -> f64 {
     fall * (1.0 + 2.0 * RESTITUTION * (1.0 - RESTITUTION.powi(n)) / (1.0 - RESTITUTION))
 }
 
-fn draw(trajectory: &HybridTrajectory<f64>, bounces: &[Bounce], file: &std::path::Path) -> Result<()> {
+fn draw(path: &ContactTrajectory<Ball>, bounces: &[Bounce], file: &std::path::Path) -> Result<()> {
     let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     let [mut flight, mut speed, mut energy] = [const { Points::new() }; 3];
-    for sample in trajectory.samples(3000) {
+    for sample in path.legs().samples(3000) {
         let sample = sample?;
         flight.push((sample.coordinate("x")?, sample.coordinate("y")?));
         speed.push((sample.time(), sample.velocity("y")?));

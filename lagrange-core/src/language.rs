@@ -458,6 +458,40 @@
 //! assert_eq!(Pair { a: 0.5 }.constraint_integral(0, &state), Some(2.5));
 //! ```
 //!
+//! # Contacts, and constraints that come and go
+//!
+//! A gap that never becomes negative is a contact: `#[contact(floor: y - r >= 0, restitution: e)]`. The gap is a function of
+//! coordinates and time, and its multiplier is never negative: 0 ≤ gap ⊥ λ ≥ 0. A field of the same name and of the type
+//! [`Contact`](crate::contact::Contact), or an array of them for a family, says whether it is closed. With restitution, a gap
+//! that closes at the rate v opens at the rate −e v; without, it stays closed as long as the contact pushes.
+//!
+//! `motion(start).with_contacts().to(end)` goes from impact to impact, and opens and closes the contacts. A motion without
+//! `with_contacts` does not compile; a [`Motion`](crate::Motion) leaves contacts as their fields say.
+//!
+//! A constraint may be switched as well, `#[constraint(grip: x = y, when: held)]`, by a field of the type `bool`, or by an array
+//! of them for a family. While it is off, its row of F, its residual and its multiplier are zero. What the macro proves of
+//! constraints, as that one follows from others, it does not ask of those that come and go.
+//!
+//! ```
+//! use lagrange_core::contact::Contact;
+//! use lagrange_core::prelude::*;
+//!
+//! /// A block that a hand holds above a table.
+//! #[derive(Clone, Lagrangian)]
+//! #[coordinates(y)]
+//! #[lagrangian(m/2 * y_dot^2 - m*g*y)]
+//! #[contact(table: y >= 0, restitution: e)]
+//! #[constraint(hand: y = height, when: held)]
+//! struct Block { m: f64, g: f64, e: f64, height: f64, table: Contact, held: bool }
+//!
+//! let held = Block { m: 2.0, g: 9.81, e: 0.5, height: 1.0, table: Contact::Open, held: true };
+//! let start = State::at_rest([1.0]);
+//! assert_eq!(held.solve(&start)?.multipliers.as_slice(), [0.0, 2.0 * 9.81]);
+//! let path = Block { held: false, ..held }.motion(start).with_contacts().to(5.0)?;
+//! assert_eq!((path.end().q[0], path.system().table), (0.0, Contact::Closed));
+//! # Ok::<(), lagrange_core::Error>(())
+//! ```
+//!
 //! # Forces, dissipation, observables
 //!
 //! An observable is a method with its name that returns a number, a vector (`SVector`) or a matrix (`SMatrix`); its

@@ -358,7 +358,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         decided
     }
 
-    /// Twice the time of the shortest bounce that begins: 2 v/a with the rate v of the gap and its acceleration −a.
+    /// Somewhat more than the time of the shortest bounce that begins, 2 v/a with the rate v of the gap and its acceleration −a.
     fn bounce(
         &self,
         (touching, resting, accelerations): (&[usize], &[bool], &[L::Scalar]),
@@ -366,7 +366,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     ) -> Option<L::Scalar> {
         let falls = |place: &usize| !resting[*place] && accelerations[*place] < L::Scalar::constant(0.0);
         let time = |place: usize| {
-            L::Scalar::constant(-4.0) * self.measured(touching[place], state).rate / accelerations[place]
+            L::Scalar::constant(-2.7) * self.measured(touching[place], state).rate / accelerations[place]
         };
         (0..touching.len()).filter(falls).map(time).reduce(|one, other| if other < one { other } else { one })
     }

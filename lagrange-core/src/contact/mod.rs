@@ -37,12 +37,34 @@ assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
 "#
 )]
 //!
+//! Without `with_contacts`, a motion of a system with contacts does not compile, since it would pass through them:
+//!
+//! ```compile_fail
+//! # use lagrange_core::contact::Contact;
+//! # use lagrange_core::prelude::*;
+//! # #[derive(Clone, Lagrangian)]
+//! # #[coordinates(y)]
+//! # #[lagrangian(y_dot^2/2 - g*y)]
+//! # #[contact(floor: y >= 0)]
+//! # struct Ball { g: f64, floor: Contact }
+//! let ball = Ball { g: 9.81, floor: Contact::Open };
+//! let path = ball.integrate(State::at_rest([1.0]), 1.0, Dop853::default());
+//! ```
+//!
+//! # What is decided, and by what bound
+//!
+//! With u, the round-off of a gap, 8 ε (Σ |Wᵢ| max |qᵢ| + |rate · t|) with the largest entries so far:
+//!
+//! - Bodies touch up to a gap of 4 u, twice the round-off that events estimate, below which an event cannot see a gap close.
+//! - A gap that is zero and rests is watched for falling below four times its round-off, so that it cannot become negative
+//!   unnoticed; one that is at least 10⁻⁹ of its terms below zero at a step ends the motion with
+//!   [`Error::Penetration`](crate::Error::Penetration).
+//! - A contact rests if its rate is below the round-off of its terms, or if a bounce would rise by no more than 64 u.
+//!
 //! # Accumulating impacts
 //!
-//! A contact rests once a bounce would rise by no more than 64 units of round-off of its gap, the sum Σ |Wᵢ qᵢ| with the
-//! largest qᵢ so far. The bounces to come take 2 v/(a (1 − e)) in total, with the rate v after the impact and the
-//! acceleration a towards the contact; [`Transition::Rests`] has the time when they end. What they would move is
-//! below the round-off of the gap.
+//! Once a contact rests, the bounces to come take 2 v/(a (1 − e)) in total, with the rate v after the impact and the
+//! acceleration a towards the contact: [`Transition::Rests`] has the time when they end. What they would move is within 64 u.
 //!
 //! # Several contacts at once
 //!

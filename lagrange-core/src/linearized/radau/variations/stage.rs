@@ -36,9 +36,9 @@ impl<T: Real> Normals<T> {
             let unit = Array::from_fn(|b| T::constant(if a == b { 1.0 } else { 0.0 }));
             let direction = chart.correction(system, level, &unit, time)?;
             // The general solver leaves out constraints that depend on others.
-            if let Some(x) = direction.filter(|x| x.iter().any(|x| *x != T::constant(0.0))) {
+            if direction.iter().any(|x| *x != T::constant(0.0)) {
                 constraints.push(a);
-                directions.push(x);
+                directions.push(direction);
             }
         }
         let directions = DMatrix::from_fn(<L::N>::COUNT, directions.len(), |i, j: usize| directions[j][i]);
