@@ -12,7 +12,7 @@ use crate::error::{EnsembleError, Error};
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method};
 use crate::number::{Lanes, Real};
-use crate::system::{Lagrangian, Pack, StateOf};
+use crate::system::{Lagrangian, Pack, StateOf, check_contacts};
 
 /// Many members, each a system with its initial state, that are integrated to the same time.
 ///
@@ -47,6 +47,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> Ensemble<'a, L> {
     /// Makes `count` members from their indices 0, 1, …. `member` must return the same member for the same index. It is
     /// called from any thread, and from several at once.
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, StateOf<L>) + Send + Sync + 'a) -> Self {
+        const { check_contacts::<L>() };
         let make = Box::new(member);
         let (list, done, observer, watch, tag) = (None, Vec::new(), None, None, None);
         let member_plan = MemberPlan::default();

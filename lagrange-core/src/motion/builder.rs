@@ -15,7 +15,7 @@ use super::store::Stored;
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, State};
+use crate::system::{Lagrangian, State, check_contacts};
 use crate::trajectory::Trajectory;
 use crate::vector::{Element, Length};
 
@@ -182,12 +182,7 @@ where
     where
         P: Method<L, F>,
     {
-        const {
-            assert!(
-                !L::HAS_CONTACTS,
-                "this system has contacts: write `.with_contacts()` before `.to(end)` or `.towards(end)`, so that they open and close, or move it by a `Motion`, which leaves them as they are"
-            );
-        }
+        const { check_contacts::<L>() };
         self.with_contacts_as_they_are(end)
     }
 

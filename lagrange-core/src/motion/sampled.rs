@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::number::Real;
 use crate::solution::Sample;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{Lagrangian, StateOf, check_contacts};
 
 /// Marks a motion that keeps samples alone: `to` returns an [`Arrival`].
 pub struct SamplesAlone<'w, L: Lagrangian> {
@@ -209,6 +209,7 @@ impl<'w, L: Lagrangian<Scalar: Real>, F, P, E> Sampled<'_, 'w, L, Start<L::Scala
         P: Method<L, F>,
         E: EventList<DynEvent<'w, L>>,
     {
+        const { check_contacts::<L>() };
         let Self { system, start, method, events, mut on_progress, kept: SamplesAlone { plan, steered } } =
             self;
         let state = start.state.as_ref().as_ref().map_err(Error::clone)?;

@@ -270,6 +270,15 @@ pub(crate) const fn check_names<L: Lagrangian>() {
     assert!(L::CONSTRAINT_KINDS.len() == <L::M>::COUNT, "`CONSTRAINT_KINDS` must have `M` entries");
 }
 
+/// Asserts, at compile time, that no motion passes through contacts.
+#[cfg(feature = "alloc")]
+pub(crate) const fn check_contacts<L: Lagrangian>() {
+    assert!(
+        !L::HAS_CONTACTS,
+        "this system has contacts: move it by `motion(start).with_contacts().to(end)`, so that they open and close, or by a `Motion`, which leaves them as they are"
+    );
+}
+
 #[cfg(test)]
 mod tests {
     use super::check_names;

@@ -29,6 +29,8 @@ pub use equations::{Equations, Excerpt};
 pub use evidence::Evidence;
 pub use facts::{Conserved, EnergyForm, Facts, LinearPart, TotalDerivative};
 pub use integrability::{Classification, Extent, Integrability, Integrals};
+#[cfg(feature = "alloc")]
+pub(crate) use lagrangian::check_contacts;
 pub(crate) use lagrangian::check_names;
 pub use lagrangian::{ConstraintKind, Lagrangian};
 pub use pack::{Pack, Packed, Shared};
