@@ -27,7 +27,7 @@ enum Joined<T> {
 }
 
 /// z and w, the round-off of w, and the set of unknowns that are not zero.
-pub(super) struct Solved<T> {
+pub(super) struct ComplementarySolution<T> {
     pub(super) z: Vec<T>,
     pub(super) w: Vec<T>,
     pub(super) noise: Vec<T>,
@@ -38,7 +38,7 @@ impl<T: Real> Complementarity<T> {
     /// Solves by an active set: of the unknowns at zero, the one with the most negative w joins, and one that would become
     /// negative leaves (Lawson and Hanson, *Solving Least Squares Problems*, 1974, chapter 23). The result is exact but
     /// for round-off. `None` if there is no solution: w < 0 in some row whatever z is.
-    pub(super) fn solve(&self) -> Option<Solved<T>> {
+    pub(super) fn solve(&self) -> Option<ComplementarySolution<T>> {
         let size = self.constant.len();
         let (mut z, mut active) = (vec![T::constant(0.0); size], Vec::new());
         // Rows whose w is zero because it depends on others that are.
@@ -47,7 +47,7 @@ impl<T: Real> Complementarity<T> {
             let (w, noise) = (self.w(&z), self.noise_of_w(&z));
             let Some(joins) = worst(&w, &noise, &[&active[..], &dependent].concat()) else {
                 let is_active = (0..size).map(|k| active.contains(&k)).collect();
-                return Some(Solved { z, w, noise, is_active });
+                return Some(ComplementarySolution { z, w, noise, is_active });
             };
             match self.join(joins, &mut z, &mut active) {
                 Joined::Active => {}
@@ -190,7 +190,7 @@ mod tests {
             let matrix = rows.iter().map(|row| rows.iter().map(|other| dot(row, other)).collect()).collect();
             let constant: Vec<f64> = rows.iter().map(|row| dot(row, &u)).collect();
             let problem = Complementarity { matrix, constant, noise: vec![1e-12; size] };
-            let Solved { z, w, .. } = problem.solve().expect("a solution");
+            let ComplementarySolution { z, w, .. } = problem.solve().expect("a solution");
             let scale = 1.0 + z.iter().fold(0.0, |most: f64, z| most.max(*z));
             for k in 0..size {
                 assert!(z[k] >= 0.0 && w[k] >= -1e-9 * scale, "case {case}: z = {z:?}, w = {w:?}");

@@ -4,7 +4,8 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
-use super::instant::{Bodies, Decided};
+use super::bodies::Bodies;
+use super::instant::Decided;
 use super::trajectory::{ContactTrajectory, Transition};
 use super::{Contact, Contacts};
 use crate::error::{Ending, Error};
@@ -190,7 +191,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
 
 /// The event that a gap or a multiplier becomes negative. If it rests at zero, it may do so at once, without a sign before: it
 /// is then watched for exceeding four times its round-off.
-fn watched<'w, L: Lagrangian<Scalar: Real>>(
+fn watched<'w, L>(
     system: &L,
     state: &StateOf<L>,
     name: &'static str,
@@ -198,7 +199,7 @@ fn watched<'w, L: Lagrangian<Scalar: Real>>(
     function: impl Fn(&Sample<&L>) -> Result<L::Scalar, Error> + Copy + 'w,
 ) -> Result<Box<DynEvent<'w, L>>, Error>
 where
-    L: 'w,
+    L: Lagrangian<Scalar: Real> + 'w,
 {
     let [zero, four] = [0.0, 4.0].map(L::Scalar::constant);
     let (value, allowed) = match is_resting {

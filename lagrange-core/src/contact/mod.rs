@@ -73,6 +73,8 @@ assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
 //! such as the fourth leg of a table, one that is not needed stays open; its gap is zero as long as the others hold.
 
 #[cfg(feature = "alloc")]
+mod bodies;
+#[cfg(feature = "alloc")]
 mod complementarity;
 #[cfg(feature = "alloc")]
 mod driver;

@@ -1,0 +1,164 @@
+//! A system with contacts at a state: gaps, their rates and round-off, and what forces do to them.
+
+use alloc::vec::Vec;
+
+use super::{Contact, Contacts};
+use crate::error::Error;
+use crate::names::name;
+use crate::number::{Real, Scalar, larger};
+use crate::solution::kkt::Rank;
+use crate::solution::pivot::is_trustworthy;
+use crate::solution::solve::{solve_in_general, solve_near};
+use crate::system::{Lagrangian, StateOf};
+use crate::vector::{Array, Length, Vector, vector};
+
+/// Round-off of gaps and rates, in units of the round-off of the sums Σ |Wᵢ qᵢ| and Σ |Wᵢ q̇ᵢ| over the largest entries so
+/// far. A gap comes from a projection to 4 units and a location to one unit of time; a rate from a solve.
+const UNITS: f64 = 8.0;
+
+/// Gap, relative to its sum Σ |Wᵢ qᵢ|, below which a contact is not closed but crossed.
+const CROSSED: f64 = 1e-9;
+
+/// Height of a bounce, in units of the round-off of its gap, up to which it counts as rest. A gap that rests is found closed
+/// by up to 25 units below zero (four times the round-off that events estimate), and is seen positive from 6 units on.
+const LOW: f64 = 64.0;
+
+/// A system with its contacts open and with its contacts closed, and the largest entries of its motion so far.
+pub(super) struct Bodies<L: Lagrangian> {
+    open: L,
+    closed: L,
+    largest: [Array<L::Scalar, L::N>; 2],
+}
+
+/// Responses of gaps to impulses, and the changes of velocities for an impulse of each contact.
+pub(super) type Delassus<L> =
+    (Vec<Vec<<L as Lagrangian>::Scalar>>, Vec<Vector<<L as Lagrangian>::Scalar, <L as Lagrangian>::N>>);
+
+/// What can be said of one contact at a state.
+pub(super) struct Measured<T> {
+    pub(super) gap: T,
+    pub(super) rate: T,
+    /// Round-off of gap and rate.
+    pub(super) noise: [T; 2],
+}
+
+impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
+    pub(super) fn new(system: &L) -> Self {
+        let all = |contact| {
+            let mut system = system.clone();
+            (0..L::CONTACTS.len()).for_each(|k| {
+                system.set_contact(k, contact);
+            });
+            system
+        };
+        let largest = [Array::filled(L::Scalar::constant(0.0)); 2];
+        Self { open: all(Contact::Open), closed: all(Contact::Closed), largest }
+    }
+
+    /// The system with these contacts closed.
+    pub(super) fn with(&self, is_closed: &[bool]) -> L {
+        let mut system = self.open.clone();
+        for (k, &is_closed) in is_closed.iter().enumerate() {
+            system.set_contact(k, if is_closed { Contact::Closed } else { Contact::Open });
+        }
+        system
+    }
+
+    pub(super) fn gap(&self, k: usize, state: &StateOf<L>) -> L::Scalar {
+        self.closed.constraint_residual(state)[L::CONTACTS[k]]
+    }
+
+    /// Takes note of the entries of a state.
+    pub(super) fn passes(&mut self, state: &StateOf<L>) {
+        for (largest, entries) in self.largest.iter_mut().zip([&state.q, &state.v]) {
+            *largest = Array::from_fn(|i| larger(largest[i], Scalar::abs(entries[i])));
+        }
+    }
+
+    /// The row W of a contact.
+    pub(super) fn row(&self, k: usize, state: &StateOf<L>) -> Vector<L::Scalar, L::N> {
+        let jacobian = self.closed.constraint_jacobian(state);
+        vector(Array::from_fn(|i| jacobian[(L::CONTACTS[k], i)]))
+    }
+
+    pub(super) fn measured(&self, k: usize, state: &StateOf<L>) -> Measured<L::Scalar> {
+        let (row, rate) = (self.row(k, state), self.closed.constraint_rate(state)[L::CONTACTS[k]]);
+        let unit = L::Scalar::constant(L::Scalar::EPSILON * UNITS);
+        let [of_gap, of_rate] = self.largest.each_ref().map(|largest| {
+            (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, i| sum + Scalar::abs(row[i]) * largest[i])
+        });
+        let in_time = Scalar::abs(rate * state.t);
+        Measured { gap: self.gap(k, state), rate, noise: [unit * (of_gap + in_time), unit * of_rate] }
+    }
+
+    /// Contact that is crossed at a state, its gap being negative.
+    pub(super) fn crossed(&self, state: &StateOf<L>) -> Option<Error> {
+        (0..L::CONTACTS.len()).find_map(|k| {
+            let Measured { gap, noise: [noise, _], .. } = self.measured(k, state);
+            let least = -(noise * L::Scalar::constant(CROSSED / (L::Scalar::EPSILON * UNITS)));
+            let is_open = gap >= least || (gap + noise >= L::Scalar::constant(0.0));
+            let (contact, time) = (self.name(k), state.t.to_f64());
+            (!is_open).then(|| Error::Penetration { contact, gap: gap.to_f64(), time })
+        })
+    }
+
+    pub(super) fn name(&self, k: usize) -> &'static str {
+        name(L::CONSTRAINTS, L::CONTACTS[k])
+    }
+
+    /// Accelerations W q̈ + γ of gaps without forces of contacts, and their round-off.
+    pub(super) fn pressing(
+        &self,
+        touching: &[usize],
+        state: &StateOf<L>,
+    ) -> Result<Vec<[L::Scalar; 2]>, Error> {
+        let free = solve_near(&self.open, state, None, |solution, _| solution.accelerations)?;
+        let (bias, unit) =
+            (self.closed.constraint_bias(state), L::Scalar::constant(L::Scalar::EPSILON * UNITS));
+        let of = |&k: &usize| {
+            let (row, bias) = (self.row(k, state), bias[L::CONTACTS[k]]);
+            let terms = || (0..<L::N>::COUNT).map(|i| row[i] * free[i]).chain([bias]);
+            let size = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + Scalar::abs(term));
+            [terms().fold(L::Scalar::constant(0.0), |sum, term| sum + term), unit * size]
+        };
+        Ok(touching.iter().map(of).collect())
+    }
+
+    /// Whether a gap that is zero remains so but for round-off: its rate is none, or a bounce would rise by none.
+    pub(super) fn rests(&self, k: usize, acceleration: L::Scalar, state: &StateOf<L>) -> bool {
+        let Measured { rate, noise: [of_gap, of_rate], .. } = self.measured(k, state);
+        let low = L::Scalar::constant(2.0 * LOW) * of_gap * larger(-acceleration, L::Scalar::constant(0.0));
+        Scalar::abs(rate) <= of_rate || rate * rate <= low
+    }
+
+    /// Responses W K⁻¹ Wᵀ of the gaps to impulses, and K⁻¹ Wᵀ, the changes of the velocities.
+    pub(super) fn delassus(&self, touching: &[usize], state: &StateOf<L>) -> Result<Delassus<L>, Error> {
+        let rows: Vec<Vector<L::Scalar, L::N>> = touching.iter().map(|&k| self.row(k, state)).collect();
+        let none = vector(Array::filled(L::Scalar::constant(0.0)));
+        let factor = self.open.factor(state);
+        let respond = |row: &Vector<L::Scalar, L::N>| {
+            let fast = self.open.solve_with(&factor, row, &none);
+            if is_trustworthy(&fast) {
+                return Ok(fast.accelerations);
+            }
+            let all = Array::filled(true);
+            let solved = solve_in_general(&self.open, state, (*row, none), &all, Rank::on_constraints())?;
+            Ok(solved.0.accelerations)
+        };
+        let responses: Vec<Vector<L::Scalar, L::N>> =
+            rows.iter().map(respond).collect::<Result<_, Error>>()?;
+        let matrix = rows.iter().map(|row| responses.iter().map(|change| row.dot(change)).collect());
+        Ok((matrix.collect(), responses))
+    }
+
+    pub(super) fn restitution(&self, k: usize, state: &StateOf<L>) -> Result<L::Scalar, Error> {
+        let value = self.open.restitution(k, state).unwrap_or(L::Scalar::constant(0.0));
+        let is_one = value >= L::Scalar::constant(0.0) && value <= L::Scalar::constant(1.0);
+        if is_one { Ok(value) } else { Err(Error::Restitution { value: value.to_f64() }) }
+    }
+
+    pub(super) fn contradiction(&self, touching: &[usize], state: &StateOf<L>) -> Error {
+        let contacts = touching.iter().map(|&k| self.name(k)).collect();
+        Error::ContactsContradict { contacts, time: state.t.to_f64() }
+    }
+}
