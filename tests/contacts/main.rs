@@ -5,6 +5,7 @@
 
 mod abuse;
 mod frictionless;
+mod rest;
 
 /// A number that an environment variable states, for the long checks.
 fn count(variable: &str, default: usize) -> usize {

@@ -19,6 +19,10 @@ const UNITS: f64 = 8.0;
 /// Gap, relative to its sum Σ |Wᵢ qᵢ|, below which a contact is not closed but crossed.
 const CROSSED: f64 = 1e-9;
 
+/// Gap, in units of its round-off, up to which bodies touch: twice the round-off that events estimate, below which they do not
+/// see a gap close.
+const TOUCHING: f64 = 4.0;
+
 /// Height of a bounce, in units of the round-off of its gap, up to which it counts as rest. A gap that rests is found closed
 /// by up to 25 units below zero (four times the round-off that events estimate), and is seen positive from 6 units on.
 const LOW: f64 = 64.0;
@@ -87,13 +91,20 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let [of_gap, of_rate] = self.largest.each_ref().map(|largest| {
             (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, i| sum + Scalar::abs(row[i]) * largest[i])
         });
-        let in_time = Scalar::abs(rate * state.t);
+        let of_bodies = (0..<L::N>::COUNT).fold(rate, |rest, i| rest - row[i] * state.v[i]);
+        let in_time = (Scalar::abs(rate) + Scalar::abs(of_bodies)) * Scalar::abs(state.t);
         Measured { gap: self.gap(k, state), rate, noise: [unit * (of_gap + in_time), unit * of_rate] }
     }
 
-    /// Contact that is crossed at a state, its gap being negative.
-    pub(super) fn crossed(&self, state: &StateOf<L>) -> Option<Error> {
-        (0..L::CONTACTS.len()).find_map(|k| {
+    /// Gap up to which the bodies of a contact touch.
+    pub(super) fn touching(&self, k: usize, state: &StateOf<L>) -> L::Scalar {
+        self.measured(k, state).noise[0] * L::Scalar::constant(TOUCHING)
+    }
+
+    /// Open contact that is crossed at a state, its gap being negative. The gap of a closed one is a constraint, zero but for
+    /// round-off, which no entry need exceed where they are all zero.
+    pub(super) fn crossed(&self, is_closed: &[bool], state: &StateOf<L>) -> Option<Error> {
+        (0..L::CONTACTS.len()).filter(|&k| !is_closed[k]).find_map(|k| {
             let Measured { gap, noise: [noise, _], .. } = self.measured(k, state);
             let least = -(noise * L::Scalar::constant(CROSSED / (L::Scalar::EPSILON * UNITS)));
             let is_open = gap >= least || (gap + noise >= L::Scalar::constant(0.0));

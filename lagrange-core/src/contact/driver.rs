@@ -95,10 +95,10 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
     fn begin(system: &L, mut state: StateOf<L>, on_progress: Option<OnProgress<'w>>) -> Result<Self, Error> {
         let (mut bodies, mut transitions) = (Bodies::new(system), Vec::new());
         bodies.passes(&state);
-        bodies.crossed(&state).map_or(Ok(()), Err)?;
         let was_closed: Vec<bool> =
             (0..L::CONTACTS.len()).map(|k| system.contact(k) == Some(Contact::Closed)).collect();
         bodies.with(&was_closed).check_consistent(&state)?;
+        bodies.crossed(&was_closed, &state).map_or(Ok(()), Err)?;
         let decided = bodies.settle(&mut state, (&was_closed, None, None), &mut transitions)?;
         Ok(Self { bodies, decided, state, legs: HybridTrajectory::new(), transitions, on_progress })
     }
@@ -136,14 +136,15 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
         let Self { bodies, decided, state, on_progress, .. } = self;
         let system = bodies.with(&decided.is_closed);
         let mut events: Vec<Box<DynEvent<'_, L>>> = Vec::new();
+        let zero = L::Scalar::constant(0.0);
         for (k, &row) in L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]) {
             let (name, bodies) = (name(L::CONSTRAINTS, row), &*bodies);
             let force = move |sample: &Sample<&L>| Ok(sample.solution()?.multipliers[row]);
             let gap = move |sample: &Sample<&L>| Ok(bodies.gap(k, sample.state()));
             let is_resting = decided.is_resting[k];
             events.push(match decided.is_closed[k] {
-                true => watched(&system, state, name, is_resting, force)?,
-                false => watched(&system, state, name, is_resting, gap)?,
+                true => watched(&system, state, name, is_resting.then_some(zero), force)?,
+                false => watched(&system, state, name, is_resting.then(|| bodies.touching(k, state)), gap)?,
             });
         }
         let mut motion = system.motion(*state).by(method.clone()).events(events);
@@ -160,7 +161,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
     fn goes_on(&mut self, path: Trajectory<L>, end: L::Scalar) -> Result<Option<Ending>, Error> {
         let crossed = path.steps().find_map(|step| {
             self.bodies.passes(step.state());
-            self.bodies.crossed(step.state())
+            self.bodies.crossed(&self.decided.is_closed, step.state())
         });
         self.state = *path.end().state();
         let ending = path.ending().clone();
@@ -190,23 +191,24 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
 }
 
 /// The event that a gap or a multiplier becomes negative. If it rests at zero, it may do so at once, without a sign before: it
-/// is then watched for exceeding four times its round-off.
+/// is then watched for exceeding four times its round-off, and the least that `rest` gives.
 fn watched<'w, L>(
     system: &L,
     state: &StateOf<L>,
     name: &'static str,
-    is_resting: bool,
+    rest: Option<L::Scalar>,
     function: impl Fn(&Sample<&L>) -> Result<L::Scalar, Error> + Copy + 'w,
 ) -> Result<Box<DynEvent<'w, L>>, Error>
 where
     L: Lagrangian<Scalar: Real> + 'w,
 {
     let [zero, four] = [0.0, 4.0].map(L::Scalar::constant);
-    let (value, allowed) = match is_resting {
-        true => {
-            (function(&system.sample(*state))?, four * noise(&system.event(name, function), system, state)?)
+    let (value, allowed) = match rest {
+        Some(least) => {
+            let noise = noise(&system.event(name, function), system, state)?;
+            (function(&system.sample(*state))?, larger(four * noise, least))
         }
-        false => (four, zero),
+        None => (four, zero),
     };
     let margin = if value <= allowed { allowed + larger(-value, zero) } else { zero };
     let event = system.event(name, move |sample| Ok(function(sample)? + margin));

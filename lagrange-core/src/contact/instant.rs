@@ -11,10 +11,6 @@ use crate::number::{Real, Scalar};
 use crate::system::StateOf;
 use crate::vector::{Array, Vector, vector};
 
-/// Gap, in units of its round-off, up to which bodies touch: twice the round-off that events estimate, below which they do not
-/// see a gap close.
-const TOUCHING: f64 = 4.0;
-
 /// Largest number of impacts at one time. Each takes energy, or passes it on to the next of bodies in a row.
 const IMPACTS: usize = 10_000;
 
@@ -41,10 +37,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         (was_closed, hit, opens): (&[bool], Option<usize>, Option<usize>),
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<Decided<L::Scalar>, Error> {
-        let is_touching = |k: usize| {
-            let Measured { gap, noise: [noise, _], .. } = self.measured(k, state);
-            was_closed[k] || hit == Some(k) || gap <= noise * L::Scalar::constant(TOUCHING)
-        };
+        let is_touching =
+            |k: usize| was_closed[k] || hit == Some(k) || self.gap(k, state) <= self.touching(k, state);
         let touching: Vec<usize> = (0..L::CONTACTS.len()).filter(|&k| is_touching(k)).collect();
         let delassus = self.delassus(&touching, state)?;
         for _ in 0..IMPACTS {
@@ -177,12 +171,17 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
                 places.iter().map(|&place| self.measured(touching[place], state)).collect();
             problem.constant = measured.iter().map(|measured| measured.rate).collect();
             let is_wrong = |k: &usize| !is_active[*k] && measured[*k].rate < -measured[*k].noise[1];
-            let wrong: Vec<usize> = (0..places.len()).filter(is_wrong).collect();
-            let together = [&active[..], &wrong].concat();
+            // One that depends on others stops along with them.
+            let mut together = active.clone();
+            for k in (0..places.len()).filter(is_wrong) {
+                if !problem.depends(k, &together) {
+                    together.push(k);
+                }
+            }
             for (&place, &impulse) in places.iter().zip(&problem.equality(&together)) {
                 state.v = vector(Array::from_fn(|i| state.v[i] + responses[place][i] * impulse));
             }
-            if wrong.is_empty() {
+            if together.len() == active.len() {
                 break;
             }
         }

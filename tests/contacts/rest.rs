@@ -1,0 +1,86 @@
+//! Contacts that rest where coordinates are zero, and that come to rest together.
+
+use lagrange_core::contact::{Contact, Transition};
+use lagrange_core::prelude::*;
+
+/// A pendulum in Cartesian coordinates, with a wall below its pivot.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+#[constraint(rod: x^2 + y^2 = l^2)]
+#[contact(wall: x >= 0)]
+struct Pendulum {
+    m: f64,
+    g: f64,
+    l: f64,
+    wall: Contact,
+}
+
+/// Without a force, the gap drifts about zero by less than the smallest distance that x has: one impact, and nothing else.
+#[test]
+fn a_pendulum_rests_at_its_wall() {
+    let pendulum = Pendulum { m: 1.0, g: 9.81, l: 1.0, wall: Contact::Open };
+    let (s, c) = 1.2_f64.sin_cos();
+    let motion = pendulum.motion(State::at_rest([s, -c])).by(Dop853::with_tolerance(1e-12));
+    let path = motion.with_contacts().max_transitions(100).to(5.0).unwrap();
+    let [Transition::Impact { impulses, .. }] = path.transitions() else {
+        panic!("{:?}", path.transitions())
+    };
+    assert!((impulses[0].1 - (2.0 * 9.81 * (1.0 - c)).sqrt()).abs() < 1e-11, "{impulses:?}");
+    assert!(path.end().q[0].abs() < 1e-15 && path.end().v[0].abs() < 1e-15, "{}", path.end());
+}
+
+/// A table with a leg at each corner, which stands on any three of them.
+#[derive(Clone, Lagrangian)]
+#[coordinates(z, a, b)]
+#[lagrangian(m/2 * z_dot^2 + j/2 * (a_dot^2 + b_dot^2) - m*g*z)]
+#[define(leg = [z + a + b, z + a - b, z - a + b, z - a - b])]
+#[contact(legs[i in 0..4]: leg[i] >= 0)]
+struct Table {
+    m: f64,
+    j: f64,
+    g: f64,
+    legs: [Contact; 4],
+}
+
+#[test]
+fn tables_stand_on_their_legs() {
+    let table = Table { m: 2.0, j: 0.3, g: 9.81, legs: [Contact::Open; 4] };
+    // The second one rocks: a leg lifts off, and is back on the floor half-way through a step.
+    let starts = [State::at_rest([0.5, 0.0, 0.0]), State::new([0.5, 0.1, 0.05], [0.0, 0.3, -0.2])];
+    for start in starts {
+        let path = table.motion(start).with_contacts().max_transitions(1_000).to(10.0).unwrap();
+        assert!(path.end().q.amax() < 1e-14 && path.end().v.amax() < 1e-14, "{}", path.end());
+        let forces = path.system().solve(path.end()).unwrap().multipliers;
+        assert!((forces.sum() - 2.0 * 9.81).abs() < 1e-12 && forces.min() >= 0.0, "{forces}");
+    }
+}
+
+/// A ball on a floor that moves.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(m/2 * y_dot^2 - m*g*y)]
+#[contact(floor: y - a*sin(w*t) >= 0, restitution: e)]
+struct Shaken {
+    m: f64,
+    g: f64,
+    a: f64,
+    w: f64,
+    e: f64,
+    floor: Contact,
+}
+
+/// The place of the floor is known to its velocity times the round-off of the time, even where the ball moves along with it.
+#[test]
+fn a_ball_rests_on_a_moving_floor_at_late_times() {
+    let shaken = Shaken { m: 1.0, g: 9.81, a: 0.1, w: 5.0, e: 0.5, floor: Contact::Open };
+    let floor = |t: f64| 0.1 * (5.0 * t).sin();
+    for start in [0.0, 1e3, 1e5, 1e6] {
+        let state = State { t: start, ..State::at_rest([floor(start) + 0.3]) };
+        let motion = shaken.motion(state).by(Dop853::with_tolerance(1e-12)).with_contacts();
+        let path = motion.max_transitions(1_000).to(start + 1.5).unwrap();
+        assert_eq!(path.system().floor, Contact::Closed, "from {start}");
+        let gap = path.end().q[0] - floor(path.end().t);
+        assert!(gap.abs() < 1e-15 * (1.0 + start), "from {start}: {gap:e}");
+    }
+}
