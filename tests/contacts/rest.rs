@@ -56,6 +56,42 @@ fn tables_stand_on_their_legs() {
     }
 }
 
+/// Three blocks on one another.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y: [3])]
+#[lagrangian(m/2 * dot(y_dot, y_dot) - m*g*(y[0] + y[1] + y[2]))]
+#[contact(floor: y[0] >= 0, restitution: e)]
+#[contact(blocks[i in 0..2]: y[i + 1] - y[i] - h >= 0, restitution: e)]
+struct Stack {
+    m: f64,
+    h: f64,
+    g: f64,
+    e: f64,
+    floor: Contact,
+    blocks: [Contact; 2],
+}
+
+#[test]
+fn blocks_come_to_rest_on_one_another() {
+    let stack = Stack { m: 1.0, h: 0.1, g: 9.81, e: 0.5, floor: Contact::Open, blocks: [Contact::Open; 2] };
+    let start = State::at_rest([0.5, 0.8, 1.3]);
+    let path = stack.motion(start).with_contacts().to(10.0).unwrap();
+    let impact = |transition: &&Transition<f64>| matches!(transition, Transition::Impact { .. });
+    let last = path.transitions().iter().rfind(impact).unwrap().time();
+    for transition in path.transitions() {
+        if let Transition::Rests { contact, time } = transition {
+            assert!(*time >= 0.0 && *time < last + 1e-5, "`{contact}` rests at {time}, after {last}");
+        }
+    }
+    assert!((path.end().q[0].abs() + (path.end().q[2] - 0.2).abs()) < 1e-14, "{}", path.end());
+    // At rest from the start, with y[0] = 0: no entry gives the round-off of this gap a size.
+    let path = stack.motion(State::at_rest([0.0, 0.1, 0.2])).with_contacts().to(10.0).unwrap();
+    let forces = path.system().solve(path.end()).unwrap().multipliers;
+    for (force, blocks) in forces.iter().zip([3.0, 2.0, 1.0]) {
+        assert!((force - blocks * 9.81).abs() < 1e-12, "{forces}");
+    }
+}
+
 /// A ball on a floor that moves.
 #[derive(Clone, Lagrangian)]
 #[coordinates(y)]

@@ -151,9 +151,14 @@ impl<T: Real> Complementarity<T> {
         z
     }
 
+    /// Growth of w of an unknown as it grows by 1 while those of the active ones stay. `None` if it depends on them.
+    pub(super) fn response(&self, k: usize, active: &[usize]) -> Option<T> {
+        self.growth(k, active).1
+    }
+
     /// Whether the row of an unknown depends on those of the active ones.
     pub(super) fn depends(&self, k: usize, active: &[usize]) -> bool {
-        self.growth(k, active).1.is_none()
+        self.response(k, active).is_none()
     }
 }
 

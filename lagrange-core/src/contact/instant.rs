@@ -151,7 +151,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             decided.is_resting[touching[place]] = accelerations[place] >= L::Scalar::constant(0.0);
         }
         decided.bounce = self.bounce((touching, &resting, &accelerations), state);
-        self.report((touching, pressing), state, (was_closed, &decided.is_closed), transitions)?;
+        let towards = Self::towards((touching, &places), (&problem, &solved));
+        self.report(&towards, state, (was_closed, &decided.is_closed), transitions)?;
         self.stop((touching, &places), (problem, &solved.is_active), responses, state);
         Ok(decided)
     }
@@ -222,26 +223,41 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         (0..touching.len()).filter(falls).map(time).reduce(|one, other| if other < one { other } else { one })
     }
 
+    /// Accelerations towards each closed contact without its own force, while the others that are closed stay so.
+    fn towards(
+        (touching, places): (&[usize], &[usize]),
+        (problem, solved): (&Complementarity<L::Scalar>, &ComplementarySolution<L::Scalar>),
+    ) -> Vec<L::Scalar> {
+        let mut towards = alloc::vec![L::Scalar::constant(0.0); L::CONTACTS.len()];
+        for place in (0..places.len()).filter(|&place| solved.is_active[place]) {
+            let others: Vec<usize> =
+                (0..places.len()).filter(|&other| other != place && solved.is_active[other]).collect();
+            if let Some(response) = problem.response(place, &others) {
+                towards[touching[places[place]]] = response * solved.z[place];
+            }
+        }
+        towards
+    }
+
     /// Reports the contacts that close and open.
     fn report(
         &self,
-        (touching, pressing): (&[usize], &[[L::Scalar; 2]]),
+        towards: &[L::Scalar],
         state: &StateOf<L>,
         (was_closed, is_closed): (&[bool], &[bool]),
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<(), Error> {
-        let one = L::Scalar::constant(1.0);
+        let [zero, one, two] = [0.0, 1.0, 2.0].map(L::Scalar::constant);
         for k in (0..is_closed.len()).filter(|&k| was_closed[k] != is_closed[k]) {
-            let (contact, time) = (self.name(k), state.t);
-            let place = touching.iter().position(|&other| other == k);
-            transitions.push(match (is_closed[k], place) {
-                (true, Some(place)) if self.measured(k, state).rate > self.measured(k, state).noise[1] => {
-                    let apart = pressing[place][0] * (one - self.restitution(k, state)?);
-                    let rest = -(L::Scalar::constant(2.0) * self.measured(k, state).rate / apart);
-                    Transition::Rests { contact, time: time + rest }
+            let (contact, time, Measured { rate, noise, .. }) =
+                (self.name(k), state.t, self.measured(k, state));
+            let shrinks = towards[k] * (one - self.restitution(k, state)?);
+            transitions.push(match is_closed[k] {
+                true if rate > noise[1] && shrinks > zero => {
+                    Transition::Rests { contact, time: time + two * rate / shrinks }
                 }
-                (true, _) => Transition::Closes { contact, time },
-                (false, _) => Transition::Opens { contact, time },
+                true => Transition::Closes { contact, time },
+                false => Transition::Opens { contact, time },
             });
         }
         Ok(())
