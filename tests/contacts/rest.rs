@@ -56,6 +56,51 @@ fn tables_stand_on_their_legs() {
     }
 }
 
+/// Where all entries are zero from the start on, no one of them gives round-off a size.
+#[test]
+fn tables_stand_at_the_origin() {
+    for j in [0.3, 1e-3] {
+        let table = Table { m: 2.0, j, g: 9.81, legs: [Contact::Open; 4] };
+        let start = State::at_rest([0.0; 3]);
+        let path = table.motion(start).with_contacts().max_transitions(100).to(10.0).unwrap();
+        assert!(path.end().q.amax() < 1e-20 && path.end().v.amax() < 1e-20, "{}", path.end());
+        let forces = path.system().solve(path.end()).unwrap().multipliers;
+        assert!((forces.sum() - 2.0 * 9.81).abs() < 1e-12 && forces.min() >= 0.0, "{forces}");
+    }
+}
+
+/// A block whose weight comes in pulses, down to zero and a little below.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(m/2 * y_dot^2 - m*y*(g + b*cos(w*t)))]
+#[contact(floor: y >= 0)]
+struct Pulsed {
+    m: f64,
+    g: f64,
+    b: f64,
+    w: f64,
+    floor: Contact,
+}
+
+#[test]
+fn a_block_that_loses_its_weight_for_an_instant_stays_on_its_floor() {
+    for b in [9.81, 9.810_000_1] {
+        let block = Pulsed { m: 1.0, g: 9.81, b, w: 3.0, floor: Contact::Open };
+        let motion = block.motion(State::at_rest([0.0])).by(Dop853::with_tolerance(1e-12)).with_contacts();
+        let path = motion.max_transitions(100).to(5.0).unwrap();
+        assert_eq!(path.system().floor, Contact::Closed);
+        // The first lifting begins where the weight is zero, and rises by less than 10⁻¹⁰.
+        assert!(path.end().q[0].abs() < 1e-15, "{}", path.end());
+        let opens =
+            path.transitions().iter().find(|transition| matches!(transition, Transition::Opens { .. }));
+        assert!(
+            (opens.unwrap().time() - core::f64::consts::FRAC_PI_3).abs() < 1e-4,
+            "{:?}",
+            path.transitions()
+        );
+    }
+}
+
 /// Three blocks on one another.
 #[derive(Clone, Lagrangian)]
 #[coordinates(y: [3])]

@@ -27,6 +27,9 @@ const TOUCHING: f64 = 4.0;
 /// by up to 25 units below zero (four times the round-off that events estimate), and is seen positive from 6 units on.
 const LOW: f64 = 64.0;
 
+/// Part of the span of a motion whose distances are the least ones of which round-off is taken.
+const INSTANT: f64 = 1e-6;
+
 /// A system with its contacts open and with its contacts closed, and the largest entries of its motion so far.
 pub(super) struct Bodies<L: Lagrangian> {
     open: L,
@@ -77,6 +80,17 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         for (largest, entries) in self.largest.iter_mut().zip([&state.q, &state.v]) {
             *largest = Array::from_fn(|i| larger(largest[i], Scalar::abs(entries[i])));
         }
+    }
+
+    /// Takes note of what the bodies move in a millionth of the span from rest, without their contacts: where all entries are
+    /// zero from the start on, round-off has no other size.
+    pub(super) fn reaches(&mut self, state: &StateOf<L>, span: L::Scalar) -> Result<(), Error> {
+        let part = span * L::Scalar::constant(INSTANT);
+        let free = solve_near(&self.open, state, None, |solution, _| solution.accelerations)?;
+        for (largest, time) in self.largest.iter_mut().zip([part * part, part]) {
+            *largest = Array::from_fn(|i| larger(largest[i], Scalar::abs(free[i]) * time));
+        }
+        Ok(())
     }
 
     /// The row W of a contact.

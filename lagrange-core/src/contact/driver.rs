@@ -77,7 +77,7 @@ where
             let [start, end] = [state.t, end].map(Real::to_f64);
             return Err(Error::MotionBackwards { start, end });
         }
-        Journey::begin(system, state, on_progress)?.run(&method, end, kept.legs)
+        Journey::begin(system, state, end, on_progress)?.run(&method, end, kept.legs)
     }
 }
 
@@ -92,12 +92,18 @@ struct Journey<'w, L: Lagrangian> {
 }
 
 impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, L> {
-    fn begin(system: &L, mut state: StateOf<L>, on_progress: Option<OnProgress<'w>>) -> Result<Self, Error> {
+    fn begin(
+        system: &L,
+        mut state: StateOf<L>,
+        end: L::Scalar,
+        on_progress: Option<OnProgress<'w>>,
+    ) -> Result<Self, Error> {
         let (mut bodies, mut transitions) = (Bodies::new(system), Vec::new());
         bodies.passes(&state);
         let was_closed: Vec<bool> =
             (0..L::CONTACTS.len()).map(|k| system.contact(k) == Some(Contact::Closed)).collect();
         bodies.with(&was_closed).check_consistent(&state)?;
+        bodies.reaches(&state, end - state.t)?;
         bodies.crossed(&was_closed, &state).map_or(Ok(()), Err)?;
         let decided = bodies.settle(&mut state, (&was_closed, None, None), &mut transitions)?;
         Ok(Self { bodies, decided, state, legs: HybridTrajectory::new(), transitions, on_progress })

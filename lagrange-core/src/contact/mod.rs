@@ -53,7 +53,8 @@ assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
 //!
 //! # What is decided, and by what bound
 //!
-//! With u, the round-off of a gap, 8 ε (Σ |Wᵢ| max |qᵢ| + |rate · t|) with the largest entries so far:
+//! With u, the round-off of a gap, 8 ε (Σ |Wᵢ| max |qᵢ| + |rate · t|) with the largest entries so far, or with what the free
+//! bodies move from rest in a millionth of the span of the motion:
 //!
 //! - Bodies touch up to a gap of 4 u, twice the round-off that events estimate, below which an event cannot see a gap close.
 //! - A gap that is zero and rests is watched for falling below four times its round-off, so that it cannot become negative
