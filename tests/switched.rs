@@ -73,6 +73,23 @@ fn each_state_of_the_switch_is_the_system_written_for_it() {
     assert!(off.accelerations_unchecked(&state).pivot > 0.1);
 }
 
+/// F and its transpose agree in every function, for multipliers that are not those of a solution too.
+#[test]
+fn a_constraint_that_is_off_has_no_force() {
+    let multipliers = [0.7, -1.3].into();
+    for held in [true, false] {
+        let (cart, state) = (Cart { held, ..CART }, start());
+        let expected = cart.constraint_jacobian(&state).tr_mul(&multipliers);
+        assert_relative_eq!(cart.constraint_force(&state, &multipliers), expected, epsilon = 1e-15);
+        let zero = [0.0; 3].into();
+        let balance = cart.inverse_dynamics(&state, &zero, &multipliers);
+        assert_relative_eq!(balance, -(cart.forcing(&state) + expected), epsilon = 1e-14);
+        assert_eq!(expected[0] == -2.0 * 0.48 * 0.7, !held);
+    }
+    assert!(Cart::equations().text().contains("λ_hand"), "{}", Cart::equations().text());
+    assert!(!Cart::equations().text().contains("held λ"), "{}", Cart::equations().text());
+}
+
 /// Compares where a method ends, on and off.
 fn compare<P>(method: P)
 where

@@ -305,7 +305,7 @@ pub enum Error {
         /// Their time.
         time: f64,
     },
-    /// A motion with impacts was asked to go back in time, which impacts do not determine.
+    /// The end of a motion with contacts lies before its start. The state after an impact does not determine the state before.
     MotionBackwards {
         /// Time of the start.
         start: f64,

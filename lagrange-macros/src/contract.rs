@@ -371,6 +371,26 @@ mod tests {
         methods.collect()
     }
 
+    /// A pointer to a system would give the default of what it does not forward.
+    #[test]
+    fn pointers_forward_all_of_a_system() {
+        let pointers = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-core/src/system/pointers.rs");
+        let pointers = std::fs::read_to_string(pointers).expect("a source");
+        for item in &traits()["Lagrangian"].items {
+            let named = match item {
+                TraitItem::Fn(method) => format!("fn {}", method.sig.ident),
+                TraitItem::Const(constant) => format!("const {}:", constant.ident),
+                _ => continue,
+            };
+            let is_forwarded = |line: &str| {
+                let line = line.trim_start();
+                line.strip_prefix(&named)
+                    .is_some_and(|rest| !rest.starts_with(|c: char| c == '_' || c.is_alphanumeric()))
+            };
+            assert!(pointers.lines().any(is_forwarded), "`{named}` is not forwarded");
+        }
+    }
+
     #[test]
     fn the_lists_are_those_of_the_runtime() {
         let traits = traits();

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod abuse;
+mod bounds;
 mod frictionless;
 mod rest;
 

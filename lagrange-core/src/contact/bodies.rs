@@ -6,6 +6,7 @@ use super::{Contact, Contacts};
 use crate::error::Error;
 use crate::names::name;
 use crate::number::{Real, Scalar, larger};
+use crate::solution::consistent::gradient;
 use crate::solution::kkt::Rank;
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::{solve_in_general, solve_near};
@@ -174,6 +175,12 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             rows.iter().map(respond).collect::<Result<_, Error>>()?;
         let matrix = rows.iter().map(|row| responses.iter().map(|change| row.dot(change)).collect());
         Ok((matrix.collect(), responses))
+    }
+
+    /// Fails if the gap of a touching contact has no gradient, along which a force could keep it.
+    pub(super) fn check_gradients(&self, touching: &[usize], state: &StateOf<L>) -> Result<(), Error> {
+        let is_closed: Vec<bool> = (0..L::CONTACTS.len()).map(|k| touching.contains(&k)).collect();
+        if touching.is_empty() { Ok(()) } else { gradient::check(&self.with(&is_closed), state) }
     }
 
     pub(super) fn restitution(&self, k: usize, state: &StateOf<L>) -> Result<L::Scalar, Error> {

@@ -8,7 +8,8 @@ use crate::number::{Real, Scalar, larger};
 /// Largest number of changes of the active set, for each unknown. Without cycles 2ⁿ suffice, and a few are usual.
 const CHANGES: usize = 100;
 
-/// Ratio of a pivot to its diagonal entry below which its row depends on those before: 64 units of round-off.
+/// A row of G counts as a combination of others if what is left of its diagonal entry, once they are eliminated, is below this
+/// many units of round-off of the terms that cancel.
 const DEPENDENT: f64 = 64.0;
 
 /// A problem whose matrix is symmetric and positive semidefinite, by rows.
@@ -19,14 +20,15 @@ pub(super) struct Complementarity<T> {
     pub(super) noise: Vec<T>,
 }
 
-/// What becomes of an unknown that is to grow.
+/// Result of letting an unknown of the problem grow from zero.
 enum Joined<T> {
     Active,
     /// Its row depends on those of the active ones, none of which becomes zero: their growth as it grows by 1.
     Dependent(Vec<T>),
 }
 
-/// z and w, the round-off of w, and the set of unknowns that are not zero.
+/// Solution of the problem: z and w, and the round-off of w. The active unknowns are those that may exceed zero; their w is
+/// zero.
 pub(super) struct ComplementarySolution<T> {
     pub(super) z: Vec<T>,
     pub(super) w: Vec<T>,

@@ -10,6 +10,7 @@ use super::trajectory::{ContactTrajectory, Transition};
 use super::{Contact, Contacts};
 use crate::error::{Ending, Error};
 use crate::motion::event::noise;
+use crate::motion::run::check_end;
 use crate::motion::{
     AllSteps, DynEvent, LagrangianVectorField, Method, MotionBuilder, OnProgress, Progress, Simulate, Start,
 };
@@ -73,6 +74,7 @@ where
     pub fn towards(self, end: L::Scalar) -> Result<ContactTrajectory<L>, Error> {
         let Self { system, start, method, on_progress, kept, .. } = self;
         let state = start.into_state()?;
+        check_end(end)?;
         if end < state.t {
             let [start, end] = [state.t, end].map(Real::to_f64);
             return Err(Error::MotionBackwards { start, end });
@@ -208,15 +210,16 @@ fn watched<'w, L>(
 where
     L: Lagrangian<Scalar: Real> + 'w,
 {
-    let [zero, four] = [0.0, 4.0].map(L::Scalar::constant);
-    let (value, allowed) = match rest {
-        Some(least) => {
-            let noise = noise(&system.event(name, function), system, state)?;
-            (function(&system.sample(*state))?, larger(four * noise, least))
+    let zero = L::Scalar::constant(0.0);
+    let mut margin = zero;
+    if let Some(least) = rest {
+        let noise = noise(&system.event(name, function), system, state)?;
+        let allowed = larger(L::Scalar::constant(4.0) * noise, least);
+        let value = function(&system.sample(*state))?;
+        if value <= allowed {
+            margin = allowed + larger(-value, zero);
         }
-        None => (four, zero),
-    };
-    let margin = if value <= allowed { allowed + larger(-value, zero) } else { zero };
+    }
     let event = system.event(name, move |sample| Ok(function(sample)? + margin));
     Ok(Box::new(event.falling().terminal()))
 }

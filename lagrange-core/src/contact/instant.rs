@@ -17,6 +17,10 @@ const IMPACTS: usize = 10_000;
 /// Largest number of rounds that stop contacts which approach at rest.
 const STOPS: usize = 8;
 
+/// Time within which a bounce is searched for, in units of v/a: it takes 2. The end is at no simple part of it, where a zero
+/// would fall on the division of a step.
+const BOUNCE: f64 = 2.7;
+
 /// Contacts after an instant.
 pub(super) struct Decided<T> {
     pub(super) is_closed: Vec<bool>,
@@ -29,8 +33,9 @@ pub(super) struct Decided<T> {
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
-    /// Decides what follows at a state: velocities after impacts, and the contacts that are closed. `was_closed` marks those
-    /// that were closed until then, `hit` the one whose gap has just become zero, `opens` the one whose multiplier has.
+    /// Decides what follows at a state: the velocities after impacts, and which contacts are closed from then on. `was_closed`
+    /// marks the contacts that were closed before. The gap of contact `hit` has just become zero, or the multiplier of contact
+    /// `opens`.
     pub(super) fn settle(
         &self,
         state: &mut StateOf<L>,
@@ -40,6 +45,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let is_touching =
             |k: usize| was_closed[k] || hit == Some(k) || self.gap(k, state) <= self.touching(k, state);
         let touching: Vec<usize> = (0..L::CONTACTS.len()).filter(|&k| is_touching(k)).collect();
+        self.check_gradients(&touching, state)?;
         let delassus = self.delassus(&touching, state)?;
         for _ in 0..IMPACTS {
             let pressing = self.pressing(&touching, state)?;
@@ -210,7 +216,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         decided
     }
 
-    /// Somewhat more than the time of the shortest bounce that begins, 2 v/a with the rate v of the gap and its acceleration −a.
+    /// Time within which the shortest bounce ends: 2 v/a and somewhat more, with the rate v of the gap and its acceleration −a.
     fn bounce(
         &self,
         (touching, resting, accelerations): (&[usize], &[bool], &[L::Scalar]),
@@ -218,7 +224,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     ) -> Option<L::Scalar> {
         let falls = |place: &usize| !resting[*place] && accelerations[*place] < L::Scalar::constant(0.0);
         let time = |place: usize| {
-            L::Scalar::constant(-2.7) * self.measured(touching[place], state).rate / accelerations[place]
+            L::Scalar::constant(-BOUNCE) * self.measured(touching[place], state).rate / accelerations[place]
         };
         (0..touching.len()).filter(falls).map(time).reduce(|one, other| if other < one { other } else { one })
     }

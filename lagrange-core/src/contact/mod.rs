@@ -60,6 +60,8 @@ assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
 //! - A gap that is zero and rests is watched for falling below four times its round-off, so that it cannot become negative
 //!   unnoticed; one that is at least 10⁻⁹ of its terms below zero at a step ends the motion with
 //!   [`Error::Penetration`](crate::Error::Penetration).
+//! - A gap needs a gradient where it closes: [`Error::NoGradient`](crate::Error::NoGradient) names one that has none, as y³ at
+//!   0. One that touches zero at a single point, as x² + y² at 0, does not close there.
 //! - A contact rests if its rate is below the round-off of its terms, or if a bounce would rise by no more than 64 u.
 //!
 //! # Accumulating impacts

@@ -60,18 +60,11 @@ impl Constraints {
         wrong
     }
 
-    /// Σ_α λ_α F_αa for each coordinate a, with F where all constraints hold: those that do not have λ = 0.
+    /// Σ_α λ_α F_αa for each coordinate a.
     pub(super) fn force(&self, graph: &mut Graph) -> Vec<Id> {
         let multipliers = nodes(graph, self.kinds.len(), Variable::Multiplier);
         let coordinates = self.jacobian.first().map_or(0, Vec::len);
-        let one = |symbol| matches!(Variable::of(symbol), Variable::Switch(_)).then_some(Id::ONE);
-        let mut jacobian = self.jacobian.clone();
-        for row in
-            jacobian.iter_mut().zip(&self.compliance).filter(|(_, c)| **c != Id::ZERO).map(|(row, _)| row)
-        {
-            row.iter_mut().for_each(|entry| *entry = graph.substituted(*entry, one));
-        }
-        let column = |i: usize| jacobian.iter().map(|row| row[i]).collect::<Vec<Id>>();
+        let column = |i: usize| self.jacobian.iter().map(|row| row[i]).collect::<Vec<Id>>();
         (0..coordinates).map(|i| graph.dot(&multipliers, &column(i))).collect()
     }
 

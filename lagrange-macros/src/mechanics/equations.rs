@@ -47,6 +47,8 @@ pub(crate) struct Equations {
     pub(crate) compliance: Vec<Id>,
     /// Fᵀλ, with the multipliers λ as symbols
     pub(crate) constraint_force: Vec<Id>,
+    /// Fᵀλ to be printed, without switches: where a constraint does not hold, its λ is zero
+    pub(crate) printed_force: Vec<Id>,
     /// d/dt p − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols
     pub(crate) balance: Vec<Id>,
     /// d/dt (F q̇ + b), with accelerations as symbols
@@ -80,6 +82,7 @@ impl Equations {
         let forms = Form::all(graph, problem, formulation, (&mass, &forcing), &constraints);
         let completed = Completed::of(graph, (&momenta, &mass), &constraints, &forms[0].completing);
         let constraint_force = constraints.force(graph);
+        let printed_force = without_switches(graph, problem, &constraint_force);
         let mut along_motion = total_time_derivative(graph, problem.coordinates.len());
         let constraint_acceleration =
             constraints.rate.iter().map(|&rate| along_motion.of(graph, rate)).collect();
@@ -95,6 +98,7 @@ impl Equations {
             forcing,
             energy,
             constraint_force,
+            printed_force,
             constraint_acceleration,
             magnitudes: [
                 constraints.magnitude(graph, Variable::Coordinate, |kind| kind == ConstraintKind::Holonomic),
@@ -130,4 +134,13 @@ fn balance(graph: &mut Graph, formulation: &dyn Formulation, constraint_force: &
         *sum = graph.sub(*sum, force);
     }
     balance
+}
+
+/// Expressions with all switches on.
+fn without_switches(graph: &mut Graph, problem: &Problem, expressions: &[Id]) -> Vec<Id> {
+    if problem.parameters.switches.is_empty() {
+        return expressions.to_vec();
+    }
+    let on = |symbol| matches!(Variable::of(symbol), Variable::Switch(_)).then_some(Id::ONE);
+    expressions.iter().map(|&expression| graph.substituted(expression, on)).collect()
 }

@@ -97,7 +97,7 @@ fn rates(
             _ => None,
         });
         let applied = graph.sub(force, slope);
-        graph.add(applied, equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO))
+        graph.add(applied, equations.printed_force.get(i).copied().unwrap_or(Id::ZERO))
     };
     slopes.into_iter().zip(forces).enumerate().map(rate).collect()
 }

@@ -15,7 +15,7 @@ impl Page<'_> {
     pub(super) fn motion(&self) -> Vec<Line> {
         let Derived { equations, inertia, .. } = self.derived;
         let right = |i: usize| {
-            let right = [Some(&equations.forcing[i]), equations.constraint_force.get(i)];
+            let right = [Some(&equations.forcing[i]), equations.printed_force.get(i)];
             right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect::<Vec<_>>()
         };
         let mut rows: Vec<(Id, Vec<Id>)> =
@@ -50,7 +50,7 @@ impl Page<'_> {
 
     /// Constraint force Fᵀλ on each coordinate that a constraint acts on.
     pub(super) fn constraint_forces(&self) -> Vec<Line> {
-        let forces = &self.derived.equations.constraint_force;
+        let forces = &self.derived.equations.printed_force;
         let mut lines = self.by_coordinate(forces, |text| Formula::labelled(&format!("R_{text}"), 0));
         let zero = Formula::sum(Vec::new());
         lines.retain(|line| !matches!(&line.equation, Equation::Known(_, right) if *right == zero));

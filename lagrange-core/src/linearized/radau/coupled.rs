@@ -78,7 +78,8 @@ impl<T: Real, N: Length, const S: usize> Coupled<T, N, S> {
         }
     }
 
-    /// Eliminates stage `k` from the equations of those after it; false if its block is singular.
+    /// Eliminates the unknowns of stage `k` from the equations of the later stages. Returns false if the block of the stage on
+    /// the diagonal is singular.
     fn eliminate(&mut self, k: usize) -> bool {
         let Self { blocks, diagonal, .. } = self;
         let own = &blocks[k][k];
@@ -98,7 +99,8 @@ impl<T: Real, N: Length, const S: usize> Coupled<T, N, S> {
         true
     }
 
-    /// Corrections of the stages `z` with these rates.
+    /// Solves for the corrections Δq and Δv of all stages. `z` has the changes of the stages from the start of the step, and
+    /// `rates` the velocities and accelerations there; r and s are what is left between them and the slopes of `z`.
     pub(super) fn corrections(
         &self,
         z: &StageChanges<T, N, S>,

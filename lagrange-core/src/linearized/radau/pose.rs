@@ -1,8 +1,8 @@
 //! Poses at which constraints depend on one another, within a step.
 //!
 //! With their gradients as rows of F₀ at the start of a step, and of F within it, det(F F₀ᵀ) changes its sign where the motion
-//! passes such a pose. Elsewhere it vanishes only where the rows have turned by a right angle, and corrections towards the
-//! constraints would not shrink. The stages follow the branch of the motion across the pose. But multipliers may have a
+//! passes such a pose. At other poses it is zero only if a combination of the rows of F is at right angles to all rows of F₀,
+//! where forces are bounded. The stages follow the branch of the motion across the pose. But multipliers may have a
 //! pole there, so that no bounded force keeps the constraints.
 
 use nalgebra::Const;

@@ -157,7 +157,7 @@ impl<T: Real> StageVariations<T> {
         y
     }
 
-    /// Change of the variations of a block from the start of the step to a stage.
+    /// How much the variations of one block of lanes change from the `start` of the step to a stage.
     pub(super) fn change<N: Length>(
         &self,
         stage: usize,
