@@ -2,7 +2,7 @@ use lagrange_core::contact::Contact;
 use lagrange_core::prelude::*;
 
 // Each contact has one mistake.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(x, y, r: [2])]
 #[lagrangian(m/2 * (x_dot^2 + y_dot^2 + dot(r_dot, r_dot)))]
 #[contact(floor: y >= 0)]
@@ -22,4 +22,11 @@ struct System {
     legs: [Contact; 2],
 }
 
-fn main() {}
+// What is wrong above is not wrong here once more.
+fn moves(system: &System) -> Result<State<f64, 4>, Error> {
+    Ok(*system.motion(State::at_rest([1.0; 4])).with_contacts().to(1.0)?.end())
+}
+
+fn main() {
+    let _ = moves;
+}

@@ -10,7 +10,7 @@ use super::markers::markers;
 use super::observables::method_name;
 use super::pack::pack;
 use super::signature::Types;
-use crate::contract::{LAGRANGIAN, LINEARIZED, Method, STATE_DERIVATIVES, TAYLOR_SERIES};
+use crate::contract::{LAGRANGIAN, LINEARIZED, Method, RESTITUTION, STATE_DERIVATIVES, TAYLOR_SERIES};
 use crate::mechanics::Marker;
 use crate::resolve::{Observable, Outline};
 use crate::syntax::Declaration;
@@ -38,6 +38,20 @@ pub(crate) fn stub(
     let (of_lagrangian, of_linearized) = (LAGRANGIAN.iter().map(never), LINEARIZED.iter().map(never));
     let of_state_derivatives = STATE_DERIVATIVES.iter().map(never);
     let of_taylor_series = TAYLOR_SERIES.iter().map(never);
+    let has_contacts = declaration.constraints.iter().any(|constraint| constraint.contact.is_some());
+    let contacts = has_contacts.then(|| {
+        let restitution = never(&RESTITUTION);
+        quote! {
+            #[automatically_derived]
+            #[allow(unused_variables, clippy::all)]
+            impl #impl_generics __lagrange::contact::Contacts for #ident #type_generics #where_clause {
+                const CONTACTS: &'static [usize] = &[];
+                fn contact(&self, index: usize) -> ::core::option::Option<__lagrange::contact::Contact> { loop {} }
+                fn set_contact(&mut self, index: usize, contact: __lagrange::contact::Contact) -> bool { loop {} }
+                #restitution
+            }
+        }
+    });
     let visibility = &declaration.visibility;
     let observables = observables.iter().map(|Observable { name, lengths, needs_solution }| {
         let method = method_name(&name.text, name.place.start());
@@ -99,6 +113,7 @@ pub(crate) fn stub(
                 #(#observables)*
             }
 
+            #contacts
             #markers
             #pack
         };

@@ -29,7 +29,7 @@ pub(super) fn check(
     constraints: &Constraints,
     diagnostics: &mut Diagnostics,
 ) -> Option<()> {
-    // Of switched constraints, never all hold at once, as far as is known.
+    // Those that fields switch may never hold together: two of them may contradict each other.
     let of = |kind| {
         (0..constraints.kinds.len())
             .filter(move |&row| constraints.kinds[row] == kind && constraints.always_holds(row))
