@@ -300,6 +300,23 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// Friction that slides leaves no acceleration with a force that presses the bodies together: the contact digs in, or the
+    /// force grows without bound (Painlevé's paradox).
+    FrictionJams {
+        /// Name of the friction.
+        friction: &'static str,
+        /// The time of the state.
+        time: f64,
+    },
+    /// Friction is negative, infinite or no number, or its limit is below the force of sliding.
+    Friction {
+        /// Name of the friction.
+        friction: &'static str,
+        /// The limit while the bodies stick, and the force of sliding.
+        bounds: [f64; 2],
+        /// The time of the state.
+        time: f64,
+    },
     /// Impacts follow one another at one time without end.
     ImpactsDoNotEnd {
         /// Their time.

@@ -10,7 +10,7 @@ pub use crate::solution::eliminate::nan_if_ill_conditioned;
 pub use crate::system::defect::{Defect, asymmetry, distortion};
 pub use crate::system::equations::equations;
 pub use crate::system::member::FieldMember;
-pub use crate::system::switch::{Switch, switch};
+pub use crate::system::switch::{FrictionState, Switch, holds, slides, slip, start, sticks};
 
 /// Factorizations computed in loops, for `N` coordinates and `M` constraints.
 pub type LoopFactor<T, const N: usize, const M: usize> = eliminate::LoopFactor<T, Const<N>, Const<M>>;

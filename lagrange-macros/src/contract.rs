@@ -24,7 +24,7 @@ pub(crate) enum Quantity {
     CompletedMomentumRate,
     CompletedMassMatrix,
     Compliance,
-    Restitution,
+    Law,
     Forcing,
     Residual,
     Rate,
@@ -188,9 +188,13 @@ pub(crate) const COMPLETED: [Method; 3] = [
 pub(crate) const SWITCHED: [Method; 1] =
     [method(Quantity::Compliance, "compliance", &[System], Vector(Constraints))];
 
-/// Method of `Contacts`.
+/// Methods of `Contacts`.
 pub(crate) const RESTITUTION: Method =
-    method(Quantity::Restitution, "restitution", &[System, Index, State], Optional);
+    method(Quantity::Law, "restitution", &[System, Index, State], Optional);
+pub(crate) const FRICTION_LIMIT: Method =
+    method(Quantity::Law, "friction_limit", &[System, Index, State], Optional);
+pub(crate) const SLIDING_FRICTION: Method =
+    method(Quantity::Law, "sliding_friction", &[System, Index, State], Optional);
 
 /// Required methods of `StateDerivatives`.
 pub(crate) const STATE_DERIVATIVES: [Method; 2] = [
@@ -247,8 +251,9 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// Associated constants of these traits.
-const CONSTANTS: [&str; 17] = [
+const CONSTANTS: [&str; 18] = [
     "HAS_CONTACTS",
+    "HAS_FRICTION",
     "ARGUMENTS",
     "NAME",
     "DIGEST",
@@ -269,8 +274,9 @@ const CONSTANTS: [&str; 17] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
-const PROVIDED: [&str; 40] = [
+const PROVIDED: [&str; 41] = [
     "compliance",
+    "slides",
     "completed_momentum",
     "completed_momentum_rate",
     "completed_mass_matrix",

@@ -44,6 +44,7 @@ use syntax::Declaration;
         lagrangian,
         constraint,
         contact,
+        friction,
         force,
         power,
         dissipation,

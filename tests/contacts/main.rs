@@ -5,6 +5,7 @@
 
 mod abuse;
 mod bounds;
+mod friction;
 mod frictionless;
 mod rest;
 

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::{Contact, Contacts};
+use super::{Contact, Contacts, Friction};
 use crate::error::Error;
 use crate::names::name;
 use crate::number::{Real, Scalar, larger};
@@ -34,15 +34,28 @@ const INSTANT: f64 = 1e-6;
 /// A system with its contacts open and with its contacts closed, and the largest entries of its motion so far.
 pub(super) struct Bodies<L: Lagrangian> {
     open: L,
-    closed: L,
+    pub(super) closed: L,
     largest: [Array<L::Scalar, L::N>; 2],
+    /// Length of the motion in time.
+    pub(super) span: L::Scalar,
 }
 
 /// Responses of gaps to impulses, and the changes of velocities for an impulse of each contact.
 pub(super) type Delassus<L> =
     (Vec<Vec<<L as Lagrangian>::Scalar>>, Vec<Vector<<L as Lagrangian>::Scalar, <L as Lagrangian>::N>>);
 
-/// What can be said of one contact at a state.
+/// States of the contacts and of friction.
+#[derive(Clone, Debug)]
+pub(super) struct States {
+    pub(super) is_closed: Vec<bool>,
+    /// Those of open contacts have no meaning.
+    pub(super) frictions: Vec<Friction>,
+}
+
+/// Friction that does not act.
+pub(super) const OFF: Friction = Friction::Slides([0.0; 2]);
+
+/// What can be said of a gap, or of a velocity of friction, at a state.
 pub(super) struct Measured<T> {
     pub(super) gap: T,
     pub(super) rate: T,
@@ -52,24 +65,39 @@ pub(super) struct Measured<T> {
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     pub(super) fn new(system: &L) -> Self {
-        let all = |contact| {
+        let all = |contact, friction| {
             let mut system = system.clone();
+            (0..L::FRICTIONS.len()).for_each(|f| {
+                system.set_friction(f, friction);
+            });
             (0..L::CONTACTS.len()).for_each(|k| {
                 system.set_contact(k, contact);
             });
             system
         };
         let largest = [Array::filled(L::Scalar::constant(0.0)); 2];
-        Self { open: all(Contact::Open), closed: all(Contact::Closed), largest }
+        let (open, closed) = (all(Contact::Open, OFF), all(Contact::Closed, Friction::Sticks));
+        Self { open, closed, largest, span: L::Scalar::constant(0.0) }
     }
 
-    /// The system with these contacts closed.
-    pub(super) fn with(&self, is_closed: &[bool]) -> L {
+    /// The system with contacts and friction in these states.
+    pub(super) fn with(&self, States { is_closed, frictions }: &States) -> L {
         let mut system = self.open.clone();
         for (k, &is_closed) in is_closed.iter().enumerate() {
             system.set_contact(k, if is_closed { Contact::Closed } else { Contact::Open });
         }
+        for (f, &friction) in frictions.iter().enumerate() {
+            if L::FRICTIONS[f].contact.is_none_or(|k| is_closed[k]) {
+                system.set_friction(f, friction);
+            }
+        }
         system
+    }
+
+    /// The system with these contacts closed, and no friction.
+    pub(super) fn without_friction(&self, is_closed: &[bool]) -> L {
+        let frictions = alloc::vec![OFF; L::FRICTIONS.len()];
+        self.with(&States { is_closed: is_closed.to_vec(), frictions })
     }
 
     pub(super) fn gap(&self, k: usize, state: &StateOf<L>) -> L::Scalar {
@@ -86,6 +114,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Takes note of what the bodies move in a millionth of the span from rest, without their contacts: where all entries are
     /// zero from the start on, round-off has no other size.
     pub(super) fn reaches(&mut self, state: &StateOf<L>, span: L::Scalar) -> Result<(), Error> {
+        self.span = span;
         let part = span * L::Scalar::constant(INSTANT);
         let free = solve_near(&self.open, state, None, |solution, _| solution.accelerations)?;
         for (largest, time) in self.largest.iter_mut().zip([part * part, part]) {
@@ -94,21 +123,31 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         Ok(())
     }
 
-    /// The row W of a contact.
-    pub(super) fn row(&self, k: usize, state: &StateOf<L>) -> Vector<L::Scalar, L::N> {
+    /// The row W of a constraint.
+    pub(super) fn row(&self, a: usize, state: &StateOf<L>) -> Vector<L::Scalar, L::N> {
         let jacobian = self.closed.constraint_jacobian(state);
-        vector(Array::from_fn(|i| jacobian[(L::CONTACTS[k], i)]))
+        vector(Array::from_fn(|i| jacobian[(a, i)]))
     }
 
+    /// What can be said of contact `k`.
     pub(super) fn measured(&self, k: usize, state: &StateOf<L>) -> Measured<L::Scalar> {
-        let (row, rate) = (self.row(k, state), self.closed.constraint_rate(state)[L::CONTACTS[k]]);
+        self.measured_at(L::CONTACTS[k], state)
+    }
+
+    /// What can be said of constraint `a`.
+    pub(super) fn measured_at(&self, a: usize, state: &StateOf<L>) -> Measured<L::Scalar> {
+        let (row, rate) = (self.row(a, state), self.closed.constraint_rate(state)[a]);
         let unit = L::Scalar::constant(L::Scalar::EPSILON * UNITS);
         let [of_gap, of_rate] = self.largest.each_ref().map(|largest| {
             (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, i| sum + Scalar::abs(row[i]) * largest[i])
         });
         let of_bodies = (0..<L::N>::COUNT).fold(rate, |rest, i| rest - row[i] * state.v[i]);
         let in_time = (Scalar::abs(rate) + Scalar::abs(of_bodies)) * Scalar::abs(state.t);
-        Measured { gap: self.gap(k, state), rate, noise: [unit * (of_gap + in_time), unit * of_rate] }
+        Measured {
+            gap: self.closed.constraint_residual(state)[a],
+            rate,
+            noise: [unit * (of_gap + in_time), unit * of_rate],
+        }
     }
 
     /// Gap up to which the bodies of a contact touch.
@@ -132,22 +171,18 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         name(L::CONSTRAINTS, L::CONTACTS[k])
     }
 
-    /// Accelerations W q̈ + γ of gaps without forces of contacts, and their round-off.
-    pub(super) fn pressing(
-        &self,
-        touching: &[usize],
-        state: &StateOf<L>,
-    ) -> Result<Vec<[L::Scalar; 2]>, Error> {
+    /// Accelerations W q̈ + γ of constraints without forces of contacts and friction, and their round-off.
+    pub(super) fn pressing(&self, rows: &[usize], state: &StateOf<L>) -> Result<Vec<[L::Scalar; 2]>, Error> {
         let free = solve_near(&self.open, state, None, |solution, _| solution.accelerations)?;
         let (bias, unit) =
             (self.closed.constraint_bias(state), L::Scalar::constant(L::Scalar::EPSILON * UNITS));
-        let of = |&k: &usize| {
-            let (row, bias) = (self.row(k, state), bias[L::CONTACTS[k]]);
+        let of = |&a: &usize| {
+            let (row, bias) = (self.row(a, state), bias[a]);
             let terms = || (0..<L::N>::COUNT).map(|i| row[i] * free[i]).chain([bias]);
             let size = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + Scalar::abs(term));
             [terms().fold(L::Scalar::constant(0.0), |sum, term| sum + term), unit * size]
         };
-        Ok(touching.iter().map(of).collect())
+        Ok(rows.iter().map(of).collect())
     }
 
     /// Whether a gap that is zero remains so but for round-off: its rate is none, or a bounce would rise by none.
@@ -157,9 +192,9 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         Scalar::abs(rate) <= of_rate || rate * rate <= low
     }
 
-    /// Responses W K⁻¹ Wᵀ of the gaps to impulses, and K⁻¹ Wᵀ, the changes of the velocities.
-    pub(super) fn delassus(&self, touching: &[usize], state: &StateOf<L>) -> Result<Delassus<L>, Error> {
-        let rows: Vec<Vector<L::Scalar, L::N>> = touching.iter().map(|&k| self.row(k, state)).collect();
+    /// Responses W K⁻¹ Wᵀ of the rates of constraints to impulses, and K⁻¹ Wᵀ, the changes of the velocities.
+    pub(super) fn delassus(&self, rows: &[usize], state: &StateOf<L>) -> Result<Delassus<L>, Error> {
+        let rows: Vec<Vector<L::Scalar, L::N>> = rows.iter().map(|&a| self.row(a, state)).collect();
         let none = vector(Array::filled(L::Scalar::constant(0.0)));
         let factor = self.open.factor(state);
         let respond = |row: &Vector<L::Scalar, L::N>| {
@@ -180,7 +215,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Fails if the gap of a touching contact has no gradient, along which a force could keep it.
     pub(super) fn check_gradients(&self, touching: &[usize], state: &StateOf<L>) -> Result<(), Error> {
         let is_closed: Vec<bool> = (0..L::CONTACTS.len()).map(|k| touching.contains(&k)).collect();
-        if touching.is_empty() { Ok(()) } else { gradient::check(&self.with(&is_closed), state) }
+        if touching.is_empty() { Ok(()) } else { gradient::check(&self.without_friction(&is_closed), state) }
     }
 
     pub(super) fn restitution(&self, k: usize, state: &StateOf<L>) -> Result<L::Scalar, Error> {

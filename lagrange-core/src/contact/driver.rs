@@ -4,10 +4,10 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::ops::ControlFlow;
 
-use super::bodies::Bodies;
-use super::instant::Decided;
+use super::bodies::{Bodies, States};
+use super::instant::{Changed, Decided};
 use super::trajectory::{ContactTrajectory, Transition};
-use super::{Contact, Contacts};
+use super::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::{Ending, Error};
 use crate::motion::event::noise;
 use crate::motion::run::check_end;
@@ -102,12 +102,14 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
     ) -> Result<Self, Error> {
         let (mut bodies, mut transitions) = (Bodies::new(system), Vec::new());
         bodies.passes(&state);
-        let was_closed: Vec<bool> =
-            (0..L::CONTACTS.len()).map(|k| system.contact(k) == Some(Contact::Closed)).collect();
-        bodies.with(&was_closed).check_consistent(&state)?;
+        let is_closed: Vec<bool> =
+            (0..L::CONTACTS.len()).map(|k| system.contact(k) != Some(Contact::Open)).collect();
+        // Velocities say whether friction sticks or slides.
+        bodies.without_friction(&is_closed).check_consistent(&state)?;
         bodies.reaches(&state, end - state.t)?;
-        bodies.crossed(&was_closed, &state).map_or(Ok(()), Err)?;
-        let decided = bodies.settle(&mut state, (&was_closed, None, None), &mut transitions)?;
+        bodies.crossed(&is_closed, &state).map_or(Ok(()), Err)?;
+        let was = States { is_closed, frictions: Vec::new() };
+        let decided = bodies.settle(&mut state, (&was, &Changed::default()), &mut transitions)?;
         Ok(Self { bodies, decided, state, legs: HybridTrajectory::new(), transitions, on_progress })
     }
 
@@ -135,14 +137,14 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
 
     fn ended(self, ending: Ending) -> ContactTrajectory<L> {
         let Self { bodies, decided, state, legs, transitions, .. } = self;
-        let system = bodies.with(&decided.is_closed);
+        let system = bodies.with(&decided.states);
         ContactTrajectory { legs, transitions, system, end: state, ending }
     }
 
-    /// Moves until the next gap closes or the next multiplier becomes zero.
+    /// Moves until the next gap closes, the next multiplier becomes zero, or friction begins to slide or stops.
     fn leg<P: Method<L> + Clone>(&mut self, method: &P, end: L::Scalar) -> Result<Trajectory<L>, Error> {
         let Self { bodies, decided, state, on_progress, .. } = self;
-        let system = bodies.with(&decided.is_closed);
+        let system = bodies.with(&decided.states);
         let mut events: Vec<Box<DynEvent<'_, L>>> = Vec::new();
         let zero = L::Scalar::constant(0.0);
         for (k, &row) in L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]) {
@@ -150,11 +152,12 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
             let force = move |sample: &Sample<&L>| Ok(sample.solution()?.multipliers[row]);
             let gap = move |sample: &Sample<&L>| Ok(bodies.gap(k, sample.state()));
             let is_resting = decided.is_resting[k];
-            events.push(match decided.is_closed[k] {
+            events.push(match decided.states.is_closed[k] {
                 true => watched(&system, state, name, is_resting.then_some(zero), force)?,
                 false => watched(&system, state, name, is_resting.then(|| bodies.touching(k, state)), gap)?,
             });
         }
+        events.extend(of_friction(&system, bodies, decided, state)?);
         let mut motion = system.motion(*state).by(method.clone()).events(events);
         if let Some(look) = on_progress {
             motion = motion.on_progress(|progress: Progress| -> ControlFlow<()> { look(progress) });
@@ -169,7 +172,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
     fn goes_on(&mut self, path: Trajectory<L>, end: L::Scalar) -> Result<Option<Ending>, Error> {
         let crossed = path.steps().find_map(|step| {
             self.bodies.passes(step.state());
-            self.bodies.crossed(&self.decided.is_closed, step.state())
+            self.bodies.crossed(&self.decided.states.is_closed, step.state())
         });
         self.state = *path.end().state();
         let ending = path.ending().clone();
@@ -182,20 +185,84 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
             Ending::Complete { .. } if self.state.t < end => return Ok(None),
             other => return Ok(Some(other)),
         };
-        let changes = L::CONTACTS.iter().position(|&row| L::CONSTRAINTS[row] == event);
-        let is_closed = core::mem::take(&mut self.decided.is_closed);
-        let is = |closed| changes.filter(|&k| is_closed[k] == closed);
-        let changed = (&is_closed[..], is(false), is(true));
-        let settled = self.bodies.settle(&mut self.state, changed, &mut self.transitions);
-        match settled {
-            Ok(decided) => self.decided = decided,
-            Err(error) => {
-                self.decided.is_closed = is_closed;
-                return Err(error);
-            }
-        }
+        let changed = self.changed(event)?;
+        let was = &self.decided.states;
+        self.decided = self.bodies.settle(&mut self.state, (was, &changed), &mut self.transitions)?;
         Ok(None)
     }
+
+    /// What an event says about the contact or the friction of its name.
+    fn changed(&self, event: &str) -> Result<Changed, Error> {
+        let Self { bodies, decided, state, .. } = self;
+        let mut changed = Changed::default();
+        if let Some(k) = L::CONTACTS.iter().position(|&row| L::CONSTRAINTS[row] == event) {
+            let is = |closed| (decided.states.is_closed[k] == closed).then_some(k);
+            (changed.closes, changed.opens) = (is(false), is(true));
+        }
+        let Some(f) = L::FRICTIONS.iter().position(|friction| L::CONSTRAINTS[friction.row] == event) else {
+            return Ok(changed);
+        };
+        match decided.states.frictions[f] {
+            // The velocity may only have turned.
+            Friction::Slides(_) => changed.stops = bodies.is_stopped(f, state).then_some(f),
+            Friction::Sticks => {
+                let FrictionRows { row, count, .. } = L::FRICTIONS[f];
+                let solution = bodies.with(&decided.states).solve(state)?;
+                let force = |c: usize| if c < count { solution.multipliers[row + c].to_f64() } else { 0.0 };
+                let (x, y) = (force(0), force(1));
+                let size = Scalar::sqrt(x * x + y * y);
+                changed.slips = (size > 0.0).then(|| (f, [-x / size, -y / size]));
+            }
+        }
+        Ok(changed)
+    }
+}
+
+/// The events that friction reaches its limit, or stops the bodies.
+fn of_friction<'w, L>(
+    system: &L,
+    bodies: &'w Bodies<L>,
+    decided: &Decided<L::Scalar>,
+    state: &StateOf<L>,
+) -> Result<Vec<Box<DynEvent<'w, L>>>, Error>
+where
+    L: Contacts<Scalar: Real> + Clone + 'w,
+{
+    let zero = L::Scalar::constant(0.0);
+    let mut events: Vec<Box<DynEvent<'w, L>>> = Vec::new();
+    for (f, &FrictionRows { row, count, contact }) in L::FRICTIONS.iter().enumerate() {
+        if contact.is_some_and(|k| !decided.states.is_closed[k]) || decided.slip_is_implied[f] {
+            continue;
+        }
+        let name = name(L::CONSTRAINTS, row);
+        events.push(match decided.states.frictions[f] {
+            Friction::Sticks => {
+                let left = move |sample: &Sample<&L>| {
+                    let multipliers = &sample.solution()?.multipliers;
+                    let limit = bodies.closed.friction_limit(f, sample.state()).unwrap_or(zero);
+                    let press = contact.map_or(L::Scalar::constant(1.0), |k| multipliers[L::CONTACTS[k]]);
+                    let force = match count {
+                        1 => Scalar::abs(multipliers[row]),
+                        _ => {
+                            let [x, y] = [multipliers[row], multipliers[row + 1]];
+                            Scalar::sqrt(x * x + y * y)
+                        }
+                    };
+                    Ok(limit * press - force)
+                };
+                watched(system, state, name, Some(zero), left)?
+            }
+            Friction::Slides(direction) => {
+                let direction = direction.map(L::Scalar::constant);
+                let along = move |sample: &Sample<&L>| {
+                    let rates = bodies.closed.constraint_rate(sample.state());
+                    Ok((0..count).fold(zero, |sum, c| sum + direction[c] * rates[row + c]))
+                };
+                watched(system, state, name, decided.slips_from_rest[f].then_some(zero), along)?
+            }
+        });
+    }
+    Ok(events)
 }
 
 /// The event that a gap or a multiplier becomes negative. If it rests at zero, it may do so at once, without a sign before: it

@@ -1,18 +1,19 @@
 //! What happens at one instant: which contacts hit, which of them close, and which open.
 
+use alloc::vec;
 use alloc::vec::Vec;
 
-use super::Contacts;
-use super::bodies::{Bodies, Delassus, Measured};
+use super::bodies::{Bodies, Delassus, Measured, States};
 use super::complementarity::{Complementarity, ComplementarySolution};
 use super::trajectory::Transition;
+use super::{Contacts, Friction};
 use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
 use crate::vector::{Array, Vector, vector};
 
 /// Largest number of impacts at one time. Each takes energy, or passes it on to the next of bodies in a row.
-const IMPACTS: usize = 10_000;
+pub(super) const IMPACTS: usize = 10_000;
 
 /// Largest number of rounds that stop contacts which approach at rest.
 const STOPS: usize = 8;
@@ -21,34 +22,81 @@ const STOPS: usize = 8;
 /// would fall on the division of a step.
 const BOUNCE: f64 = 2.7;
 
-/// Contacts after an instant.
+/// What brings a motion to an instant at which its contacts are decided.
+#[derive(Default)]
+pub(super) struct Changed {
+    /// The gap of this contact has just become zero.
+    pub(super) closes: Option<usize>,
+    /// The multiplier of this contact has just become zero.
+    pub(super) opens: Option<usize>,
+    /// This friction has just reached its limit, and lets the bodies slide in this direction.
+    pub(super) slips: Option<(usize, [f64; 2])>,
+    /// The velocity of this friction has just become zero.
+    pub(super) stops: Option<usize>,
+}
+
+/// Contacts and friction after an instant.
 pub(super) struct Decided<T> {
-    pub(super) is_closed: Vec<bool>,
+    pub(super) states: States,
     /// Open contacts whose gaps remain zero because of the closed ones.
     pub(super) is_implied: Vec<bool>,
     /// Contacts whose gaps are zero and do not change: closed ones, and open ones that nothing presses together.
     pub(super) is_resting: Vec<bool>,
+    /// Friction whose velocities are zero.
+    pub(super) slips_from_rest: Vec<bool>,
+    /// Friction that does not stick, but whose velocities remain zero because of what is closed and sticks.
+    pub(super) slip_is_implied: Vec<bool>,
     /// Time within which the next bounce ends, if one begins.
     pub(super) bounce: Option<T>,
 }
 
+impl<T> Decided<T> {
+    /// Nothing that is closed, and friction in these states.
+    pub(super) fn none<L: Contacts>(frictions: Vec<Friction>) -> Self {
+        let [contacts, of_friction] = [L::CONTACTS.len(), frictions.len()].map(|length| vec![false; length]);
+        Self {
+            states: States { is_closed: contacts.clone(), frictions },
+            is_implied: contacts.clone(),
+            is_resting: contacts,
+            slips_from_rest: of_friction.clone(),
+            slip_is_implied: of_friction,
+            bounce: None,
+        }
+    }
+}
+
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
-    /// Decides what follows at a state: the velocities after impacts, and which contacts are closed from then on. `was_closed`
-    /// marks the contacts that were closed before. The gap of contact `hit` has just become zero, or the multiplier of contact
-    /// `opens`.
+    /// Contacts that are closed, or whose gaps are zero.
+    pub(super) fn all_touching(
+        &self,
+        was_closed: &[bool],
+        changed: &Changed,
+        state: &StateOf<L>,
+    ) -> Vec<usize> {
+        let is_touching = |k: usize| {
+            was_closed[k] || changed.closes == Some(k) || self.gap(k, state) <= self.touching(k, state)
+        };
+        (0..L::CONTACTS.len()).filter(|&k| is_touching(k)).collect()
+    }
+
+    /// Decides what follows at a state: the velocities after impacts, and which contacts are closed from then on, after they were
+    /// in the states `was`.
     pub(super) fn settle(
         &self,
         state: &mut StateOf<L>,
-        (was_closed, hit, opens): (&[bool], Option<usize>, Option<usize>),
+        (was, changed): (&States, &Changed),
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<Decided<L::Scalar>, Error> {
-        let is_touching =
-            |k: usize| was_closed[k] || hit == Some(k) || self.gap(k, state) <= self.touching(k, state);
-        let touching: Vec<usize> = (0..L::CONTACTS.len()).filter(|&k| is_touching(k)).collect();
+        if !L::FRICTIONS.is_empty() {
+            return self.settle_with_friction(state, (was, changed), transitions);
+        }
+        let (was_closed, opens) = (&was.is_closed[..], changed.opens);
+        let touching = self.all_touching(was_closed, changed, state);
         self.check_gradients(&touching, state)?;
-        let delassus = self.delassus(&touching, state)?;
+        let rows: Vec<usize> = touching.iter().map(|&k| L::CONTACTS[k]).collect();
+        let delassus = self.delassus(&rows, state)?;
         for _ in 0..IMPACTS {
-            let pressing = self.pressing(&touching, state)?;
+            let pressing = self.pressing(&rows, state)?;
             let resting: Vec<bool> =
                 touching.iter().zip(&pressing).map(|(&k, &[a, _])| self.rests(k, a, state)).collect();
             let approaches = |place: usize| {
@@ -158,7 +206,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         }
         decided.bounce = self.bounce((touching, &resting, &accelerations), state);
         let towards = Self::towards((touching, &places), (&problem, &solved));
-        self.report(&towards, state, (was_closed, &decided.is_closed), transitions)?;
+        self.report(&towards, state, (was_closed, &decided.states.is_closed), transitions)?;
         self.stop((touching, &places), (problem, &solved.is_active), responses, state);
         Ok(decided)
     }
@@ -200,13 +248,12 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         (problem, solved): (&Complementarity<L::Scalar>, &ComplementarySolution<L::Scalar>),
         opens: Option<usize>,
     ) -> Decided<L::Scalar> {
-        let none = || alloc::vec![false; L::CONTACTS.len()];
-        let mut decided = Decided { is_closed: none(), is_implied: none(), is_resting: none(), bounce: None };
+        let mut decided = Decided::none::<L>(Vec::new());
         let active: Vec<usize> = (0..places.len()).filter(|&place| solved.is_active[place]).collect();
         for (place, &of_touching) in places.iter().enumerate() {
             let (k, is_active) = (touching[of_touching], solved.is_active[place]);
             let is_still = solved.w[place] <= solved.noise[place];
-            (decided.is_closed[k], decided.is_resting[k]) = (is_active, true);
+            (decided.states.is_closed[k], decided.is_resting[k]) = (is_active, true);
             decided.is_implied[k] = !is_active && is_still && problem.depends(place, &active);
         }
         // Its multiplier has just become zero, so that its gap begins to open without an acceleration.
@@ -217,7 +264,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// Time within which the shortest bounce ends: 2 v/a and somewhat more, with the rate v of the gap and its acceleration −a.
-    fn bounce(
+    pub(super) fn bounce(
         &self,
         (touching, resting, accelerations): (&[usize], &[bool], &[L::Scalar]),
         state: &StateOf<L>,
@@ -246,7 +293,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// Reports the contacts that close and open.
-    fn report(
+    pub(super) fn report(
         &self,
         towards: &[L::Scalar],
         state: &StateOf<L>,

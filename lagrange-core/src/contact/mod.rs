@@ -82,7 +82,13 @@ mod complementarity;
 #[cfg(feature = "alloc")]
 mod driver;
 #[cfg(feature = "alloc")]
+mod friction;
+#[cfg(feature = "alloc")]
 mod instant;
+#[cfg(feature = "alloc")]
+mod law;
+#[cfg(feature = "alloc")]
+mod lemke;
 #[cfg(feature = "alloc")]
 mod trajectory;
 
@@ -93,14 +99,39 @@ pub use driver::AcrossContacts;
 pub use trajectory::{ContactTrajectory, Transition};
 
 /// Whether a contact is open or closed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Contact {
     /// The bodies may part: no force acts.
     #[default]
     Open,
-    /// The bodies touch and stay together: the gap is a constraint.
+    /// The bodies touch and stay together: the gap is a constraint, and so is the velocity of its friction, if it has any.
     Closed,
+    /// The bodies touch, and slide along one another. The friction of one velocity acts against the sign of the first number;
+    /// that of two acts against the velocity, which has a positive part along this direction.
+    Slides([f64; 2]),
+}
+
+/// Whether friction keeps bodies together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Friction {
+    /// The velocity is zero, as a constraint.
+    #[default]
+    Sticks,
+    /// The bodies slide, with a force as for [`Contact::Slides`].
+    Slides([f64; 2]),
+}
+
+/// The constraints of one friction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FrictionRows {
+    /// Index, among the constraints, of the first velocity.
+    pub row: usize,
+    /// Number of velocities: 1 or 2.
+    pub count: usize,
+    /// Index of the contact that presses the bodies together; `None` for dry friction with bounds of its own.
+    pub contact: Option<usize>,
 }
 
 /// A system with contacts. The derive macro implements it for a struct with `#[contact(…)]`.
@@ -121,4 +152,19 @@ pub trait Contacts: Lagrangian {
 
     /// Newton's coefficient of restitution of contact `index`, from 0 for a plastic impact to 1 for an elastic one.
     fn restitution(&self, index: usize, state: &StateOf<Self>) -> Option<Self::Scalar>;
+
+    /// The constraints of each friction.
+    const FRICTIONS: &'static [FrictionRows];
+
+    /// Returns whether friction `index` sticks or slides; `None` if its contact is open.
+    fn friction(&self, index: usize) -> Option<Friction>;
+
+    /// Lets friction `index` stick or slide. Returns `false` if there is none of this index.
+    fn set_friction(&mut self, index: usize, state: Friction) -> bool;
+
+    /// Largest force of friction `index` while the bodies stick, as a multiple of the multiplier of its contact if it has one.
+    fn friction_limit(&self, index: usize, state: &StateOf<Self>) -> Option<Self::Scalar>;
+
+    /// Force of friction `index` while the bodies slide, as a multiple of the multiplier of its contact if it has one.
+    fn sliding_friction(&self, index: usize, state: &StateOf<Self>) -> Option<Self::Scalar>;
 }

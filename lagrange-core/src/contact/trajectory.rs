@@ -16,7 +16,7 @@ pub enum Transition<T> {
     Impact {
         /// Time of the impact.
         time: T,
-        /// The contacts that push, with their impulses Λ: momenta jump by WᵀΛ.
+        /// The contacts that push, and their friction, with their impulses Λ: momenta jump by WᵀΛ.
         impulses: Vec<(&'static str, T)>,
     },
     /// Impacts accumulate, and the gap stays closed from then on.
@@ -40,6 +40,20 @@ pub enum Transition<T> {
         /// Time from which it is open.
         time: T,
     },
+    /// Friction stops the bodies, and keeps them together from then on.
+    Sticks {
+        /// Name of the friction.
+        friction: &'static str,
+        /// Time from which it sticks.
+        time: T,
+    },
+    /// Friction has reached its limit, and the bodies slide.
+    Slips {
+        /// Name of the friction.
+        friction: &'static str,
+        /// Time from which it slides.
+        time: T,
+    },
 }
 
 impl<T: Copy> Transition<T> {
@@ -49,7 +63,9 @@ impl<T: Copy> Transition<T> {
             Self::Impact { time, .. }
             | Self::Rests { time, .. }
             | Self::Closes { time, .. }
-            | Self::Opens { time, .. } => time,
+            | Self::Opens { time, .. }
+            | Self::Sticks { time, .. }
+            | Self::Slips { time, .. } => time,
         }
     }
 }
@@ -69,6 +85,8 @@ impl<T: Display> Display for Transition<T> {
             Self::Rests { contact, time } => write!(f, "`{contact}` rests from t = {time} on"),
             Self::Closes { contact, time } => write!(f, "`{contact}` closes at t = {time}"),
             Self::Opens { contact, time } => write!(f, "`{contact}` opens at t = {time}"),
+            Self::Sticks { friction, time } => write!(f, "`{friction}` sticks from t = {time} on"),
+            Self::Slips { friction, time } => write!(f, "`{friction}` slips from t = {time} on"),
         }
     }
 }

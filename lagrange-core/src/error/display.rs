@@ -164,6 +164,14 @@ impl Display for Error {
                 f,
                 "no forces keep the gaps of {contacts} open at t = {time}: they close in on one another, so make one of them yield"
             ),
+            Self::FrictionJams { friction, time } => write!(
+                f,
+                "with `{friction}` no force that presses the bodies together goes with any acceleration at t = {time} (Painlevé's paradox): the friction makes the contact dig in, so lower its coefficient, or let one of the bodies yield"
+            ),
+            Self::Friction { friction, bounds: [limit, sliding], time } => write!(
+                f,
+                "the friction of `{friction}` at t = {time} has the limit {limit} and the sliding force {sliding}: both must be numbers, and 0 ≤ sliding ≤ limit"
+            ),
             Self::ImpactsDoNotEnd { time } => write!(
                 f,
                 "impacts follow one another without end at t = {time}: give one of the contacts a restitution below 1"

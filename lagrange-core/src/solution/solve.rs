@@ -74,6 +74,14 @@ pub(crate) fn solve_in_general<L: Lagrangian<Scalar: Real>>(
     let (m, f) = (system.mass_matrix(state).into(), rows(&system.constraint_jacobian(state)));
     let mut equations = KktSystem { m, h: h.into(), f, gamma: gamma.into() };
     let time = state.t.to_f64();
+    if let Some(row) = system.slides() {
+        return Err(Error::FrictionJams { friction: name(L::CONSTRAINTS, row), time });
+    }
+    let compliance = system.compliance();
+    let is_off = |a: usize| compliance[a] != L::Scalar::constant(0.0);
+    for a in (0..<L::M>::COUNT).filter(|&a| is_off(a)) {
+        equations.gamma[a] = L::Scalar::constant(0.0);
+    }
     if let Some(row) = not_finite::<L>(&equations) {
         return Err(Error::EquationsNotFinite { row, time });
     }
@@ -81,7 +89,10 @@ pub(crate) fn solve_in_general<L: Lagrangian<Scalar: Real>>(
         (equations.f[a], equations.gamma[a]) =
             (Array::filled(L::Scalar::constant(0.0)), L::Scalar::constant(0.0));
     }
-    let solved = kkt::solve(&equations, rank).map_err(|found| fault::<L>(&found, time))?;
+    let mut solved = kkt::solve(&equations, rank).map_err(|found| fault::<L>(&found, time))?;
+    for a in (0..<L::M>::COUNT).filter(|&a| is_off(a)) {
+        solved.0.multipliers[a] = -gamma[a];
+    }
     let Solution { accelerations, multipliers, .. } = &solved.0;
     match first_row::<L>(|i| !accelerations[i].is_finite(), |a| !multipliers[a].is_finite()) {
         None => Ok(solved),

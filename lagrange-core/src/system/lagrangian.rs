@@ -84,6 +84,8 @@ pub trait Lagrangian {
     /// True for a system with [contacts](crate::contact), whose motions go
     /// [across them](crate::MotionBuilder::with_contacts).
     const HAS_CONTACTS: bool = false;
+    /// True if the force of friction is a multiple of a multiplier, by `#[contact(…, friction(mu): velocity)]`.
+    const HAS_FRICTION: bool = false;
     /// True if the momenta are linear in the velocities, p = M(q, t) q̇ + a(q, t), so that one linear solve
     /// inverts the Legendre transform.
     const MOMENTA_ARE_LINEAR: bool = false;
@@ -145,10 +147,17 @@ pub trait Lagrangian {
         self.mass_matrix(state)
     }
 
-    /// 1 for each constraint that its field switches off, `#[constraint(…, when: field)]`, else 0: the c of
-    /// F q̈ + γ + c λ = 0. While a constraint is off, its Φ, F, b and γ are zero, and so is its λ.
+    /// 1 for each constraint that its field switches off, `#[constraint(…, when: field)]`, and for friction that does not
+    /// stick, else 0: the diagonal of c in F q̈ + γ + c λ = 0. While a constraint is off, its Φ, F, b and γ are zero, and so is
+    /// its λ; that of friction which slides is its force.
     fn compliance(&self) -> Vector<Self::Scalar, Self::M> {
         vector(Array::filled(Self::Scalar::constant(0.0)))
+    }
+
+    /// Index of the first constraint whose friction slides with a force μ λ, proportional to the multiplier of its contact;
+    /// `None` if there is none. Such a force is no part of Fᵀλ, and c has an entry μ beside its diagonal.
+    fn slides(&self) -> Option<usize> {
+        None
     }
 
     /// h = ∂L/∂q + Q − (dp/dt at q̈ = 0), so M q̈ = h without constraints.
@@ -181,7 +190,7 @@ pub trait Lagrangian {
     /// γ in the acceleration constraint F q̈ + γ = 0.
     fn constraint_bias(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::M>;
 
-    /// Generalized constraint force Fᵀλ.
+    /// Generalized constraint force Fᵀλ, with the force of friction that slides.
     fn constraint_force(
         &self,
         state: &StateOf<Self>,
@@ -276,6 +285,14 @@ pub(crate) const fn check_contacts<L: Lagrangian>() {
     assert!(
         !L::HAS_CONTACTS,
         "this system has contacts: move it by `motion(start).with_contacts().to(end)`, so that they open and close, or by a `Motion`, which leaves them as they are"
+    );
+}
+
+/// Asserts, at compile time, that no force is a multiple of a multiplier.
+pub(crate) const fn check_friction<L: Lagrangian>() {
+    assert!(
+        !L::HAS_FRICTION,
+        "the contacts of this system have friction, which takes energy: move it by `Dop853`, `Taylor`, `Radau` or another method that solves for accelerations"
     );
 }
 

@@ -30,6 +30,7 @@ macro_rules! forward {
             const CONSTRAINT_CLASSES: &'static [Classification] = L::CONSTRAINT_CLASSES;
             const INTEGRALS: Option<Integrals> = L::INTEGRALS;
             const HAS_CONTACTS: bool = L::HAS_CONTACTS;
+            const HAS_FRICTION: bool = L::HAS_FRICTION;
             const MOMENTA_ARE_LINEAR: bool = L::MOMENTA_ARE_LINEAR;
             const OBSERVABLES: &'static [&'static str] = L::OBSERVABLES;
             const DIGEST: u32 = L::DIGEST;
@@ -55,6 +56,7 @@ macro_rules! forward {
                 fn completed_momentum_rate(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
                 fn completed_mass_matrix(state: &State<Self::Scalar, L::N>) -> Matrix<Self::Scalar, L::N, L::N>;
                 fn compliance() -> Vector<Self::Scalar, L::M>;
+                fn slides() -> Option<usize>;
                 fn forcing(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
                 fn constraint_residual(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::M>;
                 fn constraint_integral(index: usize, state: &State<Self::Scalar, L::N>) -> Option<Self::Scalar>;

@@ -1,6 +1,6 @@
-//! Fields that switch constraints on and off.
+//! Fields that keep the state of a constraint: whether it holds, and whether friction sticks or slides.
 
-use crate::contact::Contact;
+use crate::contact::{Contact, Friction};
 use crate::number::Scalar;
 
 /// A field that says whether a constraint holds.
@@ -12,7 +12,7 @@ pub trait Switch {
 impl Switch for Contact {
     #[inline(always)]
     fn is_on(&self) -> bool {
-        *self == Self::Closed
+        *self != Self::Open
     }
 }
 
@@ -23,8 +23,87 @@ impl Switch for bool {
     }
 }
 
+/// A field that says whether friction sticks or slides.
+pub trait FrictionState {
+    /// Returns the state of the friction; `None` if nothing presses the bodies together.
+    fn friction(&self) -> Option<Friction>;
+
+    /// Sets the state of the friction.
+    fn set_friction(&mut self, state: Friction);
+
+    /// Returns whether it slides.
+    fn slides(&self) -> bool {
+        matches!(self.friction(), Some(Friction::Slides(_)))
+    }
+}
+
+impl FrictionState for Contact {
+    #[inline(always)]
+    fn friction(&self) -> Option<Friction> {
+        match *self {
+            Self::Open => None,
+            Self::Closed => Some(Friction::Sticks),
+            Self::Slides(direction) => Some(Friction::Slides(direction)),
+        }
+    }
+
+    #[inline(always)]
+    fn set_friction(&mut self, state: Friction) {
+        *self = match state {
+            Friction::Sticks => Self::Closed,
+            Friction::Slides(direction) => Self::Slides(direction),
+        };
+    }
+}
+
+impl FrictionState for Friction {
+    #[inline(always)]
+    fn friction(&self) -> Option<Friction> {
+        Some(*self)
+    }
+
+    #[inline(always)]
+    fn set_friction(&mut self, state: Friction) {
+        *self = state;
+    }
+}
+
 /// 1 while the constraint of the field holds, else 0.
 #[inline(always)]
-pub fn switch<T: Scalar>(field: &impl Switch) -> T {
-    T::constant(if field.is_on() { 1.0 } else { 0.0 })
+pub fn holds<T: Scalar>(field: &impl Switch) -> T {
+    one_if(field.is_on())
+}
+
+/// 1 while the friction of the field sticks, else 0.
+#[inline(always)]
+pub fn sticks<T: Scalar>(field: &impl FrictionState) -> T {
+    one_if(field.friction() == Some(Friction::Sticks))
+}
+
+/// 1 while the friction of the field slides, else 0.
+#[inline(always)]
+pub fn slides<T: Scalar>(field: &impl FrictionState) -> T {
+    one_if(field.slides())
+}
+
+/// A component of the direction in which the friction of the field slides; 0 while it does not.
+#[inline(always)]
+pub fn slip<T: Scalar>(field: &impl FrictionState, component: usize) -> T {
+    match field.friction() {
+        Some(Friction::Slides(direction)) => T::constant(direction[component]),
+        _ => T::constant(0.0),
+    }
+}
+
+/// [`slip`] times a speed whose square is still a number, far below that of any motion.
+#[inline(always)]
+pub fn start<T: Scalar>(field: &impl FrictionState, component: usize) -> T {
+    let least = T::constant(1e-100);
+    // Single precision has no such number.
+    let speed = if least == T::constant(0.0) { T::constant(1e-12) } else { least };
+    slip::<T>(field, component) * speed
+}
+
+fn one_if<T: Scalar>(is_so: bool) -> T {
+    T::constant(if is_so { 1.0 } else { 0.0 })
 }

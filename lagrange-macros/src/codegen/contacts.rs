@@ -1,28 +1,50 @@
-//! Emits the contacts: which constraints they are, their fields, and their restitution.
+//! Emits the contacts and friction: which constraints they are, their fields, and their laws.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::emitter::{Emitter, Written};
 use super::shape::ResultShape;
-use crate::contract::RESTITUTION;
+use crate::contract::{FRICTION_LIMIT, Method, RESTITUTION, SLIDING_FRICTION};
+use crate::resolve::Entry;
+use crate::symbolic::Id;
 
 impl Emitter<'_> {
-    /// Items of the trait `Contacts`. `None` if there are no contacts.
+    /// Items of the trait `Contacts`. `None` if there are no contacts and no friction.
     pub(super) fn contacts(&self) -> Option<Written> {
-        let contacts = &self.problem.contacts;
+        let (contacts, frictions) = (&self.problem.contacts, &self.problem.frictions);
+        (!contacts.is_empty() || !frictions.is_empty()).then_some(())?;
         let rows = contacts.iter().map(|contact| contact.row);
-        let places = contacts.iter().map(|contact| self.style.place_of_switch(contact.switch));
-        let (read, set): (Vec<TokenStream>, Vec<TokenStream>) = places
-            .enumerate()
-            .map(|(k, place)| {
-                (quote!(#k => ::core::option::Option::Some(#place),), quote!(#k => #place = contact,))
-            })
-            .unzip();
-        let Written { tokens: restitution, kernels } = self.restitution();
+        let (read, set): (Vec<TokenStream>, Vec<TokenStream>) = self
+            .by_place(contacts.iter().map(|contact| contact.entry), |place| {
+                (quote!(::core::option::Option::Some(#place)), quote!(#place = state))
+            });
+        let (read_friction, set_friction): (Vec<TokenStream>, Vec<TokenStream>) =
+            self.by_place(frictions.iter().map(|friction| friction.entry), |place| {
+                let friction = quote!(__lagrange::generated::FrictionState);
+                (quote!(#friction::friction(&#place)), quote!(#friction::set_friction(&mut #place, state)))
+            });
+        let rows_of_friction = frictions.iter().map(|friction| {
+            let (row, count) = (friction.row, friction.sliding.len());
+            let contact = match friction.contact {
+                Some(contact) => quote!(::core::option::Option::Some(#contact)),
+                None => quote!(::core::option::Option::None),
+            };
+            quote!(__lagrange::contact::FrictionRows { row: #row, count: #count, contact: #contact })
+        });
+        let limits = frictions.iter().map(|friction| friction.bounds[0]).collect();
+        let sliding = frictions.iter().map(|friction| friction.bounds[1]).collect();
+        let laws = [
+            self.law(&RESTITUTION, contacts.iter().map(|contact| contact.restitution).collect()),
+            self.law(&FRICTION_LIMIT, limits),
+            self.law(&SLIDING_FRICTION, sliding),
+        ];
+        let Written { tokens: laws, kernels } = laws.into_iter().collect();
         let tokens = quote! {
             const CONTACTS: &'static [usize] = &[#(#rows),*];
+            const FRICTIONS: &'static [__lagrange::contact::FrictionRows] = &[#(#rows_of_friction),*];
 
+            #[allow(unused_variables)]
             fn contact(&self, index: usize) -> ::core::option::Option<__lagrange::contact::Contact> {
                 match index {
                     #(#read)*
@@ -30,7 +52,8 @@ impl Emitter<'_> {
                 }
             }
 
-            fn set_contact(&mut self, index: usize, contact: __lagrange::contact::Contact) -> bool {
+            #[allow(unused_variables)]
+            fn set_contact(&mut self, index: usize, state: __lagrange::contact::Contact) -> bool {
                 match index {
                     #(#set)*
                     _ => return false,
@@ -38,19 +61,74 @@ impl Emitter<'_> {
                 true
             }
 
-            #restitution
+            #[allow(unused_variables)]
+            fn friction(&self, index: usize) -> ::core::option::Option<__lagrange::contact::Friction> {
+                match index {
+                    #(#read_friction)*
+                    _ => ::core::option::Option::None,
+                }
+            }
+
+            #[allow(unused_variables)]
+            fn set_friction(&mut self, index: usize, state: __lagrange::contact::Friction) -> bool {
+                match index {
+                    #(#set_friction)*
+                    _ => return false,
+                }
+                true
+            }
+
+            #laws
         };
-        (!contacts.is_empty()).then_some(Written { tokens, kernels })
+        Some(Written { tokens, kernels })
     }
 
-    fn restitution(&self) -> Written {
-        let arms = self.problem.contacts.iter().enumerate().map(|(k, contact)| {
+    /// Arms that read and set what entries of fields keep, by index.
+    fn by_place(
+        &self,
+        entries: impl Iterator<Item = Entry>,
+        access: impl Fn(TokenStream) -> (TokenStream, TokenStream),
+    ) -> (Vec<TokenStream>, Vec<TokenStream>) {
+        let arms = entries.enumerate().map(|(k, entry)| {
+            let (read, set) = access(self.style.place_of_state(entry));
+            (quote!(#k => #read,), quote!(#k => #set,))
+        });
+        arms.unzip()
+    }
+
+    /// First constraint whose friction slides, as a multiple of a multiplier. `None` if there is no such friction.
+    pub(super) fn slides(&self) -> Option<TokenStream> {
+        let frictions = self.problem.frictions.iter().filter(|friction| friction.contact.is_some());
+        let arms = frictions.map(|friction| {
+            let (row, place) = (friction.row, self.style.place_of_state(friction.entry));
+            quote! {
+                if __lagrange::generated::FrictionState::slides(&#place) {
+                    return ::core::option::Option::Some(#row);
+                }
+            }
+        });
+        let arms: Vec<TokenStream> = arms.collect();
+        (!arms.is_empty()).then(|| {
+            quote! {
+                const HAS_FRICTION: bool = true;
+
+                fn slides(&self) -> ::core::option::Option<usize> {
+                    #(#arms)*
+                    ::core::option::Option::None
+                }
+            }
+        })
+    }
+
+    /// Method that returns the number of each contact or friction by its index.
+    fn law(&self, method: &Method, numbers: Vec<Id>) -> Written {
+        let arms = numbers.into_iter().enumerate().map(|(k, number)| {
             let shape = [ResultShape::Number];
-            let kernel = self.style.kernel(&format!("restitution_{k}"), &[contact.restitution], &shape);
+            let kernel = self.style.kernel(&format!("{}_{k}", method.name), &[number], &shape);
             let (statements, results) = (&kernel.statements, &kernel.results);
             let tokens = quote!(#k => ::core::option::Option::Some({ #statements #(#results)* }),);
             Written { tokens, kernels: vec![kernel] }
         });
-        self.by_index(&RESTITUTION, arms.collect())
+        self.by_index(method, arms.collect())
     }
 }

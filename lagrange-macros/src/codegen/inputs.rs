@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 
 use super::style::FunctionContext;
-use crate::resolve::Entry;
+use crate::resolve::{Entry, Reading, Switch};
 use crate::symbolic::Symbol;
 use crate::syntax::FieldShape;
 use crate::variables::Variable;
@@ -30,15 +30,22 @@ impl FunctionContext<'_> {
         self.number(self.problem.parameters.entries[k])
     }
 
-    /// Reads a switch from its field, as 0 or 1.
+    /// Reads a switch from its field, as a number.
     fn switch(&self, k: usize) -> TokenStream {
-        let (scalar, place) = (self.types.scalar, self.place_of_switch(k));
-        quote!(__lagrange::generated::switch::<#scalar>(&#place))
+        let Switch { entry, reading } = self.problem.parameters.switches[k];
+        let (scalar, place) = (self.types.scalar, self.place_of_state(entry));
+        match reading {
+            Reading::Holds => quote!(__lagrange::generated::holds::<#scalar>(&#place)),
+            Reading::Sticks => quote!(__lagrange::generated::sticks::<#scalar>(&#place)),
+            Reading::Slides => quote!(__lagrange::generated::slides::<#scalar>(&#place)),
+            Reading::Start(component) => quote!(__lagrange::generated::start::<#scalar>(&#place, #component)),
+            Reading::Slip(component) => quote!(__lagrange::generated::slip::<#scalar>(&#place, #component)),
+        }
     }
 
-    /// Place expression of a switch.
-    pub(super) fn place_of_switch(&self, k: usize) -> TokenStream {
-        self.place(self.problem.parameters.switches[k], None)
+    /// Place expression of the state of a constraint.
+    pub(super) fn place_of_state(&self, entry: Entry) -> TokenStream {
+        self.place(entry, None)
     }
 
     /// Reads a number of a field.

@@ -58,6 +58,7 @@ impl Emitter<'_> {
         let (pack, check_members) = (pack::pack(self.declaration, scalar), self.check_members());
         let markers = markers(self.declaration, &generics, &self.derived.markers);
         let [[_, _, doc], ..] = &self.rendered.forms;
+        let slides = self.slides();
         let has_contacts = contacts.iter().map(|_| {
             quote!(
                 const HAS_CONTACTS: bool = true;
@@ -66,7 +67,7 @@ impl Emitter<'_> {
         let contacts = contacts.iter().map(|Written { tokens, .. }| {
             quote! {
                 #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens, unreachable_code)]
                 impl #impl_generics __lagrange::contact::Contacts for #ident #type_generics #where_clause {
                     #tokens
                 }
@@ -99,6 +100,7 @@ impl Emitter<'_> {
                     #methods
                     #visit_parameters
                     #visit_defects
+                    #slides
                 }
 
                 #[doc = #doc]
@@ -154,7 +156,7 @@ impl Emitter<'_> {
             Quantity::Observable => return self.observable_by_index(method),
             Quantity::Conserved => return self.conserved_by_index(method),
             Quantity::Parameters
-            | Quantity::Restitution
+            | Quantity::Law
             | Quantity::SetParameter
             | Quantity::Slopes
             | Quantity::ResidualChange

@@ -72,6 +72,12 @@ pub(crate) fn implementation(
     let sums = series.as_ref().map_or([0; 2], |series| [series.sums, series.terms]);
     let style = FunctionContext::new(graph, problem, numbers, slopes, sums);
     let emitter = Emitter { declaration, problem, derived, rendered, solving, style };
+    if emitter.solving.is_none() && !problem.frictions.is_empty() {
+        diagnostics.error(
+            problem.place,
+            "this system with friction is too large: its equations are solved in straight-line code, which has too many operations",
+        );
+    }
     for (function, order) in emitter.orders(&[]).into_iter().filter(|(_, order)| *order > FUNCTION_ORDER) {
         let Supplied { name, place, .. } = &problem.functions[function as usize];
         diagnostics.error(*place, format!(

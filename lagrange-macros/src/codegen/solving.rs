@@ -51,8 +51,8 @@ fn entries<'a>(form: &'a Form, equations: &'a Equations, others: impl Iterator<I
     let definitions = form.definitions.iter().flatten().map(|(_, entry)| entry);
     let matrices = form.matrix.iter().chain(&equations.jacobian).flatten();
     let weights = form.completing.iter().map(|(_, weight)| weight);
-    let rows = form.rows.iter().flatten().flatten();
-    let compliance = &equations.compliance;
+    let rows = form.rows.iter().chain(&form.columns).flatten().flatten();
+    let compliance = equations.compliance.iter().chain(equations.coupling.iter().map(|(_, _, entry)| entry));
     matrices.chain(compliance).chain(definitions).chain(rows).chain(weights).chain(others).copied().collect()
 }
 

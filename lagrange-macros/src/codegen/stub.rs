@@ -10,10 +10,13 @@ use super::markers::markers;
 use super::observables::method_name;
 use super::pack::pack;
 use super::signature::Types;
-use crate::contract::{LAGRANGIAN, LINEARIZED, Method, RESTITUTION, STATE_DERIVATIVES, TAYLOR_SERIES};
+use crate::contract::{
+    FRICTION_LIMIT, LAGRANGIAN, LINEARIZED, Method, RESTITUTION, SLIDING_FRICTION, STATE_DERIVATIVES,
+    TAYLOR_SERIES,
+};
 use crate::mechanics::Marker;
 use crate::resolve::{Observable, Outline};
-use crate::syntax::Declaration;
+use crate::syntax::{Declaration, Law};
 
 /// Emits implementations that never run, because the errors beside them stop the compilation.
 ///
@@ -38,17 +41,22 @@ pub(crate) fn stub(
     let (of_lagrangian, of_linearized) = (LAGRANGIAN.iter().map(never), LINEARIZED.iter().map(never));
     let of_state_derivatives = STATE_DERIVATIVES.iter().map(never);
     let of_taylor_series = TAYLOR_SERIES.iter().map(never);
-    let has_contacts = declaration.constraints.iter().any(|constraint| constraint.contact.is_some());
+    let has_contacts =
+        declaration.constraints.iter().any(|constraint| !matches!(constraint.law, Law::Equation));
     let contacts = has_contacts.then(|| {
-        let restitution = never(&RESTITUTION);
+        let laws = [RESTITUTION, FRICTION_LIMIT, SLIDING_FRICTION];
+        let laws = laws.iter().map(never);
         quote! {
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
             impl #impl_generics __lagrange::contact::Contacts for #ident #type_generics #where_clause {
                 const CONTACTS: &'static [usize] = &[];
                 fn contact(&self, index: usize) -> ::core::option::Option<__lagrange::contact::Contact> { loop {} }
-                fn set_contact(&mut self, index: usize, contact: __lagrange::contact::Contact) -> bool { loop {} }
-                #restitution
+                fn set_contact(&mut self, index: usize, state: __lagrange::contact::Contact) -> bool { loop {} }
+                const FRICTIONS: &'static [__lagrange::contact::FrictionRows] = &[];
+                fn friction(&self, index: usize) -> ::core::option::Option<__lagrange::contact::Friction> { loop {} }
+                fn set_friction(&mut self, index: usize, state: __lagrange::contact::Friction) -> bool { loop {} }
+                #(#laws)*
             }
         }
     });

@@ -1,5 +1,7 @@
 //! The constraints and their derivatives: the Jacobian F, the bias γ and the kind of each constraint.
 
+use std::collections::BTreeSet;
+
 use ConstraintKind::{Holonomic, Velocity};
 
 use super::evidence::vanishes;
@@ -25,8 +27,13 @@ pub(super) struct Constraints {
     pub(super) rate: Vec<Id>,
     pub(super) jacobian: Vec<Vec<Id>>,
     pub(super) bias: Vec<Id>,
-    /// c of F q̈ + γ + c λ = 0: zero, but 1 while a switched constraint does not hold, so that its λ is zero.
+    /// Diagonal of c in F q̈ + γ + c λ = 0: zero, but 1 while a switched constraint does not hold, so that its λ is zero, or
+    /// that of sliding friction.
     pub(super) compliance: Vec<Id>,
+    /// Entries of c beside its diagonal, each with its row and column: friction that slides is a multiple of λ of its contact.
+    pub(super) coupling: Vec<(usize, usize, Id)>,
+    /// −λ of friction that slides, with multipliers as symbols; zero for other constraints.
+    pub(super) sliding: Vec<Id>,
 }
 
 impl Constraints {
@@ -58,6 +65,19 @@ impl Constraints {
         self.bias.push(drift.of(graph, rate));
         self.jacobian.push(jacobian);
         wrong
+    }
+
+    /// Adds the law of friction that slides.
+    fn slide(&mut self, graph: &mut Graph, problem: &Problem) {
+        self.sliding = vec![Id::ZERO; self.kinds.len()];
+        for friction in &problem.frictions {
+            for (row, &force) in (friction.row..).zip(&friction.sliding) {
+                self.sliding[row] = graph.neg(force);
+                let Multiples { rest, of } = Multiples::of(graph, self.sliding[row]);
+                self.bias[row] = graph.add(self.bias[row], rest);
+                self.coupling.extend(of.into_iter().map(|(column, entry)| (row, column, entry)));
+            }
+        }
     }
 
     /// Σ_α λ_α F_αa for each coordinate a.
@@ -92,6 +112,26 @@ impl Constraints {
     }
 }
 
+/// An expression that is linear in the multipliers: the multiple of each in it, and the rest.
+pub(super) struct Multiples {
+    pub(super) rest: Id,
+    pub(super) of: Vec<(usize, Id)>,
+}
+
+impl Multiples {
+    pub(super) fn of(graph: &mut Graph, expression: Id) -> Self {
+        let multiplier = |symbol| match Variable::of(symbol) {
+            Variable::Multiplier(a) => Some(a),
+            _ => None,
+        };
+        let all: BTreeSet<usize> = graph.symbols(&[expression]).filter_map(multiplier).collect();
+        let slopes = all.iter().map(|&a| Variable::Multiplier(a).symbol()).collect::<Vec<_>>();
+        let of = all.into_iter().zip(graph.gradient(expression, &slopes)).collect();
+        let rest = graph.substituted(expression, |symbol| multiplier(symbol).map(|_| Id::ZERO));
+        Self { rest, of }
+    }
+}
+
 /// Differentiates the constraints. Reports malformed ones, and then returns `None`.
 pub(super) fn derive(
     graph: &mut Graph,
@@ -106,6 +146,7 @@ pub(super) fn derive(
         }
         diagnostics.stop_at_fault(label.place, graph);
     }
+    constraints.slide(graph, problem);
     diagnostics.is_empty().then_some(constraints)
 }
 

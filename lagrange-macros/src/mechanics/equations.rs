@@ -2,7 +2,7 @@
 //! evaluates.
 
 use super::completion::Completed;
-use super::constraints::ConstraintKind;
+use super::constraints::{ConstraintKind, Multiples};
 use super::coordinates::Coordinates;
 use super::euler_lagrange::{Momenta, energy};
 use super::form::Form;
@@ -43,15 +43,19 @@ pub(crate) struct Equations {
     pub(crate) jacobian: Vec<Vec<Id>>,
     /// γ of F q̈ + γ = 0
     pub(crate) bias: Vec<Id>,
-    /// c of F q̈ + γ + c λ = 0: zero, but 1 while a switched constraint does not hold
+    /// Diagonal of c in F q̈ + γ + c λ = 0: zero, but 1 while a switched constraint does not hold
     pub(crate) compliance: Vec<Id>,
-    /// Fᵀλ, with the multipliers λ as symbols
+    /// Entries of c beside its diagonal, each with its row and column
+    pub(crate) coupling: Vec<(usize, usize, Id)>,
+    /// h to be printed, without switches
+    pub(crate) printed_forcing: Vec<Id>,
+    /// Fᵀλ and forces that are multiples of multipliers, with the multipliers λ as symbols
     pub(crate) constraint_force: Vec<Id>,
-    /// Fᵀλ to be printed, without switches: where a constraint does not hold, its λ is zero
+    /// Fᵀλ to be printed, without switches: where a constraint does not hold, its λ is zero, and that of friction is its force
     pub(crate) printed_force: Vec<Id>,
     /// d/dt p − ∂L/∂q − Q − Fᵀλ, with accelerations and multipliers as symbols
     pub(crate) balance: Vec<Id>,
-    /// d/dt (F q̇ + b), with accelerations as symbols
+    /// d/dt (F q̇ + b), and what friction that slides adds to it, with accelerations and multipliers as symbols
     pub(crate) constraint_acceleration: Vec<Id>,
     /// Equivalent quadratic forms of M and h, completed by constraints where M is singular. The first has the
     /// accelerations as its only variables.
@@ -71,7 +75,7 @@ impl Equations {
         let momenta = Momenta::of(graph, problem);
         let coordinates = Coordinates { problem, momenta: &momenta };
         let formulation: &dyn Formulation = twists.as_ref().map_or(&coordinates, |twists| twists);
-        let (mass, forcing) = formulation.mass_and_forcing(graph);
+        let (mass, mut forcing) = formulation.mass_and_forcing(graph);
         let energy = energy(graph, problem, &momenta.momentum);
         diagnostics.stop_at_fault(problem.place, graph)?;
         dissipation::check(graph, problem, diagnostics);
@@ -80,14 +84,27 @@ impl Equations {
         determinacy::check(problem, &mass, &constraints, diagnostics)?;
         let integrability = integrability::classify(graph, problem, &constraints);
         let forms = Form::all(graph, problem, formulation, (&mass, &forcing), &constraints);
-        let completed = Completed::of(graph, (&momenta, &mass), &constraints, &forms[0].completing);
         let constraint_force = constraints.force(graph);
         let printed_force = without_switches(graph, problem, &constraint_force);
         let mut along_motion = total_time_derivative(graph, problem.coordinates.len());
+        let acceleration = |(&rate, &sliding): (&Id, &Id)| {
+            let acceleration = along_motion.of(graph, rate);
+            graph.add(acceleration, sliding)
+        };
         let constraint_acceleration =
-            constraints.rate.iter().map(|&rate| along_motion.of(graph, rate)).collect();
+            constraints.rate.iter().zip(&constraints.sliding).map(acceleration).collect();
+        let balance = balance(graph, formulation, &constraint_force);
+        let mut momenta = momenta;
+        let mut constraint_force = constraint_force;
+        if !problem.frictions.is_empty() {
+            without_multiples(graph, &mut forcing);
+            let multiples = without_multiples(graph, &mut momenta.rate);
+            constraint_force.iter_mut().zip(multiples).for_each(|(sum, more)| *sum = graph.add(*sum, more));
+        }
+        let completed = Completed::of(graph, (&momenta, &mass), &constraints, &forms[0].completing);
         Some(Self {
-            balance: balance(graph, formulation, &constraint_force),
+            printed_forcing: without_switches(graph, problem, &forcing),
+            balance,
             forms,
             completed,
             integrability,
@@ -110,6 +127,7 @@ impl Equations {
             jacobian: constraints.jacobian,
             bias: constraints.bias,
             compliance: constraints.compliance,
+            coupling: constraints.coupling,
         })
     }
 
@@ -136,11 +154,21 @@ fn balance(graph: &mut Graph, formulation: &dyn Formulation, constraint_force: &
     balance
 }
 
-/// Expressions with all switches on.
-fn without_switches(graph: &mut Graph, problem: &Problem, expressions: &[Id]) -> Vec<Id> {
+/// Takes the multiples of multipliers out of expressions, and returns them.
+fn without_multiples(graph: &mut Graph, expressions: &mut [Id]) -> Vec<Id> {
+    let multiples = expressions.iter_mut().map(|expression| {
+        let Multiples { rest, .. } = Multiples::of(graph, *expression);
+        let whole = std::mem::replace(expression, rest);
+        graph.sub(whole, rest)
+    });
+    multiples.collect()
+}
+
+/// Expressions with all switches on, and without forces of friction that slides: these are its multipliers.
+pub(super) fn without_switches(graph: &mut Graph, problem: &Problem, expressions: &[Id]) -> Vec<Id> {
     if problem.parameters.switches.is_empty() {
         return expressions.to_vec();
     }
-    let on = |symbol| matches!(Variable::of(symbol), Variable::Switch(_)).then_some(Id::ONE);
+    let on = |symbol| problem.parameters.switched_on(symbol);
     expressions.iter().map(|&expression| graph.substituted(expression, on)).collect()
 }

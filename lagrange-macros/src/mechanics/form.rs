@@ -17,6 +17,8 @@ pub(crate) struct Form {
     pub(crate) definitions: Vec<Vec<(usize, Id)>>,
     /// Constraint Jacobian F over x; `None` if F over the accelerations alone applies.
     pub(crate) rows: Option<Vec<Vec<Id>>>,
+    /// F and forces that are multiples of multipliers, over x, a row for each multiplier; `None` if there are no such forces.
+    pub(crate) columns: Option<Vec<Vec<Id>>>,
     /// b_i/H_ii of each acceleration that is coupled to no other variable.
     pub(crate) alone: Vec<Option<Id>>,
     /// Each constraint a, with its weight σ_a, that adds σ_a F_aᵀF_a to H and −σ_a γ_a F_a to b. A solve for another h
@@ -34,7 +36,7 @@ impl Form {
 
     pub(super) fn new(matrix: Vec<Vec<Id>>, linear: Vec<Id>, definitions: Vec<Vec<(usize, Id)>>) -> Self {
         let alone = vec![None; matrix.len()];
-        Self { matrix, linear, definitions, rows: None, alone, completing: Vec::new() }
+        Self { matrix, linear, definitions, rows: None, columns: None, alone, completing: Vec::new() }
     }
 
     /// Adds the constraint Jacobian over all variables of the form.

@@ -94,7 +94,7 @@ fn rates(
     let rate = |(i, (slope, force)): (usize, (Id, Id))| {
         let force = graph.substituted(force, |symbol| match Variable::of(symbol) {
             Variable::Velocity(i) => Some(velocities[i]),
-            _ => None,
+            _ => problem.parameters.switched_on(symbol),
         });
         let applied = graph.sub(force, slope);
         graph.add(applied, equations.printed_force.get(i).copied().unwrap_or(Id::ZERO))

@@ -90,7 +90,7 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
 
 /// Replaces the intermediate names of frames by their values, which shortens the printed equations.
 fn read(graph: &mut Graph, equations: &Equations, inertia: &[Id]) -> FxHashMap<Id, Id> {
-    let Equations { forcing, momentum, energy, printed_force, .. } = equations;
-    let all = [inertia, forcing, momentum, &[*energy], printed_force].concat();
+    let Equations { printed_forcing, momentum, energy, printed_force, .. } = equations;
+    let all = [inertia, printed_forcing, momentum, &[*energy], printed_force].concat();
     all.into_iter().map(|id| (id, shorter(graph, id))).collect()
 }

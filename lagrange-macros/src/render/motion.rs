@@ -15,7 +15,7 @@ impl Page<'_> {
     pub(super) fn motion(&self) -> Vec<Line> {
         let Derived { equations, inertia, .. } = self.derived;
         let right = |i: usize| {
-            let right = [Some(&equations.forcing[i]), equations.printed_force.get(i)];
+            let right = [Some(&equations.printed_forcing[i]), equations.printed_force.get(i)];
             right.into_iter().flatten().copied().filter(|&part| part != Id::ZERO).collect::<Vec<_>>()
         };
         let mut rows: Vec<(Id, Vec<Id>)> =

@@ -10,7 +10,7 @@ use super::reading::Names;
 use super::remark::Fragment;
 use crate::symbolic::{Rational, Scaled};
 use crate::syntax::{
-    Constraint, Declaration, Define, Expression, FrameDeclaration, Kind, Operator, Power, Sign, Target,
+    Constraint, Declaration, Define, Expression, FrameDeclaration, Kind, Law, Operator, Power, Sign, Target,
     TargetIndex, normal_form,
 };
 
@@ -77,7 +77,7 @@ impl Page<'_> {
     }
 
     pub(super) fn constraints(&self) -> Vec<Line> {
-        let line = |Constraint { target, left, right, is_implied, when, contact }: &Constraint| {
+        let line = |Constraint { target, left, right, is_implied, when, law }: &Constraint| {
             let name = &target.name.text;
             let is_it = |text: &str| text == name || text.starts_with(&format!("{name}["));
             let rows = self.problem.constraints.iter().enumerate();
@@ -90,10 +90,14 @@ impl Page<'_> {
             let mut remark = self.kinds(rows.into_iter());
             if let Some(field) = when {
                 let field = Formula::labelled(&field.text, 0);
-                let is = if contact.is_some() { " is closed" } else { " is true" };
+                let is = match law {
+                    Law::Equation => " is true",
+                    Law::Contact { .. } => " is closed",
+                    Law::Coulomb { .. } | Law::Dry { .. } => " sticks",
+                };
                 remark.and(vec![Fragment::words("while "), Fragment::Formula(field), Fragment::words(is)]);
             }
-            if contact.is_some() {
+            if matches!(law, Law::Contact { .. }) {
                 remark.and(vec![Fragment::words("a contact, whose gap and multiplier are never negative")]);
             }
             Some(Line {

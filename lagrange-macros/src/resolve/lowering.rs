@@ -7,7 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::family::Family;
 use super::frames::Frames;
 use super::parameters::Parameters;
-use super::problem::ContactRow;
+use super::problem::{ContactRow, FrictionRows};
 use super::scope::Scope;
 use super::turns::Turns;
 use super::value::Value;
@@ -87,6 +87,7 @@ pub(super) struct Lowering<'a> {
     /// Switch of each constraint that has one.
     pub(super) switches: Vec<Option<Id>>,
     pub(super) contacts: Vec<ContactRow>,
+    pub(super) frictions: Vec<FrictionRows>,
     pub(super) observables: Vec<(String, Value)>,
     pub(super) setting: Setting,
     /// True while the outline is read: an erroneous expression gets a stand-in value.
@@ -142,6 +143,7 @@ impl<'a> Lowering<'a> {
             multipliers: Vec::new(),
             switches: Vec::new(),
             contacts: Vec::new(),
+            frictions: Vec::new(),
             observables: Vec::new(),
             setting: Setting::Equations,
             is_guessing: false,

@@ -10,6 +10,7 @@ mod expression;
 mod family;
 mod forces;
 mod frames;
+mod friction;
 mod function;
 mod in_turn;
 mod index;
@@ -38,7 +39,7 @@ pub(crate) use function::Supplied;
 pub(crate) use label::{Label, entry_names, labels};
 use lowering::Lowering;
 pub(crate) use outline::{Observable, Outline, outline};
-pub(crate) use parameters::{Entry, Parameters};
+pub(crate) use parameters::{Entry, Parameters, Reading, Switch};
 pub(crate) use problem::{Observed, Problem};
 use scope::Scope;
 pub(crate) use scope::is_built_in;
@@ -57,19 +58,21 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     }
     let terms = lowering.terms(declaration);
     let forces = lowering.forces(declaration);
-    let powers = lowering.powers(declaration);
+    let mut powers = lowering.powers(declaration);
     let dissipation =
         declaration.dissipation.as_ref().map(|function| (lowering.scalar(function), function.place));
     if let Some((Some(value), place)) = dissipation {
         lowering.reject_kink("a dissipation function", value, place);
     }
-    let constraints = lowering.constraints(&declaration.constraints);
+    let constraints = lowering.constraints(&declaration.constraints, &mut powers);
     let observables = lowering.observables(declaration);
     let conserved = lowering.conserved(declaration, &observables);
     let names = lowering.names(declaration);
     let frames_are_cheaper = lowering.frames_are_cheaper();
     let coordinates = labels(declaration);
-    let Lowering { mut graph, parameters, diagnostics, frames, mut rates, switches, contacts, .. } = lowering;
+    let Lowering {
+        mut graph, parameters, diagnostics, frames, mut rates, switches, contacts, frictions, ..
+    } = lowering;
     rates.sort_unstable();
     rates.dedup();
     // Scalar types are checked after the shapes: a shape error may come from a type mistaken for a number.
@@ -92,6 +95,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         constraints,
         switches,
         contacts,
+        frictions,
         observables,
         conserved,
         parameters,

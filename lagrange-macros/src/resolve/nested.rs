@@ -34,6 +34,11 @@ impl Problem {
         }
         self.dissipation.iter_mut().for_each(|(function, _)| visit(function));
         self.constraints.iter_mut().for_each(|(_, constraint)| visit(constraint));
+        for friction in &mut self.frictions {
+            friction.sliding.iter_mut().chain(&mut friction.bounds).for_each(&mut visit);
+        }
+        self.switches.iter_mut().flatten().for_each(&mut visit);
+        self.contacts.iter_mut().for_each(|contact| visit(&mut contact.restitution));
         self.observables.iter_mut().flat_map(|observed| &mut observed.values).for_each(visit);
     }
 }

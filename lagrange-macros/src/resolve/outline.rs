@@ -55,7 +55,7 @@ pub(crate) fn outline(declaration: &Declaration) -> Outline {
             lowering.with_indices(indices, &element, |lowering| lowering.lower(expression));
         }
     }
-    let rows = lowering.constraints(&declaration.constraints);
+    let rows = lowering.constraints(&declaration.constraints, &mut Vec::new());
     let is_row_of = |label: &Label, name: &str| {
         label.text.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
     };

@@ -6,7 +6,7 @@ use quote::ToTokens;
 use super::unknown::{nearest, or_meant};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
-use crate::symbolic::Graph;
+use crate::symbolic::{Graph, Id, Symbol};
 use crate::syntax::{
     Declaration, Expression, Fact, Field, FieldShape, Kind, Layout, Name, Operator, Parameter, Property,
     numbers,
@@ -15,6 +15,9 @@ use crate::variables::Variable;
 
 /// Type of the field that says whether a contact is open or closed.
 pub(super) const CONTACT: &str = "Contact";
+
+/// Type of the field that says whether dry friction sticks or slides.
+pub(super) const FRICTION: &str = "Friction";
 
 /// Maximum number of parameters. Each one has a name and a place in the generated code.
 const NUMBER_LIMIT: usize = 10_000;
@@ -26,13 +29,34 @@ pub(crate) struct Entry {
     pub(crate) number: usize,
 }
 
+/// A number that the state of a constraint, kept in an entry of a field, stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct Switch {
+    pub(crate) entry: Entry,
+    pub(crate) reading: Reading,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum Reading {
+    /// 1 while the constraint holds, else 0.
+    Holds,
+    /// 1 while friction keeps the bodies together, else 0.
+    Sticks,
+    /// 1 while friction slides, else 0.
+    Slides,
+    /// Component of the direction in which friction slides, else 0.
+    Slip(usize),
+    /// This component times a speed so small that it is lost beside any other.
+    Start(usize),
+}
+
 /// Fields as expressions see them, members of structs included.
 pub(crate) struct Parameters {
     pub(crate) fields: Vec<Field>,
     /// Entries of fields that expressions use; `Variable::Parameter(k)` is entry k.
     pub(crate) entries: IndexSet<Entry>,
     /// Entries of fields that switch constraints; `Variable::Switch(k)` is switch k.
-    pub(crate) switches: IndexSet<Entry>,
+    pub(crate) switches: IndexSet<Switch>,
     /// Interval of each field from which random test values are drawn.
     pub(crate) ranges: Vec<(f64, f64)>,
     /// Matrix property of each field, as given by a `parameter` attribute.
@@ -196,12 +220,16 @@ impl Parameters {
         (name, ty): (&Name, &str),
         element: &[usize],
         diagnostics: &mut Diagnostics,
-    ) -> Option<usize> {
+    ) -> Option<Entry> {
         let written = element.iter().rfold(ty.to_owned(), |ty, i| format!("[{ty}; {}]", i + 1));
         let Some(field) = self.fields.iter().position(|field| field.name.text == name.text) else {
             let message = match ty {
                 CONTACT => format!(
                     "a contact is open or closed, which a field of its name says: add `{}: {written}`",
+                    name.text
+                ),
+                FRICTION => format!(
+                    "friction sticks or slides, which a field of its name says: add `{}: {written}`",
                     name.text
                 ),
                 _ => {
@@ -214,7 +242,7 @@ impl Parameters {
             return None;
         };
         let lengths = self.lengths_of_switch(field, ty);
-        let is_shared = ty != CONTACT && lengths.as_ref().is_some_and(Vec::is_empty);
+        let is_shared = ty == "bool" && lengths.as_ref().is_some_and(Vec::is_empty);
         let holds = |lengths: &Vec<usize>| {
             lengths.len() == element.len() && element.iter().zip(lengths).all(|(i, length)| i < length)
         };
@@ -224,7 +252,21 @@ impl Parameters {
             return self.report_once(field, error, diagnostics);
         };
         let number = element.iter().zip(&lengths).fold(0, |number, (i, length)| number * length + i);
-        Some(self.switches.insert_full(Entry { field, number }).0)
+        Some(Entry { field, number })
+    }
+
+    /// Variable for a reading of a switch.
+    pub(super) fn reading(&mut self, entry: Entry, reading: Reading) -> Variable {
+        Variable::Switch(self.switches.insert_full(Switch { entry, reading }).0)
+    }
+
+    /// Value of a switch while all constraints hold, so that friction sticks.
+    pub(crate) fn switched_on(&self, symbol: Symbol) -> Option<Id> {
+        let Variable::Switch(k) = Variable::of(symbol) else { return None };
+        Some(match self.switches[k].reading {
+            Reading::Holds | Reading::Sticks => Id::ONE,
+            Reading::Slides | Reading::Slip(_) | Reading::Start(_) => Id::ZERO,
+        })
     }
 
     /// Lengths of a field of switches of this type; `None` for a field of another type.
@@ -236,7 +278,7 @@ impl Parameters {
 
     /// Name of switch `k`: that of its field.
     pub(crate) fn name_of_switch(&self, k: usize) -> String {
-        let entry = self.switches[k];
+        let Switch { entry, .. } = self.switches[k];
         self.element(entry.field, &self.indices(entry))
     }
 

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use super::frames::{Body, Frame};
 use super::function::Supplied;
 use super::label::{Label, entry_names};
-use super::parameters::Parameters;
+use super::parameters::{Entry, Parameters};
 use crate::diagnostics::Place;
 use crate::symbolic::Id;
 
@@ -30,6 +30,7 @@ pub(crate) struct Problem {
     /// Switch of each constraint that has one: its factor in the residual, 1 while the constraint holds, else 0.
     pub(crate) switches: Vec<Option<Id>>,
     pub(crate) contacts: Vec<ContactRow>,
+    pub(crate) frictions: Vec<FrictionRows>,
     pub(crate) observables: Vec<Observed>,
     /// Indices of the observables declared as conserved, with the source position of each.
     pub(crate) conserved: Vec<(usize, Place)>,
@@ -50,10 +51,25 @@ pub(crate) struct Problem {
 pub(crate) struct ContactRow {
     /// Index of the constraint.
     pub(crate) row: usize,
-    /// Index of its switch.
-    pub(crate) switch: usize,
+    /// Entry of the field that says whether it is closed.
+    pub(crate) entry: Entry,
     /// Newton's coefficient of restitution
     pub(crate) restitution: Id,
+}
+
+/// Friction: constraints that hold while bodies stick to one another, and else a force against the velocity.
+pub(crate) struct FrictionRows {
+    /// Index of the first constraint; one follows for a second velocity.
+    pub(crate) row: usize,
+    /// Multipliers while it slides, one for each velocity.
+    pub(crate) sliding: Vec<Id>,
+    /// Entry of the field that says whether it sticks.
+    pub(crate) entry: Entry,
+    /// Index of the contact that presses the bodies together; none for dry friction.
+    pub(crate) contact: Option<usize>,
+    /// Largest force while the bodies stick, and the sliding force, as multiples of the multiplier of the contact if there
+    /// is one.
+    pub(crate) bounds: [Id; 2],
 }
 
 /// An observable: a scalar, a vector or a matrix.

@@ -7,14 +7,14 @@ use super::expression::is_literal_zero;
 use super::family::Family;
 use super::label::{Label, element_name, entry_names};
 use super::lowering::{Definition, Lowering, MultiplierGroup, Setting};
-use super::parameters::CONTACT;
-use super::problem::{ContactRow, Observed};
+use super::parameters::Reading;
+use super::problem::Observed;
 use super::value::Value;
 use crate::contract::is_reserved;
 use crate::diagnostics::Place;
 use crate::symbolic::{Id, Rational};
-use crate::syntax::{Constraint, ContactLaw, Declaration, Expression, Name, Named, Sign};
-use crate::variables::{Variable, has_velocity};
+use crate::syntax::{Constraint, Declaration, Expression, Law, Name, Named, Sign};
+use crate::variables::Variable;
 
 /// Maximum number of constraints. It equals the limit on coordinates: more constraints would be dependent.
 const CONSTRAINT_LIMIT: usize = 1000;
@@ -64,7 +64,12 @@ impl Lowering<'_> {
         conserved
     }
 
-    pub(super) fn constraints(&mut self, constraints: &[Constraint]) -> Vec<(Label, Id)> {
+    /// Constraints, and the forces of friction with the velocities that they act along.
+    pub(super) fn constraints(
+        &mut self,
+        constraints: &[Constraint],
+        powers: &mut Vec<(Id, Id)>,
+    ) -> Vec<(Label, Id)> {
         let mut rows: Vec<(Label, Id)> = Vec::new();
         let mut seen: IndexMap<String, (Place, usize)> = IndexMap::new();
         for constraint in constraints {
@@ -87,7 +92,7 @@ impl Lowering<'_> {
                 _ => seen.insert(name.text.clone(), (name.place, indices.len())),
             };
             for element in self.elements(indices) {
-                self.constraint(constraint, &element, &mut rows);
+                self.constraint(constraint, &element, &mut rows, powers);
                 if rows.len() > CONSTRAINT_LIMIT {
                     let message = format!("a system has at most {CONSTRAINT_LIMIT} constraints");
                     self.diagnostics.error(name.place, message);
@@ -103,7 +108,13 @@ impl Lowering<'_> {
         self.diagnostics.push(name.place.error_beside(message, other, "the other one is here"));
     }
 
-    fn constraint(&mut self, constraint: &Constraint, element: &[usize], rows: &mut Vec<(Label, Id)>) {
+    fn constraint(
+        &mut self,
+        constraint: &Constraint,
+        element: &[usize],
+        rows: &mut Vec<(Label, Id)>,
+        powers: &mut Vec<(Id, Id)>,
+    ) {
         let indices = &constraint.target.indices;
         let residual = self.with_indices(indices, element, |lowering| lowering.residual(constraint));
         let Some(residual) = residual else { return };
@@ -112,12 +123,17 @@ impl Lowering<'_> {
         }
         let place = constraint.left.place.to(constraint.right.place);
         residual.flat().into_iter().for_each(|row| self.reject_kink("a constraint", row, place));
-        let switch = self.switch(constraint, element);
-        if let Some(law) = &constraint.contact {
-            self.contact(law, (constraint, element), rows.len(), switch);
-            self.check_gap(&residual, place);
+        let entry = self.entry_of_state(constraint, element);
+        match &constraint.law {
+            Law::Equation => {}
+            Law::Contact { restitution } => {
+                self.contact(restitution.as_ref(), (constraint, element), rows.len(), entry);
+                self.check_gap(&residual, place);
+            }
+            law => self.friction(law, (constraint, element), (&residual, rows.len()), entry, powers),
         }
-        let switch = switch.map(|switch| self.graph.symbol(Variable::Switch(switch).symbol()));
+        let holds = if constraint.law.is_friction() { Reading::Sticks } else { Reading::Holds };
+        let switch = entry.map(|entry| self.read(entry, holds));
         // A switch of 0 leaves the equation 0 = 0, and no force.
         let residual =
             switch.map_or(residual.clone(), |switch| residual.map(&mut |row| self.graph.mul(switch, row)));
@@ -141,38 +157,6 @@ impl Lowering<'_> {
             self.multipliers.len() - 1
         });
         self.multipliers[group].elements.insert(element.to_vec(), symbols);
-    }
-
-    fn check_gap(&mut self, gap: &Value, place: Place) {
-        if gap.as_scalar().is_none() {
-            self.diagnostics.error(place, format!("a gap is a number, but this is {}", gap.shape()));
-        }
-        if has_velocity(&self.graph, &gap.flat()) {
-            let message = "a gap is a distance, a function of the coordinates and the time: velocities have no place in it";
-            self.diagnostics.error(place, message);
-        }
-    }
-
-    /// Index of the switch of a constraint, if it has one.
-    fn switch(&mut self, constraint: &Constraint, element: &[usize]) -> Option<usize> {
-        let ty = if constraint.contact.is_some() { CONTACT } else { "bool" };
-        let field = constraint.when.as_ref()?;
-        self.parameters.switch((field, ty), element, self.diagnostics)
-    }
-
-    fn contact(
-        &mut self,
-        law: &ContactLaw,
-        (constraint, element): (&Constraint, &[usize]),
-        row: usize,
-        switch: Option<usize>,
-    ) {
-        let restitution = self.with_indices(&constraint.target.indices, element, |lowering| {
-            law.restitution.as_ref().map_or(Some(Id::ZERO), |value| lowering.scalar(value))
-        });
-        if let (Some(switch), Some(restitution)) = (switch, restitution) {
-            self.contacts.push(ContactRow { row, switch, restitution });
-        }
     }
 
     /// Returns whether the residual |q|² − 1 belongs to a quaternion that turns a frame. After an error this may be

@@ -3,13 +3,12 @@
 
 use syn::{Attribute, Data, DeriveInput, Fields, MacroDelimiter, Meta, Result};
 
+use super::constraint::{constraint, contact, friction};
 use super::cursor::Cursor;
 use super::declaration::{Declaration, Options};
 use super::digest::digest;
 use super::field::Field;
-use super::forms::{
-    FORMS, constraint, contact, coordinates, define, force, form, function, observable, only, options, power,
-};
+use super::forms::{FORMS, coordinates, define, force, form, function, observable, only, options, power};
 use super::frame::{frame, unit_constraints};
 use super::parameter::parameter;
 use crate::diagnostics::{Diagnostics, Place};
@@ -124,6 +123,7 @@ fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Res
         "lagrangian" => only(cursor, &mut declaration.lagrangian)?,
         "constraint" => constraint(cursor, &mut declaration.constraints)?,
         "contact" => contact(cursor, &mut declaration.constraints)?,
+        "friction" => friction(cursor, &mut declaration.constraints)?,
         "force" => force(cursor, &mut declaration.forces)?,
         "power" => declaration.powers.push(power(cursor)?),
         "dissipation" => only(cursor, &mut declaration.dissipation)?,

@@ -88,17 +88,30 @@ pub(crate) struct Constraint {
     pub(crate) right: Expression,
     /// True for the unit constraint that is implied by a frame rotated by a quaternion.
     pub(crate) is_implied: bool,
-    /// Field that says whether the constraint holds; without one it always does. That of a contact has its name.
+    /// Field that says whether the constraint holds; without one it always does. That of a contact or of friction has its
+    /// name.
     pub(crate) when: Option<Name>,
-    /// Law of a contact, `#[contact(name: left >= right)]`, whose gap is left − right.
-    pub(crate) contact: Option<ContactLaw>,
+    pub(crate) law: Law,
 }
 
-/// What follows the gap in `#[contact(name: gap >= 0, restitution: e)]`.
+/// What holds where a constraint does not, and between its multiplier and its rate where it does.
 #[derive(Debug)]
-pub(crate) struct ContactLaw {
-    /// Newton's coefficient of restitution; zero if it is not given.
-    pub(crate) restitution: Option<Expression>,
+pub(crate) enum Law {
+    /// The equation alone.
+    Equation,
+    /// `#[contact(name: left >= right, restitution: e)]`, whose gap is left − right.
+    Contact {
+        /// Newton's coefficient of restitution; zero if it is not given.
+        restitution: Option<Expression>,
+    },
+    /// `friction(mu): velocity` of the contact before.
+    Coulomb { coefficient: Expression },
+    /// `#[friction(name: velocity, limit: bound, sliding: force)]`
+    Dry {
+        /// Largest force while the bodies stick; the sliding force if it is not given.
+        limit: Option<Expression>,
+        sliding: Expression,
+    },
 }
 
 /// `#[force(coordinate: expression)]`

@@ -5,13 +5,11 @@ use quote::ToTokens;
 use syn::Result;
 
 use super::cursor::Cursor;
-use super::declaration::{
-    Constraint, ContactLaw, Coordinate, Define, Force, FunctionDeclaration, Named, Options, Power,
-};
+use super::declaration::{Coordinate, Define, Force, FunctionDeclaration, Named, Options, Power};
 use super::expression::{self, Expression, Kind};
 use super::field::{LENGTH_LIMIT, NOT_A_LITERAL, numbers};
 use super::name::Name;
-use super::target::{Target, running, target};
+use super::target::{running, target};
 use super::unread::unread;
 use crate::diagnostics::Place;
 
@@ -23,7 +21,7 @@ const COORDINATE_LIMIT: usize = 1000;
 const RESULT_LIMIT: usize = 1000;
 
 /// Names of the attributes, with an example of each for error messages.
-pub(super) const FORMS: [(&str, &str); 14] = [
+pub(super) const FORMS: [(&str, &str); 15] = [
     ("coordinates", "#[coordinates(x, y)]"),
     ("define", "#[define(name = expression)]"),
     ("function", "#[function(U(r))]` or `#[function(Omega(t): [3] = field)]"),
@@ -31,6 +29,7 @@ pub(super) const FORMS: [(&str, &str); 14] = [
     ("lagrangian", "#[lagrangian(expression)]"),
     ("constraint", "#[constraint(name: expression = expression)]"),
     ("contact", "#[contact(name: gap >= 0)]"),
+    ("friction", "#[friction(name: velocity, sliding: force)]"),
     ("force", "#[force(coordinate: expression)]"),
     ("power", "#[power(force, velocity)]` or `#[power(i in 0..3, force, velocity)]"),
     ("dissipation", "#[dissipation(expression)]"),
@@ -221,7 +220,7 @@ fn shaped(cursor: &mut Cursor, name: Name, earlier: &[(Name, Vec<usize>)]) -> Re
     Ok((name, lengths))
 }
 
-fn equals(cursor: &mut Cursor, word: &str) -> Result<()> {
+pub(super) fn equals(cursor: &mut Cursor, word: &str) -> Result<()> {
     if cursor.is_pair('=', '=') {
         return Err(cursor.pair_place().error("an equation is written with one `=`"));
     }
@@ -230,119 +229,6 @@ fn equals(cursor: &mut Cursor, word: &str) -> Result<()> {
 
 pub(super) fn colon(cursor: &mut Cursor, word: &str) -> Result<()> {
     cursor.expect_punct(':', &format!("expected `:` after the name: write `{}`", form(word)))
-}
-
-/// Reads a constraint. After an error, still adds a constraint of the same name and number, so that later stages know
-/// the count.
-pub(super) fn constraint(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) -> Result<()> {
-    let written = cursor.clone();
-    let target = target_before_colon(cursor, "constraint");
-    let sides = target.clone().and_then(|_| {
-        colon(cursor, "constraint")?;
-        let sides = sides(&mut cursor.until_comma())?;
-        let when = when(cursor)?;
-        finish(cursor, "constraint")?;
-        Ok((sides, when))
-    });
-    let name = Name { text: String::new(), place: written.place() };
-    let target = target.unwrap_or(Target::whole(name));
-    let (left, right, when, result) = match sides {
-        Ok(((left, right), when)) => (left, right, when, Ok(())),
-        Err(error) => {
-            let left = unread(written);
-            (left.clone(), left, None, Err(error))
-        }
-    };
-    constraints.push(Constraint { target, left, right, is_implied: false, when, contact: None });
-    result
-}
-
-/// Reads a contact. After an error, still adds one of the same name and number, as [`constraint`] does.
-pub(super) fn contact(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) -> Result<()> {
-    let written = cursor.clone();
-    let target = target_before_colon(cursor, "contact");
-    let read = target.clone().and_then(|_| {
-        colon(cursor, "contact")?;
-        let sides = gap(&mut cursor.until_comma())?;
-        Ok((sides, law(cursor)?))
-    });
-    let name = Name { text: String::new(), place: written.place() };
-    let target = target.unwrap_or(Target::whole(name));
-    let ((left, right), contact, result) = match read {
-        Ok((sides, law)) => (sides, law, Ok(())),
-        Err(error) => {
-            let left = unread(written);
-            ((left.clone(), left), ContactLaw { restitution: None }, Err(error))
-        }
-    };
-    let when = Some(target.name.clone());
-    constraints.push(Constraint { target, left, right, is_implied: false, when, contact: Some(contact) });
-    result
-}
-
-/// Reads `left >= right`.
-fn gap(inequality: &mut Cursor) -> Result<(Expression, Expression)> {
-    let mut left = inequality.until(|cursor| cursor.is_pair('>', '='));
-    if inequality.is_empty() {
-        let message = format!("the gap of a contact is at least zero: write `{}`", form("contact"));
-        return Err(left
-            .find(|cursor| ['<', '>', '='].iter().any(|&sign| cursor.is_punct(sign)))
-            .error(message));
-    }
-    let left = expression::whole(&mut left)?;
-    inequality.skip(2);
-    Ok((left, expression::whole(inequality)?))
-}
-
-/// Reads `restitution: e` after the gap.
-fn law(cursor: &mut Cursor) -> Result<ContactLaw> {
-    let mut law = ContactLaw { restitution: None };
-    while !cursor.is_empty() {
-        if !cursor.take_word("restitution") {
-            return Err(cursor.error("a contact has `restitution: e` after its gap"));
-        }
-        cursor.expect_punct(':', "expected `:` after `restitution`, as in `restitution: 0.8`")?;
-        if law.restitution.is_some() {
-            return Err(cursor.last_place().error("the restitution of this contact is given twice"));
-        }
-        law.restitution = Some(expression::whole(&mut cursor.until_comma())?);
-    }
-    Ok(law)
-}
-
-/// Reads `when: field` after a constraint.
-fn when(cursor: &mut Cursor) -> Result<Option<Name>> {
-    if !cursor.take_word("when") {
-        return Ok(None);
-    }
-    cursor.expect_punct(':', "expected `:` after `when`, as in `when: held`")?;
-    cursor.name("the name of a field of type `bool`").map(Some)
-}
-
-/// Reads the name of a constraint or a contact.
-fn target_before_colon(cursor: &mut Cursor, word: &str) -> Result<Target> {
-    let start = cursor.place();
-    match target(cursor, &format!("the name of the {word}")) {
-        Ok(target) if cursor.is_punct(':') => Ok(target),
-        // Point the error at the start: without a name, the equation begins there.
-        _ => {
-            let message = format!("a {word} begins with a name of one word: write `{}`", form(word));
-            Err(start.error(message))
-        }
-    }
-}
-
-/// Reads `left = right` with exactly one `=`.
-fn sides(equation: &mut Cursor) -> Result<(Expression, Expression)> {
-    let mut left = equation.until_equals();
-    let left = expression::whole(&mut left)?;
-    equals(equation, "constraint")?;
-    let mut rest = equation.until_equals();
-    let right = expression::whole(&mut rest)?;
-    if !equation.is_empty() {
-        return Err(equation.error("a constraint has one `=`: write two constraints"));
-    }
-    Ok((left, right))
 }
 
 pub(super) fn force(cursor: &mut Cursor, forces: &mut Vec<Force>) -> Result<()> {

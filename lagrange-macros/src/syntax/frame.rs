@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, TokenTree};
 use syn::Result;
 
 use super::cursor::Cursor;
-use super::declaration::{Constraint, Declaration, FrameDeclaration};
+use super::declaration::{Constraint, Declaration, FrameDeclaration, Law};
 use super::expression::{self, Expression, Kind};
 use super::forms::form;
 use super::name::Name;
@@ -102,6 +102,6 @@ fn unit_constraint(q: &Name, rows: &[usize]) -> Constraint {
         right: number(1),
         is_implied: true,
         when: None,
-        contact: None,
+        law: Law::Equation,
     }
 }

@@ -1,6 +1,7 @@
 //! Parser: turns tokens into a [`Declaration`] without resolving names.
 
 mod attribute;
+mod constraint;
 mod cursor;
 mod declaration;
 mod digest;
@@ -20,8 +21,8 @@ mod unread;
 pub(crate) use attribute::declaration;
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
 pub(crate) use declaration::{
-    Constraint, ContactLaw, Coordinate, Declaration, Define, Fact, Force, FrameDeclaration,
-    FunctionDeclaration, Named, Parameter, Power,
+    Constraint, Coordinate, Declaration, Define, Fact, Force, FrameDeclaration, FunctionDeclaration, Law,
+    Named, Parameter, Power,
 };
 pub(crate) use expression::{Expression, Kind, Operator, Sign, Slice, SumOver};
 pub(crate) use field::{

@@ -13,7 +13,7 @@ use crate::number::{Parts, Real, Scalar};
 use crate::solution::interpolant::Polynomial;
 use crate::solution::solve::{first_row, solve, solve_near};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State, StateOf};
+use crate::system::{Lagrangian, State, StateOf, check_friction};
 use crate::vector::{Array, Element, Entrywise, Length, array};
 
 /// A method whose steps all have one length, but for the last before an end, which may be shorter.
@@ -152,6 +152,7 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
         start: &StateOf<L>,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
+        const { check_friction::<L>() };
         statistics.evaluations += 1;
         let planned = L::Scalar::constant(self.step);
         Ok(FixedStepMemory {

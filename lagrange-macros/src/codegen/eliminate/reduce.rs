@@ -1,5 +1,7 @@
 //! Reduces a quadratic form variable by variable, and applies the reduction to vectors.
 
+use std::collections::BTreeSet;
+
 use super::arithmetic::{Solver, Sparse, SparseEntry, sparse};
 use crate::codegen::operation::{Operation, Register};
 
@@ -16,8 +18,9 @@ struct ReductionStep {
 }
 
 enum StepKind {
-    /// Elimination of a free variable: its column of L below the diagonal.
-    Eliminated(Sparse),
+    /// Elimination of a free variable: its column of L below the diagonal, and its row of U beside it, which is the same if the
+    /// matrix is symmetric.
+    Eliminated { below: Sparse, beside: Sparse },
     /// Substitution of a defined variable: its definition.
     Substituted(Sparse),
 }
@@ -25,17 +28,20 @@ enum StepKind {
 impl FormFactors {
     /// Returns all registers of the reduction.
     pub(super) fn registers(&self) -> impl Iterator<Item = Register> {
-        let columns = self.steps.iter().flat_map(|step| step.kind.entries()).map(|&(_, entry)| entry);
+        let columns = self.steps.iter().flat_map(|step| step.kind.entries()).flatten();
+        let columns = columns.map(|&(_, entry)| entry);
         self.reciprocals.iter().flatten().copied().chain(columns)
     }
 
     pub(super) fn with_registers(&self, mut new: impl FnMut(Register) -> Register) -> Self {
         let reciprocals = self.reciprocals.iter().map(|entry| entry.map(&mut new)).collect();
         let steps = self.steps.iter().map(|&ReductionStep { variable, ref kind }| {
-            let entries = kind.entries().iter().map(|&(i, entry)| (i, new(entry))).collect();
+            let mut renewed = |entries: &Sparse| entries.iter().map(|&(i, entry)| (i, new(entry))).collect();
             let kind = match kind {
-                StepKind::Eliminated(_) => StepKind::Eliminated(entries),
-                StepKind::Substituted(_) => StepKind::Substituted(entries),
+                StepKind::Eliminated { below, beside } => {
+                    StepKind::Eliminated { below: renewed(below), beside: renewed(beside) }
+                }
+                StepKind::Substituted(entries) => StepKind::Substituted(renewed(entries)),
             };
             ReductionStep { variable, kind }
         });
@@ -44,9 +50,10 @@ impl FormFactors {
 }
 
 impl StepKind {
-    fn entries(&self) -> &Sparse {
+    fn entries(&self) -> Vec<&Sparse> {
         match self {
-            Self::Eliminated(entries) | Self::Substituted(entries) => entries,
+            Self::Eliminated { below, beside } => vec![below, beside],
+            Self::Substituted(entries) => vec![entries],
         }
     }
 }
@@ -126,7 +133,8 @@ impl Solver<'_> {
             if variable < free {
                 let (column, reciprocal) = self.eliminate(&mut form, variable);
                 factors.reciprocals[variable] = Some(reciprocal);
-                factors.steps.push(ReductionStep { variable, kind: StepKind::Eliminated(column) });
+                let kind = StepKind::Eliminated { beside: column.clone(), below: column };
+                factors.steps.push(ReductionStep { variable, kind });
             } else {
                 taken = independent(rest, free, &definitions);
                 let together = rest[..taken].iter().map(|&k| (k, &definitions[k - free])).collect::<Vec<_>>();
@@ -139,6 +147,39 @@ impl Solver<'_> {
             }
             rest[..taken].iter().for_each(|&variable| form.remove(variable));
             rest = &rest[taken..];
+        }
+        factors
+    }
+
+    /// Factorizes a matrix that is not symmetric as L D U. Pivots are compared to `scale`.
+    pub(super) fn factor_unsymmetric(
+        &mut self,
+        mut matrix: Vec<Vec<SparseEntry>>,
+        scale: Vec<SparseEntry>,
+        order: &[usize],
+    ) -> FormFactors {
+        let one = self.schedule.constant(1.0);
+        let mut factors = FormFactors { steps: Vec::new(), reciprocals: vec![None; matrix.len()] };
+        let mut left: BTreeSet<usize> = order.iter().copied().collect();
+        for &variable in order {
+            left.remove(&variable);
+            let pivot = self.known(matrix[variable][variable]);
+            let reciprocal = self.schedule.push(Operation::Divide(one, pivot));
+            self.note_pivot(scale[variable], pivot, reciprocal);
+            let mut scaled = |entries: Vec<(usize, SparseEntry)>| -> Sparse {
+                let scale = |(i, entry)| Some((i, self.multiply(entry, Some(reciprocal))?));
+                entries.into_iter().filter_map(scale).collect()
+            };
+            let below = scaled(left.iter().map(|&i| (i, matrix[i][variable])).collect());
+            let beside = scaled(left.iter().map(|&j| (j, matrix[variable][j])).collect());
+            for &(i, l) in &below {
+                for &(j, _) in &beside {
+                    let part = self.multiply(Some(l), matrix[variable][j]);
+                    matrix[i][j] = self.subtract(matrix[i][j], part);
+                }
+            }
+            factors.reciprocals[variable] = Some(reciprocal);
+            factors.steps.push(ReductionStep { variable, kind: StepKind::Eliminated { below, beside } });
         }
         factors
     }
@@ -252,8 +293,8 @@ impl Solver<'_> {
     pub(super) fn forward(&mut self, factors: &FormFactors, mut x: Vec<SparseEntry>) -> Vec<SparseEntry> {
         for ReductionStep { variable, kind } in &factors.steps {
             match kind {
-                StepKind::Eliminated(column) => {
-                    for &(i, l) in column {
+                StepKind::Eliminated { below, .. } => {
+                    for &(i, l) in below {
                         let part = self.multiply(Some(l), x[*variable]);
                         x[i] = self.subtract(x[i], part);
                     }
@@ -282,7 +323,7 @@ impl Solver<'_> {
     ) -> Vec<SparseEntry> {
         for ReductionStep { variable, kind } in factors.steps.iter().rev() {
             x[*variable] = match kind {
-                StepKind::Eliminated(column) => {
+                StepKind::Eliminated { beside: column, .. } => {
                     let pushed = self.multiply(y[*variable], factors.reciprocals[*variable]);
                     let is_first = column.is_empty() && pushed.is_none();
                     let start = self.add(x[*variable], if is_first { doubt } else { pushed });

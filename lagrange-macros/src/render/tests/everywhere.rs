@@ -28,7 +28,10 @@ impl System {
             .chain((0..m).map(Variable::Multiplier))
             .chain([Variable::Time]);
         Sample::new(all.map(Variable::symbol), draw, |symbol, draw| match Variable::of(symbol) {
-            Variable::Switch(_) => Approximate::exact(1.0),
+            Variable::Switch(_) => {
+                let is_one = self.problem.parameters.switched_on(symbol) == Some(Id::ONE);
+                Approximate::exact(f64::from(u8::from(is_one)))
+            }
             _ => self.problem.drawn(symbol, draw),
         })
     }

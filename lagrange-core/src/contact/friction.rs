@@ -1,0 +1,428 @@
+//! What happens at one instant to bodies with friction: impacts, and which contacts push, stick and slide from then on.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::bodies::{Bodies, Delassus, OFF, States};
+use super::complementarity::Complementarity;
+use super::instant::{Changed, Decided, IMPACTS};
+use super::law::{Grip, Law, Outcome, Rubbing, Touch};
+use super::trajectory::Transition;
+use super::{Contacts, Friction, FrictionRows};
+use crate::error::Error;
+use crate::number::{Real, Scalar, larger};
+use crate::system::StateOf;
+use crate::vector::{Array, vector};
+
+/// Speed, in units of its round-off, with which bodies begin to slide along two velocities: friction has no direction at rest.
+const BEGIN: f64 = 64.0;
+
+/// Halvings of the restitution of an impact that would gain energy.
+const HALVINGS: usize = 60;
+
+/// The rows of bodies that touch, at a state.
+struct Rows<L: Contacts<Scalar: Real>> {
+    /// Index of each among the constraints: gaps, then velocities of friction.
+    all: Vec<usize>,
+    /// Contacts that touch, in the order of their rows.
+    touching: Vec<usize>,
+    /// Friction of these, and dry friction, each with the place of its first row.
+    frictions: Vec<(usize, usize)>,
+    delassus: Delassus<L>,
+}
+
+/// Touches in play, with the contact and the friction of each.
+type Played<T> = (Vec<Touch<T>>, Vec<(Option<usize>, Option<usize>)>);
+
+impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
+    /// Does what [`settle`](Self::settle) does, for a system with friction.
+    pub(super) fn settle_with_friction(
+        &self,
+        state: &mut StateOf<L>,
+        (was, changed): (&States, &Changed),
+        transitions: &mut Vec<Transition<L::Scalar>>,
+    ) -> Result<Decided<L::Scalar>, Error> {
+        let touching = self.all_touching(&was.is_closed, changed, state);
+        self.check_gradients(&touching, state)?;
+        let rows = self.rows(touching, state)?;
+        for _ in 0..IMPACTS {
+            let pressing = self.pressing(&rows.all, state)?;
+            let resting: Vec<bool> =
+                rows.touching.iter().zip(&pressing).map(|(&k, &[a, _])| self.rests(k, a, state)).collect();
+            let approaches = |place: usize| {
+                !resting[place] && self.measured(rows.touching[place], state).rate < L::Scalar::constant(0.0)
+            };
+            if (0..rows.touching.len()).any(approaches) {
+                self.impact_with_friction(&rows, &resting, state, transitions)?;
+                continue;
+            }
+            return self.grip(&rows, resting, &pressing, state, (was, changed), transitions);
+        }
+        Err(Error::ImpactsDoNotEnd { time: state.t.to_f64() })
+    }
+
+    fn rows(&self, touching: Vec<usize>, state: &StateOf<L>) -> Result<Rows<L>, Error> {
+        let mut all: Vec<usize> = touching.iter().map(|&k| L::CONTACTS[k]).collect();
+        let mut frictions = Vec::new();
+        for (f, &FrictionRows { row, count, contact }) in L::FRICTIONS.iter().enumerate() {
+            if contact.is_none_or(|k| touching.contains(&k)) {
+                frictions.push((f, all.len()));
+                all.extend(row..row + count);
+            }
+        }
+        let delassus = self.delassus(&all, state)?;
+        Ok(Rows { all, touching, frictions, delassus })
+    }
+
+    /// Limit and sliding force of friction.
+    fn bounds(&self, f: usize, state: &StateOf<L>) -> Result<[L::Scalar; 2], Error> {
+        let zero = L::Scalar::constant(0.0);
+        let [limit, sliding] = [self.closed.friction_limit(f, state), self.closed.sliding_friction(f, state)]
+            .map(|bound| bound.unwrap_or(zero));
+        if sliding >= zero && sliding <= limit && limit.to_f64().is_finite() {
+            return Ok([limit, sliding]);
+        }
+        let (friction, time) = (L::CONSTRAINTS[L::FRICTIONS[f].row], state.t.to_f64());
+        Err(Error::Friction { friction, bounds: [limit, sliding].map(Real::to_f64), time })
+    }
+
+    /// Velocity of friction, its size, and the round-off of that.
+    fn sliding(&self, f: usize, state: &StateOf<L>) -> ([L::Scalar; 2], [L::Scalar; 2]) {
+        let FrictionRows { row, count, .. } = L::FRICTIONS[f];
+        let mut velocity = [L::Scalar::constant(0.0); 2];
+        let mut noise = velocity[0];
+        for (component, a) in (row..row + count).enumerate() {
+            let measured = self.measured_at(a, state);
+            (velocity[component], noise) = (measured.rate, larger(noise, measured.noise[1]));
+        }
+        let [x, y] = velocity;
+        (velocity, [Scalar::sqrt(x * x + y * y), noise])
+    }
+
+    /// Direction in which bodies slide; `None` if they are at rest but for round-off.
+    fn slip(&self, f: usize, state: &StateOf<L>) -> Option<[L::Scalar; 2]> {
+        let (velocity, [speed, noise]) = self.sliding(f, state);
+        (speed > noise).then(|| velocity.map(|component| component / speed))
+    }
+
+    /// Whether bodies are at rest where their velocity along the direction of sliding has become zero. That of one velocity is
+    /// the whole; that of two may have turned.
+    pub(super) fn is_stopped(&self, f: usize, state: &StateOf<L>) -> bool {
+        let (_, [speed, noise]) = self.sliding(f, state);
+        L::FRICTIONS[f].count == 1 || speed <= L::Scalar::constant(BEGIN) * noise
+    }
+
+    /// The touches of the contacts that `plays` marks, with friction in the states that `grip` gives.
+    fn touches(
+        &self,
+        rows: &Rows<L>,
+        plays: &[bool],
+        state: &StateOf<L>,
+        grip: impl Fn(usize) -> Option<Grip<L::Scalar>>,
+    ) -> Result<Played<L::Scalar>, Error> {
+        let mut touches: Played<L::Scalar> = (Vec::new(), Vec::new());
+        for gap in (0..plays.len()).filter(|&place| plays[place]) {
+            touches.0.push(Touch { gap: Some(gap), friction: None });
+            touches.1.push((Some(rows.touching[gap]), None));
+        }
+        for &(f, place) in &rows.frictions {
+            let (FrictionRows { count, contact, .. }, Some(grip)) = (L::FRICTIONS[f], grip(f)) else {
+                continue;
+            };
+            let friction = Some(Rubbing { place, count, grip, bounds: self.bounds(f, state)? });
+            match contact {
+                None => {
+                    touches.0.push(Touch { gap: None, friction });
+                    touches.1.push((None, Some(f)));
+                }
+                Some(_) => {
+                    if let Some(k) = touches.1.iter().position(|&(k, _)| k == contact) {
+                        (touches.0[k].friction, touches.1[k].1) = (friction, Some(f));
+                    }
+                }
+            }
+        }
+        Ok(touches)
+    }
+
+    /// An impact by Newton's law, with Coulomb's for the impulses along the contacts. Newton's law can gain energy with
+    /// friction (Kane and Levinson, *Dynamics*, 1985): the restitution is then lowered to where it gains none.
+    fn impact_with_friction(
+        &self,
+        rows: &Rows<L>,
+        resting: &[bool],
+        state: &mut StateOf<L>,
+        transitions: &mut Vec<Transition<L::Scalar>>,
+    ) -> Result<(), Error> {
+        let zero = L::Scalar::constant(0.0);
+        let measured: Vec<_> = rows.all.iter().map(|&a| self.measured_at(a, state)).collect();
+        let plays: Vec<bool> =
+            (0..rows.touching.len()).map(|place| resting[place] || measured[place].rate < zero).collect();
+        let undecided = |f: usize| {
+            let FrictionRows { contact, count, .. } = L::FRICTIONS[f];
+            contact.map(|_| if count == 1 { Grip::Open } else { Grip::Sticks })
+        };
+        let (touches, names) = self.touches(rows, &plays, state, undecided)?;
+        let mut returned = vec![zero; rows.all.len()];
+        for place in (0..plays.len()).filter(|&place| plays[place] && !resting[place]) {
+            returned[place] = self.restitution(rows.touching[place], state)? * measured[place].rate;
+        }
+        let solve = |part: L::Scalar| {
+            let rates = measured.iter().zip(&returned).map(|(measured, &back)| measured.rate + part * back);
+            let (rates, noise) =
+                (rates.collect(), measured.iter().map(|measured| measured.noise[1]).collect());
+            Law { matrix: &rows.delassus.0, rates, noise, touches: touches.clone() }.decide()
+        };
+        // Work of the impulses, by the mean of the rates before and after.
+        let work = |outcome: &Outcome<L::Scalar>, part: L::Scalar| {
+            (0..rows.all.len()).fold([zero; 2], |[sum, size], row| {
+                let both = measured[row].rate + outcome.rates[row] - part * returned[row];
+                let work = outcome.forces[row] * both;
+                [sum + work, size + Scalar::abs(work)]
+            })
+        };
+        let gains = |outcome: &Outcome<L::Scalar>, part: L::Scalar| {
+            let [sum, size] = work(outcome, part);
+            sum > L::Scalar::constant(L::Scalar::EPSILON * BEGIN) * size
+        };
+        let jams = || self.jams(&names, state);
+        let mut part = L::Scalar::constant(1.0);
+        let mut outcome = solve(part).ok_or_else(jams)?;
+        if gains(&outcome, part) {
+            let (mut low, mut high) = (zero, part);
+            for _ in 0..HALVINGS {
+                part = (low + high) * L::Scalar::constant(0.5);
+                let middle = solve(part).ok_or_else(jams)?;
+                *if gains(&middle, part) { &mut high } else { &mut low } = part;
+            }
+            outcome = solve(low).ok_or_else(jams)?;
+        }
+        for (&impulse, response) in outcome.forces.iter().zip(&rows.delassus.1) {
+            state.v = vector(Array::from_fn(|i| state.v[i] + response[i] * impulse));
+        }
+        let pushes = rows.all.iter().zip(&outcome.forces).filter(|(_, impulse)| **impulse != zero);
+        let impulses = pushes.map(|(&a, &impulse)| (L::CONSTRAINTS[a], impulse)).collect();
+        transitions.push(Transition::Impact { time: state.t, impulses });
+        Ok(())
+    }
+
+    /// No forces satisfy the laws of these contacts and frictions.
+    fn jams(&self, names: &[(Option<usize>, Option<usize>)], state: &StateOf<L>) -> Error {
+        match names.iter().find_map(|(_, friction)| *friction) {
+            Some(f) => {
+                let (friction, time) = (L::CONSTRAINTS[L::FRICTIONS[f].row], state.t.to_f64());
+                Error::FrictionJams { friction, time }
+            }
+            None => {
+                let contacts: Vec<usize> = names.iter().filter_map(|(contact, _)| *contact).collect();
+                self.contradiction(&contacts, state)
+            }
+        }
+    }
+
+    /// Decides which of the contacts at rest push, and which friction sticks, and takes what is left of their rates.
+    fn grip(
+        &self,
+        rows: &Rows<L>,
+        mut resting: Vec<bool>,
+        pressing: &[[L::Scalar; 2]],
+        state: &mut StateOf<L>,
+        (was, changed): (&States, &Changed),
+        transitions: &mut Vec<Transition<L::Scalar>>,
+    ) -> Result<Decided<L::Scalar>, Error> {
+        let mut begun: Vec<(usize, Grip<L::Scalar>)> = Vec::new();
+        if let Some((f, direction)) = changed.slips {
+            begun.push((f, Grip::Slides(direction.map(L::Scalar::constant))));
+        }
+        let slips: Vec<Option<[L::Scalar; 2]>> = (0..L::FRICTIONS.len())
+            .map(|f| if changed.stops == Some(f) { None } else { self.slip(f, state) })
+            .collect();
+        let (outcome, names, plays) = loop {
+            let plays: Vec<bool> = rows
+                .touching
+                .iter()
+                .zip(&resting)
+                .map(|(&k, &rests)| rests && changed.opens != Some(k))
+                .collect();
+            let grip = |f: usize| {
+                let known = begun.iter().rev().find(|(of, _)| *of == f).map(|(_, grip)| *grip);
+                let undecided = if L::FRICTIONS[f].count == 1 { Grip::Open } else { Grip::Sticks };
+                Some(known.or(slips[f].map(Grip::Slides)).unwrap_or(undecided))
+            };
+            let (touches, names) = self.touches(rows, &plays, state, grip)?;
+            let (rates, noise) = pressing.iter().map(|&[rate, noise]| (rate, noise)).unzip();
+            let law = Law { matrix: &rows.delassus.0, rates, noise, touches: touches.clone() };
+            let outcome = law.decide().ok_or_else(|| self.jams(&names, state))?;
+            // The forces of contacts may press others together, whose bounces are then low.
+            let joins = |&place: &usize| {
+                !resting[place] && self.rests(rows.touching[place], outcome.rates[place], state)
+            };
+            if let Some(place) = (0..resting.len()).find(joins) {
+                resting[place] = true;
+                continue;
+            }
+            // What begins to slide may do so with a lower force than its limit.
+            let falls = |k: &usize| {
+                let (touch, Some(f)) = (&touches[*k], names[*k].1) else { return false };
+                let lower = touch.friction.is_some_and(|friction| friction.bounds[1] < friction.bounds[0]);
+                lower
+                    && slips[f].is_none()
+                    && !begun.iter().any(|(of, _)| *of == f)
+                    && matches!(outcome.grips[*k], Some(Grip::Slides(_)))
+            };
+            match (0..touches.len()).find(falls) {
+                Some(k) => begun.extend(names[k].1.zip(outcome.grips[k])),
+                None => break (outcome, names, plays),
+            }
+        };
+        let mut decided = Self::decided_with_friction(rows, (&plays, pressing), (&outcome, &names), &slips);
+        for place in (0..resting.len()).filter(|&place| !resting[place]) {
+            decided.is_resting[rows.touching[place]] = outcome.rates[place] >= L::Scalar::constant(0.0);
+        }
+        if let Some(k) = changed.opens {
+            decided.is_resting[k] = true;
+        }
+        decided.bounce = self.bounce((&rows.touching, &resting, &outcome.rates), state);
+        let mut towards = vec![L::Scalar::constant(0.0); L::CONTACTS.len()];
+        for (place, &k) in rows.touching.iter().enumerate() {
+            towards[k] = rows.delassus.0[place][place] * outcome.forces[place];
+        }
+        self.report(&towards, state, (&was.is_closed, &decided.states.is_closed), transitions)?;
+        self.report_friction(was, &decided.states, state, transitions);
+        self.halt(rows, (&decided, &outcome), &slips, state);
+        Ok(decided)
+    }
+
+    /// States of contacts and friction, and which of them those determine.
+    #[allow(clippy::type_complexity, reason = "slices that belong together")]
+    fn decided_with_friction(
+        rows: &Rows<L>,
+        (plays, pressing): (&[bool], &[[L::Scalar; 2]]),
+        (outcome, names): (&Outcome<L::Scalar>, &[(Option<usize>, Option<usize>)]),
+        slips: &[Option<[L::Scalar; 2]>],
+    ) -> Decided<L::Scalar> {
+        let mut decided = Decided::none::<L>(vec![OFF; L::FRICTIONS.len()]);
+        for (k, &(contact, friction)) in names.iter().enumerate() {
+            if let Some(contact) = contact {
+                decided.states.is_closed[contact] = outcome.pushes[k];
+                decided.is_resting[contact] = true;
+            }
+            if let (Some(f), Some(grip)) = (friction, outcome.grips[k]) {
+                decided.states.frictions[f] = match grip {
+                    Grip::Slides(direction) => Friction::Slides(direction.map(Real::to_f64)),
+                    Grip::Idle => OFF,
+                    Grip::Open | Grip::Sticks => Friction::Sticks,
+                };
+            }
+        }
+        let problem = Self::problem(rows);
+        // Where a velocity is zero without a force, friction keeps it so, unless the others do.
+        for (k, f) in names.iter().enumerate().filter_map(|(k, (_, friction))| Some((k, (*friction)?))) {
+            let Some(&(_, place)) = rows.frictions.iter().find(|(of, _)| *of == f) else { continue };
+            let is_idle = outcome.grips[k] == Some(Grip::Idle);
+            if is_idle && !problem.depends(place, &Self::active(rows, &decided.states)) {
+                decided.states.frictions[f] = Friction::Sticks;
+            }
+        }
+        let active = Self::active(rows, &decided.states);
+        for place in (0..plays.len()).filter(|&place| plays[place]) {
+            let k = rows.touching[place];
+            let forces = rows.delassus.0[place].iter().zip(&outcome.forces);
+            let size = forces.fold(L::Scalar::constant(0.0), |sum, (&g, &f)| sum + Scalar::abs(g * f));
+            let noise = pressing[place][1] + L::Scalar::constant(L::Scalar::EPSILON * BEGIN) * size;
+            let is_still = Scalar::abs(outcome.rates[place]) <= noise;
+            decided.is_implied[k] =
+                !decided.states.is_closed[k] && is_still && problem.depends(place, &active);
+        }
+        for &(f, place) in &rows.frictions {
+            let is_at_rest = slips[f].is_none();
+            decided.slips_from_rest[f] = is_at_rest;
+            decided.slip_is_implied[f] = is_at_rest
+                && !active.contains(&place)
+                && (place..place + L::FRICTIONS[f].count).all(|row| problem.depends(row, &active));
+        }
+        decided
+    }
+
+    /// Rows that stay at rest: closed gaps, and velocities of friction that sticks.
+    fn active(rows: &Rows<L>, states: &States) -> Vec<usize> {
+        let gaps = (0..rows.touching.len()).filter(|&place| states.is_closed[rows.touching[place]]);
+        let sticks = rows.frictions.iter().filter(|(f, _)| {
+            let is_pressed = L::FRICTIONS[*f].contact.is_none_or(|k| states.is_closed[k]);
+            is_pressed && states.frictions[*f] == Friction::Sticks
+        });
+        gaps.chain(sticks.flat_map(|&(f, place)| place..place + L::FRICTIONS[f].count)).collect()
+    }
+
+    fn problem(rows: &Rows<L>) -> Complementarity<L::Scalar> {
+        let none = vec![L::Scalar::constant(0.0); rows.all.len()];
+        Complementarity { matrix: rows.delassus.0.clone(), constant: none.clone(), noise: none }
+    }
+
+    /// Takes the rates, all but zero, of what stays at rest, and gives those that begin to slide along two velocities a speed:
+    /// round-off of it, and what the force of friction changes it within the round-off of the time.
+    fn halt(
+        &self,
+        rows: &Rows<L>,
+        (decided, outcome): (&Decided<L::Scalar>, &Outcome<L::Scalar>),
+        slips: &[Option<[L::Scalar; 2]>],
+        state: &mut StateOf<L>,
+    ) {
+        let unit = L::Scalar::constant(L::Scalar::EPSILON) * larger(Scalar::abs(state.t), self.span);
+        let mut problem = Self::problem(rows);
+        let mut active = Self::active(rows, &decided.states);
+        let measured: Vec<_> = rows.all.iter().map(|&a| self.measured_at(a, state)).collect();
+        problem.constant = measured.iter().map(|measured| measured.rate).collect();
+        for &(f, place) in &rows.frictions {
+            let (Friction::Slides(direction), 2, None) =
+                (decided.states.frictions[f], L::FRICTIONS[f].count, slips[f])
+            else {
+                continue;
+            };
+            if direction == [0.0; 2] || decided.slip_is_implied[f] {
+                continue;
+            }
+            let both = [place, place + 1];
+            let changes = both.map(|row| Scalar::abs(rows.delassus.0[row][row] * outcome.forces[row]));
+            let noise = larger(measured[place].noise[1], measured[place + 1].noise[1]);
+            let begin = L::Scalar::constant(BEGIN) * (noise + unit * larger(changes[0], changes[1]));
+            for (row, component) in both.into_iter().zip(direction) {
+                problem.constant[row] -= begin * L::Scalar::constant(component);
+                active.push(row);
+            }
+        }
+        for (&impulse, response) in problem.equality(&active).iter().zip(&rows.delassus.1) {
+            state.v = vector(Array::from_fn(|i| state.v[i] + response[i] * impulse));
+        }
+    }
+
+    /// Reports the friction that begins to stick or to slide while its contact stays closed.
+    fn report_friction(
+        &self,
+        was: &States,
+        is: &States,
+        state: &StateOf<L>,
+        transitions: &mut Vec<Transition<L::Scalar>>,
+    ) {
+        // At the start of a motion there are none before.
+        for (f, FrictionRows { row, contact, .. }) in
+            L::FRICTIONS.iter().enumerate().take(was.frictions.len())
+        {
+            let (friction, time) = (L::CONSTRAINTS[*row], state.t);
+            let is_pressed = contact.is_none_or(|k| is.is_closed[k]);
+            let was_pressed = contact.is_none_or(|k| was.is_closed[k]);
+            if !is_pressed || !was_pressed {
+                continue;
+            }
+            match (was.frictions[f], is.frictions[f]) {
+                (Friction::Slides(_), Friction::Sticks) => {
+                    transitions.push(Transition::Sticks { friction, time });
+                }
+                (Friction::Sticks, Friction::Slides(_)) => {
+                    transitions.push(Transition::Slips { friction, time });
+                }
+                _ => {}
+            }
+        }
+    }
+}

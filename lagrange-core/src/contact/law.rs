@@ -1,0 +1,305 @@
+//! Newton's law of impact and Coulomb's of friction for bodies that touch, as one complementarity problem: for impulses and
+//! velocities, or for forces and accelerations (Pfeiffer and Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996,
+//! chapters 5 and 8). The form with two opposite forces for each velocity (Stewart and Trinkle, *International Journal for
+//! Numerical Methods in Engineering* 39, 1996) has a copositive matrix: for impacts, Lemke's method then finds a solution.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::lemke::{Exchange, Exchanged};
+use crate::number::{Real, Scalar, larger};
+
+/// Largest number of corrections of the directions in which bodies slide. For one contact a few are usual.
+const CORRECTIONS: usize = 200;
+
+/// Change of a direction, in units of round-off, below which it is found.
+const FOUND: f64 = 16.0;
+
+/// What friction does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Grip<T> {
+    /// The force of one velocity is to be decided: it keeps the velocity at zero within its limit, or slides.
+    Open,
+    /// The velocity stays zero without a force.
+    Idle,
+    /// The velocities stay zero, whatever forces it takes.
+    Sticks,
+    /// The force acts against this direction, of length 1.
+    Slides([T; 2]),
+}
+
+/// Friction between bodies that touch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rubbing<T> {
+    /// Place of its first velocity among the rows.
+    pub(super) place: usize,
+    /// Number of its velocities.
+    pub(super) count: usize,
+    pub(super) grip: Grip<T>,
+    /// Limit of sticking, and force of sliding; as multiples of the force of the contact if there is one.
+    pub(super) bounds: [T; 2],
+}
+
+/// A contact, dry friction, or a contact with friction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touch<T> {
+    /// Place of its gap among the rows.
+    pub(super) gap: Option<usize>,
+    pub(super) friction: Option<Rubbing<T>>,
+}
+
+/// Rows W of gaps and velocities of friction: G = W K⁻¹ Wᵀ, and the rates that they have without forces.
+pub(super) struct Law<'a, T> {
+    pub(super) matrix: &'a [Vec<T>],
+    pub(super) rates: Vec<T>,
+    /// Round-off of each rate.
+    pub(super) noise: Vec<T>,
+    pub(super) touches: Vec<Touch<T>>,
+}
+
+/// What the law gives.
+pub(super) struct Outcome<T> {
+    /// Force or impulse of each row.
+    pub(super) forces: Vec<T>,
+    /// Rate of each row with these forces.
+    pub(super) rates: Vec<T>,
+    /// Whether the gap of each touch stays closed.
+    pub(super) pushes: Vec<bool>,
+    /// What the friction of each touch does: it sticks or slides.
+    pub(super) grips: Vec<Option<Grip<T>>>,
+}
+
+/// An unknown of the problem, with the touch that it belongs to.
+#[derive(Clone, Copy)]
+enum Unknown {
+    /// Force of a gap.
+    Push(usize),
+    /// Force of friction forwards.
+    Forth(usize),
+    /// Force of friction backwards.
+    Back,
+    /// Speed of sliding.
+    Speed(usize),
+    /// Force of a velocity that stays zero.
+    Hold,
+}
+
+impl<T: Real> Law<'_, T> {
+    /// Finds forces that satisfy the law, also for friction of two velocities: it sticks if forces within its limit keep the
+    /// bodies together, and else slides in the direction that its forces lead to.
+    pub(super) fn decide(mut self) -> Option<Outcome<T>> {
+        let is_planar = |touch: &Touch<T>| {
+            touch.friction.is_some_and(|friction| friction.count == 2 && friction.grip == Grip::Sticks)
+        };
+        let planar: Vec<usize> = (0..self.touches.len()).filter(|&k| is_planar(&self.touches[k])).collect();
+        for _ in 0..CORRECTIONS {
+            let outcome = self.solve()?;
+            let corrections: Vec<(usize, Grip<T>)> =
+                planar.iter().filter_map(|&k| Some((k, self.correction(k, &outcome)?))).collect();
+            if corrections.is_empty() {
+                return Some(outcome);
+            }
+            for (k, grip) in corrections {
+                self.touches[k].friction.iter_mut().for_each(|friction| friction.grip = grip);
+            }
+        }
+        None
+    }
+
+    /// Correction of friction of two velocities whose law is not satisfied.
+    fn correction(&self, k: usize, outcome: &Outcome<T>) -> Option<Grip<T>> {
+        let Touch { gap, friction } = self.touches[k];
+        let Rubbing { place, grip, bounds: [limit, _], .. } = friction?;
+        let press = gap.map_or(T::constant(1.0), |gap| outcome.forces[gap]);
+        let unit = T::constant(T::EPSILON * FOUND);
+        let of = |all: &[T]| [all[place], all[place + 1]];
+        match grip {
+            Grip::Sticks => {
+                let [x, y] = of(&outcome.forces);
+                let size = Scalar::sqrt(x * x + y * y);
+                (size > limit * press * (T::constant(1.0) + unit))
+                    .then(|| Grip::Slides([-x / size, -y / size]))
+            }
+            Grip::Slides(known) => {
+                let [x, y] = of(&outcome.rates);
+                let size = Scalar::sqrt(x * x + y * y);
+                if size <= larger(self.noise[place], self.noise[place + 1]) {
+                    return None;
+                }
+                let direction = [x / size, y / size];
+                let change =
+                    larger(Scalar::abs(direction[0] - known[0]), Scalar::abs(direction[1] - known[1]));
+                (change > unit).then_some(Grip::Slides(direction))
+            }
+            Grip::Open | Grip::Idle => None,
+        }
+    }
+
+    fn solve(&self) -> Option<Outcome<T>> {
+        let unknowns = self.unknowns();
+        let (pushes, dry) = self.pushes(&unknowns);
+        let (zero, size) = (T::constant(0.0), unknowns.len());
+        let times = |row: &[T], column: &dyn Fn(usize) -> T| {
+            row.iter().enumerate().fold(zero, |sum, (k, &entry)| sum + entry * column(k))
+        };
+        let mut problem = Exchange {
+            matrix: vec![vec![zero; size]; size],
+            constant: vec![zero; size],
+            noise: vec![zero; size],
+            is_free: unknowns.iter().map(|(unknown, _)| matches!(unknown, Unknown::Hold)).collect(),
+        };
+        for (w, &(unknown, place)) in unknowns.iter().enumerate() {
+            if let Unknown::Speed(touch) = unknown {
+                self.reserve(touch, w, &unknowns, &mut problem);
+                continue;
+            }
+            let sign = T::constant(if matches!(unknown, Unknown::Back) { -1.0 } else { 1.0 });
+            for z in 0..size {
+                problem.matrix[w][z] = sign * times(&self.matrix[place], &|row| pushes[row][z]);
+            }
+            problem.constant[w] = sign * (self.rates[place] + times(&self.matrix[place], &|row| dry[row]));
+            problem.noise[w] = self.noise[place];
+            match unknown {
+                Unknown::Forth(_) => problem.matrix[w][w + 2] = T::constant(1.0),
+                Unknown::Back => problem.matrix[w][w + 1] = T::constant(1.0),
+                _ => {}
+            }
+        }
+        let solved = problem.solve()?;
+        let force = |row: usize| dry[row] + times(&pushes[row], &|z| solved.z[z]);
+        let forces: Vec<T> = (0..self.rates.len()).map(force).collect();
+        let rate = |row: usize| self.rates[row] + times(&self.matrix[row], &|other| forces[other]);
+        let rates = (0..forces.len()).map(rate).collect();
+        Some(self.outcome(forces, rates, &unknowns, &solved))
+    }
+
+    /// The unknowns, each with the place of its row. The three of friction follow one another.
+    fn unknowns(&self) -> Vec<(Unknown, usize)> {
+        let mut unknowns = Vec::new();
+        for (k, touch) in self.touches.iter().enumerate() {
+            unknowns.extend(touch.gap.map(|gap| (Unknown::Push(k), gap)));
+            let Some(Rubbing { place, count, grip, .. }) = touch.friction else { continue };
+            match grip {
+                Grip::Open => {
+                    let three = [Unknown::Forth(k), Unknown::Back, Unknown::Speed(k)];
+                    unknowns.extend(three.map(|unknown| (unknown, place)));
+                }
+                Grip::Sticks => unknowns.extend((0..count).map(|c| (Unknown::Hold, place + c))),
+                Grip::Slides(_) | Grip::Idle => {}
+            }
+        }
+        unknowns
+    }
+
+    /// Forces of the rows: their multiples of the unknowns, and what dry friction adds.
+    fn pushes(&self, unknowns: &[(Unknown, usize)]) -> (Vec<Vec<T>>, Vec<T>) {
+        let (zero, one) = (T::constant(0.0), T::constant(1.0));
+        let rows = self.rates.len();
+        let (mut pushes, mut dry) = (vec![vec![zero; unknowns.len()]; rows], vec![zero; rows]);
+        for (z, &(unknown, place)) in unknowns.iter().enumerate() {
+            match unknown {
+                Unknown::Speed(_) => {}
+                Unknown::Back => pushes[place][z] = -one,
+                _ => pushes[place][z] = one,
+            }
+        }
+        for (k, touch) in self.touches.iter().enumerate() {
+            let Some(Rubbing { place, count, grip: Grip::Slides(direction), bounds: [_, sliding] }) =
+                touch.friction
+            else {
+                continue;
+            };
+            let against = direction.map(|component| sliding * component);
+            let push =
+                unknowns.iter().position(|(unknown, _)| matches!(unknown, Unknown::Push(of) if *of == k));
+            for (component, &force) in against.iter().enumerate().take(count) {
+                match push {
+                    Some(push) => pushes[place + component][push] = -force,
+                    None => dry[place + component] = -force,
+                }
+            }
+        }
+        (pushes, dry)
+    }
+
+    /// What is left of the limit, as the row of the speed of sliding.
+    fn reserve(&self, k: usize, w: usize, unknowns: &[(Unknown, usize)], problem: &mut Exchange<T>) {
+        let minus = T::constant(-1.0);
+        (problem.matrix[w][w - 2], problem.matrix[w][w - 1]) = (minus, minus);
+        let Some(Rubbing { bounds: [limit, _], .. }) = self.touches[k].friction else { return };
+        match unknowns.iter().position(|(unknown, _)| matches!(unknown, Unknown::Push(of) if *of == k)) {
+            Some(push) => problem.matrix[w][push] = limit,
+            None => problem.constant[w] = limit,
+        }
+    }
+
+    fn outcome(
+        &self,
+        forces: Vec<T>,
+        rates: Vec<T>,
+        unknowns: &[(Unknown, usize)],
+        solved: &Exchanged<T>,
+    ) -> Outcome<T> {
+        let (one, zero) = (T::constant(1.0), T::constant(0.0));
+        let mut pushes = vec![false; self.touches.len()];
+        let mut grips: Vec<Option<Grip<T>>> =
+            self.touches.iter().map(|touch| touch.friction.map(|friction| friction.grip)).collect();
+        for (z, &(unknown, place)) in unknowns.iter().enumerate() {
+            match unknown {
+                Unknown::Push(k) => pushes[k] = solved.is_basic[z],
+                Unknown::Forth(k) => {
+                    grips[k] = Some(match solved.is_basic[z..z + 3] {
+                        [true, false, true] => Grip::Slides([-one, zero]),
+                        [false, true, true] => Grip::Slides([one, zero]),
+                        [false, false, true] => {
+                            let back = rates[place] < zero;
+                            Grip::Slides([if back { -one } else { one }, zero])
+                        }
+                        [false, false, false] => Grip::Idle,
+                        _ => Grip::Sticks,
+                    });
+                }
+                Unknown::Back | Unknown::Speed(_) | Unknown::Hold => {}
+            }
+        }
+        Outcome { forces, rates, pushes, grips }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A block on a floor with gap and one or two velocities, in units of its mass.
+    fn block(rates: [f64; 3], grip: Grip<f64>, count: usize) -> Outcome<f64> {
+        let matrix: Vec<Vec<f64>> =
+            (0..3).map(|i| (0..3).map(|j| if i == j { 1.0 } else { 0.0 }).collect()).collect();
+        let friction = Rubbing { place: 1, count, grip, bounds: [0.5, 0.5] };
+        let touches = vec![Touch { gap: Some(0), friction: Some(friction) }];
+        let law = Law { matrix: &matrix, rates: rates.to_vec(), noise: vec![1e-15; 3], touches };
+        law.decide().expect("forces")
+    }
+
+    #[test]
+    fn a_block_sticks_and_slides_each_way_and_parts() {
+        for (pull, grip, force) in [
+            (0.25, Grip::Sticks, -0.25),
+            (0.0, Grip::Idle, 0.0),
+            (2.0, Grip::Slides([1.0, 0.0]), -0.5),
+            (-2.0, Grip::Slides([-1.0, 0.0]), 0.5),
+        ] {
+            let outcome = block([-1.0, pull, 0.0], Grip::Open, 1);
+            assert_eq!((outcome.grips[0], outcome.pushes[0]), (Some(grip), true));
+            assert_eq!(outcome.forces, [1.0, force, 0.0]);
+        }
+        assert!(!block([1.0, 2.0, 0.0], Grip::Open, 1).pushes[0]);
+    }
+
+    #[test]
+    fn a_block_slides_against_the_pull_in_the_plane() {
+        let outcome = block([-1.0, 3.0, 4.0], Grip::Sticks, 2);
+        assert_eq!(outcome.forces, [1.0, -0.3, -0.4]);
+        assert_eq!(block([-1.0, 0.3, 0.4], Grip::Sticks, 2).forces, [1.0, -0.3, -0.4]);
+        assert_eq!(block([-1.0, 0.0, 0.1], Grip::Sticks, 2).grips[0], Some(Grip::Sticks));
+    }
+}

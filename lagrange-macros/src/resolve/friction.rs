@@ -1,0 +1,149 @@
+//! Contacts and friction: laws that hold while a constraint does, or instead of it.
+
+use super::lowering::Lowering;
+use super::parameters::{CONTACT, Entry, FRICTION, Reading};
+use super::problem::{ContactRow, FrictionRows};
+use super::value::Value;
+use crate::diagnostics::{Diagnostics, Place};
+use crate::symbolic::Id;
+use crate::syntax::{Constraint, Expression, Law};
+use crate::variables::{Variable, has_velocity};
+
+impl Law {
+    pub(super) fn is_friction(&self) -> bool {
+        matches!(self, Self::Coulomb { .. } | Self::Dry { .. })
+    }
+}
+
+impl Lowering<'_> {
+    /// Entry of the field that says whether a constraint holds, if there is one.
+    pub(super) fn entry_of_state(&mut self, constraint: &Constraint, element: &[usize]) -> Option<Entry> {
+        let field = constraint.when.as_ref()?;
+        let ty = match constraint.law {
+            Law::Equation => "bool",
+            Law::Contact { .. } => CONTACT,
+            Law::Dry { .. } => FRICTION,
+            // An error in the field has been reported with the contact.
+            Law::Coulomb { .. } => {
+                return self.parameters.switch((field, CONTACT), element, &mut Diagnostics::default());
+            }
+        };
+        self.parameters.switch((field, ty), element, self.diagnostics)
+    }
+
+    /// Adds a contact.
+    pub(super) fn contact(
+        &mut self,
+        restitution: Option<&Expression>,
+        (constraint, element): (&Constraint, &[usize]),
+        row: usize,
+        entry: Option<Entry>,
+    ) {
+        let restitution = self.with_indices(&constraint.target.indices, element, |lowering| {
+            restitution.map_or(Some(Id::ZERO), |value| lowering.scalar(value))
+        });
+        if let (Some(entry), Some(restitution)) = (entry, restitution) {
+            self.contacts.push(ContactRow { row, entry, restitution });
+        }
+    }
+
+    pub(super) fn check_gap(&mut self, gap: &Value, place: Place) {
+        if gap.as_scalar().is_none() {
+            self.diagnostics.error(place, format!("a gap is a number, but this is {}", gap.shape()));
+        }
+        if has_velocity(&self.graph, &gap.flat()) {
+            let message = "a gap is a distance, a function of the coordinates and the time: velocities have no place in it";
+            self.diagnostics.error(place, message);
+        }
+    }
+
+    /// Adds friction along a velocity, and its forces while it slides.
+    pub(super) fn friction(
+        &mut self,
+        law: &Law,
+        (constraint, element): (&Constraint, &[usize]),
+        (velocity, row): (&Value, usize),
+        entry: Option<Entry>,
+        powers: &mut Vec<(Id, Id)>,
+    ) {
+        let is_right = self.check_velocity(velocity, constraint.left.place);
+        let indices = &constraint.target.indices;
+        let bounds = self.with_indices(indices, element, |lowering| lowering.bounds(law));
+        let (Some(bounds), Some(entry), true) = (bounds, entry, is_right) else { return };
+        let contact = self.contacts.iter().position(|contact| contact.entry == entry);
+        let press = contact.map_or(Id::ONE, |contact| {
+            self.graph.symbol(Variable::Multiplier(self.contacts[contact].row).symbol())
+        });
+        let force = self.graph.mul(bounds[1], press);
+        let against = self.graph.neg(force);
+        let velocities = velocity.flat();
+        let directions = self.directions(&velocities, entry);
+        let sliding: Vec<Id> =
+            directions.into_iter().map(|direction| self.graph.mul(against, direction)).collect();
+        powers.extend(sliding.iter().copied().zip(velocities));
+        self.frictions.push(FrictionRows { row, sliding, entry, contact, bounds });
+    }
+
+    /// Coefficients or forces of sticking and sliding.
+    fn bounds(&mut self, law: &Law) -> Option<[Id; 2]> {
+        let (limit, sliding) = match law {
+            Law::Coulomb { coefficient } => (None, coefficient),
+            Law::Dry { limit, sliding } => (limit.as_ref(), sliding),
+            _ => return None,
+        };
+        let sliding = self.scalar(sliding);
+        let limit = limit.map_or(sliding, |limit| self.scalar(limit));
+        Some([limit?, sliding?])
+    }
+
+    /// Components of the direction in which friction slides, each zero while it does not. That of two velocities v is v/|v|,
+    /// with the sign of v·d for the direction d of the state: it stays the same as v passes through zero, where the next
+    /// state is decided, and is d at rest.
+    fn directions(&mut self, velocities: &[Id], entry: Entry) -> Vec<Id> {
+        let slip = self.read(entry, Reading::Slip(0));
+        if velocities.len() == 1 {
+            return vec![slip];
+        }
+        let [sideways, slides] = [Reading::Slip(1), Reading::Slides].map(|reading| self.read(entry, reading));
+        let started = velocities.iter().enumerate().map(|(component, &velocity)| {
+            let start = self.read(entry, Reading::Start(component));
+            self.graph.add(velocity, start)
+        });
+        let velocities: Vec<Id> = started.collect();
+        let along = self.graph.dot(&velocities, &[slip, sideways]);
+        // |v| |v·d| while it slides, and no zero below a root or a fraction while it does not.
+        let rests = self.graph.sub(Id::ONE, slides);
+        let sizes = [self.graph.dot(&velocities, &velocities), self.graph.mul(along, along)].map(|square| {
+            let square = self.graph.add(square, rests);
+            self.graph.sqrt(square)
+        });
+        let below = self.graph.mul(sizes[0], sizes[1]);
+        let part = |&velocity: &Id| {
+            let above = self.graph.mul(velocity, along);
+            self.graph.div(above, below)
+        };
+        velocities.iter().map(part).collect()
+    }
+
+    /// Node of a number that the state of a constraint stands for.
+    pub(super) fn read(&mut self, entry: Entry, reading: Reading) -> Id {
+        let variable = self.parameters.reading(entry, reading);
+        self.graph.symbol(variable.symbol())
+    }
+
+    fn check_velocity(&mut self, velocity: &Value, place: Place) -> bool {
+        let velocities = velocity.flat();
+        let is_short = velocity.as_scalar().is_some() || velocity.lengths() == [2];
+        if !is_short {
+            let shape = velocity.shape();
+            let message = format!("friction acts along a velocity or a vector of two, but this is {shape}");
+            self.diagnostics.error(place, message);
+        } else if !has_velocity(&self.graph, &velocities) {
+            let message = "no velocity occurs in this, so that there is nothing that friction could stop";
+            self.diagnostics.error(place, message);
+        } else {
+            return true;
+        }
+        false
+    }
+}
