@@ -116,3 +116,37 @@ fn every_method_takes_switches() {
     compare(DAlembert::with_step(0.01));
     compare(Radau::with_tolerance(1e-10));
 }
+
+/// A chain whose velocities share partial sums, which the derive rewrites: the switch goes along.
+#[test]
+fn a_switch_in_a_chain_is_that_of_its_constraint() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(theta: [3])]
+    #[define(v[i in 0..3] = sum(j in 0..i + 1, l*theta_dot[j]*cos(theta[j])))]
+    #[define(w[i in 0..3] = sum(j in 0..i + 1, l*theta_dot[j]*sin(theta[j])))]
+    #[lagrangian(sum(i in 0..3, m/2 * (v[i]^2 + w[i]^2)) + m*g*l*sum(i in 0..3, (3 - i)*cos(theta[i])))]
+    #[constraint(lock: theta[1] = theta[0], when: locked)]
+    struct Chain {
+        m: f64,
+        l: f64,
+        g: f64,
+        locked: bool,
+    }
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(theta: [3])]
+    #[define(v[i in 0..3] = sum(j in 0..i + 1, l*theta_dot[j]*cos(theta[j])))]
+    #[define(w[i in 0..3] = sum(j in 0..i + 1, l*theta_dot[j]*sin(theta[j])))]
+    #[lagrangian(sum(i in 0..3, m/2 * (v[i]^2 + w[i]^2)) + m*g*l*sum(i in 0..3, (3 - i)*cos(theta[i])))]
+    #[constraint(lock: theta[1] = theta[0])]
+    struct Locked {
+        m: f64,
+        l: f64,
+        g: f64,
+    }
+    let state = State::new([0.3, 0.3, -0.8], [0.5, 0.5, -1.0]);
+    let expected = Locked { m: 1.3, l: 0.7, g: 9.81 }.solve(&state).unwrap();
+    let found = Chain { m: 1.3, l: 0.7, g: 9.81, locked: true }.solve(&state).unwrap();
+    assert_relative_eq!(found.accelerations, expected.accelerations, epsilon = 1e-12);
+    assert_relative_eq!(found.multipliers, expected.multipliers, epsilon = 1e-12);
+    assert_eq!(Chain { m: 1.3, l: 0.7, g: 9.81, locked: false }.solve(&state).unwrap().multipliers[0], 0.0);
+}

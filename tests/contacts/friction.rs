@@ -296,3 +296,107 @@ fn a_rod_that_digs_in_is_named() {
     }
     assert!(rod(0.5).motion(start).with_contacts().to(0.1).is_ok());
 }
+
+/// Friction in all its states on random systems, against M, h, W and γ written by hand and a dense solver.
+#[test]
+fn each_state_solves_the_equations_written_by_hand() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y, theta)]
+    #[lagrangian(m/2 * (x_dot^2 + y_dot^2) + j/2 * theta_dot^2 - m*g*y)]
+    #[define(end(s) = [x + s*a*cos(theta), y + s*a*sin(theta)])]
+    #[contact(floor[i in 0..2]: end(2*i - 1)[1] >= 0, friction(mu): der(end(2*i - 1))[0])]
+    struct Rod {
+        m: f64,
+        j: f64,
+        a: f64,
+        g: f64,
+        mu: f64,
+        floor: [Contact; 2],
+    }
+    let mut seed = 3_u64;
+    let mut next = |low: f64, high: f64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let states = [Contact::Open, Contact::Closed, Contact::Slides([1.0, 0.0]), Contact::Slides([-1.0, 0.0])];
+    let mut jams = 0;
+    for case in 0..2_000 {
+        // Two closed contacts of which one sticks are three rows at most.
+        let floor = [states[case % 4], states[[0, 2, 3, 0][case / 4 % 4]]];
+        let rod = Rod {
+            m: next(0.5, 2.0),
+            j: next(0.1, 1.0),
+            a: next(0.3, 1.0),
+            g: 9.81,
+            mu: next(0.0, 0.5),
+            floor,
+        };
+        let theta = next(-1.3, 1.3);
+        let state = State::new([0.0, 1.0, theta], [next(-2.0, 2.0), next(-2.0, 2.0), next(-2.0, 2.0)]);
+        let omega = state.v[2];
+        let (s, c) = theta.sin_cos();
+        // Unknowns: q̈, then N and T of both ends.
+        let mut k = nalgebra::SMatrix::<f64, 7, 7>::zeros();
+        let mut rhs = nalgebra::SVector::<f64, 7>::zeros();
+        for (i, mass) in [rod.m, rod.m, rod.j].into_iter().enumerate() {
+            k[(i, i)] = mass;
+        }
+        rhs[1] = -rod.m * rod.g;
+        for (end, side) in [-1.0, 1.0].into_iter().enumerate() {
+            let (normal, tangent) = ([0.0, 1.0, side * rod.a * c], [1.0, 0.0, -side * rod.a * s]);
+            let bias = [-side * rod.a * s * omega * omega, -side * rod.a * c * omega * omega];
+            let (n, t) = (3 + end, 5 + end);
+            for i in 0..3 {
+                (k[(i, n)], k[(i, t)]) = (-normal[i], -tangent[i]);
+            }
+            let set = |k: &mut nalgebra::SMatrix<f64, 7, 7>, row: usize, of: [f64; 3]| {
+                (0..3).for_each(|i| k[(row, i)] = of[i]);
+            };
+            match floor[end] {
+                Contact::Open => (k[(n, n)], k[(t, t)]) = (1.0, 1.0),
+                Contact::Closed => {
+                    set(&mut k, n, normal);
+                    set(&mut k, t, tangent);
+                    (rhs[n], rhs[t]) = (-bias[0], -bias[1]);
+                }
+                Contact::Slides([sign, _]) => {
+                    set(&mut k, n, normal);
+                    rhs[n] = -bias[0];
+                    (k[(t, t)], k[(t, n)]) = (1.0, rod.mu * sign);
+                }
+            }
+        }
+        let expected = k.lu().solve(&rhs).expect("a solution");
+        let found = match rod.solve(&state) {
+            Ok(found) => found,
+            Err(Error::FrictionJams { .. }) => {
+                jams += 1;
+                continue;
+            }
+            Err(other) => panic!("case {case}, {floor:?}: {other}"),
+        };
+        let scale = 1e-11 * (1.0 + expected.amax());
+        assert!((found.accelerations - expected.fixed_rows::<3>(0)).amax() < scale, "case {case}, {floor:?}");
+        assert!((found.multipliers - expected.fixed_rows::<4>(3)).amax() < scale, "case {case}, {floor:?}");
+        // Derivatives by central differences of accelerations, the emitted Jacobian's.
+        let jacobian = rod.jacobian(&state).unwrap().accelerations;
+        for column in 0..6 {
+            let moved = |step: f64| {
+                let mut moved = state;
+                if column < 3 {
+                    moved.q[column] += step
+                } else {
+                    moved.v[column - 3] += step
+                }
+                rod.solve(&moved).unwrap().accelerations
+            };
+            let difference = (moved(1e-6) - moved(-1e-6)) / 2e-6;
+            let slopes = if column < 3 { jacobian.q.column(column) } else { jacobian.v.column(column - 3) };
+            let error = (difference - slopes).amax();
+            assert!(
+                error < 1e-6 * (1.0 + difference.amax()),
+                "case {case}, {floor:?}, column {column}: {error:e}"
+            );
+        }
+    }
+}

@@ -8,6 +8,7 @@ mod bounds;
 mod friction;
 mod frictionless;
 mod rest;
+mod toys;
 
 /// A number that an environment variable states, for the long checks.
 fn count(variable: &str, default: usize) -> usize {
