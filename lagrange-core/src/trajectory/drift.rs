@@ -6,7 +6,7 @@ use core::fmt::{self, Display, Formatter};
 use super::stored::Trajectory;
 use crate::number::{Real, Scalar, exceeds};
 use crate::solution::vector_field::VectorField;
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, StateOf};
 
 /// Largest deviation of a conserved quantity from its initial value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,28 +53,34 @@ pub struct Drift<T> {
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
     /// Returns the largest deviation of each conserved quantity from its initial value.
     pub fn drift(&self) -> Drift<S::Scalar> {
-        // One pass for all quantities: in (q, p) every state requires a search for the velocity.
-        let mut steps = self.states_of_steps();
-        let start = steps.next().into_iter().flat_map(|start| {
-            let conserved = S::FACTS.conserved.iter().enumerate();
-            conserved.filter_map(move |(index, conserved)| {
-                let (name, start) = (conserved.name, self.system.conserved(index, &start)?);
-                Some((index, Deviation { name, start, largest: S::Scalar::constant(0.0) }))
-            })
-        });
-        let mut quantities: Vec<_> = start.collect();
-        for step in steps {
-            for (index, Deviation { start, largest, .. }) in &mut quantities {
-                if let Some(value) = self.system.conserved(*index, &step) {
-                    *largest = farther(*largest, value - *start);
-                }
-            }
-        }
-        Drift { quantities: quantities.into_iter().map(|(_, deviation)| deviation).collect() }
+        Drift::of(self.states_of_steps().map(|state| (&self.system, state)))
     }
 }
 
 impl<T: Real> Drift<T> {
+    /// The largest deviations from the first of these states, each with the system of its time.
+    pub(crate) fn of<'s, S: Lagrangian<Scalar = T> + 's>(
+        mut steps: impl Iterator<Item = (&'s S, StateOf<S>)>,
+    ) -> Self {
+        // One pass for all quantities: in (q, p) every state requires a search for the velocity.
+        let start = steps.next().into_iter().flat_map(|(system, start)| {
+            let conserved = S::FACTS.conserved.iter().enumerate();
+            conserved.filter_map(move |(index, conserved)| {
+                let (name, start) = (conserved.name, system.conserved(index, &start)?);
+                Some((index, Deviation { name, start, largest: T::constant(0.0) }))
+            })
+        });
+        let mut quantities: Vec<_> = start.collect();
+        for (system, step) in steps {
+            for (index, Deviation { start, largest, .. }) in &mut quantities {
+                if let Some(value) = system.conserved(*index, &step) {
+                    *largest = farther(*largest, value - *start);
+                }
+            }
+        }
+        Self { quantities: quantities.into_iter().map(|(_, deviation)| deviation).collect() }
+    }
+
     /// Iterates over the quantities in the order of [`Facts::conserved`](crate::facts::Facts::conserved).
     pub fn iter(&self) -> core::slice::Iter<'_, Deviation<T>> {
         self.quantities.iter()

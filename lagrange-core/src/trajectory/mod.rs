@@ -9,9 +9,10 @@ mod stored;
 #[cfg(test)]
 mod tests;
 
-pub use csv::Csv;
+pub use csv::{Csv, Tabulated};
 pub use drift::{Deviation, Drift};
 pub use hybrid::{HybridTrajectory, Leg, Named};
 pub(crate) use path::Path;
 pub use records::Records;
 pub use stored::Trajectory;
+pub(crate) use stored::between;

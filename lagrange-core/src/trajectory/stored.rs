@@ -24,7 +24,7 @@ use crate::vector::{Array, vector};
 /// `Trajectory<Pendulum>`. The vector field `F` tells which equations were integrated,
 /// Lagrange's or Hamilton's; samples have both velocities and momenta.
 pub struct Trajectory<S: Lagrangian, F = LagrangianVectorField> {
-    pub(super) system: S,
+    pub(crate) system: S,
     pub(super) path: Path<S::Scalar, S::N>,
     ending: Ending,
     statistics: Statistics,
@@ -88,6 +88,14 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
     pub(crate) fn check_finished(&self) -> Result<(), Error> {
         let is_failure = self.ending.is_failure();
         if is_failure { Err(self.ending.clone().into()) } else { Ok(()) }
+    }
+
+    pub(crate) fn start_time(&self) -> S::Scalar {
+        self.path.start.t
+    }
+
+    pub(crate) fn last_state(&self) -> &StateOf<S> {
+        &self.path.last
     }
 
     /// Returns the system.
@@ -160,7 +168,7 @@ impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Trajectory<S, F> {
 }
 
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
-    pub(super) fn states_of_steps(&self) -> impl Iterator<Item = StateOf<S>> + '_ {
+    pub(crate) fn states_of_steps(&self) -> impl Iterator<Item = StateOf<S>> + '_ {
         let starts = (0..self.statistics.accepted).filter_map(|i| self.path.start_of(i));
         starts.map(|point| F::state(&self.system, &point)).chain(once(*self.path.last))
     }
@@ -177,7 +185,7 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
 
     /// Returns the state at a time. An interpolated state violates the constraints by about the tolerance, so
     /// it is projected.
-    pub(super) fn state_at(&self, t: S::Scalar) -> Result<StateOf<S>, Error> {
+    pub(crate) fn state_at(&self, t: S::Scalar) -> Result<StateOf<S>, Error> {
         if t == self.path.last.t {
             return Ok(*self.path.last);
         }
@@ -205,7 +213,7 @@ impl<S: Lagrangian, F> Debug for Trajectory<S, F> {
 }
 
 /// Interpolates between two times. Rounding neither passes the last time nor overflows.
-pub(super) fn between<T: Real>(first: T, last: T, part: f64) -> T {
+pub(crate) fn between<T: Real>(first: T, last: T, part: f64) -> T {
     let (span, done) = (last - first, T::constant(part));
     if part == 1.0 {
         last
