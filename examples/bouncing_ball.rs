@@ -93,7 +93,7 @@ fn draw(path: &ContactTrajectory<Ball>, bounces: &[Bounce], file: &std::path::Pa
     let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     let [mut flight, mut speed, mut energy] = [const { Points::new() }; 3];
-    for sample in path.legs().samples(3000) {
+    for sample in path.samples(3000) {
         let sample = sample?;
         flight.push((sample.coordinate("x")?, sample.coordinate("y")?));
         speed.push((sample.time(), sample.velocity("y")?));

@@ -20,3 +20,26 @@ impl Default for Statistics {
         Self { accepted: 0, rejected: 0, evaluations: 0, multipliers_are_unique: true }
     }
 }
+
+#[cfg(feature = "alloc")]
+impl Statistics {
+    /// Counts of this integration after those of an earlier one.
+    pub(crate) fn after(self, earlier: &Self) -> Self {
+        Self {
+            accepted: earlier.accepted + self.accepted,
+            rejected: earlier.rejected + self.rejected,
+            evaluations: earlier.evaluations + self.evaluations,
+            multipliers_are_unique: earlier.multipliers_are_unique && self.multipliers_are_unique,
+        }
+    }
+
+    /// Counts since an earlier moment.
+    pub(crate) fn since(self, earlier: &Self) -> Self {
+        Self {
+            accepted: self.accepted - earlier.accepted,
+            rejected: self.rejected - earlier.rejected,
+            evaluations: self.evaluations - earlier.evaluations,
+            ..self
+        }
+    }
+}

@@ -162,8 +162,7 @@ fn rods_on_a_floor_and_a_wall() {
         }
         endings[2] += path.transitions().len();
         let mut energy = rod.energy(&start);
-        for leg in 0..path.legs().legs().len() {
-            let leg = path.legs().leg::<Trajectory<Rod>>(leg).unwrap();
+        for leg in path.legs() {
             for step in leg.steps() {
                 let (state, multipliers) = (step.state(), step.solution().unwrap().multipliers);
                 for (k, gap) in rod.gaps(state).into_iter().enumerate() {

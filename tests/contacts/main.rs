@@ -4,10 +4,12 @@
 #![allow(clippy::unwrap_used)]
 
 mod abuse;
+mod along;
 mod bounds;
 mod friction;
 mod frictionless;
 mod rest;
+mod tables;
 mod toys;
 
 /// A number that an environment variable states, for the long checks.

@@ -80,6 +80,12 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         Self { open, closed, largest, span: L::Scalar::constant(0.0) }
     }
 
+    /// Takes the parameters of this system.
+    pub(super) fn take(&mut self, system: &L) {
+        let Self { open, closed, .. } = Self::new(system);
+        (self.open, self.closed) = (open, closed);
+    }
+
     /// The system with contacts and friction in these states.
     pub(super) fn with(&self, States { is_closed, frictions }: &States) -> L {
         let mut system = self.open.clone();
@@ -109,6 +115,12 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         for (largest, entries) in self.largest.iter_mut().zip([&state.q, &state.v]) {
             *largest = Array::from_fn(|i| larger(largest[i], Scalar::abs(entries[i])));
         }
+    }
+
+    /// The largest entries so far, at the time of a state.
+    pub(super) fn sizes(&self, state: &StateOf<L>) -> StateOf<L> {
+        let [q, v] = self.largest.map(vector);
+        StateOf::<L> { t: state.t, q, v }
     }
 
     /// Takes note of what the bodies move in a millionth of the span from rest, without their contacts: where all entries are

@@ -2,104 +2,60 @@
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
-use core::ops::ControlFlow;
 
 use super::bodies::{Bodies, States};
 use super::instant::{Changed, Decided};
-use super::trajectory::{ContactTrajectory, Transition};
+use super::legs::{Accept, Driven, KeepsLegs, Leg, Watch};
+use super::trajectory::Transition;
 use super::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::{Ending, Error};
-use crate::motion::event::noise;
-use crate::motion::run::check_end;
-use crate::motion::{
-    AllSteps, DynEvent, LagrangianVectorField, Method, MotionBuilder, OnProgress, Progress, Simulate, Start,
-};
+use crate::motion::event::{EventSearch, noise};
+use crate::motion::progress::{OnProgress, report};
+use crate::motion::run::{Run, Watchdog};
+use crate::motion::{DynEvent, Method, Simulate};
 use crate::names::name;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::Sample;
+use crate::solution::crossing::Crossing;
+use crate::statistics::Statistics;
 use crate::system::{Lagrangian, StateOf};
-use crate::trajectory::{HybridTrajectory, Trajectory};
 
-/// Largest number of legs unless [`max_transitions`](MotionBuilder::max_transitions) sets another.
-const LEGS: usize = 100_000;
-
-/// Marks a motion across contacts: `to` returns a [`ContactTrajectory`].
-#[derive(Clone, Copy, Debug)]
-pub struct AcrossContacts {
-    legs: usize,
-}
-
-/// Settings of a motion from a state.
-type Builder<'a, 'w, L, P, K> = MotionBuilder<
-    'a,
-    'w,
-    L,
-    Start<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, LagrangianVectorField>,
-    P,
-    (),
-    K,
->;
-
-impl<'a, 'w, L: Contacts + Clone, P> Builder<'a, 'w, L, P, AllSteps> {
-    /// Moves across the [contacts](crate::contact) of the system: gaps close and open, and velocities jump at impacts.
-    pub fn with_contacts(self) -> Builder<'a, 'w, L, P, AcrossContacts> {
-        self.keeping(|AllSteps| AcrossContacts { legs: LEGS })
-    }
-}
-
-impl<L, P> Builder<'_, '_, L, P, AcrossContacts>
-where
-    L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static,
-    P: Method<L> + Clone,
-{
-    /// Sets the largest number of legs, 100,000 if it is not set.
-    pub fn max_transitions(self, count: usize) -> Self {
-        self.keeping(|_| AcrossContacts { legs: count })
-    }
-
-    /// Moves to the time `end`.
-    ///
-    /// # Errors
-    /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
-    pub fn to(self, end: L::Scalar) -> Result<ContactTrajectory<L>, Error> {
-        self.towards(end)?.finished()
-    }
-
-    /// Moves towards the time `end`. If the motion fails on the way, the result holds what was computed until then, and its
-    /// [`ending`](ContactTrajectory::ending) the reason.
-    ///
-    /// # Errors
-    /// Those of [`integrate`](Simulate::integrate) before the first step; [`Error::Penetration`] if a gap is negative at the
-    /// start; [`Error::MotionBackwards`] if `end` lies before the start.
-    pub fn towards(self, end: L::Scalar) -> Result<ContactTrajectory<L>, Error> {
-        let Self { system, start, method, on_progress, kept, .. } = self;
-        let state = start.into_state()?;
-        check_end(end)?;
-        if end < state.t {
-            let [start, end] = [state.t, end].map(Real::to_f64);
-            return Err(Error::MotionBackwards { start, end });
-        }
-        Journey::begin(system, state, end, on_progress)?.run(&method, end, kept.legs)
-    }
-}
-
-/// A motion under way.
-struct Journey<'w, L: Lagrangian> {
+/// A motion under way, which keeps `K` of its legs.
+pub(super) struct Journey<'w, L: Lagrangian, K> {
     bodies: Bodies<L>,
     decided: Decided<L::Scalar>,
     state: StateOf<L>,
-    legs: HybridTrajectory<L::Scalar>,
+    /// Times of start and end.
+    times: [L::Scalar; 2],
+    kept: K,
     transitions: Vec<Transition<L::Scalar>>,
-    on_progress: Option<OnProgress<'w>>,
+    crossings: Vec<Crossing<L::Scalar, L::N>>,
+    statistics: Statistics,
+    accept: Accept<'w, L>,
 }
 
-impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, L> {
-    fn begin(
-        system: &L,
-        mut state: StateOf<L>,
-        end: L::Scalar,
-        on_progress: Option<OnProgress<'w>>,
-    ) -> Result<Self, Error> {
+/// A motion that has ended.
+pub(super) struct Ended<L: Lagrangian, K> {
+    pub(super) kept: K,
+    pub(super) transitions: Vec<Transition<L::Scalar>>,
+    pub(super) crossings: Vec<Crossing<L::Scalar, L::N>>,
+    pub(super) statistics: Statistics,
+    pub(super) system: L,
+    pub(super) state: StateOf<L>,
+    pub(super) ending: Ending,
+}
+
+/// How a leg ends.
+enum After {
+    /// The motion goes on.
+    Leg,
+    /// The motion goes on after a transition.
+    Transition,
+    Ending(Ending),
+}
+
+impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
+    pub(super) fn begin(system: &L, mut state: StateOf<L>, end: L::Scalar, kept: K) -> Result<Self, Error> {
         let (mut bodies, mut transitions) = (Bodies::new(system), Vec::new());
         bodies.passes(&state);
         let is_closed: Vec<bool> =
@@ -108,87 +64,156 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
         bodies.without_friction(&is_closed).check_consistent(&state)?;
         bodies.reaches(&state, end - state.t)?;
         bodies.crossed(&is_closed, &state).map_or(Ok(()), Err)?;
-        let was = States { is_closed, frictions: Vec::new() };
+        let (times, was) = ([state.t, end], States { is_closed, frictions: Vec::new() });
         let decided = bodies.settle(&mut state, (&was, &Changed::default()), &mut transitions)?;
-        Ok(Self { bodies, decided, state, legs: HybridTrajectory::new(), transitions, on_progress })
+        let (crossings, statistics, accept) =
+            (Vec::new(), Statistics::default(), Box::new(|_: &_, _| Ok(())));
+        Ok(Self { bodies, decided, state, times, kept, transitions, crossings, statistics, accept })
     }
 
-    fn run<P: Method<L> + Clone>(
+    /// Calls this after every step; it may end the motion.
+    pub(super) fn accepting(self, accept: Accept<'w, L>) -> Self {
+        Self { accept, ..self }
+    }
+
+    /// Reports the progress after every step.
+    pub(super) fn reporting(self, mut on_progress: Option<OnProgress<'w>>) -> Self {
+        let [start, end] = self.times;
+        self.accepting(Box::new(move |state, steps| report(&mut on_progress, [start, state.t, end], steps)))
+    }
+
+    /// Moves to the end, with these events of the user and at most so many transitions.
+    pub(super) fn run<P: Method<L>>(
         mut self,
         method: &P,
-        end: L::Scalar,
-        legs: usize,
-    ) -> Result<ContactTrajectory<L>, Error> {
-        let mut ending = Ok(None);
-        for leg in 0..legs {
-            ending = match self.leg(method, end) {
-                Err(error) if leg == 0 => return Err(error),
-                Err(error) => Err(error),
-                Ok(path) => self.goes_on(path, end),
-            };
-            if !matches!(ending, Ok(None)) {
-                break;
+        mut events: Vec<Box<DynEvent<'w, L>>>,
+        limit: usize,
+    ) -> Result<Ended<L, K>, Error> {
+        let (watchdog, mut transitions) = (Watchdog::new(method.limits(), &self.statistics), 0);
+        let mut is_first = true;
+        let ending = loop {
+            let time = self.state.t.to_f64();
+            if transitions == limit {
+                break Ending::TransitionLimit { time, transitions };
             }
-        }
-        let time = self.state.t.to_f64();
-        let ending = ending.unwrap_or_else(|error| Some(Ending::of(error, time)));
-        Ok(self.ended(ending.unwrap_or(Ending::TransitionLimit { time, transitions: legs })))
+            let after = match self.steer() {
+                Err(ending) => break ending,
+                Ok(()) => self.leg(method, &mut events, &watchdog),
+            };
+            let after = match after {
+                Err(error) if core::mem::take(&mut is_first) => return Err(error),
+                after => after.and_then(|driven| self.goes_on(driven, &mut events)),
+            };
+            is_first = false;
+            match after {
+                Err(error) => break Ending::of(error, self.state.t.to_f64()),
+                Ok(After::Ending(ending)) => break ending,
+                Ok(After::Transition) => transitions += 1,
+                Ok(After::Leg) => {}
+            }
+        };
+        Ok(self.ended(ending))
     }
 
-    fn ended(self, ending: Ending) -> ContactTrajectory<L> {
-        let Self { bodies, decided, state, legs, transitions, .. } = self;
-        let system = bodies.with(&decided.states);
-        ContactTrajectory { legs, transitions, system, end: state, ending }
+    fn ended(mut self, ending: Ending) -> Ended<L, K> {
+        let system = self.bodies.with(&self.decided.states);
+        let noted = if ending.is_failure() { Ok(()) } else { self.kept.arrives(&system, &self.state) };
+        let ending = noted.err().map_or(ending, |error| Ending::of(error, self.state.t.to_f64()));
+        let Self { state, kept, transitions, crossings, statistics, .. } = self;
+        Ended { kept, transitions, crossings, statistics, system, state, ending }
+    }
+
+    /// Takes note of the state after a transition, and calls the controller if it is due: what it sets may close and open
+    /// contacts.
+    fn steer(&mut self) -> Result<(), Ending> {
+        let time = self.state.t.to_f64();
+        let fails = |error| Ending::of(error, time);
+        let mut system = self.bodies.with(&self.decided.states);
+        self.kept.arrives(&system, &self.state).map_err(fails)?;
+        if self.kept.control(&mut system, &self.state)? {
+            self.bodies.take(&system);
+            self.decided = self.settle_anew().map_err(fails)?;
+        }
+        Ok(())
+    }
+
+    /// Decides which contacts are closed, and which friction sticks, after a change of parameters.
+    fn settle_anew(&mut self) -> Result<Decided<L::Scalar>, Error> {
+        let was = &self.decided.states;
+        self.bodies.without_friction(&was.is_closed).check_consistent(&self.state)?;
+        self.bodies.crossed(&was.is_closed, &self.state).map_or(Ok(()), Err)?;
+        self.bodies.settle(&mut self.state, (was, &Changed::default()), &mut self.transitions)
     }
 
     /// Moves until the next gap closes, the next multiplier becomes zero, or friction begins to slide or stops.
-    fn leg<P: Method<L> + Clone>(&mut self, method: &P, end: L::Scalar) -> Result<Trajectory<L>, Error> {
-        let Self { bodies, decided, state, on_progress, .. } = self;
+    fn leg<P: Method<L>>(
+        &mut self,
+        method: &P,
+        given: &mut [Box<DynEvent<'w, L>>],
+        limits: &Watchdog,
+    ) -> Result<Driven<L>, Error> {
+        let Self { bodies, decided, state, .. } = self;
         let system = bodies.with(&decided.states);
+        let closed = bodies.closed.clone();
         let mut events: Vec<Box<DynEvent<'_, L>>> = Vec::new();
+        let is_first = self.statistics.accepted == 0;
+        events.extend(given.iter_mut().map(|event| Box::new(event) as Box<DynEvent<'_, L>>));
         let zero = L::Scalar::constant(0.0);
         for (k, &row) in L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]) {
-            let (name, bodies) = (name(L::CONSTRAINTS, row), &*bodies);
+            let (name, closed) = (name(L::CONSTRAINTS, row), &closed);
             let force = move |sample: &Sample<&L>| Ok(sample.solution()?.multipliers[row]);
-            let gap = move |sample: &Sample<&L>| Ok(bodies.gap(k, sample.state()));
+            let gap = move |sample: &Sample<&L>| Ok(closed.constraint_residual(sample.state())[row]);
             let is_resting = decided.is_resting[k];
             events.push(match decided.states.is_closed[k] {
                 true => watched(&system, state, name, is_resting.then_some(zero), force)?,
                 false => watched(&system, state, name, is_resting.then(|| bodies.touching(k, state)), gap)?,
             });
         }
-        events.extend(of_friction(&system, bodies, decided, state)?);
-        let mut motion = system.motion(*state).by(method.clone()).events(events);
-        if let Some(look) = on_progress {
-            motion = motion.on_progress(|progress: Progress| -> ControlFlow<()> { look(progress) });
-        }
+        events.extend(of_friction(&system, &closed, decided, state)?);
         // A bounce is searched for within its own time: a step as long as that of a flight would be halved many times.
         let bounce = decided.bounce.take().map(|bounce| state.t + bounce);
-        let end = bounce.filter(|&bounce| state.t < bounce && bounce < end).unwrap_or(end);
-        Ok(motion.with_contacts_as_they_are(end)?.into_owned())
+        let goal = self.kept.goal().unwrap_or(self.times[1]);
+        let goal = bounce.filter(|&bounce| state.t < bounce && bounce < goal).unwrap_or(goal);
+        let (mut run, adjustment) = Run::begin(&system, state, method)?;
+        run.statistics = run.statistics.after(&self.statistics);
+        let watch = Watch { bodies, is_closed: &decided.states.is_closed, accept: &mut self.accept };
+        let (system, events) = (&system, &mut events[..]);
+        if !is_first {
+            EventSearch::goes_on(events);
+        }
+        self.kept.drive(Leg { system, run, adjustment, events, goal, method, limits, watch })
     }
 
-    /// Keeps a leg, and decides what follows at its end. Returns the ending if it is the last one.
-    fn goes_on(&mut self, path: Trajectory<L>, end: L::Scalar) -> Result<Option<Ending>, Error> {
-        let crossed = path.steps().find_map(|step| {
-            self.bodies.passes(step.state());
-            self.bodies.crossed(&self.decided.states.is_closed, step.state())
-        });
-        self.state = *path.end().state();
-        let ending = path.ending().clone();
-        self.legs.push(path)?;
-        if let Some(error) = crossed {
-            return Err(error);
-        }
-        let event = match ending {
-            Ending::Event { event, .. } => event,
-            Ending::Complete { .. } if self.state.t < end => return Ok(None),
-            other => return Ok(Some(other)),
+    /// Decides what follows at the end of a leg.
+    fn goes_on(&mut self, leg: Driven<L>, given: &mut [Box<DynEvent<'w, L>>]) -> Result<After, Error> {
+        self.state = leg.state;
+        self.bodies.passes(&self.state);
+        self.statistics = leg.statistics;
+        let last = leg.crossings.last().filter(|last| last.index >= given.len()).map(|last| last.event);
+        self.crossings.extend(leg.crossings.into_iter().filter(|crossing| crossing.index < given.len()));
+        let event = match (leg.ending, last) {
+            (Ok(()), _) => None,
+            (Err(Ending::Event { .. }), Some(contact)) => Some(contact),
+            (Err(ending), _) => return Ok(After::Ending(ending)),
         };
+        let system = self.bodies.with(&self.decided.states);
+        let here = [&self.state, &self.bodies.sizes(&self.state)];
+        if let Some(ending) = EventSearch::record_at_end(given, &system, here, &mut self.crossings)? {
+            return Ok(After::Ending(ending));
+        }
+        match event {
+            Some(contact) => self.transition(contact).map(|()| After::Transition),
+            None if self.state.t < self.times[1] => Ok(After::Leg),
+            None => Ok(After::Ending(Ending::Complete { time: self.state.t.to_f64() })),
+        }
+    }
+
+    /// Decides what follows at the event of this contact or friction.
+    fn transition(&mut self, event: &str) -> Result<(), Error> {
         let changed = self.changed(event)?;
         let was = &self.decided.states;
         self.decided = self.bodies.settle(&mut self.state, (was, &changed), &mut self.transitions)?;
-        Ok(None)
+        Ok(())
     }
 
     /// What an event says about the contact or the friction of its name.
@@ -221,7 +246,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone + Send + Sync + 'static> Journey<'w, 
 /// The events that friction reaches its limit, or stops the bodies.
 fn of_friction<'w, L>(
     system: &L,
-    bodies: &'w Bodies<L>,
+    closed: &'w L,
     decided: &Decided<L::Scalar>,
     state: &StateOf<L>,
 ) -> Result<Vec<Box<DynEvent<'w, L>>>, Error>
@@ -239,7 +264,7 @@ where
             Friction::Sticks => {
                 let left = move |sample: &Sample<&L>| {
                     let multipliers = &sample.solution()?.multipliers;
-                    let limit = bodies.closed.friction_limit(f, sample.state()).unwrap_or(zero);
+                    let limit = closed.friction_limit(f, sample.state()).unwrap_or(zero);
                     let press = contact.map_or(L::Scalar::constant(1.0), |k| multipliers[L::CONTACTS[k]]);
                     let force = match count {
                         1 => Scalar::abs(multipliers[row]),
@@ -255,7 +280,7 @@ where
             Friction::Slides(direction) => {
                 let direction = direction.map(L::Scalar::constant);
                 let along = move |sample: &Sample<&L>| {
-                    let rates = bodies.closed.constraint_rate(sample.state());
+                    let rates = closed.constraint_rate(sample.state());
                     Ok((0..count).fold(zero, |sum, c| sum + direction[c] * rates[row + c]))
                 };
                 watched(system, state, name, decided.slips_from_rest[f].then_some(zero), along)?

@@ -78,6 +78,8 @@ assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
 #[cfg(feature = "alloc")]
 mod bodies;
 #[cfg(feature = "alloc")]
+mod builder;
+#[cfg(feature = "alloc")]
 mod complementarity;
 #[cfg(feature = "alloc")]
 mod driver;
@@ -88,13 +90,15 @@ mod instant;
 #[cfg(feature = "alloc")]
 mod law;
 #[cfg(feature = "alloc")]
+mod legs;
+#[cfg(feature = "alloc")]
 mod lemke;
 #[cfg(feature = "alloc")]
 mod trajectory;
 
 use crate::system::{Lagrangian, StateOf};
 #[cfg(feature = "alloc")]
-pub use driver::AcrossContacts;
+pub use builder::{AcrossContacts, ContactArrival, CrossesContacts};
 #[cfg(feature = "alloc")]
 pub use trajectory::{ContactTrajectory, Transition};
 

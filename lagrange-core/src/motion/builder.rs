@@ -183,14 +183,6 @@ where
         P: Method<L, F>,
     {
         const { check_contacts::<L>() };
-        self.with_contacts_as_they_are(end)
-    }
-
-    /// Integrates towards the time `end`, while contacts stay open or closed.
-    pub(crate) fn with_contacts_as_they_are(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error>
-    where
-        P: Method<L, F>,
-    {
         match const { E::HAS_EVENTS } {
             true => self.store::<true>(end),
             false => self.store::<false>(end),

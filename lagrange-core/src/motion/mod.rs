@@ -45,8 +45,6 @@ pub(crate) mod builder;
 pub(crate) mod event;
 #[cfg(feature = "alloc")]
 pub(crate) use event::DynEvent;
-#[cfg(feature = "alloc")]
-pub(crate) use progress::OnProgress;
 pub(crate) mod geometric;
 #[cfg(feature = "std")]
 mod lanes;

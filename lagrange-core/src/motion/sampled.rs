@@ -21,7 +21,7 @@ use crate::system::{Lagrangian, StateOf, check_contacts};
 pub struct SamplesAlone<'w, L: Lagrangian> {
     pub(crate) plan: RecordPlan<'w, L>,
     /// Controller, and the copy of the system that it changes.
-    steered: Option<(Steering<'w, L>, L)>,
+    pub(crate) steered: Option<(Steering<'w, L>, L)>,
 }
 
 impl<L: Lagrangian> Debug for SamplesAlone<'_, L> {
@@ -32,25 +32,34 @@ impl<L: Lagrangian> Debug for SamplesAlone<'_, L> {
 
 /// Selects what a motion keeps: all steps, or samples alone.
 pub trait Kept<'w, L: Lagrangian> {
-    /// Converts to settings with samples alone; samples that were already chosen remain.
+    /// The same with samples alone.
+    type Alone;
+
+    /// Converts to settings with samples alone, and changes them; samples that were already chosen remain.
     #[doc(hidden)]
-    fn samples_alone(self) -> SamplesAlone<'w, L>;
+    fn samples_alone(self, change: impl FnOnce(&mut SamplesAlone<'w, L>)) -> Self::Alone;
 }
 
-impl<'w, L: Lagrangian<Scalar: Real>> Kept<'w, L> for AllSteps {
-    fn samples_alone(self) -> SamplesAlone<'w, L> {
-        SamplesAlone { plan: RecordPlan::of(SampleTimes::At(Vec::new())), steered: None }
+impl<'w, L: Lagrangian<Scalar: Real> + 'w> Kept<'w, L> for AllSteps {
+    type Alone = SamplesAlone<'w, L>;
+
+    fn samples_alone(self, change: impl FnOnce(&mut SamplesAlone<'w, L>)) -> SamplesAlone<'w, L> {
+        let samples = SamplesAlone { plan: RecordPlan::of(SampleTimes::At(Vec::new())), steered: None };
+        samples.samples_alone(change)
     }
 }
 
 impl<'w, L: Lagrangian> Kept<'w, L> for SamplesAlone<'w, L> {
-    fn samples_alone(self) -> Self {
+    type Alone = Self;
+
+    fn samples_alone(mut self, change: impl FnOnce(&mut Self)) -> Self {
+        change(&mut self);
         self
     }
 }
 
 /// Settings of a motion from the start `S` that keeps samples alone.
-type Sampled<'a, 'w, L, S, P, E> = MotionBuilder<'a, 'w, L, S, P, E, SamplesAlone<'w, L>>;
+type Sampled<'a, 'w, L, S, P, E, K> = MotionBuilder<'a, 'w, L, S, P, E, <K as Kept<'w, L>>::Alone>;
 
 impl<'a, 'w, L: Lagrangian<Scalar: Real>, S, P, E, K: Kept<'w, L>> MotionBuilder<'a, 'w, L, S, P, E, K> {
     /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) returns an [`Arrival`] that holds one
@@ -74,7 +83,7 @@ impl<'a, 'w, L: Lagrangian<Scalar: Real>, S, P, E, K: Kept<'w, L>> MotionBuilder
     /// assert!((arrival.state.q[0] - 2.0_f64.cos()).abs() < 1e-8);
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn samples_at(self, times: impl IntoIterator<Item = L::Scalar>) -> Sampled<'a, 'w, L, S, P, E> {
+    pub fn samples_at(self, times: impl IntoIterator<Item = L::Scalar>) -> Sampled<'a, 'w, L, S, P, E, K> {
         let times = times.into_iter().collect();
         self.sampled(|samples| samples.plan.times = SampleTimes::At(times))
     }
@@ -96,16 +105,12 @@ impl<'a, 'w, L: Lagrangian<Scalar: Real>, S, P, E, K: Kept<'w, L>> MotionBuilder
     /// assert!(arrival.samples.iter().map(|state| state.t).eq([0.0, 0.1, 0.2, 0.3]));
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn every(self, interval: L::Scalar) -> Sampled<'a, 'w, L, S, P, E> {
+    pub fn every(self, interval: L::Scalar) -> Sampled<'a, 'w, L, S, P, E, K> {
         self.sampled(|samples| samples.plan.times = SampleTimes::Every(interval))
     }
 
-    fn sampled(self, set: impl FnOnce(&mut SamplesAlone<'w, L>)) -> Sampled<'a, 'w, L, S, P, E> {
-        self.keeping(|kept| {
-            let mut samples = kept.samples_alone();
-            set(&mut samples);
-            samples
-        })
+    fn sampled(self, set: impl FnOnce(&mut SamplesAlone<'w, L>)) -> Sampled<'a, 'w, L, S, P, E, K> {
+        self.keeping(|kept| kept.samples_alone(set))
     }
 }
 
@@ -124,7 +129,7 @@ where
         self,
         name: &'static str,
         function: impl Fn(&Sample<&L>) -> V + Send + Sync + 'w,
-    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E> {
+    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E, K> {
         self.sampled(|samples| samples.plan.quantity(name, function))
     }
 
@@ -168,7 +173,7 @@ where
         self,
         interval: L::Scalar,
         mut controller: impl FnMut(&mut L, &StateOf<L>) -> Result<(), X> + 'w,
-    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E>
+    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E, K>
     where
         L: Clone,
     {
@@ -180,7 +185,9 @@ where
     }
 }
 
-impl<'w, L: Lagrangian<Scalar: Real>, F, P, E> Sampled<'_, 'w, L, Start<L::Scalar, L::N, F>, P, E> {
+impl<'w, L: Lagrangian<Scalar: Real>, F, P, E>
+    MotionBuilder<'_, 'w, L, Start<L::Scalar, L::N, F>, P, E, SamplesAlone<'w, L>>
+{
     /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the
     /// start, it integrates backwards.
     ///

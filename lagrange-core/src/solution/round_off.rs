@@ -14,20 +14,25 @@ const NEIGHBOURS: u64 = 8;
 /// median of the magnitude. The factor 16 covers the rest.
 pub(crate) const SAFETY: f64 = 16.0;
 
-/// Returns eight states in which the time and each entry are changed by ±`part` of themselves, with random
+/// Returns eight states in which the time and each entry are changed by ±`part` of those of `sizes`, with random
 /// signs.
 pub(crate) fn neighbours<T: Real, N: Length>(
     state: &State<T, N>,
+    sizes: &State<T, N>,
     part: f64,
 ) -> impl Iterator<Item = State<T, N>> {
     (0..NEIGHBOURS).map(move |neighbour| {
         let mut bits = neighbour;
-        let mut moved = |x: T| {
+        let mut moved = |x: T, size: T| {
             // SplitMix of Steele, Lea and Flood.
             bits =
                 (bits ^ (bits >> 30)).wrapping_add(0x9e37_79b9_7f4a_7c15).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            x + x * T::constant(if bits >> 63 == 0 { part } else { -part })
+            x + size * T::constant(if bits >> 63 == 0 { part } else { -part })
         };
-        State { t: moved(state.t), q: state.q.each(&mut moved), v: state.v.each(&mut moved) }
+        State {
+            t: moved(state.t, sizes.t),
+            q: state.q.each_with(&sizes.q, &mut moved),
+            v: state.v.each_with(&sizes.v, &mut moved),
+        }
     })
 }

@@ -24,6 +24,10 @@ pub struct EventState<T> {
     pub(super) terminal: Option<usize>,
     /// Number of crossings in this run; in a steered motion, since its start.
     pub(super) count: usize,
+    /// Crossings of earlier legs, from which the next run counts on, and the round-off of the function at their end.
+    earlier: Option<(usize, T)>,
+    /// Round-off of the function at the start of this leg, if an earlier one ended there; else zero.
+    round_off: T,
     /// Value with the current sign of the function. Zero if the motion started at a zero and has not left it.
     pub(super) value: T,
     /// New `value` for the search after the interval, if no event crosses within it.
@@ -105,6 +109,8 @@ impl<T: Real> EventState<T> {
             subdivisions: 1,
             terminal: None,
             count: 0,
+            earlier: None,
+            round_off: zero,
             value: zero,
             next: zero,
             samples: [zero; FINEST + 1],
@@ -133,7 +139,28 @@ impl<T: Real> EventState<T> {
     /// Restarts the count of crossings for a new run.
     #[cfg(feature = "alloc")]
     pub(super) fn begin_run(&mut self) {
-        self.count = 0;
+        (self.count, self.round_off) = self.earlier.take().unwrap_or((0, T::constant(0.0)));
+    }
+
+    /// Makes the next run the next leg of this one: crossings are counted on. Between legs that are limited in number, they
+    /// may be as close as they like.
+    #[cfg(feature = "alloc")]
+    pub(super) fn goes_on(&mut self) {
+        (self.earlier, self.short) = (Some((self.count, self.round_off)), 0);
+    }
+
+    /// Arrives at the end of a leg. The event crosses there if its function has come down, or up, to its round-off, and
+    /// has not crossed just before.
+    #[cfg(feature = "alloc")]
+    pub(super) fn arrive_at_end(&mut self, value: T, noise: T) {
+        let zero = T::constant(0.0);
+        self.round_off = noise;
+        if self.start.is_none() && Scalar::abs(value) <= noise {
+            self.next = zero;
+            if self.crosses() {
+                (self.due, self.left) = (Some(self.value < zero), Scalar::abs(value));
+            }
+        }
     }
 
     /// Sets the function's value where a search begins. `start` is its noise if no step led here. The function then
@@ -151,7 +178,7 @@ impl<T: Real> EventState<T> {
         self.until = Some(t);
         self.samples[0] = value;
         if !goes_on {
-            let noise = start.unwrap_or(T::constant(0.0));
+            let noise = larger(start.unwrap_or(T::constant(0.0)), self.round_off);
             // Limited by the noise: after a crossing at a jump or a pole, the recorded magnitude may be large, and a
             // value below it is no zero.
             let left = smaller(self.left + self.left, noise * T::constant(16.0));

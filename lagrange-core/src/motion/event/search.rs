@@ -10,7 +10,7 @@ use super::dense::DenseStep;
 use super::halves::{Halves, LEVELS};
 use super::locate::locate;
 use super::memory::{Interval, View};
-use super::noise::noise;
+use super::noise::{noise, noise_beside};
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar, larger};
 use crate::solution::crossing::Crossing;
@@ -48,6 +48,28 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     pub(crate) fn begin(events: &'e mut [W], system: &L, state: &StateOf<L>) -> Result<Self, Error> {
         events.iter_mut().for_each(|event| event.memory().begin_run());
         Self::from(events, system, state, true)
+    }
+
+    /// Makes the next run of these events the next leg of this one.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn goes_on(events: &mut [W]) {
+        events.iter_mut().for_each(|event| event.memory().goes_on());
+    }
+
+    /// Records the crossings at the end of a leg that are off it by the round-off of entries of these sizes alone. Returns
+    /// the ending if one of them is terminal.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn record_at_end(
+        events: &'e mut [W],
+        system: &L,
+        [end, sizes]: [&StateOf<L>; 2],
+        crossings: &mut Vec<Crossing<L::Scalar, L::N>>,
+    ) -> Result<Option<Ending>, Error> {
+        for event in events.iter_mut() {
+            let (value, noise) = (event.value(system, end)?, noise_beside(event, system, end, sizes)?);
+            event.memory().arrive_at_end(value, noise);
+        }
+        Ok(Self { events, subdivisions: 1, system: PhantomData }.record_due(end, crossings))
     }
 
     /// Begins or continues the search at this state. `is_new` is true if no step led here.

@@ -87,6 +87,20 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
     /// Begins the record: takes the samples and crossings that are due at the start.
     pub(crate) fn begin(
         plan: &'o RecordPlan<'o, L>,
+        events: Vec<Box<DynEvent<'o, L>>>,
+        steering: Option<Steering<'o, L>>,
+        system: &L,
+        start: &StateOf<L>,
+        end: L::Scalar,
+    ) -> Result<Self, Error> {
+        let mut record = Self::before_samples(plan, events, steering, system, start, end)?;
+        record.take_due(system, start)?;
+        Ok(record)
+    }
+
+    /// Begins the record, without the samples at the start.
+    pub(crate) fn before_samples(
+        plan: &'o RecordPlan<'o, L>,
         mut events: Vec<Box<DynEvent<'o, L>>>,
         steering: Option<Steering<'o, L>>,
         system: &L,
@@ -105,7 +119,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
             (Vec::with_capacity(count), Vec::with_capacity(count * plan.quantities.len()));
         let goal = if steering.is_some() { start.t } else { end };
         let (start_time, calls) = (start.t, 0);
-        let mut record = Self {
+        Ok(Self {
             plan,
             samples,
             values,
@@ -118,11 +132,15 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
             end,
             goal,
             calls,
-        };
-        while record.next_time().is_some_and(|t| t == start.t) {
-            record.push(system, *start)?;
+        })
+    }
+
+    /// Takes the samples at the time of this state.
+    pub(crate) fn take_due(&mut self, system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        while self.next_time().is_some_and(|t| t == state.t) {
+            self.push(system, *state)?;
         }
-        Ok(record)
+        Ok(())
     }
 
     /// Time of the next sample.
@@ -157,7 +175,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
         step: &DenseStep<'_, L, F, I>,
         end: &mut StateOf<L>,
     ) -> Option<Ending> {
-        let (mut at, mut stopped) = (*step.before, None);
+        let mut stopped = None;
         if !self.events.is_empty() {
             let mut search = EventSearch {
                 events: &mut self.events,
@@ -168,8 +186,21 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
                 (*end, stopped) = (state, Some(ending));
             }
         }
+        self.keep_samples(step, end, true).or(stopped)
+    }
+
+    /// Records the samples in this step up to `end`, and at its time if `has_end` is true. If one fails, moves `end` to the last
+    /// sample and returns the ending.
+    pub(crate) fn keep_samples<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+        &mut self,
+        step: &DenseStep<'_, L, F, I>,
+        end: &mut StateOf<L>,
+        has_end: bool,
+    ) -> Option<Ending> {
+        let mut at = *step.before;
         while let Some(t) = self.next_time()
             && is_between(step.before.t, t, end.t)
+            && (has_end || t != end.t)
         {
             let kept = step.at(t).and_then(|state| {
                 at = state;
@@ -180,7 +211,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
                 return Some(Ending::of(error, at.t.to_f64()));
             }
         }
-        stopped
+        None
     }
 
     /// True if the controller must be called before the next step.

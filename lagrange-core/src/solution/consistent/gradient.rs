@@ -37,7 +37,7 @@ fn vanishing<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Arr
     let zero = L::Scalar::constant(0.0);
     let here = Level::Position.jacobian(system, state);
     let mut noise: Array<Array<_, L::N>, L::M> = Array::filled(Array::filled(zero));
-    for nearby in neighbours(state, power_of_epsilon::<L::Scalar>(0.75).to_f64()) {
+    for nearby in neighbours(state, state, power_of_epsilon::<L::Scalar>(0.75).to_f64()) {
         let there = system.constraint_jacobian(&nearby);
         for a in 0..<L::M>::COUNT {
             noise[a] = entries(|i| larger(noise[a][i], Scalar::abs(there[(a, i)] - here[a][i])));
@@ -54,7 +54,7 @@ fn holds<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>, a: usize) 
     let value = system.constraint_residual(state)[a];
     let off = |nearby| Scalar::abs(system.constraint_residual(&nearby)[a] - value);
     let part = power_of_epsilon::<L::Scalar>(0.5).to_f64();
-    let most = neighbours(state, part).map(off).fold(L::Scalar::constant(0.0), larger);
+    let most = neighbours(state, state, part).map(off).fold(L::Scalar::constant(0.0), larger);
     Scalar::abs(value) <= L::Scalar::constant(SAFETY) * most
 }
 
@@ -64,5 +64,5 @@ fn is_felt<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>, a: usize
     let aside = State { q: state.q.each(|q| q + L::Scalar::constant(AROUND)), ..*state };
     let is_zero =
         |state| system.constraint_jacobian(&state).row(a).iter().all(|x| *x == L::Scalar::constant(0.0));
-    !neighbours(&aside, AROUND).all(is_zero)
+    !neighbours(&aside, &aside, AROUND).all(is_zero)
 }

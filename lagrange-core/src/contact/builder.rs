@@ -1,0 +1,201 @@
+//! Settings of a motion across contacts.
+
+use core::fmt::{self, Debug, Formatter};
+
+use alloc::vec::Vec;
+
+use super::Contacts;
+use super::driver::{Ended, Journey};
+use super::legs::{AllLegs, SampledLegs};
+use super::trajectory::{ContactTrajectory, Transition};
+use crate::error::Error;
+use crate::motion::builder::EventList;
+use crate::motion::record::{Arrival, Record, Steering};
+use crate::motion::run::check_end;
+use crate::motion::{
+    AllSteps, DynEvent, Kept, LagrangianVectorField, Method, MotionBuilder, SamplesAlone, Start,
+};
+use crate::number::Real;
+use crate::system::Lagrangian;
+use crate::vector::Length;
+
+/// Largest number of transitions unless [`max_transitions`](MotionBuilder::max_transitions) sets another.
+const TRANSITIONS: usize = 100_000;
+
+/// Marks a motion across contacts that keeps `K`: `to` returns a [`ContactTrajectory`], or with samples alone a
+/// [`ContactArrival`].
+#[derive(Clone, Copy, Debug)]
+pub struct AcrossContacts<K = AllSteps> {
+    kept: K,
+    transitions: usize,
+}
+
+impl<'w, L: Lagrangian, K: Kept<'w, L>> Kept<'w, L> for AcrossContacts<K> {
+    type Alone = AcrossContacts<K::Alone>;
+
+    fn samples_alone(self, change: impl FnOnce(&mut SamplesAlone<'w, L>)) -> Self::Alone {
+        AcrossContacts { kept: self.kept.samples_alone(change), transitions: self.transitions }
+    }
+}
+
+/// A start from which a motion crosses contacts: a state.
+#[diagnostic::on_unimplemented(
+    message = "a motion from `{Self}` does not cross contacts",
+    label = "no start of a motion across contacts",
+    note = "use `motion(state)`: contacts open and close by Lagrange's equations, without derivatives"
+)]
+pub trait CrossesContacts {}
+
+impl<T: Real, N: Length> CrossesContacts for Start<T, N, LagrangianVectorField> {}
+
+/// Settings of a motion from a state.
+type Builder<'a, 'w, L, P, E, K> = MotionBuilder<
+    'a,
+    'w,
+    L,
+    Start<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, LagrangianVectorField>,
+    P,
+    E,
+    AcrossContacts<K>,
+>;
+
+impl<'a, 'w, L: Contacts + Clone, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
+    /// Moves across the [contacts](crate::contact) of the system: gaps close and open, and velocities jump at impacts. Events,
+    /// samples, quantities, the controller and the progress callback are as without contacts, set before or after.
+    pub fn with_contacts(self) -> MotionBuilder<'a, 'w, L, S, P, E, AcrossContacts<K>>
+    where
+        S: CrossesContacts,
+    {
+        self.keeping(|kept| AcrossContacts { kept, transitions: TRANSITIONS })
+    }
+}
+
+impl<L: Lagrangian, S, P, E, K> MotionBuilder<'_, '_, L, S, P, E, AcrossContacts<K>> {
+    /// Sets the largest number of transitions, 100,000 if it is not set.
+    pub fn max_transitions(self, count: usize) -> Self {
+        self.keeping(|AcrossContacts { kept, .. }| AcrossContacts { kept, transitions: count })
+    }
+}
+
+impl<'w, L, P, E> Builder<'_, 'w, L, P, E, AllSteps>
+where
+    L: Contacts<Scalar: Real> + Clone,
+    P: Method<L>,
+    E: EventList<DynEvent<'w, L>>,
+{
+    /// Moves to the time `end`, or to the first [terminal](crate::Event::terminal) event.
+    ///
+    /// # Errors
+    /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
+    pub fn to(self, end: L::Scalar) -> Result<ContactTrajectory<L>, Error> {
+        self.towards(end)?.finished()
+    }
+
+    /// Moves towards the time `end`. If the motion fails on the way, the result holds what was computed until then, and its
+    /// [`ending`](ContactTrajectory::ending) the reason.
+    ///
+    /// # Errors
+    /// Those of [`integrate`](crate::Simulate::integrate) before the first step, and of the functions of events at the start;
+    /// [`Error::Penetration`] if a gap is negative at the start; [`Error::MotionBackwards`] if `end` lies before the start.
+    pub fn towards(self, end: L::Scalar) -> Result<ContactTrajectory<L>, Error> {
+        let Self { system, start, method, events, on_progress, kept } = self;
+        let state = start.into_state()?;
+        check_times(state.t, end)?;
+        let from = state.t;
+        let journey = Journey::begin(system, state, end, AllLegs::none())?;
+        let ended = journey.reporting(on_progress).run(&method, events.list(), kept.transitions)?;
+        Ok(ContactTrajectory::of(ended, from))
+    }
+}
+
+impl<'w, L, P, E> Builder<'_, 'w, L, P, E, SamplesAlone<'w, L>>
+where
+    L: Contacts<Scalar: Real> + Clone,
+    P: Method<L>,
+    E: EventList<DynEvent<'w, L>>,
+{
+    /// Moves to the time `end`, or to the first [terminal](crate::Event::terminal) event.
+    ///
+    /// A sample at the time of an impact is the state after it. The controller sees which contacts are closed; those that it sets
+    /// are decided anew.
+    ///
+    /// ```
+    /// use lagrange_core::contact::Contact;
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Clone, Lagrangian)]
+    /// #[coordinates(y)]
+    /// #[lagrangian(y_dot^2/2 - g*y)]
+    /// #[contact(floor: y >= 0, restitution: e)]
+    /// struct Ball { g: f64, e: f64, floor: Contact }
+    ///
+    /// let ball = Ball { g: 9.81, e: 0.5, floor: Contact::Open };
+    /// let motion = ball.motion(State::at_rest([1.0])).with_contacts().every(0.1);
+    /// let landed = motion.quantity("landed", |sample| f64::from(sample.system().floor == Contact::Closed)).to(2.0)?;
+    /// assert_eq!(landed.arrival.samples.len(), 21);
+    /// assert_eq!(landed.arrival.values.last(), Some(&1.0));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
+    pub fn to(self, end: L::Scalar) -> Result<ContactArrival<L>, Error> {
+        let arrived = self.towards(end)?;
+        if arrived.arrival.ending.is_failure() { Err(arrived.arrival.ending.into()) } else { Ok(arrived) }
+    }
+
+    /// Moves towards the time `end`. If the motion fails on the way, the result holds what was recorded until then, and its
+    /// ending the reason.
+    ///
+    /// # Errors
+    /// Those of a motion across contacts that keeps its steps; [`Error::SampleTime`], [`Error::OutsideTrajectory`] and
+    /// [`Error::Setting`] for samples that cannot be taken; those of the function of a quantity at the start.
+    pub fn towards(self, end: L::Scalar) -> Result<ContactArrival<L>, Error> {
+        let Self { system, start, method, events, on_progress, kept } = self;
+        let (state, SamplesAlone { plan, steered }) = (start.into_state()?, kept.kept);
+        check_times(state.t, end)?;
+        plan.check()?;
+        let steering = steered.map(|(steering, _)| steering);
+        steering.as_ref().map_or(Ok(()), Steering::check)?;
+        let record = Record::before_samples(&plan, Vec::new(), steering, system, &state, end)?;
+        let journey = Journey::begin(system, state, end, SampledLegs::of(record))?;
+        let ended = journey.reporting(on_progress).run(&method, events.list(), kept.transitions)?;
+        Ok(ContactArrival::of(ended))
+    }
+}
+
+/// End of a motion across contacts that keeps samples alone.
+pub struct ContactArrival<L: Lagrangian> {
+    /// Its end, samples, quantities and crossings.
+    pub arrival: Arrival<L::Scalar, L::N>,
+    /// Its transitions, in the order of time.
+    pub transitions: Vec<Transition<L::Scalar>>,
+    /// The system, with parameters and contacts as they are at the end.
+    pub system: L,
+}
+
+impl<L: Lagrangian<Scalar: Real>> ContactArrival<L> {
+    pub(super) fn of(ended: Ended<L, SampledLegs<'_, L>>) -> Self {
+        let Ended { kept, transitions, crossings, statistics, system, state, ending } = ended;
+        let arrival = Arrival { crossings, ..kept.record.arrive(state, ending, statistics) };
+        Self { arrival, transitions, system }
+    }
+}
+
+impl<L: Lagrangian<Scalar: Real>> Debug for ContactArrival<L> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { arrival, transitions, .. } = self;
+        let mut text = f.debug_struct("ContactArrival");
+        text.field("system", &L::NAME).field("arrival", arrival).field("transitions", transitions).finish()
+    }
+}
+
+/// Checks the times of a motion, which runs forwards.
+fn check_times<T: Real>(start: T, end: T) -> Result<(), Error> {
+    check_end(end)?;
+    if end < start {
+        let [start, end] = [start, end].map(Real::to_f64);
+        return Err(Error::MotionBackwards { start, end });
+    }
+    Ok(())
+}

@@ -1,0 +1,237 @@
+//! What a motion across contacts keeps of its legs: all steps, or samples alone.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+
+use super::Contacts;
+use super::bodies::Bodies;
+use crate::error::{Ending, Error};
+use crate::motion::event::{DenseStep, EventSearch};
+use crate::motion::record::Record;
+use crate::motion::run::{Observer, Run, Watchdog};
+use crate::motion::store::Stored;
+use crate::motion::{DynEvent, LagrangianVectorField, Method};
+use crate::number::Real;
+use crate::solution::Adjustment;
+use crate::solution::crossing::Crossing;
+use crate::statistics::Statistics;
+use crate::system::{Lagrangian, StateOf};
+use crate::trajectory::Trajectory;
+
+/// Callback with the state and the number of steps after each step; it may cancel the motion.
+pub(super) type Accept<'w, L> = Box<dyn FnMut(&StateOf<L>, usize) -> Result<(), Ending> + 'w>;
+
+/// A leg before its first step.
+pub(super) struct Leg<'l, 'e, 'w, L: Contacts<Scalar: Real>, P: Method<L>> {
+    pub(super) system: &'l L,
+    pub(super) run: Run<L, P>,
+    pub(super) adjustment: Adjustment<L::Scalar, L::N>,
+    /// Events of the user, then those of contacts.
+    pub(super) events: &'l mut [Box<DynEvent<'e, L>>],
+    pub(super) goal: L::Scalar,
+    pub(super) method: &'l P,
+    pub(super) limits: &'l Watchdog,
+    pub(super) watch: Watch<'l, 'w, L>,
+}
+
+/// A leg after its last step.
+pub(super) struct Driven<L: Lagrangian> {
+    pub(super) state: StateOf<L>,
+    pub(super) crossings: Vec<Crossing<L::Scalar, L::N>>,
+    /// Reason why the leg ends before its goal.
+    pub(super) ending: Result<(), Ending>,
+    pub(super) statistics: Statistics,
+}
+
+/// What a motion keeps of its legs.
+pub(super) trait KeepsLegs<L: Contacts<Scalar: Real>> {
+    /// Time up to which the next leg may run, before the end of the motion.
+    fn goal(&self) -> Option<L::Scalar> {
+        None
+    }
+
+    /// Takes note of the state between two legs.
+    fn arrives(&mut self, _system: &L, _state: &StateOf<L>) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Calls the controller, if it is due. Returns true if it has been called.
+    fn control(&mut self, _system: &mut L, _state: &StateOf<L>) -> Result<bool, Ending> {
+        Ok(false)
+    }
+
+    /// Runs a leg to its end.
+    fn drive<P: Method<L>>(&mut self, leg: Leg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error>;
+}
+
+/// Looks at each step of a leg: at its entries, at gaps that are crossed, and for the progress callback.
+pub(super) struct Watch<'l, 'w, L: Lagrangian> {
+    pub(super) bodies: &'l mut Bodies<L>,
+    pub(super) is_closed: &'l [bool],
+    pub(super) accept: &'l mut Accept<'w, L>,
+}
+
+impl<L: Contacts<Scalar: Real> + Clone> Watch<'_, '_, L> {
+    fn look(&mut self, state: &StateOf<L>, steps: usize) -> Result<(), Ending> {
+        self.bodies.passes(state);
+        match self.bodies.crossed(self.is_closed, state) {
+            Some(error) => Err(Ending::of(error, state.t.to_f64())),
+            None => (self.accept)(state, steps),
+        }
+    }
+}
+
+/// An observer whose steps are watched.
+struct Watched<'l, 'w, O, L: Lagrangian> {
+    observer: O,
+    watch: Watch<'l, 'w, L>,
+}
+
+impl<L, P, O> Observer<L, P> for Watched<'_, '_, O, L>
+where
+    L: Contacts<Scalar: Real> + Clone,
+    P: Method<L>,
+    O: Observer<L, P>,
+{
+    fn system(&self) -> &L {
+        self.observer.system()
+    }
+
+    #[inline(always)]
+    fn goal(&mut self, method: &P, run: &mut Run<L, P>) -> Result<Option<L::Scalar>, Ending> {
+        self.observer.goal(method, run)
+    }
+
+    #[inline(always)]
+    fn follow(&mut self, method: &P, run: &mut Run<L, P>) -> Result<(), Ending> {
+        self.observer.follow(method, run)
+    }
+
+    #[inline(always)]
+    fn keep(&mut self, method: &P, run: &mut Run<L, P>) -> Result<(), Ending> {
+        self.observer.keep(method, run)?;
+        self.watch.look(&run.state, run.statistics.accepted)
+    }
+}
+
+/// All steps of all legs.
+pub(super) struct AllLegs<L: Lagrangian> {
+    pub(super) legs: Vec<Trajectory<L>>,
+    /// Counts of the legs so far.
+    counts: Statistics,
+}
+
+impl<L: Lagrangian> AllLegs<L> {
+    pub(super) fn none() -> Self {
+        Self { legs: Vec::new(), counts: Statistics::default() }
+    }
+}
+
+impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for AllLegs<L> {
+    fn drive<P: Method<L>>(&mut self, leg: Leg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error> {
+        let Leg { system, mut run, adjustment, events, goal, method, limits, watch } = leg;
+        let stored = Stored::<_, _, _, true>::begin(system, &run.state, goal, events, None)?;
+        let mut watched = Watched { observer: stored, watch };
+        let driven = run.drive(method, limits, &mut watched);
+        let own = run.statistics.since(&self.counts);
+        let path = watched.observer.finish(driven.clone(), own, adjustment).into_owned();
+        self.counts = run.statistics;
+        let (state, crossings) = (*path.end().state(), path.crossings().to_vec());
+        self.legs.push(path);
+        Ok(Driven { state, crossings, ending: driven, statistics: run.statistics })
+    }
+}
+
+/// Samples of all legs.
+pub(super) struct SampledLegs<'w, L: Lagrangian> {
+    pub(super) record: Record<'w, L>,
+}
+
+impl<'w, L: Lagrangian> SampledLegs<'w, L> {
+    pub(super) fn of(record: Record<'w, L>) -> Self {
+        Self { record }
+    }
+}
+
+impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for SampledLegs<'_, L> {
+    fn goal(&self) -> Option<L::Scalar> {
+        Some(self.record.goal)
+    }
+
+    fn arrives(&mut self, system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        self.record.take_due(system, state)
+    }
+
+    fn control(&mut self, system: &mut L, state: &StateOf<L>) -> Result<bool, Ending> {
+        let is_due = self.record.is_due(state.t);
+        if is_due {
+            self.record.control(system, state)?;
+        }
+        Ok(is_due)
+    }
+
+    fn drive<P: Method<L>>(&mut self, leg: Leg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error> {
+        let Leg { system, mut run, events, goal, method, limits, watch, .. } = leg;
+        let mut crossings = Vec::new();
+        let mut search = EventSearch::begin(events, system, &run.state)?;
+        let stopped = search.record_due(&run.state, &mut crossings);
+        let (record, within) = (&mut self.record, None);
+        let observer = SampledLeg { system, search, crossings, stopped, record, goal, within };
+        let mut watched = Watched { observer, watch };
+        let ending = run.drive(method, limits, &mut watched);
+        let Run { state, statistics, .. } = run;
+        Ok(Driven { state, crossings: watched.observer.crossings, ending, statistics })
+    }
+}
+
+/// Observer that records the samples of a leg, up to its end.
+struct SampledLeg<'l, 'e, 'w, L: Lagrangian, I> {
+    system: &'l L,
+    search: EventSearch<'l, Box<DynEvent<'e, L>>, L>,
+    crossings: Vec<Crossing<L::Scalar, L::N>>,
+    /// Ending at the start, if an event that is due there ends the leg.
+    stopped: Option<Ending>,
+    record: &'l mut Record<'w, L>,
+    goal: L::Scalar,
+    /// Interpolant of the last step.
+    within: Option<I>,
+}
+
+impl<L, P> Observer<L, P> for SampledLeg<'_, '_, '_, L, P::Interpolant>
+where
+    L: Lagrangian<Scalar: Real>,
+    P: Method<L>,
+{
+    fn system(&self) -> &L {
+        self.system
+    }
+
+    fn goal(&mut self, _: &P, run: &mut Run<L, P>) -> Result<Option<L::Scalar>, Ending> {
+        match self.stopped.take() {
+            Some(ending) => Err(ending),
+            None => Ok((run.state.t != self.goal).then_some(self.goal)),
+        }
+    }
+
+    fn follow(&mut self, method: &P, run: &mut Run<L, P>) -> Result<(), Ending> {
+        let Run { memory, statistics, before, .. } = run;
+        let within = method.interpolant(self.system, memory, statistics);
+        self.within = Some(within.map_err(|error| Ending::of(error, before.t.to_f64()))?);
+        Ok(())
+    }
+
+    /// The sample at the end of the leg is left for the state after the transition there.
+    fn keep(&mut self, _: &P, run: &mut Run<L, P>) -> Result<(), Ending> {
+        let Some(interpolant) = &self.within else { return Ok(()) };
+        let (system, before, after) = (self.system, &run.before, &{ run.state });
+        let step =
+            DenseStep { system, before, after, interpolant, field: PhantomData::<LagrangianVectorField> };
+        let stopped = self.search.record(&step, &mut self.crossings).map(|(state, ending)| {
+            run.state = state;
+            ending
+        });
+        let goes_on = stopped.is_none() && run.state.t != self.goal;
+        self.record.keep_samples(&step, &mut run.state, goes_on).or(stopped).map_or(Ok(()), Err)
+    }
+}
