@@ -269,3 +269,22 @@ fn events_count_anew_in_the_next_motion() {
         assert_eq!(apex.count(), path.crossings().len());
     }
 }
+
+/// Of a ball that bounces and comes to rest, the gap and its rate are zero but for round-off from then on: no crossing, and no
+/// search for one at the scale of the last bounces.
+#[test]
+fn events_of_a_gap_at_rest_are_quiet() {
+    for function in [(|y, _| y) as fn(f64, f64) -> f64, |_, v| v, |y, v| y + v, |y, _| y + 1e-9] {
+        let calls = Cell::new(0);
+        let event = BALL.event("gap", |sample| {
+            calls.set(calls.get() + 1);
+            function(sample.state().q[1], sample.state().v[1])
+        });
+        let method = Dop853::with_tolerance(1e-12);
+        let path = BALL.motion(start()).by(method).with_contacts().event(event.falling()).to(10.0).unwrap();
+        let rests = path.transitions().last().unwrap();
+        assert!(matches!(rests, Transition::Rests { .. }));
+        assert!(path.crossings().iter().all(|crossing| crossing.state.t <= rests.time()));
+        assert!(calls.get() < 120 * path.legs().len(), "{} calls, {} legs", calls.get(), path.legs().len());
+    }
+}

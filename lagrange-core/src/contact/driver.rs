@@ -156,7 +156,8 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let system = bodies.with(&decided.states);
         let closed = bodies.closed.clone();
         let mut events: Vec<Box<DynEvent<'_, L>>> = Vec::new();
-        let is_first = self.statistics.accepted == 0;
+        let sizes = bodies.sizes(state);
+        EventSearch::begin_leg(given, &system, [state, &sizes], self.statistics.accepted == 0)?;
         events.extend(given.iter_mut().map(|event| Box::new(event) as Box<DynEvent<'_, L>>));
         let zero = L::Scalar::constant(0.0);
         for (k, &row) in L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]) {
@@ -178,9 +179,6 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         run.statistics = run.statistics.after(&self.statistics);
         let watch = Watch { bodies, is_closed: &decided.states.is_closed, accept: &mut self.accept };
         let (system, events) = (&system, &mut events[..]);
-        if !is_first {
-            EventSearch::goes_on(events);
-        }
         self.kept.drive(Leg { system, run, adjustment, events, goal, method, limits, watch })
     }
 

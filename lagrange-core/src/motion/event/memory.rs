@@ -24,9 +24,9 @@ pub struct EventState<T> {
     pub(super) terminal: Option<usize>,
     /// Number of crossings in this run; in a steered motion, since its start.
     pub(super) count: usize,
-    /// Crossings of earlier legs, from which the next run counts on, and the round-off of the function at their end.
+    /// Crossings of earlier legs, from which the next run counts on, and its `round_off`.
     earlier: Option<(usize, T)>,
-    /// Round-off of the function at the start of this leg, if an earlier one ended there; else zero.
+    /// Round-off of the function by the largest entries of the motion, where it is a leg of one; else zero.
     round_off: T,
     /// Value with the current sign of the function. Zero if the motion started at a zero and has not left it.
     pub(super) value: T,
@@ -142,11 +142,13 @@ impl<T: Real> EventState<T> {
         (self.count, self.round_off) = self.earlier.take().unwrap_or((0, T::constant(0.0)));
     }
 
-    /// Makes the next run the next leg of this one: crossings are counted on. Between legs that are limited in number, they
-    /// may be as close as they like.
+    /// Makes the next run a leg of a motion, with this round-off of the function. After the first leg, crossings are counted on;
+    /// between legs that are limited in number, they may be as close as they like. A leg may be as short as the last bounce, and
+    /// the next one long: the degree that the function needs is learnt anew.
     #[cfg(feature = "alloc")]
-    pub(super) fn goes_on(&mut self) {
-        (self.earlier, self.short) = (Some((self.count, self.round_off)), 0);
+    pub(super) fn begin_leg(&mut self, is_first: bool, round_off: T) {
+        (self.earlier, self.short) = (Some((if is_first { 0 } else { self.count }, round_off)), 0);
+        (self.density, self.needed) = (None, None);
     }
 
     /// Arrives at the end of a leg. The event crosses there if its function has come down, or up, to its round-off, and
@@ -154,7 +156,6 @@ impl<T: Real> EventState<T> {
     #[cfg(feature = "alloc")]
     pub(super) fn arrive_at_end(&mut self, value: T, noise: T) {
         let zero = T::constant(0.0);
-        self.round_off = noise;
         if self.start.is_none() && Scalar::abs(value) <= noise {
             self.next = zero;
             if self.crosses() {
@@ -219,6 +220,10 @@ impl<T: Real> EventState<T> {
             return View::Open;
         }
         let shape = Shape::of(&self.samples, degree);
+        if self.round_off > T::constant(0.0) && shape.most <= self.round_off {
+            (self.view, self.noise) = (View::Plain, self.round_off);
+            return View::Plain;
+        }
         self.view = match () {
             () if shape.is_plain(interval.jitter) => View::Plain,
             () if shape.is_rough() => View::Rough,
@@ -235,7 +240,7 @@ impl<T: Real> EventState<T> {
     #[inline]
     fn least(&self, interval: &Interval<T>) -> T {
         match self.density {
-            None => T::constant(FIRST as f64),
+            None => T::constant(FIRST.min(interval.finest) as f64),
             Some(density) => density * interval.width * T::constant(0.5),
         }
     }
@@ -252,9 +257,14 @@ impl<T: Real> EventState<T> {
         self.needed = Some(T::constant(order) / interval.width);
     }
 
+    /// Adds noise to that below which a value does not count as a change of sign.
+    pub(super) fn add_noise(&mut self, noise: T) {
+        self.noise = larger(self.noise, larger(noise, self.round_off));
+    }
+
     /// Decides on samples that may be all noise, given the magnitude of the noise.
     pub(super) fn judge_noise(&mut self, degree: usize, noise: T) -> View {
-        let shape = Shape::of(&self.samples, degree);
+        let (shape, noise) = (Shape::of(&self.samples, degree), larger(noise, self.round_off));
         let part = noise * T::constant(0.25);
         self.view = match () {
             () if shape.most <= noise => View::Plain,

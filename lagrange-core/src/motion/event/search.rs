@@ -12,7 +12,7 @@ use super::locate::locate;
 use super::memory::{Interval, View};
 use super::noise::{noise, noise_beside};
 use crate::error::{Ending, Error};
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar};
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
@@ -50,10 +50,19 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
         Self::from(events, system, state, true)
     }
 
-    /// Makes the next run of these events the next leg of this one.
+    /// Makes the next run of these events a leg of a motion with entries of these sizes.
     #[cfg(feature = "alloc")]
-    pub(crate) fn goes_on(events: &mut [W]) {
-        events.iter_mut().for_each(|event| event.memory().goes_on());
+    pub(crate) fn begin_leg(
+        events: &mut [W],
+        system: &L,
+        [start, sizes]: [&StateOf<L>; 2],
+        is_first: bool,
+    ) -> Result<(), Error> {
+        events.iter_mut().try_for_each(|event| {
+            let round_off = noise_beside(event, system, start, sizes)?;
+            event.memory().begin_leg(is_first, round_off);
+            Ok(())
+        })
     }
 
     /// Records the crossings at the end of a leg that are off it by the round-off of entries of these sizes alone. Returns
@@ -300,7 +309,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
             if let Some(left) = memory.start {
                 let noise = noise(event, system, end)? + left;
                 memory = event.memory();
-                memory.noise = larger(memory.noise, noise);
+                memory.add_noise(noise);
             }
             memory.look(memory.samples[FINEST]);
             any_crosses |= memory.crosses();
