@@ -1,6 +1,7 @@
 //! Ensembles: every member as if it were alone.
 
 mod constraints;
+mod contacts;
 mod controllers;
 mod events;
 mod failures;

@@ -2,21 +2,22 @@
 
 use core::fmt::{self, Debug, Formatter};
 
-use alloc::vec::Vec;
+use alloc::{boxed::Box, vec::Vec};
 
 use super::Contacts;
 use super::driver::{Ended, Journey};
-use super::legs::{AllLegs, SampledLegs};
+use super::legs::{Accept, AllLegs, SampledLegs};
 use super::trajectory::{ContactTrajectory, Transition};
 use crate::error::Error;
 use crate::motion::builder::EventList;
-use crate::motion::record::{Arrival, Record, Steering};
+use crate::motion::progress::report;
+use crate::motion::record::{Arrival, Record, RecordPlan, Steering};
 use crate::motion::run::check_end;
 use crate::motion::{
     AllSteps, DynEvent, Kept, LagrangianVectorField, Method, MotionBuilder, SamplesAlone, Start,
 };
 use crate::number::Real;
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, StateOf};
 use crate::vector::Length;
 
 /// Largest number of transitions unless [`max_transitions`](MotionBuilder::max_transitions) sets another.
@@ -151,17 +152,37 @@ where
     /// Those of a motion across contacts that keeps its steps; [`Error::SampleTime`], [`Error::OutsideTrajectory`] and
     /// [`Error::Setting`] for samples that cannot be taken; those of the function of a quantity at the start.
     pub fn towards(self, end: L::Scalar) -> Result<ContactArrival<L>, Error> {
-        let Self { system, start, method, events, on_progress, kept } = self;
-        let (state, SamplesAlone { plan, steered }) = (start.into_state()?, kept.kept);
-        check_times(state.t, end)?;
+        let Self { system, start, method, events, mut on_progress, kept } = self;
+        let AcrossContacts { kept: SamplesAlone { plan, steered }, transitions } = kept;
+        let state = start.into_state()?;
         plan.check()?;
         let steering = steered.map(|(steering, _)| steering);
         steering.as_ref().map_or(Ok(()), Steering::check)?;
-        let record = Record::before_samples(&plan, Vec::new(), steering, system, &state, end)?;
-        let journey = Journey::begin(system, state, end, SampledLegs::of(record))?;
-        let ended = journey.reporting(on_progress).run(&method, events.list(), kept.transitions)?;
-        Ok(ContactArrival::of(ended))
+        let from = state.t;
+        let accept = |state: &StateOf<L>, steps| report(&mut on_progress, [from, state.t, end], steps);
+        let along = (&plan, events.list(), steering);
+        arrive((system, state), (end, Some(transitions)), &method, along, Box::new(accept))
     }
+}
+
+/// What happens along a motion that keeps samples alone: samples, events, and the controller.
+type Along<'w, L> = (&'w RecordPlan<'w, L>, Vec<Box<DynEvent<'w, L>>>, Option<Steering<'w, L>>);
+
+/// Moves across contacts to the time `end`, and keeps samples alone.
+pub(crate) fn arrive<'w, L: Contacts<Scalar: Real> + Clone, P: Method<L>>(
+    (system, state): (&L, StateOf<L>),
+    (end, transitions): (L::Scalar, Option<usize>),
+    method: &P,
+    (plan, events, steering): Along<'w, L>,
+    accept: Accept<'w, L>,
+) -> Result<ContactArrival<L>, Error> {
+    check_times(state.t, end)?;
+    let record = Record::before_samples(plan, Vec::new(), steering, system, &state, end)?;
+    let journey = Journey::begin(system, state, end, SampledLegs { record })?;
+    let ended = journey.accepting(accept).run(method, events, transitions.unwrap_or(TRANSITIONS))?;
+    let Ended { kept, transitions, crossings, statistics, system, state, ending } = ended;
+    let arrival = Arrival { crossings, ..kept.record.arrive(state, ending, statistics) };
+    Ok(ContactArrival { arrival, transitions, system })
 }
 
 /// End of a motion across contacts that keeps samples alone.
@@ -172,14 +193,6 @@ pub struct ContactArrival<L: Lagrangian> {
     pub transitions: Vec<Transition<L::Scalar>>,
     /// The system, with parameters and contacts as they are at the end.
     pub system: L,
-}
-
-impl<L: Lagrangian<Scalar: Real>> ContactArrival<L> {
-    pub(super) fn of(ended: Ended<L, SampledLegs<'_, L>>) -> Self {
-        let Ended { kept, transitions, crossings, statistics, system, state, ending } = ended;
-        let arrival = Arrival { crossings, ..kept.record.arrive(state, ending, statistics) };
-        Self { arrival, transitions, system }
-    }
 }
 
 impl<L: Lagrangian<Scalar: Real>> Debug for ContactArrival<L> {

@@ -148,12 +148,6 @@ pub(super) struct SampledLegs<'w, L: Lagrangian> {
     pub(super) record: Record<'w, L>,
 }
 
-impl<'w, L: Lagrangian> SampledLegs<'w, L> {
-    pub(super) fn of(record: Record<'w, L>) -> Self {
-        Self { record }
-    }
-}
-
 impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for SampledLegs<'_, L> {
     fn goal(&self) -> Option<L::Scalar> {
         Some(self.record.goal)

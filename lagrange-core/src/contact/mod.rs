@@ -97,6 +97,8 @@ mod lemke;
 mod trajectory;
 
 use crate::system::{Lagrangian, StateOf};
+#[cfg(feature = "std")]
+pub(crate) use builder::arrive;
 #[cfg(feature = "alloc")]
 pub use builder::{AcrossContacts, ContactArrival, CrossesContacts};
 #[cfg(feature = "alloc")]

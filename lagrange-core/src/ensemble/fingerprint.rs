@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Write};
 
-use crate::number::Real;
+use crate::number::{Real, Scalar};
 use crate::system::{Lagrangian, StateOf};
 
 /// Identifies the run and the member of a table row by three hashes: 32-bit FNV-1a (Fowler, Noll and Vo), the same on
@@ -22,7 +22,7 @@ pub struct Fingerprint {
     /// quantities of samples, the events (name, direction, subdivisions, terminal count), the interval of the
     /// controller, and the [tag](super::Ensemble::tag).
     pub run: u32,
-    /// Hash of the member's initial time, coordinates, velocities and parameters, bit for bit.
+    /// Hash of the member's initial time, coordinates, velocities and parameters, bit for bit, and of its switches.
     pub start: u32,
 }
 
@@ -42,6 +42,12 @@ impl Fingerprint {
         hash.number(start.t.to_f64());
         start.q.iter().chain(&start.v).for_each(|x| hash.number(x.to_f64()));
         system.visit_parameters(&mut |_, x| hash.number(x.to_f64()));
+        // Constraints that are switched off, and contacts that are open.
+        for (a, c) in system.compliance().iter().enumerate() {
+            if *c != L::Scalar::constant(0.0) {
+                hash.number(a as f64);
+            }
+        }
         Self { start: hash.0, ..self }
     }
 

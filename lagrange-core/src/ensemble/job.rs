@@ -20,12 +20,12 @@ use crate::vector::{Element, Length};
 
 /// State of a running ensemble, shared by all threads.
 pub(super) struct Job<'a, L: Lagrangian<Scalar: Real>> {
-    make: Make<'a, L>,
+    pub(super) make: Make<'a, L>,
     observer: Option<MemberObserver<'a, L>>,
-    member_plan: Arc<MemberPlan<'a, L>>,
-    end: L::Scalar,
+    pub(super) member_plan: Arc<MemberPlan<'a, L>>,
+    pub(super) end: L::Scalar,
     /// Fingerprint of the run, common to all members.
-    run: Fingerprint,
+    pub(super) run: Fingerprint,
     part: Part,
     /// Indices of the members whose rows were taken over from an earlier run.
     done: BTreeSet<usize>,
@@ -208,7 +208,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
     }
 
     /// Called after each step of a member: asks the observer whether the member goes on.
-    fn observe(&self, index: usize, state: &StateOf<L>) -> ControlFlow<()> {
+    pub(super) fn observe(&self, index: usize, state: &StateOf<L>) -> ControlFlow<()> {
         if self.is_stopped() {
             return ControlFlow::Break(());
         }

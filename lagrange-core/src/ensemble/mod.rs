@@ -11,6 +11,7 @@
 //!
 #![doc = include_str!("machines.md")]
 
+mod contacts;
 mod fingerprint;
 mod job;
 mod outcome;

@@ -166,14 +166,23 @@ impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
         start: &StateOf<L>,
         end: L::Scalar,
     ) -> Result<Record<'_, L>, Error> {
-        let events = self
+        Record::begin(&self.samples, self.fresh_events(), self.steering(index), system, start, end)
+    }
+
+    /// Events of a member, without a history.
+    pub(super) fn fresh_events(&self) -> Vec<Box<DynEvent<'_, L>>> {
+        let fresh = self
             .events
             .iter()
             .map(|event| -> Box<DynEvent<'_, L>> { Box::new(event.anew(|function| &**function)) });
-        let steering = self.controller.as_ref().map(|(interval, controller)| Steering {
+        fresh.collect()
+    }
+
+    /// Controller of the member of this index.
+    pub(super) fn steering(&self, index: usize) -> Option<Steering<'_, L>> {
+        self.controller.as_ref().map(|(interval, controller)| Steering {
             interval: *interval,
             controller: Box::new(move |system, state| controller(index, system, state)),
-        });
-        Record::begin(&self.samples, events.collect(), steering, system, start, end)
+        })
     }
 }

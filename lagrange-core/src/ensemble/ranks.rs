@@ -21,11 +21,12 @@ use super::fingerprint::Fingerprint;
 use super::job::Job;
 use super::outcome::Outcome;
 use super::settings::{Ensemble, everywhere};
+use crate::contact::Contacts;
 use crate::error::{EnsembleError, Error};
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method};
 use crate::number::{Lanes, Real};
-use crate::system::{Lagrangian, Pack};
+use crate::system::{Lagrangian, Pack, check_contacts};
 use message::MemberMessage;
 
 /// An ensemble on all ranks of an MPI communicator, from [`Ensemble::on_ranks`].
@@ -80,8 +81,26 @@ impl<L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, H
         end: L::Scalar,
         method: P,
     ) -> Result<Option<Outcome<L::Scalar, L::N>>, Error> {
+        const { check_contacts::<L>() };
         let run = self.ensemble.plan.fingerprint(&method, end, false);
         self.run(method.check(), end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
+    }
+
+    /// Integrates all members across their contacts, like [`Ensemble::integrate_with_contacts`]. Returns the outcome of all
+    /// members on rank 0, and `None` on the others.
+    ///
+    /// # Errors
+    /// Those of [`integrate`](Self::integrate).
+    pub fn integrate_with_contacts<P: Method<L> + Sync>(
+        self,
+        end: L::Scalar,
+        method: P,
+    ) -> Result<Option<Outcome<L::Scalar, L::N>>, Error>
+    where
+        L: Contacts + Clone,
+    {
+        let run = self.ensemble.plan.fingerprint(&method, end, false);
+        self.run(method.check(), end, run, |job| job.across_contacts(&method))
     }
 
     fn run(
@@ -124,6 +143,7 @@ impl<L: Lagrangian<Scalar = f64>, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, H
         L: Pack<Lanes, Packed: Lagrangian<N = L::N, M = L::M, Scalar = Lanes>>,
         P: LaneMethod<L> + Sync,
     {
+        const { check_contacts::<L>() };
         let run = self.ensemble.plan.fingerprint(&method, end, true);
         self.run(method.check(), end, run, |job| job.on_lanes::<P, HAS_DENSE_OUTPUT>(&method))
     }

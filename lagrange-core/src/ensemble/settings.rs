@@ -47,7 +47,6 @@ impl<'a, L: Lagrangian<Scalar: Real>> Ensemble<'a, L> {
     /// Makes `count` members from their indices 0, 1, …. `member` must return the same member for the same index. It is
     /// called from any thread, and from several at once.
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, StateOf<L>) + Send + Sync + 'a) -> Self {
-        const { check_contacts::<L>() };
         let make = Box::new(member);
         let (list, done, observer, watch, tag) = (None, Vec::new(), None, None, None);
         let member_plan = MemberPlan::default();
@@ -160,6 +159,7 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
         end: L::Scalar,
         method: P,
     ) -> Result<Outcome<L::Scalar, L::N>, Error> {
+        const { check_contacts::<L>() };
         method.check()?;
         let run = self.plan.fingerprint(&method, end, false);
         self.run(end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
@@ -253,6 +253,7 @@ impl<L: Lagrangian<Scalar = f64>, const HAS_DENSE_OUTPUT: bool> Ensemble<'_, L, 
         L: Pack<Lanes, Packed: Lagrangian<N = L::N, M = L::M, Scalar = Lanes>>,
         P: LaneMethod<L> + Sync,
     {
+        const { check_contacts::<L>() };
         method.check()?;
         let run = self.plan.fingerprint(&method, end, true);
         self.run(end, run, |job| job.on_lanes::<P, HAS_DENSE_OUTPUT>(&method))
