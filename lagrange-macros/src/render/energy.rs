@@ -26,7 +26,18 @@ impl Page<'_> {
         if let Evidence::Held(_) = evidence {
             remark.push(Fragment::words("; conserved in all random motions tried"));
         }
+        if self.loses_energy_at_impacts() {
+            remark.push(Fragment::words("; between impacts"));
+        }
+        if !self.problem.frictions.is_empty() {
+            remark.push(Fragment::words("; while nothing slides"));
+        }
         self.energy_line(remark)
+    }
+
+    /// False if no contact is stated, or if all are elastic: the multipliers of fixed gaps do no work.
+    fn loses_energy_at_impacts(&self) -> bool {
+        self.problem.contacts.iter().any(|contact| contact.restitution != Id::ONE)
     }
 
     /// Line of an energy that changes, with the rate of change if it is known.

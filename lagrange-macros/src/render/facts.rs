@@ -31,7 +31,12 @@ impl Page<'_> {
             }
             ConservedKind::Observable(..) => return None,
         };
-        Some(Line { remark: Remark::of(held(*evidence)), ..line })
+        let mut remark = Remark::of(held(*evidence));
+        // A momentum without a multiplier in its equation has no impulse either.
+        if matches!(quantity, ConservedKind::Observable(..)) && !self.problem.contacts.is_empty() {
+            remark.and(vec![Fragment::words("between impacts")]);
+        }
+        Some(Line { remark, ..line })
     }
 
     /// A vector of momenta that are all conserved is written once, at its first component.

@@ -53,6 +53,11 @@ impl HtmlRows<'_> {
                 right[0].insert_str(0, &notation.spelling.sign(" = "));
                 (notation.pieces(left), right)
             }
+            Equation::Complementary(gap, multiplier) => {
+                let [left, mut right] = notation.complementary(gap, multiplier);
+                right[0].insert_str(0, &notation.spelling.sign(" ⊥ "));
+                (left, right)
+            }
             Equation::Term(formula) => (notation.pieces(formula), Vec::new()),
             Equation::TooLong(size) => {
                 let label =

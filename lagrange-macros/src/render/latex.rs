@@ -48,7 +48,7 @@ impl Lines<'_> {
         let column = lefts.fold(0.0, f64::max);
         let equations = lines.iter().zip(&sides).map(|(line, [left, right])| {
             let label = format!("\\label{{eq:{name}-{}}}", unique(label(line), labels));
-            self.equation(left, right, column).join(" \\nonumber \\\\*\n    ") + " " + &label
+            self.equation(left, relation(line), right, column).join(" \\nonumber \\\\*\n    ") + " " + &label
         });
         let equations = equations.collect::<Vec<_>>().join(" \\\\\n  ");
         let equations = match lines.is_empty() {
@@ -68,6 +68,7 @@ impl Lines<'_> {
         let notation = self.notation;
         let [left, right] = match &line.equation {
             Equation::Known(left, right) => [notation.pieces(left), notation.pieces(right)],
+            Equation::Complementary(gap, multiplier) => notation.complementary(gap, multiplier),
             Equation::Term(formula) => {
                 let all = [notation.pieces(formula), vec![r" = \text{total time derivative}".to_owned()]];
                 [vec![], all.concat()]
@@ -117,19 +118,19 @@ impl Lines<'_> {
     }
 
     /// Lines of an equation.
-    fn equation(&self, left: &[String], right: &[String], column: f64) -> Vec<String> {
+    fn equation(&self, left: &[String], relation: &str, right: &[String], column: f64) -> Vec<String> {
         let rest = LINE - column;
         if left.is_empty() {
             return self.filled(right, "&", r"&\quad", rest);
         }
         let whole = left.concat();
         if self.width(&whole) <= LEFT {
-            return self.filled(right, &format!("{whole} &= "), r"&\quad", rest);
+            return self.filled(right, &format!("{whole} &{relation} "), r"&\quad", rest);
         }
         // `\lefteqn` has no width, so a long left side does not shift the other equations to the right.
         let mut lines = self.filled(left, "", r"\quad", LINE);
         lines.iter_mut().for_each(|line| *line = format!(r"\lefteqn{{{line}}} &"));
-        lines.extend(self.filled(right, "&= ", r"&\quad", rest));
+        lines.extend(self.filled(right, &format!("&{relation} "), r"&\quad", rest));
         lines
     }
 
@@ -153,6 +154,11 @@ impl Lines<'_> {
         }
         lines
     }
+}
+
+/// Sign between the sides of a line.
+fn relation(line: &Line) -> &'static str {
+    if matches!(line.equation, Equation::Complementary(..)) { r"\perp" } else { "=" }
 }
 
 /// Escapes plain text for LaTeX, and sets code in a typewriter font.

@@ -42,6 +42,8 @@ impl Line {
 
 pub(super) enum Equation {
     Known(Formula, Formula),
+    /// A gap and the multiplier of a contact: 0 ≤ gap ⊥ λ ≥ 0.
+    Complementary(Formula, Formula),
     /// A single expression without an equals sign.
     Term(Formula),
     /// Not written out: the number of symbols it would take.
@@ -73,6 +75,10 @@ pub(super) fn text(name: &str, sections: &[Section]) -> String {
             };
             let equation = match equation {
                 Equation::Known(left, right) => Notation::UNICODE.equation(left, right),
+                Equation::Complementary(gap, multiplier) => {
+                    let [left, right] = Notation::UNICODE.complementary(gap, multiplier);
+                    left.concat() + " ⊥ " + &right.concat()
+                }
                 Equation::Term(formula) => Notation::UNICODE.write(formula),
                 Equation::TooLong(size) => format!("… ({size} symbols)"),
             };

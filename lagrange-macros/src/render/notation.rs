@@ -71,6 +71,15 @@ impl<'a> Notation<'a> {
         self.write(left) + &self.spelling.sign(" = ") + &self.write(right)
     }
 
+    /// Pieces of 0 ≤ gap, and of λ ≥ 0.
+    pub(super) fn complementary(self, gap: &Formula, multiplier: &Formula) -> [Vec<String>; 2] {
+        let [mut left, mut right] = [gap, multiplier].map(|formula| self.pieces(formula));
+        let zero = self.spelling.digits("0");
+        left[0].insert_str(0, &(zero.clone() + &self.spelling.sign(" ≤ ")));
+        right.push(self.spelling.sign(" ≥ ") + &zero);
+        [left, vec![right.concat()]]
+    }
+
     fn slashed(self, above: &str, below: &str) -> String {
         self.spelling.digits(above) + &self.spelling.sign("/") + &self.spelling.digits(below)
     }

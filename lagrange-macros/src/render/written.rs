@@ -88,25 +88,34 @@ impl Page<'_> {
                 return None;
             }
             let mut remark = self.kinds(rows.into_iter());
-            if let Some(field) = when {
+            let mut equation = Equation::Known(self.written(left), self.written(right));
+            if let Law::Contact { restitution } = law {
+                let zero = || Formula::sum(Vec::new());
+                let restitution = restitution.as_ref().map_or_else(zero, |law| self.written(law));
+                remark.and(vec![Fragment::words("restitution "), Fragment::Formula(restitution)]);
+                equation = self.complementarity(target, left, right);
+            } else if let Some(field) = when {
                 let field = Formula::labelled(&field.text, 0);
-                let is = match law {
-                    Law::Equation => " is true",
-                    Law::Contact { .. } => " is closed",
-                    Law::Coulomb { .. } | Law::Dry { .. } => " sticks",
-                };
+                let is = if matches!(law, Law::Equation) { " is true" } else { " sticks" };
                 remark.and(vec![Fragment::words("while "), Fragment::Formula(field), Fragment::words(is)]);
             }
-            if matches!(law, Law::Contact { .. }) {
-                remark.and(vec![Fragment::words("a contact, whose gap and multiplier are never negative")]);
-            }
-            Some(Line {
-                label: Some(Notation::UNICODE.write(&self.target(target))),
-                equation: Equation::Known(self.written(left), self.written(right)),
-                remark,
-            })
+            let label = Some(Notation::UNICODE.write(&self.target(target)));
+            Some(Line { label, equation, remark })
         };
         self.declaration.constraints.iter().filter_map(line).collect()
+    }
+
+    /// The gap of a contact, left − right, and its multiplier.
+    fn complementarity(&self, target: &Target, left: &Expression, right: &Expression) -> Equation {
+        let [left, right] = [left, right].map(|side| self.written(side));
+        let is_zero = right == Formula::sum(Vec::new());
+        let gap = if is_zero { left } else { Formula::sum(vec![left, right.negated()]) };
+        let index = |index: &TargetIndex| match index {
+            TargetIndex::Element(element) => Notation::UNICODE.write(&self.written(element)),
+            TargetIndex::Family { index, .. } => index.text.clone(),
+        };
+        let indices: String = target.indices.iter().map(|part| format!("[{}]", index(part))).collect();
+        Equation::Complementary(gap, Formula::Multiplier(target.name.text.clone() + &indices))
     }
 
     pub(super) fn written(&self, expression: &Expression) -> Formula {
