@@ -346,6 +346,15 @@ pub enum Error {
         /// The time of evaluation.
         time: f64,
     },
+    /// The state after a transition of contacts has no derivative by the state before it.
+    NoDerivativeAcross {
+        /// Name of the contact, or of the friction.
+        contact: &'static str,
+        /// Time of the transition.
+        time: f64,
+        /// Reason.
+        reason: &'static str,
+    },
     /// The motion touches the zero of an event function without crossing it: time and existence of the event
     /// are then not differentiable.
     Grazing {

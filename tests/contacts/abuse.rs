@@ -96,8 +96,7 @@ fn rods_on_a_rough_floor_and_a_rough_wall() {
         }
         endings[2] += path.transitions().len();
         let mut energy = rod.energy(&start);
-        for leg in 0..path.legs().legs().len() {
-            let leg = path.legs().leg::<Trajectory<RoughRod>>(leg).unwrap();
+        for leg in path.legs() {
             for step in leg.steps() {
                 let (state, multipliers) = (step.state(), step.solution().unwrap().multipliers);
                 let scale = 1.0 + state.q.amax();

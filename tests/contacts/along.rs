@@ -175,7 +175,8 @@ fn a_controller_lifts_a_block_off_its_floor() {
     let block = Ball { m: 1.0, g: 10.0, e: 0.0, thrust: 0.0, floor: Contact::Open };
     let (calls, closed) = (Cell::new(0), RefCell::new(Vec::new()));
     for method in [Dop853::with_tolerance(1e-13), Dop853::with_tolerance(1e-9)] {
-        (calls.set(0), closed.borrow_mut().clear());
+        calls.set(0);
+        closed.borrow_mut().clear();
         let motion = block.motion(State::at_rest([0.0, 0.0])).by(method).with_contacts();
         let motion = motion.controlled(0.1, |block, _| {
             block.thrust = if (3..6).contains(&calls.get()) { 12.0 } else { 0.0 };

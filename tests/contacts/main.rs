@@ -9,6 +9,7 @@ mod bounds;
 mod friction;
 mod frictionless;
 mod rest;
+mod sensitivities;
 mod tables;
 mod toys;
 

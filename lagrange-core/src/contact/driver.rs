@@ -179,7 +179,8 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         run.statistics = run.statistics.after(&self.statistics);
         let watch = Watch { bodies, is_closed: &decided.states.is_closed, accept: &mut self.accept };
         let (system, events) = (&system, &mut events[..]);
-        self.kept.drive(Leg { system, run, adjustment, events, goal, method, limits, watch })
+        let transitions = self.transitions.len();
+        self.kept.drive(Leg { system, run, adjustment, events, goal, transitions, method, limits, watch })
     }
 
     /// Decides what follows at the end of a leg.

@@ -30,6 +30,8 @@ pub(super) struct Leg<'l, 'e, 'w, L: Contacts<Scalar: Real>, P: Method<L>> {
     /// Events of the user, then those of contacts.
     pub(super) events: &'l mut [Box<DynEvent<'e, L>>],
     pub(super) goal: L::Scalar,
+    /// Number of transitions before the leg.
+    pub(super) transitions: usize,
     pub(super) method: &'l P,
     pub(super) limits: &'l Watchdog,
     pub(super) watch: Watch<'l, 'w, L>,
@@ -118,19 +120,21 @@ where
 /// All steps of all legs.
 pub(super) struct AllLegs<L: Lagrangian> {
     pub(super) legs: Vec<Trajectory<L>>,
+    /// Number of transitions before each leg.
+    pub(super) transitions: Vec<usize>,
     /// Counts of the legs so far.
     counts: Statistics,
 }
 
 impl<L: Lagrangian> AllLegs<L> {
     pub(super) fn none() -> Self {
-        Self { legs: Vec::new(), counts: Statistics::default() }
+        Self { legs: Vec::new(), transitions: Vec::new(), counts: Statistics::default() }
     }
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for AllLegs<L> {
     fn drive<P: Method<L>>(&mut self, leg: Leg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error> {
-        let Leg { system, mut run, adjustment, events, goal, method, limits, watch } = leg;
+        let Leg { system, mut run, adjustment, events, goal, transitions, method, limits, watch } = leg;
         let stored = Stored::<_, _, _, true>::begin(system, &run.state, goal, events, None)?;
         let mut watched = Watched { observer: stored, watch };
         let driven = run.drive(method, limits, &mut watched);
@@ -139,6 +143,7 @@ impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for AllLegs<L> {
         self.counts = run.statistics;
         let (state, crossings) = (*path.end().state(), path.crossings().to_vec());
         self.legs.push(path);
+        self.transitions.push(transitions);
         Ok(Driven { state, crossings, ending: driven, statistics: run.statistics })
     }
 }

@@ -133,6 +133,8 @@ assert_eq!(path.to_string(), text);
 )]
 pub struct ContactTrajectory<L: Lagrangian> {
     legs: Vec<Trajectory<L>>,
+    /// Number of transitions before each leg.
+    before: Vec<usize>,
     transitions: Vec<Transition<L::Scalar>>,
     crossings: Vec<Crossing<L::Scalar, L::N>>,
     statistics: Statistics,
@@ -145,7 +147,8 @@ pub struct ContactTrajectory<L: Lagrangian> {
 impl<L: Lagrangian> ContactTrajectory<L> {
     pub(super) fn of(ended: Ended<L, AllLegs<L>>, start: L::Scalar) -> Self {
         let Ended { kept, transitions, crossings, statistics, system, state, ending } = ended;
-        Self { legs: kept.legs, transitions, crossings, statistics, system, start, end: state, ending }
+        let AllLegs { legs, transitions: before, .. } = kept;
+        Self { legs, before, transitions, crossings, statistics, system, start, end: state, ending }
     }
 
     /// Returns the transitions, in the order of time; at one time, impacts before what closes and opens.
@@ -157,6 +160,17 @@ impl<L: Lagrangian> ContactTrajectory<L> {
     /// are those of events and of contacts.
     pub fn legs(&self) -> &[Trajectory<L>] {
         &self.legs
+    }
+
+    /// The transitions before each leg, after the one before it.
+    pub(crate) fn transitions_before_legs(&self) -> impl Iterator<Item = &[Transition<L::Scalar>]> {
+        let starts = core::iter::once(0).chain(self.before.iter().copied());
+        starts.zip(&self.before).map(|(from, &to)| &self.transitions[from..to])
+    }
+
+    /// The transitions after the last leg.
+    pub(crate) fn transitions_after_legs(&self) -> &[Transition<L::Scalar>] {
+        &self.transitions[self.before.last().copied().unwrap_or(0)..]
     }
 
     /// Returns the crossings of the [events](crate::MotionBuilder::event), in the order of the motion; at a transition, the state

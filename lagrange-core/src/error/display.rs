@@ -188,6 +188,10 @@ impl Display for Error {
                 f,
                 "the function of the event `{event}` is not a number at t = {time}: make it one wherever the motion may lead"
             ),
+            Self::NoDerivativeAcross { contact, time, reason } => write!(
+                f,
+                "the motion has no derivative across the transition of the contact `{contact}` at t = {time}: {reason}"
+            ),
             Self::Grazing { event, time } => write!(
                 f,
                 "the motion grazes the event `{event}` at t = {time}: the rate of its function is zero there to round-off, and the event has no derivative; start so that it is crossed, or missed"

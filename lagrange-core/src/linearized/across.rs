@@ -3,12 +3,13 @@
 use nalgebra::Const;
 
 use super::Linearized;
-use super::dual_sample::{DualSample, OverDuals};
+use super::dual_sample::{DualSample, OverDuals, slope};
 use super::sensitivity::{self, StateSensitivity};
 use crate::error::Error;
 use crate::motion::{Event, EventValue, MotionBuilder};
 use crate::number::{Dual, Real};
 use crate::system::StateOf;
+use crate::system::lookup::index;
 
 /// Derivatives of a motion of several legs, for every [`Linearized`] system over `f64` or `f32`.
 ///
@@ -130,7 +131,10 @@ pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
         constraint: &str,
         restitution: (&str, Self::Scalar),
     ) -> Result<StateSensitivity<Self::Scalar, Self::N>, Error> {
-        sensitivity::impact_sensitivity(self, at, constraint, restitution)
+        let hit = index::<Self>(Self::CONSTRAINTS, "constraint", constraint)?;
+        let (name, restitution) = restitution;
+        let slopes = |j: usize| slope(Some(at.arguments()[j]), name);
+        sensitivity::impact_sensitivity(self, at, hit, (restitution, &slopes))
     }
 
     /// Returns the state with its derivatives after a reset. `map` computes the new coordinates and velocities from the

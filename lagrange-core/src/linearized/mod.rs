@@ -8,6 +8,8 @@ mod argument;
 #[cfg(feature = "alloc")]
 mod columns;
 #[cfg(feature = "alloc")]
+mod contacts;
+#[cfg(feature = "alloc")]
 mod display;
 #[cfg(feature = "alloc")]
 mod dual_sample;

@@ -116,7 +116,7 @@ where
 }
 
 /// Integrates a motion together with its derivatives.
-fn integrate<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
+pub(super) fn integrate<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     system: &'a L,
     start: &StateSensitivity<L::Scalar, L::N>,
     end: L::Scalar,
@@ -266,7 +266,12 @@ impl<L: Linearized<Scalar: Real>> Course<L> {
         let last = crossings.last().filter(|_| matches!(ending, Ending::Event { .. }));
         match last.and_then(|crossing| events.get(crossing.index)) {
             None => Ok(at),
-            Some(event) => at_event(system, at, &**event, before),
+            Some(event) => {
+                let change = |state: &StateOf<L>, direction: &_, argument| {
+                    event.change(system, state, direction, argument)
+                };
+                at_event(system, at, (event.called(), &change), before)
+            }
         }
     }
 

@@ -14,15 +14,14 @@ use nalgebra::{Const, DMatrix, DVector};
 
 use super::Linearized;
 use super::argument::{Argument, parameter};
-use super::dual_sample::{DifferentiableEvent, DualSample, slope};
+use super::dual_sample::DualSample;
 use super::tangent::Tangent;
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Broadcast, Dual, Real, Scalar, Wide, larger, power_of_epsilon};
 use crate::solution::impact::impact;
 use crate::solution::solve::solve;
-use crate::system::lookup::index;
-use crate::system::{Direction, ResidualChange, Solution, State, StateOf};
+use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State, StateOf};
 use crate::vector::{Array, Element, Entrywise, Length, Vector, from_fn, vector};
 
 /// A state of a motion with its derivatives by some arguments: entries of the initial state, parameters, and numbers
@@ -81,7 +80,7 @@ impl<T: Real, N: Length> StateSensitivity<T, N> {
     }
 
     /// Converts column `j` to a state whose time changes by `by` more: adds `by` times the rates of the state.
-    fn delay(&mut self, j: usize, by: T, accelerations: &Vector<T, N>) {
+    pub(super) fn delay(&mut self, j: usize, by: T, accelerations: &Vector<T, N>) {
         self.t[j] += by;
         let rates = [&self.state.v, accelerations];
         for (x, rate) in [&mut self.q, &mut self.v].into_iter().zip(rates) {
@@ -114,26 +113,34 @@ pub(super) fn start<L: Linearized<Scalar: Real>>(
     Ok(start)
 }
 
-/// Converts derivatives at fixed time to derivatives at the event. `before` is an earlier state of the motion, at which
-/// the rate of the event's function gives the scale for grazing.
+/// Derivative of the function of an event at a state, along a direction and by an argument.
+pub(super) type EventChange<'c, L> = dyn Fn(
+        &StateOf<L>,
+        &Direction<<L as Lagrangian>::Scalar, <L as Lagrangian>::N>,
+        Option<Entry>,
+    ) -> Result<<L as Lagrangian>::Scalar, Error>
+    + 'c;
+
+/// Converts derivatives at fixed time to derivatives at the event of this name. `before` is an earlier state of the motion,
+/// at which the rate of the event's function gives the scale for grazing.
 ///
 /// # Errors
 /// [`Error::Grazing`].
 pub(super) fn at_event<L: Linearized<Scalar: Real>>(
     system: &L,
     mut at: StateSensitivity<L::Scalar, L::N>,
-    event: &dyn DifferentiableEvent<L>,
+    (event, change): (&'static str, &EventChange<'_, L>),
     before: &StateOf<L>,
 ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
     let accelerations = solve(system, &at.state)?.accelerations;
     // The event's function may have no derivative at the earlier state.
-    let earlier = rate(system, before, event).map_or(L::Scalar::constant(0.0), |(_, terms)| terms);
-    let (rate, terms) = rate(system, &at.state, event)?;
+    let earlier = rate(system, before, change).map_or(L::Scalar::constant(0.0), |(_, terms)| terms);
+    let (rate, terms) = rate(system, &at.state, change)?;
     if Scalar::abs(rate) <= power_of_epsilon::<L::Scalar>(0.5) * larger(terms, earlier) {
-        return Err(Error::Grazing { event: event.called(), time: at.state.t.to_f64() });
+        return Err(Error::Grazing { event, time: at.state.t.to_f64() });
     }
     for j in 0..at.arguments.len() {
-        let change = event.change(system, &at.state, &at.direction(j), Some(at.arguments[j]))?;
+        let change = change(&at.state, &at.direction(j), Some(at.arguments[j]))?;
         at.delay(j, -change / rate, &accelerations);
     }
     Ok(at)
@@ -143,7 +150,7 @@ pub(super) fn at_event<L: Linearized<Scalar: Real>>(
 fn rate<L: Linearized<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
-    event: &dyn DifferentiableEvent<L>,
+    change: &EventChange<'_, L>,
 ) -> Result<(L::Scalar, L::Scalar), Error> {
     let accelerations = solve(system, state)?.accelerations;
     let zero = Direction::zero();
@@ -154,7 +161,7 @@ fn rate<L: Linearized<Scalar: Real>>(
             i if i < 2 * <L::N>::COUNT => Direction { v: only(i - <L::N>::COUNT, &accelerations), ..zero },
             _ => Direction::of_time(),
         };
-        let part = event.change(system, state, &direction, None)?;
+        let part = change(state, &direction, None)?;
         sums = [sums[0] + part, sums[1] + Scalar::abs(part)];
     }
     Ok(sums.into())
@@ -183,7 +190,8 @@ pub(super) fn push_forward<L: Linearized<Scalar: Real>, const K: usize>(
     Ok(after)
 }
 
-/// See [`MotionDerivatives::impact_sensitivity`](super::MotionDerivatives::impact_sensitivity).
+/// See [`MotionDerivatives::impact_sensitivity`](super::MotionDerivatives::impact_sensitivity); `hit` is the index of the
+/// constraint. The coefficient of restitution is given with its derivatives by the arguments.
 ///
 /// The velocity jump J and the impulses Λ solve M J − FᵀΛ = 0, F J + ρ = 0 with ρ = F q̇⁻ + b, multiplied by 1 + e in
 /// the row of the impact. Differentiation needs two terms. δM J − δFᵀΛ is the change of the residual of motion with
@@ -192,12 +200,11 @@ pub(super) fn push_forward<L: Linearized<Scalar: Real>, const K: usize>(
 pub(super) fn impact_sensitivity<L: Linearized<Scalar: Real>>(
     system: &L,
     at: &StateSensitivity<L::Scalar, L::N>,
-    constraint: &str,
-    (name, restitution): (&str, L::Scalar),
+    hit: usize,
+    (restitution, slopes): (L::Scalar, &dyn Fn(usize) -> L::Scalar),
 ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
     let of = <L::Scalar as Real>::Wide::of;
     let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
-    let hit = index::<L>(L::CONSTRAINTS, "constraint", constraint)?;
     let impact = impact(system, &at.state, hit, restitution)?;
     let solution =
         |accelerations, multipliers| Solution { accelerations, multipliers, pivot: one, rank: <L::M>::COUNT };
@@ -211,7 +218,7 @@ pub(super) fn impact_sensitivity<L: Linearized<Scalar: Real>>(
         let [with, without] = [&jumped, &still].map(|tangent| tangent.change_with(&along.0, along.1));
         let mut acceleration = with.acceleration.minus(&without.acceleration);
         acceleration = acceleration.plus(&with.rate);
-        let by_restitution = of(slope::<L::Scalar>(Some(argument), name) * rate);
+        let by_restitution = of(slopes(j) * rate);
         acceleration[hit] = acceleration[hit] + of(restitution) * with.rate[hit] + by_restitution;
         let motion = with.motion.minus(&without.motion);
         let change = ResidualChange { motion, acceleration, ..with };

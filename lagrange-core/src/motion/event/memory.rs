@@ -25,6 +25,7 @@ pub struct EventState<T> {
     /// Number of crossings in this run; in a steered motion, since its start.
     pub(super) count: usize,
     /// Crossings of earlier legs, from which the next run counts on, and its `round_off`.
+    #[cfg(feature = "alloc")]
     earlier: Option<(usize, T)>,
     /// Round-off of the function by the largest entries of the motion, where it is a leg of one; else zero.
     round_off: T,
@@ -109,6 +110,7 @@ impl<T: Real> EventState<T> {
             subdivisions: 1,
             terminal: None,
             count: 0,
+            #[cfg(feature = "alloc")]
             earlier: None,
             round_off: zero,
             value: zero,

@@ -10,7 +10,9 @@ use super::dense::DenseStep;
 use super::halves::{Halves, LEVELS};
 use super::locate::locate;
 use super::memory::{Interval, View};
-use super::noise::{noise, noise_beside};
+use super::noise::noise;
+#[cfg(feature = "alloc")]
+use super::noise::noise_beside;
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar};
 use crate::solution::crossing::Crossing;
