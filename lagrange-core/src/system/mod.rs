@@ -29,10 +29,10 @@ pub use equations::{Equations, Excerpt};
 pub use evidence::Evidence;
 pub use facts::{Conserved, EnergyForm, Facts, LinearPart, TotalDerivative};
 pub use integrability::{Classification, Extent, Integrability, Integrals};
-pub(crate) use lagrangian::check_names;
-pub use lagrangian::{ConstraintKind, Lagrangian};
 #[cfg(feature = "alloc")]
-pub(crate) use lagrangian::{check_contacts, check_friction};
+pub(crate) use lagrangian::check_contacts;
+pub use lagrangian::{ConstraintKind, Lagrangian};
+pub(crate) use lagrangian::{check_friction, check_names};
 pub use pack::{Pack, Packed, Shared};
 pub(crate) use state::write_state;
 pub use state::{Solution, SolutionOf, State, StateOf};
