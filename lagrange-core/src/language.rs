@@ -465,6 +465,11 @@
 //! [`Contact`](crate::contact::Contact), or an array of them for a family, says whether it is closed. With restitution, a gap
 //! that closes at the rate v opens at the rate −e v; without, it stays closed as long as the contact pushes.
 //!
+//! `friction(mu): x_dot - r*phi_dot` after the gap adds Coulomb's friction, along a velocity that is linear in q̇ or a vector
+//! of two, with a multiplier `floor_friction`. `#[friction(belt: x_dot - speed, limit: hold, sliding: pull)]` is dry friction
+//! with bounds of its own, by a field `belt` of the type [`Friction`](crate::contact::Friction): it keeps the velocity at zero
+//! with a force up to `limit`, and else pulls against it with `sliding`. The bounds are numbers ≥ 0, and may depend on the state.
+//!
 //! `motion(start).with_contacts().to(end)` goes from impact to impact, and opens and closes the contacts. A motion without
 //! `with_contacts` does not compile; a [`Motion`](crate::Motion) leaves contacts as their fields say.
 //!

@@ -1,4 +1,4 @@
-//! Contacts: gaps that never become negative, whose multipliers never become negative either.
+//! Contacts: gaps that never become negative, whose multipliers never become negative either; and friction.
 //!
 //! `#[contact(floor: y - r >= 0, restitution: e)]` states a gap, and a field of the same name and of the type
 //! [`Contact`] says whether it is closed. While it is, the gap is a constraint, and its multiplier the force that keeps the
@@ -37,6 +37,47 @@ assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
 "#
 )]
 //!
+//! # Friction
+//!
+//! `friction(mu): v` adds Coulomb's friction to a contact, along a velocity v = W q̇ + b, or a vector of two. Its multiplier
+//! has the name of the contact and `_friction`, and is the force along v, with the sign convention of all others: Wᵀλ is what
+//! acts on the coordinates. While the bodies stick, v = 0 and |λ| ≤ μ λ_N; while they slide, λ = −μ λ_N v/|v|.
+//!
+//! `#[friction(belt: v, limit: hold, sliding: pull)]` is dry friction with bounds of its own, by a field `belt: Friction`: it
+//! sticks with a force up to `hold`, which is `pull` if it is not given, and slides with the force −`pull` v/|v|.
+//!
+#![cfg_attr(
+    feature = "std",
+    doc = r#"
+```
+use lagrange_core::contact::{Contact, Transition};
+use lagrange_core::prelude::*;
+
+/// A sphere that is thrown along a floor.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, phi)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*r^2/5 * phi_dot^2 - m*g*y)]
+#[contact(floor: y - r >= 0, friction(mu): x_dot - r*phi_dot)]
+struct Sphere { m: f64, g: f64, r: f64, mu: f64, floor: Contact }
+
+let sphere = Sphere { m: 0.4, g: 9.81, r: 0.3, mu: 0.25, floor: Contact::Closed };
+let path = sphere.motion(State::new([0.0, 0.3, 0.0], [2.0, 0.0, 0.0])).with_contacts().to(1.0)?;
+
+// It slides with −μ m g, until it rolls with 5/7 of its velocity.
+let Transition::Sticks { friction: "floor_friction", time } = path.transitions()[0] else { panic!() };
+assert!((time - 2.0 / 7.0 * 2.0 / (0.25 * 9.81)).abs() < 1e-12);
+assert!((path.at(0.1)?.multiplier("floor_friction")? + 0.25 * 0.4 * 9.81).abs() < 1e-12);
+assert!((path.end().v[0] - 5.0 / 7.0 * 2.0).abs() < 1e-12);
+assert_eq!(path.system().floor, Contact::Closed);
+# Ok::<(), Error>(())
+```
+"#
+)]
+//!
+//! The velocities at the start say whether friction sticks or slides, whatever the fields do.
+//!
+//! # A motion without `with_contacts`
+//!
 //! Without `with_contacts`, a motion of a system with contacts does not compile, since it would pass through them:
 //!
 //! ```compile_fail
@@ -63,11 +104,34 @@ assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
 //! - A gap needs a gradient where it closes: [`Error::NoGradient`](crate::Error::NoGradient) names one that has none, as y³ at
 //!   0. One that touches zero at a single point, as x² + y² at 0, does not close there.
 //! - A contact rests if its rate is below the round-off of its terms, or if a bounce would rise by no more than 64 u.
+//! - Friction is at rest if its velocity is below 8 ε Σ |Wᵢ| max |q̇ᵢ|. What begins to slide along two velocities gets 64 times
+//!   that as a speed, and what its force changes within the round-off of the time.
+//! - The limit of friction is left once the force exceeds it by four times its round-off.
 //!
 //! # Accumulating impacts
 //!
 //! Once a contact rests, the bounces to come take 2 v/(a (1 − e)) in total, with the rate v after the impact and the
 //! acceleration a towards the contact: [`Transition::Rests`] has the time when they end. What they would move is within 64 u.
+//!
+//! # Impacts with friction
+//!
+//! Coulomb's law holds for impulses too: |Λ_T| ≤ μ Λ_N, against the velocity after the impact, and no impulse stores energy
+//! along the contact. All impulses follow from one linear complementarity problem (Stewart and Trinkle, *International Journal
+//! for Numerical Methods in Engineering* 39, 1996), which always has a solution; its method is Lemke's. Friction of two
+//! velocities is decided in the direction that its own forces lead to. Newton's restitution may gain energy with friction
+//! (Kane and Levinson 1985): it is then lowered to where it gains none.
+//!
+//! # Painlevé's paradox
+//!
+//! Friction may press the bodies together that it slows down. Beyond a coefficient of friction, no force goes with any
+//! acceleration, or several do: [`Error::FrictionJams`](crate::Error::FrictionJams) ends the motion with the name of the
+//! friction, where the force that presses the bodies together would grow without bound.
+//!
+//! # Which methods
+//!
+//! Those that solve for accelerations: `Dop853`, `Dopri5`, `Taylor`, `Radau`, `RungeKutta4`. Structure-preserving methods do not
+//! compile for contacts with friction. Where bodies begin to slide in a plane with a force that grows slowly, the
+//! direction of sliding is stiff, by μ g/|v|: [`Radau`](crate::linearized::Radau) follows it.
 //!
 //! # Several contacts at once
 //!
