@@ -37,8 +37,8 @@ pub(super) fn contact(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) ->
         let (sides, mut restitution, mut friction) = (gap(&mut cursor.until_comma())?, None, None);
         while !cursor.is_empty() {
             if cursor.take_word("restitution") {
-                cursor.expect_punct(':', "expected `:` after `restitution`, as in `restitution: 0.8`")?;
                 once(cursor, restitution.is_some(), "the restitution of this contact")?;
+                cursor.expect_punct(':', "expected `:` after `restitution`, as in `restitution: 0.8`")?;
                 restitution = Some(expression::whole(&mut cursor.until_comma())?);
             } else if cursor.take_word("friction") {
                 once(cursor, friction.is_some(), "the friction of this contact")?;
@@ -68,8 +68,8 @@ pub(super) fn friction(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) -
                 return Err(cursor.error(message));
             }
             let bound = if is_limit { &mut limit } else { &mut sliding };
-            cursor.expect_punct(':', "expected `:` after this, as in `limit: 3*m, sliding: 2*m`")?;
             once(cursor, bound.is_some(), "this bound of the friction")?;
+            cursor.expect_punct(':', "expected `:` after this, as in `limit: 3*m, sliding: 2*m`")?;
             *bound = Some(expression::whole(&mut cursor.until_comma())?);
         }
         let Some(sliding) = sliding else {
