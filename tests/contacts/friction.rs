@@ -402,3 +402,39 @@ fn each_state_solves_the_equations_written_by_hand() {
     // Rods that lean far and are light to turn dig in.
     assert!(jams < 200, "{jams}");
 }
+
+/// A block at rest on a table that tilts begins to slide where tan(ω t) = μ, with a force that grows slowly: its direction is
+/// stiff, which `Radau` follows.
+#[test]
+fn a_block_begins_to_slide_in_the_plane() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y, z)]
+    #[define(alpha = omega*t)]
+    #[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2) + m*g*(sin(alpha)*(x*c + y*s) - cos(alpha)*z))]
+    #[contact(plane: z >= 0, friction(mu): [x_dot, y_dot])]
+    struct Tilting {
+        m: f64,
+        g: f64,
+        omega: f64,
+        c: f64,
+        s: f64,
+        mu: f64,
+        plane: Contact,
+    }
+    let (omega, mu) = (0.1, 0.5_f64);
+    let table = Tilting { m: 2.0, g: 10.0, omega, c: 0.6, s: 0.8, mu, plane: Contact::Closed };
+    let motion = table.motion(State::at_rest([0.0; 3])).by(Radau::with_tolerance(1e-10));
+    let path = motion.with_contacts().to(6.0).unwrap();
+    let begins = mu.atan() / omega;
+    let [Transition::Slips { time, .. }] = path.transitions() else { panic!("{:?}", path.transitions()) };
+    assert!((time - begins).abs() < 1e-11, "{time} for {begins}");
+    // v̇ = g (sin ωt − μ cos ωt).
+    let speed = |t: f64| 10.0 / omega * (-(omega * t).cos() - mu * (omega * t).sin());
+    let expected = speed(6.0) - speed(begins);
+    println!(
+        "{:?}",
+        table.motion(State::at_rest([0.0; 3])).by(Dop853::with_tolerance(1e-10)).with_contacts().to(6.0)
+    );
+    let v = path.end().v;
+    assert!((v[0] - 0.6 * expected).abs() < 1e-8 && (v[1] - 0.8 * expected).abs() < 1e-8, "{v:?} {expected}");
+}

@@ -8,7 +8,7 @@ use crate::names::{Names, Row, name};
 use crate::number::{Real, Scalar, larger};
 use crate::solution::consistent::{dependence, gradient};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
-use crate::solution::pivot::is_trustworthy;
+use crate::solution::pivot::{is_trustworthy, least_pivot};
 use crate::solution::reason::reason;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Solution, SolutionOf, StateOf};
@@ -75,7 +75,7 @@ pub(crate) fn solve_in_general<L: Lagrangian<Scalar: Real>>(
     let mut equations = KktSystem { m, h: h.into(), f, gamma: gamma.into() };
     let time = state.t.to_f64();
     if let Some(row) = system.slides() {
-        return Err(Error::FrictionJams { friction: name(L::CONSTRAINTS, row), time });
+        return Err(without_force::<L>(&system.accelerations_unchecked(state), row, time));
     }
     let compliance = system.compliance();
     let is_off = |a: usize| compliance[a] != L::Scalar::constant(0.0);
@@ -97,6 +97,16 @@ pub(crate) fn solve_in_general<L: Lagrangian<Scalar: Real>>(
     match first_row::<L>(|i| !accelerations[i].is_finite(), |a| !multipliers[a].is_finite()) {
         None => Ok(solved),
         Some(row) => Err(Error::EquationsNotFinite { row, time }),
+    }
+}
+
+/// Why the elimination is not to be trusted where friction slides that is a multiple of a multiplier.
+fn without_force<L: Lagrangian<Scalar: Real>>(solution: &SolutionOf<L>, row: usize, time: f64) -> Error {
+    let Solution { accelerations, multipliers, pivot, .. } = solution;
+    let not_finite = first_row::<L>(|i| !accelerations[i].is_finite(), |a| !multipliers[a].is_finite());
+    match not_finite.filter(|_| *pivot > least_pivot()) {
+        Some(row) => Error::EquationsNotFinite { row, time },
+        None => Error::FrictionJams { friction: name(L::CONSTRAINTS, row), time },
     }
 }
 

@@ -105,12 +105,13 @@ impl Lowering<'_> {
             return vec![slip];
         }
         let [sideways, slides] = [Reading::Slip(1), Reading::Slides].map(|reading| self.read(entry, reading));
-        let started = velocities.iter().enumerate().map(|(component, &velocity)| {
-            let start = self.read(entry, Reading::Start(component));
-            self.graph.add(velocity, start)
-        });
+        let direction = [slip, sideways];
+        let start = [0, 1].map(|component| self.read(entry, Reading::Start(component)));
+        let started = velocities.iter().zip(start).map(|(&velocity, start)| self.graph.add(velocity, start));
         let velocities: Vec<Id> = started.collect();
-        let along = self.graph.dot(&velocities, &[slip, sideways]);
+        // Where v is perpendicular to d, the start decides the sign.
+        let along = [&velocities[..], &start].map(|part| self.graph.dot(part, &direction));
+        let along = self.graph.add(along[0], along[1]);
         // |v| |v·d| while it slides, and no zero below a root or a fraction while it does not.
         let rests = self.graph.sub(Id::ONE, slides);
         let sizes = [self.graph.dot(&velocities, &velocities), self.graph.mul(along, along)].map(|square| {
