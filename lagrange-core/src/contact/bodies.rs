@@ -55,7 +55,7 @@ pub(super) struct States {
 /// Friction that does not act.
 pub(super) const OFF: Friction = Friction::Slides([0.0; 2]);
 
-/// What can be said of a gap, or of a velocity of friction, at a state.
+/// A gap or a velocity of friction at a state, with its rate and round-off.
 pub(super) struct Measured<T> {
     pub(super) gap: T,
     pub(super) rate: T,
@@ -141,12 +141,12 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         vector(Array::from_fn(|i| jacobian[(a, i)]))
     }
 
-    /// What can be said of contact `k`.
+    /// The gap of contact `k`, its rate, and their round-off.
     pub(super) fn measured(&self, k: usize, state: &StateOf<L>) -> Measured<L::Scalar> {
         self.measured_at(L::CONTACTS[k], state)
     }
 
-    /// What can be said of constraint `a`.
+    /// The rate of constraint `a`, its Φ if it has one, and their round-off.
     pub(super) fn measured_at(&self, a: usize, state: &StateOf<L>) -> Measured<L::Scalar> {
         let (row, rate) = (self.row(a, state), self.closed.constraint_rate(state)[a]);
         let unit = L::Scalar::constant(L::Scalar::EPSILON * UNITS);

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::bodies::{Bodies, States};
 use super::instant::{Changed, Decided};
-use super::legs::{Accept, Driven, KeepsLegs, Leg, Watch};
+use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
 use super::trajectory::Transition;
 use super::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::{Ending, Error};
@@ -177,10 +177,20 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let goal = bounce.filter(|&bounce| state.t < bounce && bounce < goal).unwrap_or(goal);
         let (mut run, adjustment) = Run::begin(&system, state, method)?;
         run.statistics = run.statistics.after(&self.statistics);
-        let watch = Watch { bodies, is_closed: &decided.states.is_closed, accept: &mut self.accept };
+        let watch = LegWatch { bodies, is_closed: &decided.states.is_closed, accept: &mut self.accept };
         let (system, events) = (&system, &mut events[..]);
         let transitions = self.transitions.len();
-        self.kept.drive(Leg { system, run, adjustment, events, goal, transitions, method, limits, watch })
+        self.kept.drive(StartedLeg {
+            system,
+            run,
+            adjustment,
+            events,
+            goal,
+            transitions,
+            method,
+            limits,
+            watch,
+        })
     }
 
     /// Decides what follows at the end of a leg.

@@ -3,10 +3,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::bodies::{Bodies, Delassus, OFF, States};
-use super::complementarity::Complementarity;
+use super::bodies::{Bodies, Delassus, States};
+use super::grip::Decision;
 use super::instant::{Changed, Decided, IMPACTS};
-use super::law::{Grip, Law, Outcome, Rubbing, Touch};
+use super::law::{ContactForces, Grip, Law, Rubbing, Touch};
 use super::trajectory::Transition;
 use super::{Contacts, Friction, FrictionRows};
 use crate::error::Error;
@@ -15,24 +15,27 @@ use crate::system::StateOf;
 use crate::vector::{Array, vector};
 
 /// Speed, in units of its round-off, with which bodies begin to slide along two velocities: friction has no direction at rest.
-const BEGIN: f64 = 64.0;
+pub(super) const BEGIN: f64 = 64.0;
 
 /// Halvings of the restitution of an impact that would gain energy.
 const HALVINGS: usize = 60;
 
 /// The rows of bodies that touch, at a state.
-struct Rows<L: Contacts<Scalar: Real>> {
+pub(super) struct TouchingRows<L: Contacts<Scalar: Real>> {
     /// Index of each among the constraints: gaps, then velocities of friction.
-    all: Vec<usize>,
+    pub(super) all: Vec<usize>,
     /// Contacts that touch, in the order of their rows.
-    touching: Vec<usize>,
+    pub(super) touching: Vec<usize>,
     /// Friction of these, and dry friction, each with the place of its first row.
-    frictions: Vec<(usize, usize)>,
-    delassus: Delassus<L>,
+    pub(super) frictions: Vec<(usize, usize)>,
+    pub(super) delassus: Delassus<L>,
 }
 
-/// Touches in play, with the contact and the friction of each.
-type Played<T> = (Vec<Touch<T>>, Vec<(Option<usize>, Option<usize>)>);
+/// Contact and friction of each touch.
+pub(super) type TouchNames = Vec<(Option<usize>, Option<usize>)>;
+
+/// Touches in play, with their names.
+type Played<T> = (Vec<Touch<T>>, TouchNames);
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Does what [`settle`](Self::settle) does, for a system with friction.
@@ -61,7 +64,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         Err(Error::ImpactsDoNotEnd { time: state.t.to_f64() })
     }
 
-    fn rows(&self, touching: Vec<usize>, state: &StateOf<L>) -> Result<Rows<L>, Error> {
+    fn rows(&self, touching: Vec<usize>, state: &StateOf<L>) -> Result<TouchingRows<L>, Error> {
         let mut all: Vec<usize> = touching.iter().map(|&k| L::CONTACTS[k]).collect();
         let mut frictions = Vec::new();
         for (f, &FrictionRows { row, count, contact }) in L::FRICTIONS.iter().enumerate() {
@@ -71,7 +74,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             }
         }
         let delassus = self.delassus(&all, state)?;
-        Ok(Rows { all, touching, frictions, delassus })
+        Ok(TouchingRows { all, touching, frictions, delassus })
     }
 
     /// Limit and sliding force of friction.
@@ -100,7 +103,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// Direction in which bodies slide; `None` if they are at rest but for round-off.
-    fn slip(&self, f: usize, state: &StateOf<L>) -> Option<[L::Scalar; 2]> {
+    pub(super) fn slip(&self, f: usize, state: &StateOf<L>) -> Option<[L::Scalar; 2]> {
         let (velocity, [speed, noise]) = self.sliding(f, state);
         (speed > noise).then(|| velocity.map(|component| component / speed))
     }
@@ -113,9 +116,9 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// The touches of the contacts that `plays` marks, with friction in the states that `grip` gives.
-    fn touches(
+    pub(super) fn touches(
         &self,
-        rows: &Rows<L>,
+        rows: &TouchingRows<L>,
         plays: &[bool],
         state: &StateOf<L>,
         grip: impl Fn(usize) -> Option<Grip<L::Scalar>>,
@@ -149,7 +152,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// friction (Kane and Levinson, *Dynamics*, 1985): the restitution is then lowered to where it gains none.
     fn impact_with_friction(
         &self,
-        rows: &Rows<L>,
+        rows: &TouchingRows<L>,
         resting: &[bool],
         state: &mut StateOf<L>,
         transitions: &mut Vec<Transition<L::Scalar>>,
@@ -174,14 +177,14 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             Law { matrix: &rows.delassus.0, rates, noise, touches: touches.clone() }.decide()
         };
         // Work of the impulses, by the mean of the rates before and after.
-        let work = |outcome: &Outcome<L::Scalar>, part: L::Scalar| {
+        let work = |outcome: &ContactForces<L::Scalar>, part: L::Scalar| {
             (0..rows.all.len()).fold([zero; 2], |[sum, size], row| {
                 let both = measured[row].rate + outcome.rates[row] - part * returned[row];
                 let work = outcome.forces[row] * both;
                 [sum + work, size + Scalar::abs(work)]
             })
         };
-        let gains = |outcome: &Outcome<L::Scalar>, part: L::Scalar| {
+        let gains = |outcome: &ContactForces<L::Scalar>, part: L::Scalar| {
             let [sum, size] = work(outcome, part);
             sum > L::Scalar::constant(L::Scalar::EPSILON * BEGIN) * size
         };
@@ -207,7 +210,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// No forces satisfy the laws of these contacts and frictions.
-    fn jams(&self, names: &[(Option<usize>, Option<usize>)], state: &StateOf<L>) -> Error {
+    pub(super) fn jams(&self, names: &[(Option<usize>, Option<usize>)], state: &StateOf<L>) -> Error {
         match names.iter().find_map(|(_, friction)| *friction) {
             Some(f) => {
                 let (friction, time) = (L::CONSTRAINTS[L::FRICTIONS[f].row], state.t.to_f64());
@@ -223,154 +226,47 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Decides which of the contacts at rest push, and which friction sticks, and takes what is left of their rates.
     fn grip(
         &self,
-        rows: &Rows<L>,
-        mut resting: Vec<bool>,
+        rows: &TouchingRows<L>,
+        resting: Vec<bool>,
         pressing: &[[L::Scalar; 2]],
         state: &mut StateOf<L>,
         (was, changed): (&States, &Changed),
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<Decided<L::Scalar>, Error> {
-        let mut begun: Vec<(usize, Grip<L::Scalar>)> = Vec::new();
-        if let Some((f, direction)) = changed.slips {
-            begun.push((f, Grip::Slides(direction.map(L::Scalar::constant))));
-        }
-        let slips: Vec<Option<[L::Scalar; 2]>> = (0..L::FRICTIONS.len())
-            .map(|f| if changed.stops == Some(f) { None } else { self.slip(f, state) })
-            .collect();
-        let (outcome, names, plays) = loop {
-            let plays: Vec<bool> = rows
-                .touching
-                .iter()
-                .zip(&resting)
-                .map(|(&k, &rests)| rests && changed.opens != Some(k))
-                .collect();
-            let grip = |f: usize| {
-                let known = begun.iter().rev().find(|(of, _)| *of == f).map(|(_, grip)| *grip);
-                let undecided = if L::FRICTIONS[f].count == 1 { Grip::Open } else { Grip::Sticks };
-                Some(known.or(slips[f].map(Grip::Slides)).unwrap_or(undecided))
-            };
-            let (touches, names) = self.touches(rows, &plays, state, grip)?;
-            let (rates, noise) = pressing.iter().map(|&[rate, noise]| (rate, noise)).unzip();
-            let law = Law { matrix: &rows.delassus.0, rates, noise, touches: touches.clone() };
-            let outcome = law.decide().ok_or_else(|| self.jams(&names, state))?;
-            // The forces of contacts may press others together, whose bounces are then low.
-            let joins = |&place: &usize| {
-                !resting[place] && self.rests(rows.touching[place], outcome.rates[place], state)
-            };
-            if let Some(place) = (0..resting.len()).find(joins) {
-                resting[place] = true;
-                continue;
-            }
-            // What begins to slide may do so with a lower force than its limit.
-            let falls = |k: &usize| {
-                let (touch, Some(f)) = (&touches[*k], names[*k].1) else { return false };
-                let lower = touch.friction.is_some_and(|friction| friction.bounds[1] < friction.bounds[0]);
-                lower
-                    && slips[f].is_none()
-                    && !begun.iter().any(|(of, _)| *of == f)
-                    && matches!(outcome.grips[*k], Some(Grip::Slides(_)))
-            };
-            match (0..touches.len()).find(falls) {
-                Some(k) => begun.extend(names[k].1.zip(outcome.grips[k])),
-                None => break (outcome, names, plays),
-            }
-        };
-        let mut decided = Self::decided_with_friction(rows, (&plays, pressing), (&outcome, &names), &slips);
+        let mut decision = Decision::new(self, (rows, pressing), resting, state, changed);
+        let gripped = decision.settle(state)?;
+        let Decision { resting, slips, .. } = decision;
+        let mut decided = gripped.decided(rows, pressing, &slips);
+        let rates = &gripped.forces.rates;
         for place in (0..resting.len()).filter(|&place| !resting[place]) {
-            decided.is_resting[rows.touching[place]] = outcome.rates[place] >= L::Scalar::constant(0.0);
+            decided.is_resting[rows.touching[place]] = rates[place] >= L::Scalar::constant(0.0);
         }
         if let Some(k) = changed.opens {
             decided.is_resting[k] = true;
         }
-        decided.bounce = self.bounce((&rows.touching, &resting, &outcome.rates), state);
+        decided.bounce = self.bounce((&rows.touching, &resting, rates), state);
         let mut towards = vec![L::Scalar::constant(0.0); L::CONTACTS.len()];
         for (place, &k) in rows.touching.iter().enumerate() {
-            towards[k] = rows.delassus.0[place][place] * outcome.forces[place];
+            towards[k] = rows.delassus.0[place][place] * gripped.forces.forces[place];
         }
         self.report(&towards, state, (&was.is_closed, &decided.states.is_closed), transitions)?;
         self.report_friction(was, &decided.states, state, transitions);
-        self.halt(rows, (&decided, &outcome), &slips, state);
+        self.halt(rows, (&decided, &gripped.forces), &slips, state);
         Ok(decided)
-    }
-
-    /// States of contacts and friction, and which of them those determine.
-    #[allow(clippy::type_complexity, reason = "slices that belong together")]
-    fn decided_with_friction(
-        rows: &Rows<L>,
-        (plays, pressing): (&[bool], &[[L::Scalar; 2]]),
-        (outcome, names): (&Outcome<L::Scalar>, &[(Option<usize>, Option<usize>)]),
-        slips: &[Option<[L::Scalar; 2]>],
-    ) -> Decided<L::Scalar> {
-        let mut decided = Decided::none::<L>(vec![OFF; L::FRICTIONS.len()]);
-        for (k, &(contact, friction)) in names.iter().enumerate() {
-            if let Some(contact) = contact {
-                decided.states.is_closed[contact] = outcome.pushes[k];
-                decided.is_resting[contact] = true;
-            }
-            if let (Some(f), Some(grip)) = (friction, outcome.grips[k]) {
-                decided.states.frictions[f] = match grip {
-                    Grip::Slides(direction) => Friction::Slides(direction.map(Real::to_f64)),
-                    Grip::Idle => OFF,
-                    Grip::Open | Grip::Sticks => Friction::Sticks,
-                };
-            }
-        }
-        let problem = Self::problem(rows);
-        // Where a velocity is zero without a force, friction keeps it so, unless the others do.
-        for (k, f) in names.iter().enumerate().filter_map(|(k, (_, friction))| Some((k, (*friction)?))) {
-            let Some(&(_, place)) = rows.frictions.iter().find(|(of, _)| *of == f) else { continue };
-            let is_idle = outcome.grips[k] == Some(Grip::Idle);
-            if is_idle && !problem.depends(place, &Self::active(rows, &decided.states)) {
-                decided.states.frictions[f] = Friction::Sticks;
-            }
-        }
-        let active = Self::active(rows, &decided.states);
-        for place in (0..plays.len()).filter(|&place| plays[place]) {
-            let k = rows.touching[place];
-            let forces = rows.delassus.0[place].iter().zip(&outcome.forces);
-            let size = forces.fold(L::Scalar::constant(0.0), |sum, (&g, &f)| sum + Scalar::abs(g * f));
-            let noise = pressing[place][1] + L::Scalar::constant(L::Scalar::EPSILON * BEGIN) * size;
-            let is_still = Scalar::abs(outcome.rates[place]) <= noise;
-            decided.is_implied[k] =
-                !decided.states.is_closed[k] && is_still && problem.depends(place, &active);
-        }
-        for &(f, place) in &rows.frictions {
-            let is_at_rest = slips[f].is_none();
-            decided.slips_from_rest[f] = is_at_rest;
-            decided.slip_is_implied[f] = is_at_rest
-                && !active.contains(&place)
-                && (place..place + L::FRICTIONS[f].count).all(|row| problem.depends(row, &active));
-        }
-        decided
-    }
-
-    /// Rows that stay at rest: closed gaps, and velocities of friction that sticks.
-    fn active(rows: &Rows<L>, states: &States) -> Vec<usize> {
-        let gaps = (0..rows.touching.len()).filter(|&place| states.is_closed[rows.touching[place]]);
-        let sticks = rows.frictions.iter().filter(|(f, _)| {
-            let is_pressed = L::FRICTIONS[*f].contact.is_none_or(|k| states.is_closed[k]);
-            is_pressed && states.frictions[*f] == Friction::Sticks
-        });
-        gaps.chain(sticks.flat_map(|&(f, place)| place..place + L::FRICTIONS[f].count)).collect()
-    }
-
-    fn problem(rows: &Rows<L>) -> Complementarity<L::Scalar> {
-        let none = vec![L::Scalar::constant(0.0); rows.all.len()];
-        Complementarity { matrix: rows.delassus.0.clone(), constant: none.clone(), noise: none }
     }
 
     /// Takes the rates, all but zero, of what stays at rest, and gives those that begin to slide along two velocities a speed:
     /// round-off of it, and what the force of friction changes it within the round-off of the time.
     fn halt(
         &self,
-        rows: &Rows<L>,
-        (decided, outcome): (&Decided<L::Scalar>, &Outcome<L::Scalar>),
+        rows: &TouchingRows<L>,
+        (decided, outcome): (&Decided<L::Scalar>, &ContactForces<L::Scalar>),
         slips: &[Option<[L::Scalar; 2]>],
         state: &mut StateOf<L>,
     ) {
         let unit = L::Scalar::constant(L::Scalar::EPSILON) * larger(Scalar::abs(state.t), self.span);
-        let mut problem = Self::problem(rows);
-        let mut active = Self::active(rows, &decided.states);
+        let mut problem = rows.problem();
+        let mut active = rows.active(&decided.states);
         let measured: Vec<_> = rows.all.iter().map(|&a| self.measured_at(a, state)).collect();
         problem.constant = measured.iter().map(|measured| measured.rate).collect();
         for &(f, place) in &rows.frictions {

@@ -58,7 +58,7 @@ pub(super) struct Law<'a, T> {
 }
 
 /// What the law gives.
-pub(super) struct Outcome<T> {
+pub(super) struct ContactForces<T> {
     /// Force or impulse of each row.
     pub(super) forces: Vec<T>,
     /// Rate of each row with these forces.
@@ -87,7 +87,7 @@ enum Unknown {
 impl<T: Real> Law<'_, T> {
     /// Finds forces that satisfy the law, also for friction of two velocities: it sticks if forces within its limit keep the
     /// bodies together, and else slides in the direction that its forces lead to.
-    pub(super) fn decide(mut self) -> Option<Outcome<T>> {
+    pub(super) fn decide(mut self) -> Option<ContactForces<T>> {
         let is_planar = |touch: &Touch<T>| {
             touch.friction.is_some_and(|friction| friction.count == 2 && friction.grip == Grip::Sticks)
         };
@@ -107,7 +107,7 @@ impl<T: Real> Law<'_, T> {
     }
 
     /// Correction of friction of two velocities whose law is not satisfied.
-    fn correction(&self, k: usize, outcome: &Outcome<T>) -> Option<Grip<T>> {
+    fn correction(&self, k: usize, outcome: &ContactForces<T>) -> Option<Grip<T>> {
         let Touch { gap, friction } = self.touches[k];
         let Rubbing { place, grip, bounds: [limit, _], .. } = friction?;
         let press = gap.map_or(T::constant(1.0), |gap| outcome.forces[gap]);
@@ -135,7 +135,7 @@ impl<T: Real> Law<'_, T> {
         }
     }
 
-    fn solve(&self) -> Option<Outcome<T>> {
+    fn solve(&self) -> Option<ContactForces<T>> {
         let unknowns = self.unknowns();
         let (pushes, dry) = self.pushes(&unknowns);
         let (zero, size) = (T::constant(0.0), unknowns.len());
@@ -239,7 +239,7 @@ impl<T: Real> Law<'_, T> {
         rates: Vec<T>,
         unknowns: &[(Unknown, usize)],
         solved: &Exchanged<T>,
-    ) -> Outcome<T> {
+    ) -> ContactForces<T> {
         let (one, zero) = (T::constant(1.0), T::constant(0.0));
         let mut pushes = vec![false; self.touches.len()];
         let mut grips: Vec<Option<Grip<T>>> =
@@ -262,7 +262,7 @@ impl<T: Real> Law<'_, T> {
                 Unknown::Back | Unknown::Speed(_) | Unknown::Hold => {}
             }
         }
-        Outcome { forces, rates, pushes, grips }
+        ContactForces { forces, rates, pushes, grips }
     }
 }
 
@@ -271,7 +271,7 @@ mod tests {
     use super::*;
 
     /// A block on a floor with gap and one or two velocities, in units of its mass.
-    fn block(rates: [f64; 3], grip: Grip<f64>, count: usize) -> Outcome<f64> {
+    fn block(rates: [f64; 3], grip: Grip<f64>, count: usize) -> ContactForces<f64> {
         let matrix: Vec<Vec<f64>> =
             (0..3).map(|i| (0..3).map(|j| if i == j { 1.0 } else { 0.0 }).collect()).collect();
         let friction = Rubbing { place: 1, count, grip, bounds: [0.5, 0.5] };

@@ -23,7 +23,7 @@ use crate::trajectory::Trajectory;
 pub(super) type Accept<'w, L> = Box<dyn FnMut(&StateOf<L>, usize) -> Result<(), Ending> + 'w>;
 
 /// A leg before its first step.
-pub(super) struct Leg<'l, 'e, 'w, L: Contacts<Scalar: Real>, P: Method<L>> {
+pub(super) struct StartedLeg<'l, 'e, 'w, L: Contacts<Scalar: Real>, P: Method<L>> {
     pub(super) system: &'l L,
     pub(super) run: Run<L, P>,
     pub(super) adjustment: Adjustment<L::Scalar, L::N>,
@@ -34,7 +34,7 @@ pub(super) struct Leg<'l, 'e, 'w, L: Contacts<Scalar: Real>, P: Method<L>> {
     pub(super) transitions: usize,
     pub(super) method: &'l P,
     pub(super) limits: &'l Watchdog,
-    pub(super) watch: Watch<'l, 'w, L>,
+    pub(super) watch: LegWatch<'l, 'w, L>,
 }
 
 /// A leg after its last step.
@@ -46,7 +46,7 @@ pub(super) struct Driven<L: Lagrangian> {
     pub(super) statistics: Statistics,
 }
 
-/// What a motion keeps of its legs.
+/// Keeps what a motion across contacts stores of its legs: all their steps, or samples.
 pub(super) trait KeepsLegs<L: Contacts<Scalar: Real>> {
     /// Time up to which the next leg may run, before the end of the motion.
     fn goal(&self) -> Option<L::Scalar> {
@@ -64,17 +64,17 @@ pub(super) trait KeepsLegs<L: Contacts<Scalar: Real>> {
     }
 
     /// Runs a leg to its end.
-    fn drive<P: Method<L>>(&mut self, leg: Leg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error>;
+    fn drive<P: Method<L>>(&mut self, leg: StartedLeg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error>;
 }
 
 /// Looks at each step of a leg: at its entries, at gaps that are crossed, and for the progress callback.
-pub(super) struct Watch<'l, 'w, L: Lagrangian> {
+pub(super) struct LegWatch<'l, 'w, L: Lagrangian> {
     pub(super) bodies: &'l mut Bodies<L>,
     pub(super) is_closed: &'l [bool],
     pub(super) accept: &'l mut Accept<'w, L>,
 }
 
-impl<L: Contacts<Scalar: Real> + Clone> Watch<'_, '_, L> {
+impl<L: Contacts<Scalar: Real> + Clone> LegWatch<'_, '_, L> {
     fn look(&mut self, state: &StateOf<L>, steps: usize) -> Result<(), Ending> {
         self.bodies.passes(state);
         match self.bodies.crossed(self.is_closed, state) {
@@ -87,7 +87,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Watch<'_, '_, L> {
 /// An observer whose steps are watched.
 struct Watched<'l, 'w, O, L: Lagrangian> {
     observer: O,
-    watch: Watch<'l, 'w, L>,
+    watch: LegWatch<'l, 'w, L>,
 }
 
 impl<L, P, O> Observer<L, P> for Watched<'_, '_, O, L>
@@ -133,8 +133,9 @@ impl<L: Lagrangian> AllLegs<L> {
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for AllLegs<L> {
-    fn drive<P: Method<L>>(&mut self, leg: Leg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error> {
-        let Leg { system, mut run, adjustment, events, goal, transitions, method, limits, watch } = leg;
+    fn drive<P: Method<L>>(&mut self, leg: StartedLeg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error> {
+        let StartedLeg { system, mut run, adjustment, events, goal, transitions, method, limits, watch } =
+            leg;
         let stored = Stored::<_, _, _, true>::begin(system, &run.state, goal, events, None)?;
         let mut watched = Watched { observer: stored, watch };
         let driven = run.drive(method, limits, &mut watched);
@@ -170,8 +171,8 @@ impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for SampledLegs<'_, L> {
         Ok(is_due)
     }
 
-    fn drive<P: Method<L>>(&mut self, leg: Leg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error> {
-        let Leg { system, mut run, events, goal, method, limits, watch, .. } = leg;
+    fn drive<P: Method<L>>(&mut self, leg: StartedLeg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error> {
+        let StartedLeg { system, mut run, events, goal, method, limits, watch, .. } = leg;
         let mut crossings = Vec::new();
         let mut search = EventSearch::begin(events, system, &run.state)?;
         let stopped = search.record_due(&run.state, &mut crossings);

@@ -28,7 +28,7 @@ pub(super) struct Exchanged<T> {
 }
 
 /// The equations w − M z − e z₀ = q, solved for the basic ones of the 2n + 1 unknowns: w, z and the artificial z₀.
-struct Tableau<T> {
+struct ExchangeTableau<T> {
     size: usize,
     /// A row for each basic unknown: the columns of w, z and z₀, and the right-hand side.
     rows: Vec<Vec<T>>,
@@ -41,7 +41,7 @@ impl<T: Real> Exchange<T> {
     /// then no solution.
     pub(super) fn solve(&self) -> Option<Exchanged<T>> {
         let size = self.constant.len();
-        let mut tableau = Tableau::new(self);
+        let mut tableau = ExchangeTableau::new(self);
         for k in (0..size).filter(|&k| self.is_free[k]) {
             // A free unknown whose row depends on those before stays zero.
             if !tableau.is_zero(k, size + k) {
@@ -64,7 +64,7 @@ impl<T: Real> Exchange<T> {
     }
 
     /// One step of refinement: what is left of w of the basic unknowns, by the inverse that the tableau holds.
-    fn refine(&self, tableau: &Tableau<T>, Exchanged { z, is_basic }: &mut Exchanged<T>) {
+    fn refine(&self, tableau: &ExchangeTableau<T>, Exchanged { z, is_basic }: &mut Exchanged<T>) {
         let size = z.len();
         let residual = |k: usize| {
             let w = (0..size).fold(self.constant[k], |sum, j| sum + self.matrix[k][j] * z[j]);
@@ -79,7 +79,7 @@ impl<T: Real> Exchange<T> {
     }
 }
 
-impl<T: Real> Tableau<T> {
+impl<T: Real> ExchangeTableau<T> {
     fn new(problem: &Exchange<T>) -> Self {
         let size = problem.constant.len();
         let [zero, one] = [0.0, 1.0].map(T::constant);

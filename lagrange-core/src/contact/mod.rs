@@ -150,6 +150,8 @@ mod driver;
 #[cfg(feature = "alloc")]
 mod friction;
 #[cfg(feature = "alloc")]
+mod grip;
+#[cfg(feature = "alloc")]
 mod instant;
 #[cfg(feature = "alloc")]
 mod law;

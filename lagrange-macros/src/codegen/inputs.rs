@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 
 use super::style::FunctionContext;
-use crate::resolve::{Entry, Reading, Switch};
+use crate::resolve::{Entry, Switch, SwitchReading};
 use crate::symbolic::Symbol;
 use crate::syntax::FieldShape;
 use crate::variables::Variable;
@@ -35,11 +35,15 @@ impl FunctionContext<'_> {
         let Switch { entry, reading } = self.problem.parameters.switches[k];
         let (scalar, place) = (self.types.scalar, self.place_of_state(entry));
         match reading {
-            Reading::Holds => quote!(__lagrange::generated::holds::<#scalar>(&#place)),
-            Reading::Sticks => quote!(__lagrange::generated::sticks::<#scalar>(&#place)),
-            Reading::Slides => quote!(__lagrange::generated::slides::<#scalar>(&#place)),
-            Reading::Start(component) => quote!(__lagrange::generated::start::<#scalar>(&#place, #component)),
-            Reading::Slip(component) => quote!(__lagrange::generated::slip::<#scalar>(&#place, #component)),
+            SwitchReading::Holds => quote!(__lagrange::generated::holds::<#scalar>(&#place)),
+            SwitchReading::Sticks => quote!(__lagrange::generated::sticks::<#scalar>(&#place)),
+            SwitchReading::Slides => quote!(__lagrange::generated::slides::<#scalar>(&#place)),
+            SwitchReading::Start(component) => {
+                quote!(__lagrange::generated::start::<#scalar>(&#place, #component))
+            }
+            SwitchReading::Slip(component) => {
+                quote!(__lagrange::generated::slip::<#scalar>(&#place, #component))
+            }
         }
     }
 

@@ -1,7 +1,7 @@
 //! Contacts and friction: laws that hold while a constraint does, or instead of it.
 
 use super::lowering::Lowering;
-use super::parameters::{CONTACT, Entry, FRICTION, Reading};
+use super::parameters::{CONTACT, Entry, FRICTION, SwitchReading};
 use super::problem::{ContactRow, FrictionRows};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
@@ -100,13 +100,14 @@ impl Lowering<'_> {
     /// with the sign of v·d for the direction d of the state: it stays the same as v passes through zero, where the next
     /// state is decided, and is d at rest.
     fn directions(&mut self, velocities: &[Id], entry: Entry) -> Vec<Id> {
-        let slip = self.read(entry, Reading::Slip(0));
+        let slip = self.read(entry, SwitchReading::Slip(0));
         if velocities.len() == 1 {
             return vec![slip];
         }
-        let [sideways, slides] = [Reading::Slip(1), Reading::Slides].map(|reading| self.read(entry, reading));
+        let [sideways, slides] =
+            [SwitchReading::Slip(1), SwitchReading::Slides].map(|reading| self.read(entry, reading));
         let direction = [slip, sideways];
-        let start = [0, 1].map(|component| self.read(entry, Reading::Start(component)));
+        let start = [0, 1].map(|component| self.read(entry, SwitchReading::Start(component)));
         let started = velocities.iter().zip(start).map(|(&velocity, start)| self.graph.add(velocity, start));
         let velocities: Vec<Id> = started.collect();
         // Where v is perpendicular to d, the start decides the sign.
@@ -127,7 +128,7 @@ impl Lowering<'_> {
     }
 
     /// Node of a number that the state of a constraint stands for.
-    pub(super) fn read(&mut self, entry: Entry, reading: Reading) -> Id {
+    pub(super) fn read(&mut self, entry: Entry, reading: SwitchReading) -> Id {
         let variable = self.parameters.reading(entry, reading);
         self.graph.symbol(variable.symbol())
     }

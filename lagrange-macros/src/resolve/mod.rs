@@ -39,7 +39,7 @@ pub(crate) use function::Supplied;
 pub(crate) use label::{Label, entry_names, labels};
 use lowering::Lowering;
 pub(crate) use outline::{Observable, Outline, outline};
-pub(crate) use parameters::{Entry, Parameters, Reading, Switch};
+pub(crate) use parameters::{Entry, Parameters, Switch, SwitchReading};
 pub(crate) use problem::{Observed, Problem};
 use scope::Scope;
 pub(crate) use scope::is_built_in;

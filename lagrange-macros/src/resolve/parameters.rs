@@ -33,11 +33,11 @@ pub(crate) struct Entry {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct Switch {
     pub(crate) entry: Entry,
-    pub(crate) reading: Reading,
+    pub(crate) reading: SwitchReading,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(crate) enum Reading {
+pub(crate) enum SwitchReading {
     /// 1 while the constraint holds, else 0.
     Holds,
     /// 1 while friction keeps the bodies together, else 0.
@@ -256,7 +256,7 @@ impl Parameters {
     }
 
     /// Variable for a reading of a switch.
-    pub(super) fn reading(&mut self, entry: Entry, reading: Reading) -> Variable {
+    pub(super) fn reading(&mut self, entry: Entry, reading: SwitchReading) -> Variable {
         Variable::Switch(self.switches.insert_full(Switch { entry, reading }).0)
     }
 
@@ -264,8 +264,8 @@ impl Parameters {
     pub(crate) fn switched_on(&self, symbol: Symbol) -> Option<Id> {
         let Variable::Switch(k) = Variable::of(symbol) else { return None };
         Some(match self.switches[k].reading {
-            Reading::Holds | Reading::Sticks => Id::ONE,
-            Reading::Slides | Reading::Slip(_) | Reading::Start(_) => Id::ZERO,
+            SwitchReading::Holds | SwitchReading::Sticks => Id::ONE,
+            SwitchReading::Slides | SwitchReading::Slip(_) | SwitchReading::Start(_) => Id::ZERO,
         })
     }
 

@@ -7,7 +7,7 @@ use super::expression::is_literal_zero;
 use super::family::Family;
 use super::label::{Label, element_name, entry_names};
 use super::lowering::{Definition, Lowering, MultiplierGroup, Setting};
-use super::parameters::Reading;
+use super::parameters::SwitchReading;
 use super::problem::Observed;
 use super::value::Value;
 use crate::contract::is_reserved;
@@ -132,7 +132,7 @@ impl Lowering<'_> {
             }
             law => self.friction(law, (constraint, element), (&residual, rows.len()), entry, powers),
         }
-        let holds = if constraint.law.is_friction() { Reading::Sticks } else { Reading::Holds };
+        let holds = if constraint.law.is_friction() { SwitchReading::Sticks } else { SwitchReading::Holds };
         let switch = entry.map(|entry| self.read(entry, holds));
         // A switch of 0 leaves the equation 0 = 0, and no force.
         let residual =
