@@ -8,6 +8,7 @@ mod along;
 mod bounds;
 mod friction;
 mod frictionless;
+mod limits;
 mod rest;
 mod sensitivities;
 mod tables;

@@ -198,10 +198,28 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// Whether a gap that is zero remains so but for round-off: its rate is none, or a bounce would rise by none.
-    pub(super) fn rests(&self, k: usize, acceleration: L::Scalar, state: &StateOf<L>) -> bool {
+    /// `of_motion` is the round-off of the rate that the motion of all bodies has, see [`motion_noise`](Self::motion_noise).
+    pub(super) fn rests(
+        &self,
+        k: usize,
+        (acceleration, of_motion): (L::Scalar, L::Scalar),
+        state: &StateOf<L>,
+    ) -> bool {
         let Measured { rate, noise: [of_gap, of_rate], .. } = self.measured(k, state);
         let low = L::Scalar::constant(2.0 * LOW) * of_gap * larger(-acceleration, L::Scalar::constant(0.0));
-        Scalar::abs(rate) <= of_rate || rate * rate <= low
+        Scalar::abs(rate) <= larger(of_rate, of_motion) || rate * rate <= low
+    }
+
+    /// Round-off that the motion of all bodies leaves in rates: |W q̇| ≤ √(W K⁻¹ Wᵀ) √(q̇ᵀM q̇), in any coordinates. Those of a
+    /// wedge and a block on it have no other size.
+    pub(super) fn motion_noise(&self, responses: &[Vec<L::Scalar>], state: &StateOf<L>) -> Vec<L::Scalar> {
+        let mass = self.open.mass_matrix(state);
+        let entries = (0..<L::N>::COUNT).flat_map(|i| (0..<L::N>::COUNT).map(move |j| (i, j)));
+        let zero = L::Scalar::constant(0.0);
+        let twice = entries.fold(zero, |sum, (i, j)| sum + mass[(i, j)] * state.v[i] * state.v[j]);
+        let unit = L::Scalar::constant(L::Scalar::EPSILON * UNITS);
+        let of = |(k, row): (usize, &Vec<L::Scalar>)| unit * Scalar::sqrt(Scalar::abs(row[k] * twice));
+        responses.iter().enumerate().map(of).collect()
     }
 
     /// Responses W K⁻¹ Wᵀ of the rates of constraints to impulses, and K⁻¹ Wᵀ, the changes of the velocities.

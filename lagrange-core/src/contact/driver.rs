@@ -4,6 +4,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use super::bodies::{Bodies, States};
+use super::friction::bounds;
 use super::instant::{Changed, Decided};
 use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
 use super::trajectory::Transition;
@@ -252,6 +253,9 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     }
 }
 
+/// Part of the terms of a force below which it counts as at its limit.
+const AT_LIMIT: f64 = 64.0;
+
 /// The events that friction reaches its limit, or stops the bodies.
 fn of_friction<'w, L>(
     system: &L,
@@ -264,7 +268,7 @@ where
 {
     let zero = L::Scalar::constant(0.0);
     let mut events: Vec<Box<DynEvent<'w, L>>> = Vec::new();
-    for (f, &FrictionRows { row, count, contact }) in L::FRICTIONS.iter().enumerate() {
+    for (f, &FrictionRows { row, contact, .. }) in L::FRICTIONS.iter().enumerate() {
         if contact.is_some_and(|k| !decided.states.is_closed[k]) || decided.slip_is_implied[f] {
             continue;
         }
@@ -272,31 +276,66 @@ where
         events.push(match decided.states.frictions[f] {
             Friction::Sticks => {
                 let left = move |sample: &Sample<&L>| {
-                    let multipliers = &sample.solution()?.multipliers;
-                    let limit = closed.friction_limit(f, sample.state()).unwrap_or(zero);
-                    let press = contact.map_or(L::Scalar::constant(1.0), |k| multipliers[L::CONTACTS[k]]);
-                    let force = match count {
-                        1 => Scalar::abs(multipliers[row]),
-                        _ => {
-                            let [x, y] = [multipliers[row], multipliers[row + 1]];
-                            Scalar::sqrt(x * x + y * y)
-                        }
-                    };
-                    Ok(limit * press - force)
+                    let [limit, force] = held(closed, f, sample)?;
+                    Ok(limit - force)
                 };
-                watched(system, state, name, Some(zero), left)?
+                // A force that begins at its limit has no sign before, and may have no round-off.
+                let [limit, force] = held(closed, f, &system.sample(*state))?;
+                let least = L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * (limit + force);
+                watched(system, state, name, Some(least + least_speed::<L::Scalar>()), left)?
             }
             Friction::Slides(direction) => {
-                let direction = direction.map(L::Scalar::constant);
-                let along = move |sample: &Sample<&L>| {
-                    let rates = closed.constraint_rate(sample.state());
-                    Ok((0..count).fold(zero, |sum, c| sum + direction[c] * rates[row + c]))
-                };
-                watched(system, state, name, decided.slips_from_rest[f].then_some(zero), along)?
+                let along = move |sample: &Sample<&L>| slid(closed, f, direction, sample);
+                let from_rest = decided.slips_from_rest[f].then(|| zero + least_speed::<L::Scalar>());
+                watched(system, state, name, from_rest, along)?
             }
         });
     }
     Ok(events)
+}
+
+/// A number whose square is the least one: it gives a sign to what begins at zero and has no size.
+fn least_speed<T: Real>() -> T {
+    Scalar::sqrt(T::constant(T::SMALLEST)) * T::constant(AT_LIMIT)
+}
+
+/// Limit of friction that sticks, and its force.
+fn held<L: Contacts<Scalar: Real> + Clone>(
+    closed: &L,
+    f: usize,
+    sample: &Sample<&L>,
+) -> Result<[L::Scalar; 2], Error> {
+    let FrictionRows { row, count, contact } = L::FRICTIONS[f];
+    let multipliers = &sample.solution()?.multipliers;
+    let [limit, _] = bounds(closed, f, sample.state())?;
+    let press = contact.map_or(L::Scalar::constant(1.0), |k| multipliers[L::CONTACTS[k]]);
+    let force = match count {
+        1 => Scalar::abs(multipliers[row]),
+        _ => {
+            let [x, y] = [multipliers[row], multipliers[row + 1]];
+            Scalar::sqrt(x * x + y * y)
+        }
+    };
+    Ok([limit * press, force])
+}
+
+/// Velocity of friction that slides along its direction. That of two velocities has turned by 60° where this is zero, before
+/// its force changes its sign.
+fn slid<L: Contacts<Scalar: Real> + Clone>(
+    closed: &L,
+    f: usize,
+    direction: [f64; 2],
+    sample: &Sample<&L>,
+) -> Result<L::Scalar, Error> {
+    let FrictionRows { row, count, .. } = L::FRICTIONS[f];
+    bounds(closed, f, sample.state())?;
+    let rates = closed.constraint_rate(sample.state());
+    let zero = L::Scalar::constant(0.0);
+    let [along, square] = (0..count).fold([zero; 2], |[along, square], c| {
+        [along + L::Scalar::constant(direction[c]) * rates[row + c], square + rates[row + c] * rates[row + c]]
+    });
+    let half = L::Scalar::constant(0.5);
+    Ok(if count == 1 { along } else { along - half * Scalar::sqrt(square) })
 }
 
 /// The event that a gap or a multiplier becomes negative. If it rests at zero, it may do so at once, without a sign before: it

@@ -37,6 +37,22 @@ pub(super) type TouchNames = Vec<(Option<usize>, Option<usize>)>;
 /// Touches in play, with their names.
 type Played<T> = (Vec<Touch<T>>, TouchNames);
 
+/// Limit and sliding force of friction.
+pub(super) fn bounds<L: Contacts<Scalar: Real>>(
+    system: &L,
+    f: usize,
+    state: &StateOf<L>,
+) -> Result<[L::Scalar; 2], Error> {
+    let zero = L::Scalar::constant(0.0);
+    let [limit, sliding] = [system.friction_limit(f, state), system.sliding_friction(f, state)]
+        .map(|bound| bound.unwrap_or(zero));
+    if sliding >= zero && sliding <= limit && limit.to_f64().is_finite() {
+        return Ok([limit, sliding]);
+    }
+    let (friction, time) = (L::CONSTRAINTS[L::FRICTIONS[f].row], state.t.to_f64());
+    Err(Error::Friction { friction, bounds: [limit, sliding].map(Real::to_f64), time })
+}
+
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Does what [`settle`](Self::settle) does, for a system with friction.
     pub(super) fn settle_with_friction(
@@ -50,8 +66,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let rows = self.rows(touching, state)?;
         for _ in 0..IMPACTS {
             let pressing = self.pressing(&rows.all, state)?;
-            let resting: Vec<bool> =
-                rows.touching.iter().zip(&pressing).map(|(&k, &[a, _])| self.rests(k, a, state)).collect();
+            let noise = self.motion_noise(&rows.delassus.0, state);
+            let rests =
+                |place: usize| self.rests(rows.touching[place], (pressing[place][0], noise[place]), state);
+            let resting: Vec<bool> = (0..rows.touching.len()).map(rests).collect();
             let approaches = |place: usize| {
                 !resting[place] && self.measured(rows.touching[place], state).rate < L::Scalar::constant(0.0)
             };
@@ -75,18 +93,6 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         }
         let delassus = self.delassus(&all, state)?;
         Ok(TouchingRows { all, touching, frictions, delassus })
-    }
-
-    /// Limit and sliding force of friction.
-    fn bounds(&self, f: usize, state: &StateOf<L>) -> Result<[L::Scalar; 2], Error> {
-        let zero = L::Scalar::constant(0.0);
-        let [limit, sliding] = [self.closed.friction_limit(f, state), self.closed.sliding_friction(f, state)]
-            .map(|bound| bound.unwrap_or(zero));
-        if sliding >= zero && sliding <= limit && limit.to_f64().is_finite() {
-            return Ok([limit, sliding]);
-        }
-        let (friction, time) = (L::CONSTRAINTS[L::FRICTIONS[f].row], state.t.to_f64());
-        Err(Error::Friction { friction, bounds: [limit, sliding].map(Real::to_f64), time })
     }
 
     /// Velocity of friction, its size, and the round-off of that.
@@ -132,7 +138,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let (FrictionRows { count, contact, .. }, Some(grip)) = (L::FRICTIONS[f], grip(f)) else {
                 continue;
             };
-            let friction = Some(Rubbing { place, count, grip, bounds: self.bounds(f, state)? });
+            let friction = Some(Rubbing { place, count, grip, bounds: bounds(&self.closed, f, state)? });
             match contact {
                 None => {
                     touches.0.push(Touch { gap: None, friction });

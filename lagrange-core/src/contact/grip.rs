@@ -82,9 +82,10 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
 
     /// Whether the forces press another contact together, whose bounces are then low: it counts as at rest from now on.
     fn joins(&mut self, gripped: &Gripped<L::Scalar>, state: &StateOf<L>) -> bool {
-        let rates = &gripped.forces.rates;
+        let noise = self.bodies.motion_noise(&self.rows.delassus.0, state);
         let joins = |&place: &usize| {
-            !self.resting[place] && self.bodies.rests(self.rows.touching[place], rates[place], state)
+            let (k, rate) = (self.rows.touching[place], gripped.forces.rates[place]);
+            !self.resting[place] && self.bodies.rests(k, (rate, noise[place]), state)
         };
         let joining = (0..self.resting.len()).find(joins);
         joining.into_iter().for_each(|place| self.resting[place] = true);

@@ -97,8 +97,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let delassus = self.delassus(&rows, state)?;
         for _ in 0..IMPACTS {
             let pressing = self.pressing(&rows, state)?;
-            let resting: Vec<bool> =
-                touching.iter().zip(&pressing).map(|(&k, &[a, _])| self.rests(k, a, state)).collect();
+            let noise = self.motion_noise(&delassus.0, state);
+            let resting: Vec<bool> = (0..touching.len())
+                .map(|place| self.rests(touching[place], (pressing[place][0], noise[place]), state))
+                .collect();
             let approaches = |place: usize| {
                 !resting[place] && self.measured(touching[place], state).rate < L::Scalar::constant(0.0)
             };
@@ -176,6 +178,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<Decided<L::Scalar>, Error> {
         let mut resting = resting.to_vec();
+        let noise = self.motion_noise(matrix, state);
         let (places, problem, solved, accelerations) = loop {
             let rests = |place: &usize| resting[*place] && opens != Some(touching[*place]);
             let places: Vec<usize> = (0..touching.len()).filter(rests).collect();
@@ -192,8 +195,9 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             };
             let accelerations: Vec<L::Scalar> = (0..touching.len()).map(acceleration).collect();
             // The forces of contacts may press others together, whose bounces are then low.
-            let joins =
-                |&place: &usize| !resting[place] && self.rests(touching[place], accelerations[place], state);
+            let joins = |&place: &usize| {
+                !resting[place] && self.rests(touching[place], (accelerations[place], noise[place]), state)
+            };
             match (0..touching.len()).find(joins) {
                 Some(place) => resting[place] = true,
                 None => break (places, problem, solved, accelerations),

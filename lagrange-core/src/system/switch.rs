@@ -31,9 +31,9 @@ pub trait FrictionState {
     /// Sets the state of the friction.
     fn set_friction(&mut self, state: Friction);
 
-    /// Returns whether it slides.
+    /// Returns whether it slides in a direction.
     fn slides(&self) -> bool {
-        matches!(self.friction(), Some(Friction::Slides(_)))
+        matches!(self.friction(), Some(Friction::Slides(direction)) if direction != [0.0; 2])
     }
 }
 

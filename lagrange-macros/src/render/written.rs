@@ -7,11 +7,11 @@ use super::lines::{Equation, Line};
 use super::notation::Notation;
 use super::page::Page;
 use super::reading::Names;
-use super::remark::Fragment;
+use super::remark::{Fragment, Remark};
 use crate::symbolic::{Rational, Scaled};
 use crate::syntax::{
-    Constraint, Declaration, Define, Expression, FrameDeclaration, Kind, Law, Operator, Power, Sign, Target,
-    TargetIndex, normal_form,
+    Constraint, Declaration, Define, Expression, FrameDeclaration, Kind, Law, Name, Operator, Power, Sign,
+    Target, TargetIndex, normal_form,
 };
 
 impl Page<'_> {
@@ -87,18 +87,12 @@ impl Page<'_> {
             if *is_implied && rows.is_empty() {
                 return None;
             }
-            let mut remark = self.kinds(rows.into_iter());
             let mut equation = Equation::Known(self.written(left), self.written(right));
-            if let Law::Contact { restitution } = law {
-                let zero = || Formula::sum(Vec::new());
-                let restitution = restitution.as_ref().map_or_else(zero, |law| self.written(law));
-                remark.and(vec![Fragment::words("restitution "), Fragment::Formula(restitution)]);
+            if let Law::Contact { .. } = law {
                 equation = self.complementarity(target, left, right);
-            } else if let Some(field) = when {
-                let field = Formula::labelled(&field.text, 0);
-                let is = if matches!(law, Law::Equation) { " is true" } else { " sticks" };
-                remark.and(vec![Fragment::words("while "), Fragment::Formula(field), Fragment::words(is)]);
             }
+            let kinds = if law.is_friction() { Remark::default() } else { self.kinds(rows.into_iter()) };
+            let remark = self.law(target, when.as_ref(), law, kinds);
             let label = Some(Notation::UNICODE.write(&self.target(target)));
             Some(Line { label, equation, remark })
         };
@@ -110,12 +104,59 @@ impl Page<'_> {
         let [left, right] = [left, right].map(|side| self.written(side));
         let is_zero = right == Formula::sum(Vec::new());
         let gap = if is_zero { left } else { Formula::sum(vec![left, right.negated()]) };
+        Equation::Complementary(gap, self.multiplier(&target.name.text, &target.indices))
+    }
+
+    /// Multiplier of an element of constraints.
+    fn multiplier(&self, name: &str, indices: &[TargetIndex]) -> Formula {
         let index = |index: &TargetIndex| match index {
             TargetIndex::Element(element) => Notation::UNICODE.write(&self.written(element)),
             TargetIndex::Family { index, .. } => index.text.clone(),
         };
-        let indices: String = target.indices.iter().map(|part| format!("[{}]", index(part))).collect();
-        Equation::Complementary(gap, Formula::Multiplier(target.name.text.clone() + &indices))
+        let indices: String = indices.iter().map(|part| format!("[{}]", index(part))).collect();
+        Formula::Multiplier(name.to_owned() + &indices)
+    }
+
+    /// What holds beside the equation of a constraint, or in place of it.
+    fn law(&self, target: &Target, when: Option<&Name>, law: &Law, mut remark: Remark) -> Remark {
+        let state = |is: &str| {
+            let field = when.map_or_else(String::new, |field| field.text.clone());
+            vec![
+                Fragment::words("while "),
+                Fragment::Formula(Formula::labelled(&field, 0)),
+                Fragment::words(is),
+            ]
+        };
+        let bounded = |bound: Formula| {
+            let force =
+                Formula::Call("abs".to_owned(), vec![self.multiplier(&target.name.text, &target.indices)]);
+            vec![Fragment::Formula(force), Fragment::words(" ≤ "), Fragment::Formula(bound)]
+        };
+        match law {
+            Law::Equation => when.into_iter().for_each(|_| remark.and(state(" is true"))),
+            Law::Contact { restitution } => {
+                let zero = || Formula::sum(Vec::new());
+                let restitution = restitution.as_ref().map_or_else(zero, |law| self.written(law));
+                remark.and(vec![Fragment::words("restitution "), Fragment::Formula(restitution)]);
+            }
+            Law::Coulomb { coefficient } => {
+                let press = when.map_or("", |contact| &contact.text);
+                let press = self.multiplier(press, &target.indices);
+                remark.and(state(" sticks"));
+                remark.and(bounded(Formula::product(
+                    Scaled::from(Rational::one()),
+                    vec![self.written(coefficient), press],
+                    Vec::new(),
+                )));
+            }
+            Law::Dry { limit, sliding } => {
+                remark.and(state(" sticks"));
+                remark.and(bounded(self.written(limit.as_ref().unwrap_or(sliding))));
+                let slides = vec![Fragment::words("slides with "), Fragment::Formula(self.written(sliding))];
+                limit.iter().for_each(|_| remark.and(slides.clone()));
+            }
+        }
+        remark
     }
 
     pub(super) fn written(&self, expression: &Expression) -> Formula {

@@ -10,7 +10,7 @@ use crate::syntax::{Constraint, Expression, Law};
 use crate::variables::{Variable, has_velocity};
 
 impl Law {
-    pub(super) fn is_friction(&self) -> bool {
+    pub(crate) fn is_friction(&self) -> bool {
         matches!(self, Self::Coulomb { .. } | Self::Dry { .. })
     }
 }

@@ -10,8 +10,9 @@ pub(super) const fn iterations(s: usize) -> usize {
     4 + 2 * s
 }
 
-/// Largest correction that may be round-off, in units of ε of the state.
-const ROUND_OFF: f64 = 100.0;
+/// Largest correction that may be round-off, in units of ε of the state. Friction that begins to slide has derivatives that are
+/// too large by up to 10¹³: its corrections must shrink down to the last digits.
+pub(super) const ROUND_OFF: [f64; 2] = [100.0, 4.0];
 
 /// Largest error of the iteration, in units of the tolerance.
 const MOST: f64 = 0.03;
@@ -86,6 +87,8 @@ pub(super) struct Iteration<'a, T: Real, N: Length> {
     /// True with the derivatives at each stage: the iteration must converge fast, and a second correction must be small, too. On a
     /// stiff force that turns, an error δ along the force is small in itself, and leads to one of h² k θ δ across it.
     pub(super) is_coupled: bool,
+    /// Largest correction that may be round-off, in units of ε of the state.
+    pub(super) round_off: f64,
 }
 
 impl<T: Real, N: Length> Iteration<'_, T, N> {
@@ -158,7 +161,7 @@ impl<T: Real, N: Length> Iteration<'_, T, N> {
         largest: &mut StageChanges<T, N, S>,
     ) -> bool {
         let half = T::constant(0.5);
-        let round_off = T::constant(ROUND_OFF * T::EPSILON);
+        let round_off = T::constant(self.round_off * T::EPSILON);
         let typical = T::constant(self.tolerance.absolute / self.tolerance.relative);
         let mut all = true;
         for (correction, largest) in correction.iter().zip(largest) {

@@ -9,7 +9,7 @@ use super::collocation::Collocation;
 use super::coupled::Coupled;
 use super::equations::{Derivatives, Factorizations};
 use super::estimate::StartSlopes;
-use super::iteration::{Converged, Iteration, NoSolution, allowed, combination, reduction, zip};
+use super::iteration::{Converged, Iteration, NoSolution, ROUND_OFF, allowed, combination, reduction, zip};
 use super::lu::Lu;
 use super::memory::{Age, KnownState, RadauMemory};
 use super::tableau::{RadauStages, Transformation};
@@ -251,7 +251,8 @@ where
             Some(coupled) => coupled.corrections(z, rates),
             None => factorizations.corrections(transformation, derivatives, z, rates),
         };
-        let iteration = Iteration { tolerance, y: &at.y, allowed, is_coupled };
+        let round_off = ROUND_OFF[usize::from(L::HAS_FRICTION)];
+        let iteration = Iteration { tolerance, y: &at.y, allowed, is_coupled, round_off };
         let Converged { iterations, contraction: found } =
             iteration.solve(&mut z, corrections, |k, change| {
                 Ok(rates_at(system, chart, &there(k, change)?, &at.active, statistics)?)
