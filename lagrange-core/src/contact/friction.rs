@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use super::bodies::{Bodies, Delassus, States};
 use super::grip::Decision;
-use super::instant::{Changed, Decided, IMPACTS};
+use super::instant::{Changed, Decided, IMPACTS, STOPS};
 use super::law::{ContactForces, Grip, Law, Rubbing, Touch};
 use super::trajectory::Transition;
 use super::{Contacts, Friction, FrictionRows};
@@ -239,6 +239,45 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         (was, changed): (&States, &Changed),
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<Decided<L::Scalar>, Error> {
+        let before = *state;
+        for _ in 0..STOPS {
+            let (decided, towards, forces) =
+                self.gripped(rows, resting.clone(), pressing, (&before, state), changed)?;
+            self.halt(rows, (&decided, &forces), state);
+            if self.slides_back(&decided, state) {
+                continue;
+            }
+            self.report(&towards, &before, (&was.is_closed, &decided.states.is_closed), transitions)?;
+            self.report_friction(was, &decided.states, state, transitions);
+            return Ok(decided);
+        }
+        Err(Error::ImpactsDoNotEnd { time: state.t.to_f64() })
+    }
+
+    /// Whether a velocity is against the direction in which it slides: what was left of the rates of contacts at rest has turned it.
+    fn slides_back(&self, decided: &Decided<L::Scalar>, state: &StateOf<L>) -> bool {
+        (0..L::FRICTIONS.len()).any(|f| {
+            let (Friction::Slides(direction), false) =
+                (decided.states.frictions[f], decided.slip_is_implied[f])
+            else {
+                return false;
+            };
+            let (velocity, [_, noise]) = self.sliding(f, state);
+            let along = |c: usize| L::Scalar::constant(direction[c]) * velocity[c];
+            along(0) + along(1) < -noise
+        })
+    }
+
+    /// States, accelerations of closed contacts without their own forces, and forces.
+    #[allow(clippy::type_complexity, reason = "what belongs to one decision")]
+    fn gripped(
+        &self,
+        rows: &TouchingRows<L>,
+        resting: Vec<bool>,
+        pressing: &[[L::Scalar; 2]],
+        (before, state): (&StateOf<L>, &StateOf<L>),
+        changed: &Changed,
+    ) -> Result<(Decided<L::Scalar>, Vec<L::Scalar>, ContactForces<L::Scalar>), Error> {
         let mut decision = Decision::new(self, (rows, pressing), resting, state, changed);
         let gripped = decision.settle(state)?;
         let Decision { resting, slips, .. } = decision;
@@ -250,15 +289,12 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         if let Some(k) = changed.opens {
             decided.is_resting[k] = true;
         }
-        decided.bounce = self.bounce((&rows.touching, &resting, rates), state);
+        decided.bounce = self.bounce((&rows.touching, &resting, rates), before);
         let mut towards = vec![L::Scalar::constant(0.0); L::CONTACTS.len()];
         for (place, &k) in rows.touching.iter().enumerate() {
             towards[k] = rows.delassus.0[place][place] * gripped.forces.forces[place];
         }
-        self.report(&towards, state, (&was.is_closed, &decided.states.is_closed), transitions)?;
-        self.report_friction(was, &decided.states, state, transitions);
-        self.halt(rows, (&decided, &gripped.forces), &slips, state);
-        Ok(decided)
+        Ok((decided, towards, gripped.forces))
     }
 
     /// Takes the rates, all but zero, of what stays at rest, and gives those that begin to slide along two velocities a speed:
@@ -267,7 +303,6 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         &self,
         rows: &TouchingRows<L>,
         (decided, outcome): (&Decided<L::Scalar>, &ContactForces<L::Scalar>),
-        slips: &[Option<[L::Scalar; 2]>],
         state: &mut StateOf<L>,
     ) {
         let unit = L::Scalar::constant(L::Scalar::EPSILON) * larger(Scalar::abs(state.t), self.span);
@@ -276,8 +311,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let measured: Vec<_> = rows.all.iter().map(|&a| self.measured_at(a, state)).collect();
         problem.constant = measured.iter().map(|measured| measured.rate).collect();
         for &(f, place) in &rows.frictions {
-            let (Friction::Slides(direction), 2, None) =
-                (decided.states.frictions[f], L::FRICTIONS[f].count, slips[f])
+            let (Friction::Slides(direction), 2, true) =
+                (decided.states.frictions[f], L::FRICTIONS[f].count, decided.slips_from_rest[f])
             else {
                 continue;
             };

@@ -16,7 +16,7 @@ use crate::vector::{Array, Vector, vector};
 pub(super) const IMPACTS: usize = 10_000;
 
 /// Largest number of rounds that stop contacts which approach at rest.
-const STOPS: usize = 8;
+pub(super) const STOPS: usize = 8;
 
 /// Time within which a bounce is searched for, in units of v/a: it takes 2. The end is at no simple part of it, where a zero
 /// would fall on the division of a step.
