@@ -1,5 +1,6 @@
 //! What is a crossing, and what is none.
 
+use std::cell::Cell;
 use std::f64::consts::PI;
 
 use lagrange_core::motion::AnyEvent;
@@ -119,6 +120,22 @@ fn a_pole_is_a_crossing() {
         let found = times(0.0, 5.0, |t| 1.0 / (pole - t));
         assert!(found.len() == 1 && (found[0] - pole).abs() <= 128.0 * f64::EPSILON * pole, "{found:?}");
     }
+}
+
+/// An infinite function is searched no more closely than a constant one.
+#[test]
+fn a_function_that_becomes_infinite_takes_few_evaluations() {
+    let evaluations = |after: f64| {
+        let count = Cell::new(0);
+        let g = |t| {
+            count.set(count.get() + 1);
+            if t < 2.3 { 1.0 } else { after }
+        };
+        close(&times(0.0, 100.0, g), &[2.3]);
+        count.get()
+    };
+    let [constant, infinite] = [-1.0, f64::NEG_INFINITY].map(evaluations);
+    assert!(infinite < 2 * constant, "{infinite}, and {constant} of a constant");
 }
 
 /// A run that begins where an event has been looked for is another run: it counts from one.

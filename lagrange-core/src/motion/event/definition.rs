@@ -42,7 +42,8 @@ use crate::system::{Lagrangian, StateOf};
 /// - If a motion starts at a zero of g, or continues from a crossing after a change of its state or system, g has no
 ///   sign at first. It gets one when |g| exceeds its round-off: 16 times the largest change of g at states whose
 ///   entries and time are off by one unit. So a ball may bounce and land again long before the step ends.
-/// - An infinite value counts by its sign; NaN ends the motion.
+/// - An infinite value counts by its sign; NaN ends the motion. Between samples that are all the same infinity the
+///   function counts as infinite.
 ///
 /// The zero is located by the ITP method (Oliveira and Takahashi, *An enhancement of the bisection method average
 /// performance preserving minmax optimality*, 2021), which needs no more evaluations than bisection, and usually a

@@ -3,7 +3,7 @@
 use super::chebyshev::{FINEST, Samples, Shape};
 use crate::error::Ending;
 use crate::motion::run::is_between;
-use crate::number::{Real, Scalar, larger, smaller};
+use crate::number::{Parts, Real, Scalar, larger, smaller};
 
 /// Direction of the crossings to report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -227,7 +227,7 @@ impl<T: Real> EventState<T> {
             return View::Plain;
         }
         self.view = match () {
-            () if shape.is_plain(interval.jitter) => View::Plain,
+            () if shape.is_plain(interval.jitter) || self.is_infinite(degree) => View::Plain,
             () if shape.is_rough() => View::Rough,
             () if shape.is_bent() => View::Bent,
             () => View::Open,
@@ -236,6 +236,14 @@ impl<T: Real> EventState<T> {
             self.learn(&shape, interval);
         }
         self.view
+    }
+
+    /// True if all samples of this degree are the same infinity: the function is as constant as these samples tell.
+    #[inline]
+    fn is_infinite(&self, degree: usize) -> bool {
+        let first = self.samples[0];
+        let mut samples = self.samples.iter().step_by(FINEST / degree);
+        !Parts::is_finite(first) && samples.all(|sample| *sample == first)
     }
 
     /// Lowest degree worth evaluating on this interval: half the degree needed on the last steps.
