@@ -51,7 +51,7 @@ fn stays_on_the_sphere<P: Method<Spherical<f64>> + Copy>(name: &str, method: P, 
 
 #[test]
 fn constraints_and_energy_are_kept() {
-    let steps = count("LAGRANGE_STEPS", 20_000);
+    let steps = count("LAGRANGE_STEPS", 5000);
     // The means of few steps differ by the part of a swing that is not over.
     let drift = if steps < 1_000_000 { 0.1 } else { 1e-3 };
     let most = 10 * steps;

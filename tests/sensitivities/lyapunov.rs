@@ -11,6 +11,18 @@ fn method() -> Dop853 {
     Dop853::with_tolerance(1e-9).max_steps(10_000_000)
 }
 
+/// A span of time: the first with `LAGRANGE_WHOLE_SPANS`, the second without.
+fn span(whole: f64, short: f64) -> f64 {
+    if std::env::var_os("LAGRANGE_WHOLE_SPANS").is_some() { whole } else { short }
+}
+
+/// Asserts that four exponents come in pairs of opposite sign. Logarithms of the growth of a pair add up to one of angles between
+/// the variations, which does not grow: the exponents add up to less and less the longer the motion.
+fn come_in_pairs(exponents: &[f64], most: f64) {
+    let [a, b, c, d] = exponents.try_into().unwrap();
+    assert!(f64::abs(a + d) < most && f64::abs(b + c) < most, "{exponents:?}");
+}
+
 /// The textbook's equations of a double pendulum of unit masses and lengths, written by hand.
 fn rates([a, b, u, v]: [f64; 4]) -> [f64; 4] {
     let (sin, cos) = (a - b).sin_cos();
@@ -52,13 +64,14 @@ fn by_neighbours(end: f64) -> (f64, f64) {
 
 #[test]
 fn exponents_of_a_double_pendulum_come_in_pairs_and_the_largest_is_that_of_neighbours() {
-    let spectrum = PENDULUM.lyapunov_spectrum(State::at_rest(START), 1500.0, method()).unwrap();
+    let end = span(1500.0, 300.0);
+    let spectrum = PENDULUM.lyapunov_spectrum(State::at_rest(START), end, method()).unwrap();
     let (l, errors) = (&spectrum.exponents, &spectrum.errors);
     println!("{l:?} ± {errors:?}");
     assert_eq!((l.len(), spectrum.running.len()), (4, 20));
-    assert!((l[0] + l[3]).abs() < 1e-3 * l[0] && (l[1] + l[2]).abs() < 1e-3 * l[0], "{l:?}");
-    // Along the motion nothing grows, nor across surfaces of one energy.
-    assert!(l[1].abs() < 0.01 * l[0] && l[2].abs() < 0.01 * l[0], "{l:?}");
+    come_in_pairs(l, 2.2 / end);
+    // Along the motion nothing grows, and across surfaces of one energy what grows as the time does.
+    assert!(l[1].abs() < 2.0 * end.ln() / end && l[2].abs() < 2.0 * end.ln() / end, "{l:?}");
     let (reference, error) = by_neighbours(1500.0);
     println!("by neighbours {reference} ± {error}");
     assert!(
@@ -67,7 +80,7 @@ fn exponents_of_a_double_pendulum_come_in_pairs_and_the_largest_is_that_of_neigh
         l[0],
         errors[0]
     );
-    assert!(errors[0] < 0.05 * l[0], "{errors:?}");
+    assert!(errors[0] * end.sqrt() < 1.5 * l[0], "{errors:?}");
     // The estimates settle.
     let off = |k: usize| (spectrum.running[k].1[0] - l[0]).abs();
     assert!(off(18) < 0.05 * l[0] && spectrum.running[19].1 == *l, "{:?}", spectrum.running);
@@ -85,12 +98,12 @@ struct Rods;
 fn constraints_leave_as_many_exponents_as_degrees_of_freedom() {
     let [a, b] = START;
     let start = State::at_rest([a.sin(), a.sin() + b.sin(), -a.cos(), -a.cos() - b.cos()]);
-    let of_rods = Rods.lyapunov_spectrum(start, 300.0, method()).unwrap();
-    let of_angles = PENDULUM.lyapunov_spectrum(State::at_rest(START), 300.0, method()).unwrap();
+    let end = span(300.0, 100.0);
+    let of_rods = Rods.lyapunov_spectrum(start, end, method()).unwrap();
+    let of_angles = PENDULUM.lyapunov_spectrum(State::at_rest(START), end, method()).unwrap();
     let (l, expected) = (&of_rods.exponents, &of_angles.exponents);
     println!("{l:?} ± {:?}, {expected:?} ± {:?}", of_rods.errors, of_angles.errors);
-    assert_eq!(l.len(), 4);
-    assert!((l[0] + l[3]).abs() < 1e-2 * l[0] && (l[1] + l[2]).abs() < 1e-2 * l[0], "{l:?}");
+    come_in_pairs(l, 4.3 / end);
     assert!((l[0] - expected[0]).abs() < 3.0 * of_rods.errors[0].hypot(of_angles.errors[0]));
 }
 
@@ -99,8 +112,8 @@ fn constraints_leave_as_many_exponents_as_degrees_of_freedom() {
 fn exponents_of_a_driven_pendulum_sum_to_its_friction() {
     let driven = Driven { g: 1.0, c: 0.5, a: 1.5, w: 2.0 / 3.0 };
     let start = State::new([0.3], [0.1]);
-    let by_pairs = driven.lyapunov_spectrum(start, 600.0, method()).unwrap();
-    let by_series = driven.lyapunov_spectrum(start, 600.0, Taylor::default()).unwrap();
+    let by_pairs = driven.lyapunov_spectrum(start, 150.0, method()).unwrap();
+    let by_series = driven.lyapunov_spectrum(start, 150.0, Taylor::default()).unwrap();
     for (spectrum, tolerance) in [(by_pairs, 1e-7), (by_series, 1e-11)] {
         let sum: f64 = spectrum.exponents.iter().sum();
         assert!((sum + 0.5).abs() < tolerance, "{:?}", spectrum.exponents);
