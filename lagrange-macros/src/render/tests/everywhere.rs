@@ -2,12 +2,14 @@
 //! derives, the equations are read from the text and compared with the graph at random states.
 
 use std::collections::BTreeMap;
+use std::ops::Deref;
 use std::sync::LazyLock;
 
 use super::mathml;
 use super::reader::{Meanings, Value, read_with};
-use super::systems::{self, System, of_all};
+use super::systems::{self, Forms, Library, System};
 use crate::mechanics::Derived;
+use crate::render::arrays::Arrays;
 use crate::render::formula::Formula;
 use crate::render::notation::Notation;
 use crate::resolve::{self, Supplied};
@@ -45,6 +47,28 @@ impl System {
         let solved = solved.flat_map(|(kind, count)| (0..count).map(kind)).map(Variable::symbol);
         sample.set(solved.map(|symbol| (symbol, self.problem.drawn(symbol, draw))).collect::<Vec<_>>());
     }
+}
+
+/// A page about a system.
+struct Page<'a> {
+    system: &'a System,
+    text: String,
+    /// Writes a name as `text` spells it.
+    written: fn(&Arrays, &Formula) -> String,
+}
+
+impl Deref for Page<'_> {
+    type Target = System;
+
+    fn deref(&self) -> &System {
+        self.system
+    }
+}
+
+impl Page<'_> {
+    fn written(&self, formula: &Formula) -> String {
+        (self.written)(&self.arrays, formula)
+    }
 
     /// Lines below a heading.
     fn lines(&self, heading: &str) -> Vec<&str> {
@@ -56,14 +80,14 @@ impl System {
 
 /// Values of the names of a system at a state.
 struct State<'a> {
-    system: &'a System,
+    system: &'a Page<'a>,
     names: BTreeMap<String, Value>,
     draw: u64,
 }
 
 impl<'a> State<'a> {
-    fn new(system: &'a System, sample: &mut Sample, draw: u64) -> Self {
-        let System { graph, problem, .. } = system;
+    fn new(system: &'a Page<'a>, sample: &mut Sample, draw: u64) -> Self {
+        let System { graph, problem, .. } = system.system;
         let n = problem.coordinates.len();
         let mut names: BTreeMap<String, Value> = BTreeMap::new();
         let mut vectors: BTreeMap<String, Value> = BTreeMap::new();
@@ -214,7 +238,7 @@ fn wanted() -> usize {
 
 /// Checks that each row, or vector of rows, is proportional to the computed one in accelerations and multipliers: the
 /// printed row may be divided by a factor.
-fn check_motion(system: &System) {
+fn check_motion(system: &Page) {
     let mut first = 0;
     for row in system.lines("Equations of motion\n") {
         let (label, equation) = row.split_once(": ").expect("a label");
@@ -234,7 +258,7 @@ fn check_motion(system: &System) {
     assert_eq!(first, system.derived.inertia.len(), "{}", system.text);
 }
 
-fn check_rows(system: &System, rows: std::ops::Range<usize>, sides: [&str; 2]) {
+fn check_rows(system: &Page, rows: std::ops::Range<usize>, sides: [&str; 2]) {
     let mut states = 0;
     for draw in 0..STATES {
         let mut sample = system.sample(draw);
@@ -269,7 +293,7 @@ fn check_rows(system: &System, rows: std::ops::Range<usize>, sides: [&str; 2]) {
 }
 
 /// Residual M q̈ − h − Fᵀλ.
-fn left_over(system: &System, sample: &mut Sample, rows: std::ops::Range<usize>) -> Vec<f64> {
+fn left_over(system: &Page, sample: &mut Sample, rows: std::ops::Range<usize>) -> Vec<f64> {
     let Derived { equations, inertia, .. } = &system.derived;
     let row = |i: usize| {
         let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
@@ -280,7 +304,7 @@ fn left_over(system: &System, sample: &mut Sample, rows: std::ops::Range<usize>)
 }
 
 /// Checks energies, momenta and constraint forces against the computed ones.
-fn check_quantities(system: &System) {
+fn check_quantities(system: &Page) {
     let equations = &system.derived.equations;
     let conserved = system.lines("Conserved\n");
     let energy = system.lines("Energy\n");
@@ -299,7 +323,7 @@ fn check_quantities(system: &System) {
 }
 
 /// Checks that at p = ∂L/∂q̇ of a state, H is the energy, ∂H/∂p the velocity and ṗ the forces.
-fn check_hamilton(system: &System) {
+fn check_hamilton(system: &Page) {
     let equations = &system.derived.equations;
     let n = system.problem.coordinates.len();
     let names = (0..n).map(|i| momentum(system, i));
@@ -318,13 +342,13 @@ fn check_hamilton(system: &System) {
     });
 }
 
-fn momentum(system: &System, i: usize) -> String {
+fn momentum(system: &Page, i: usize) -> String {
     format!("p_{}", system.problem.coordinates[i].text)
 }
 
 /// Checks the lines whose left side is a name formed from a coordinate or a vector of coordinates; skips others.
 fn check_by_coordinate(
-    system: &System,
+    system: &Page,
     lines: &[&str],
     (prefix, dots): (&str, usize),
     computed: impl Fn(&mut Sample, usize) -> f64,
@@ -346,7 +370,7 @@ fn check_by_coordinate(
 }
 
 /// Checks that the right side of a line has the computed value, within the rounding errors of both.
-fn check_line(system: &System, line: &str, computed: impl Fn(&mut Sample) -> Value) {
+fn check_line(system: &Page, line: &str, computed: impl Fn(&mut Sample) -> Value) {
     let Some((_, text)) = line.split_once(" = ") else { return };
     let text = text.split("   (").next().expect("a formula");
     let mut states = 0;
@@ -371,43 +395,54 @@ fn check_line(system: &System, line: &str, computed: impl Fn(&mut Sample) -> Val
     assert!(states > 0, "no state for {text} in {}", system.text);
 }
 
-/// Checks all systems in these folders. There must be at least `least`, because a search that finds none checks
-/// nothing.
-fn check_all(folders: &'static [&str], least: usize) {
-    let checked = of_all(folders, |mut system| {
-        for [text, _, html] in system.forms.clone() {
-            let read = mathml::read(&text, &html);
-            for (text, written) in [(text, systems::in_unicode as _), (read, mathml::written as _)] {
-                (system.text, system.written) = (text, written);
-                check_motion(&system);
-                check_quantities(&system);
-                check_hamilton(&system);
-            }
+/// Checks all pages about a system.
+fn check(system: &System) {
+    for [text, _, html] in &system.forms {
+        let read = mathml::read(text, html);
+        for (text, written) in [(text.clone(), systems::in_unicode as _), (read, mathml::written as _)] {
+            let page = Page { system, text, written };
+            check_motion(&page);
+            check_quantities(&page);
+            check_hamilton(&page);
         }
-    });
-    assert!(checked.len() >= least, "{} systems only", checked.len());
+    }
+}
+
+static OF_TESTS: LazyLock<Library> = LazyLock::new(|| Library::of(&["tests"], check));
+
+static OF_EXAMPLES: LazyLock<Library> = LazyLock::new(|| {
+    let folders = &[
+        "examples",
+        "lagrange-core/src",
+        "lagrange-core/examples",
+        "lagrange-core/benches",
+        "lagrange-core/tests",
+    ];
+    Library::of(folders, check)
+});
+
+/// Pages about the systems of tests and examples.
+pub(super) fn pages() -> impl Iterator<Item = &'static Forms> {
+    OF_EXAMPLES.pages.iter().chain(&OF_TESTS.pages)
+}
+
+/// Checks all of these systems. There must be at least `least`, because a search that finds none checks nothing.
+fn check_all(systems: &Library, least: usize) {
+    assert!(systems.pages.len() >= least, "{} systems only", systems.pages.len());
+    systems.pass();
 }
 
 #[test]
 fn what_the_tests_print_is_what_is_computed() {
-    check_all(&["tests"], 400);
+    check_all(&OF_TESTS, 400);
 }
 
 #[test]
 fn what_the_examples_print_is_what_is_computed() {
-    check_all(
-        &[
-            "examples",
-            "lagrange-core/src",
-            "lagrange-core/examples",
-            "lagrange-core/benches",
-            "lagrange-core/tests",
-        ],
-        1,
-    );
+    check_all(&OF_EXAMPLES, 1);
 }
 
 #[test]
 fn what_the_pipeline_prints_is_what_is_computed() {
-    check_all(&["lagrange-macros/src"], 50);
+    check_all(&Library::of(&["lagrange-macros/src"], check), 50);
 }

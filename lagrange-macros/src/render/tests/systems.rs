@@ -1,7 +1,8 @@
 //! Systems that any test, example or page of documentation derives.
 
 use std::path::Path;
-use std::sync::LazyLock;
+use std::sync::{Mutex, mpsc};
+use std::thread::JoinHandle;
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
@@ -20,22 +21,18 @@ pub(super) struct System {
     pub(super) graph: Graph,
     pub(super) problem: Problem,
     pub(super) derived: Derived,
-    pub(super) text: String,
-    pub(super) forms: [[String; 3]; 3],
-    /// Writes a name as `text` spells it.
-    pub(super) written: fn(&Arrays, &Formula) -> String,
+    pub(super) forms: Forms,
     pub(super) arrays: Arrays,
 }
+
+/// A page in three forms, each as text, LaTeX and HTML.
+pub(super) type Forms = [[String; 3]; 3];
 
 pub(super) fn in_unicode(_: &Arrays, formula: &Formula) -> String {
     Notation::UNICODE.write(formula)
 }
 
 impl System {
-    pub(super) fn written(&self, formula: &Formula) -> String {
-        (self.written)(&self.arrays, formula)
-    }
-
     /// Resolves and derives a system; `None` after any error.
     pub(super) fn new(tokens: TokenStream) -> Option<Self> {
         let mut diagnostics = Diagnostics::default();
@@ -44,9 +41,8 @@ impl System {
         let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics)?;
         let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics)?;
         let Rendered { forms, .. } = render(&declaration, &graph, &problem, &derived);
-        let text = forms[0][0].clone();
         let arrays = Arrays::of(&problem);
-        Some(Self { graph, problem, derived, text, forms, written: in_unicode, arrays })
+        Some(Self { graph, problem, derived, forms, arrays })
     }
 }
 
@@ -122,21 +118,32 @@ fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
     }
 }
 
-/// Applies `ask` to every system without errors in these folders.
-pub(super) fn of_all<T: Send + 'static>(folders: &'static [&str], ask: fn(System) -> T) -> Vec<T> {
-    // Some tests nest deeply, so the thread needs a large stack.
-    let derive = move || {
-        let systems = tokens(folders).into_iter().filter_map(System::new);
-        systems.map(ask).collect()
-    };
-    let thread = std::thread::Builder::new().stack_size(1 << 28).spawn(derive).expect("a thread");
-    thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+/// Pages about the systems of some folders, which are derived once for several tests.
+pub(super) struct Library {
+    pub(super) pages: Vec<Forms>,
+    checks: Mutex<Option<JoinHandle<()>>>,
 }
 
-/// Equations of the systems of the crates, in three forms each.
-pub(super) static FORMS: LazyLock<Vec<[[String; 3]; 3]>> = LazyLock::new(|| {
-    of_all(&["tests", "examples", "lagrange-core/src", "lagrange-core/benches"], |system| system.forms)
-});
+impl Library {
+    /// Derives every system without errors in these folders, and checks each while other tests read the pages.
+    pub(super) fn of(folders: &'static [&str], check: fn(&System)) -> Self {
+        let (send, pages) = mpsc::channel();
+        let work = move || {
+            let systems: Vec<System> = tokens(folders).into_iter().filter_map(System::new).collect();
+            send.send(systems.iter().map(|system| system.forms.clone()).collect()).expect("a test");
+            systems.iter().for_each(check);
+        };
+        // Some systems nest deeply, so the thread needs a large stack. They stay in it: types of `syn` cannot leave.
+        let thread = std::thread::Builder::new().stack_size(1 << 28).spawn(work).expect("a thread");
+        Self { pages: pages.recv().expect("pages"), checks: Mutex::new(Some(thread)) }
+    }
+
+    /// Panics if a check fails.
+    pub(super) fn pass(&self) {
+        let thread = self.checks.lock().expect("no panic").take().expect("one test");
+        thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+    }
+}
 
 fn tokens(folders: &[&str]) -> Vec<TokenStream> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use super::systems::FORMS;
+use super::everywhere::pages;
 
 /// Typesets the systems that the tests of the crates derive, in one document.
 #[test]
@@ -18,7 +18,7 @@ fn latex_sets_all_systems_without_an_overfull_line() {
     let mut document = String::from(
         "\\documentclass{article}\n\\usepackage[utf8]{inputenc}\n\\usepackage{amsmath}\n\\allowdisplaybreaks\n\\hfuzz=0.1pt\n\\begin{document}\n",
     );
-    let systems = FORMS.iter().flatten().map(|[_, latex, _]| latex);
+    let systems = pages().flatten().map(|[_, latex, _]| latex);
     for (number, latex) in systems.enumerate() {
         // Systems of the same name would have equal labels.
         let latex = latex.replace("\\label{eq:", &format!("\\label{{eq:{number}-"));
