@@ -308,6 +308,13 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// The forces of friction that several contacts share, or its directions in a plane, could not be decided.
+    FrictionUndecided {
+        /// Name of the friction.
+        friction: &'static str,
+        /// The time of the state.
+        time: f64,
+    },
     /// Friction is negative, infinite or no number, or its limit is below the force of sliding.
     Friction {
         /// Name of the friction.

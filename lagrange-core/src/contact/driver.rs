@@ -256,6 +256,10 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
 /// Part of the terms of a force below which it counts as at its limit.
 const AT_LIMIT: f64 = 64.0;
 
+/// Part of its terms by which a force may exceed the limit of friction that is to stick. The solver of dependent contacts
+/// shares forces by their least norm, which need not be within the limits.
+const BEYOND: f64 = 1e-6;
+
 /// The events that friction reaches its limit, or stops the bodies.
 fn of_friction<'w, L>(
     system: &L,
@@ -282,6 +286,9 @@ where
                 // A force that begins at its limit has no sign before, and may have no round-off.
                 let [limit, force] = held(closed, f, &system.sample(*state))?;
                 let least = L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * (limit + force);
+                if force - limit > L::Scalar::constant(BEYOND) * (limit + force) + least {
+                    return Err(Error::FrictionUndecided { friction: name, time: state.t.to_f64() });
+                }
                 watched(system, state, name, Some(least + least_speed::<L::Scalar>()), left)?
             }
             Friction::Slides(direction) => {

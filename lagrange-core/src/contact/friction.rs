@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::bodies::{Bodies, Delassus, States};
 use super::grip::Decision;
 use super::instant::{Changed, Decided, IMPACTS, STOPS};
-use super::law::{ContactForces, Grip, Law, Rubbing, Touch};
+use super::law::{ContactForces, Grip, Law, NoForces, Rubbing, Touch};
 use super::trajectory::Transition;
 use super::{Contacts, Friction, FrictionRows};
 use crate::error::Error;
@@ -194,17 +194,17 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let [sum, size] = work(outcome, part);
             sum > L::Scalar::constant(L::Scalar::EPSILON * BEGIN) * size
         };
-        let jams = || self.jams(&names, state);
+        let jams = |why| self.jams(why, &names, state);
         let mut part = L::Scalar::constant(1.0);
-        let mut outcome = solve(part).ok_or_else(jams)?;
+        let mut outcome = solve(part).map_err(jams)?;
         if gains(&outcome, part) {
             let (mut low, mut high) = (zero, part);
             for _ in 0..HALVINGS {
                 part = (low + high) * L::Scalar::constant(0.5);
-                let middle = solve(part).ok_or_else(jams)?;
+                let middle = solve(part).map_err(jams)?;
                 *if gains(&middle, part) { &mut high } else { &mut low } = part;
             }
-            outcome = solve(low).ok_or_else(jams)?;
+            outcome = solve(low).map_err(jams)?;
         }
         for (&impulse, response) in outcome.forces.iter().zip(&rows.delassus.1) {
             state.v = vector(Array::from_fn(|i| state.v[i] + response[i] * impulse));
@@ -216,11 +216,19 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// No forces satisfy the laws of these contacts and frictions.
-    pub(super) fn jams(&self, names: &[(Option<usize>, Option<usize>)], state: &StateOf<L>) -> Error {
+    pub(super) fn jams(
+        &self,
+        why: NoForces,
+        names: &[(Option<usize>, Option<usize>)],
+        state: &StateOf<L>,
+    ) -> Error {
         match names.iter().find_map(|(_, friction)| *friction) {
             Some(f) => {
                 let (friction, time) = (L::CONSTRAINTS[L::FRICTIONS[f].row], state.t.to_f64());
-                Error::FrictionJams { friction, time }
+                match why {
+                    NoForces::Jammed => Error::FrictionJams { friction, time },
+                    NoForces::Undecided => Error::FrictionUndecided { friction, time },
+                }
             }
             None => {
                 let contacts: Vec<usize> = names.iter().filter_map(|(contact, _)| *contact).collect();

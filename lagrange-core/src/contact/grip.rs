@@ -11,6 +11,7 @@ use super::law::{ContactForces, Grip, Law, Touch};
 use super::{Contacts, Friction};
 use crate::error::Error;
 use crate::number::{Real, Scalar};
+use crate::solution::pivot::least_pivot;
 use crate::system::StateOf;
 
 /// A decision under way.
@@ -76,7 +77,7 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
         let (touches, names) = self.bodies.touches(self.rows, &plays, state, grip)?;
         let (rates, noise) = self.pressing.iter().map(|&[rate, noise]| (rate, noise)).unzip();
         let law = Law { matrix: &self.rows.delassus.0, rates, noise, touches: touches.clone() };
-        let forces = law.decide().ok_or_else(|| self.bodies.jams(&names, state))?;
+        let forces = law.decide().map_err(|why| self.bodies.jams(why, &names, state))?;
         Ok(Gripped { forces, touches, names, plays })
     }
 
@@ -208,7 +209,10 @@ impl<T: Real> Gripped<T> {
         for (k, f) in self.names.iter().enumerate().filter_map(|(k, (_, friction))| Some((k, (*friction)?))) {
             let Some(&(_, place)) = rows.frictions.iter().find(|(of, _)| *of == f) else { continue };
             let is_idle = self.forces.grips[k] == Some(Grip::Idle);
-            if is_idle && !problem.depends(place, &rows.active(&decided.states)) {
+            // Independent enough for the elimination to trust the forces.
+            let least = least_pivot::<T>() * problem.matrix[place][place];
+            let response = problem.response(place, &rows.active(&decided.states));
+            if is_idle && response.is_some_and(|response| response > least) {
                 decided.states.frictions[f] = Friction::Sticks;
             }
         }

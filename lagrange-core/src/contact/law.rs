@@ -69,6 +69,15 @@ pub(super) struct ContactForces<T> {
     pub(super) grips: Vec<Option<Grip<T>>>,
 }
 
+/// Why no forces were found.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum NoForces {
+    /// None satisfy the laws.
+    Jammed,
+    /// The directions of sliding do not come to rest.
+    Undecided,
+}
+
 /// An unknown of the problem, with the touch that it belongs to.
 #[derive(Clone, Copy)]
 enum Unknown {
@@ -87,23 +96,23 @@ enum Unknown {
 impl<T: Real> Law<'_, T> {
     /// Finds forces that satisfy the law, also for friction of two velocities: it sticks if forces within its limit keep the
     /// bodies together, and else slides in the direction that its forces lead to.
-    pub(super) fn decide(mut self) -> Option<ContactForces<T>> {
+    pub(super) fn decide(mut self) -> Result<ContactForces<T>, NoForces> {
         let is_planar = |touch: &Touch<T>| {
             touch.friction.is_some_and(|friction| friction.count == 2 && friction.grip == Grip::Sticks)
         };
         let planar: Vec<usize> = (0..self.touches.len()).filter(|&k| is_planar(&self.touches[k])).collect();
         for _ in 0..CORRECTIONS {
-            let outcome = self.solve()?;
+            let outcome = self.solve().ok_or(NoForces::Jammed)?;
             let corrections: Vec<(usize, Grip<T>)> =
                 planar.iter().filter_map(|&k| Some((k, self.correction(k, &outcome)?))).collect();
             if corrections.is_empty() {
-                return Some(outcome);
+                return Ok(outcome);
             }
             for (k, grip) in corrections {
                 self.touches[k].friction.iter_mut().for_each(|friction| friction.grip = grip);
             }
         }
-        None
+        Err(NoForces::Undecided)
     }
 
     /// Correction of friction of two velocities whose law is not satisfied.

@@ -168,6 +168,10 @@ impl Display for Error {
                 f,
                 "with `{friction}` no force that presses the bodies together goes with any acceleration at t = {time} (Painlevé's paradox): the friction makes the contact dig in, so lower its coefficient, or let one of the bodies yield"
             ),
+            Self::FrictionUndecided { friction, time } => write!(
+                f,
+                "the force of `{friction}` at t = {time} could not be decided: several contacts or velocities of one body share it; state fewer of them, as one foot in the place of two"
+            ),
             Self::Friction { friction, bounds: [limit, sliding], time } => write!(
                 f,
                 "the friction of `{friction}` at t = {time} has the limit {limit} and the sliding force {sliding}: both must be numbers, and 0 ≤ sliding ≤ limit"
