@@ -324,6 +324,21 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// Sweeps over the contacts of a [time step](crate::contact::MoreauJean) leave a residual above the tolerance: they need more
+    /// of them, or there are no impulses that satisfy the law of the contacts.
+    ImpulsesNotFound {
+        /// Relative residual of the impulses.
+        residual: f64,
+        /// Sweeps done.
+        iterations: usize,
+        /// Time at which the impulses act.
+        time: f64,
+    },
+    /// The part θ of a [time step](crate::contact::MoreauJean::theta) is below ½ or above 1.
+    Theta {
+        /// Its value.
+        value: f64,
+    },
     /// Impacts follow one another at one time without end.
     ImpactsDoNotEnd {
         /// Their time.

@@ -33,7 +33,7 @@ const INSTANT: f64 = 1e-6;
 
 /// A system with its contacts open and with its contacts closed, and the largest entries of its motion so far.
 pub(super) struct Bodies<L: Lagrangian> {
-    open: L,
+    pub(super) open: L,
     pub(super) closed: L,
     largest: [Array<L::Scalar, L::N>; 2],
     /// Length of the motion in time.

@@ -204,7 +204,7 @@ impl<L: Lagrangian<Scalar: Real>> Debug for ContactArrival<L> {
 }
 
 /// Checks the times of a motion, which runs forwards.
-fn check_times<T: Real>(start: T, end: T) -> Result<(), Error> {
+pub(super) fn check_times<T: Real>(start: T, end: T) -> Result<(), Error> {
     check_end(end)?;
     if end < start {
         let [start, end] = [start, end].map(Real::to_f64);

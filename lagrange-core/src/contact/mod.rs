@@ -160,6 +160,8 @@ mod legs;
 #[cfg(feature = "alloc")]
 mod lemke;
 #[cfg(feature = "alloc")]
+mod stepping;
+#[cfg(feature = "alloc")]
 mod trajectory;
 
 use crate::system::{Lagrangian, StateOf};
@@ -167,6 +169,8 @@ use crate::system::{Lagrangian, StateOf};
 pub(crate) use builder::arrive;
 #[cfg(feature = "alloc")]
 pub use builder::{AcrossContacts, ContactArrival, CrossesContacts};
+#[cfg(feature = "alloc")]
+pub use stepping::{MoreauJean, SteppedTrajectory, TimeStep, TimeStepping};
 #[cfg(feature = "alloc")]
 pub use trajectory::{ContactTrajectory, Transition};
 

@@ -176,6 +176,13 @@ impl Display for Error {
                 f,
                 "the friction of `{friction}` at t = {time} has the limit {limit} and the sliding force {sliding}: both must be numbers, and 0 ≤ sliding ≤ limit"
             ),
+            Self::ImpulsesNotFound { residual, iterations, time } => write!(
+                f,
+                "no impulses of the contacts at t = {time} were found in {iterations} sweeps: a relative residual of {residual:.1e} is left; allow more by `max_iterations` or a larger `tolerance`, or look for contacts that close in on one another"
+            ),
+            Self::Theta { value } => {
+                write!(f, "the part θ of a time step is {value}: it must be from 0.5 to 1")
+            }
             Self::ImpactsDoNotEnd { time } => write!(
                 f,
                 "impacts follow one another without end at t = {time}: give one of the contacts a restitution below 1"

@@ -1,0 +1,163 @@
+//! Newton's method for the impulses of cones, where sweeps are slow (Alart and Curnier, *Computer Methods in Applied Mechanics and
+//! Engineering* 92, 1991).
+
+use super::cones::{Block, Cone, Cones, length};
+use crate::number::{Real, Scalar};
+
+/// Largest number of Newton steps at a time. A few find the impulses, once it is settled what sticks, slides, and parts.
+const STEPS: usize = 10;
+
+/// Part of its response that is added to each row, so that impulses that others can replace are determined: they stay near those
+/// that they were. The rates are then wrong by this part of the last change.
+const ADDED: f64 = 1e-8;
+
+impl<T: Real> Cones<T> {
+    /// Takes Newton steps on p = proj(p − u/g), and keeps the impulses with the smallest residual.
+    pub(super) fn newton(&mut self, tolerance: T) {
+        let mut least = self.residual();
+        self.best.clear();
+        self.best.extend_from_slice(&self.impulses);
+        for _ in 0..STEPS {
+            self.linearize();
+            if !self.eliminate() {
+                break;
+            }
+            self.impulses.iter_mut().zip(&self.right).for_each(|(p, &change)| *p += change);
+            let residual = self.residual();
+            if residual < least {
+                least = residual;
+                self.best.copy_from_slice(&self.impulses);
+            }
+            if !residual.is_finite() || residual <= tolerance {
+                break;
+            }
+        }
+        self.impulses.copy_from_slice(&self.best);
+    }
+
+    /// Linear equations of a Newton step for the changes of the impulses.
+    fn linearize(&mut self) {
+        let size = self.rates.len();
+        self.right.clear();
+        self.right.resize(size, T::constant(0.0));
+        self.jacobian.clear();
+        self.jacobian.resize(size * size, T::constant(0.0));
+        for k in 0..self.blocks.len() {
+            let block = self.blocks[k];
+            let guess = self.guess(&block);
+            let limit = self.limit(&block.cone);
+            match (block.cone, limit) {
+                (Cone::Push, _) if guess[0] > T::constant(0.0) => self.keep_rate(&block),
+                (_, Some(limit)) if length(guess) <= limit => self.keep_rate(&block),
+                (Cone::Disc { radius, press }, Some(limit)) if limit > T::constant(0.0) => {
+                    self.slide(&block, guess, limit, (radius, press));
+                }
+                _ => self.release(&block),
+            }
+        }
+    }
+
+    /// p − u/g of a block.
+    fn guess(&self, &Block { place, count, response, .. }: &Block<T>) -> [T; 2] {
+        let at = |c: usize| {
+            if c < count && response > T::constant(0.0) {
+                self.impulses[place + c] - self.rate(place + c) / response
+            } else {
+                T::constant(0.0)
+            }
+        };
+        [at(0), at(1)]
+    }
+
+    /// The rates of a block become zero.
+    fn keep_rate(&mut self, &Block { place, count, response, .. }: &Block<T>) {
+        let size = self.rates.len();
+        for row in place..place + count {
+            self.right[row] = -self.rate(row) / response;
+            for column in 0..size {
+                self.jacobian[row * size + column] = self.entry(row, column) / response;
+            }
+            self.jacobian[row * size + row] += T::constant(ADDED);
+        }
+    }
+
+    /// The impulses of a block become zero.
+    fn release(&mut self, &Block { place, count, .. }: &Block<T>) {
+        let size = self.rates.len();
+        for row in place..place + count {
+            self.right[row] = -self.impulses[row];
+            self.jacobian[row * size + row] = T::constant(1.0);
+        }
+    }
+
+    /// The friction of a block is at its limit, along c = p − u/g: p − limit c/|c| = 0.
+    fn slide(
+        &mut self,
+        &Block { place, count, response, .. }: &Block<T>,
+        guess: [T; 2],
+        limit: T,
+        (radius, press): (T, Option<usize>),
+    ) {
+        let (size, far, one) = (self.rates.len(), length(guess), T::constant(1.0));
+        let along = guess.map(|component| component / far);
+        for i in 0..count {
+            let row = place + i;
+            self.right[row] = limit * along[i] - self.impulses[row];
+            self.jacobian[row * size + row] += one;
+            if let Some(press) = press {
+                self.jacobian[row * size + press] -= radius * along[i];
+            }
+            // The direction turns with c, if there are two velocities.
+            for j in 0..if count == 2 { 2 } else { 0 } {
+                let across = if i == j { one } else { T::constant(0.0) } - along[i] * along[j];
+                let turns = limit / far * across;
+                self.jacobian[row * size + place + j] -= turns;
+                for column in 0..size {
+                    let change = turns * self.entry(place + j, column) / response;
+                    self.jacobian[row * size + column] += change;
+                }
+            }
+        }
+    }
+
+    /// Solves the linear equations in place, by elimination with row pivoting. Returns `false` if they are singular.
+    fn eliminate(&mut self) -> bool {
+        let size = self.rates.len();
+        let (matrix, right) = (&mut self.jacobian, &mut self.right);
+        for k in 0..size {
+            let (mut pivot, mut most) = (k, T::constant(0.0));
+            for row in k..size {
+                let entry = Scalar::abs(matrix[row * size + k]);
+                if entry > most {
+                    (pivot, most) = (row, entry);
+                }
+            }
+            if !(most > T::constant(0.0) && most.is_finite()) {
+                return false;
+            }
+            if pivot != k {
+                (k..size).for_each(|column| matrix.swap(k * size + column, pivot * size + column));
+                right.swap(k, pivot);
+            }
+            let (above, below) = matrix.split_at_mut((k + 1) * size);
+            let top = &above[k * size..];
+            for (row, entries) in below.chunks_exact_mut(size).enumerate() {
+                let factor = entries[k] / top[k];
+                if factor == T::constant(0.0) {
+                    continue;
+                }
+                for column in k..size {
+                    entries[column] -= factor * top[column];
+                }
+                let change = factor * right[k];
+                right[k + 1 + row] -= change;
+            }
+        }
+        for k in (0..size).rev() {
+            let rest =
+                (k + 1..size).fold(right[k], |rest, column| rest - matrix[k * size + column] * right[column]);
+            right[k] = rest / matrix[k * size + k];
+        }
+        true
+    }
+}
