@@ -3,5 +3,7 @@
 // What helps tests may panic as they do.
 #![allow(clippy::unwrap_used)]
 
+mod abuse;
 mod convergence;
+mod law;
 mod tower;

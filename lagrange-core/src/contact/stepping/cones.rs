@@ -39,8 +39,9 @@ pub(super) struct Cones<T> {
     /// The equations of a Newton step, by rows, and their right-hand side, which becomes the solution.
     pub(super) jacobian: Vec<T>,
     pub(super) right: Vec<T>,
-    /// The impulses with the smallest residual of several Newton steps.
+    /// The impulses with the smallest residual of several Newton steps, and those near which they stay.
     pub(super) best: Vec<T>,
+    pub(super) center: Vec<T>,
 }
 
 /// How the sweeps end.
@@ -62,6 +63,7 @@ impl<T: Real> Cones<T> {
             jacobian: Vec::with_capacity(rows * rows),
             right: Vec::with_capacity(rows),
             best: Vec::with_capacity(rows),
+            center: Vec::with_capacity(rows),
         }
     }
 
@@ -134,6 +136,7 @@ impl<T: Real> Cones<T> {
             iterations += 1;
             // The change says when it is worthwhile to compute the residual, in the last sweep it must be.
             if change <= tolerance * scale || iterations >= max_iterations || !change.is_finite() {
+                self.clip();
                 let residual = self.residual();
                 if residual <= tolerance || iterations >= max_iterations || !residual.is_finite() {
                     return Swept { iterations, residual };
@@ -142,7 +145,22 @@ impl<T: Real> Cones<T> {
             if iterations == newton {
                 self.newton(tolerance);
                 newton *= 2;
+                self.clip();
+                let residual = self.residual();
+                if residual <= tolerance {
+                    return Swept { iterations, residual };
+                }
             }
+        }
+    }
+
+    /// Shortens the impulses of friction to the limits of the last impulses that press.
+    fn clip(&mut self) {
+        for k in 0..self.blocks.len() {
+            let Block { place, count, cone, .. } = self.blocks[k];
+            let impulse = [0, 1].map(|c| if c < count { self.impulses[place + c] } else { T::constant(0.0) });
+            let clipped = self.projected(&cone, impulse);
+            self.impulses[place..place + count].copy_from_slice(&clipped[..count]);
         }
     }
 

@@ -7,36 +7,59 @@ use crate::number::{Real, Scalar};
 /// Largest number of Newton steps at a time. A few find the impulses, once it is settled what sticks, slides, and parts.
 const STEPS: usize = 10;
 
-/// Part of its response that is added to each row, so that impulses that others can replace are determined: they stay near those
-/// that they were. The rates are then wrong by this part of the last change.
-const ADDED: f64 = 1e-8;
+/// Change of the impulses, relative to all of them, below which those for one p₀ are found.
+const STILL: f64 = 1e-9;
+
+/// Weights α of the changes of impulses, relative to the responses, one after another.
+const WEIGHTS: [f64; 6] = [1e-8, 1e-2, 1e-4, 1e-6, 1e-8, 1e-8];
 
 impl<T: Real> Cones<T> {
-    /// Takes Newton steps on p = proj(p − u/g), and keeps the impulses with the smallest residual.
+    /// Solves p = proj(p − u/g − α (p − p₀)) by Newton steps from p₀, with smaller and smaller weights α, each from the solution of
+    /// the one before (the proximal point method of Rockafellar 1976). Where other impulses can replace p, α determines it. Keeps
+    /// the impulses with the smallest residual of the law itself.
     pub(super) fn newton(&mut self, tolerance: T) {
         let mut least = self.residual();
         self.best.clear();
         self.best.extend_from_slice(&self.impulses);
-        for _ in 0..STEPS {
-            self.linearize();
-            if !self.eliminate() {
-                break;
+        for weight in WEIGHTS {
+            self.center.clear();
+            self.center.extend_from_slice(&self.impulses);
+            for _ in 0..STEPS {
+                self.linearize(T::constant(weight));
+                if !self.eliminate() {
+                    break;
+                }
+                self.impulses.iter_mut().zip(&self.right).for_each(|(p, &change)| *p += change);
+                let residual = self.residual();
+                if residual < least {
+                    least = residual;
+                    self.best.copy_from_slice(&self.impulses);
+                }
+                if least <= tolerance {
+                    self.impulses.copy_from_slice(&self.best);
+                    return;
+                }
+                if self.is_still() || !residual.is_finite() {
+                    break;
+                }
             }
-            self.impulses.iter_mut().zip(&self.right).for_each(|(p, &change)| *p += change);
-            let residual = self.residual();
-            if residual < least {
-                least = residual;
-                self.best.copy_from_slice(&self.impulses);
-            }
-            if !residual.is_finite() || residual <= tolerance {
-                break;
-            }
+            self.impulses.copy_from_slice(&self.best);
         }
-        self.impulses.copy_from_slice(&self.best);
+    }
+
+    /// Whether the last Newton step changed next to nothing.
+    fn is_still(&self) -> bool {
+        let sum = |all: &[T]| all.iter().fold(T::constant(0.0), |sum, &x| sum + Scalar::abs(x));
+        sum(&self.right) <= T::constant(STILL) * sum(&self.impulses)
+    }
+
+    /// u of a row with α g (p − p₀).
+    fn weighted_rate(&self, row: usize, response: T, weight: T) -> T {
+        self.rate(row) + weight * response * (self.impulses[row] - self.center[row])
     }
 
     /// Linear equations of a Newton step for the changes of the impulses.
-    fn linearize(&mut self) {
+    fn linearize(&mut self, weight: T) {
         let size = self.rates.len();
         self.right.clear();
         self.right.resize(size, T::constant(0.0));
@@ -44,11 +67,11 @@ impl<T: Real> Cones<T> {
         self.jacobian.resize(size * size, T::constant(0.0));
         for k in 0..self.blocks.len() {
             let block = self.blocks[k];
-            let guess = self.guess(&block);
+            let guess = self.guess(&block, weight);
             let limit = self.limit(&block.cone);
             match (block.cone, limit) {
-                (Cone::Push, _) if guess[0] > T::constant(0.0) => self.keep_rate(&block),
-                (_, Some(limit)) if length(guess) <= limit => self.keep_rate(&block),
+                (Cone::Push, _) if guess[0] > T::constant(0.0) => self.keep_rate(&block, weight),
+                (_, Some(limit)) if length(guess) <= limit => self.keep_rate(&block, weight),
                 (Cone::Disc { radius, press }, Some(limit)) if limit > T::constant(0.0) => {
                     self.slide(&block, guess, limit, (radius, press));
                 }
@@ -58,10 +81,10 @@ impl<T: Real> Cones<T> {
     }
 
     /// p − u/g of a block.
-    fn guess(&self, &Block { place, count, response, .. }: &Block<T>) -> [T; 2] {
+    fn guess(&self, &Block { place, count, response, .. }: &Block<T>, weight: T) -> [T; 2] {
         let at = |c: usize| {
             if c < count && response > T::constant(0.0) {
-                self.impulses[place + c] - self.rate(place + c) / response
+                self.impulses[place + c] - self.weighted_rate(place + c, response, weight) / response
             } else {
                 T::constant(0.0)
             }
@@ -70,14 +93,14 @@ impl<T: Real> Cones<T> {
     }
 
     /// The rates of a block become zero.
-    fn keep_rate(&mut self, &Block { place, count, response, .. }: &Block<T>) {
+    fn keep_rate(&mut self, &Block { place, count, response, .. }: &Block<T>, weight: T) {
         let size = self.rates.len();
         for row in place..place + count {
-            self.right[row] = -self.rate(row) / response;
+            self.right[row] = -self.weighted_rate(row, response, weight) / response;
             for column in 0..size {
                 self.jacobian[row * size + column] = self.entry(row, column) / response;
             }
-            self.jacobian[row * size + row] += T::constant(ADDED);
+            self.jacobian[row * size + row] += weight;
         }
     }
 

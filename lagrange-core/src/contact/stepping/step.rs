@@ -15,7 +15,7 @@ use crate::number::{Real, Scalar, larger};
 use crate::solution::kkt::Rank;
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::solve_in_general;
-use crate::system::{SolutionOf, StateOf};
+use crate::system::{Lagrangian, SolutionOf, StateOf};
 use crate::vector::{Array, Entrywise, Length, Matrix, Vector, vector};
 
 /// Gaps and residuals of constraints count as zero up to this part of what the free bodies move in a step, by which velocities
@@ -32,6 +32,9 @@ const WITHIN: f64 = 1.0 - 1e-9;
 /// Largest number of Gauss–Newton corrections of a position. Convergence is quadratic, and the first violation that of a step.
 const CORRECTIONS: usize = 20;
 
+/// Bisections for the restitution of a step that would gain energy.
+const HALVINGS: usize = 30;
+
 /// A motion under way, with the memory of its steps.
 pub(super) struct Stepper<L: Contacts<Scalar: Real>> {
     bodies: Bodies<L>,
@@ -44,9 +47,16 @@ pub(super) struct Stepper<L: Contacts<Scalar: Real>> {
     acts: Vec<bool>,
     /// Friction that did not reach its limit in the last step.
     sticks: Vec<bool>,
+    /// Part of the restitution that applies in this step, and whether a contact bounces with it.
+    returned: L::Scalar,
+    bounces: bool,
     /// Impulses of the last step, with which sweeps begin.
     impulses: Vector<L::Scalar, L::M>,
 }
+
+/// Number of sweeps and residual, and the velocities after the impulses.
+type Kicked<L> =
+    ((usize, <L as Lagrangian>::Scalar), Vector<<L as Lagrangian>::Scalar, <L as Lagrangian>::N>);
 
 /// Equations at the state to which the bodies drift first.
 struct Middle<L: Contacts<Scalar: Real>> {
@@ -78,6 +88,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
             responses: Vec::with_capacity(rows),
             acts: alloc::vec![false; L::CONTACTS.len()],
             sticks: L::FRICTIONS.iter().map(sticks).collect(),
+            returned: L::Scalar::constant(1.0),
+            bounces: false,
             impulses: vector(Array::filled(L::Scalar::constant(0.0))),
             bodies,
         }
@@ -86,20 +98,58 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
     /// Takes a step from a state to the time `end`.
     pub(super) fn step(&mut self, from: &StateOf<L>, end: L::Scalar) -> Result<TimeStep<L>, Error> {
         let middle = self.drift(from, end - from.t)?;
-        self.begin(&middle)?;
-        let (swept, after) = loop {
-            let swept = self.sweep(middle.state.t)?;
-            let after = self.kicked(&middle);
-            if !self.activate(&middle, |k| would_close(k, &middle, &after))? {
-                break (swept, after);
-            }
-        };
+        let (swept, after) = self.kick(&middle)?;
         let q = middle.state.q.plus(&after.each(|v| v * middle.lengths[1]));
         let mut state = StateOf::<L> { t: end, q, v: after };
         self.take_impulses(&middle);
         self.correct(&mut state, &middle.touching)?;
         check_finite::<L>(&state)?;
         Ok(TimeStep { state, impulses: self.impulses, iterations: swept.0, residual: swept.1 })
+    }
+
+    /// Impulses and the velocities after them. Newton's restitution with friction may give energy, as at an impact of a rod: it is
+    /// then reduced until it takes some, for all contacts of the step alike, as in a motion from impact to impact.
+    fn kick(&mut self, middle: &Middle<L>) -> Result<Kicked<L>, Error> {
+        let [zero, one] = [0.0, 1.0].map(L::Scalar::constant);
+        self.returned = one;
+        let kicked = self.kick_once(middle)?;
+        if !self.gains(middle, &kicked.1) {
+            return Ok(kicked);
+        }
+        let (mut low, mut high) = (zero, one);
+        for _ in 0..HALVINGS {
+            self.returned = (low + high) * L::Scalar::constant(0.5);
+            let (_, after) = self.kick_once(middle)?;
+            *if self.gains(middle, &after) { &mut high } else { &mut low } = self.returned;
+        }
+        self.returned = low;
+        self.kick_once(middle)
+    }
+
+    /// Impulses with the restitution as it is. Contacts whose gaps would be negative at the end of the step join in.
+    fn kick_once(&mut self, middle: &Middle<L>) -> Result<Kicked<L>, Error> {
+        self.begin(middle)?;
+        loop {
+            let swept = self.sweep(middle.state.t)?;
+            let after = self.kicked(middle);
+            if !self.activate(middle, |k| would_close(k, middle, &after))? {
+                return Ok((swept, after));
+            }
+        }
+    }
+
+    /// Whether the impulses of contacts that bounce give energy, p (u⁻ + u⁺)/2 in all, by more than their tolerance.
+    fn gains(&self, middle: &Middle<L>, after: &Vector<L::Scalar, L::N>) -> bool {
+        if !self.bounces {
+            return false;
+        }
+        let (mut given, mut size) = (L::Scalar::constant(0.0), L::Scalar::constant(0.0));
+        for (&row, &push) in self.rows.iter().zip(self.cones.impulses()) {
+            let (before, after) = (middle.rates[row], rate_after(row, middle, after));
+            given += push * (before + after);
+            size += Scalar::abs(push) * (Scalar::abs(before) + Scalar::abs(after));
+        }
+        given > L::Scalar::constant(self.settings.tolerance) * size
     }
 
     /// Drifts to where forces and gaps are evaluated. Forces that depend on velocities have those at half of the step.
@@ -149,6 +199,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
         self.rows.clear();
         self.responses.clear();
         self.acts.fill(false);
+        self.bounces = false;
         for f in (0..L::FRICTIONS.len()).filter(|&f| L::FRICTIONS[f].contact.is_none()) {
             self.add_friction(f, None, middle)?;
         }
@@ -165,6 +216,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
             }
             (self.acts[k], any) = (true, true);
             let least = self.least_rate(k, middle)?;
+            self.bounces |= least > L::Scalar::constant(0.0);
             let press = self.add_row(row, -least, middle)?;
             self.cones.push_block(1, Cone::Push);
             for f in (0..L::FRICTIONS.len()).filter(|&f| L::FRICTIONS[f].contact == Some(k)) {
@@ -178,7 +230,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
     /// rate at which it closes exactly. A contact rests if it is approached no faster than the free bodies gain in a step.
     fn least_rate(&self, k: usize, middle: &Middle<L>) -> Result<L::Scalar, Error> {
         let (row, zero) = (L::CONTACTS[k], L::Scalar::constant(0.0));
-        let restitution = self.bodies.restitution(k, &middle.state)?;
+        let restitution = self.returned * self.bodies.restitution(k, &middle.state)?;
         let approach = larger(-middle.rates[row], zero);
         let gained = (0..<L::N>::COUNT)
             .fold(zero, |sum, i| sum + middle.jacobian[(row, i)] * middle.free.accelerations[i]);
@@ -334,6 +386,16 @@ fn would_close<L: Contacts<Scalar: Real>>(
     let rate = (0..<L::N>::COUNT)
         .fold(middle.rates[row], |sum, i| sum + middle.jacobian[(row, i)] * (after[i] - middle.state.v[i]));
     rate < zero && middle.gaps[row] + rate * middle.lengths[1] < -middle.touching[row]
+}
+
+/// Rate of a row with the velocities after the impulses. It has a part that does not depend on them if walls move.
+fn rate_after<L: Contacts<Scalar: Real>>(
+    row: usize,
+    middle: &Middle<L>,
+    after: &Vector<L::Scalar, L::N>,
+) -> L::Scalar {
+    (0..<L::N>::COUNT)
+        .fold(middle.rates[row], |sum, i| sum + middle.jacobian[(row, i)] * (after[i] - middle.state.v[i]))
 }
 
 /// Gaps and residuals that count as zero: round-off, and a small part of what the free bodies move in a step.
