@@ -138,6 +138,11 @@ assert_eq!(path.system().floor, Contact::Closed);
 //! Bodies that touch several others at an impact share its impulses as the complementarity problem of Newton's law says:
 //! each impulse pushes, and each gap that closes reopens at least at the rate −e v. Of contacts that depend on one another,
 //! such as the fourth leg of a table, one that is not needed stays open; its gap is zero as long as the others hold.
+//!
+//! # Many contacts
+//!
+//! For stacks and heaps, [`MotionBuilder::by_time_stepping`](crate::MotionBuilder::by_time_stepping) takes steps of one length
+//! instead, with the impulses of all contacts at once: [`MoreauJean`].
 
 #[cfg(feature = "alloc")]
 mod bodies;
