@@ -156,3 +156,43 @@ fn a_puck_slides_on_a_turning_plate() {
     let puck = Puck { m: 0.3, g: 9.81, mu: 0.2, omega: 1.5, plate: Contact::Closed };
     converges(slope(&puck, State::new([0.4, 0.0, 0.0], [-0.5, 0.8, 0.0]), 1.0, 7e-3), 1e-3);
 }
+
+/// Two links from a pivot; the second hits a wall with its end, and rubs along it. The mass matrix depends on the angles.
+#[derive(Clone, Lagrangian)]
+#[coordinates(a, b)]
+#[define(elbow = [sin(a), -cos(a)])]
+#[define(end = elbow + [sin(b), -cos(b)])]
+#[lagrangian(dot(der(elbow), der(elbow))/2 + dot(der(end), der(end))/2 - g*elbow[1] - g*end[1])]
+#[contact(wall: end[0] + 0.3 >= 0, restitution: e, friction(mu): der(end)[1])]
+struct Links {
+    g: f64,
+    e: f64,
+    mu: f64,
+    wall: Contact,
+}
+
+#[test]
+fn two_links_hit_a_wall() {
+    let links = Links { g: 9.81, e: 0.4, mu: 0.2, wall: Contact::Open };
+    converges(slope(&links, State::new([0.5, 0.9], [0.0, 0.5]), 1.5, 4e-3), 5e-3);
+}
+
+/// A ball on a table that shakes: the gap depends on the time.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(m/2 * y_dot^2 - m*g*y)]
+#[contact(table: y - a*sin(omega*t) >= 0, restitution: e)]
+struct Shaken {
+    m: f64,
+    g: f64,
+    e: f64,
+    a: f64,
+    omega: f64,
+    table: Contact,
+}
+
+#[test]
+fn a_ball_bounces_on_a_table_that_shakes() {
+    let ball = Shaken { m: 0.7, g: 9.81, e: 0.3, a: 0.02, omega: 30.0, table: Contact::Open };
+    converges(slope(&ball, State::at_rest([0.2]), 1.2, 2e-3), 1e-3);
+}

@@ -89,7 +89,8 @@ assert!(lower > upper && ((upper + lower) / 1e-3 - 2.0 * 9.81 * block.alpha.cos(
 ///
 /// # Errors and energy
 ///
-/// - The order is 1: an impact acts up to a step too early or late. Smooth motion has the order 2 with θ = ½.
+/// - The order is 1: an impact acts up to a step too early or late. Between impacts the order is 2 with θ = ½ and without
+///   constraints, whose velocities are projected onto them within a step and do not satisfy them at its end.
 /// - Gaps are never below zero at the end of a step, but for round-off and a millionth of what the free bodies fall in a
 ///   step; up to that size they count as closed.
 /// - With θ = ½ and forces that do not change within a step, the energy changes by p (u⁻ + u⁺)/2 in all, which is never
@@ -97,7 +98,8 @@ assert!(lower > upper && ((upper + lower) / 1e-3 - 2.0 * 9.81 * block.alpha.cos(
 ///   its tangent in a step, of the order h², and constraints that turn take some energy, of the order h.
 /// - With friction whose limit exceeds the force of sliding, the bodies stick in a step up to the limit if they stuck in the
 ///   one before.
-/// - Memory and work of a step grow with the square of the number of contacts that act, and Newton's with the third power.
+/// - Memory grows with the square of the number of contacts and frictions, the work of a sweep with the square of those that act,
+///   and that of a step of Newton's method with the third power. A step allocates nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct MoreauJean {
