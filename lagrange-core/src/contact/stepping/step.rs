@@ -18,9 +18,8 @@ use crate::solution::solve::solve_in_general;
 use crate::system::{Lagrangian, SolutionOf, StateOf};
 use crate::vector::{Array, Entrywise, Length, Matrix, Vector, vector};
 
-/// Gaps and residuals of constraints count as zero up to this part of what the free bodies move in a step, by which velocities
-/// with the residual of the default tolerance do not move a stack of a hundred bodies: their errors are 10⁻¹⁰ times
-/// the velocity that its weight gives in a step.
+/// Gaps and residuals of constraints count as zero up to this part of what the free bodies move in a step: a hundred times what
+/// velocities whose residual is the default tolerance move them, so that contacts at rest stay closed.
 const TOUCHING: f64 = 1e-6;
 
 /// Round-off of gaps, in units of the round-off of the sums Σ |Wᵢ qᵢ|, as for motions from impact to impact.

@@ -19,7 +19,7 @@ pub struct TimeStep<L: Lagrangian> {
     /// Number of sweeps.
     pub iterations: usize,
     /// Largest defect |p − proj(p − u/g)| √g of the impulses p of a gap or a friction with the rates u, where g is the response of
-    /// u to p; relative to the largest of |p| √g and |c|/√g, with the rates c without impulses.
+    /// u to p; relative to the largest |c|/√g, with the rates c without impulses.
     pub residual: L::Scalar,
 }
 
