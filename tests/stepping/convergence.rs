@@ -135,7 +135,13 @@ struct Pendulum {
 #[test]
 fn a_pendulum_hits_a_wall() {
     let pendulum = Pendulum { m: 1.5, l: 1.0, g: 9.81, e: 0.6, wall: Contact::Open };
-    converges(slope(&pendulum, State::at_rest([0.6, -0.8]), 2.0, 5e-3), 1e-2);
+    let start = State::at_rest([0.6, -0.8]);
+    converges(slope(&pendulum, start, 2.0, 5e-3), 1e-2);
+    let path = pendulum.motion(start).by_time_stepping(MoreauJean::with_step(5e-3)).to(2.0).unwrap();
+    for step in path.steps() {
+        let [x, y] = [step.state.q[0], step.state.q[1]];
+        assert!((x.hypot(y) - 1.0).abs() < 1e-9 && x > -0.2 - 1e-9, "{step:?}");
+    }
 }
 
 /// A puck that slides on a plate that turns, with friction of two velocities.
