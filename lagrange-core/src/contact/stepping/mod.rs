@@ -8,6 +8,8 @@ mod trajectory;
 
 use alloc::vec::Vec;
 
+use nalgebra::ComplexField;
+
 use super::bodies::Bodies;
 use super::builder::{CrossesContacts, check_times};
 use super::{Contact, Contacts};
@@ -251,5 +253,5 @@ fn begin<L: Contacts<Scalar: Real> + Clone>(
 
 /// Number of steps over a span of time, the last of which may be shorter.
 fn count(scheme: &MoreauJean, span: f64) -> usize {
-    Scalar::max(span / scheme.step - LONGER, 0.0).ceil() as usize
+    ComplexField::ceil(Scalar::max(span / scheme.step - LONGER, 0.0)) as usize
 }
