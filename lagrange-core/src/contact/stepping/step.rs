@@ -22,7 +22,7 @@ use crate::vector::{Array, Entrywise, Length, Matrix, Vector, vector};
 /// velocities whose residual is the default tolerance move them, so that contacts at rest stay closed.
 const TOUCHING: f64 = 1e-6;
 
-/// Round-off of gaps, in units of the round-off of the sums Σ |Wᵢ qᵢ|, as for motions from impact to impact.
+/// Round-off of gaps, in units of the round-off of the sums Σ |Wᵢ qᵢ| over the largest entries so far, as for motions from impact to impact.
 const UNITS: f64 = 8.0;
 
 /// Part of the limit below which friction counts as sticking.
@@ -96,6 +96,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
 
     /// Takes a step from a state to the time `end`.
     pub(super) fn step(&mut self, from: &StateOf<L>, end: L::Scalar) -> Result<TimeStep<L>, Error> {
+        self.bodies.passes(from);
         let middle = self.drift(from, end - from.t)?;
         let (swept, after) = self.kick(&middle)?;
         let q = middle.state.q.plus(&after.each(|v| v * middle.lengths[1]));
@@ -173,7 +174,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
         let halfway = StateOf::<L> { v: state.v.plus(&half.accelerations), ..state };
         let free = change(open.forcing(&halfway), step)?;
         let (jacobian, rates) = (closed.constraint_jacobian(&state), closed.constraint_rate(&state));
-        let touching = touching::<L>(&state, &jacobian, &rates, &free.accelerations, step);
+        let touching =
+            touching::<L>([&state, &self.bodies.sizes(&state)], &jacobian, &rates, &free.accelerations, step);
         Ok(Middle { state, factor, jacobian, gaps, rates, free, touching, lengths: [step, second] })
     }
 
@@ -399,7 +401,7 @@ fn rate_after<L: Contacts<Scalar: Real>>(
 
 /// Gaps and residuals that count as zero: round-off, and a small part of what the free bodies move in a step.
 fn touching<L: Contacts<Scalar: Real>>(
-    state: &StateOf<L>,
+    [state, largest]: [&StateOf<L>; 2],
     jacobian: &Matrix<L::Scalar, L::M, L::N>,
     rates: &Vector<L::Scalar, L::M>,
     gained: &Vector<L::Scalar, L::N>,
@@ -411,7 +413,7 @@ fn touching<L: Contacts<Scalar: Real>>(
         let (mut sizes, mut moved, mut of_bodies) = (zero, zero, zero);
         for i in 0..<L::N>::COUNT {
             let w = jacobian[(a, i)];
-            sizes += Scalar::abs(w * state.q[i]);
+            sizes += Scalar::abs(w) * largest.q[i];
             moved += Scalar::abs(w * gained[i]);
             of_bodies += w * state.v[i];
         }
