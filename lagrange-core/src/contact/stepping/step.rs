@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use nalgebra::ComplexField;
 
+use super::super::friction::bounds;
 use super::MoreauJean;
 use super::cones::{Cone, Cones, Swept};
 use super::trajectory::TimeStep;
@@ -256,7 +257,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
     /// Adds a friction. One that sticks has the limit, one that slides the sliding force.
     fn add_friction(&mut self, f: usize, press: Option<usize>, middle: &Middle<L>) -> Result<(), Error> {
         let FrictionRows { row, count, .. } = L::FRICTIONS[f];
-        let [limit, sliding] = self.bodies.bounds(f, &middle.state)?;
+        let [limit, sliding] = bounds(&self.bodies.closed, f, &middle.state)?;
         let bound = if self.sticks[f] { limit } else { sliding };
         for row in row..row + count {
             self.add_row(row, L::Scalar::constant(0.0), middle)?;
