@@ -94,7 +94,6 @@ fn draw(path: &ContactTrajectory<Ball>, bounces: &[Bounce], file: &std::path::Pa
     let panels = root.split_evenly((2, 2));
     let [mut flight, mut speed, mut energy] = [const { Points::new() }; 3];
     for sample in path.samples(3000) {
-        let sample = sample?;
         flight.push((sample.coordinate("x")?, sample.coordinate("y")?));
         speed.push((sample.time(), sample.velocity("y")?));
         energy.push((sample.time(), sample.energy()));

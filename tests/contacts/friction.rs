@@ -384,9 +384,9 @@ fn each_state_solves_the_equations_written_by_hand() {
             let moved = |step: f64| {
                 let mut moved = state;
                 if column < 3 {
-                    moved.q[column] += step
+                    moved.q[column] += step;
                 } else {
-                    moved.v[column - 3] += step
+                    moved.v[column - 3] += step;
                 }
                 rod.solve(&moved).unwrap().accelerations
             };
