@@ -253,7 +253,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     }
 }
 
-/// Part of the terms of a force below which it counts as at its limit.
+/// Distance of a force from its limit, in units of round-off of both, within which it is watched for leaving it.
 const AT_LIMIT: f64 = 64.0;
 
 /// Part of its terms by which a force may exceed the limit of friction that is to stick. The solver of dependent contacts

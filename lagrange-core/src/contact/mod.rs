@@ -106,7 +106,10 @@ assert_eq!(path.system().floor, Contact::Closed);
 //! - A contact rests if its rate is below the round-off of its terms, or if a bounce would rise by no more than 64 u.
 //! - Friction is at rest if its velocity is below 8 ε Σ |Wᵢ| max |q̇ᵢ|. What begins to slide along two velocities gets 64 times
 //!   that as a speed, and what its force changes within the round-off of the time.
-//! - The limit of friction is left once the force exceeds it by four times its round-off.
+//! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both.
+//! - The direction in which bodies slide along two velocities is renewed where the velocity has turned by 60°; at 90° the
+//!   force of the old direction would change its sign.
+//! - Friction that needs no force sticks if what the other contacts leave of its row is a pivot that the elimination trusts.
 //!
 //! # Accumulating impacts
 //!
@@ -126,6 +129,10 @@ assert_eq!(path.system().floor, Contact::Closed);
 //! Friction may press the bodies together that it slows down. Beyond a coefficient of friction, no force goes with any
 //! acceleration, or several do: [`Error::FrictionJams`](crate::Error::FrictionJams) ends the motion with the name of the
 //! friction, where the force that presses the bodies together would grow without bound.
+//!
+//! Several contacts or velocities of one body may share a force of friction in more than one way, as two ends of a rod that
+//! stick in a corner. Where no share is found that is within the limits, the motion ends with
+//! [`Error::FrictionUndecided`](crate::Error::FrictionUndecided).
 //!
 //! # Which methods
 //!
