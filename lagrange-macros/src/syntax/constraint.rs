@@ -114,7 +114,7 @@ fn stated(
     result
 }
 
-/// Fails if what has just been named was given before.
+/// Fails if this part of a contact or of friction is given twice.
 fn once(cursor: &Cursor, is_known: bool, what: &str) -> Result<()> {
     if is_known { Err(cursor.last_place().error(format!("{what} is given twice"))) } else { Ok(()) }
 }

@@ -67,8 +67,8 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
         })
     }
 
-    /// Records the crossings at the end of a leg that are off it by the round-off of entries of these sizes alone. Returns
-    /// the ending if one of them is terminal.
+    /// Records a crossing of each function that arrives at zero, but for round-off, where a leg ends; entries have these sizes.
+    /// Returns the ending if one of them is terminal.
     #[cfg(feature = "alloc")]
     pub(crate) fn record_at_end(
         events: &'e mut [W],
