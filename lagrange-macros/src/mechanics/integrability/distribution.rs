@@ -178,7 +178,11 @@ impl Elimination<'_> {
             self.rows[row] = unit.clone();
             for (_, entries) in self.rows.iter_mut().enumerate().filter(|&(other, _)| other != row) {
                 let factor = entries[column];
-                for (entry, &above) in entries.iter_mut().zip(&unit) {
+                if factor == Id::ZERO {
+                    continue;
+                }
+                for (entry, &above) in entries.iter_mut().zip(&unit).filter(|(_, above)| **above != Id::ZERO)
+                {
                     let product = graph.mul(factor, above);
                     *entry = graph.sub(*entry, product);
                 }
