@@ -270,7 +270,6 @@ fn of_friction<'w, L>(
 where
     L: Contacts<Scalar: Real> + Clone + 'w,
 {
-    let zero = L::Scalar::constant(0.0);
     let mut events: Vec<Box<DynEvent<'w, L>>> = Vec::new();
     for (f, &FrictionRows { row, contact, .. }) in L::FRICTIONS.iter().enumerate() {
         if contact.is_some_and(|k| !decided.states.is_closed[k]) || decided.slip_is_implied[f] {
@@ -293,8 +292,8 @@ where
             }
             Friction::Slides(direction) => {
                 let along = move |sample: &Sample<&L>| slid(closed, f, direction, sample);
-                let from_rest = decided.slips_from_rest[f].then(|| zero + least_speed::<L::Scalar>());
-                watched(system, state, name, from_rest, along)?
+                // One that begins within the round-off of zero may turn at once.
+                watched(system, state, name, Some(least_speed()), along)?
             }
         });
     }
