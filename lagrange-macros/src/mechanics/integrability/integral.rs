@@ -50,7 +50,10 @@ fn potential(graph: &mut Graph, symbols: &[Symbol], form: &OneForm) -> Option<Id
     let mut rest = form.clone();
     let mut integral = Id::ZERO;
     for (k, &symbol) in symbols.iter().enumerate() {
-        let part = if rest[k] == Id::ZERO { Id::ZERO } else { graph.antiderivative(rest[k], symbol)? };
+        if rest[k] == Id::ZERO {
+            continue;
+        }
+        let part = graph.antiderivative(rest[k], symbol)?;
         let slopes = graph.gradient(part, symbols);
         for (rest, slope) in rest.iter_mut().zip(slopes) {
             *rest = graph.sub(*rest, slope);
