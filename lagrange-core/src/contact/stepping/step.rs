@@ -43,6 +43,8 @@ pub(super) struct Stepper<L: Contacts<Scalar: Real>> {
     /// Constraint of each row of the problem, and what an impulse of 1 does.
     rows: Vec<usize>,
     responses: Vec<SolutionOf<L>>,
+    /// Entries of one row of the constraints that are not zero, with their coordinates.
+    entries: Vec<(usize, L::Scalar)>,
     /// Contacts that act in this step.
     acts: Vec<bool>,
     /// Friction that did not reach its limit in the last step.
@@ -86,6 +88,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
             cones: Cones::with_room(rows),
             rows: Vec::with_capacity(rows),
             responses: Vec::with_capacity(rows),
+            entries: Vec::with_capacity(<L::N>::COUNT),
             acts: alloc::vec![false; L::CONTACTS.len()],
             sticks: L::FRICTIONS.iter().map(sticks).collect(),
             returned: L::Scalar::constant(1.0),
@@ -248,9 +251,15 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
         let place = self.rows.len();
         self.rows.push(row);
         self.responses.push(response);
-        let rate = middle.rates[row] + of_row.dot(&middle.free.accelerations) + added;
-        let responses = &self.responses;
-        self.cones.push_row(rate, self.impulses[row], |other| of_row.dot(&responses[other].accelerations));
+        self.entries.clear();
+        self.entries
+            .extend(of_row.iter().copied().enumerate().filter(|(_, w)| *w != L::Scalar::constant(0.0)));
+        let (entries, responses) = (&self.entries, &self.responses);
+        let along = |change: &Vector<L::Scalar, L::N>| {
+            entries.iter().fold(L::Scalar::constant(0.0), |sum, &(i, w)| sum + w * change[i])
+        };
+        let rate = middle.rates[row] + along(&middle.free.accelerations) + added;
+        self.cones.push_row(rate, self.impulses[row], |other| along(&responses[other].accelerations));
         Ok(place)
     }
 
