@@ -92,6 +92,10 @@ assert_eq!(path.system().floor, Contact::Closed);
 //! let path = ball.integrate(State::at_rest([1.0]), 1.0, Dop853::default());
 //! ```
 //!
+//! Motions with derivatives, Lyapunov exponents and `integrate` of an ensemble do not compile either.
+//! [`ContactTrajectory::sensitivity`] has the derivatives across contacts. A [`Motion`](crate::Motion) leaves contacts as their fields say, and so does what looks at one state, as
+//! `solve`, `jacobian`, `linearize`, `equilibrium` and `inputs_for`.
+//!
 //! # What is decided, and by what bound
 //!
 //! With u, the round-off of a gap, 8 ε (Σ |Wᵢ| max |qᵢ| + |rate · t|) with the largest entries so far, or with what the free

@@ -8,8 +8,8 @@ use super::sensitivity::{self, StateSensitivity};
 use crate::error::Error;
 use crate::motion::{Event, EventValue, MotionBuilder};
 use crate::number::{Dual, Real};
-use crate::system::StateOf;
 use crate::system::lookup::index;
+use crate::system::{StateOf, check_contacts};
 
 /// Derivatives of a motion of several legs, for every [`Linearized`] system over `f64` or `f32`.
 ///
@@ -113,10 +113,28 @@ pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
     /// along the motion are those at fixed times. With constraints, they are projected onto the tangent space.
     /// [`TrajectorySensitivity::end`](crate::linearized::TrajectorySensitivity::end) returns an error if the motion
     /// reached neither its end nor an event, or if the event has no derivative.
+    ///
+    /// A system with [contacts](crate::contact) would pass through them, and does not compile. Its derivatives are those of
+    /// [`ContactTrajectory::sensitivity`](crate::contact::ContactTrajectory::sensitivity).
+    ///
+    /// ```compile_fail
+    /// # use lagrange_core::contact::Contact;
+    /// # use lagrange_core::prelude::*;
+    /// # #[derive(Clone, Lagrangian)]
+    /// # #[coordinates(y)]
+    /// # #[lagrangian(y_dot^2/2 - g*y)]
+    /// # #[contact(floor: y >= 0)]
+    /// # struct Ball { g: f64, floor: Contact }
+    /// # let ball = Ball { g: 9.81, floor: Contact::Open };
+    /// let start = ball.sensitivity(&State::at_rest([1.0]), &["g"])?;
+    /// let falls = ball.motion_with_derivatives(&start).to(1.0)?;
+    /// # Ok::<(), Error>(())
+    /// ```
     fn motion_with_derivatives<'w>(
         &self,
         start: &StateSensitivity<Self::Scalar, Self::N>,
     ) -> MotionBuilder<'_, 'w, Self, StateSensitivity<Self::Scalar, Self::N>> {
+        const { check_contacts::<Self>() };
         MotionBuilder::new(self, start.clone())
     }
 

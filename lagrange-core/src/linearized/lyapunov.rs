@@ -11,9 +11,9 @@ use super::variation::{DifferentiableMethod, Variations};
 use crate::error::{Ending, Error};
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::number::{Real, Scalar};
-use crate::system::StateOf;
 use crate::system::finite::check_finite;
 use crate::system::lookup::entry;
+use crate::system::{StateOf, check_contacts};
 use crate::vector::{Length, from_fn, vector};
 
 /// Lyapunov exponents of a motion, with their standard errors.
@@ -39,6 +39,7 @@ pub(super) fn spectrum<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     end: L::Scalar,
     method: &D,
 ) -> Result<LyapunovSpectrum<L::Scalar>, Error> {
+    const { check_contacts::<L>() };
     check_finite(system, state)?;
     check_end(end)?;
     let (mut run, _) = Run::<L, _>::begin(system, state, method)?;

@@ -311,7 +311,20 @@ pub trait Linearized: StateDerivatives {
     ///
     /// # Errors
     /// The errors of [`integrate`](crate::Simulate::integrate), among them [`Error::Unfinished`] if the method does not
-    /// reach the end; [`Error::DerivativeNotFinite`].
+    /// reach the end; [`Error::DerivativeNotFinite`]. A system with [contacts](crate::contact) does not compile:
+    ///
+    /// ```compile_fail
+    /// # use lagrange_core::contact::Contact;
+    /// # use lagrange_core::prelude::*;
+    /// # #[derive(Clone, Lagrangian)]
+    /// # #[coordinates(y)]
+    /// # #[lagrangian(y_dot^2/2 - g*y)]
+    /// # #[contact(floor: y >= 0)]
+    /// # struct Ball { g: f64, floor: Contact }
+    /// # let ball = Ball { g: 9.81, floor: Contact::Open };
+    /// let spectrum = ball.lyapunov_spectrum(State::at_rest([1.0]), 50.0, Dop853::default())?;
+    /// # Ok::<(), Error>(())
+    /// ```
     #[cfg(feature = "alloc")]
     fn lyapunov_spectrum<D: DifferentiableMethod<Self>>(
         &self,
