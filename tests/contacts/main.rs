@@ -10,6 +10,7 @@ mod friction;
 mod frictionless;
 mod limits;
 mod rest;
+mod rubbing_sensitivities;
 mod sensitivities;
 mod tables;
 mod toys;

@@ -96,6 +96,36 @@ assert_eq!(path.system().floor, Contact::Closed);
 //! [`ContactTrajectory::sensitivity`] has the derivatives across contacts. A [`Motion`](crate::Motion) leaves contacts as their fields say, and so does what looks at one state, as
 //! `solve`, `jacobian`, `linearize`, `equilibrium` and `inputs_for`.
 //!
+//! # Derivatives
+//!
+//! [`ContactTrajectory::sensitivity`] has the derivatives of the last state by the start and by parameters, across impacts,
+//! openings and friction. Where neighbouring motions pass a transition in different ways, there is none:
+//! [`Error::NoDerivativeAcross`](crate::Error::NoDerivativeAcross) names it.
+//!
+#![cfg_attr(
+    feature = "std",
+    doc = r#"
+```
+use lagrange_core::contact::Contact;
+use lagrange_core::prelude::*;
+
+/// A block thrown along a floor.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - g*y)]
+#[contact(floor: y >= 0, friction(mu): x_dot)]
+struct Block { g: f64, mu: f64, floor: Contact }
+
+let (block, method) = (Block { g: 9.81, mu: 0.5, floor: Contact::Closed }, Dop853::with_tolerance(1e-12));
+let path = block.motion(State::new([0.0, 0.0], [2.0, 0.0])).by(method).with_contacts().to(1.0)?;
+let end = path.sensitivity(&["mu"], method)?;
+// It stops after v²/(2 μ g).
+assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
+# Ok::<(), Error>(())
+```
+"#
+)]
+//!
 //! # What is decided, and by what bound
 //!
 //! With u, the round-off of a gap, 8 ε (Σ |Wᵢ| max |qᵢ| + |rate · t|) with the largest entries so far, or with what the free

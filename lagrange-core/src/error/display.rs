@@ -201,7 +201,7 @@ impl Display for Error {
             ),
             Self::NoDerivativeAcross { contact, time, reason } => write!(
                 f,
-                "the motion has no derivative across the transition of the contact `{contact}` at t = {time}: {reason}"
+                "the motion has no derivative across the transition of `{contact}` at t = {time}: {reason}"
             ),
             Self::Grazing { event, time } => write!(
                 f,

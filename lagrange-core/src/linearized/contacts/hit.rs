@@ -1,0 +1,136 @@
+//! Derivatives across an impact.
+
+use super::boundary::Boundary;
+use super::change::is_at_rest;
+use super::fails;
+use super::law::{Law, largest};
+use crate::contact::{Contact, Contacts, Friction, FrictionRows};
+use crate::error::Error;
+use crate::linearized::Linearized;
+use crate::linearized::sensitivity::{StateSensitivity, impact_sensitivity};
+use crate::names::name;
+use crate::number::{Real, Scalar, power_of_epsilon};
+use crate::system::{Lagrangian, StateOf};
+use crate::trajectory::Trajectory;
+use crate::vector::Entrywise;
+
+/// An impact on one contact, at the end of a leg.
+pub(super) struct Hit<L> {
+    /// Index of the contact.
+    contact: usize,
+    /// The system with the contacts closed that push, and with their friction as the impulses of it say.
+    pushing: L,
+}
+
+/// Names and impulses of an impact.
+type Impulses<L> = [(&'static str, <L as Lagrangian>::Scalar)];
+
+impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
+    pub(super) fn of(leg: &Trajectory<L>, impulses: &Impulses<L>, after: &StateOf<L>) -> Result<Self, Error> {
+        let mut pushing = leg.system().clone();
+        let mut hits = Vec::new();
+        for k in 0..L::CONTACTS.len() {
+            let pushes = impulses.iter().any(|&(contact, _)| contact == Self::name(k));
+            if pushes && leg.system().contact(k) == Some(Contact::Open) {
+                hits.push(k);
+            }
+            pushing.set_contact(k, if pushes { Contact::Closed } else { Contact::Open });
+        }
+        match hits[..] {
+            [contact] if Boundary::of(leg) == Some(Boundary::Gap(contact)) => {
+                let mut hit = Self { contact, pushing };
+                hit.rub(leg.end().state(), impulses, after)?;
+                Ok(hit)
+            }
+            _ => Err(Error::NoDerivativeAcross {
+                contact: hits.first().map_or("", |&k| Self::name(k)),
+                time: after.t.to_f64(),
+                reason: "several contacts are hit at one time, whose order the arguments may change",
+            }),
+        }
+    }
+
+    fn name(contact: usize) -> &'static str {
+        name(L::CONSTRAINTS, L::CONTACTS[contact])
+    }
+
+    /// Lets friction stick or slide as in the impact. Dry friction has no impulse.
+    fn rub(&mut self, before: &StateOf<L>, impulses: &Impulses<L>, after: &StateOf<L>) -> Result<(), Error> {
+        for f in 0..L::FRICTIONS.len() {
+            let grip = match L::FRICTIONS[f].contact {
+                None => Friction::Slides([0.0; 2]),
+                Some(k) if self.pushing.contact(k) == Some(Contact::Open) => continue,
+                Some(_) => self.grip(f, [before, after], impulses)?,
+            };
+            self.pushing.set_friction(f, grip);
+        }
+        Ok(())
+    }
+
+    /// Whether friction sticks in the impact: its impulse is below the limit, and its velocity zero afterwards.
+    fn grip(
+        &self,
+        f: usize,
+        [before, after]: [&StateOf<L>; 2],
+        impulses: &Impulses<L>,
+    ) -> Result<Friction, Error> {
+        let FrictionRows { row, count, contact } = L::FRICTIONS[f];
+        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+        let of = |a: usize| {
+            let found = impulses.iter().find(|&&(of, _)| of == L::CONSTRAINTS[a]);
+            found.map_or(zero, |&(_, impulse)| impulse)
+        };
+        let size = |numbers: [L::Scalar; 2]| Scalar::sqrt(numbers[0] * numbers[0] + numbers[1] * numbers[1]);
+        let both = |number: &dyn Fn(usize) -> L::Scalar| {
+            [number(row), if count == 2 { number(row + 1) } else { zero }]
+        };
+        let limit = self.pushing.friction_limit(f, before).unwrap_or(zero);
+        let limit = limit * contact.map_or(zero, |k| of(L::CONTACTS[k]));
+        let is_at_limit = size(both(&of)) >= limit * (one - power_of_epsilon::<L::Scalar>(0.5));
+        let fails = |reason| fails(L::CONSTRAINTS[row], after.t, reason);
+        let rate = self.pushing.constraint_rate(after)[row];
+        match (is_at_limit, is_at_rest(&self.pushing, f, [before, after])) {
+            (false, _) => Ok(Friction::Sticks),
+            (true, true) => {
+                fails("its impulse is at the limit, and the arguments decide whether the bodies slide")
+            }
+            (true, false) if count == 2 => {
+                fails("the direction in which the bodies slide turns in the impact")
+            }
+            (true, false) => Ok(Friction::Slides([if rate < zero { -1.0 } else { 1.0 }, 0.0])),
+        }
+    }
+
+    /// Derivatives after the impact, from those at a fixed time before it.
+    pub(super) fn after(
+        &self,
+        leg: &Trajectory<L>,
+        at: StateSensitivity<L::Scalar, L::N>,
+    ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
+        let at = Boundary::Gap(self.contact).reach(leg, at)?;
+        let law = Law {
+            name: Self::name(self.contact),
+            value: &|system: &L, state: &StateOf<L>| system.restitution(self.contact, state),
+        };
+        let slopes = (0..at.arguments().len())
+            .map(|j| law.change(&self.pushing, &at.state, &at.direction(j), Some(at.arguments()[j])))
+            .collect::<Result<alloc::vec::Vec<_>, Error>>()?;
+        let restitution = law.at(&self.pushing, &at.state);
+        impact_sensitivity(&self.pushing, &at, L::CONTACTS[self.contact], (restitution, &|j| slopes[j]))
+    }
+
+    /// Fails if the velocities after the impact are not those of the motion.
+    pub(super) fn check(&self, found: &StateOf<L>, expected: &StateOf<L>) -> Result<(), Error> {
+        let off = largest(found.v.minus(&expected.v).as_slice());
+        if off <= power_of_epsilon::<L::Scalar>(0.5) * largest(expected.v.as_slice()) {
+            return Ok(());
+        }
+        let rate = |state| self.pushing.constraint_rate(state)[L::CONTACTS[self.contact]];
+        let (contact, time) = (Self::name(self.contact), expected.t.to_f64());
+        let reason = match rate(expected) < rate(found) {
+            true => "the restitution is lowered there to where friction gains no energy",
+            false => "contacts part or press at a rate of zero there, and the arguments decide which",
+        };
+        Err(Error::NoDerivativeAcross { contact, time, reason })
+    }
+}

@@ -1,0 +1,82 @@
+//! Derivatives of the laws of contacts: restitutions, and limits of friction.
+
+use crate::contact::Contacts;
+use crate::error::Error;
+use crate::linearized::Linearized;
+use crate::linearized::argument::parameter;
+use crate::names::Entry;
+use crate::number::{Real, Scalar, larger};
+use crate::system::{Direction, State, StateOf};
+use crate::vector::Entrywise;
+
+/// Step of the differences of a law, in units of its arguments. The formula of order six is off by h⁶/140 of the
+/// seventh derivative, 2·10⁻¹⁷, and by some ε/h of the value, 6·10⁻¹⁴.
+const STEP: f64 = 1.0 / 256.0;
+
+/// A law, of the contact or friction of a name.
+pub(super) struct Law<'a, L: Linearized> {
+    pub(super) name: &'static str,
+    pub(super) value: &'a dyn Fn(&L, &StateOf<L>) -> Option<L::Scalar>,
+}
+
+impl<L: Linearized<Scalar: Real> + Contacts + Clone> Law<'_, L> {
+    pub(super) fn at(&self, system: &L, state: &StateOf<L>) -> L::Scalar {
+        (self.value)(system, state).unwrap_or(L::Scalar::constant(0.0))
+    }
+
+    /// Derivative along a direction and by an argument, by differences of order six.
+    pub(super) fn change(
+        &self,
+        system: &L,
+        state: &StateOf<L>,
+        direction: &Direction<L::Scalar, L::N>,
+        argument: Option<Entry>,
+    ) -> Result<L::Scalar, Error> {
+        let parameter = argument.and_then(parameter::<L>).map(|k| (k, system.parameters()[k]));
+        let step = step(state, direction, parameter.map(|(_, value)| value));
+        let at = |part: f64| {
+            let along = step * L::Scalar::constant(part);
+            let mut moved = system.clone();
+            let is_set = parameter.is_none_or(|(k, value)| moved.set_parameter(k, value + along));
+            let add = |x: L::Scalar, rate: L::Scalar| x + rate * along;
+            let q = state.q.each_with(&direction.q, add);
+            let state = State { t: add(state.t, direction.t), q, v: state.v.each_with(&direction.v, add) };
+            let value = self.at(&moved, &state);
+            let is_known = is_set || value == L::Scalar::constant(0.0);
+            if is_known { Ok(value) } else { Err(self.cannot_be_set(&state)) }
+        };
+        let mut sum = L::Scalar::constant(0.0);
+        for (part, weight) in [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)] {
+            sum += (at(part)? - at(-part)?) * L::Scalar::constant(weight / 60.0);
+        }
+        Ok(sum / step)
+    }
+
+    fn cannot_be_set(&self, state: &StateOf<L>) -> Error {
+        let reason = "the parameter cannot be set, on which its law may depend";
+        Error::NoDerivativeAcross { contact: self.name, time: state.t.to_f64(), reason }
+    }
+}
+
+/// Step of the differences: [`STEP`] of the time, the largest coordinate, the largest velocity and the parameter, or of
+/// one if they are zero.
+fn step<T: Real, N: crate::vector::Length>(
+    state: &State<T, N>,
+    direction: &Direction<T, N>,
+    parameter: Option<T>,
+) -> T {
+    let (zero, one) = (T::constant(0.0), T::constant(1.0));
+    let rate = |size: T, change: T| change / if size > zero { size } else { one };
+    let rates = [
+        rate(Scalar::abs(state.t), Scalar::abs(direction.t)),
+        rate(largest(state.q.as_slice()), largest(direction.q.as_slice())),
+        rate(largest(state.v.as_slice()), largest(direction.v.as_slice())),
+        parameter.map_or(zero, |value| rate(Scalar::abs(value), one)),
+    ];
+    T::constant(STEP) / rates.into_iter().fold(T::constant(STEP), larger)
+}
+
+/// Largest magnitude of these numbers.
+pub(super) fn largest<T: Real>(entries: &[T]) -> T {
+    entries.iter().fold(T::constant(0.0), |most, x| larger(most, Scalar::abs(*x)))
+}
