@@ -127,6 +127,7 @@ fn kinds<L: Lagrangian>(path: &ContactTrajectory<L>) -> Vec<String> {
         Transition::Opens { contact, .. } => format!("opens {contact}"),
         Transition::Sticks { friction, .. } => format!("sticks {friction}"),
         Transition::Slips { friction, .. } => format!("slips {friction}"),
+        Transition::Reverses { friction, .. } => format!("reverses {friction}"),
     };
     path.transitions().iter().map(kind).collect()
 }
@@ -265,6 +266,11 @@ fn a_block_that_slides_back_has_the_derivatives_of_both_ways() {
         path.sensitivity(&names, radau()).unwrap(),
     ];
     let (up, down) = (g * (s + mu), g * (s - mu));
+    let [Transition::Reverses { friction: "floor_friction", time }] = path.transitions() else {
+        panic!("{:?}", path.transitions())
+    };
+    assert!((time - v / up).abs() < 1e-13, "{time}");
+    assert!(path.to_string().contains("0 slips, 1 reversal\n"), "{path}");
     let tau = end - v / up;
     assert!((path.end().q[0] - (v * v / (2.0 * up) - down * tau * tau / 2.0)).abs() < 1e-12);
     let by = |dv: f64, dup: f64, ddown: f64| {

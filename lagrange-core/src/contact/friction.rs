@@ -341,7 +341,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         }
     }
 
-    /// Reports the friction that begins to stick or to slide while its contact stays closed.
+    /// Reports the friction that begins to stick or to slide, or slides back, while its contact stays closed.
     fn report_friction(
         &self,
         was: &States,
@@ -350,7 +350,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) {
         // At the start of a motion there are none before.
-        for (f, FrictionRows { row, contact, .. }) in
+        for (f, FrictionRows { row, count, contact }) in
             L::FRICTIONS.iter().enumerate().take(was.frictions.len())
         {
             let (friction, time) = (L::CONSTRAINTS[*row], state.t);
@@ -365,6 +365,9 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
                 }
                 (Friction::Sticks, Friction::Slides(_)) => {
                     transitions.push(Transition::Slips { friction, time });
+                }
+                (Friction::Slides([was, _]), Friction::Slides([is, _])) if *count == 1 && was * is < 0.0 => {
+                    transitions.push(Transition::Reverses { friction, time });
                 }
                 _ => {}
             }

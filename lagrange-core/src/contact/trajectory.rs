@@ -62,6 +62,13 @@ pub enum Transition<T> {
         /// Time from which it slides.
         time: T,
     },
+    /// The velocity of friction changes its sign, and the bodies slide back. That of two velocities turns instead.
+    Reverses {
+        /// Name of the friction.
+        friction: &'static str,
+        /// Time from which it slides back.
+        time: T,
+    },
 }
 
 impl<T: Copy> Transition<T> {
@@ -73,7 +80,8 @@ impl<T: Copy> Transition<T> {
             | Self::Closes { time, .. }
             | Self::Opens { time, .. }
             | Self::Sticks { time, .. }
-            | Self::Slips { time, .. } => time,
+            | Self::Slips { time, .. }
+            | Self::Reverses { time, .. } => time,
         }
     }
 }
@@ -95,6 +103,7 @@ impl<T: Display> Display for Transition<T> {
             Self::Opens { contact, time } => write!(f, "`{contact}` opens at t = {time}"),
             Self::Sticks { friction, time } => write!(f, "`{friction}` sticks from t = {time} on"),
             Self::Slips { friction, time } => write!(f, "`{friction}` slips from t = {time} on"),
+            Self::Reverses { friction, time } => write!(f, "`{friction}` reverses at t = {time}"),
         }
     }
 }
@@ -269,9 +278,10 @@ impl<L: Lagrangian<Scalar: Real>> ContactTrajectory<L> {
         Drift::of(self.states_of_steps())
     }
 
-    /// Numbers of impacts, of contacts that come to rest, that close, and that open, and of friction that sticks and slips.
-    fn counts(&self) -> [usize; 6] {
-        let mut counts = [0; 6];
+    /// Numbers of impacts, of contacts that come to rest, that close, and that open, and of friction that sticks, slips and
+    /// reverses.
+    fn counts(&self) -> [usize; 7] {
+        let mut counts = [0; 7];
         for transition in &self.transitions {
             counts[match transition {
                 Transition::Impact { .. } => 0,
@@ -280,6 +290,7 @@ impl<L: Lagrangian<Scalar: Real>> ContactTrajectory<L> {
                 Transition::Opens { .. } => 3,
                 Transition::Sticks { .. } => 4,
                 Transition::Slips { .. } => 5,
+                Transition::Reverses { .. } => 6,
             }] += 1;
         }
         counts
@@ -304,7 +315,7 @@ impl<L: Contacts<Scalar: Real>> Display for ContactTrajectory<L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{} from t = {} to t = {}:", L::NAME, self.start, self.end.t)?;
         let mut before = " ";
-        let kinds = ["impact", "rest", "closing", "opening", "stick", "slip"];
+        let kinds = ["impact", "rest", "closing", "opening", "stick", "slip", "reversal"];
         let kinds = if L::FRICTIONS.is_empty() { &kinds[..4] } else { &kinds };
         for (count, kind) in self.counts().into_iter().zip(kinds) {
             write!(f, "{before}{count} {kind}{}", if count == 1 { "" } else { "s" })?;

@@ -174,7 +174,9 @@ fn first_name<T>(transitions: &[Transition<T>]) -> &'static str {
         Transition::Rests { contact, .. }
         | Transition::Closes { contact, .. }
         | Transition::Opens { contact, .. } => Some(*contact),
-        Transition::Sticks { friction, .. } | Transition::Slips { friction, .. } => Some(*friction),
+        Transition::Sticks { friction, .. }
+        | Transition::Slips { friction, .. }
+        | Transition::Reverses { friction, .. } => Some(*friction),
     };
     transitions.iter().find_map(of).unwrap_or("")
 }
