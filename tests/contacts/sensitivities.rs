@@ -221,6 +221,41 @@ fn what_has_no_derivative_is_named() {
     assert!(matches!(both, Error::NoDerivativeAcross { time, .. } if (time - 1.0).abs() < 1e-12), "{both}");
 }
 
+/// A plank on two supports at ±1, on which a weight falls at the place d.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y, theta, z)]
+#[lagrangian(y_dot^2/2 + theta_dot^2/6 + m*z_dot^2/2 - 9.81*(y + m*z))]
+#[contact(left: y - theta >= 0)]
+#[contact(right: y + theta >= 0)]
+#[contact(weight: z - y - d*theta >= 0, restitution: 1/2)]
+struct Plank {
+    m: f64,
+    d: f64,
+    left: Contact,
+    right: Contact,
+    weight: Contact,
+}
+
+/// Between the supports both push, beside them one is lifted, and above one the other does neither.
+#[test]
+fn a_weight_that_falls_above_a_support_is_named() {
+    for (d, is_named) in [(0.8, false), (1.0, true), (1.2, false)] {
+        let [left, right, weight] = [Contact::Closed, Contact::Closed, Contact::Open];
+        let plank = Plank { m: 0.3, d, left, right, weight };
+        let path =
+            plank.motion(State::at_rest([0.0, 0.0, 1.0])).by(method()).with_contacts().to(0.5).unwrap();
+        match path.sensitivity(&["d"], method()) {
+            Ok(_) => assert!(!is_named, "{d}"),
+            Err(error) => {
+                assert!(
+                    is_named && matches!(error, Error::NoDerivativeAcross { contact: "left", .. }),
+                    "{error}"
+                );
+            }
+        }
+    }
+}
+
 /// A ball that is thrown up to a ceiling and just reaches it, at the speed v: the derivative grows like 1/v, down to heights that
 /// are round-off.
 #[test]

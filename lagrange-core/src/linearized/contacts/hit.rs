@@ -12,7 +12,7 @@ use crate::names::name;
 use crate::number::{Real, Scalar, power_of_epsilon};
 use crate::system::{Lagrangian, StateOf};
 use crate::trajectory::Trajectory;
-use crate::vector::Entrywise;
+use crate::vector::{Entrywise, Length};
 
 /// An impact on one contact, at the end of a leg.
 pub(super) struct Hit<L> {
@@ -76,10 +76,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
     ) -> Result<Friction, Error> {
         let FrictionRows { row, count, contact } = L::FRICTIONS[f];
         let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
-        let of = |a: usize| {
-            let found = impulses.iter().find(|&&(of, _)| of == L::CONSTRAINTS[a]);
-            found.map_or(zero, |&(_, impulse)| impulse)
-        };
+        let of = |a: usize| impulse_of(impulses, L::CONSTRAINTS[a]);
         let size = |numbers: [L::Scalar; 2]| Scalar::sqrt(numbers[0] * numbers[0] + numbers[1] * numbers[1]);
         let both = |number: &dyn Fn(usize) -> L::Scalar| {
             [number(row), if count == 2 { number(row + 1) } else { zero }]
@@ -119,6 +116,38 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         impact_sensitivity(&self.pushing, &at, L::CONTACTS[self.contact], (restitution, &|j| slopes[j]))
     }
 
+    /// Fails if a contact at rest has no impulse and stays at rest, both to √ε, unless the derivatives are the same whether it
+    /// pushes or not.
+    pub(super) fn check_idle(
+        &self,
+        leg: &Trajectory<L>,
+        impulses: &Impulses<L>,
+        [at, after]: [&StateSensitivity<L::Scalar, L::N>; 2],
+    ) -> Result<(), Error> {
+        let unit = power_of_epsilon::<L::Scalar>(0.5);
+        let all: alloc::vec::Vec<L::Scalar> = impulses.iter().map(|&(_, impulse)| impulse).collect();
+        let rests = |&k: &usize| leg.system().contact(k) != Some(Contact::Open);
+        for k in (0..L::CONTACTS.len()).filter(rests) {
+            let (mut other, impulse) = (self.pushing.clone(), impulse_of(impulses, Self::name(k)));
+            let pushes = self.pushing.contact(k) != Some(Contact::Open);
+            other.set_contact(k, Contact::Closed);
+            let [before, now] = [&at.state, &after.state];
+            let size = [before, now].map(|state| row_size(&other, L::CONTACTS[k], state));
+            let rate = Scalar::abs(other.constraint_rate(now)[L::CONTACTS[k]]);
+            if impulse > unit * largest(&all) || rate > unit * (size[0] + size[1]) {
+                continue;
+            }
+            other.set_contact(k, if pushes { Contact::Open } else { Contact::Closed });
+            let other = Self { contact: self.contact, pushing: other }.after(leg, at.clone())?;
+            let [one, other] = [&after.v, &other.v];
+            if largest((one - other).as_slice()) > unit * largest(one.as_slice()) {
+                let reason = "it neither pushes nor parts in the impact, and the arguments decide which";
+                return fails(Self::name(k), now.t, reason);
+            }
+        }
+        Ok(())
+    }
+
     /// Fails if the velocities after the impact are not those of the motion.
     pub(super) fn check(&self, found: &StateOf<L>, expected: &StateOf<L>) -> Result<(), Error> {
         let off = largest(found.v.minus(&expected.v).as_slice());
@@ -133,4 +162,17 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         };
         Err(Error::NoDerivativeAcross { contact, time, reason })
     }
+}
+
+/// Impulse of this name, or zero.
+fn impulse_of<T: Real>(impulses: &[(&'static str, T)], name: &str) -> T {
+    let found = impulses.iter().find(|&&(of, _)| of == name);
+    found.map_or(T::constant(0.0), |&(_, impulse)| impulse)
+}
+
+/// Sum of the magnitudes Σ |Wᵢ q̇ᵢ| of the rate of a constraint.
+fn row_size<L: Lagrangian<Scalar: Real>>(system: &L, row: usize, state: &StateOf<L>) -> L::Scalar {
+    let jacobian = system.constraint_jacobian(state);
+    (0..<L::N>::COUNT)
+        .fold(L::Scalar::constant(0.0), |sum, i| sum + Scalar::abs(jacobian[(row, i)] * state.v[i]))
 }

@@ -71,6 +71,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> ContactTrajectory<L> {
     /// [motion with derivatives](super::MotionDerivatives::motion_with_derivatives). [`Error::NoDerivativeAcross`]:
     ///
     /// - if a contact comes to rest by accumulating impacts, if several contacts are hit at one time, and for an impact at the start;
+    /// - if a contact at rest neither pushes nor parts in an impact that could make it do either;
     /// - if two frictions change at one time, unless one changes because of the other;
     /// - if a force or an impulse of friction is within √ε of its limit where the bodies are at rest, so that the arguments decide
     ///   whether they stick;
@@ -153,8 +154,9 @@ fn cross<L: Linearized<Scalar: Real> + Contacts + Clone>(
     let reason = match (before, &impacts[..]) {
         (Some(leg), [Transition::Impact { impulses, .. }]) => {
             let hit = Hit::of(leg, impulses, &state)?;
-            let after = hit.after(leg, at)?;
+            let after = hit.after(leg, at.clone())?;
             hit.check(&after.state, &state)?;
+            hit.check_idle(leg, impulses, [&at, &after])?;
             let (systems, states) = ([leg.system(), system], [*leg.end().state(), state]);
             Change { systems, states }.check_limits(None)?;
             return Ok(after);
