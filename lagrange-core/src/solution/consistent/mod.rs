@@ -129,7 +129,10 @@ pub(crate) fn project_by<L: Lagrangian<Scalar: Real>>(
     rest: &mut [Array<L::Scalar, L::N>; 2],
 ) -> Result<(), Error> {
     // `const`: the compiler omits the rest for a system without constraints.
-    if const { <L::M>::COUNT == 0 } || !levels.iter().any(|level| level.concerns::<L>()) {
+    if const { <L::M>::COUNT == 0 }
+        || !levels.iter().any(|level| level.concerns::<L>())
+        || are_all_off(system)
+    {
         return Ok(());
     }
     let (near, doubt) = near::project::<L, L::Scalar>(system, levels, corrections, *state, rest);
@@ -139,6 +142,12 @@ pub(crate) fn project_by<L: Lagrangian<Scalar: Real>>(
     }
     *rest = none();
     project_in_general(system, levels, state)
+}
+
+/// True if no constraint holds, so that every state is consistent.
+#[inline(always)]
+fn are_all_off<L: Lagrangian>(system: &L) -> bool {
+    system.compliance().iter().all(|&off| off == L::Scalar::constant(1.0))
 }
 
 #[cold]
