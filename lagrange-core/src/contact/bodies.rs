@@ -170,7 +170,9 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Open contact that is crossed at a state, its gap being negative. The gap of a closed one is a constraint, zero but for
     /// round-off, which no entry need exceed where they are all zero.
     pub(super) fn crossed(&self, is_closed: &[bool], state: &StateOf<L>) -> Option<Error> {
-        (0..L::CONTACTS.len()).filter(|&k| !is_closed[k]).find_map(|k| {
+        let gaps = self.closed.constraint_residual(state);
+        let is_negative = |&k: &usize| !is_closed[k] && !(gaps[L::CONTACTS[k]] >= L::Scalar::constant(0.0));
+        (0..L::CONTACTS.len()).filter(is_negative).find_map(|k| {
             let Measured { gap, noise: [noise, _], .. } = self.measured(k, state);
             let least = -(noise * L::Scalar::constant(CROSSED / (L::Scalar::EPSILON * UNITS)));
             let is_open = gap >= least || (gap + noise >= L::Scalar::constant(0.0));
