@@ -8,7 +8,7 @@ use crate::number::Real;
 use crate::solution::consistent::{Level, project};
 use crate::solution::vector_field::{ActiveConstraints, StagePoint, VectorField};
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Length, PhaseVector, vector};
+use crate::vector::{Array, Length, PhaseVector, array, vector};
 
 /// Hamilton's equations, in coordinates and momenta.
 ///
@@ -29,11 +29,12 @@ impl<L: Lagrangian<Scalar: Real>> VectorField<L> for HamiltonianVectorField {
         point: &StagePoint<L::Scalar, L::N>,
         active: Option<&Array<bool, L::M>>,
         rates: &mut PhaseVector<L::Scalar, L::N>,
-    ) -> Result<ActiveConstraints<L::M>, Error> {
+    ) -> Result<ActiveConstraints<L::Scalar, L::M>, Error> {
         let state = legendre::invert(system, &phase_state(point), &point.velocity, active)?;
         let (rate, rank, active) = equations(system, &state, active)?;
         *rates = PhaseVector::<_, L::N>::of(rate.q, rate.p);
-        Ok(ActiveConstraints { active, multipliers_are_unique: rank == <L::M>::COUNT })
+        let multipliers = array(rate.multipliers);
+        Ok(ActiveConstraints { active, multipliers, multipliers_are_unique: rank == <L::M>::COUNT })
     }
 
     fn state(system: &L, point: &StagePoint<L::Scalar, L::N>) -> StateOf<L> {

@@ -77,8 +77,8 @@ pub use lanes::LaneMethod;
 #[cfg(feature = "std")]
 pub(crate) use lanes::{Batch, LaneMotion};
 pub use method::{
-    Adaptive, Dop853, Dopri5, DormandPrince54, DormandPrince853, Limits, Method, Pair, RungeKutta4, Step,
-    TableauRow, runge_kutta_step,
+    Adaptive, Dop853, Dopri5, DormandPrince54, DormandPrince853, Limits, Method, MultiplierBounds, Pair,
+    RungeKutta4, Step, TableauRow, runge_kutta_step,
 };
 pub use progress::Progress;
 #[cfg(feature = "alloc")]

@@ -27,7 +27,7 @@ pub trait VectorField<L: Lagrangian<Scalar: Real>> {
         point: &StagePoint<L::Scalar, L::N>,
         active: Option<&Array<bool, L::M>>,
         rates: &mut PhaseVector<L::Scalar, L::N>,
-    ) -> Result<ActiveConstraints<L::M>, Error>;
+    ) -> Result<ActiveConstraints<L::Scalar, L::M>, Error>;
 
     /// Returns the state at `point`. If the search for its velocity fails, uses the initial guess `point.velocity`.
     fn state(system: &L, point: &StagePoint<L::Scalar, L::N>) -> StateOf<L>;
@@ -56,9 +56,11 @@ pub struct StagePoint<T: Element, N: Length> {
 
 /// The constraints that determine the rates of a phase.
 #[derive(Clone, Copy, Debug)]
-pub struct ActiveConstraints<M: Length> {
+pub struct ActiveConstraints<T: Element, M: Length> {
     /// True for each constraint that determines the rates.
     pub active: Array<bool, M>,
+    /// Multiplier of each constraint.
+    pub multipliers: Array<T, M>,
     /// True if the constraints are independent.
     pub multipliers_are_unique: bool,
 }
@@ -83,11 +85,16 @@ impl<L: Lagrangian<Scalar: Real>> VectorField<L> for LagrangianVectorField {
         point: &StagePoint<L::Scalar, L::N>,
         active: Option<&Array<bool, L::M>>,
         rates: &mut PhaseVector<L::Scalar, L::N>,
-    ) -> Result<ActiveConstraints<L::M>, Error> {
+    ) -> Result<ActiveConstraints<L::Scalar, L::M>, Error> {
         rates.set(0, point.y.half(1));
         solve_near(system, &Self::state(system, point), active, |solution, &active| {
             rates.set(1, array(solution.accelerations));
-            ActiveConstraints { active, multipliers_are_unique: solution.multipliers_are_unique() }
+            let multipliers = array(solution.multipliers);
+            ActiveConstraints {
+                active,
+                multipliers,
+                multipliers_are_unique: solution.multipliers_are_unique(),
+            }
         })
     }
 

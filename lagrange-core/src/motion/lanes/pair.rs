@@ -92,6 +92,7 @@ where
     fn unload(lane_memory: &Self::LaneMemory, lane: usize, memory: &mut PairMemory<f64, L::N, L::M>) {
         [memory.y, memory.slope] =
             [&lane_memory.y, &lane_memory.slopes[0]].map(|packed| unpacked_phase(packed, lane));
+        memory.multipliers = Array::filled(f64::NAN);
     }
 
     fn phase(lane_memory: &Self::LaneMemory, lane: usize) -> PhaseVector<f64, L::N> {

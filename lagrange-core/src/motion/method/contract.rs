@@ -4,6 +4,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
+use super::bounds::MultiplierBounds;
 use crate::error::{Ending, Error, Pace};
 use crate::number::Real;
 use crate::solution::interpolant::Interpolant;
@@ -113,6 +114,13 @@ where
     ) -> Result<(), Error> {
         to.push(self.interpolant(system, memory, statistics)?);
         Ok(())
+    }
+
+    /// Returns bounds on the multipliers within the last accepted step, once its dense output has been computed; `None` if the
+    /// method knows none.
+    #[allow(unused_variables)]
+    fn multiplier_bounds(&self, memory: &Self::Memory) -> Option<MultiplierBounds<L::Scalar, L::M>> {
+        None
     }
 
     /// Undoes the last step because its dense output is needed and cannot be computed; the next attempt is shorter.

@@ -1,6 +1,7 @@
 //! Integration methods: Runge–Kutta steps, and the control of their length.
 
 mod adaptive;
+pub(crate) mod bounds;
 pub(crate) mod clock;
 pub(crate) mod contract;
 pub(crate) mod control;
@@ -14,6 +15,7 @@ pub(crate) mod step;
 mod stiff;
 
 pub use adaptive::Adaptive;
+pub use bounds::MultiplierBounds;
 pub use contract::{Limits, Method, Step};
 pub use dop853::{Dop853, DormandPrince853};
 pub use dopri5::{Dopri5, DormandPrince54};

@@ -1,7 +1,7 @@
 //! Coefficients of embedded Runge–Kutta pairs, and weighted sums of their slopes.
 
 use crate::number::Scalar;
-use crate::vector::{Length, PhaseVector};
+use crate::vector::{Array, Length, PhaseVector};
 
 /// A row of the Butcher tableau: pairs (index of a slope, its coefficient).
 pub type TableauRow = &'static [(usize, f64)];
@@ -139,6 +139,9 @@ const fn check_row(row: TableauRow, slopes: usize, expected: f64) {
 
 /// Slopes (q̇, q̈) of a step, by their index.
 pub(crate) type Slopes<T, N> = [PhaseVector<T, N>; SLOPES];
+
+/// Multipliers of each slope, by its index.
+pub(crate) type StageMultipliers<T, M> = [Array<T, M>; SLOPES];
 
 /// Sets `end` to start + h Σ cᵢ slopeᵢ.
 #[inline]

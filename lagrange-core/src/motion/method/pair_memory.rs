@@ -2,7 +2,7 @@
 
 use super::clock::Clock;
 use super::control::Control;
-use super::pair::Slopes;
+use super::pair::{Slopes, StageMultipliers};
 use super::slope::slope;
 use crate::error::Error;
 use crate::number::Real;
@@ -27,8 +27,12 @@ pub struct PairMemory<T: Element, N: Length, M: Length> {
     pub(crate) slope: PhaseVector<T, N>,
     /// Constraints that determine the rates: a largest independent set at `y`.
     pub(crate) active: Array<bool, M>,
+    /// Multipliers at `y`, with `slope`; NaN where lanes led there.
+    pub(crate) multipliers: Array<T, M>,
     /// Slopes of the last step tried; the first is the slope at its start.
     pub(super) slopes: Room<Slopes<T, N>>,
+    /// Multipliers with each of these slopes.
+    pub(super) stage_multipliers: Room<StageMultipliers<T, M>>,
     /// The step that led to `y`.
     pub(super) taken: Option<Taken<T, N, M>>,
 }
@@ -71,7 +75,8 @@ impl<T: Real, N: Length, M: Length> PairMemory<T, N, M> {
     ) -> Result<(), Error> {
         if !self.has_slope {
             let point = StagePoint { t: self.clock.now, y: self.y, velocity: self.slope.half(0) };
-            self.active = slope::<L, F>(system, &point, None, &mut self.slope, statistics)?;
+            let found = slope::<L, F>(system, &point, None, &mut self.slope, statistics)?;
+            (self.active, self.multipliers) = (found.active, found.multipliers);
             self.has_slope = true;
         }
         Ok(())

@@ -12,7 +12,7 @@ use crate::system::Lagrangian;
 use crate::vector::{Array, Length, PhaseVector};
 
 /// Evaluates the rates at a phase point into `rates`, and counts the evaluation. Returns the constraints that determine
-/// them. Not inlined: several callers would each compile the equations again.
+/// them, and their multipliers. Not inlined: several callers would each compile the equations again.
 #[inline(never)]
 pub(super) fn slope<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
     system: &L,
@@ -20,7 +20,7 @@ pub(super) fn slope<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
     active: Option<&Array<bool, L::M>>,
     rates: &mut PhaseVector<L::Scalar, L::N>,
     statistics: &mut Statistics,
-) -> Result<Array<bool, L::M>, Error> {
+) -> Result<ActiveConstraints<L::Scalar, L::M>, Error> {
     inlined_slope::<L, F>(system, point, active, rates, statistics)
 }
 
@@ -32,11 +32,11 @@ pub(super) fn inlined_slope<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
     active: Option<&Array<bool, L::M>>,
     rates: &mut PhaseVector<L::Scalar, L::N>,
     statistics: &mut Statistics,
-) -> Result<Array<bool, L::M>, Error> {
+) -> Result<ActiveConstraints<L::Scalar, L::M>, Error> {
     statistics.evaluations += 1;
-    let ActiveConstraints { active, multipliers_are_unique } = F::evaluate(system, point, active, rates)?;
-    statistics.multipliers_are_unique &= multipliers_are_unique;
-    Ok(active)
+    let constraints = F::evaluate(system, point, active, rates)?;
+    statistics.multipliers_are_unique &= constraints.multipliers_are_unique;
+    Ok(constraints)
 }
 
 pub(super) fn check_finite<L: Lagrangian<Scalar: Real>>(

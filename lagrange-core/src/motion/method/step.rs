@@ -5,11 +5,13 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::adaptive::Adaptive;
+use super::bounds::{self, MultiplierBounds};
 use super::clock::Clock;
 use super::contract::{Limits, Method, Step};
 use super::control::{Control, StateEntry};
 use super::pair::{
-    Pair, Slopes, TableauRow, advance, advance_from, check, error_needs_last, is_carried, last,
+    Pair, Slopes, StageMultipliers, TableauRow, advance, advance_from, check, error_needs_last, is_carried,
+    last,
 };
 use super::pair_memory::{PairMemory, StepStart, Taken};
 use super::slope::{check_finite, entry, inlined_slope, slope};
@@ -73,6 +75,7 @@ where
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
         let zero = PhaseVector::filled(L::Scalar::constant(0.0));
+        let unknown = Array::filled(L::Scalar::constant(f64::NAN));
         let mut memory = PairMemory {
             clock: Clock::new(start.t, self.fixed_step.map(L::Scalar::constant)),
             control: Control::new(L::Scalar::constant(0.0)),
@@ -81,7 +84,9 @@ where
             has_slope: false,
             slope: zero,
             active: Array::filled(true),
+            multipliers: unknown,
             slopes: Room::filled(zero),
+            stage_multipliers: Room::filled(unknown),
             taken: None,
         };
         Method::<L, F>::resume(self, system, &mut memory, start, statistics)?;
@@ -170,10 +175,16 @@ where
         Ok(())
     }
 
+    #[inline]
+    fn multiplier_bounds(&self, memory: &Self::Memory) -> Option<MultiplierBounds<L::Scalar, L::M>> {
+        bounds::multiplier_bounds::<P, _, _, _>(memory)
+    }
+
     fn undo(&self, memory: &mut Self::Memory) -> bool {
         let Some(Taken { from, h, control }) = memory.taken.take() else { return false };
         (memory.clock.now, memory.y, memory.active) = (from.t, from.y, from.active);
         (memory.has_slope, memory.slope, memory.control) = (true, memory.slopes[0], control);
+        memory.multipliers = memory.stage_multipliers[0];
         memory.control.halve(h);
         self.can_try_again(memory)
     }
@@ -238,6 +249,7 @@ impl<P: Pair> Adaptive<P> {
     ) -> StateOf<L> {
         memory.taken = Some(Taken { from: memory.origin(), h, control: memory.control.clone() });
         (memory.y, memory.active, memory.slope) = (reached.y, reached.active, memory.slopes[last::<P>()]);
+        memory.multipliers = memory.stage_multipliers[last::<P>()];
         memory.has_slope = !(self.ignores_error() && F::HOLDS_VELOCITY);
         self.after_acceptance(&mut memory.control, &mut memory.clock, (h, time), reached.error);
         let velocity = if F::HOLDS_VELOCITY { memory.y.half(1) } else { memory.slope.half(0) };
@@ -256,16 +268,18 @@ impl<P: Pair> Adaptive<P> {
         if IS_FIXED {
             memory.ensure_slope::<L, F>(system, statistics)?;
         }
-        let (from, slopes) = (memory.origin(), &mut *memory.slopes);
-        slopes[0] = memory.slope;
-        stages::<P, L, F>(system, &from, h, slopes, (1, P::STAGES), statistics)?;
+        let (from, slopes, multipliers) =
+            (memory.origin(), &mut *memory.slopes, &mut *memory.stage_multipliers);
+        (slopes[0], multipliers[0]) = (memory.slope, memory.multipliers);
+        stages::<P, L, F>(system, &from, h, (slopes, multipliers), (1, P::STAGES), statistics)?;
         let mut next = StagePoint { t: time, y: from.y, velocity: slopes[0].half(0) };
         advance(&from.y, h, slopes, P::WEIGHTS, &mut next.y);
         check_finite::<L>(time, &next.y)?;
         let mut active = from.active;
         let needs_last = !IS_FIXED && error_needs_last::<P>();
         if needs_last {
-            active = slope::<L, F>(system, &next, Some(&active), &mut slopes[last::<P>()], statistics)?;
+            let found = slope::<L, F>(system, &next, Some(&active), &mut slopes[last::<P>()], statistics)?;
+            (active, multipliers[last::<P>()]) = (found.active, found.multipliers);
         }
         let error =
             if IS_FIXED { L::Scalar::constant(0.0) } else { self.check_error(slopes, h, &from.y, &next.y)? };
@@ -273,7 +287,8 @@ impl<P: Pair> Adaptive<P> {
             next.y = F::phase(system, &F::project(system, &next)?);
         }
         if !(IS_FIXED && F::HOLDS_VELOCITY) && (<L::M>::COUNT > 0 || !needs_last) {
-            active = slope::<L, F>(system, &next, None, &mut slopes[last::<P>()], statistics)?;
+            let found = slope::<L, F>(system, &next, None, &mut slopes[last::<P>()], statistics)?;
+            (active, multipliers[last::<P>()]) = (found.active, found.multipliers);
         }
         Ok(Reached { y: next.y, error, active })
     }
@@ -349,11 +364,13 @@ where
 {
     memory.ensure_slope::<L, F>(system, statistics)?;
     memory.slopes[last::<P>()] = memory.slope;
+    memory.stage_multipliers[last::<P>()] = memory.multipliers;
     let now = memory.clock.now.to_f64();
     let no_step = Error::OutsideTrajectory { time: now, start: now, end: now };
     let Taken { from, h, .. } = memory.taken.as_ref().ok_or(no_step)?;
     let more = (last::<P>() + 1, P::INTERPOLATION_STAGES);
-    stages::<P, L, F>(system, from, *h, &mut memory.slopes, more, statistics)?;
+    let stage_memory = (&mut *memory.slopes, &mut *memory.stage_multipliers);
+    stages::<P, L, F>(system, from, *h, stage_memory, more, statistics)?;
     Ok((from.t, *h))
 }
 
@@ -373,12 +390,12 @@ fn interpolate<P: Pair, T: Real, N: Length, M: Length>(
     }
 }
 
-/// Evaluates the rates of consecutive stages, beginning with stage `first`.
+/// Evaluates the rates and multipliers of consecutive stages, beginning with stage `first`.
 fn stages<P, L, F>(
     system: &L,
     from: &StepStart<L::Scalar, L::N, L::M>,
     h: L::Scalar,
-    slopes: &mut Slopes<L::Scalar, L::N>,
+    (slopes, multipliers): (&mut Slopes<L::Scalar, L::N>, &mut StageMultipliers<L::Scalar, L::M>),
     (first, rows): (usize, &[TableauRow]),
     statistics: &mut Statistics,
 ) -> Result<(), Error>
@@ -393,7 +410,8 @@ where
         advance_from((number - 1, &newest), &from.y, h, slopes, row, &mut point.y);
         point.t = from.t + h * L::Scalar::constant(P::NODES[number]);
         let rates = if const { is_carried::<L::N>() } { &mut newest } else { &mut slopes[number] };
-        inlined_slope::<L, F>(system, &point, Some(&from.active), rates, statistics)?;
+        let found = inlined_slope::<L, F>(system, &point, Some(&from.active), rates, statistics)?;
+        multipliers[number] = found.multipliers;
         if const { is_carried::<L::N>() } {
             slopes[number] = newest;
         }
