@@ -6,9 +6,12 @@
 mod abuse;
 mod along;
 mod bounds;
+mod excluded;
 mod friction;
 mod frictionless;
 mod limits;
+#[path = "../random/mod.rs"]
+mod random;
 mod rest;
 mod rubbing_sensitivities;
 mod sensitivities;

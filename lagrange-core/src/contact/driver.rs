@@ -4,6 +4,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use super::bodies::{Bodies, States};
+use super::condition::Condition;
 use super::friction::bounds;
 use super::instant::{Changed, Decided};
 use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
@@ -156,29 +157,39 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let Self { bodies, decided, state, .. } = self;
         let system = bodies.with(&decided.states);
         let closed = bodies.closed.clone();
-        let mut events: Vec<Box<DynEvent<'_, L>>> = Vec::new();
         let sizes = bodies.sizes(state);
         EventSearch::begin_leg(given, &system, [state, &sizes], self.statistics.accepted == 0)?;
-        events.extend(given.iter_mut().map(|event| Box::new(event) as Box<DynEvent<'_, L>>));
+        let mut own = Vec::new();
         let zero = L::Scalar::constant(0.0);
         for (k, &row) in L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]) {
             let (name, closed) = (name(L::CONSTRAINTS, row), &closed);
             let force = move |sample: &Sample<&L>| Ok(sample.solution()?.multipliers[row]);
             let gap = move |sample: &Sample<&L>| Ok(closed.constraint_residual(sample.state())[row]);
             let is_resting = decided.is_resting[k];
-            events.push(match decided.states.is_closed[k] {
-                true => watched(&system, state, name, is_resting.then_some(zero), force)?,
-                false => watched(&system, state, name, is_resting.then(|| bodies.touching(k, state)), gap)?,
+            own.push(match decided.states.is_closed[k] {
+                true => (
+                    watched(&system, state, name, is_resting.then_some(zero), force)?,
+                    Condition::Pushes { row },
+                ),
+                false => {
+                    let rest = is_resting.then(|| bodies.touching(k, state));
+                    (watched(&system, state, name, rest, gap)?, Condition::Motion)
+                }
             });
         }
-        events.extend(of_friction(&system, &closed, decided, state)?);
+        own.extend(of_friction(&system, &closed, decided, state)?);
+        let (own, conditions): (Vec<_>, Vec<_>) = own.into_iter().unzip();
+        let first = given.len();
+        let given = given.iter_mut().map(|event| Box::new(event) as Box<DynEvent<'_, L>>);
+        let mut events: Vec<Box<DynEvent<'_, L>>> = given.chain(own).collect();
         // A bounce is searched for within its own time: a step as long as that of a flight would be halved many times.
         let bounce = decided.bounce.take().map(|bounce| state.t + bounce);
         let goal = self.kept.goal().unwrap_or(self.times[1]);
         let goal = bounce.filter(|&bounce| state.t < bounce && bounce < goal).unwrap_or(goal);
         let (mut run, adjustment) = Run::begin(&system, state, method)?;
         run.statistics = run.statistics.after(&self.statistics);
-        let watch = LegWatch { bodies, is_closed: &decided.states.is_closed, accept: &mut self.accept };
+        let is_closed = &decided.states.is_closed[..];
+        let watch = LegWatch { bodies, is_closed, accept: &mut self.accept, first, conditions: &conditions };
         let (system, events) = (&system, &mut events[..]);
         let transitions = self.transitions.len();
         self.kept.drive(StartedLeg {
@@ -260,23 +271,23 @@ const AT_LIMIT: f64 = 64.0;
 /// shares forces by their least norm, which need not be within the limits.
 const BEYOND: f64 = 1e-6;
 
-/// The events that friction reaches its limit, or stops the bodies.
+/// The events that friction reaches its limit, or stops the bodies, with the conditions that they watch.
 fn of_friction<'w, L>(
     system: &L,
     closed: &'w L,
     decided: &Decided<L::Scalar>,
     state: &StateOf<L>,
-) -> Result<Vec<Box<DynEvent<'w, L>>>, Error>
+) -> Result<Vec<(Box<DynEvent<'w, L>>, Condition<L::Scalar>)>, Error>
 where
     L: Contacts<Scalar: Real> + Clone + 'w,
 {
-    let mut events: Vec<Box<DynEvent<'w, L>>> = Vec::new();
+    let mut events = Vec::new();
     for (f, &FrictionRows { row, contact, .. }) in L::FRICTIONS.iter().enumerate() {
         if contact.is_some_and(|k| !decided.states.is_closed[k]) || decided.slip_is_implied[f] {
             continue;
         }
         let name = name(L::CONSTRAINTS, row);
-        events.push(match decided.states.frictions[f] {
+        let event = match decided.states.frictions[f] {
             Friction::Sticks => {
                 let left = move |sample: &Sample<&L>| {
                     let [limit, force] = held(closed, f, sample)?;
@@ -295,7 +306,8 @@ where
                 // One that begins within the round-off of zero may turn at once.
                 watched(system, state, name, Some(least_speed()), along)?
             }
-        });
+        };
+        events.push((event, Condition::of_friction((closed, f), &decided.states, state)?));
     }
     Ok(events)
 }
@@ -311,7 +323,7 @@ fn held<L: Contacts<Scalar: Real> + Clone>(
     f: usize,
     sample: &Sample<&L>,
 ) -> Result<[L::Scalar; 2], Error> {
-    let FrictionRows { row, count, contact } = L::FRICTIONS[f];
+    let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
     let multipliers = &sample.solution()?.multipliers;
     let [limit, _] = bounds(closed, f, sample.state())?;
     let press = contact.map_or(L::Scalar::constant(1.0), |k| multipliers[L::CONTACTS[k]]);

@@ -85,7 +85,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     fn rows(&self, touching: Vec<usize>, state: &StateOf<L>) -> Result<TouchingRows<L>, Error> {
         let mut all: Vec<usize> = touching.iter().map(|&k| L::CONTACTS[k]).collect();
         let mut frictions = Vec::new();
-        for (f, &FrictionRows { row, count, contact }) in L::FRICTIONS.iter().enumerate() {
+        for (f, &FrictionRows { row, count, contact, .. }) in L::FRICTIONS.iter().enumerate() {
             if contact.is_none_or(|k| touching.contains(&k)) {
                 frictions.push((f, all.len()));
                 all.extend(row..row + count);

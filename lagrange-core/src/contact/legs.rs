@@ -6,12 +6,13 @@ use core::marker::PhantomData;
 
 use super::Contacts;
 use super::bodies::Bodies;
+use super::condition::Condition;
 use crate::error::{Ending, Error};
-use crate::motion::event::{DenseStep, EventSearch};
+use crate::motion::event::{AnyEvent, DenseStep, EventSearch};
 use crate::motion::record::Record;
 use crate::motion::run::{Observer, Run, Watchdog};
 use crate::motion::store::Stored;
-use crate::motion::{DynEvent, LagrangianVectorField, Method};
+use crate::motion::{DynEvent, Interpolant, LagrangianVectorField, Method, MultiplierBounds};
 use crate::number::Real;
 use crate::solution::Adjustment;
 use crate::solution::crossing::Crossing;
@@ -67,14 +68,49 @@ pub(super) trait KeepsLegs<L: Contacts<Scalar: Real>> {
     fn drive<P: Method<L>>(&mut self, leg: StartedLeg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error>;
 }
 
-/// Looks at each step of a leg: at its entries, at gaps that are crossed, and for the progress callback.
+/// An observer that searches steps for events.
+trait Searches<L: Lagrangian> {
+    /// Passes the next step, of this width, without a search for this event, if its function has one sign there.
+    fn stay_away(&mut self, event: usize, is_away: bool, width: L::Scalar);
+}
+
+impl<L, W, I> Searches<L> for Stored<'_, '_, L, W, I, true>
+where
+    L: Lagrangian<Scalar: Real>,
+    W: AnyEvent<L>,
+    I: Interpolant<L::Scalar, L::N> + Send + Sync + 'static,
+{
+    fn stay_away(&mut self, event: usize, is_away: bool, width: L::Scalar) {
+        self.search.stay_away(event, is_away, width);
+    }
+}
+
+/// Looks at each step of a leg: at conditions of contacts, at its entries, at gaps that are crossed, and for the progress callback.
 pub(super) struct LegWatch<'l, 'w, L: Lagrangian> {
     pub(super) bodies: &'l mut Bodies<L>,
     pub(super) is_closed: &'l [bool],
     pub(super) accept: &'l mut Accept<'w, L>,
+    /// Number of the events before those of contacts.
+    pub(super) first: usize,
+    /// Conditions that the events of contacts watch.
+    pub(super) conditions: &'l [Condition<L::Scalar>],
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> LegWatch<'_, '_, L> {
+    /// Searches the next step only for the events that its multipliers do not exclude.
+    #[inline]
+    fn exclude(
+        &self,
+        within: Option<&MultiplierBounds<L::Scalar, L::M>>,
+        width: L::Scalar,
+        observer: &mut impl Searches<L>,
+    ) {
+        for (event, condition) in (self.first..).zip(self.conditions) {
+            let is_away = within.is_some_and(|within| condition.holds_within(within));
+            observer.stay_away(event, is_away, width);
+        }
+    }
+
     fn look(&mut self, state: &StateOf<L>, steps: usize) -> Result<(), Ending> {
         self.bodies.passes(state);
         match self.bodies.crossed(self.is_closed, state) {
@@ -94,7 +130,7 @@ impl<L, P, O> Observer<L, P> for Watched<'_, '_, O, L>
 where
     L: Contacts<Scalar: Real> + Clone,
     P: Method<L>,
-    O: Observer<L, P>,
+    O: Observer<L, P> + Searches<L>,
 {
     fn system(&self) -> &L {
         self.observer.system()
@@ -112,6 +148,8 @@ where
 
     #[inline(always)]
     fn keep(&mut self, method: &P, run: &mut Run<L, P>) -> Result<(), Ending> {
+        let (within, width) = (method.multiplier_bounds(&run.memory), run.state.t - run.before.t);
+        self.watch.exclude(within.as_ref(), width, &mut self.observer);
         self.observer.keep(method, run)?;
         self.watch.look(&run.state, run.statistics.accepted)
     }
@@ -196,6 +234,12 @@ struct SampledLeg<'l, 'e, 'w, L: Lagrangian, I> {
     goal: L::Scalar,
     /// Interpolant of the last step.
     within: Option<I>,
+}
+
+impl<L: Lagrangian<Scalar: Real>, I> Searches<L> for SampledLeg<'_, '_, '_, L, I> {
+    fn stay_away(&mut self, event: usize, is_away: bool, width: L::Scalar) {
+        self.search.stay_away(event, is_away, width);
+    }
 }
 
 impl<L, P> Observer<L, P> for SampledLeg<'_, '_, '_, L, P::Interpolant>

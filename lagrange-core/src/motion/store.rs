@@ -21,7 +21,7 @@ pub(crate) struct Stored<'a, 'e, L: Lagrangian, W, I, const HAS_EVENTS: bool> {
     system: &'a L,
     end: L::Scalar,
     path: Path<L::Scalar, L::N, Vec<I>>,
-    search: EventSearch<'e, W, L>,
+    pub(crate) search: EventSearch<'e, W, L>,
     /// Ending at the start, if an event that is due there ends the motion.
     stopped: Option<Ending>,
     on_progress: Option<OnProgress<'e>>,

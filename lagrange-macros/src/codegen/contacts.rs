@@ -8,6 +8,7 @@ use super::shape::ResultShape;
 use crate::contract::{FRICTION_LIMIT, Method, RESTITUTION, SLIDING_FRICTION};
 use crate::resolve::Entry;
 use crate::symbolic::Id;
+use crate::variables::Variable;
 
 impl Emitter<'_> {
     /// Items of the trait `Contacts`. `None` if there are no contacts and no friction.
@@ -30,7 +31,10 @@ impl Emitter<'_> {
                 Some(contact) => quote!(::core::option::Option::Some(#contact)),
                 None => quote!(::core::option::Option::None),
             };
-            quote!(__lagrange::contact::FrictionRows { row: #row, count: #count, contact: #contact })
+            let has_constant_limit = self.is_constant(friction.bounds[0]);
+            let fields =
+                quote!(row: #row, count: #count, contact: #contact, has_constant_limit: #has_constant_limit);
+            quote!(__lagrange::contact::FrictionRows { #fields })
         });
         let limits = frictions.iter().map(|friction| friction.bounds[0]).collect();
         let sliding = frictions.iter().map(|friction| friction.bounds[1]).collect();
@@ -118,6 +122,12 @@ impl Emitter<'_> {
                 }
             }
         })
+    }
+
+    /// True if an expression depends on parameters alone.
+    fn is_constant(&self, expression: Id) -> bool {
+        let is_parameter = |symbol| matches!(Variable::of(symbol), Variable::Parameter(_));
+        self.style.graph.symbols(&[expression]).all(is_parameter)
     }
 
     /// Method that returns the number of each contact or friction by its index.

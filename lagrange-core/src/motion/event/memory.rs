@@ -1,6 +1,6 @@
 //! Settings of an event, and the state of its search from step to step.
 
-use super::chebyshev::{FINEST, Samples, Shape};
+use super::chebyshev::{COARSEST, FINEST, Samples, Shape};
 use crate::error::Ending;
 use crate::motion::run::is_between;
 use crate::number::{Parts, Real, Scalar, larger, smaller};
@@ -31,6 +31,10 @@ pub struct EventState<T> {
     round_off: T,
     /// Value with the current sign of the function. Zero if the motion started at a zero and has not left it.
     pub(super) value: T,
+    /// True if the function has one sign over the next step, which is then not searched for it.
+    is_away: bool,
+    /// True if steps have been passed without a search.
+    is_behind: bool,
     /// New `value` for the search after the interval, if no event crosses within it.
     pub(super) next: T,
     /// Samples of the function on the interval, from its start.
@@ -114,6 +118,8 @@ impl<T: Real> EventState<T> {
             earlier: None,
             round_off: zero,
             value: zero,
+            is_away: false,
+            is_behind: false,
             next: zero,
             samples: [zero; FINEST + 1],
             view: View::Open,
@@ -192,17 +198,44 @@ impl<T: Real> EventState<T> {
         }
     }
 
+    /// Passes the next step, of this width, without a search, if the function has one sign there, as `is_away` tells, and if
+    /// a search would be content with its lowest degree: what the steps before did not need is as fine as the search itself
+    /// sees.
+    #[cfg(feature = "alloc")]
+    #[inline]
+    pub(crate) fn stay_away(&mut self, is_away: bool, width: T) {
+        self.learn_density();
+        let least = self.density.map(|density| density * width * T::constant(0.5));
+        self.is_away = is_away && least.is_some_and(|least| least <= T::constant(COARSEST as f64));
+        self.is_behind |= self.is_away;
+    }
+
+    pub(super) fn is_away(&self) -> bool {
+        self.is_away
+    }
+
+    /// True, once, if the search of a step must begin anew after steps without one.
+    pub(super) fn wakes(&mut self) -> bool {
+        core::mem::take(&mut self.is_behind)
+    }
+
     /// Begins the search of an interval; `None` if it may not be divided. Returns true if the interval is too wide for
     /// the highest degree.
     #[inline]
     pub(super) fn open(&mut self, interval: Option<&Interval<T>>) -> bool {
         (self.view, self.noise) = (View::Open, T::constant(0.0));
+        self.learn_density();
+        let is_too_wide = |interval: &Interval<T>| self.least(interval) > T::constant(FINEST as f64);
+        interval.is_some_and(|interval| interval.is_wide && self.density.is_some() && is_too_wide(interval))
+    }
+
+    /// Takes note of the degree that the last interval needed.
+    #[inline]
+    fn learn_density(&mut self) {
         if let Some(needed) = self.needed.take() {
             let before = self.density.map_or(needed, |density| density * T::constant(0.5));
             self.density = Some(larger(needed, before));
         }
-        let is_too_wide = |interval: &Interval<T>| self.least(interval) > T::constant(FINEST as f64);
-        interval.is_some_and(|interval| interval.is_wide && self.density.is_some() && is_too_wide(interval))
     }
 
     /// True if the function crosses zero at most once on this interval.

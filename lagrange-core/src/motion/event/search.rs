@@ -110,6 +110,10 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
         step: &DenseStep<'_, L, F, I>,
         from: &mut StateOf<L>,
     ) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending> {
+        if !self.wake(step, from).map_err(|error| Ending::of(error, from.t.to_f64()))? {
+            *from = *step.after;
+            return Ok(None);
+        }
         let (start, mut intervals) = (from.t, 0);
         for piece in 1..=self.subdivisions {
             let mut halves = Halves::of([from.t, step.mark(start, piece, self.subdivisions)]);
@@ -134,6 +138,27 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
             }
         }
         Ok(None)
+    }
+
+    /// Passes the next step, of this width, without a search for this event, if its function has one sign there.
+    #[cfg(feature = "alloc")]
+    #[inline]
+    pub(crate) fn stay_away(&mut self, index: usize, is_away: bool, width: L::Scalar) {
+        self.events[index].memory().stay_away(is_away, width);
+    }
+
+    /// True if a function may cross zero in the step. The search for it goes on from here, after steps without one.
+    #[inline]
+    fn wake<F, I>(&mut self, step: &DenseStep<'_, L, F, I>, from: &StateOf<L>) -> Result<bool, Error> {
+        let mut any = false;
+        for (_, event) in awake::<_, L>(self.events) {
+            any = true;
+            if event.memory().wakes() {
+                let value = event.value(step.system, from)?;
+                event.memory().begin(value, from.t, None);
+            }
+        }
+        Ok(any)
     }
 
     /// Returns a crossing at `state` that has not been reported yet.
@@ -232,7 +257,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     ) -> Result<Look, Error> {
         let interval = if may_halve { step.interval(from.t, t) } else { None };
         let mut are_too_wide = false;
-        for event in self.events.iter_mut() {
+        for (_, event) in awake::<_, L>(self.events) {
             are_too_wide |= event.memory().open(interval.as_ref());
         }
         let within;
@@ -259,7 +284,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
             true => self.go_to_first(step, from, to)?,
             false => {
                 *from = *to;
-                self.events.iter_mut().for_each(|event| event.memory().go_on(t));
+                awake::<_, L>(self.events).for_each(|(_, event)| event.memory().go_on(t));
             }
         }
         Ok(if any_crosses { Look::Crossed } else { Look::Passed })
@@ -268,7 +293,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     /// Samples all functions that are undecided on the interval.
     #[inline]
     fn sample(&mut self, system: &L, state: &StateOf<L>, place: usize) -> Result<(), Error> {
-        self.events.iter_mut().try_for_each(|event| event.sample(system, state, place))
+        awake::<_, L>(self.events).try_for_each(|(_, event)| event.sample(system, state, place))
     }
 
     /// True if each function crosses zero at most once between these times. The degree of the samples is raised as
@@ -287,7 +312,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
                 self.sample(step.system, there(&state)?, place)?;
             }
             let mut is_plain = true;
-            for event in self.events.iter_mut() {
+            for (_, event) in awake::<_, L>(self.events) {
                 match judge(event, step, (from + to) * L::Scalar::constant(0.5), interval, degree)? {
                     View::Plain => {}
                     View::Bent => return Ok(false),
@@ -306,7 +331,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     #[inline]
     fn look_at(&mut self, system: &L, end: &StateOf<L>) -> Result<bool, Error> {
         let mut any_crosses = false;
-        for event in self.events.iter_mut() {
+        for (_, event) in awake::<_, L>(self.events) {
             let mut memory = event.memory();
             if let Some(left) = memory.start {
                 let noise = noise(event, system, end)? + left;
@@ -330,7 +355,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
         to: &StateOf<L>,
     ) -> Result<(), Error> {
         let mut first = (usize::MAX, *to);
-        for (index, event) in self.events.iter_mut().enumerate() {
+        for (index, event) in awake::<_, L>(self.events) {
             let memory = event.memory();
             if memory.crosses() {
                 let values = [memory.value, memory.next];
@@ -341,12 +366,24 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
             }
         }
         *from = first.1;
-        for (index, event) in self.events.iter_mut().enumerate() {
+        for (index, event) in awake::<_, L>(self.events) {
             let value = event.value(step.system, from)?;
             event.memory().arrive(value, from.t, index == first.0);
         }
         Ok(())
     }
+}
+
+/// Events that are searched for, with their indices.
+#[inline(always)]
+fn awake<W: AnyEvent<L>, L: Lagrangian<Scalar: Real>>(
+    events: &mut [W],
+) -> impl Iterator<Item = (usize, &mut W)> {
+    let is_awake = |(index, event)| {
+        let event: &mut W = event;
+        (!event.memory().is_away()).then_some((index, event))
+    };
+    events.iter_mut().enumerate().filter_map(is_awake)
 }
 
 /// Decides on an event's function by its samples of this degree. If they may be all noise, the noise is estimated in

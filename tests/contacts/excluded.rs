@@ -1,0 +1,178 @@
+//! Steps that bounds on the multipliers exclude from the search: no transition is lost, by a method that has no such bounds.
+//!
+//! `LAGRANGE_CONTACTS` says how many motions; a failure says the number of its case.
+
+use std::fmt;
+
+use lagrange_core::contact::{Contact, Transition};
+use lagrange_core::motion::{Limits, MultiplierBounds, Step};
+use lagrange_core::{Error, Method, StateOf, Statistics, prelude::*};
+
+use crate::count;
+use crate::random::Random;
+
+/// A method without bounds on multipliers, so that all events of contacts are searched in every step.
+#[derive(Clone, Copy)]
+struct Searching<P>(P);
+
+impl<L: Lagrangian<Scalar = f64>, P: Method<L>> Method<L> for Searching<P> {
+    type Memory = P::Memory;
+    type Interpolant = P::Interpolant;
+
+    fn limits(&self) -> Limits {
+        self.0.limits()
+    }
+
+    fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result {
+        self.0.identify(to)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.0.check()
+    }
+
+    fn begin(&self, system: &L, start: &StateOf<L>, statistics: &mut Statistics) -> Result<P::Memory, Error> {
+        self.0.begin(system, start, statistics)
+    }
+
+    fn step(
+        &self,
+        system: &L,
+        memory: &mut P::Memory,
+        end: f64,
+        statistics: &mut Statistics,
+    ) -> Step<f64, L::N> {
+        self.0.step(system, memory, end, statistics)
+    }
+
+    fn interpolant(
+        &self,
+        system: &L,
+        memory: &mut P::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<P::Interpolant, Error> {
+        self.0.interpolant(system, memory, statistics)
+    }
+
+    fn multiplier_bounds(&self, _: &P::Memory) -> Option<MultiplierBounds<f64, L::M>> {
+        None
+    }
+
+    fn undo(&self, memory: &mut P::Memory) -> bool {
+        self.0.undo(memory)
+    }
+}
+
+/// A block on a rough floor, on a spring, that is pulled to and fro, under a load that swings, has a pulse in time and a bump in
+/// space: the force of the floor goes to zero though no acceleration tells of it.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - k*x^2/2 + pull*x*sin(rate*t) - load*y)]
+#[define(load = g + swing*sin(fast*t + phase) - pulse*exp(-((t - t0)/width)^2) - bump*exp(-((x - x0)/size)^2))]
+#[contact(floor: y >= 0, restitution: 0.3, friction(mu): x_dot)]
+struct Block {
+    g: f64,
+    k: f64,
+    pull: f64,
+    rate: f64,
+    swing: f64,
+    fast: f64,
+    phase: f64,
+    pulse: f64,
+    t0: f64,
+    width: f64,
+    bump: f64,
+    x0: f64,
+    size: f64,
+    mu: f64,
+    floor: Contact,
+}
+
+impl Block {
+    fn any(random: &mut Random) -> Self {
+        let mut sometimes = |most: f64| if random.below(2) == 0 { 0.0 } else { random.between(0.0, most) };
+        let [pull, swing, pulse, bump] = [3.0, 1.1, 1.5, 1.5].map(&mut sometimes);
+        Self {
+            g: 1.0,
+            k: random.between(0.0, 2.0),
+            pull,
+            rate: random.size(0.1, 10.0),
+            swing,
+            fast: random.size(0.1, 30.0),
+            phase: random.between(0.0, 6.3),
+            pulse,
+            t0: random.between(0.0, 5.0),
+            width: random.size(0.1, 3.0),
+            bump,
+            x0: random.between(-1.0, 1.0),
+            size: random.size(0.1, 3.0),
+            mu: random.size(0.1, 2.0),
+            floor: Contact::Closed,
+        }
+    }
+}
+
+/// Its transitions: time and kind; or why there is no motion.
+fn transitions(
+    block: &Block,
+    start: State<f64, 2>,
+    method: impl Method<Block>,
+) -> Result<Vec<(f64, String)>, String> {
+    let motion = block.motion(start).by(method).with_contacts().max_transitions(40);
+    let path = motion.towards(6.0).map_err(|error| error.to_string())?;
+    let kind = |transition: &Transition<f64>| match transition {
+        Transition::Impact { .. } => "impact",
+        Transition::Rests { .. } => "rests",
+        Transition::Closes { .. } => "closes",
+        Transition::Opens { .. } => "opens",
+        Transition::Sticks { .. } => "sticks",
+        Transition::Slips { .. } => "slips",
+    };
+    Ok(path
+        .transitions()
+        .iter()
+        .map(|transition| (transition.time(), kind(transition).to_string()))
+        .collect())
+}
+
+/// The first transition that one motion has and the other has not.
+fn lost(found: &[(f64, String)], all: &[(f64, String)]) -> Option<String> {
+    let is_other = |k: &usize| match (found.get(*k), all.get(*k)) {
+        (Some(one), Some(other)) => one.1 != other.1 || (one.0 - other.0).abs() > 1e-6,
+        _ => true,
+    };
+    let k = (0..found.len().max(all.len())).find(is_other)?;
+    Some(format!("transition {k}: {:?}, not {:?}", found.get(k), all.get(k)))
+}
+
+fn fault(k: u64) -> (Option<String>, usize) {
+    let mut random = Random(k.wrapping_mul(0x5851_f42d_4c95_7f2d));
+    let block = Block::any(&mut random);
+    let speed = if random.below(2) == 0 { 0.0 } else { random.between(-2.0, 2.0) };
+    let start = State::new([random.between(-1.0, 1.0), 0.0], [speed, 0.0]);
+    let tolerance = [1e-3, 1e-6, 1e-9, 1e-12][random.below(4)];
+    let (pair, taylor) = (Dop853::with_tolerance(tolerance), Taylor::with_tolerance(tolerance.min(1e-6)));
+    let [found, all] = match k % 2 {
+        0 => [transitions(&block, start, pair), transitions(&block, start, Searching(pair))],
+        _ => [transitions(&block, start, taylor), transitions(&block, start, Searching(taylor))],
+    };
+    match (found, all) {
+        (Ok(found), Ok(all)) => (lost(&found, &all), all.len()),
+        (found, all) => ((found != all).then(|| format!("{found:?}, not {all:?}")), 0),
+    }
+}
+
+#[test]
+fn no_transition_is_lost() {
+    let (cases, mut lost, mut transitions) = (count("LAGRANGE_CONTACTS", 60) as u64, 0, 0);
+    for k in 0..cases {
+        let (fault, count) = fault(k);
+        transitions += count;
+        if let Some(fault) = fault {
+            lost += 1;
+            println!("{k}: {fault}");
+        }
+    }
+    assert!(transitions as u64 > cases / 2, "{transitions} transitions");
+    assert_eq!(lost, 0, "{lost} of {cases} motions, with {transitions} transitions");
+}
