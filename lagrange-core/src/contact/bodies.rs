@@ -171,8 +171,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// round-off, which no entry need exceed where they are all zero.
     pub(super) fn crossed(&self, is_closed: &[bool], state: &StateOf<L>) -> Option<Error> {
         let gaps = self.closed.constraint_residual(state);
-        let is_negative = |&k: &usize| !is_closed[k] && !(gaps[L::CONTACTS[k]] >= L::Scalar::constant(0.0));
-        (0..L::CONTACTS.len()).filter(is_negative).find_map(|k| {
+        let is_positive = |k: usize| gaps[L::CONTACTS[k]] >= L::Scalar::constant(0.0);
+        (0..L::CONTACTS.len()).filter(|&k| !is_closed[k] && !is_positive(k)).find_map(|k| {
             let Measured { gap, noise: [noise, _], .. } = self.measured(k, state);
             let least = -(noise * L::Scalar::constant(CROSSED / (L::Scalar::EPSILON * UNITS)));
             let is_open = gap >= least || (gap + noise >= L::Scalar::constant(0.0));

@@ -8,6 +8,7 @@ use super::condition::Condition;
 use super::friction::bounds;
 use super::instant::{Changed, Decided};
 use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
+use super::shared::Shared;
 use super::trajectory::Transition;
 use super::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::{Ending, Error};
@@ -20,7 +21,7 @@ use crate::number::{Real, Scalar, larger};
 use crate::solution::Sample;
 use crate::solution::crossing::Crossing;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{Lagrangian, SolutionOf, StateOf};
 
 /// A motion under way, which keeps `K` of its legs.
 pub(super) struct Journey<'w, L: Lagrangian, K> {
@@ -159,12 +160,17 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let closed = bodies.closed.clone();
         let sizes = bodies.sizes(state);
         EventSearch::begin_leg(given, &system, [state, &sizes], self.statistics.accepted == 0)?;
+        let (solutions, residuals) = (Solutions::<L>::new(), Shared::<L, _>::new());
         let mut own = Vec::new();
         let zero = L::Scalar::constant(0.0);
         for (k, &row) in L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]) {
-            let (name, closed) = (name(L::CONSTRAINTS, row), &closed);
-            let force = move |sample: &Sample<&L>| Ok(sample.solution()?.multipliers[row]);
-            let gap = move |sample: &Sample<&L>| Ok(closed.constraint_residual(sample.state())[row]);
+            let (name, closed, solutions, residuals) =
+                (name(L::CONSTRAINTS, row), &closed, &solutions, &residuals);
+            let force = move |sample: &Sample<&L>| Ok(solution(solutions, sample)?.multipliers[row]);
+            let gap = move |sample: &Sample<&L>| {
+                let state = sample.state();
+                Ok(residuals.at(state, || Ok(closed.constraint_residual(state)))?[row])
+            };
             let is_resting = decided.is_resting[k];
             own.push(match decided.states.is_closed[k] {
                 true => (
@@ -177,7 +183,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
                 }
             });
         }
-        own.extend(of_friction(&system, &closed, decided, state)?);
+        own.extend(of_friction(&system, (&closed, &solutions), decided, state)?);
         let (own, conditions): (Vec<_>, Vec<_>) = own.into_iter().unzip();
         let first = given.len();
         let given = given.iter_mut().map(|event| Box::new(event) as Box<DynEvent<'_, L>>);
@@ -264,6 +270,19 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     }
 }
 
+/// An event, with the condition that it watches.
+type Watched<'w, L> = (Box<DynEvent<'w, L>>, Condition<<L as Lagrangian>::Scalar>);
+
+/// Solutions that events share.
+type Solutions<L> = Shared<L, SolutionOf<L>>;
+
+fn solution<L: Lagrangian<Scalar: Real>>(
+    solutions: &Solutions<L>,
+    sample: &Sample<&L>,
+) -> Result<SolutionOf<L>, Error> {
+    solutions.at(sample.state(), || sample.solution())
+}
+
 /// Distance of a force from its limit, in units of round-off of both, within which it is watched for leaving it.
 const AT_LIMIT: f64 = 64.0;
 
@@ -274,10 +293,10 @@ const BEYOND: f64 = 1e-6;
 /// The events that friction reaches its limit, or stops the bodies, with the conditions that they watch.
 fn of_friction<'w, L>(
     system: &L,
-    closed: &'w L,
+    (closed, solutions): (&'w L, &'w Solutions<L>),
     decided: &Decided<L::Scalar>,
     state: &StateOf<L>,
-) -> Result<Vec<(Box<DynEvent<'w, L>>, Condition<L::Scalar>)>, Error>
+) -> Result<Vec<Watched<'w, L>>, Error>
 where
     L: Contacts<Scalar: Real> + Clone + 'w,
 {
@@ -290,11 +309,11 @@ where
         let event = match decided.states.frictions[f] {
             Friction::Sticks => {
                 let left = move |sample: &Sample<&L>| {
-                    let [limit, force] = held(closed, f, sample)?;
+                    let [limit, force] = held(closed, f, sample.state(), &solution(solutions, sample)?)?;
                     Ok(limit - force)
                 };
                 // A force that begins at its limit has no sign before, and may have no round-off.
-                let [limit, force] = held(closed, f, &system.sample(*state))?;
+                let [limit, force] = held(closed, f, state, &system.solve(state)?)?;
                 let least = L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * (limit + force);
                 if force - limit > L::Scalar::constant(BEYOND) * (limit + force) + least {
                     return Err(Error::FrictionUndecided { friction: name, time: state.t.to_f64() });
@@ -321,11 +340,11 @@ fn least_speed<T: Real>() -> T {
 fn held<L: Contacts<Scalar: Real> + Clone>(
     closed: &L,
     f: usize,
-    sample: &Sample<&L>,
+    state: &StateOf<L>,
+    SolutionOf::<L> { multipliers, .. }: &SolutionOf<L>,
 ) -> Result<[L::Scalar; 2], Error> {
     let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
-    let multipliers = &sample.solution()?.multipliers;
-    let [limit, _] = bounds(closed, f, sample.state())?;
+    let [limit, _] = bounds(closed, f, state)?;
     let press = contact.map_or(L::Scalar::constant(1.0), |k| multipliers[L::CONTACTS[k]]);
     let force = match count {
         1 => Scalar::abs(multipliers[row]),

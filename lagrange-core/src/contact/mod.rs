@@ -145,11 +145,10 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //!   force of the old direction would change its sign.
 //! - Friction that needs no force sticks if what the other contacts leave of its row is a pivot that the elimination trusts.
 //!
-//! - A step is not searched for forces that leave their limits if `Dop853` or `Taylor` bounds the multipliers away from them.
-//!   Λ being the Lebesgue constant of four of the stages of `Dop853`, no force can leave its limit unnoticed unless it is off every
-//!   cubic polynomial of the time by more than half its range at all 16 stages; by `Taylor`, unless the terms of its series beyond
-//!   the last known one fall more slowly than k⁻². A force that needed more samples than the fewest on the steps before is searched
-//!   for in every step.
+//! - A step is not searched for forces that leave their limits where `Dop853` or `Taylor` bounds the multipliers away from
+//!   them. No force leaves its limit there unless it is off every cubic polynomial of the time by more than half its range at the
+//!   16 stages of `Dop853`, or unless the omitted terms of its Taylor series fall more slowly than k⁻². The first step of a leg,
+//!   one twice as long as the last one searched, and one of a force that needed more than the fewest samples are searched anyway.
 //!
 //! # Accumulating impacts
 //!
@@ -213,6 +212,8 @@ mod law;
 mod legs;
 #[cfg(feature = "alloc")]
 mod lemke;
+#[cfg(feature = "alloc")]
+mod shared;
 #[cfg(feature = "alloc")]
 mod stepping;
 #[cfg(feature = "alloc")]
