@@ -1,6 +1,8 @@
 //! Settings of an event, and the state of its search from step to step.
 
-use super::chebyshev::{COARSEST, FINEST, Samples, Shape};
+#[cfg(feature = "alloc")]
+use super::chebyshev::COARSEST;
+use super::chebyshev::{FINEST, Samples, Shape};
 use crate::error::Ending;
 use crate::motion::run::is_between;
 use crate::number::{Parts, Real, Scalar, larger, smaller};
@@ -50,6 +52,8 @@ pub struct EventState<T> {
     density: Option<T>,
     /// Chebyshev degree per unit of time that the last interval needed.
     needed: Option<T>,
+    /// Width of the interval that the degree is known of.
+    searched: T,
     /// Direction of a crossing that coincides with one of another event reported first: true if rising.
     pub(super) due: Option<bool>,
     /// Time at which the search began.
@@ -127,6 +131,7 @@ impl<T: Real> EventState<T> {
             noise: zero,
             density: None,
             needed: None,
+            searched: zero,
             due: None,
             begun: None,
             until: None,
@@ -198,15 +203,16 @@ impl<T: Real> EventState<T> {
         }
     }
 
-    /// Passes the next step, of this width, without a search, if the function has one sign there, as `is_away` tells, and if
-    /// a search would be content with its lowest degree: what the steps before did not need is as fine as the search itself
-    /// sees.
+    /// Passes the next step, of this width, without a search, if the function has one sign there, as `is_away` tells; if a
+    /// search would be content with its lowest degree; and if the step is at most twice as wide as the last one searched: where
+    /// no acceleration tells of a force, steps grow until they pass over all of it.
     #[cfg(feature = "alloc")]
     #[inline]
     pub(crate) fn stay_away(&mut self, is_away: bool, width: T) {
         self.learn_density();
-        let least = self.density.map(|density| density * width * T::constant(0.5));
-        self.is_away = is_away && least.is_some_and(|least| least <= T::constant(COARSEST as f64));
+        let is_coarse = |density: T| density * width <= T::constant(2.0 * COARSEST as f64);
+        let has_grown = width > T::constant(2.0) * self.searched;
+        self.is_away = is_away && !has_grown && self.density.is_some_and(is_coarse);
         self.is_behind |= self.is_away;
     }
 
@@ -297,7 +303,7 @@ impl<T: Real> EventState<T> {
             _ if shape.swing * T::constant(1024.0) < shape.most => 1.0,
             _ => shape.order as f64,
         };
-        self.needed = Some(T::constant(order) / interval.width);
+        (self.needed, self.searched) = (Some(T::constant(order) / interval.width), interval.width);
     }
 
     /// Adds noise to that below which a value does not count as a change of sign.
