@@ -151,16 +151,16 @@ fn order(form: &Form, equations: &Equations) -> Option<(Vec<usize>, usize)> {
         return Some((order, rows.len()));
     }
     let definitions = form.definitions.iter().map(|row| row.iter().map(|&(i, _)| i).collect()).collect();
-    Some((short(&Pattern { matrix, definitions, after: Vec::new() })?, 0))
+    Some((short(&Pattern { matrix, definitions, after: Vec::new() }, form.columns.is_none())?, 0))
 }
 
-/// Elimination order. `None` if loops are preferable, or if the code exceeds [`OPERATION_LIMIT`].
-fn short(pattern: &Pattern) -> Option<Vec<usize>> {
+/// Elimination order. `None` if loops are preferable, or if the code exceeds [`OPERATION_LIMIT`]. Sliding friction has no loops.
+fn short(pattern: &Pattern, has_loops: bool) -> Option<Vec<usize>> {
     let (order, cost) = reduction_order(pattern);
     let free = pattern.matrix.len() - pattern.definitions.len();
     let in_loops = free * free * free / 3;
     let is_worth_it = cost <= UNROLLED || SPARSE * cost <= in_loops || !pattern.definitions.is_empty();
-    (is_worth_it && cost <= OPERATION_LIMIT).then_some(order)
+    ((is_worth_it || !has_loops) && cost <= OPERATION_LIMIT).then_some(order)
 }
 
 /// Registers of the accelerations and multipliers that a solve computes.

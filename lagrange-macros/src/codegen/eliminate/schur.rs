@@ -32,7 +32,8 @@ impl Solver<'_> {
             }
         }
         let matrix = schur.iter().map(|row| row.iter().map(Option::is_some).collect()).collect();
-        let order = short(&Pattern { matrix, definitions: Vec::new(), after: Vec::new() })?;
+        let order =
+            short(&Pattern { matrix, definitions: Vec::new(), after: Vec::new() }, columns.is_none())?;
         Some(match columns {
             None => self.factor(schur, Vec::new(), &order, 0),
             Some(_) => self.factor_unsymmetric(schur, scale, &order),
