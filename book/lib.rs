@@ -34,6 +34,7 @@ pages!(
     control,
     fits,
     events,
+    contacts,
     ensembles,
     embedded,
     interchange,
