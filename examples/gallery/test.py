@@ -30,6 +30,7 @@ SEEN = {
     "rolling-ball": {"v_0": "s[8]"},
     "rolling-coin": {"lean": "s[4]", "w_r": "s[11]", "w_h": "s[9]"},
     "chaplygin-sleigh": {"v_0": "s[3]", "w_0": "s[5]"},
+    "bouncing-ball": {"v_0": "s[3]", "w_0": "s[5]"},
     "carriage": {"theta_0": "Math.atan2(s[0], -s[1])", "l": "Math.hypot(s[0], s[1])"},
     "turntable": {"x_0": "s[0]", "u_0": "s[3]", "v_0": "s[4]"},
     "heavy-top": {"theta_0": "Math.acos(s[2]/Math.hypot(s[0], s[1], s[2]))", "l": "Math.hypot(s[0], s[1], s[2])"},

@@ -1,6 +1,7 @@
 //! What a system says of itself to be shown.
 
-use lagrange_core::{StateOf, generic::Vector, prelude::*};
+use lagrange_core::contact::Contacts;
+use lagrange_core::{Method, StateOf, generic::Vector, prelude::*};
 
 use crate::scene::{Point, Scene, View};
 
@@ -61,7 +62,7 @@ impl<L: Lagrangian<Scalar = f64>> Moment<L> {
 /// A system that is shown, with `K` sliders.
 ///
 /// The derive has its equations and what it conserves; here is what can be set, where it starts, and how it is drawn.
-pub trait Exhibit<const K: usize>: Lagrangian<Scalar = f64> + Sized + 'static {
+pub trait Exhibit<const K: usize>: Lagrangian<Scalar = f64> + Clone + 'static {
     /// What it is called.
     const TITLE: &'static str;
     /// What to look at.
@@ -74,6 +75,17 @@ pub trait Exhibit<const K: usize>: Lagrangian<Scalar = f64> + Sized + 'static {
     /// The system and its start, by the sliders. Of the start, what violates constraints is projected away.
     fn set(knobs: [f64; K]) -> (Self, StateOf<Self>);
 
+    /// Moves on to this time. A system with contacts moves [across them](across_contacts).
+    ///
+    /// # Errors
+    /// Why the motion ends before.
+    fn advance(motion: &mut Motion<Self, Dop853>, end: f64) -> Result<(), String>
+    where
+        Dop853: Method<Self>,
+    {
+        motion.advance_to(end).map_err(|ending| ending.to_string())
+    }
+
     /// From where it is seen.
     fn view(&self, state: &StateOf<Self>) -> View;
 
@@ -84,4 +96,21 @@ pub trait Exhibit<const K: usize>: Lagrangian<Scalar = f64> + Sized + 'static {
     fn trails(&self, _: &StateOf<Self>) -> Vec<Point> {
         Vec::new()
     }
+}
+
+/// Energies and constraints come to at most so small a part of their size.
+pub(crate) const TOLERANCE: f64 = 1e-12;
+
+/// Moves across contacts to this time.
+pub(crate) fn across_contacts<E>(motion: &mut Motion<E, Dop853>, end: f64) -> Result<(), String>
+where
+    E: Contacts<Scalar = f64> + Clone,
+    Dop853: Method<E>,
+{
+    let method = Dop853::with_tolerance(TOLERANCE);
+    let path = motion.system().motion(*motion.state()).by(method).with_contacts().to(end);
+    let path = path.map_err(|error| error.to_string())?;
+    let next = Motion::new(path.system().clone(), *path.end(), method);
+    *motion = next.map_err(|error| error.to_string())?;
+    Ok(())
 }

@@ -2,10 +2,11 @@
 
 use std::collections::VecDeque;
 
+use lagrange_core::facts::{Conserved, EnergyForm};
 use lagrange_core::generic::Array;
-use lagrange_core::{Method, StateOf, facts::EnergyForm, prelude::*};
+use lagrange_core::{Method, StateOf, prelude::*};
 
-use crate::exhibit::{Exhibit, Moment};
+use crate::exhibit::{Exhibit, Moment, TOLERANCE};
 use crate::scene::{Point, Scene, View};
 
 /// How many frames are kept: two minutes of watching.
@@ -14,8 +15,6 @@ const KEPT: usize = 7200;
 const RATE: f64 = 60.0;
 /// How many frames a trail is long.
 const TRAIL: usize = 900;
-/// Energies and constraints come to at most so small a part of their size.
-const TOLERANCE: f64 = 1e-12;
 /// Of so many constraints the multipliers are plotted.
 const PLOTTED: usize = 6;
 
@@ -43,6 +42,8 @@ pub(crate) type Opened = Result<Box<dyn Running>, String>;
 
 /// What is kept of a frame.
 struct Frame<E: Lagrangian> {
+    /// The system, with its contacts as they are then.
+    system: E,
     state: StateOf<E>,
     values: Vec<f64>,
     trails: Vec<Point>,
@@ -85,7 +86,8 @@ where
 
     fn record(&mut self) {
         let (system, state) = (self.motion.system(), *self.motion.state());
-        let frame = Frame { state, values: self.values(&state), trails: system.trails(&state) };
+        let (system, trails) = (system.clone(), system.trails(&state));
+        let frame = Frame { state, values: self.values(&state), trails, system };
         self.frames.push_back(frame);
         if self.frames.len() > KEPT {
             self.frames.pop_front();
@@ -101,14 +103,19 @@ where
         if matches!(E::FACTS.energy_form, EnergyForm::Sum(_) | EnergyForm::Even(_)) {
             values.extend([f64::midpoint(energy, lagrangian), f64::midpoint(energy, -lagrangian)]);
         }
-        values.extend((0..E::FACTS.conserved.len()).filter_map(|index| system.conserved(index, state)));
-        values.extend(self.moment(state).multipliers.iter().take(PLOTTED));
+        let conserved = (0..Self::conserved().len()).filter_map(|index| system.conserved(index, state));
+        values.extend(conserved);
+        values.extend(Self::moment(system, state).multipliers.iter().take(PLOTTED));
         values
     }
 
+    /// What is conserved; impacts and friction keep nothing that is known beforehand.
+    fn conserved() -> &'static [Conserved] {
+        if E::HAS_CONTACTS { &[] } else { E::FACTS.conserved }
+    }
+
     /// Forces are not a number where they cannot be solved for.
-    fn moment(&self, state: &StateOf<E>) -> Moment<E> {
-        let system = self.motion.system();
+    fn moment(system: &E, state: &StateOf<E>) -> Moment<E> {
         let unknown = Array::filled(f64::NAN).into();
         let multipliers = system.solve(state).map_or(unknown, |solution| solution.multipliers);
         Moment { state: *state, multipliers, force: system.constraint_force(state, &multipliers) }
@@ -120,7 +127,8 @@ where
         index.saturating_sub(self.forgotten).min(self.frames.len() - 1)
     }
 
-    /// Between two frames by the cubic through both, whose error is that of a picture.
+    /// Between two frames by the cubic through both, whose error is that of a picture. Across contacts, where velocities
+    /// jump, by the line.
     fn at(&self, t: f64) -> StateOf<E> {
         let index = self.index(t);
         let before = self.frames[index].state;
@@ -131,6 +139,7 @@ where
         let s = ((t - before.t) / h).clamp(0.0, 1.0);
         let rise = s * s * (3.0 - 2.0 * s);
         let [leaving, coming] = [s * (1.0 - s) * (1.0 - s) * h, s * s * (s - 1.0) * h];
+        let [rise, leaving, coming] = if E::HAS_CONTACTS { [s, 0.0, 0.0] } else { [rise, leaving, coming] };
         let q =
             |i| before.q[i] * (1.0 - rise) + after.q[i] * rise + before.v[i] * leaving + after.v[i] * coming;
         let v = |i| before.v[i] * (1.0 - s) + after.v[i] * s;
@@ -149,7 +158,7 @@ where
             if next > end {
                 return Ok(());
             }
-            self.motion.advance_to(next).map_err(|ending| ending.to_string())?;
+            E::advance(&mut self.motion, next)?;
             self.record();
         }
     }
@@ -159,13 +168,14 @@ where
     }
 
     fn view(&self, t: f64) -> View {
-        self.motion.system().view(&self.at(t))
+        self.frames[self.index(t)].system.view(&self.at(t))
     }
 
     fn scene(&self, t: f64, with_forces: bool) -> Vec<f32> {
-        let (system, moment) = (self.motion.system(), self.moment(&self.at(t)));
-        let mut scene = Scene::new(&system.view(&moment.state), with_forces);
         let last = self.index(t);
+        let system = &self.frames[last].system;
+        let moment = Self::moment(system, &self.at(t));
+        let mut scene = Scene::new(&system.view(&moment.state), with_forces);
         let trails = &self.frames[last].trails;
         for k in 0..trails.len() {
             let frames = self.frames.range(last.saturating_sub(TRAIL)..=last);
@@ -188,7 +198,7 @@ where
         if matches!(E::FACTS.energy_form, EnergyForm::Sum(_) | EnergyForm::Even(_)) {
             quantities.extend(["T", "U"].map(named("energy")));
         }
-        quantities.extend(E::FACTS.conserved.iter().map(|conserved| named("conserved")(conserved.name)));
+        quantities.extend(Self::conserved().iter().map(|conserved| named("conserved")(conserved.name)));
         quantities.extend(E::CONSTRAINTS.iter().copied().take(PLOTTED).map(named("multiplier")));
         quantities
     }

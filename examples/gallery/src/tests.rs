@@ -87,3 +87,20 @@ fn links_name_one_system_each() {
         entry.knobs.iter().all(|knob| knob.range[0] <= knob.value && knob.value <= knob.range[1])
     }));
 }
+
+/// Impacts and friction take energy, and give none.
+#[test]
+fn contacts_take_energy() {
+    for entry in
+        all().iter().filter(|entry| ["bouncing-ball", "rocking-block", "woodpecker"].contains(&entry.key))
+    {
+        let energies = run(entry, &values(entry), 5.0).series(0, 0.0, 5.0);
+        let most = energies.iter().fold(0.0_f64, |most, energy| most.max(energy.abs()));
+        assert!(
+            energies.windows(2).all(|pair| pair[1] <= pair[0] + 1e-9 * most),
+            "{} gains energy",
+            entry.key
+        );
+        assert!(energies[energies.len() - 1] < energies[0] - 1e-3 * most, "{} keeps its energy", entry.key);
+    }
+}

@@ -4,7 +4,7 @@ use lagrange_core::prelude::*;
 
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
 #[constraint(wire: y - b*x^2/2 = 0)]

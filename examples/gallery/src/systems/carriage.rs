@@ -5,7 +5,7 @@ use lagrange_core::prelude::*;
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 
 /// In the carriage, Milton (8.40): A is the acceleration of that.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
 #[define(A = gain + reach*omega^2*sin(omega*t))]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y - m*A*x)]

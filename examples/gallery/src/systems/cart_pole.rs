@@ -6,7 +6,7 @@ use lagrange_core::prelude::*;
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 
 /// θ is measured from the upright; the cart is pushed by what holds it in this wind less the feedback.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(x, theta)]
 #[define(bob = [x + l*sin(theta), l*cos(theta)])]
 #[lagrangian(cart/2*x_dot^2 + m/2*dot(der(bob), der(bob)) - m*g*bob[1])]

@@ -6,7 +6,7 @@ use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 
 const RODS: usize = 50;
 
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(x: [50], y: [50])]
 #[lagrangian(sum(i in 0..50, m/2*(x_dot[i]^2 + y_dot[i]^2) - m*g*y[i]))]
 #[constraint(first: (x[0]^2 + y[0]^2 - l^2)/2 = 0)]

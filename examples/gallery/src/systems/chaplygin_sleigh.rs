@@ -5,7 +5,7 @@ use lagrange_core::prelude::*;
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 
 /// A sleigh on a blade at (x, y), with the centre of mass ahead of it.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(x, y, theta)]
 #[define(centre = [x + d*cos(theta), y + d*sin(theta)])]
 #[lagrangian(m/2*dot(der(centre), der(centre)) + inertia/2*theta_dot^2)]

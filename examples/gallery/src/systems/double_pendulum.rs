@@ -4,7 +4,7 @@ use lagrange_core::prelude::*;
 
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(x: [2], y: [2])]
 #[lagrangian(sum(i in 0..2, m[i]/2*(x_dot[i]^2 + y_dot[i]^2) - m[i]*g*y[i]))]
 #[constraint(upper: (x[0]^2 + y[0]^2 - l[0]^2)/2 = 0)]

@@ -5,7 +5,7 @@ use lagrange_core::prelude::*;
 
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(r: [3], q: [4])]
 #[parameter(inertia: symmetric)]
 #[frame(body: translate(r), rotate(q))]

@@ -4,7 +4,7 @@ use lagrange_core::prelude::*;
 
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(r: [3])]
 #[frame(site: rotate_z(rate*t), rotate_x(pi/2), rotate_x(-latitude))]
 #[lagrangian(kinetic(site, m, r) - m*g*r[2])]

@@ -6,7 +6,7 @@ use lagrange_core::prelude::*;
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 
 /// Its centre of mass is at r; its tip, at the distance l below that, is held by three constraints.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(r: [3], q: [4])]
 #[parameter(inertia: symmetric)]
 #[frame(top: translate(r), rotate(q))]

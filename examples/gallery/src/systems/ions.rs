@@ -5,7 +5,7 @@ use lagrange_core::prelude::*;
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 
 /// In the frame of the trap, which turns; k is the repulsion.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(r: [5, 3])]
 #[define(W = [0, 0, omega])]
 #[define(U(s) = (s[0]^2 + stiffness*s[1]^2 + 3*s[2]^2)/2)]

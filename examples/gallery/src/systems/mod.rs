@@ -1,6 +1,7 @@
 //! The systems that are shown, a file each.
 
 mod bead;
+mod bouncing_ball;
 mod carriage;
 mod cart_pole;
 mod chain;
@@ -14,6 +15,7 @@ mod ions;
 mod polar_pendulum;
 mod race;
 mod robot_arm;
+mod rocking_block;
 mod rolling_ball;
 mod rolling_coin;
 mod rolling_cylinder;
@@ -21,6 +23,7 @@ mod spherical_pendulum;
 mod stewart_platform;
 mod three_bodies;
 mod turntable;
+mod woodpecker;
 
 use lagrange_core::{Method, facts::Equations, prelude::*};
 
@@ -42,7 +45,7 @@ pub struct Entry {
     pub pace: f64,
     /// What the derive writes of it.
     pub equations: Equations,
-    /// Whether the derive found that the energy is conserved.
+    /// Whether the derive found that the energy is conserved, and no contact takes of it.
     pub conserves_energy: bool,
     /// The names of its coordinates.
     pub coordinates: &'static [&'static str],
@@ -62,7 +65,7 @@ where
         knobs: E::KNOBS,
         pace: E::PACE,
         equations: E::EQUATIONS,
-        conserves_energy: E::FACTS.energy_is_conserved.is_some(),
+        conserves_energy: E::FACTS.energy_is_conserved.is_some() && !E::HAS_CONTACTS,
         coordinates: E::COORDINATES,
         open: running::open::<E, K>,
     }
@@ -85,6 +88,9 @@ pub fn all() -> Vec<Entry> {
         entry::<carriage::Carriage, _>("carriage"),
         entry::<turntable::Turntable, _>("turntable"),
         entry::<ions::StirredIons, _>("ions"),
+        entry::<bouncing_ball::BouncingBall, _>("bouncing-ball"),
+        entry::<rocking_block::RockingBlock, _>("rocking-block"),
+        entry::<woodpecker::Woodpecker, _>("woodpecker"),
         entry::<heavy_top::HeavyTop, _>("heavy-top"),
         entry::<flipping_body::FlippingBody, _>("flipping-body"),
         entry::<stewart_platform::StewartPlatform, _>("stewart-platform"),

@@ -5,7 +5,7 @@ use lagrange_core::prelude::*;
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 
 /// θ is measured from hanging.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(theta, phi)]
 #[lagrangian(m*l^2/2*(theta_dot^2 + sin(theta)^2*phi_dot^2) + m*g*l*cos(theta))]
 pub(super) struct PolarPendulum {

@@ -5,7 +5,7 @@ use lagrange_core::prelude::*;
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 
 /// A sphere, a cylinder and a hoop; `shape` is I/ma².
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(x: [3], phi: [3])]
 #[lagrangian(sum(i in 0..3, m/2*x_dot[i]^2 + shape[i]*m*a^2/2*phi_dot[i]^2 + m*g*x[i]*sin(alpha)))]
 #[constraint(no_slip[i in 0..3]: x_dot[i] - a*phi_dot[i] = 0)]

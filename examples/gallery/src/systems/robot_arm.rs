@@ -14,7 +14,7 @@ pub(super) struct Body {
 }
 
 /// By the convention of Denavit and Hartenberg; about a PUMA 560.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(q: [6])]
 #[define(a = [0, 0.43, 0.02, 0, 0, 0])]
 #[define(d = [0.67, 0, 0.15, 0.43, 0, 0.2])]

@@ -6,7 +6,7 @@ use lagrange_core::prelude::*;
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 
 /// Its pose is where its centre is, its heading, how far it leans, and how far it has rolled.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(r: [3], heading, lean, roll)]
 #[parameter(inertia: symmetric)]
 #[frame(tilted: translate(r), rotate_z(heading), rotate_x(lean))]

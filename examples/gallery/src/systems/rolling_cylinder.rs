@@ -4,7 +4,7 @@ use lagrange_core::prelude::*;
 
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(X, phi)]
 #[define(inertia = m/2 * a^2)]
 #[lagrangian(m/2 * X_dot^2 + inertia/2 * phi_dot^2 + m*g*X*sin(alpha) - k/2 * X^2)]

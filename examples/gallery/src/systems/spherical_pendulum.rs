@@ -4,7 +4,7 @@ use lagrange_core::prelude::*;
 
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(r: [3])]
 #[lagrangian(m/2 * dot(r_dot, r_dot) - m*g*r[2])]
 #[constraint(string: (dot(r, r) - l^2)/2 = 0)]

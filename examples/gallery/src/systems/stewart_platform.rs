@@ -6,7 +6,7 @@ use lagrange_core::prelude::*;
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
 
 /// Each leg is a cylinder on a universal joint, a piston in it and a spring between them; the plate is at their ends.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(r: [3], turn: [4], roll: [6], pitch: [6], length: [6])]
 #[parameter(inertia: symmetric)]
 #[frame(plate: translate(r), rotate(turn))]

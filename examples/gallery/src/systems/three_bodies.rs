@@ -4,7 +4,7 @@ use lagrange_core::prelude::*;
 
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(x: [3], y: [3])]
 #[define(apart(i, j) = sqrt((x[i] - x[j])^2 + (y[i] - y[j])^2))]
 #[lagrangian(sum(i in 0..3, m[i]/2*(x_dot[i]^2 + y_dot[i]^2))

@@ -5,7 +5,7 @@ use lagrange_core::prelude::*;
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
 
 /// In the frame: v₀ = v + Ω×r.
-#[derive(Lagrangian)]
+#[derive(Clone, Lagrangian)]
 #[coordinates(r: [3])]
 #[define(v = r_dot)]
 #[define(W = [0, 0, omega])]
