@@ -127,6 +127,7 @@ fn transitions(
         Transition::Opens { .. } => "opens",
         Transition::Sticks { .. } => "sticks",
         Transition::Slips { .. } => "slips",
+        Transition::Reverses { .. } => "reverses",
     };
     Ok(path
         .transitions()

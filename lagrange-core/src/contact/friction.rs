@@ -350,7 +350,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) {
         // At the start of a motion there are none before.
-        for (f, FrictionRows { row, count, contact }) in
+        for (f, FrictionRows { row, count, contact, .. }) in
             L::FRICTIONS.iter().enumerate().take(was.frictions.len())
         {
             let (friction, time) = (L::CONSTRAINTS[*row], state.t);

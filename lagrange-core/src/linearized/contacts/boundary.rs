@@ -112,7 +112,7 @@ fn hold<L: Linearized<Scalar: Real> + Contacts + Clone>(
     direction: &Direction<L::Scalar, L::N>,
     argument: Option<Entry>,
 ) -> Result<L::Scalar, Error> {
-    let FrictionRows { row, count, contact } = L::FRICTIONS[f];
+    let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
     let limit = Law {
         name: name(L::CONSTRAINTS, row),
         value: &|system: &L, state: &StateOf<L>| system.friction_limit(f, state),

@@ -159,7 +159,7 @@ fn is_at_limit<L: Linearized<Scalar: Real> + Contacts>(
     f: usize,
     state: &StateOf<L>,
 ) -> Result<bool, Error> {
-    let FrictionRows { row, count, contact } = L::FRICTIONS[f];
+    let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
     let (solution, one) = (solve(stuck, state)?, L::Scalar::constant(1.0));
     if !solution.multipliers_are_unique() {
         return Ok(false);

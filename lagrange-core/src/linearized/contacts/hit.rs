@@ -74,7 +74,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         [before, after]: [&StateOf<L>; 2],
         impulses: &Impulses<L>,
     ) -> Result<Friction, Error> {
-        let FrictionRows { row, count, contact } = L::FRICTIONS[f];
+        let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
         let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
         let of = |a: usize| impulse_of(impulses, L::CONSTRAINTS[a]);
         let size = |numbers: [L::Scalar; 2]| Scalar::sqrt(numbers[0] * numbers[0] + numbers[1] * numbers[1]);
