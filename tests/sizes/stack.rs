@@ -126,7 +126,7 @@ fn the_derivatives_of_a_motion_of_a_hundred_coordinates_on_fifty_constraints() {
 }
 
 /// The nearest state is sought off the constraints, where they curve. Optimised that takes 752 KiB, so that it fits into the 1 MiB of a
-/// program in a browser; unoptimised, where what is moved is copied, 2.7 MiB.
+/// program in a browser; unoptimised, where what is moved is copied, 2.7 MiB. `LAGRANGE_STACK` is the size of the stack in KiB.
 #[test]
 fn a_start_of_a_hundred_coordinates_comes_to_fifty_constraints() {
     /// Fifty bobs on rods of their own.
@@ -136,7 +136,8 @@ fn a_start_of_a_hundred_coordinates_comes_to_fifty_constraints() {
     #[constraint(rod[i in 0..50]: x[i]^2 + y[i]^2 = 1)]
     struct Bobs;
 
-    on_a_thread_of(if cfg!(debug_assertions) { 3072 } else { 1024 }, || {
+    let kib = std::env::var("LAGRANGE_STACK").map_or(3072, |kib| kib.parse().expect("a number of KiB"));
+    on_a_thread_of(kib, || {
         let start = State::new([2.0; 100], [0.5; 100]);
         let (state, _) = Bobs.make_consistent(&start).expect("a state");
         let nearest = 0.5_f64.sqrt();
