@@ -10,6 +10,7 @@ use lagrange_core::prelude::*;
 #[contact(bump: r >= 0)]
 #[contact(brake: x_dot >= 0)]
 #[contact(legs[i in 0..3]: r[0] - i >= 0)]
+#[contact(toes[i in 0..3]: r[1] - i >= 0)]
 #[contact(slab: y - 3 >= 0, restitution: f)]
 #[constraint(grip: x = y, when: held)]
 #[constraint(hook: x = 2*y, when: m)]
@@ -20,6 +21,7 @@ struct System {
     brake: Contact,
     slab: Contact,
     legs: [Contact; 2],
+    toes: Contact,
 }
 
 // What is wrong above is not wrong here once more.

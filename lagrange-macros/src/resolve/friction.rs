@@ -16,8 +16,12 @@ impl Law {
 }
 
 impl Lowering<'_> {
-    /// Entry of the field that says whether a constraint holds, if there is one.
-    pub(super) fn entry_of_state(&mut self, constraint: &Constraint, element: &[usize]) -> Option<Entry> {
+    /// Entry of the field that says whether this element of a family of constraints, up to the last one, holds; if there is one.
+    pub(super) fn entry_of_state(
+        &mut self,
+        constraint: &Constraint,
+        elements: [&[usize]; 2],
+    ) -> Option<Entry> {
         let field = constraint.when.as_ref()?;
         let ty = match constraint.law {
             Law::Equation => "bool",
@@ -25,10 +29,10 @@ impl Lowering<'_> {
             Law::Dry { .. } => FRICTION,
             // An error in the field has been reported with the contact.
             Law::Coulomb { .. } => {
-                return self.parameters.switch((field, CONTACT), element, &mut Diagnostics::default());
+                return self.parameters.switch((field, CONTACT), elements, &mut Diagnostics::default());
             }
         };
-        self.parameters.switch((field, ty), element, self.diagnostics)
+        self.parameters.switch((field, ty), elements, self.diagnostics)
     }
 
     /// Adds a contact.

@@ -213,15 +213,15 @@ impl Parameters {
         }
     }
 
-    /// Index of the switch of a constraint, or of this element of a family of constraints. Its field has the type
-    /// `ty`, or is an array of it with an entry for each element.
+    /// Index of the switch of a constraint, or of this element of a family of constraints up to the last one. Its field has the
+    /// type `ty`, or is an array of it with an entry for each element.
     pub(super) fn switch(
         &mut self,
         (name, ty): (&Name, &str),
-        element: &[usize],
+        [element, last]: [&[usize]; 2],
         diagnostics: &mut Diagnostics,
     ) -> Option<Entry> {
-        let written = element.iter().rfold(ty.to_owned(), |ty, i| format!("[{ty}; {}]", i + 1));
+        let written = last.iter().rfold(ty.to_owned(), |ty, i| format!("[{ty}; {}]", i + 1));
         let Some(field) = self.fields.iter().position(|field| field.name.text == name.text) else {
             let message = match ty {
                 CONTACT => format!(

@@ -91,8 +91,10 @@ impl Lowering<'_> {
                 }
                 _ => seen.insert(name.text.clone(), (name.place, indices.len())),
             };
-            for element in self.elements(indices) {
-                self.constraint(constraint, &element, &mut rows, powers);
+            let elements = self.elements(indices);
+            let last = elements.last().cloned().unwrap_or_default();
+            for element in elements {
+                self.constraint(constraint, [&element, &last], &mut rows, powers);
                 if rows.len() > CONSTRAINT_LIMIT {
                     let message = format!("a system has at most {CONSTRAINT_LIMIT} constraints");
                     self.diagnostics.error(name.place, message);
@@ -111,7 +113,7 @@ impl Lowering<'_> {
     fn constraint(
         &mut self,
         constraint: &Constraint,
-        element: &[usize],
+        [element, last]: [&[usize]; 2],
         rows: &mut Vec<(Label, Id)>,
         powers: &mut Vec<(Id, Id)>,
     ) {
@@ -123,7 +125,7 @@ impl Lowering<'_> {
         }
         let place = constraint.left.place.to(constraint.right.place);
         residual.flat().into_iter().for_each(|row| self.reject_kink("a constraint", row, place));
-        let entry = self.entry_of_state(constraint, element);
+        let entry = self.entry_of_state(constraint, [element, last]);
         match &constraint.law {
             Law::Equation => {}
             Law::Contact { restitution } => {
