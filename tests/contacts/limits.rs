@@ -160,3 +160,53 @@ fn a_block_rests_on_a_wedge_that_is_shaken() {
         assert!(path.transitions().len() < 100, "{:?}", path.transitions().len());
     }
 }
+
+/// A leg with a foot; hip at (x, y), thigh, shank and foot by their angles, and springs in the joints.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, a, b, c)]
+#[define(knee = [x + l*sin(a), y - l*cos(a)])]
+#[define(ankle = knee + [l*sin(b), -l*cos(b)])]
+#[define(heel = ankle + [-back*cos(c) + up*sin(c), -back*sin(c) - up*cos(c)])]
+#[define(toe = ankle + [front*cos(c) + up*sin(c), front*sin(c) - up*cos(c)])]
+#[define(thigh = [x + l/2*sin(a), y - l/2*cos(a)])]
+#[define(shank = knee + [l/2*sin(b), -l/2*cos(b)])]
+#[define(sole = (heel + toe)/2)]
+#[define(moving = 5*(x_dot^2 + y_dot^2) + 1.5*dot(der(thigh), der(thigh)) + dot(der(shank), der(shank)))]
+#[define(turning = 0.02*a_dot^2 + 0.0133*b_dot^2 + 0.4*dot(der(sole), der(sole)) + 0.005*c_dot^2)]
+#[define(weight = g*(10*y + 3*thigh[1] + 2*shank[1] + 0.8*sole[1]))]
+#[define(springs = k/2*((a - b - 0.6)^2 + (c - b - 0.3)^2 + (a - 0.3)^2))]
+#[lagrangian(moving + turning - weight - springs)]
+#[dissipation(d/2*((a_dot - b_dot)^2 + (c_dot - b_dot)^2 + a_dot^2))]
+#[contact(heel_floor: heel[1] >= 0, friction(mu): der(heel)[0])]
+#[contact(toe_floor: toe[1] >= 0, friction(mu): der(toe)[0])]
+struct Leg {
+    l: f64,
+    back: f64,
+    front: f64,
+    up: f64,
+    g: f64,
+    k: f64,
+    d: f64,
+    mu: f64,
+    heel_floor: Contact,
+    toe_floor: Contact,
+}
+
+/// Heel and toe of a foot that lies on the floor have one velocity, and stop at one time.
+#[test]
+fn heel_and_toe_stop_together() {
+    for mu in [0.02, 0.035, 0.05, 0.065, 0.08] {
+        let (heel_floor, toe_floor) = (Contact::Open, Contact::Open);
+        let (l, back, front, up) = (0.4, 0.06, 0.16, 0.06);
+        let leg = Leg { l, back, front, up, g: 9.81, k: 200.0, d: 8.0, mu, heel_floor, toe_floor };
+        let start = State::new([0.0, 1.0, 0.3, -0.3, 0.1], [0.2, 0.0, 0.0, 0.0, 0.0]);
+        let path = leg.motion(start).with_contacts().towards(1.5).unwrap();
+        assert!(!path.ending().is_failure(), "mu = {mu}: {}", path.ending());
+        let mut energy = f64::INFINITY;
+        for step in path.legs().iter().flat_map(|leg| leg.steps()) {
+            let now = leg.energy(step.state());
+            assert!(now < energy + 1e-8 * energy.abs().min(1e3), "mu = {mu}: gains {:e}", now - energy);
+            energy = energy.min(now);
+        }
+    }
+}

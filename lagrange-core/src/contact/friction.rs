@@ -108,10 +108,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         (velocity, [Scalar::sqrt(x * x + y * y), noise])
     }
 
-    /// Direction in which bodies slide; `None` if they are at rest but for round-off.
-    pub(super) fn slip(&self, f: usize, state: &StateOf<L>) -> Option<[L::Scalar; 2]> {
+    /// Direction in which bodies slide; `None` if they are at rest but for so many units of round-off.
+    pub(super) fn slip(&self, f: usize, state: &StateOf<L>, units: f64) -> Option<[L::Scalar; 2]> {
         let (velocity, [speed, noise]) = self.sliding(f, state);
-        (speed > noise).then(|| velocity.map(|component| component / speed))
+        (speed > L::Scalar::constant(units) * noise).then(|| velocity.map(|component| component / speed))
     }
 
     /// Whether bodies are at rest where their velocity along the direction of sliding has become zero. That of one velocity is

@@ -49,7 +49,9 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
         state: &StateOf<L>,
         changed: &Changed,
     ) -> Self {
-        let slip = |f| if changed.stops == Some(f) { None } else { bodies.slip(f, state) };
+        // What has the same velocity as another friction stops with it.
+        let units = if changed.stops.is_some() { BEGIN } else { 1.0 };
+        let slip = |f| if changed.stops == Some(f) { None } else { bodies.slip(f, state, units) };
         let slips = (0..L::FRICTIONS.len()).map(slip).collect();
         let begun = changed.slips.iter().map(|&(f, direction)| (f, direction.map(L::Scalar::constant)));
         let (begun, held) = (begun.collect(), Vec::new());
