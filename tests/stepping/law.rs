@@ -1,6 +1,6 @@
 //! The laws of Newton and Coulomb at every step, with gaps and velocities by hand.
 
-use lagrange_core::contact::{Contact, MoreauJean};
+use lagrange_core::contact::{Contact, MoreauJean, TimeStep};
 use lagrange_core::prelude::*;
 
 const G: f64 = 9.81;
@@ -198,5 +198,41 @@ fn energy_never_rises() {
             assert!(pair[1] - pair[0] <= lift + within, "{pair:?} at {at:?}");
         }
         assert!(energies[energies.len() - 1] < 0.5 * energies[0]);
+    }
+}
+
+/// A slider between two faces, whose weight turns round.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y*cos(w*t))]
+#[contact(low: y >= 0, friction(mu): x_dot)]
+#[contact(high: clearance - y >= 0, friction(mu): x_dot)]
+struct Slider {
+    m: f64,
+    g: f64,
+    mu: f64,
+    w: f64,
+    clearance: f64,
+    low: Contact,
+    high: Contact,
+}
+
+/// The faces could press the slider between them with any force. That of a face that is relieved is not kept by the other one:
+/// friction is μ m g |cos w t|.
+#[test]
+fn faces_without_clearance_press_no_more_than_the_weight() {
+    let (low, high) = (Contact::Closed, Contact::Open);
+    let slider = Slider { m: 1.0, g: 9.81, mu: 0.3, w: 2.0, clearance: 0.0, low, high };
+    let start = State::new([0.0, 0.0], [5.0, 0.0]);
+    // The distance by Simpson's rule, with a weight that turns round within parts: its error is below 1e-6.
+    let slowed = |t: f64| 0.3 * 9.81 * (2.0 * t).cos().abs() * (2.3 - t);
+    let simpson = |k: usize| slowed(k as f64 * 1e-3) * [2.0, 4.0][k % 2];
+    let ride = 11.5 - (0..=2300).map(simpson).sum::<f64>() * 1e-3 / 3.0 + slowed(0.0) * 1e-3 / 3.0;
+    for h in [1e-2, 1e-3] {
+        let path = slider.motion(start).by_time_stepping(MoreauJean::with_step(h)).to(2.3).unwrap();
+        assert!((path.end().q[0] - ride).abs() < 0.1 * h, "{h}: {} {ride}", path.end().q[0]);
+        let both = |step: &TimeStep<Slider>| step.impulse("low").unwrap().min(step.impulse("high").unwrap());
+        let most = path.steps().iter().map(both).fold(0.0, f64::max);
+        assert!(most < 1e-9, "{h}: {most:e}");
     }
 }
