@@ -189,7 +189,7 @@ pub(crate) fn arrive<'w, L: Contacts<Scalar: Real> + Clone, P: Method<L>>(
 pub struct ContactArrival<L: Lagrangian> {
     /// Its end, samples, quantities and crossings.
     pub arrival: Arrival<L::Scalar, L::N>,
-    /// Its transitions, in the order of time.
+    /// Its transitions, in the order in which they were decided.
     pub transitions: Vec<Transition<L::Scalar>>,
     /// The system, with parameters and contacts as they are at the end.
     pub system: L,

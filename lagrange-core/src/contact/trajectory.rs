@@ -160,7 +160,8 @@ impl<L: Lagrangian> ContactTrajectory<L> {
         Self { legs, before, transitions, crossings, statistics, system, start, end: state, ending }
     }
 
-    /// Returns the transitions, in the order of time; at one time, impacts before what closes and opens.
+    /// Returns the transitions in the order in which they are decided, which is that of time but for [`Transition::Rests`]: it has
+    /// the later time when its bounces end. At one time impacts come before what closes and opens.
     pub fn transitions(&self) -> &[Transition<L::Scalar>] {
         &self.transitions
     }

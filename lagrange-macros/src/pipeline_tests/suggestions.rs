@@ -65,7 +65,7 @@ fn other_names_for_the_same() {
     }
     for (term, advice) in [
         ("cos(time)", "the time is `t`"),
-        ("exp1", "the exponential function is `exp(x)`"),
+        ("exp1", "a parameter is a field of the struct, and the exponential function is `exp(x)`"),
         ("30*deg", "a degree is `pi/180`"),
         ("Sin*theta", "functions are written `sin(x)`"),
         ("vel^2", "the velocity of `theta` is `theta_dot`"),

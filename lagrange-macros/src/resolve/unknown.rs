@@ -7,7 +7,7 @@ use crate::syntax::{GREEK, Name};
 const NAMES: [(&str, &str); 8] = [
     ("fixed", "it is the frame at rest, and stands where a frame is asked for: `express(v, fixed)`"),
     ("time Time", "the time is `t`"),
-    ("e E exp1", "the exponential function is `exp(x)`"),
+    ("e E exp1", "a parameter is a field of the struct, and the exponential function is `exp(x)`"),
     ("deg degree degrees rad radians", "angles are in radians, and a degree is `pi/180`"),
     ("inf Inf infinity oo nan NaN", "the expression must have a value everywhere"),
     ("TAU", "a full turn is `2*pi`"),
