@@ -336,3 +336,35 @@ struct Thrown {
     g: f64,
     ceiling: Contact,
 }
+
+/// A ball whose restitution swings in time.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(y_dot^2/2 - g*y)]
+#[contact(floor: y >= 0, restitution: e + b*sin(w*t))]
+struct Swinging {
+    g: f64,
+    e: f64,
+    b: f64,
+    w: f64,
+    floor: Contact,
+}
+
+/// The law is differentiated at its own rate, and not at that of the time: from the first impact on, after a fall for 1 s with 2 m/s,
+/// the velocity is 2 (e + b sin w t) − g (end − t).
+#[test]
+fn a_restitution_may_vary_faster_than_the_time() {
+    for (w, start) in [(3.0, 0.0), (3.0, 50.0), (300.0, 0.0), (300.0, 50.0)] {
+        let ball = Swinging { g: 2.0, e: 0.5, b: 0.2, w, floor: Contact::Open };
+        let path = ball.motion(State { t: start, ..State::at_rest([1.0]) });
+        let path = path.by(Dop853::with_tolerance(1e-13)).with_contacts().to(start + 1.2).unwrap();
+        let along = path.sensitivity(&["e", "w", "y"], Dop853::with_tolerance(1e-13)).unwrap();
+        let (t, phase) = (start + 1.0, w * (start + 1.0));
+        // The fall takes √y, to a velocity of 2√y.
+        let by_height = (0.5 + 0.2 * phase.sin()) + (0.2 * w * phase.cos() * 2.0 + 2.0) * 0.5;
+        for (k, expected) in [2.0, 0.4 * t * phase.cos(), by_height].into_iter().enumerate() {
+            let (found, size) = (along.v[(0, k)], 1.0 + expected.abs());
+            assert!((found - expected).abs() < 1e-9 * size, "w = {w}, from {start}, {k}: {found} {expected}");
+        }
+    }
+}

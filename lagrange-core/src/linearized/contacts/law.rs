@@ -9,9 +9,19 @@ use crate::number::{Real, Scalar, larger};
 use crate::system::{Direction, State, StateOf};
 use crate::vector::Entrywise;
 
-/// Step of the differences of a law, in units of its arguments. The formula of order six is off by h⁶/140 of the
-/// seventh derivative, 2·10⁻¹⁷, and by some ε/h of the value, 6·10⁻¹⁴.
+/// First step of the differences of a law, in units of its arguments. The formula of order six is off by h⁶/140 of the
+/// seventh derivative, 2·10⁻¹⁷ for one that varies over its arguments, and by some ε/h of the value, 6·10⁻¹⁴.
 const STEP: f64 = 1.0 / 256.0;
+
+/// Factor from one step to the next, for laws that vary faster, and largest number of steps.
+const SHORTER: f64 = 0.25;
+const STEPS: usize = 12;
+
+/// Relative difference of the derivatives by two steps, at which the shorter one is off by 4⁻⁶ of it, 2·10⁻¹¹.
+const SAME: f64 = 1e-7;
+
+/// Round-off of a derivative, in units of ε/h of the largest value.
+const ROUND_OFF: f64 = 64.0;
 
 /// A law, of the contact or friction of a name.
 pub(super) struct Law<'a, L: Linearized> {
@@ -24,7 +34,8 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Law<'_, L> {
         (self.value)(system, state).unwrap_or(L::Scalar::constant(0.0))
     }
 
-    /// Derivative along a direction and by an argument, by differences of order six.
+    /// Derivative along a direction and by an argument, by differences of order six. Steps are shortened until three of them
+    /// agree; a law that varies within a sixteenth of the last one alone, and is flat around it, counts as flat.
     pub(super) fn change(
         &self,
         system: &L,
@@ -45,11 +56,24 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Law<'_, L> {
             let is_known = is_set || value == L::Scalar::constant(0.0);
             if is_known { Ok(value) } else { Err(self.cannot_be_set(&state)) }
         };
-        let mut sum = L::Scalar::constant(0.0);
-        for (part, weight) in [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)] {
-            sum += (at(part)? - at(-part)?) * L::Scalar::constant(weight / 60.0);
+        let (mut known, mut agree, mut shorter) = (None, 0, 1.0);
+        for _ in 0..STEPS {
+            let [derivative, size] = differences(|part| at(part * shorter))?.map(|sum| sum / step);
+            let (derivative, size) =
+                (derivative / L::Scalar::constant(shorter), size / L::Scalar::constant(shorter));
+            let noise = L::Scalar::constant(L::Scalar::EPSILON * ROUND_OFF) * size;
+            let is_same = |before: L::Scalar| {
+                Scalar::abs(derivative - before)
+                    <= L::Scalar::constant(SAME) * Scalar::abs(derivative) + noise
+            };
+            agree = if known.is_some_and(is_same) { agree + 1 } else { 0 };
+            if agree == 2 {
+                return Ok(derivative);
+            }
+            (known, shorter) = (Some(derivative), shorter * SHORTER);
         }
-        Ok(sum / step)
+        let reason = "its law varies too fast for differences of it";
+        Err(Error::NoDerivativeAcross { contact: self.name, time: state.t.to_f64(), reason })
     }
 
     fn cannot_be_set(&self, state: &StateOf<L>) -> Error {
@@ -58,7 +82,18 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Law<'_, L> {
     }
 }
 
-/// Step of the differences: [`STEP`] of the time, the largest coordinate, the largest velocity and the parameter, or of
+/// Σ of differences of order six, and the largest value, at parts of a step.
+fn differences<T: Real>(at: impl Fn(f64) -> Result<T, Error>) -> Result<[T; 2], Error> {
+    let (mut sum, mut size) = (T::constant(0.0), T::constant(0.0));
+    for (part, weight) in [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)] {
+        let [after, before] = [at(part)?, at(-part)?];
+        sum += (after - before) * T::constant(weight / 60.0);
+        size = larger(size, larger(Scalar::abs(after), Scalar::abs(before)));
+    }
+    Ok([sum, size])
+}
+
+/// First step of the differences: [`STEP`] of the time, the largest coordinate, the largest velocity and the parameter, or of
 /// one if they are zero.
 fn step<T: Real, N: crate::vector::Length>(
     state: &State<T, N>,
