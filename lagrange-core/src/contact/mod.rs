@@ -139,17 +139,16 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //!   0. One that touches zero at a single point, as x² + y² at 0, does not close there.
 //! - A contact rests if its rate is below the round-off of its terms, or if a bounce would rise by no more than 64 u.
 //! - Friction is at rest if its velocity is below 8 ε Σ |Wᵢ| max |q̇ᵢ|, or 64 times that where another one stops: heel and toe
-//!   of a foot stop together. What begins to slide along two velocities gets 64 times
-//!   that as a speed, and what its force changes within the round-off of the time.
+//!   of a foot stop together. What begins to slide along two velocities gets 64 times that as a speed, and what its force
+//!   changes within the round-off of the time.
 //! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both.
 //! - The direction in which bodies slide along two velocities is renewed where the velocity has turned by 60°; at 90° the
 //!   force of the old direction would change its sign.
 //! - Friction that needs no force sticks if what the other contacts leave of its row is a pivot that the elimination trusts.
-//!
-//! - A step is not searched for forces that leave their limits where `Dop853` or `Taylor` bounds the multipliers away from
-//!   them. No force leaves its limit there unless it is off every cubic polynomial of the time by more than half its range at the
-//!   16 stages of `Dop853`, or unless the omitted terms of its Taylor series fall more slowly than k⁻². The first step of a leg,
-//!   one twice as long as the last one searched, and one of a force that needed more than the fewest samples are searched anyway.
+//! - A step is not searched for forces that leave their limits where the 16 stages of `Dop853` bound the multipliers away from
+//!   them: no force leaves its limit there unless it is off every cubic polynomial of the time by more than half its range at
+//!   the stages, as in a pulse much shorter than the step. The first step of a leg, one twice as long as the last one searched,
+//!   and one of a force that needed more than the fewest samples are searched anyway.
 //!
 //! # Accumulating impacts
 //!

@@ -59,8 +59,6 @@ pub(crate) struct Expansion<S, T: Element, N: Length> {
     /// Coefficients from order 0 on; the coordinates have one order more than the velocities.
     pub(crate) q: Vec<Array<T, N>>,
     pub(crate) v: Vec<Array<T, N>>,
-    /// Coefficients of the multipliers from order 0 on, those of one order beside each other.
-    pub(crate) multipliers: Vec<T>,
     /// Highest order that is summed; higher orders are left out if they are rounding errors.
     pub(crate) summed: usize,
     pub(super) factors: SeriesFactors<T, S>,
@@ -81,7 +79,6 @@ impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
             unit: T::constant(1.0),
             q: vec![Array::filled(zero); order + 2],
             v: vec![Array::filled(zero); order + 1],
-            multipliers: vec![zero; order * L::M::COUNT],
             summed: order,
             factors: SeriesFactors::new(order),
             roots: vec![zero; L::ROOTS.len()],
@@ -113,7 +110,6 @@ impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
     ) -> Result<(), E> {
         (self.start, self.unit, self.summed) = (state.t, unit, self.order());
         (self.q[0], self.v[0]) = (state.q.into(), state.v.into());
-        self.put_multipliers(0, solution);
         let (slopes, highest) = (system.series_slopes(state, solution), self.order());
         for (root, &[_, slope]) in self.roots.iter_mut().zip(L::ROOTS) {
             *root = slopes.as_ref()[slope];
@@ -138,7 +134,6 @@ impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
             }
             let (sides, terms) = system.series_right_hand_sides(&slopes, &sums, &numbers, &direction);
             newest = solve(&sides)?;
-            self.put_multipliers(order, &newest);
             let Solution { accelerations, multipliers, .. } = &newest;
             let factors =
                 system.series_factors(&slopes, &terms, &numbers, &direction, accelerations, multipliers);
@@ -160,13 +155,6 @@ impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
         (self.q[order], self.v[order]) = (q, v);
         let t = if order == 1 { self.unit } else { T::constant(0.0) };
         Direction { t, q: vector(q), v: vector(v) }
-    }
-
-    #[inline(always)]
-    fn put_multipliers<M: Length>(&mut self, order: usize, Solution { multipliers, .. }: &Solution<T, N, M>) {
-        for a in 0..M::COUNT {
-            self.multipliers[order * M::COUNT + a] = multipliers[a];
-        }
     }
 
     /// Reciprocal sizes of coordinates and velocities, in which coefficients are measured.

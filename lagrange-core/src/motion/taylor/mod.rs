@@ -1,6 +1,5 @@
 //! Taylor's method: expansion of the motion in a power series about each state, with errors down to round-off.
 
-mod bounds;
 pub(crate) mod control;
 mod crossing;
 mod defect;
@@ -21,7 +20,7 @@ use core::fmt;
 
 use super::method::clock::Clock;
 use super::method::contract::check_settings;
-use super::method::{Limits, Method, MultiplierBounds, Step};
+use super::method::{Limits, Method, Step};
 use crate::error::{Ending, Error, Pace};
 use crate::names::{Entry, name};
 use crate::number::{Real, Scalar};
@@ -149,11 +148,6 @@ impl<L: TaylorSeries<Scalar: Real>> Method<L> for Taylor {
             last.set(q[..summed + 2].iter().copied());
         }
         Ok(())
-    }
-
-    #[inline]
-    fn multiplier_bounds(&self, memory: &Self::Memory) -> Option<MultiplierBounds<L::Scalar, L::M>> {
-        bounds::multiplier_bounds(memory)
     }
 
     fn undo(&self, memory: &mut Self::Memory) -> bool {
