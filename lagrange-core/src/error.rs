@@ -284,6 +284,11 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// A contact has Poisson's law of impact, which [time stepping](crate::contact::MoreauJean) does not have.
+    ImpactLaw {
+        /// Name of the contact.
+        contact: &'static str,
+    },
     /// The gap of a contact is negative: at the start, or because a motion passed through it unnoticed.
     Penetration {
         /// Name of the contact.

@@ -463,7 +463,9 @@
 //! A gap that never becomes negative is a contact: `#[contact(floor: y - r >= 0, restitution: e)]`. The gap is a function of
 //! coordinates and time, and its multiplier is never negative: 0 ≤ gap ⊥ λ ≥ 0. A field of the same name and of the type
 //! [`Contact`](crate::contact::Contact), or an array of them for a family, says whether it is closed. With restitution, a gap
-//! that closes at the rate v opens at the rate −e v; without, it stays closed as long as the contact pushes.
+//! that closes at the rate v opens at the rate −e v; without, it stays closed as long as the contact pushes. This is Newton's
+//! law; `restitution(poisson): e` is [Poisson's](crate::contact#poissons-law-of-impact), by which an impulse Λ that stops the gap is
+//! followed by e Λ.
 //!
 //! `friction(mu): x_dot - r*phi_dot` after the gap adds Coulomb's friction, along a velocity that is linear in q̇ or a vector
 //! of two, with a multiplier `floor_friction`. `#[friction(belt: x_dot - speed, limit: hold, sliding: pull)]` is dry friction

@@ -9,6 +9,7 @@ use lagrange_core::prelude::*;
 #[contact(plate: y - 2 >= 0, bounce: 1)]
 #[contact(slab: y - 3 >= 0, restitution: e, restitution: e)]
 #[contact(y - 4 >= 0)]
+#[contact(shelf: y - 5 >= 0, restitution(stronge): e)]
 #[constraint(pin: x = 3*y, when held)]
 struct System {
     m: f64,
@@ -17,6 +18,7 @@ struct System {
     lid: Contact,
     plate: Contact,
     slab: Contact,
+    shelf: Contact,
 }
 
 fn main() {}

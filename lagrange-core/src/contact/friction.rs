@@ -1,4 +1,4 @@
-//! What happens at one instant to bodies with friction: impacts, and which contacts push, stick and slide from then on.
+//! What happens at one instant to bodies with friction: which contacts push, stick and slide from then on.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use super::bodies::{Bodies, Delassus, States};
 use super::grip::Decision;
 use super::instant::{Changed, Decided, IMPACTS, STOPS};
-use super::law::{ContactForces, Grip, Law, NoForces, Rubbing, Touch};
+use super::law::{ContactForces, Grip, NoForces, Rubbing, Touch};
 use super::trajectory::Transition;
 use super::{Contacts, Friction, FrictionRows};
 use crate::error::Error;
@@ -16,9 +16,6 @@ use crate::vector::{Array, vector};
 
 /// Speed, in units of its round-off, with which bodies begin to slide along two velocities: friction has no direction at rest.
 pub(super) const BEGIN: f64 = 64.0;
-
-/// Halvings of the restitution of an impact that would gain energy.
-const HALVINGS: usize = 60;
 
 /// The rows of bodies that touch, at a state.
 pub(super) struct TouchingRows<L: Contacts<Scalar: Real>> {
@@ -74,7 +71,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
                 !resting[place] && self.measured(rows.touching[place], state).rate < L::Scalar::constant(0.0)
             };
             if (0..rows.touching.len()).any(approaches) {
-                self.impact_with_friction(&rows, &resting, state, transitions)?;
+                self.impact(&rows, &resting, state, transitions)?;
                 continue;
             }
             return self.grip(&rows, resting, &pressing, state, (was, changed), transitions);
@@ -82,7 +79,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         Err(Error::ImpactsDoNotEnd { time: state.t.to_f64() })
     }
 
-    fn rows(&self, touching: Vec<usize>, state: &StateOf<L>) -> Result<TouchingRows<L>, Error> {
+    /// The rows of these contacts and of all friction that may act with them.
+    pub(super) fn rows(&self, touching: Vec<usize>, state: &StateOf<L>) -> Result<TouchingRows<L>, Error> {
         let mut all: Vec<usize> = touching.iter().map(|&k| L::CONTACTS[k]).collect();
         let mut frictions = Vec::new();
         for (f, &FrictionRows { row, count, contact, .. }) in L::FRICTIONS.iter().enumerate() {
@@ -131,7 +129,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     ) -> Result<Played<L::Scalar>, Error> {
         let mut touches: Played<L::Scalar> = (Vec::new(), Vec::new());
         for gap in (0..plays.len()).filter(|&place| plays[place]) {
-            touches.0.push(Touch { gap: Some(gap), friction: None });
+            let least = L::Scalar::constant(0.0);
+            touches.0.push(Touch { gap: Some(gap), least, friction: None });
             touches.1.push((Some(rows.touching[gap]), None));
         }
         for &(f, place) in &rows.frictions {
@@ -141,7 +140,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let friction = Some(Rubbing { place, count, grip, bounds: bounds(&self.closed, f, state)? });
             match contact {
                 None => {
-                    touches.0.push(Touch { gap: None, friction });
+                    touches.0.push(Touch { gap: None, least: L::Scalar::constant(0.0), friction });
                     touches.1.push((None, Some(f)));
                 }
                 Some(_) => {
@@ -152,67 +151,6 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             }
         }
         Ok(touches)
-    }
-
-    /// An impact by Newton's law, with Coulomb's for the impulses along the contacts. Newton's law can gain energy with
-    /// friction (Kane and Levinson, *Dynamics*, 1985): the restitution is then lowered to where it gains none.
-    fn impact_with_friction(
-        &self,
-        rows: &TouchingRows<L>,
-        resting: &[bool],
-        state: &mut StateOf<L>,
-        transitions: &mut Vec<Transition<L::Scalar>>,
-    ) -> Result<(), Error> {
-        let zero = L::Scalar::constant(0.0);
-        let measured: Vec<_> = rows.all.iter().map(|&a| self.measured_at(a, state)).collect();
-        let plays: Vec<bool> =
-            (0..rows.touching.len()).map(|place| resting[place] || measured[place].rate < zero).collect();
-        let undecided = |f: usize| {
-            let FrictionRows { contact, count, .. } = L::FRICTIONS[f];
-            contact.map(|_| if count == 1 { Grip::Open } else { Grip::Sticks })
-        };
-        let (touches, names) = self.touches(rows, &plays, state, undecided)?;
-        let mut returned = vec![zero; rows.all.len()];
-        for place in (0..plays.len()).filter(|&place| plays[place] && !resting[place]) {
-            returned[place] = self.restitution(rows.touching[place], state)? * measured[place].rate;
-        }
-        let solve = |part: L::Scalar| {
-            let rates = measured.iter().zip(&returned).map(|(measured, &back)| measured.rate + part * back);
-            let (rates, noise) =
-                (rates.collect(), measured.iter().map(|measured| measured.noise[1]).collect());
-            Law { matrix: &rows.delassus.0, rates, noise, touches: touches.clone() }.decide()
-        };
-        // Work of the impulses, by the mean of the rates before and after.
-        let work = |outcome: &ContactForces<L::Scalar>, part: L::Scalar| {
-            (0..rows.all.len()).fold([zero; 2], |[sum, size], row| {
-                let both = measured[row].rate + outcome.rates[row] - part * returned[row];
-                let work = outcome.forces[row] * both;
-                [sum + work, size + Scalar::abs(work)]
-            })
-        };
-        let gains = |outcome: &ContactForces<L::Scalar>, part: L::Scalar| {
-            let [sum, size] = work(outcome, part);
-            sum > L::Scalar::constant(L::Scalar::EPSILON * BEGIN) * size
-        };
-        let jams = |why| self.jams(why, &names, state);
-        let mut part = L::Scalar::constant(1.0);
-        let mut outcome = solve(part).map_err(jams)?;
-        if gains(&outcome, part) {
-            let (mut low, mut high) = (zero, part);
-            for _ in 0..HALVINGS {
-                part = (low + high) * L::Scalar::constant(0.5);
-                let middle = solve(part).map_err(jams)?;
-                *if gains(&middle, part) { &mut high } else { &mut low } = part;
-            }
-            outcome = solve(low).map_err(jams)?;
-        }
-        for (&impulse, response) in outcome.forces.iter().zip(&rows.delassus.1) {
-            state.v = vector(Array::from_fn(|i| state.v[i] + response[i] * impulse));
-        }
-        let pushes = rows.all.iter().zip(&outcome.forces).filter(|(_, impulse)| **impulse != zero);
-        let impulses = pushes.map(|(&a, &impulse)| (L::CONSTRAINTS[a], impulse)).collect();
-        transitions.push(Transition::Impact { time: state.t, impulses });
-        Ok(())
     }
 
     /// No forces satisfy the laws of these contacts and frictions.

@@ -93,10 +93,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let (was_closed, opens) = (&was.is_closed[..], changed.opens);
         let touching = self.all_touching(was_closed, changed, state);
         self.check_gradients(&touching, state)?;
-        let rows: Vec<usize> = touching.iter().map(|&k| L::CONTACTS[k]).collect();
-        let delassus = self.delassus(&rows, state)?;
+        let rows = self.rows(touching, state)?;
+        let (touching, delassus) = (&rows.touching, &rows.delassus);
         for _ in 0..IMPACTS {
-            let pressing = self.pressing(&rows, state)?;
+            let pressing = self.pressing(&rows.all, state)?;
             let noise = self.motion_noise(&delassus.0, state);
             let resting: Vec<bool> = (0..touching.len())
                 .map(|place| self.rests(touching[place], (pressing[place][0], noise[place]), state))
@@ -105,66 +105,18 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
                 !resting[place] && self.measured(touching[place], state).rate < L::Scalar::constant(0.0)
             };
             if (0..touching.len()).any(approaches) {
-                self.impact((&touching, &resting), &delassus, state, transitions)?;
+                self.impact(&rows, &resting, state, transitions)?;
                 continue;
             }
             return self.close(
-                (&touching, &resting, &pressing),
-                &delassus,
+                (touching, &resting, &pressing),
+                delassus,
                 state,
                 (was_closed, opens),
                 transitions,
             );
         }
         Err(Error::ImpactsDoNotEnd { time: state.t.to_f64() })
-    }
-
-    /// An impact: Newton's law for the contacts that approach, and those that rest push too.
-    fn impact(
-        &self,
-        (touching, resting): (&[usize], &[bool]),
-        (matrix, responses): &Delassus<L>,
-        state: &mut StateOf<L>,
-        transitions: &mut Vec<Transition<L::Scalar>>,
-    ) -> Result<(), Error> {
-        let zero = L::Scalar::constant(0.0);
-        let measured: Vec<Measured<L::Scalar>> = touching.iter().map(|&k| self.measured(k, state)).collect();
-        // Those that part take part in the next impact, if this one makes them approach.
-        let takes_part = |place: &usize| resting[*place] || measured[*place].rate < zero;
-        let places: Vec<usize> = (0..touching.len()).filter(takes_part).collect();
-        let mut returned = Vec::with_capacity(places.len());
-        for &place in &places {
-            let restitution = self.restitution(touching[place], state)?;
-            returned.push(if resting[place] { zero } else { restitution * measured[place].rate });
-        }
-        let rates = |state: &StateOf<L>| {
-            let of = |(&place, &returned): (&usize, &L::Scalar)| {
-                self.measured(touching[place], state).rate + returned
-            };
-            places.iter().zip(&returned).map(of).collect::<Vec<_>>()
-        };
-        let problem = Complementarity {
-            matrix: places.iter().map(|&j| places.iter().map(|&k| matrix[j][k]).collect()).collect(),
-            noise: places.iter().map(|&place| measured[place].noise[1]).collect(),
-            constant: rates(state),
-        };
-        let ComplementarySolution { z: mut impulses, is_active, .. } =
-            problem.solve().ok_or_else(|| self.contradiction(touching, state))?;
-        let push = |state: &mut StateOf<L>, impulses: &[L::Scalar]| {
-            for (&place, &impulse) in places.iter().zip(impulses) {
-                state.v = vector(Array::from_fn(|i| state.v[i] + responses[place][i] * impulse));
-            }
-        };
-        push(state, &impulses);
-        // What is left by the round-off of the matrix would take or give energy at each impact, always of one sign.
-        let active: Vec<usize> = (0..places.len()).filter(|&place| is_active[place]).collect();
-        let more = Complementarity { constant: rates(state), ..problem }.equality(&active);
-        push(state, &more);
-        impulses.iter_mut().zip(more).for_each(|(impulse, more)| *impulse += more);
-        let pushes = places.iter().zip(&impulses).filter(|(_, impulse)| **impulse > zero);
-        let impulses = pushes.map(|(&place, &impulse)| (self.name(touching[place]), impulse)).collect();
-        transitions.push(Transition::Impact { time: state.t, impulses });
-        Ok(())
     }
 
     /// Closes the resting contacts that have to push, and takes what is left of their rates.

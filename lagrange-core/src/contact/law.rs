@@ -1,4 +1,4 @@
-//! Newton's law of impact and Coulomb's of friction for bodies that touch, as one complementarity problem: for impulses and
+//! Laws of gaps and Coulomb's law of friction for bodies that touch, as one complementarity problem: for impulses and
 //! velocities, or for forces and accelerations (Pfeiffer and Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996,
 //! chapters 5 and 8). The form with two opposite forces for each velocity (Stewart and Trinkle, *International Journal for
 //! Numerical Methods in Engineering* 39, 1996) has a copositive matrix: for impacts, Lemke's method then finds a solution.
@@ -45,6 +45,8 @@ pub(super) struct Rubbing<T> {
 pub(super) struct Touch<T> {
     /// Place of its gap among the rows.
     pub(super) gap: Option<usize>,
+    /// Smallest force of the gap: it has a larger one only while its rate is zero.
+    pub(super) least: T,
     pub(super) friction: Option<Rubbing<T>>,
 }
 
@@ -117,7 +119,7 @@ impl<T: Real> Law<'_, T> {
 
     /// Correction of friction of two velocities whose law is not satisfied.
     fn correction(&self, k: usize, outcome: &ContactForces<T>) -> Option<Grip<T>> {
-        let Touch { gap, friction } = self.touches[k];
+        let Touch { gap, friction, .. } = self.touches[k];
         let Rubbing { place, grip, bounds: [limit, _], .. } = friction?;
         let press = gap.map_or(T::constant(1.0), |gap| outcome.forces[gap]);
         let unit = T::constant(T::EPSILON * FOUND);
@@ -146,7 +148,7 @@ impl<T: Real> Law<'_, T> {
 
     fn solve(&self) -> Option<ContactForces<T>> {
         let unknowns = self.unknowns();
-        let (pushes, dry) = self.pushes(&unknowns);
+        let (pushes, known) = self.pushes(&unknowns);
         let (zero, size) = (T::constant(0.0), unknowns.len());
         let times = |row: &[T], column: &dyn Fn(usize) -> T| {
             row.iter().enumerate().fold(zero, |sum, (k, &entry)| sum + entry * column(k))
@@ -166,7 +168,7 @@ impl<T: Real> Law<'_, T> {
             for z in 0..size {
                 problem.matrix[w][z] = sign * times(&self.matrix[place], &|row| pushes[row][z]);
             }
-            problem.constant[w] = sign * (self.rates[place] + times(&self.matrix[place], &|row| dry[row]));
+            problem.constant[w] = sign * (self.rates[place] + times(&self.matrix[place], &|row| known[row]));
             problem.noise[w] = self.noise[place];
             match unknown {
                 Unknown::Forth(_) => problem.matrix[w][w + 2] = T::constant(1.0),
@@ -175,7 +177,7 @@ impl<T: Real> Law<'_, T> {
             }
         }
         let solved = problem.solve()?;
-        let force = |row: usize| dry[row] + times(&pushes[row], &|z| solved.z[z]);
+        let force = |row: usize| known[row] + times(&pushes[row], &|z| solved.z[z]);
         let forces: Vec<T> = (0..self.rates.len()).map(force).collect();
         let rate = |row: usize| self.rates[row] + times(&self.matrix[row], &|other| forces[other]);
         let rates = (0..forces.len()).map(rate).collect();
@@ -200,11 +202,12 @@ impl<T: Real> Law<'_, T> {
         unknowns
     }
 
-    /// Forces of the rows: their multiples of the unknowns, and what dry friction adds.
+    /// Forces of the rows: their multiples of the unknowns, and what does not depend on them, of dry friction and of the smallest
+    /// forces of gaps.
     fn pushes(&self, unknowns: &[(Unknown, usize)]) -> (Vec<Vec<T>>, Vec<T>) {
         let (zero, one) = (T::constant(0.0), T::constant(1.0));
         let rows = self.rates.len();
-        let (mut pushes, mut dry) = (vec![vec![zero; unknowns.len()]; rows], vec![zero; rows]);
+        let (mut pushes, mut known) = (vec![vec![zero; unknowns.len()]; rows], vec![zero; rows]);
         for (z, &(unknown, place)) in unknowns.iter().enumerate() {
             match unknown {
                 Unknown::Speed(_) => {}
@@ -213,6 +216,7 @@ impl<T: Real> Law<'_, T> {
             }
         }
         for (k, touch) in self.touches.iter().enumerate() {
+            touch.gap.iter().for_each(|&gap| known[gap] = touch.least);
             let Some(Rubbing { place, count, grip: Grip::Slides(direction), bounds: [_, sliding] }) =
                 touch.friction
             else {
@@ -223,21 +227,26 @@ impl<T: Real> Law<'_, T> {
                 unknowns.iter().position(|(unknown, _)| matches!(unknown, Unknown::Push(of) if *of == k));
             for (component, &force) in against.iter().enumerate().take(count) {
                 match push {
-                    Some(push) => pushes[place + component][push] = -force,
-                    None => dry[place + component] = -force,
+                    Some(push) => {
+                        pushes[place + component][push] = -force;
+                        known[place + component] = -force * touch.least;
+                    }
+                    None => known[place + component] = -force,
                 }
             }
         }
-        (pushes, dry)
+        (pushes, known)
     }
 
     /// What is left of the limit, as the row of the speed of sliding.
     fn reserve(&self, k: usize, w: usize, unknowns: &[(Unknown, usize)], problem: &mut Exchange<T>) {
         let minus = T::constant(-1.0);
         (problem.matrix[w][w - 2], problem.matrix[w][w - 1]) = (minus, minus);
-        let Some(Rubbing { bounds: [limit, _], .. }) = self.touches[k].friction else { return };
+        let Touch { least, friction: Some(Rubbing { bounds: [limit, _], .. }), .. } = self.touches[k] else {
+            return;
+        };
         match unknowns.iter().position(|(unknown, _)| matches!(unknown, Unknown::Push(of) if *of == k)) {
-            Some(push) => problem.matrix[w][push] = limit,
+            Some(push) => (problem.matrix[w][push], problem.constant[w]) = (limit, limit * least),
             None => problem.constant[w] = limit,
         }
     }
@@ -284,7 +293,7 @@ mod tests {
         let matrix: Vec<Vec<f64>> =
             (0..3).map(|i| (0..3).map(|j| if i == j { 1.0 } else { 0.0 }).collect()).collect();
         let friction = Rubbing { place: 1, count, grip, bounds: [0.5, 0.5] };
-        let touches = vec![Touch { gap: Some(0), friction: Some(friction) }];
+        let touches = vec![Touch { gap: Some(0), least: 0.0, friction: Some(friction) }];
         let law = Law { matrix: &matrix, rates: rates.to_vec(), noise: vec![1e-15; 3], touches };
         law.decide().expect("forces")
     }

@@ -7,7 +7,8 @@
 //! [`MotionBuilder::with_contacts`](crate::MotionBuilder::with_contacts) moves such a system from transition to transition:
 //! gaps that close, and multipliers that become zero, are located as events. Which contacts push is decided by linear
 //! complementarity problems (Pfeiffer and Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996, chapters 5 and 6),
-//! solved exactly. Restitution is Newton's: a gap that closes at the rate v opens at the rate −e v.
+//! solved exactly. Restitution is Newton's, `restitution: e`: a gap that closes at the rate v opens at the rate −e v; or Poisson's,
+//! `restitution(poisson): e`: the impulse that stops the gap is followed by e times as much.
 //!
 #![cfg_attr(
     feature = "std",
@@ -163,6 +164,49 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! velocities is decided in the direction that its own forces lead to. Newton's restitution may gain energy with friction
 //! (Kane and Levinson 1985): it is then lowered to where it gains none.
 //!
+//! # Poisson's law of impact
+//!
+//! `restitution(poisson): e` divides an impact into compression and expansion (Pfeiffer and Glocker 1996, chapter 8; Glocker,
+//! *Set-Valued Force Laws*, 2001). Compression is the impact without restitution, with the impulses Λ. In the expansion a contact pushes
+//! with e Λ, and with more only where its gap would close; Coulomb's law holds in each of both. Contacts by Newton's law
+//! take their restitution in the compression, and keep it in the expansion.
+//!
+//! Both laws agree without friction if the contacts of the impact have one e, as for a single contact. They differ where friction
+//! sticks: a rod that is thrown along the floor reopens by Poisson's law as fast as its friction has pressed it together. A
+//! contact at rest that takes part in an impact returns nothing by Newton's law, and e Λ by Poisson's.
+//!
+#![cfg_attr(
+    feature = "std",
+    doc = r#"
+```
+use lagrange_core::contact::Contact;
+use lagrange_core::prelude::*;
+
+/// Three balls in a row that touch.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x: [3])]
+#[lagrangian(dot(x_dot, x_dot)/2)]
+#[contact(balls[i in 0..2]: x[i + 1] - x[i] >= 0, restitution(poisson): e[i])]
+struct Balls { e: [f64; 2], balls: [Contact; 2] }
+
+let balls = Balls { e: [0.0, 1.0], balls: [Contact::Open; 2] };
+let path = balls.motion(State::new([1.0; 3], [1.0, 0.0, 0.0])).with_contacts().to(1.0)?;
+// Impulses of 2/3 and 1/3 compress. The second contact returns its 1/3, and presses the first two balls together with 1/6.
+for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) {
+    assert!((v - expected).abs() < 1e-15);
+}
+# Ok::<(), Error>(())
+```
+"#
+)]
+//!
+//! Poisson's law gains no energy without friction, nor with friction if the contacts of the impact have one e: the kinetic energy is a
+//! convex function of the impulses, and those of the expansion leave no more of it than e Λ, with its friction, would. Friction with
+//! several e, and both laws in one impact, may gain energy: all restitutions are then lowered in proportion to where they gain none.
+//!
+//! [`sensitivity`](ContactTrajectory::sensitivity) has derivatives across an impact by Poisson's law where one contact pushes, without
+//! friction or sliding, and an error else. [Time stepping](MoreauJean) is an error, [`Error::ImpactLaw`](crate::Error::ImpactLaw).
+//!
 //! # Painlevé's paradox
 //!
 //! Friction may press the bodies together that it slows down. Beyond a coefficient of friction, no force goes with any
@@ -181,7 +225,7 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //!
 //! # Several contacts at once
 //!
-//! Bodies that touch several others at an impact share its impulses as the complementarity problem of Newton's law says:
+//! Bodies that touch several others at an impact share its impulses as the complementarity problem of its law says. By Newton's,
 //! each impulse pushes, and each gap that closes reopens at least at the rate −e v. Of contacts that depend on one another,
 //! such as the fourth leg of a table, one that is not needed stays open; its gap is zero as long as the others hold.
 //!
@@ -204,6 +248,8 @@ mod driver;
 mod friction;
 #[cfg(feature = "alloc")]
 mod grip;
+#[cfg(feature = "alloc")]
+mod impact;
 #[cfg(feature = "alloc")]
 mod instant;
 #[cfg(feature = "alloc")]
@@ -254,6 +300,16 @@ pub enum Friction {
     Slides([f64; 2]),
 }
 
+/// Law of impact of a contact, with a coefficient of restitution e.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImpactLaw {
+    /// `restitution: e`: a gap that closes at the rate v opens at least at the rate −e v.
+    #[default]
+    Newton,
+    /// `restitution(poisson): e`: an impulse Λ that stops the gap is followed by one of at least e Λ.
+    Poisson,
+}
+
 /// The constraints of one friction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrictionRows {
@@ -283,7 +339,10 @@ pub trait Contacts: Lagrangian {
     /// Opens or closes contact `index`. Returns `false` if there is none of this index.
     fn set_contact(&mut self, index: usize, contact: Contact) -> bool;
 
-    /// Newton's coefficient of restitution of contact `index`, from 0 for a plastic impact to 1 for an elastic one.
+    /// The law of impact of each contact.
+    const IMPACT_LAWS: &'static [ImpactLaw];
+
+    /// Coefficient of restitution of contact `index`, from 0 for a plastic impact to 1 for an elastic one.
     fn restitution(&self, index: usize, state: &StateOf<Self>) -> Option<Self::Scalar>;
 
     /// The constraints of each friction.

@@ -156,6 +156,10 @@ impl Display for Error {
             Self::Restitution { value } => {
                 write!(f, "the coefficient of restitution is {value}: it must not be negative, and finite")
             }
+            Self::ImpactLaw { contact } => write!(
+                f,
+                "contact `{contact}` has Poisson's law of impact, but time stepping only Newton's: move by `with_contacts()`, or state `restitution: e`"
+            ),
             Self::Penetration { contact, gap, time } => write!(
                 f,
                 "the gap of contact `{contact}` is {gap:e} at t = {time}: start where no gap is negative, and if a motion came here, take shorter steps, so that no contact is passed within one"

@@ -8,6 +8,7 @@ use super::shape::ResultShape;
 use crate::contract::{FRICTION_LIMIT, Method, RESTITUTION, SLIDING_FRICTION};
 use crate::resolve::Entry;
 use crate::symbolic::Id;
+use crate::syntax::ImpactLaw;
 use crate::variables::Variable;
 
 impl Emitter<'_> {
@@ -16,6 +17,10 @@ impl Emitter<'_> {
         let (contacts, frictions) = (&self.problem.contacts, &self.problem.frictions);
         (!contacts.is_empty() || !frictions.is_empty()).then_some(())?;
         let rows = contacts.iter().map(|contact| contact.row);
+        let impacts = contacts.iter().map(|contact| match contact.impact {
+            ImpactLaw::Newton => quote!(__lagrange::contact::ImpactLaw::Newton),
+            ImpactLaw::Poisson => quote!(__lagrange::contact::ImpactLaw::Poisson),
+        });
         let (read, set): (Vec<TokenStream>, Vec<TokenStream>) = self
             .by_place(contacts.iter().map(|contact| contact.entry), |place| {
                 (quote!(::core::option::Option::Some(#place)), quote!(#place = state))
@@ -46,6 +51,7 @@ impl Emitter<'_> {
         let Written { tokens: laws, kernels } = laws.into_iter().collect();
         let tokens = quote! {
             const CONTACTS: &'static [usize] = &[#(#rows),*];
+            const IMPACT_LAWS: &'static [__lagrange::contact::ImpactLaw] = &[#(#impacts),*];
             const FRICTIONS: &'static [__lagrange::contact::FrictionRows] = &[#(#rows_of_friction),*];
 
             #[allow(unused_variables)]

@@ -51,6 +51,7 @@ pub(crate) fn stub(
             #[allow(unused_variables, clippy::all)]
             impl #impl_generics __lagrange::contact::Contacts for #ident #type_generics #where_clause {
                 const CONTACTS: &'static [usize] = &[];
+                const IMPACT_LAWS: &'static [__lagrange::contact::ImpactLaw] = &[];
                 fn contact(&self, index: usize) -> ::core::option::Option<__lagrange::contact::Contact> { loop {} }
                 fn set_contact(&mut self, index: usize, state: __lagrange::contact::Contact) -> bool { loop {} }
                 const FRICTIONS: &'static [__lagrange::contact::FrictionRows] = &[];

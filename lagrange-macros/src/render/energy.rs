@@ -35,9 +35,13 @@ impl Page<'_> {
         self.energy_line(remark)
     }
 
-    /// False if no contact is stated, or if all are elastic: the multipliers of fixed gaps do no work.
+    /// False if no contact is stated, or if all are elastic by one law: the multipliers of fixed gaps do no work.
     fn loses_energy_at_impacts(&self) -> bool {
-        self.problem.contacts.iter().any(|contact| contact.restitution != Id::ONE)
+        let contacts = &self.problem.contacts;
+        let is_elastic = |restitution| restitution == Id::ONE;
+        !contacts
+            .iter()
+            .all(|contact| is_elastic(contact.restitution) && contact.impact == contacts[0].impact)
     }
 
     /// Line of an energy that changes, with the rate of change if it is known.

@@ -10,8 +10,8 @@ use super::reading::Names;
 use super::remark::{Fragment, Remark};
 use crate::symbolic::{Rational, Scaled};
 use crate::syntax::{
-    Constraint, Declaration, Define, Expression, FrameDeclaration, Kind, Law, Name, Operator, Power, Sign,
-    Target, TargetIndex, normal_form,
+    Constraint, Declaration, Define, Expression, FrameDeclaration, ImpactLaw, Kind, Law, Name, Operator,
+    Power, Sign, Target, TargetIndex, normal_form,
 };
 
 impl Page<'_> {
@@ -134,10 +134,14 @@ impl Page<'_> {
         };
         match law {
             Law::Equation => when.into_iter().for_each(|_| remark.and(state(" is true"))),
-            Law::Contact { restitution } => {
+            Law::Contact { restitution, impact } => {
                 let zero = || Formula::sum(Vec::new());
                 let restitution = restitution.as_ref().map_or_else(zero, |law| self.written(law));
-                remark.and(vec![Fragment::words("restitution "), Fragment::Formula(restitution)]);
+                let mut remarks = vec![Fragment::words("restitution "), Fragment::Formula(restitution)];
+                if *impact == ImpactLaw::Poisson {
+                    remarks.push(Fragment::words(" by Poisson's law"));
+                }
+                remark.and(remarks);
             }
             Law::Coulomb { coefficient } => {
                 let press = when.map_or("", |contact| &contact.text);

@@ -6,7 +6,7 @@ use super::problem::{ContactRow, FrictionRows};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::Id;
-use crate::syntax::{Constraint, Expression, Law};
+use crate::syntax::{Constraint, Expression, ImpactLaw, Law};
 use crate::variables::{Variable, has_velocity};
 
 impl Law {
@@ -38,7 +38,7 @@ impl Lowering<'_> {
     /// Adds a contact.
     pub(super) fn contact(
         &mut self,
-        restitution: Option<&Expression>,
+        (restitution, impact): (Option<&Expression>, ImpactLaw),
         (constraint, element): (&Constraint, &[usize]),
         row: usize,
         entry: Option<Entry>,
@@ -47,7 +47,7 @@ impl Lowering<'_> {
             restitution.map_or(Some(Id::ZERO), |value| lowering.scalar(value))
         });
         if let (Some(entry), Some(restitution)) = (entry, restitution) {
-            self.contacts.push(ContactRow { row, entry, restitution });
+            self.contacts.push(ContactRow { row, entry, restitution, impact });
         }
     }
 

@@ -8,6 +8,7 @@ use super::label::{Label, entry_names};
 use super::parameters::{Entry, Parameters};
 use crate::diagnostics::Place;
 use crate::symbolic::Id;
+use crate::syntax::ImpactLaw;
 
 /// A mechanical system, resolved. Its expressions are nodes of a graph that is held separately.
 pub(crate) struct Problem {
@@ -53,8 +54,9 @@ pub(crate) struct ContactRow {
     pub(crate) row: usize,
     /// Entry of the field that says whether it is closed.
     pub(crate) entry: Entry,
-    /// Newton's coefficient of restitution
+    /// Coefficient of restitution.
     pub(crate) restitution: Id,
+    pub(crate) impact: ImpactLaw,
 }
 
 /// Friction: constraints that hold while bodies stick to one another, and else a force against the velocity.

@@ -128,8 +128,8 @@ impl Lowering<'_> {
         let entry = self.entry_of_state(constraint, [element, last]);
         match &constraint.law {
             Law::Equation => {}
-            Law::Contact { restitution } => {
-                self.contact(restitution.as_ref(), (constraint, element), rows.len(), entry);
+            Law::Contact { restitution, impact } => {
+                self.contact((restitution.as_ref(), *impact), (constraint, element), rows.len(), entry);
                 self.check_gap(&residual, place);
             }
             law => self.friction(law, (constraint, element), (&residual, rows.len()), entry, powers),

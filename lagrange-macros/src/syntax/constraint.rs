@@ -4,7 +4,7 @@ use proc_macro2::Delimiter;
 use syn::Result;
 
 use super::cursor::Cursor;
-use super::declaration::{Constraint, Law};
+use super::declaration::{Constraint, ImpactLaw, Law};
 use super::expression::{self, Expression, Kind};
 use super::forms::{colon, equals, finish, form};
 use super::name::Name;
@@ -32,12 +32,14 @@ pub(super) fn constraint(cursor: &mut Cursor, constraints: &mut Vec<Constraint>)
 
 /// Reads a contact, with its friction as a constraint of its own.
 pub(super) fn contact(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) -> Result<()> {
-    let unread = |_| Law::Contact { restitution: None };
+    let unread = |_| Law::Contact { restitution: None, impact: ImpactLaw::default() };
     stated(cursor, ("contact", unread), constraints, |cursor, name| {
-        let (sides, mut restitution, mut friction) = (gap(&mut cursor.until_comma())?, None, None);
+        let sides = gap(&mut cursor.until_comma())?;
+        let (mut restitution, mut impact, mut friction) = (None, ImpactLaw::default(), None);
         while !cursor.is_empty() {
             if cursor.take_word("restitution") {
                 once(cursor, restitution.is_some(), "the restitution of this contact")?;
+                impact = impact_law(cursor)?;
                 cursor.expect_punct(':', "expected `:` after `restitution`, as in `restitution: 0.8`")?;
                 restitution = Some(expression::whole(&mut cursor.until_comma())?);
             } else if cursor.take_word("friction") {
@@ -49,10 +51,23 @@ pub(super) fn contact(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) ->
             }
         }
         let when = Some(name.clone());
-        let gap = Stated { sides, when: when.clone(), law: Law::Contact { restitution } };
+        let gap = Stated { sides, when: when.clone(), law: Law::Contact { restitution, impact } };
         let friction = friction.map(|(sides, law)| Stated { sides, when, law });
         Ok([gap].into_iter().chain(friction).collect())
     })
+}
+
+/// Reads `(poisson)`, the law of impact, if it is given.
+fn impact_law(cursor: &mut Cursor) -> Result<ImpactLaw> {
+    let Some(group) = cursor.take_group(Delimiter::Parenthesis) else { return Ok(ImpactLaw::default()) };
+    let mut inside = Cursor::inside(&group);
+    let laws = [("newton", ImpactLaw::Newton), ("poisson", ImpactLaw::Poisson)];
+    match laws.into_iter().find(|(word, _)| inside.take_word(word)) {
+        Some((_, law)) if inside.is_empty() => Ok(law),
+        _ => Err(inside.error(
+            "the law of an impact is `newton` or `poisson`: write `restitution(poisson): e`, or `restitution: e` for Newton's law",
+        )),
+    }
 }
 
 /// Reads dry friction.

@@ -94,6 +94,14 @@ pub(crate) struct Constraint {
     pub(crate) law: Law,
 }
 
+/// Law of impact of a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum ImpactLaw {
+    #[default]
+    Newton,
+    Poisson,
+}
+
 /// What holds where a constraint does not, and between its multiplier and its rate where it does.
 #[derive(Debug)]
 pub(crate) enum Law {
@@ -101,8 +109,9 @@ pub(crate) enum Law {
     Equation,
     /// `#[contact(name: left >= right, restitution: e)]`, whose gap is left − right.
     Contact {
-        /// Newton's coefficient of restitution; zero if it is not given.
+        /// Coefficient of restitution; zero if it is not given.
         restitution: Option<Expression>,
+        impact: ImpactLaw,
     },
     /// `friction(mu): velocity` of the contact before.
     Coulomb { coefficient: Expression },

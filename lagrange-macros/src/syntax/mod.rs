@@ -21,8 +21,8 @@ mod unread;
 pub(crate) use attribute::declaration;
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
 pub(crate) use declaration::{
-    Constraint, Coordinate, Declaration, Define, Fact, Force, FrameDeclaration, FunctionDeclaration, Law,
-    Named, Parameter, Power,
+    Constraint, Coordinate, Declaration, Define, Fact, Force, FrameDeclaration, FunctionDeclaration,
+    ImpactLaw, Law, Named, Parameter, Power,
 };
 pub(crate) use expression::{Expression, Kind, Operator, Sign, Slice, SumOver};
 pub(crate) use field::{

@@ -12,7 +12,7 @@ use nalgebra::ComplexField;
 
 use super::bodies::Bodies;
 use super::builder::{CrossesContacts, check_times};
-use super::{Contact, Contacts};
+use super::{Contact, Contacts, ImpactLaw};
 use crate::error::{Ending, Error, Pace};
 use crate::motion::Simulate;
 use crate::motion::method::contract::check_settings;
@@ -47,7 +47,7 @@ const RESERVED: usize = 1 << 16;
 /// Contacts act if their gaps are closed after the first drift, or would be negative at the end. Their rates u then satisfy
 /// Newton's law, u⁺ ≥ −e u⁻, p ≥ 0 and p = 0 unless they are equal, and the velocities of friction Coulomb's. Without
 /// restitution, and if the contact is approached no faster than free bodies fall in a step, they close without a bounce. Where
-/// restitution with friction would give energy, it is reduced, as from impact to impact.
+/// restitution with friction would give energy, it is reduced, as from impact to impact. A contact with Poisson's law is an error.
 #[cfg_attr(
     feature = "std",
     doc = r#"
@@ -194,7 +194,8 @@ impl<L: Contacts<Scalar: Real> + Clone, P> Builder<'_, '_, L, P> {
     /// above the tolerance.
     ///
     /// # Errors
-    /// [`Error::Setting`] and [`Error::Theta`] for settings that are not allowed; those of
+    /// [`Error::Setting`] and [`Error::Theta`] for settings that are not allowed; [`Error::ImpactLaw`] if a contact has Poisson's
+    /// law of impact; those of
     /// [`integrate`](crate::Simulate::integrate) before the first step; [`Error::Penetration`] if a gap is negative at the
     /// start; [`Error::MotionBackwards`] if `end` lies before the start.
     pub fn towards(self, end: L::Scalar) -> Result<SteppedTrajectory<L>, Error> {
@@ -241,6 +242,9 @@ fn begin<L: Contacts<Scalar: Real> + Clone>(
     end: L::Scalar,
 ) -> Result<Bodies<L>, Error> {
     let mut bodies = Bodies::new(system);
+    if let Some(k) = L::IMPACT_LAWS.iter().position(|&law| law == ImpactLaw::Poisson) {
+        return Err(Error::ImpactLaw { contact: bodies.name(k) });
+    }
     solve(&bodies.open, state)?;
     bodies.passes(state);
     bodies.reaches(state, end - state.t)?;

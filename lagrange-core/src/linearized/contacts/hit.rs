@@ -4,7 +4,7 @@ use super::boundary::Boundary;
 use super::change::is_at_rest;
 use super::fails;
 use super::law::{Law, largest};
-use crate::contact::{Contact, Contacts, Friction, FrictionRows};
+use crate::contact::{Contact, Contacts, Friction, FrictionRows, ImpactLaw};
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::sensitivity::{StateSensitivity, impact_sensitivity};
@@ -40,6 +40,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
             [contact] if Boundary::of(leg) == Some(Boundary::Gap(contact)) => {
                 let mut hit = Self { contact, pushing };
                 hit.rub(leg.end().state(), impulses, after)?;
+                hit.check_poisson(after)?;
                 Ok(hit)
             }
             _ => Err(Error::NoDerivativeAcross {
@@ -96,6 +97,27 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
             }
             (true, false) => Ok(Friction::Slides([if rate < zero { -1.0 } else { 1.0 }, 0.0])),
         }
+    }
+
+    /// Fails by Poisson's law unless the hit contact alone pushes and slides, if it has friction. Expansion then multiplies all
+    /// impulses of compression by e, as Newton's law does, also in neighbouring impacts.
+    fn check_poisson(&self, after: &StateOf<L>) -> Result<(), Error> {
+        let pushes = |k: &usize| self.pushing.contact(*k) != Some(Contact::Open);
+        let pushing: alloc::vec::Vec<usize> = (0..L::CONTACTS.len()).filter(pushes).collect();
+        let Some(&k) = pushing.iter().find(|&&k| L::IMPACT_LAWS[k] == ImpactLaw::Poisson) else {
+            return Ok(());
+        };
+        let sticks = |f: usize| {
+            L::FRICTIONS[f].contact == Some(k) && self.pushing.friction(f) == Some(Friction::Sticks)
+        };
+        let reason = match pushing.len() {
+            1 if (0..L::FRICTIONS.len()).any(sticks) => {
+                "its friction sticks in an impact by Poisson's law; state `restitution: e` for Newton's"
+            }
+            1 => return Ok(()),
+            _ => "several contacts push in an impact by Poisson's law; state `restitution: e` for Newton's",
+        };
+        fails(Self::name(k), after.t, reason)
     }
 
     /// Derivatives after the impact, from those at a fixed time before it.

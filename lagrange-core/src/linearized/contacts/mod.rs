@@ -75,7 +75,8 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> ContactTrajectory<L> {
     /// - if two frictions change at one time, unless one changes because of the other;
     /// - if a force or an impulse of friction is within √ε of its limit where the bodies are at rest, so that the arguments decide
     ///   whether they stick;
-    /// - if a restitution is lowered to where friction gains no energy;
+    /// - if a restitution is lowered to where impacts gain no energy;
+    /// - for an impact by Poisson's law in which friction sticks or several contacts push;
     /// - if friction of two velocities begins or ceases to slide, and if it slides in an impact;
     /// - by an argument that changes a velocity at the start, if friction begins to slide from rest there.
     pub fn sensitivity<D: DifferentiableMethod<L>>(

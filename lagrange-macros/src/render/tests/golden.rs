@@ -887,16 +887,30 @@ fn elastic_contacts_keep_the_energy() {
             "#[coordinates(x: [2])]
              #[lagrangian(m/2 * (x_dot[0]^2 + x_dot[1]^2))]
              #[contact(wall: x[0] >= 0, restitution: 1)]
-             #[contact(blocks: x[1] - x[0] >= 0, restitution: {restitution})]
+             #[contact(blocks: x[1] - x[0] >= 0, restitution{restitution})]
              struct Blocks {{ m: f64, e: f64, wall: Contact, blocks: Contact }}"
         )
     };
-    for (restitution, is_kept) in [("1", true), ("e", false), ("1/2", false)] {
+    for (restitution, is_kept) in [(": 1", true), (": e", false), (": 1/2", false), ("(poisson): 1", false)] {
         let [[text, latex, _], ..] = rendered(&source(restitution)).forms;
         for form in [text, latex] {
             assert_eq!(form.contains("between impacts"), !is_kept, "{restitution}: {form}");
         }
     }
+}
+
+#[test]
+fn the_law_of_an_impact_is_named() {
+    let source = "#[coordinates(y)]
+         #[lagrangian(m/2 * y_dot^2 - m*g*y)]
+         #[contact(floor: y >= 0, restitution(poisson): e)]
+         struct Ball { m: f64, g: f64, e: f64, floor: Contact }";
+    assert_eq!(
+        lines(source, "Constraints\n"),
+        "floor: 0 ≤ y ⊥ λ_floor ≥ 0   (holonomic; restitution e by Poisson's law)"
+    );
+    let elastic = source.replace(": e)", ": 1)");
+    assert!(!rendered(&elastic).forms[0][0].contains("between impacts"));
 }
 
 /// Friction that sticks does no work.
