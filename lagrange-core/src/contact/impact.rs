@@ -154,7 +154,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// An impact with friction or by Poisson's law. Newton's law can gain energy with friction (Kane and Levinson, *Dynamics*,
-    /// 1985), and Poisson's with several coefficients: the restitutions are then lowered to where they gain none.
+    /// 1985), and so can both laws in one impact: the restitutions are then lowered to where they gain none.
     fn impact_in_stages(
         &self,
         rows: &TouchingRows<L>,

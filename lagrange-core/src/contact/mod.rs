@@ -201,8 +201,9 @@ for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) 
 )]
 //!
 //! Poisson's law gains no energy without friction, nor with friction if the contacts of the impact have one e: the kinetic energy is a
-//! convex function of the impulses, and those of the expansion leave no more of it than e Λ, with its friction, would. Friction with
-//! several e, and both laws in one impact, may gain energy: all restitutions are then lowered in proportion to where they gain none.
+//! convex function of the impulses, and those of the expansion leave no more of it than e Λ, with its friction, would. Both laws
+//! in one impact may gain energy, and for friction with several e no proof excludes it: all restitutions are then lowered in
+//! proportion to where they gain none.
 //!
 //! [`sensitivity`](ContactTrajectory::sensitivity) has derivatives across an impact by Poisson's law where one contact pushes, without
 //! friction or sliding, and an error else. [Time stepping](MoreauJean) is an error, [`Error::ImpactLaw`](crate::Error::ImpactLaw).
