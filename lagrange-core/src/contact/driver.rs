@@ -155,9 +155,13 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         given: &mut [Box<DynEvent<'w, L>>],
         limits: &Watchdog,
     ) -> Result<Driven<L>, Error> {
-        let Self { bodies, decided, state, .. } = self;
+        let Self { bodies, decided, .. } = self;
         let system = bodies.with(&decided.states);
         let closed = bodies.closed.clone();
+        let (mut run, adjustment) = Run::begin(&system, &self.state, method)?;
+        run.statistics = run.statistics.after(&self.statistics);
+        // The projection may move gaps of open contacts. Conditions are watched from where it leads.
+        let state = &{ run.state };
         let sizes = bodies.sizes(state);
         EventSearch::begin_leg(given, &system, [state, &sizes], self.statistics.accepted == 0)?;
         let (solutions, residuals) = (Solutions::<L>::new(), Shared::<L, _>::new());
@@ -192,8 +196,6 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let bounce = decided.bounce.take().map(|bounce| state.t + bounce);
         let goal = self.kept.goal().unwrap_or(self.times[1]);
         let goal = bounce.filter(|&bounce| state.t < bounce && bounce < goal).unwrap_or(goal);
-        let (mut run, adjustment) = Run::begin(&system, state, method)?;
-        run.statistics = run.statistics.after(&self.statistics);
         let is_closed = &decided.states.is_closed[..];
         let watch = LegWatch { bodies, is_closed, accept: &mut self.accept, first, conditions: &conditions };
         let (system, events) = (&system, &mut events[..]);
