@@ -117,6 +117,20 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         }
     }
 
+    /// Takes note of what impulses change the velocities by. The round-off of a velocity that they all but stop is that of
+    /// the changes.
+    pub(super) fn strikes<'r>(
+        &mut self,
+        impulses: impl Iterator<Item = (L::Scalar, &'r Vector<L::Scalar, L::N>)>,
+    ) {
+        let mut changes = Array::<_, L::N>::filled(L::Scalar::constant(0.0));
+        for (impulse, response) in impulses {
+            changes = Array::from_fn(|i| changes[i] + Scalar::abs(response[i] * impulse));
+        }
+        let [_, largest] = &mut self.largest;
+        *largest = Array::from_fn(|i| larger(largest[i], changes[i]));
+    }
+
     /// The largest entries so far, at the time of a state.
     pub(super) fn sizes(&self, state: &StateOf<L>) -> StateOf<L> {
         let [q, v] = self.largest.map(vector);

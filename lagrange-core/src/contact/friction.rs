@@ -53,7 +53,7 @@ pub(super) fn bounds<L: Contacts<Scalar: Real>>(
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Does what [`settle`](Self::settle) does, for a system with friction.
     pub(super) fn settle_with_friction(
-        &self,
+        &mut self,
         state: &mut StateOf<L>,
         (was, changed): (&States, &Changed),
         transitions: &mut Vec<Transition<L::Scalar>>,

@@ -92,7 +92,7 @@ impl<T: Real> Hit<'_, T> {
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// An impact: the contacts that approach or rest push.
     pub(super) fn impact(
-        &self,
+        &mut self,
         rows: &TouchingRows<L>,
         resting: &[bool],
         state: &mut StateOf<L>,
@@ -107,7 +107,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// An impact by Newton's law without friction, which never gains energy: each contact that pushes works by
     /// Λ (1 − e) γ/2 with its rate γ ≤ 0 before.
     fn impact_by_newton(
-        &self,
+        &mut self,
         TouchingRows { touching, delassus: (matrix, responses), .. }: &TouchingRows<L>,
         resting: &[bool],
         state: &mut StateOf<L>,
@@ -147,6 +147,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let more = Complementarity { constant: rates(state), ..problem }.equality(&active);
         push(state, &more);
         impulses.iter_mut().zip(more).for_each(|(impulse, more)| *impulse += more);
+        self.strikes(places.iter().zip(&impulses).map(|(&place, &impulse)| (impulse, &responses[place])));
         let pushes = places.iter().zip(&impulses).filter(|(_, impulse)| **impulse > zero);
         let impulses = pushes.map(|(&place, &impulse)| (self.name(touching[place]), impulse)).collect();
         transitions.push(Transition::Impact { time: state.t, impulses });
@@ -156,7 +157,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// An impact with friction or by Poisson's law. Newton's law can gain energy with friction (Kane and Levinson, *Dynamics*,
     /// 1985), and so can both laws in one impact: the restitutions are then lowered to where they gain none.
     fn impact_in_stages(
-        &self,
+        &mut self,
         rows: &TouchingRows<L>,
         resting: &[bool],
         state: &mut StateOf<L>,
@@ -181,8 +182,11 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         for (&impulse, response) in forces.iter().zip(&rows.delassus.1) {
             state.v = vector(Array::from_fn(|i| state.v[i] + response[i] * impulse));
         }
-        let pushes = rows.all.iter().zip(&forces).filter(|(_, impulse)| **impulse != zero);
-        let impulses = pushes.map(|(&a, &impulse)| (L::CONSTRAINTS[a], impulse)).collect();
+        self.strikes(forces.iter().copied().zip(&rows.delassus.1));
+        let acts =
+            |&row: &usize| Scalar::abs(rows.delassus.0[row][row] * forces[row]) > measured[row].noise[1];
+        let acting = (0..forces.len()).filter(acts);
+        let impulses = acting.map(|row| (L::CONSTRAINTS[rows.all[row]], forces[row])).collect();
         transitions.push(Transition::Impact { time: state.t, impulses });
         Ok(())
     }

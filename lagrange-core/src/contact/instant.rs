@@ -82,7 +82,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Decides what follows at a state: the velocities after impacts, and which contacts are closed from then on, after they were
     /// in the states `was`.
     pub(super) fn settle(
-        &self,
+        &mut self,
         state: &mut StateOf<L>,
         (was, changed): (&States, &Changed),
         transitions: &mut Vec<Transition<L::Scalar>>,

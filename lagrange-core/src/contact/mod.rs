@@ -139,8 +139,8 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! - A gap needs a gradient where it closes: [`Error::NoGradient`](crate::Error::NoGradient) names one that has none, as y³ at
 //!   0. One that touches zero at a single point, as x² + y² at 0, does not close there.
 //! - A contact rests if its rate is below the round-off of its terms, or if a bounce would rise by no more than 64 u.
-//! - Friction is at rest if its velocity is below 8 ε Σ |Wᵢ| max |q̇ᵢ|, or 64 times that where another one stops: heel and toe
-//!   of a foot stop together. What begins to slide along two velocities gets 64 times that as a speed, and what its force
+//! - Friction is at rest if its velocity is below 8 ε Σ |Wᵢ| max |q̇ᵢ|, with the changes of velocities by impulses among the
+//!   largest; or 64 times that where another one stops: heel and toe of a foot stop together. What begins to slide along two velocities gets 64 times that as a speed, and what its force
 //!   changes within the round-off of the time.
 //! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both.
 //! - The direction in which bodies slide along two velocities is renewed where the velocity has turned by 60°; at 90° the
