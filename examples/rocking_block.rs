@@ -1,4 +1,4 @@
-//! A slender block that rocks from corner to corner on a rough floor, until it stands: Housner's restitution (*Bulletin of the
+//! A slender block that rocks from corner to corner on a rough floor, lower each time: Housner's restitution (*Bulletin of the
 //! Seismological Society of America* 53, 1963).
 //!
 //! An impact keeps the angular momentum about the new corner. It takes the part 1 − (1 − 3/2 sin² α)² of the energy, where α is the

@@ -1,4 +1,4 @@
-//! A ball thrown forwards with backspin: it bounces, turns back, slides and rolls.
+//! A ball thrown forwards with backspin: it slides in its first impact, turns back, bounces and rolls.
 //!
 //! All forces act at the point of contact, so that the angular momentum about the floor, m r ẋ + 2/5 m r² φ̇, stays through all
 //! bounces. In the end it rolls with 5/7 (ẋ + 2/5 r φ̇).
