@@ -7,8 +7,8 @@ use super::bodies::{Bodies, States};
 use super::condition::Condition;
 use super::friction::bounds;
 use super::instant::{Changed, Decided};
+use super::last_value::LastValue;
 use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
-use super::shared::Shared;
 use super::trajectory::Transition;
 use super::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::{Ending, Error};
@@ -164,7 +164,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let state = &{ run.state };
         let sizes = bodies.sizes(state);
         EventSearch::begin_leg(given, &system, [state, &sizes], self.statistics.accepted == 0)?;
-        let (solutions, residuals) = (Solutions::<L>::new(), Shared::<L, _>::new());
+        let (solutions, residuals) = (Solutions::<L>::new(), LastValue::<L, _>::new());
         let mut own = Vec::new();
         let zero = L::Scalar::constant(0.0);
         for (k, &row) in L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]) {
@@ -273,10 +273,10 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
 }
 
 /// An event, with the condition that it watches.
-type Watched<'w, L> = (Box<DynEvent<'w, L>>, Condition<<L as Lagrangian>::Scalar>);
+type ConditionEvent<'w, L> = (Box<DynEvent<'w, L>>, Condition<<L as Lagrangian>::Scalar>);
 
 /// Solutions that events share.
-type Solutions<L> = Shared<L, SolutionOf<L>>;
+type Solutions<L> = LastValue<L, SolutionOf<L>>;
 
 fn solution<L: Lagrangian<Scalar: Real>>(
     solutions: &Solutions<L>,
@@ -298,7 +298,7 @@ fn of_friction<'w, L>(
     (closed, solutions): (&'w L, &'w Solutions<L>),
     decided: &Decided<L::Scalar>,
     state: &StateOf<L>,
-) -> Result<Vec<Watched<'w, L>>, Error>
+) -> Result<Vec<ConditionEvent<'w, L>>, Error>
 where
     L: Contacts<Scalar: Real> + Clone + 'w,
 {

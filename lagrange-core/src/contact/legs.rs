@@ -121,12 +121,12 @@ impl<L: Contacts<Scalar: Real> + Clone> LegWatch<'_, '_, L> {
 }
 
 /// An observer whose steps are watched.
-struct Watched<'l, 'w, O, L: Lagrangian> {
+struct WatchedLeg<'l, 'w, O, L: Lagrangian> {
     observer: O,
     watch: LegWatch<'l, 'w, L>,
 }
 
-impl<L, P, O> Observer<L, P> for Watched<'_, '_, O, L>
+impl<L, P, O> Observer<L, P> for WatchedLeg<'_, '_, O, L>
 where
     L: Contacts<Scalar: Real> + Clone,
     P: Method<L>,
@@ -175,7 +175,7 @@ impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for AllLegs<L> {
         let StartedLeg { system, mut run, adjustment, events, goal, transitions, method, limits, watch } =
             leg;
         let stored = Stored::<_, _, _, true>::begin(system, &run.state, goal, events, None)?;
-        let mut watched = Watched { observer: stored, watch };
+        let mut watched = WatchedLeg { observer: stored, watch };
         let driven = run.drive(method, limits, &mut watched);
         let own = run.statistics.since(&self.counts);
         let path = watched.observer.finish(driven.clone(), own, adjustment).into_owned();
@@ -216,7 +216,7 @@ impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for SampledLegs<'_, L> {
         let stopped = search.record_due(&run.state, &mut crossings);
         let (record, within) = (&mut self.record, None);
         let observer = SampledLeg { system, search, crossings, stopped, record, goal, within };
-        let mut watched = Watched { observer, watch };
+        let mut watched = WatchedLeg { observer, watch };
         let ending = run.drive(method, limits, &mut watched);
         let Run { state, statistics, .. } = run;
         Ok(Driven { state, crossings: watched.observer.crossings, ending, statistics })

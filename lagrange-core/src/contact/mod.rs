@@ -254,13 +254,13 @@ mod impact;
 #[cfg(feature = "alloc")]
 mod instant;
 #[cfg(feature = "alloc")]
+mod last_value;
+#[cfg(feature = "alloc")]
 mod law;
 #[cfg(feature = "alloc")]
 mod legs;
 #[cfg(feature = "alloc")]
 mod lemke;
-#[cfg(feature = "alloc")]
-mod shared;
 #[cfg(feature = "alloc")]
 mod stepping;
 #[cfg(feature = "alloc")]

@@ -1,7 +1,7 @@
 //! Where a leg of a motion across contacts ends: the function that is zero there, and its derivative.
 
 use super::fails;
-use super::law::Law;
+use super::law::NamedLaw;
 use crate::contact::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
@@ -113,7 +113,7 @@ fn hold<L: Linearized<Scalar: Real> + Contacts + Clone>(
     argument: Option<Entry>,
 ) -> Result<L::Scalar, Error> {
     let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
-    let limit = Law {
+    let limit = NamedLaw {
         name: name(L::CONSTRAINTS, row),
         value: &|system: &L, state: &StateOf<L>| system.friction_limit(f, state),
     };

@@ -1,9 +1,11 @@
 //! Derivatives across an impact.
 
+use alloc::vec::Vec;
+
 use super::boundary::Boundary;
 use super::change::is_at_rest;
 use super::fails;
-use super::law::{Law, largest};
+use super::law::{NamedLaw, largest};
 use crate::contact::{Contact, Contacts, Friction, FrictionRows, ImpactLaw};
 use crate::error::Error;
 use crate::linearized::Linearized;
@@ -127,7 +129,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         at: StateSensitivity<L::Scalar, L::N>,
     ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
         let at = Boundary::Gap(self.contact).reach(leg, at)?;
-        let law = Law {
+        let law = NamedLaw {
             name: Self::name(self.contact),
             value: &|system: &L, state: &StateOf<L>| system.restitution(self.contact, state),
         };

@@ -24,12 +24,12 @@ const SAME: f64 = 1e-7;
 const ROUND_OFF: f64 = 64.0;
 
 /// A law, of the contact or friction of a name.
-pub(super) struct Law<'a, L: Linearized> {
+pub(super) struct NamedLaw<'a, L: Linearized> {
     pub(super) name: &'static str,
     pub(super) value: &'a dyn Fn(&L, &StateOf<L>) -> Option<L::Scalar>,
 }
 
-impl<L: Linearized<Scalar: Real> + Contacts + Clone> Law<'_, L> {
+impl<L: Linearized<Scalar: Real> + Contacts + Clone> NamedLaw<'_, L> {
     pub(super) fn at(&self, system: &L, state: &StateOf<L>) -> L::Scalar {
         (self.value)(system, state).unwrap_or(L::Scalar::constant(0.0))
     }

@@ -6,9 +6,9 @@ use crate::error::Error;
 use crate::system::{Lagrangian, StateOf};
 
 /// The last value of a quantity of the states of one system, with its state. Events are sampled in turn at each state.
-pub(super) struct Shared<L: Lagrangian, V>(Cell<Option<(StateOf<L>, V)>>);
+pub(super) struct LastValue<L: Lagrangian, V>(Cell<Option<(StateOf<L>, V)>>);
 
-impl<L: Lagrangian, V: Copy> Shared<L, V> {
+impl<L: Lagrangian, V: Copy> LastValue<L, V> {
     pub(super) fn new() -> Self {
         Self(Cell::new(None))
     }
