@@ -11,7 +11,7 @@ use crate::vector::Length;
 
 /// Condition under which a leg goes on; an event says where it fails.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Condition<T> {
+pub(super) enum LegCondition<T> {
     /// The contact of this constraint pushes.
     Pushes { row: usize },
     /// Friction sticks, with a constant limit, as a multiple of the multiplier of the constraint `press` if there is one.
@@ -20,7 +20,7 @@ pub(super) enum Condition<T> {
     Motion,
 }
 
-impl<T: Real> Condition<T> {
+impl<T: Real> LegCondition<T> {
     /// Condition of friction `f` in these states.
     pub(super) fn of_friction<L: Contacts<Scalar = T>>(
         (closed, f): (&L, usize),

@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use super::bodies::{Bodies, States};
-use super::condition::Condition;
+use super::condition::LegCondition;
 use super::friction::bounds;
 use super::instant::{Changed, Decided};
 use super::last_value::LastValue;
@@ -179,11 +179,11 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
             own.push(match decided.states.is_closed[k] {
                 true => (
                     watched(&system, state, name, is_resting.then_some(zero), force)?,
-                    Condition::Pushes { row },
+                    LegCondition::Pushes { row },
                 ),
                 false => {
                     let rest = is_resting.then(|| bodies.touching(k, state));
-                    (watched(&system, state, name, rest, gap)?, Condition::Motion)
+                    (watched(&system, state, name, rest, gap)?, LegCondition::Motion)
                 }
             });
         }
@@ -273,7 +273,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
 }
 
 /// An event, with the condition that it watches.
-type ConditionEvent<'w, L> = (Box<DynEvent<'w, L>>, Condition<<L as Lagrangian>::Scalar>);
+type ConditionEvent<'w, L> = (Box<DynEvent<'w, L>>, LegCondition<<L as Lagrangian>::Scalar>);
 
 /// Solutions that events share.
 type Solutions<L> = LastValue<L, SolutionOf<L>>;
@@ -328,7 +328,7 @@ where
                 watched(system, state, name, Some(least_speed()), along)?
             }
         };
-        events.push((event, Condition::of_friction((closed, f), &decided.states, state)?));
+        events.push((event, LegCondition::of_friction((closed, f), &decided.states, state)?));
     }
     Ok(events)
 }

@@ -18,7 +18,7 @@ use crate::vector::{Array, vector};
 const HALVINGS: usize = 60;
 
 /// An impact under way: the rows of the bodies that touch, and the laws of their contacts.
-struct Hit<'a, T> {
+struct StagedImpact<'a, T> {
     matrix: &'a [Vec<T>],
     /// Rates before the impact, with their round-off.
     measured: &'a [Measured<T>],
@@ -30,16 +30,16 @@ struct Hit<'a, T> {
 }
 
 /// Impulses of all rows, and rates after them.
-struct Impulses<T> {
+struct StagedImpulses<T> {
     forces: Vec<T>,
     rates: Vec<T>,
 }
 
-impl<T: Real> Hit<'_, T> {
+impl<T: Real> StagedImpact<'_, T> {
     /// Impulses with the part given of all restitutions. The compression is an impact without Poisson's restitution; in
     /// the expansion, a contact pushes at least with e times its impulse Λ of the compression (Pfeiffer and Glocker,
     /// *Multibody Dynamics with Unilateral Contacts*, 1996, chapter 8).
-    fn impulses(&self, part: T) -> Result<Impulses<T>, NoForces> {
+    fn impulses(&self, part: T) -> Result<StagedImpulses<T>, NoForces> {
         let rates = self.measured.iter().zip(&self.returned);
         let rates = rates.map(|(measured, &returned)| measured.rate + part * returned).collect();
         let mut impulses = self.stage(rates, self.touches.clone())?;
@@ -58,14 +58,14 @@ impl<T: Real> Hit<'_, T> {
         Ok(impulses)
     }
 
-    fn stage(&self, rates: Vec<T>, touches: Vec<Touch<T>>) -> Result<Impulses<T>, NoForces> {
+    fn stage(&self, rates: Vec<T>, touches: Vec<Touch<T>>) -> Result<StagedImpulses<T>, NoForces> {
         let noise = self.measured.iter().map(|measured| measured.noise[1]).collect();
         let outcome = Law { matrix: self.matrix, rates, noise, touches }.decide()?;
-        Ok(Impulses { forces: outcome.forces, rates: outcome.rates })
+        Ok(StagedImpulses { forces: outcome.forces, rates: outcome.rates })
     }
 
     /// Impulses with the restitutions as stated, or lowered in proportion to where they gain no energy.
-    fn without_gain(&self) -> Result<Impulses<T>, NoForces> {
+    fn without_gain(&self) -> Result<StagedImpulses<T>, NoForces> {
         let [mut low, mut high] = [0.0, 1.0].map(T::constant);
         let whole = self.impulses(high)?;
         if !self.gains(&whole) {
@@ -79,7 +79,7 @@ impl<T: Real> Hit<'_, T> {
     }
 
     /// Whether the impulses work, by the mean of the rates before and after, more than their round-off.
-    fn gains(&self, impulses: &Impulses<T>) -> bool {
+    fn gains(&self, impulses: &StagedImpulses<T>) -> bool {
         let rows = self.measured.iter().zip(&impulses.rates).zip(&impulses.forces);
         let [sum, size] = rows.fold([T::constant(0.0); 2], |[sum, size], ((before, &after), &force)| {
             let work = force * (before.rate + after);
@@ -177,8 +177,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
                 ImpactLaw::Newton => {}
             }
         }
-        let hit = Hit { matrix: &rows.delassus.0, measured: &measured, touches, returned, expansion };
-        let Impulses { forces, .. } = hit.without_gain().map_err(|why| self.jams(why, &names, state))?;
+        let hit =
+            StagedImpact { matrix: &rows.delassus.0, measured: &measured, touches, returned, expansion };
+        let StagedImpulses { forces, .. } =
+            hit.without_gain().map_err(|why| self.jams(why, &names, state))?;
         for (&impulse, response) in forces.iter().zip(&rows.delassus.1) {
             state.v = vector(Array::from_fn(|i| state.v[i] + response[i] * impulse));
         }

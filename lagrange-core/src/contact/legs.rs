@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 
 use super::Contacts;
 use super::bodies::Bodies;
-use super::condition::Condition;
+use super::condition::LegCondition;
 use crate::error::{Ending, Error};
 use crate::motion::event::{AnyEvent, DenseStep, EventSearch};
 use crate::motion::record::Record;
@@ -93,7 +93,7 @@ pub(super) struct LegWatch<'l, 'w, L: Lagrangian> {
     /// Number of the events before those of contacts.
     pub(super) first: usize,
     /// Conditions that the events of contacts watch.
-    pub(super) conditions: &'l [Condition<L::Scalar>],
+    pub(super) conditions: &'l [LegCondition<L::Scalar>],
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> LegWatch<'_, '_, L> {

@@ -131,7 +131,7 @@ fn hold<L: Linearized<Scalar: Real> + Contacts + Clone>(
 }
 
 /// Multipliers, and their derivatives along a direction and by an argument.
-type Forces<L> = (MultipliersOf<L>, MultipliersOf<L>);
+type ForcesAndChanges<L> = (MultipliersOf<L>, MultipliersOf<L>);
 type MultipliersOf<L> =
     crate::vector::Vector<<L as crate::system::Lagrangian>::Scalar, <L as crate::system::Lagrangian>::M>;
 
@@ -140,7 +140,7 @@ fn multipliers<L: Linearized<Scalar: Real>>(
     state: &StateOf<L>,
     direction: &Direction<L::Scalar, L::N>,
     argument: Option<Entry>,
-) -> Result<Forces<L>, Error> {
+) -> Result<ForcesAndChanges<L>, Error> {
     let tangent = Tangent::at(system, state)?;
     let change = tangent.change_with(direction, argument.and_then(parameter::<L>));
     let response = tangent.responses(1, &change, |_| argument.unwrap_or(Entry::Time))?;
