@@ -166,14 +166,14 @@ where
 }
 
 /// What happens along a motion that keeps samples alone: samples, events, and the controller.
-type Along<'w, L> = (&'w RecordPlan<'w, L>, Vec<Box<DynEvent<'w, L>>>, Option<Steering<'w, L>>);
+type SampledParts<'w, L> = (&'w RecordPlan<'w, L>, Vec<Box<DynEvent<'w, L>>>, Option<Steering<'w, L>>);
 
 /// Moves across contacts to the time `end`, and keeps samples alone.
 pub(crate) fn arrive<'w, L: Contacts<Scalar: Real> + Clone, P: Method<L>>(
     (system, state): (&L, StateOf<L>),
     (end, transitions): (L::Scalar, Option<usize>),
     method: &P,
-    (plan, events, steering): Along<'w, L>,
+    (plan, events, steering): SampledParts<'w, L>,
     accept: Accept<'w, L>,
 ) -> Result<ContactArrival<L>, Error> {
     check_times(state.t, end)?;

@@ -23,7 +23,7 @@ pub(super) enum Cone<T> {
 
 /// A gap or a friction among the rows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Block<T> {
+pub(super) struct ConeBlock<T> {
     pub(super) place: usize,
     pub(super) count: usize,
     pub(super) cone: Cone<T>,
@@ -39,7 +39,7 @@ pub(super) struct Cones<T> {
     matrix: Vec<T>,
     pub(super) rates: Vec<T>,
     pub(super) impulses: Vec<T>,
-    pub(super) blocks: Vec<Block<T>>,
+    pub(super) blocks: Vec<ConeBlock<T>>,
     /// The equations of a Newton step, by rows, and their right-hand side, which becomes the solution.
     pub(super) jacobian: Vec<T>,
     pub(super) right: Vec<T>,
@@ -100,7 +100,7 @@ impl<T: Real> Cones<T> {
                 half + Scalar::sqrt(apart * apart + beside * beside)
             }
         };
-        self.blocks.push(Block { place, count, cone, response });
+        self.blocks.push(ConeBlock { place, count, cone, response });
     }
 
     pub(super) fn entry(&self, row: usize, column: usize) -> T {
@@ -165,7 +165,7 @@ impl<T: Real> Cones<T> {
         for k in 0..self.blocks.len() {
             let block = self.blocks[k];
             let clipped = self.projected(&block.cone, self.of_block(&block, |row| self.impulses[row]));
-            let Block { place, count, .. } = block;
+            let ConeBlock { place, count, .. } = block;
             self.impulses[place..place + count].copy_from_slice(&clipped[..count]);
         }
     }
@@ -228,12 +228,12 @@ impl<T: Real> Cones<T> {
     }
 
     /// Numbers of the rows of a block.
-    fn of_block(&self, block: &Block<T>, of: impl Fn(usize) -> T) -> [T; 2] {
+    fn of_block(&self, block: &ConeBlock<T>, of: impl Fn(usize) -> T) -> [T; 2] {
         [0, 1].map(|c| if c < block.count { of(block.place + c) } else { T::constant(0.0) })
     }
 
     /// Defect of the natural map of a block, and proj(p − u/g).
-    fn natural(&self, block: &Block<T>) -> (T, [T; 2]) {
+    fn natural(&self, block: &ConeBlock<T>) -> (T, [T; 2]) {
         let (rate, before) =
             (self.of_block(block, |row| self.rate(row)), self.of_block(block, |row| self.impulses[row]));
         let (zero, response) = (T::constant(0.0), block.response);

@@ -1,7 +1,7 @@
 //! Newton's method for the impulses of cones, where sweeps are slow (Alart and Curnier, *Computer Methods in Applied Mechanics and
 //! Engineering* 92, 1991).
 
-use super::cones::{Block, Cone, Cones, length};
+use super::cones::{Cone, ConeBlock, Cones, length};
 use crate::number::{Real, Scalar};
 
 /// Largest number of Newton steps at a time. A few find the impulses, once it is settled what sticks, slides, and parts.
@@ -81,7 +81,7 @@ impl<T: Real> Cones<T> {
     }
 
     /// p − u/g of a block.
-    fn guess(&self, &Block { place, count, response, .. }: &Block<T>, weight: T) -> [T; 2] {
+    fn guess(&self, &ConeBlock { place, count, response, .. }: &ConeBlock<T>, weight: T) -> [T; 2] {
         let at = |c: usize| {
             if c < count && response > T::constant(0.0) {
                 self.impulses[place + c] - self.weighted_rate(place + c, response, weight) / response
@@ -93,7 +93,7 @@ impl<T: Real> Cones<T> {
     }
 
     /// The rates of a block become zero.
-    fn keep_rate(&mut self, &Block { place, count, response, .. }: &Block<T>, weight: T) {
+    fn keep_rate(&mut self, &ConeBlock { place, count, response, .. }: &ConeBlock<T>, weight: T) {
         let size = self.rates.len();
         for row in place..place + count {
             self.right[row] = -self.weighted_rate(row, response, weight) / response;
@@ -105,7 +105,7 @@ impl<T: Real> Cones<T> {
     }
 
     /// The impulses of a block become zero.
-    fn release(&mut self, &Block { place, count, .. }: &Block<T>) {
+    fn release(&mut self, &ConeBlock { place, count, .. }: &ConeBlock<T>) {
         let size = self.rates.len();
         for row in place..place + count {
             self.right[row] = -self.impulses[row];
@@ -116,7 +116,7 @@ impl<T: Real> Cones<T> {
     /// The friction of a block is at its limit, along c = p − u/g: p − limit c/|c| = 0.
     fn slide(
         &mut self,
-        &Block { place, count, response, .. }: &Block<T>,
+        &ConeBlock { place, count, response, .. }: &ConeBlock<T>,
         guess: [T; 2],
         limit: T,
         (radius, press): (T, Option<usize>),
