@@ -3,6 +3,7 @@
 mod everywhere;
 mod excerpts;
 mod golden;
+mod golden_contacts;
 mod mathml;
 mod reader;
 mod systems;

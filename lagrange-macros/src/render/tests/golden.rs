@@ -7,7 +7,7 @@ use crate::diagnostics::Diagnostics;
 use crate::render::{Rendered, render};
 use crate::{mechanics, resolve, syntax};
 
-fn rendered(source: &str) -> Rendered {
+pub(super) fn rendered(source: &str) -> Rendered {
     let mut diagnostics = Diagnostics::default();
     let input = syn::parse_str(source).expect("a struct");
     let declaration = syntax::declaration(input, &mut diagnostics);
@@ -17,7 +17,7 @@ fn rendered(source: &str) -> Rendered {
     render(&declaration, &graph, &problem, &derived)
 }
 
-fn check(source: &str, text: Expect, latex: Expect) {
+pub(super) fn check(source: &str, text: Expect, latex: Expect) {
     let rendered = rendered(source);
     let [[shortest, in_latex, _], ..] = rendered.forms;
     assert_balanced(&in_latex);
@@ -509,7 +509,7 @@ fn a_mass_on_a_wedge_by_cartesian_coordinates() {
 }
 
 /// Lines of a system between a heading and an empty line.
-fn lines(source: &str, heading: &str) -> String {
+pub(super) fn lines(source: &str, heading: &str) -> String {
     let [[text, ..], ..] = rendered(source).forms;
     let (_, lines) = text.split_once(heading).unwrap_or_else(|| panic!("no {heading} in {text}"));
     lines.split("\n\n").next().unwrap_or_default().trim().to_owned()
@@ -705,224 +705,4 @@ fn a_hamiltonian_that_is_not_written_says_why() {
     let relativistic = "#[coordinates(x)] #[lagrangian(-m*c^2*sqrt(1 - x_dot^2/c^2) - k/2*x^2)]
          struct S { m: f64, c: f64, k: f64 }";
     assert_eq!(lines(relativistic, "Momenta\n"), "p_x = m ẋ/√(1 − ẋ²/c²)");
-}
-
-/// Gaps and the multipliers of contacts are complementary; impacts take energy, but no momentum along the floor.
-#[test]
-fn contacts_are_complementary() {
-    check(
-        "#[coordinates(x, y)]
-         #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-         #[contact(floor: y >= r, restitution: e)]
-         struct Ball { m: f64, g: f64, r: f64, e: f64, floor: Contact }",
-        expect![[r#"
-            Ball
-
-            Lagrangian
-              L = ½ m (ẋ² + ẏ²) − m g y
-
-            Constraints
-              floor: 0 ≤ y − r ⊥ λ_floor ≥ 0   (holonomic; restitution e)
-
-            Equations of motion
-              x: ẍ = 0
-              y: m ÿ = −m g + λ_floor
-
-            Constraint forces
-              R_y = λ_floor
-
-            Conserved
-              p_x = m ẋ
-              E = ½ m (ẋ² + ẏ²) + m g y   (T + U if U is m g y; between impacts)
-
-            Momenta
-              p_y = m ẏ
-
-            Hamiltonian
-              H = (p_x² + p_y²)/(2 m) + m g y
-
-            Hamilton's equations
-              ẋ = p_x/m
-              ẏ = p_y/m
-              ṗ_x = 0
-              ṗ_y = λ_floor − m g
-        "#]],
-        expect![[r#"
-            \begingroup\allowdisplaybreaks
-            \par\medskip\noindent\textbf{Lagrangian}
-            \begin{align}
-              L &= \tfrac{1}{2} m (\dot x^2 + \dot y^2) - m g y \label{eq:Ball-L}
-            \end{align}
-            \par\medskip\noindent\textbf{Constraints}
-            \begin{align}
-              0 \le y - r &\perp \lambda_{\mathrm{floor}} \ge 0 \quad \text{(holonomic; }\text{restitution }e\text{)} \label{eq:Ball-floor}
-            \end{align}
-            \par\medskip\noindent\textbf{Equations of motion}
-            \begin{align}
-              \ddot x &= 0 \label{eq:Ball-x} \\
-              m \ddot y &= -m g + \lambda_{\mathrm{floor}} \label{eq:Ball-y}
-            \end{align}
-            \par\medskip\noindent\textbf{Constraint forces}
-            \begin{align}
-              R_y &= \lambda_{\mathrm{floor}} \label{eq:Ball-R_y}
-            \end{align}
-            \par\medskip\noindent\textbf{Conserved}
-            \begin{align}
-              p_x &= m \dot x \label{eq:Ball-p_x} \\
-              E &= \tfrac{1}{2} m (\dot x^2 + \dot y^2) + m g y \quad \text{(}T + U\text{ if }U\text{ is }m g y\text{; }\text{between impacts)} \label{eq:Ball-E}
-            \end{align}
-            \par\medskip\noindent\textbf{Momenta}
-            \begin{align}
-              p_y &= m \dot y \label{eq:Ball-p_y}
-            \end{align}
-            \par\medskip\noindent\textbf{Hamiltonian}
-            \begin{align}
-              H &= \frac{p_x^2 + p_y^2}{2 m} + m g y \label{eq:Ball-H}
-            \end{align}
-            \par\medskip\noindent\textbf{Hamilton's equations}
-            \begin{align}
-              \dot x &= \frac{p_x}{m} \label{eq:Ball-x-dot} \\
-              \dot y &= \frac{p_y}{m} \label{eq:Ball-y-dot} \\
-              \dot p_x &= 0 \label{eq:Ball-p-dot_x} \\
-              \dot p_y &= \lambda_{\mathrm{floor}} - m g \label{eq:Ball-p-dot_y}
-            \end{align}
-            \endgroup
-        "#]],
-    );
-    check(
-        "#[coordinates(z, a)]
-         #[lagrangian(m/2 * z_dot^2 + j/2 * a_dot^2 - m*g*z)]
-         #[define(leg = [z + a, z - a])]
-         #[contact(legs[i in 0..2]: leg[i] >= 0)]
-         #[constraint(level: a = 0, when: held)]
-         struct Table { m: f64, j: f64, g: f64, legs: [Contact; 2], held: bool }",
-        expect![[r#"
-            Table
-
-            Lagrangian
-              L = ½ m ż² + ½ j ȧ² − m g z
-              leg = [z + a, z − a]
-
-            Constraints
-              legs[i = 0 … 1]: 0 ≤ leg[i] ⊥ λ_legs[i] ≥ 0   (holonomic; restitution 0)
-              level:           a = 0   (holonomic; while held is true)
-
-            Equations of motion
-              z: m z̈ = −m g + λ_legs[1] + λ_legs[0]
-              a: j ä = λ_legs[0] + λ_level − λ_legs[1]
-
-            Constraint forces
-              R_z = λ_legs[1] + λ_legs[0]
-              R_a = λ_legs[0] + λ_level − λ_legs[1]
-
-            Conserved
-              E = ½ m ż² + ½ j ȧ² + m g z   (T + U if U is m g z; between impacts)
-
-            Momenta
-              p_z = m ż
-              p_a = j ȧ
-
-            Hamiltonian
-              H = p_z²/(2 m) + p_a²/(2 j) + m g z
-
-            Hamilton's equations
-              ż = p_z/m
-              ȧ = p_a/j
-              ṗ_z = λ_legs[0] + λ_legs[1] − m g
-              ṗ_a = λ_legs[0] + λ_level − λ_legs[1]
-        "#]],
-        expect![[r#"
-            \begingroup\allowdisplaybreaks
-            \par\medskip\noindent\textbf{Lagrangian}
-            \begin{align}
-              L &= \tfrac{1}{2} m \dot z^2 + \tfrac{1}{2} j \dot a^2 - m g z \label{eq:Table-L} \\
-              \mathbf{leg} &= [z + a, z - a] \label{eq:Table-leg}
-            \end{align}
-            \par\medskip\noindent\textbf{Constraints}
-            \begin{align}
-              0 \le \mathit{leg}_i &\perp \lambda_{\mathrm{legs}, i} \ge 0 \quad \text{(holonomic; }\text{restitution }0\text{)} \label{eq:Table-legs-i-0-1} \\
-              a &= 0 \quad \text{(holonomic; }\text{while }\mathit{held}\text{ is true)} \label{eq:Table-level}
-            \end{align}
-            \par\medskip\noindent\textbf{Equations of motion}
-            \begin{align}
-              m \ddot z &= -m g + \lambda_{\mathrm{legs}, 1} + \lambda_{\mathrm{legs}, 0} \label{eq:Table-z} \\
-              j \ddot a &= \lambda_{\mathrm{legs}, 0} + \lambda_{\mathrm{level}} - \lambda_{\mathrm{legs}, 1} \label{eq:Table-a}
-            \end{align}
-            \par\medskip\noindent\textbf{Constraint forces}
-            \begin{align}
-              R_z &= \lambda_{\mathrm{legs}, 1} + \lambda_{\mathrm{legs}, 0} \label{eq:Table-R_z} \\
-              R_a &= \lambda_{\mathrm{legs}, 0} + \lambda_{\mathrm{level}} - \lambda_{\mathrm{legs}, 1} \label{eq:Table-R_a}
-            \end{align}
-            \par\medskip\noindent\textbf{Conserved}
-            \begin{align}
-              E &= \tfrac{1}{2} m \dot z^2 + \tfrac{1}{2} j \dot a^2 + m g z \quad \text{(}T + U\text{ if }U\text{ is }m g z\text{; } \nonumber \\*
-                &\quad \text{between impacts)} \label{eq:Table-E}
-            \end{align}
-            \par\medskip\noindent\textbf{Momenta}
-            \begin{align}
-              p_z &= m \dot z \label{eq:Table-p_z} \\
-              p_a &= j \dot a \label{eq:Table-p_a}
-            \end{align}
-            \par\medskip\noindent\textbf{Hamiltonian}
-            \begin{align}
-              H &= \frac{p_z^2}{2 m} + \frac{p_a^2}{2 j} + m g z \label{eq:Table-H}
-            \end{align}
-            \par\medskip\noindent\textbf{Hamilton's equations}
-            \begin{align}
-              \dot z &= \frac{p_z}{m} \label{eq:Table-z-dot} \\
-              \dot a &= \frac{p_a}{j} \label{eq:Table-a-dot} \\
-              \dot p_z &= \lambda_{\mathrm{legs}, 0} + \lambda_{\mathrm{legs}, 1} - m g \label{eq:Table-p-dot_z} \\
-              \dot p_a &= \lambda_{\mathrm{legs}, 0} + \lambda_{\mathrm{level}} - \lambda_{\mathrm{legs}, 1} \label{eq:Table-p-dot_a}
-            \end{align}
-            \endgroup
-        "#]],
-    );
-}
-
-/// Elastic impacts keep the energy.
-#[test]
-fn elastic_contacts_keep_the_energy() {
-    let source = |restitution: &str| {
-        format!(
-            "#[coordinates(x: [2])]
-             #[lagrangian(m/2 * (x_dot[0]^2 + x_dot[1]^2))]
-             #[contact(wall: x[0] >= 0, restitution: 1)]
-             #[contact(blocks: x[1] - x[0] >= 0, restitution{restitution})]
-             struct Blocks {{ m: f64, e: f64, wall: Contact, blocks: Contact }}"
-        )
-    };
-    for (restitution, is_kept) in [(": 1", true), (": e", false), (": 1/2", false), ("(poisson): 1", false)] {
-        let [[text, latex, _], ..] = rendered(&source(restitution)).forms;
-        for form in [text, latex] {
-            assert_eq!(form.contains("between impacts"), !is_kept, "{restitution}: {form}");
-        }
-    }
-}
-
-#[test]
-fn the_law_of_an_impact_is_named() {
-    let source = "#[coordinates(y)]
-         #[lagrangian(m/2 * y_dot^2 - m*g*y)]
-         #[contact(floor: y >= 0, restitution(poisson): e)]
-         struct Ball { m: f64, g: f64, e: f64, floor: Contact }";
-    assert_eq!(
-        lines(source, "Constraints\n"),
-        "floor: 0 ≤ y ⊥ λ_floor ≥ 0   (holonomic; restitution e by Poisson's law)"
-    );
-    let elastic = source.replace(": e)", ": 1)");
-    assert!(!rendered(&elastic).forms[0][0].contains("between impacts"));
-}
-
-/// Friction that sticks does no work.
-#[test]
-fn friction_takes_energy_where_it_slides() {
-    let source = "#[coordinates(x, y)]
-         #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-         #[contact(floor: y >= 0, friction(mu): x_dot)]
-         struct Block { m: f64, g: f64, mu: f64, floor: Contact }";
-    let [[text, latex, _], ..] = rendered(source).forms;
-    assert!(text.contains("floor: ") && text.contains("0 ≤ y ⊥ λ_floor ≥ 0"), "{text}");
-    let energy = text.lines().find(|line| line.trim_start().starts_with("E = "));
-    assert!(energy.is_some_and(|line| line.ends_with("; between impacts; while nothing slides)")), "{text}");
-    assert!(latex.contains("while nothing slides"), "{latex}");
 }
