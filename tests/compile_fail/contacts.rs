@@ -11,6 +11,7 @@ use lagrange_core::prelude::*;
 #[contact(brake: x_dot >= 0)]
 #[contact(legs[i in 0..3]: r[0] - i >= 0)]
 #[contact(toes[i in 0..3]: r[1] - i >= 0)]
+#[contact(rails[i in 0..2]: r[i] + 2 >= 0)]
 #[contact(slab: y - 3 >= 0, restitution: f)]
 #[constraint(grip: x = y, when: held)]
 #[constraint(hook: x = 2*y, when: m)]
@@ -22,6 +23,7 @@ struct System {
     slab: Contact,
     legs: [Contact; 2],
     toes: Contact,
+    rails: [Contact; 3],
 }
 
 // What is wrong above is not wrong here once more.

@@ -65,6 +65,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         lowering.reject_kink("a dissipation function", value, place);
     }
     let constraints = lowering.constraints(&declaration.constraints, &mut powers);
+    lowering.parameters.check_states(lowering.diagnostics);
     let observables = lowering.observables(declaration);
     let conserved = lowering.conserved(declaration, &observables);
     let names = lowering.names(declaration);

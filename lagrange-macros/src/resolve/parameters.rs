@@ -1,6 +1,6 @@
 //! Parameters: the entries of fields that expressions use.
 
-use indexmap::IndexSet;
+use indexmap::{IndexMap, IndexSet};
 use quote::ToTokens;
 
 use super::unknown::{nearest, or_meant};
@@ -63,6 +63,8 @@ pub(crate) struct Parameters {
     pub(super) properties: Vec<Option<Property>>,
     /// Fields with a reported error.
     reported: Vec<usize>,
+    /// Fields of contacts and friction: where each is used first, and the largest indices in use.
+    states: IndexMap<usize, (Place, Vec<usize>)>,
 }
 
 impl Parameters {
@@ -78,7 +80,8 @@ impl Parameters {
         let ranges = vec![(0.5, 1.5); fields.len()];
         let properties = vec![None; fields.len()];
         let (entries, switches) = (IndexSet::new(), IndexSet::new());
-        let mut parameters = Self { fields, entries, switches, ranges, properties, reported: Vec::new() };
+        let (reported, states) = (Vec::new(), IndexMap::new());
+        let mut parameters = Self { fields, entries, switches, ranges, properties, reported, states };
         parameters.add_known_structures();
         let is_struct = |(_, parameter): &(usize, &Parameter)| matches!(parameter.fact, Fact::Struct(_));
         let said = || declaration.parameters.iter().enumerate();
@@ -252,7 +255,25 @@ impl Parameters {
             return self.report_once(field, error, diagnostics);
         };
         let number = element.iter().zip(&lengths).fold(0, |number, (i, length)| number * length + i);
+        if ty != "bool" {
+            let (_, largest) = self.states.entry(field).or_insert((name.place, element.to_vec()));
+            largest.iter_mut().zip(element).for_each(|(largest, &i)| *largest = i.max(*largest));
+        }
         Some(Entry { field, number })
+    }
+
+    /// Reports fields of contacts and friction that are longer than their families.
+    pub(super) fn check_states(&mut self, diagnostics: &mut Diagnostics) {
+        for (field, (place, largest)) in core::mem::take(&mut self.states) {
+            let Field { name, place: of_field, shape, .. } = &self.fields[field];
+            let Ok(FieldShape { layout, scalar: Some(scalar), .. }) = shape else { continue };
+            if largest.iter().zip(&layout.lengths).any(|(i, &length)| i + 1 < length) {
+                let ty = largest.iter().rfold(text(scalar), |ty, i| format!("[{ty}; {}]", i + 1));
+                let message =
+                    format!("`{}` is longer than the family, so its type has to be `{ty}`", name.text);
+                diagnostics.push(of_field.error_beside(message, place, "the family is here"));
+            }
+        }
     }
 
     /// Variable for a reading of a switch.
