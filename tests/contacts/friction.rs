@@ -431,10 +431,6 @@ fn a_block_begins_to_slide_in_the_plane() {
     // v̇ = g (sin ωt − μ cos ωt).
     let speed = |t: f64| 10.0 / omega * (-(omega * t).cos() - mu * (omega * t).sin());
     let expected = speed(6.0) - speed(begins);
-    println!(
-        "{:?}",
-        table.motion(State::at_rest([0.0; 3])).by(Dop853::with_tolerance(1e-10)).with_contacts().to(6.0)
-    );
     let v = path.end().v;
     assert!((v[0] - 0.6 * expected).abs() < 1e-8 && (v[1] - 0.8 * expected).abs() < 1e-8, "{v:?} {expected}");
 }

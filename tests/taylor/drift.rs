@@ -84,9 +84,9 @@ fn rotors_on_lanes_keep_their_energy() {
     let start = |k: usize| turning(0.7 * k as f64, 1.0);
     let rotors = Ensemble::from_fn(8, |k| (ROTOR, start(k)));
     let method = Taylor::default().max_steps(usize::MAX);
-    let outcome = rotors.integrate_on_lanes(turns(2000.0) * TURN, method).expect("an outcome");
+    let outcome = rotors.integrate_on_lanes(turns(1000.0) * TURN, method).expect("an outcome");
     assert_eq!(outcome.completed().count(), 8);
-    let steps = 2.52 * turns(2000.0);
+    let steps = 2.52 * turns(1000.0);
     let change = |(k, state): (usize, &State<f64, 2>)| 2.0 * (ROTOR.energy(state) - ROTOR.energy(&start(k)));
     let motions: Vec<_> = outcome.completed().map(|member| [change(member), steps]).collect();
     LONG_STEPS.check("rotors on lanes", &motions);
