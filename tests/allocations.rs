@@ -1,6 +1,7 @@
 //! What a motion that stores nothing allocates: nothing, however many steps it takes.
 
 use allocation_counter::measure;
+use lagrange_core::contact::Contact;
 use lagrange_core::{Method, StateOf, prelude::*, runge_kutta_step};
 
 /// Two links, the second driven at the elbow.
@@ -207,4 +208,35 @@ fn members_by_series_allocate_nothing_on_their_way() {
     for on_lanes in [true, false] {
         assert_eq!(count(10.0, on_lanes), count(1.0, on_lanes));
     }
+}
+
+/// From frame to frame, through bounces, sliding and rest.
+#[test]
+fn frames_across_contacts_free_what_they_allocate() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+    #[contact(floor: y >= 0, restitution: e, friction(mu): x_dot)]
+    struct Puck {
+        m: f64,
+        g: f64,
+        e: f64,
+        mu: f64,
+        floor: Contact,
+    }
+    let mut puck = Puck { m: 0.2, g: 9.81, e: 0.5, mu: 0.03, floor: Contact::Open };
+    let mut state = State::new([0.0, 0.5], [1.0, 0.0]);
+    let mut largest = [0; 2];
+    for frame in 1..=400 {
+        let used = measure(|| {
+            let motion = puck.motion(state).by(RungeKutta4::with_step(1.0 / 240.0)).with_contacts();
+            let path = motion.to(f64::from(frame) / 60.0).expect("no end before");
+            (state, puck) = (*path.end(), path.system().clone());
+        });
+        assert_eq!(used.bytes_current, 0, "frame {frame}: {used:?}");
+        let half = &mut largest[usize::from(frame > 200)];
+        *half = used.bytes_max.max(*half);
+    }
+    assert_eq!((puck.floor, state.v[0]), (Contact::Closed, 0.0));
+    assert!(largest[1] <= largest[0], "{largest:?}");
 }
