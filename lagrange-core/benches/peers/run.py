@@ -19,6 +19,7 @@ import rows_loops
 import rows_planar
 import rows_quantities
 import rows_robots
+import rows_spheres
 import rows_stiff
 import rows_taylor
 import tables
@@ -38,6 +39,7 @@ ROWS = {
     "lanes": rows_lanes.rows,
     "taylor": rows_taylor.rows,
     "stiff": rows_stiff.rows,
+    "spheres": rows_spheres.rows,
     "ensemble": rows_ensemble.rows,
     "duals": rows_duals.rows,
     "growth": rows_growth.rows,
