@@ -10,6 +10,7 @@ mod excluded;
 mod friction;
 mod frictionless;
 mod limits;
+mod openings;
 mod poisson;
 #[path = "../random/mod.rs"]
 mod random;

@@ -4,24 +4,21 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use super::bodies::{Bodies, States};
-use super::condition::LegCondition;
-use super::friction::bounds;
 use super::instant::{Changed, Decided};
-use super::last_value::LastValue;
 use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
+use super::lifting::Lifting;
 use super::trajectory::Transition;
+use super::watched::{Shared, of_contacts, of_friction};
 use super::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::{Ending, Error};
-use crate::motion::event::{EventSearch, noise};
+use crate::motion::event::EventSearch;
 use crate::motion::progress::{OnProgress, report};
 use crate::motion::run::{Run, Watchdog};
 use crate::motion::{DynEvent, Method, Simulate};
-use crate::names::name;
-use crate::number::{Real, Scalar, larger};
-use crate::solution::Sample;
+use crate::number::{Real, Scalar};
 use crate::solution::crossing::Crossing;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, SolutionOf, StateOf};
+use crate::system::{Lagrangian, StateOf};
 
 /// A motion under way, which keeps `K` of its legs.
 pub(super) struct Journey<'w, L: Lagrangian, K> {
@@ -164,30 +161,9 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let state = &{ run.state };
         let sizes = bodies.sizes(state);
         EventSearch::begin_leg(given, &system, [state, &sizes], self.statistics.accepted == 0)?;
-        let (solutions, residuals) = (Solutions::<L>::new(), LastValue::<L, _>::new());
-        let mut own = Vec::new();
-        let zero = L::Scalar::constant(0.0);
-        for (k, &row) in L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]) {
-            let (name, closed, solutions, residuals) =
-                (name(L::CONSTRAINTS, row), &closed, &solutions, &residuals);
-            let force = move |sample: &Sample<&L>| Ok(solution(solutions, sample)?.multipliers[row]);
-            let gap = move |sample: &Sample<&L>| {
-                let state = sample.state();
-                Ok(residuals.at(state, || Ok(closed.constraint_residual(state)))?[row])
-            };
-            let is_resting = decided.is_resting[k];
-            own.push(match decided.states.is_closed[k] {
-                true => (
-                    watched(&system, state, name, is_resting.then_some(zero), force)?,
-                    LegCondition::Pushes { row },
-                ),
-                false => {
-                    let rest = is_resting.then(|| bodies.touching(k, state));
-                    (watched(&system, state, name, rest, gap)?, LegCondition::Motion)
-                }
-            });
-        }
-        own.extend(of_friction(&system, (&closed, &solutions), decided, state)?);
+        let (shared, lifting) = (Shared::of(&closed), Lifting::of(decided));
+        let mut own = of_contacts((&system, bodies), (&shared, &lifting), decided, state)?;
+        own.extend(of_friction(&system, &shared, decided, state)?);
         let (own, conditions): (Vec<_>, Vec<_>) = own.into_iter().unzip();
         let first = given.len();
         let given = given.iter_mut().map(|event| Box::new(event) as Box<DynEvent<'_, L>>);
@@ -197,7 +173,14 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let goal = self.kept.goal().unwrap_or(self.times[1]);
         let goal = bounce.filter(|&bounce| state.t < bounce && bounce < goal).unwrap_or(goal);
         let is_closed = &decided.states.is_closed[..];
-        let watch = LegWatch { bodies, is_closed, accept: &mut self.accept, first, conditions: &conditions };
+        let watch = LegWatch {
+            bodies,
+            is_closed,
+            lifting: &lifting,
+            accept: &mut self.accept,
+            first,
+            conditions: &conditions,
+        };
         let (system, events) = (&system, &mut events[..]);
         let transitions = self.transitions.len();
         self.kept.drive(StartedLeg {
@@ -270,135 +253,4 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         }
         Ok(changed)
     }
-}
-
-/// An event, with the condition that it watches.
-type ConditionEvent<'w, L> = (Box<DynEvent<'w, L>>, LegCondition<<L as Lagrangian>::Scalar>);
-
-/// Solutions that events share.
-type Solutions<L> = LastValue<L, SolutionOf<L>>;
-
-fn solution<L: Lagrangian<Scalar: Real>>(
-    solutions: &Solutions<L>,
-    sample: &Sample<&L>,
-) -> Result<SolutionOf<L>, Error> {
-    solutions.at(sample.state(), || sample.solution())
-}
-
-/// Distance of a force from its limit, in units of round-off of both, within which it is watched for leaving it.
-const AT_LIMIT: f64 = 64.0;
-
-/// Part of its terms by which a force may exceed the limit of friction that is to stick. The solver of dependent contacts
-/// shares forces by their least norm, which need not be within the limits.
-const BEYOND: f64 = 1e-6;
-
-/// The events that friction reaches its limit, or stops the bodies, with the conditions that they watch.
-fn of_friction<'w, L>(
-    system: &L,
-    (closed, solutions): (&'w L, &'w Solutions<L>),
-    decided: &Decided<L::Scalar>,
-    state: &StateOf<L>,
-) -> Result<Vec<ConditionEvent<'w, L>>, Error>
-where
-    L: Contacts<Scalar: Real> + Clone + 'w,
-{
-    let mut events = Vec::new();
-    for (f, &FrictionRows { row, contact, .. }) in L::FRICTIONS.iter().enumerate() {
-        if contact.is_some_and(|k| !decided.states.is_closed[k]) || decided.slip_is_implied[f] {
-            continue;
-        }
-        let name = name(L::CONSTRAINTS, row);
-        let event = match decided.states.frictions[f] {
-            Friction::Sticks => {
-                let left = move |sample: &Sample<&L>| {
-                    let [limit, force] = held(closed, f, sample.state(), &solution(solutions, sample)?)?;
-                    Ok(limit - force)
-                };
-                // A force that begins at its limit has no sign before, and may have no round-off.
-                let [limit, force] = held(closed, f, state, &system.solve(state)?)?;
-                let least = L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * (limit + force);
-                if force - limit > L::Scalar::constant(BEYOND) * (limit + force) + least {
-                    return Err(Error::FrictionUndecided { friction: name, time: state.t.to_f64() });
-                }
-                watched(system, state, name, Some(least + least_speed::<L::Scalar>()), left)?
-            }
-            Friction::Slides(direction) => {
-                let along = move |sample: &Sample<&L>| slid(closed, f, direction, sample);
-                // One that begins within the round-off of zero may turn at once.
-                watched(system, state, name, Some(least_speed()), along)?
-            }
-        };
-        events.push((event, LegCondition::of_friction((closed, f), &decided.states, state)?));
-    }
-    Ok(events)
-}
-
-/// A number whose square is the least one: it gives a sign to what begins at zero and has no size.
-fn least_speed<T: Real>() -> T {
-    Scalar::sqrt(T::constant(T::SMALLEST)) * T::constant(AT_LIMIT)
-}
-
-/// Limit of friction that sticks, and its force.
-fn held<L: Contacts<Scalar: Real> + Clone>(
-    closed: &L,
-    f: usize,
-    state: &StateOf<L>,
-    SolutionOf::<L> { multipliers, .. }: &SolutionOf<L>,
-) -> Result<[L::Scalar; 2], Error> {
-    let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
-    let [limit, _] = bounds(closed, f, state)?;
-    let press = contact.map_or(L::Scalar::constant(1.0), |k| multipliers[L::CONTACTS[k]]);
-    let force = match count {
-        1 => Scalar::abs(multipliers[row]),
-        _ => {
-            let [x, y] = [multipliers[row], multipliers[row + 1]];
-            Scalar::sqrt(x * x + y * y)
-        }
-    };
-    Ok([limit * press, force])
-}
-
-/// Velocity of friction that slides along its direction. That of two velocities has turned by 60° where this is zero, before
-/// its force changes its sign.
-fn slid<L: Contacts<Scalar: Real> + Clone>(
-    closed: &L,
-    f: usize,
-    direction: [f64; 2],
-    sample: &Sample<&L>,
-) -> Result<L::Scalar, Error> {
-    let FrictionRows { row, count, .. } = L::FRICTIONS[f];
-    bounds(closed, f, sample.state())?;
-    let rates = closed.constraint_rate(sample.state());
-    let zero = L::Scalar::constant(0.0);
-    let [along, square] = (0..count).fold([zero; 2], |[along, square], c| {
-        [along + L::Scalar::constant(direction[c]) * rates[row + c], square + rates[row + c] * rates[row + c]]
-    });
-    let half = L::Scalar::constant(0.5);
-    Ok(if count == 1 { along } else { along - half * Scalar::sqrt(square) })
-}
-
-/// The event that a gap or a multiplier becomes negative. If it rests at zero, it may do so at once, without a sign before: it
-/// is then watched for exceeding four times its round-off, and the least that `rest` gives.
-fn watched<'w, L>(
-    system: &L,
-    state: &StateOf<L>,
-    name: &'static str,
-    rest: Option<L::Scalar>,
-    function: impl Fn(&Sample<&L>) -> Result<L::Scalar, Error> + Copy + 'w,
-) -> Result<Box<DynEvent<'w, L>>, Error>
-where
-    L: Lagrangian<Scalar: Real> + 'w,
-{
-    let zero = L::Scalar::constant(0.0);
-    let mut margin = zero;
-    if let Some(least) = rest {
-        let noise = noise(&system.event(name, function), system, state)?;
-        let allowed = larger(L::Scalar::constant(4.0) * noise, least);
-        let value = function(&system.sample(*state))?;
-        if value <= allowed {
-            margin = allowed + larger(-value, zero);
-        }
-    }
-    let event = system.event(name, move |sample| Ok(function(sample)? + margin));
-    Ok(Box::new(event.falling().terminal()))
 }

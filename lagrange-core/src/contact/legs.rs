@@ -7,6 +7,7 @@ use core::marker::PhantomData;
 use super::Contacts;
 use super::bodies::Bodies;
 use super::condition::LegCondition;
+use super::lifting::Lifting;
 use crate::error::{Ending, Error};
 use crate::motion::event::{AnyEvent, DenseStep, EventSearch};
 use crate::motion::record::Record;
@@ -89,6 +90,7 @@ where
 pub(super) struct LegWatch<'l, 'w, L: Lagrangian> {
     pub(super) bodies: &'l mut Bodies<L>,
     pub(super) is_closed: &'l [bool],
+    pub(super) lifting: &'l Lifting,
     pub(super) accept: &'l mut Accept<'w, L>,
     /// Number of the events before those of contacts.
     pub(super) first: usize,
@@ -113,6 +115,7 @@ impl<L: Contacts<Scalar: Real> + Clone> LegWatch<'_, '_, L> {
 
     fn look(&mut self, state: &StateOf<L>, steps: usize) -> Result<(), Ending> {
         self.bodies.passes(state);
+        self.lifting.pass(|k| self.bodies.gap(k, state) > self.bodies.touching(k, state));
         match self.bodies.crossed(self.is_closed, state) {
             Some(error) => Err(Ending::of(error, state.t.to_f64())),
             None => (self.accept)(state, steps),
