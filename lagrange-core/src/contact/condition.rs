@@ -35,6 +35,11 @@ impl<T: Real> LegCondition<T> {
         Ok(Self::Sticks { row, count, press: contact.map(|k| L::CONTACTS[k]), limit })
     }
 
+    /// True if multipliers decide on the condition.
+    pub(super) fn is_on_forces(&self) -> bool {
+        !matches!(self, Self::Motion)
+    }
+
     /// True if λ > 0, or μ λ_N > |λ_T|, for all multipliers within these bounds.
     #[inline]
     pub(super) fn holds_within<M: Length>(&self, within: &MultiplierBounds<T, M>) -> bool {

@@ -113,6 +113,18 @@ impl<L: Contacts<Scalar: Real> + Clone> LegWatch<'_, '_, L> {
         }
     }
 
+    /// Bounds on the multipliers within the last step, if a condition is one on forces.
+    #[inline]
+    fn bounds<P: Method<L>>(
+        &self,
+        system: &L,
+        method: &P,
+        run: &mut Run<L, P>,
+    ) -> Option<MultiplierBounds<L::Scalar, L::M>> {
+        let is_on_forces = self.conditions.iter().any(LegCondition::is_on_forces);
+        is_on_forces.then(|| method.multiplier_bounds(system, &run.memory, &mut run.statistics))?
+    }
+
     fn look(&mut self, state: &StateOf<L>, steps: usize) -> Result<(), Ending> {
         self.bodies.passes(state);
         self.lifting.pass(|k| self.bodies.gap(k, state) > self.bodies.touching(k, state));
@@ -151,8 +163,8 @@ where
 
     #[inline(always)]
     fn keep(&mut self, method: &P, run: &mut Run<L, P>) -> Result<(), Ending> {
-        let (within, width) = (method.multiplier_bounds(&run.memory), run.state.t - run.before.t);
-        self.watch.exclude(within.as_ref(), width, &mut self.observer);
+        let within = self.watch.bounds(self.observer.system(), method, run);
+        self.watch.exclude(within.as_ref(), run.state.t - run.before.t, &mut self.observer);
         self.observer.keep(method, run)?;
         self.watch.look(&run.state, run.statistics.accepted)
     }

@@ -1,8 +1,13 @@
 //! Bounds on the multipliers within a step, from their values at its stages.
 
-use super::pair::{Pair, last};
-use super::pair_memory::PairMemory;
-use crate::number::{Real, larger, smaller};
+use super::pair::{Pair, SLOPES, Slopes, TableauRow, advance, last};
+use super::pair_memory::{PairMemory, Taken};
+use super::slope::slope;
+use crate::error::Error;
+use crate::number::{Real, Scalar, larger, smaller};
+use crate::solution::vector_field::{StagePoint, VectorField};
+use crate::statistics::Statistics;
+use crate::system::Lagrangian;
 use crate::vector::{Array, Element, Length, entries};
 
 /// Bounds on the multiplier of each constraint within a step.
@@ -29,26 +34,78 @@ const fn count<P: Pair>() -> usize {
     last::<P>() + 1 + P::INTERPOLATION_STAGES.len()
 }
 
-/// Bounds on the multipliers within the last accepted step, whose dense output is known.
-pub(super) fn multiplier_bounds<P: Pair, T: Real, N: Length, M: Length>(
-    memory: &PairMemory<T, N, M>,
-) -> Option<MultiplierBounds<T, M>> {
+/// Bounds on the multipliers within the last accepted step, whose dense output is known. Where the stages leave too wide a gap, they
+/// are evaluated in its middle too.
+pub(super) fn multiplier_bounds<P: Pair, L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
+    system: &L,
+    memory: &PairMemory<L::Scalar, L::N, L::M>,
+    statistics: &mut Statistics,
+) -> Option<MultiplierBounds<L::Scalar, L::M>> {
     let taken = memory.taken.as_ref()?;
-    if const { widest::<P>() > WIDEST }
+    if const { widest::<P>(middle::<P>())[1] > WIDEST }
         || memory.active.contains(&false)
         || taken.from.active.contains(&false)
     {
         return None;
     }
-    Some(bounds::<P, _, _>(&memory.stage_multipliers[..const { count::<P>() }]))
+    let stages = &memory.stage_multipliers[..const { count::<P>() }];
+    let another = match const { widest::<P>(0.0)[1] > WIDEST } {
+        false => stages[0],
+        true => in_the_middle::<P, L, F>(system, taken, &memory.slopes, statistics).ok()?,
+    };
+    Some(bounds::<P, _, _>(stages, &another))
 }
 
-/// Bounds on functions with these values at the stages.
+/// Multipliers in the middle of the widest gap between stages.
+fn in_the_middle<P: Pair, L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
+    system: &L,
+    Taken { from, h, .. }: &Taken<L::Scalar, L::N, L::M>,
+    slopes: &Slopes<L::Scalar, L::N>,
+    statistics: &mut Statistics,
+) -> Result<Array<L::Scalar, L::M>, Error> {
+    let t = from.t + *h * L::Scalar::constant(const { middle::<P>() });
+    let mut point = StagePoint { t, y: from.y, velocity: slopes[0].half(0) };
+    let row = &const { row_at::<P>(middle::<P>()) }[..const { count::<P>() }];
+    advance(&from.y, *h, slopes, row, &mut point.y);
+    let mut rates = point.y;
+    Ok(slope::<L, F>(system, &point, Some(&from.active), &mut rates, statistics)?.multipliers)
+}
+
+/// Coefficients of the slopes in the dense output at a part θ of the step: those of r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + …))).
+const fn row_at<P: Pair>(theta: f64) -> [(usize, f64); SLOPES] {
+    let (mut row, mut i) = ([(0, 0.0); SLOPES], 0);
+    while i < SLOPES {
+        row[i].0 = i;
+        i += 1;
+    }
+    let [one, two, three] = [theta, theta * (1.0 - theta), theta * theta * (1.0 - theta)];
+    add(&mut row, P::WEIGHTS, one - two + 2.0 * three);
+    row[0].1 += two - three;
+    row[last::<P>()].1 -= three;
+    let (mut factor, mut k) = (three, 0);
+    while k < P::INTERPOLATION.len() {
+        factor *= if k % 2 == 0 { 1.0 - theta } else { theta };
+        add(&mut row, P::INTERPOLATION[k], factor);
+        k += 1;
+    }
+    row
+}
+
+/// Adds a multiple of the coefficients `of` slopes.
+const fn add(row: &mut [(usize, f64); SLOPES], of: TableauRow, factor: f64) {
+    let mut k = 0;
+    while k < of.len() {
+        row[of[k].0].1 += factor * of[k].1;
+        k += 1;
+    }
+}
+
+/// Bounds on functions with these values at the stages, and at another time.
 ///
-/// A function λ stays within 1 + 2Λ half ranges of the middle of its values at the stages, if it is off a cubic polynomial p by
-/// at most a half range R: |p − middle| ≤ 2R at the stages, and ≤ 2ΛR between them, with their Lebesgue constant Λ.
+/// A function λ stays within 1 + 2Λ half ranges of the middle of these values, if it is off a cubic polynomial p by at most a half
+/// range R: |p − middle| ≤ 2R at the stages, and ≤ 2ΛR between them, with their Lebesgue constant Λ.
 #[inline]
-fn bounds<P: Pair, T: Real, M: Length>(all: &[Array<T, M>]) -> MultiplierBounds<T, M> {
+fn bounds<P: Pair, T: Real, M: Length>(all: &[Array<T, M>], another: &Array<T, M>) -> MultiplierBounds<T, M> {
     // Halves: half as many comparisons wait for one another. If the values at the start are unknown, NaN remains.
     let (one, other) = all.split_at(const { count::<P>() / 2 });
     let [mut lowest, mut highest] = [all[0]; 2];
@@ -56,6 +113,8 @@ fn bounds<P: Pair, T: Real, M: Length>(all: &[Array<T, M>]) -> MultiplierBounds<
         lowest = entries(|a| smaller(lowest[a], smaller(x[a], y[a])));
         highest = entries(|a| larger(highest[a], larger(x[a], y[a])));
     }
+    lowest = entries(|a| smaller(lowest[a], another[a]));
+    highest = entries(|a| larger(highest[a], another[a]));
     // From the middle by a half range to the ends, and by 2Λ of them beyond.
     let beyond = |a: usize| (highest[a] - lowest[a]) * T::constant(const { lebesgue::<P>() });
     MultiplierBounds {
@@ -64,23 +123,35 @@ fn bounds<P: Pair, T: Real, M: Length>(all: &[Array<T, M>]) -> MultiplierBounds<
     }
 }
 
-/// Widest gap between the times of two stages, as a fraction of the step.
-const fn widest<P: Pair>() -> f64 {
-    let (mut widest, mut i) = (0.0, 0);
+/// Middle of the widest gap between stages.
+const fn middle<P: Pair>() -> f64 {
+    let [start, width] = widest::<P>(0.0);
+    start + width / 2.0
+}
+
+/// Start and width of the widest gap between the times of two stages, or of a stage and `another` time, as fractions of the step.
+const fn widest<P: Pair>(another: f64) -> [f64; 2] {
+    let ([mut start, mut widest], mut i) = ([0.0, gap::<P>(another, another)], 0);
     while i < count::<P>() {
-        let (mut next, mut j) = (1.0, 0);
-        while j < count::<P>() {
-            if P::NODES[j] > P::NODES[i] && P::NODES[j] < next {
-                next = P::NODES[j];
-            }
-            j += 1;
-        }
-        if next - P::NODES[i] > widest {
-            widest = next - P::NODES[i];
+        let gap = gap::<P>(P::NODES[i], another);
+        if gap > widest {
+            [start, widest] = [P::NODES[i], gap];
         }
         i += 1;
     }
-    widest
+    [start, widest]
+}
+
+/// Time from here to the next stage, or to `another` time.
+const fn gap<P: Pair>(from: f64, another: f64) -> f64 {
+    let (mut next, mut i) = (if another > from { another } else { 1.0 }, 0);
+    while i < count::<P>() {
+        if P::NODES[i] > from && P::NODES[i] < next {
+            next = P::NODES[i];
+        }
+        i += 1;
+    }
+    next - from
 }
 
 /// Bound on the Lebesgue constant of the four stages nearest to the extreme points of the Chebyshev polynomial of degree 3.
@@ -138,12 +209,21 @@ mod tests {
     use crate::fixtures::Random;
     use crate::motion::{DormandPrince54, DormandPrince853};
 
-    type Nodes = DormandPrince853;
+    /// Fractions of the step at which functions are known.
+    fn places<P: Pair>() -> impl Iterator<Item = f64> {
+        P::NODES.iter().copied().chain([another::<P>()])
+    }
 
-    /// Bounds on a function of the fraction of the step, by its values at the stages.
-    fn of(f: impl Fn(f64) -> f64) -> [f64; 2] {
-        let values = Nodes::NODES.iter().map(|&node| [f(node)].into()).collect::<Vec<Array<f64, Const<1>>>>();
-        let MultiplierBounds { lowest, highest } = bounds::<Nodes, _, _>(&values);
+    /// The middle of the widest gap, if the stages leave one that is too wide; else the first stage.
+    fn another<P: Pair>() -> f64 {
+        if widest::<P>(0.0)[1] > WIDEST { middle::<P>() } else { 0.0 }
+    }
+
+    /// Bounds on a function of the fraction of the step, by its values there.
+    fn of<P: Pair>(f: impl Fn(f64) -> f64) -> [f64; 2] {
+        let value = |place: f64| Array::<f64, Const<1>>::from([f(place)]);
+        let stages: Vec<_> = P::NODES.iter().map(|&node| value(node)).collect();
+        let MultiplierBounds { lowest, highest } = bounds::<P, _, _>(&stages, &value(another::<P>()));
         [lowest[0], highest[0]]
     }
 
@@ -152,24 +232,44 @@ mod tests {
     }
 
     #[test]
-    fn stages_of_dop853_are_dense_and_those_of_dopri5_are_not() {
-        assert!((widest::<Nodes>() - 0.266_666_666_666_666_6).abs() < 1e-12, "{}", widest::<Nodes>());
-        assert!(widest::<DormandPrince54>() > WIDEST);
+    fn the_stages_of_dop853_are_dense_and_the_gap_of_dopri5_is_divided() {
+        let is_close = |[a, b]: [f64; 2], [c, d]: [f64; 2]| (a - c).abs() < 1e-15 && (b - d).abs() < 1e-15;
+        assert!(is_close(widest::<DormandPrince853>(0.0), [1.0 / 3.0, 4.0 / 15.0]));
+        assert!(is_close(widest::<DormandPrince853>(middle::<DormandPrince853>()), [6.0 / 7.0, 1.0 / 7.0]));
+        assert!(is_close(widest::<DormandPrince54>(0.0), [0.3, 0.5]));
+        assert!(widest::<DormandPrince54>(middle::<DormandPrince54>())[1] < 0.251);
+        assert!(another::<DormandPrince853>() == 0.0 && another::<DormandPrince54>() == 0.55);
+    }
+
+    /// The dense output of t⁴ and t⁵ is known where the multipliers are evaluated once more.
+    #[test]
+    fn the_middle_is_on_the_dense_output() {
+        fn check<P: Pair>(power: i32) {
+            let (row, at) = (row_at::<P>(middle::<P>()), middle::<P>());
+            let slope = |node: f64| f64::from(power) * node.powi(power - 1);
+            let sum: f64 = P::NODES.iter().zip(row).map(|(&node, (_, weight))| weight * slope(node)).sum();
+            assert!((sum - at.powi(power)).abs() < 1e-14, "{sum} for {}", at.powi(power));
+        }
+        (1..=7).for_each(check::<DormandPrince853>);
+        (1..=4).for_each(check::<DormandPrince54>);
     }
 
     /// The polynomials that are ±1 at the four stages reach the Lebesgue constant.
     #[test]
     fn the_lebesgue_constant_is_that_of_the_stages() {
-        let nodes = nearest::<Nodes>();
-        let most = grid().map(|x| lebesgue_function(&nodes, x)).fold(0.0, f64::max);
-        let found = lebesgue::<Nodes>();
-        assert!(nodes == [0.0, 0.25, 0.777_777_777_777_777_8, 1.0], "{nodes:?}");
-        assert!(most <= found && found < 1.05 * most && most > 1.5, "{most} {found}");
+        fn check<P: Pair>(expected: [f64; 4]) {
+            let nodes = nearest::<P>();
+            let most = grid().map(|x| lebesgue_function(&nodes, x)).fold(0.0, f64::max);
+            let found = lebesgue::<P>();
+            assert!(nodes == expected, "{nodes:?}");
+            assert!(most <= found && found < 1.05 * most && most > 1.5, "{most} {found}");
+        }
+        check::<DormandPrince853>([0.0, 0.25, 0.777_777_777_777_777_8, 1.0]);
+        check::<DormandPrince54>([0.0, 0.2, 0.8, 1.0]);
     }
 
     /// Whatever is off a cubic polynomial by up to the half range of its values at the stages is within the bounds.
-    #[test]
-    fn functions_near_cubic_polynomials_are_within_their_bounds() {
+    fn check_near_cubic_polynomials<P: Pair>() {
         let mut random = Random(11);
         for k in 0..100_000 {
             let c: [f64; 4] = core::array::from_fn(|_| random.next());
@@ -177,29 +277,37 @@ mod tests {
             let cubic = |x: f64| c[0] + x * (c[1] + x * (c[2] + x * c[3]));
             let share = 10.0_f64.powf(-2.0 * random.next().abs());
             let f = |x: f64| cubic(x) + share * (rate * x + phase).sin();
-            let values = || Nodes::NODES.iter().map(|&node| f(node));
+            let values = || places::<P>().map(f);
             let (low, high) =
                 (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
             if share > (high - low) / 2.0 {
                 continue;
             }
-            let [lowest, highest] = of(f);
+            let [lowest, highest] = of::<P>(f);
             for x in grid() {
                 assert!(lowest <= f(x) && f(x) <= highest, "{k}: {} at {x} of {lowest} to {highest}", f(x));
             }
         }
     }
 
+    #[test]
+    fn functions_near_cubic_polynomials_are_within_their_bounds() {
+        check_near_cubic_polynomials::<DormandPrince853>();
+        check_near_cubic_polynomials::<DormandPrince54>();
+    }
+
     /// Dips through zero that are as wide as those that the search for events finds all.
     #[test]
     fn dips_are_not_excluded() {
-        for middle in grid() {
-            for width in [0.15, 0.2, 0.4, 1.0] {
+        fn check<P: Pair>() {
+            for (middle, width) in grid().flat_map(|x| [0.15, 0.2, 0.4, 1.0].map(|width| (x, width))) {
                 for depth in [1.0, 1.2, 3.0] {
-                    let [lowest, _] = of(|x| 1.0 - depth * (-((x - middle) / width).powi(2)).exp());
+                    let [lowest, _] = of::<P>(|x| 1.0 - depth * (-((x - middle) / width).powi(2)).exp());
                     assert!(lowest <= 0.0, "a dip of {depth} at {middle}, {width} wide, has {lowest}");
                 }
             }
         }
+        check::<DormandPrince853>();
+        check::<DormandPrince54>();
     }
 }

@@ -117,9 +117,14 @@ where
     }
 
     /// Returns bounds on the multipliers within the last accepted step, once its dense output has been computed; `None` if the
-    /// method knows none.
+    /// method knows none. The method must count its evaluations in `statistics`.
     #[allow(unused_variables)]
-    fn multiplier_bounds(&self, memory: &Self::Memory) -> Option<MultiplierBounds<L::Scalar, L::M>> {
+    fn multiplier_bounds(
+        &self,
+        system: &L,
+        memory: &Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Option<MultiplierBounds<L::Scalar, L::M>> {
         None
     }
 

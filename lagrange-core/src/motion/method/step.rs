@@ -176,8 +176,13 @@ where
     }
 
     #[inline]
-    fn multiplier_bounds(&self, memory: &Self::Memory) -> Option<MultiplierBounds<L::Scalar, L::M>> {
-        bounds::multiplier_bounds::<P, _, _, _>(memory)
+    fn multiplier_bounds(
+        &self,
+        system: &L,
+        memory: &Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Option<MultiplierBounds<L::Scalar, L::M>> {
+        bounds::multiplier_bounds::<P, L, F>(system, memory, statistics)
     }
 
     fn undo(&self, memory: &mut Self::Memory) -> bool {
