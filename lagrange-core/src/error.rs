@@ -281,8 +281,21 @@ pub enum Error {
     Ensemble(EnsembleError),
     /// A coefficient of restitution is negative or not finite, or that of a contact exceeds 1.
     Restitution {
+        /// Name of the contact or of the constraint that is hit.
+        constraint: &'static str,
         /// Its value.
         value: f64,
+    },
+    /// A contact is stated as closed, though its gap is not zero, or its velocity not zero.
+    ClosedApart {
+        /// Name of the contact.
+        contact: &'static str,
+        /// True if the gap changes, false if it is open or negative.
+        rate: bool,
+        /// The gap or its rate.
+        residual: f64,
+        /// The time of the state.
+        time: f64,
     },
     /// A contact has Poisson's law of impact, which [time stepping](crate::contact::MoreauJean) does not have.
     ImpactLaw {

@@ -115,3 +115,34 @@ fn a_bead_leaves_its_sphere_where_it_would_pull() {
     let angle = path.at(*time).unwrap().coordinate("theta").unwrap();
     assert!((angle.cos() - (2.0 + 0.01 / 9.81) / 3.0).abs() < 1e-11);
 }
+
+/// A ball on a floor with any restitution.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(y_dot^2/2 - y)]
+#[contact(floor: y >= 0, restitution: e)]
+struct Dropped {
+    e: f64,
+    floor: Contact,
+}
+
+#[test]
+fn a_restitution_that_is_none_is_named_with_its_contact() {
+    for e in [-0.1, 1.5, f64::INFINITY] {
+        let ball = Dropped { e, floor: Contact::Open };
+        let path = ball.motion(State::at_rest([1.0])).with_contacts().towards(2.0).unwrap();
+        let said = path.ending().to_string();
+        let text = format!("the coefficient of restitution of `floor` is {e}: give it one from 0,");
+        assert!(said.contains(&text), "{said}");
+    }
+}
+
+#[test]
+fn a_contact_stated_as_closed_above_its_floor_is_named() {
+    let ball = Dropped { e: 0.5, floor: Contact::Closed };
+    let error = ball.motion(State::at_rest([0.25])).with_contacts().to(1.0).unwrap_err().to_string();
+    let text = "contact `floor` is stated as closed, but its gap is 2.5e-1 at t = 0: set the field `floor` to `Contact::Open`";
+    assert!(error.starts_with(text), "{error}");
+    let error = ball.motion(State::new([0.0], [1.0])).with_contacts().to(1.0).unwrap_err().to_string();
+    assert!(error.contains("but its gap changes: its rate is 1e0 at t = 0: set the field"), "{error}");
+}

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::{Contact, Contacts, Friction};
 use crate::error::Error;
+use crate::motion::Simulate;
 use crate::names::name;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::consistent::gradient;
@@ -98,6 +99,19 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             }
         }
         system
+    }
+
+    /// Fails if the gap of a contact that is closed is not zero, or another constraint does not hold. Friction does not count:
+    /// velocities say whether it sticks.
+    pub(super) fn check_closed(&self, is_closed: &[bool], state: &StateOf<L>) -> Result<(), Error> {
+        self.without_friction(is_closed).check_consistent(state).map_err(|error| match error {
+            Error::Inconsistent { constraint: contact, rate, residual, time }
+                if (0..L::CONTACTS.len()).any(|k| self.name(k) == contact) =>
+            {
+                Error::ClosedApart { contact, rate, residual, time }
+            }
+            error => error,
+        })
     }
 
     /// The system with these contacts closed, and no friction.
@@ -267,7 +281,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     pub(super) fn restitution(&self, k: usize, state: &StateOf<L>) -> Result<L::Scalar, Error> {
         let value = self.open.restitution(k, state).unwrap_or(L::Scalar::constant(0.0));
         let is_one = value >= L::Scalar::constant(0.0) && value <= L::Scalar::constant(1.0);
-        if is_one { Ok(value) } else { Err(Error::Restitution { value: value.to_f64() }) }
+        let constraint = self.name(k);
+        if is_one { Ok(value) } else { Err(Error::Restitution { constraint, value: value.to_f64() }) }
     }
 
     pub(super) fn contradiction(&self, touching: &[usize], state: &StateOf<L>) -> Error {

@@ -60,8 +60,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         bodies.passes(&state);
         let is_closed: Vec<bool> =
             (0..L::CONTACTS.len()).map(|k| system.contact(k) != Some(Contact::Open)).collect();
-        // Velocities say whether friction sticks or slides.
-        bodies.without_friction(&is_closed).check_consistent(&state)?;
+        bodies.check_closed(&is_closed, &state)?;
         bodies.reaches(&state, end - state.t)?;
         bodies.crossed(&is_closed, &state).map_or(Ok(()), Err)?;
         let (times, was) = ([state.t, end], States { is_closed, frictions: Vec::new() });
@@ -140,7 +139,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     /// Decides which contacts are closed, and which friction sticks, after a change of parameters.
     fn settle_anew(&mut self) -> Result<Decided<L::Scalar>, Error> {
         let was = &self.decided.states;
-        self.bodies.without_friction(&was.is_closed).check_consistent(&self.state)?;
+        self.bodies.check_closed(&was.is_closed, &self.state)?;
         self.bodies.crossed(&was.is_closed, &self.state).map_or(Ok(()), Err)?;
         self.bodies.settle(&mut self.state, (was, &Changed::default()), &mut self.transitions)
     }

@@ -149,13 +149,15 @@ impl Display for Error {
             ),
             #[cfg(feature = "std")]
             Self::Ensemble(error) => write!(f, "{error}"),
-            Self::Restitution { value } if *value > 1.0 => write!(
+            Self::Restitution { constraint, value } => write!(
                 f,
-                "the coefficient of restitution is {value}: an impact that is elastic has 1, and none has more"
+                "the coefficient of restitution of `{constraint}` is {value}: give it one from 0, where the bodies stay together, to 1, where they lose no energy"
             ),
-            Self::Restitution { value } => {
-                write!(f, "the coefficient of restitution is {value}: it must not be negative, and finite")
-            }
+            Self::ClosedApart { contact, rate, residual, time } => write!(
+                f,
+                "contact `{contact}` is stated as closed, but its {} is {residual:e} at t = {time}: set the field `{contact}` to `Contact::Open`, and the motion closes it where the bodies touch",
+                if *rate { "gap changes: its rate" } else { "gap" }
+            ),
             Self::ImpactLaw { contact } => write!(
                 f,
                 "contact `{contact}` has Poisson's law of impact, but time stepping only Newton's: move by `with_contacts()`, or state `restitution: e`"

@@ -8,6 +8,7 @@ use nalgebra::ComplexField;
 use super::consistent::{Level, check_level};
 use super::kkt::Rank;
 use crate::error::Error;
+use crate::names::name;
 use crate::number::{Real, Scalar};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::solve_in_general;
@@ -45,7 +46,8 @@ pub(crate) fn impact<L: Lagrangian<Scalar: Real>>(
 ) -> Result<Impact<L>, Error> {
     check_finite(system, state)?;
     if !(restitution.is_finite() && restitution >= L::Scalar::constant(0.0)) {
-        return Err(Error::Restitution { value: restitution.to_f64() });
+        let constraint = name(L::CONSTRAINTS, hit);
+        return Err(Error::Restitution { constraint, value: restitution.to_f64() });
     }
     check_level(system, Level::Position, state)?;
     // F (v⁺ − v⁻) cancels the constraint rates before the impact, and reverses the rate of the constraint that

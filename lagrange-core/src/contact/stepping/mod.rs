@@ -14,7 +14,6 @@ use super::bodies::Bodies;
 use super::builder::{CrossesContacts, check_times};
 use super::{Contact, Contacts, ImpactLaw};
 use crate::error::{Ending, Error, Pace};
-use crate::motion::Simulate;
 use crate::motion::method::contract::check_settings;
 use crate::motion::progress::report;
 use crate::motion::{AllSteps, LagrangianVectorField, MotionBuilder, Start};
@@ -250,7 +249,7 @@ fn begin<L: Contacts<Scalar: Real> + Clone>(
     bodies.reaches(state, end - state.t)?;
     let is_closed: Vec<bool> =
         (0..L::CONTACTS.len()).map(|k| system.contact(k) != Some(Contact::Open)).collect();
-    bodies.without_friction(&is_closed).check_consistent(state)?;
+    bodies.check_closed(&is_closed, state)?;
     bodies.crossed(&is_closed, state).map_or(Ok(()), Err)?;
     Ok(bodies)
 }
