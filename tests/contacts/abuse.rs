@@ -95,7 +95,7 @@ fn keeps_the_laws(case: &str, rod: &RoughRod, path: &ContactTrajectory<RoughRod>
 /// Friction has a coefficient up to 0.4, at which a rod does not jam (Painlevé's rod needs 4/3).
 #[test]
 fn rods_on_a_rough_floor_and_a_rough_wall() {
-    let (mut seed, mut endings) = (5, [0; 4]);
+    let (mut seed, mut endings) = (5, [0; 3]);
     for case in 0..count("LAGRANGE_DROPS", 60) {
         let mut next = |low, high| random(&mut seed, low, high);
         let (e, mu) = ([0.0, 0.3, 0.7][case % 3], next(0.0, 0.4));
@@ -118,19 +118,13 @@ fn rods_on_a_rough_floor_and_a_rough_wall() {
         match path.ending() {
             Ending::Complete { .. } => endings[0] += 1,
             Ending::TransitionLimit { .. } => endings[1] += 1,
-            // Both ends stick at rest, and the solver shares four forces among three motions by their least norm.
-            Ending::Unsolved { error: Error::FrictionUndecided { .. }, .. } => endings[3] += 1,
             other => panic!("case {case}: {other}, e = {e}, mu = {mu}, from {start}"),
         }
         endings[2] += path.transitions().len();
         keeps_the_laws(&format!("case {case}"), &rod, &path);
     }
-    println!(
-        "{} complete, {} at the limit, {} transitions, {} failed",
-        endings[0], endings[1], endings[2], endings[3]
-    );
+    println!("{} complete, {} at the limit, {} transitions", endings[0], endings[1], endings[2]);
     assert_eq!(endings[1], 0);
-    assert!(200 * endings[3] <= endings[0], "{} undecided", endings[3]);
 }
 
 /// The impact takes all but the round-off of the velocity along the floor, far more than that of the small velocities before.

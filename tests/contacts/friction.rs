@@ -318,11 +318,13 @@ fn each_state_solves_the_equations_written_by_hand() {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         low + (high - low) * (seed >> 11) as f64 / (1_u64 << 53) as f64
     };
-    let states = [Contact::Open, Contact::Closed, Contact::Slides([1.0, 0.0]), Contact::Slides([-1.0, 0.0])];
+    let slides = |sign| Contact::Slides([sign, 0.0]);
+    let shares = Contact::Shares([Some(-0.4), None]);
+    let states = [Contact::Open, Contact::Closed, slides(1.0), slides(-1.0), shares];
     let mut jams = 0;
     for case in 0..2_000 {
         // Two closed contacts of which one sticks are three rows at most.
-        let floor = [states[case % 4], states[[0, 2, 3, 0][case / 4 % 4]]];
+        let floor = [states[case % 5], states[[0, 2, 3, 4][case / 5 % 4]]];
         let rod = Rod {
             m: next(0.5, 2.0),
             j: next(0.1, 1.0),
@@ -363,6 +365,11 @@ fn each_state_solves_the_equations_written_by_hand() {
                     set(&mut k, n, normal);
                     rhs[n] = -bias[0];
                     (k[(t, t)], k[(t, n)]) = (1.0, rod.mu * sign);
+                }
+                Contact::Shares([part, _]) => {
+                    set(&mut k, n, normal);
+                    rhs[n] = -bias[0];
+                    (k[(t, t)], k[(t, n)]) = (1.0, -rod.mu * part.unwrap());
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use super::bodies::States;
 use super::friction::bounds;
-use super::{Contacts, Friction, FrictionRows};
+use super::{Contacts, FrictionRows};
 use crate::error::Error;
 use crate::motion::MultiplierBounds;
 use crate::number::{Real, Scalar, larger};
@@ -28,7 +28,7 @@ impl<T: Real> LegCondition<T> {
         state: &StateOf<L>,
     ) -> Result<Self, Error> {
         let FrictionRows { row, count, contact, has_constant_limit } = L::FRICTIONS[f];
-        if !has_constant_limit || states.frictions[f] != Friction::Sticks {
+        if !has_constant_limit || !states.frictions[f].is_at_rest() {
             return Ok(Self::Motion);
         }
         let [limit, _] = bounds(closed, f, state)?;

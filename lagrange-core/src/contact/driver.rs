@@ -8,7 +8,7 @@ use super::instant::{Changed, Decided};
 use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
 use super::lifting::Lifting;
 use super::trajectory::Transition;
-use super::watched::{Shared, of_contacts, of_friction};
+use super::watched::{BEYOND, Shared, held, of_contacts, of_friction};
 use super::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::{Ending, Error};
 use crate::motion::event::EventSearch;
@@ -241,15 +241,35 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         match decided.states.frictions[f] {
             // The velocity may only have turned.
             Friction::Slides(_) => changed.stops = bodies.is_stopped(f, state).then_some(f),
-            Friction::Sticks => {
-                let FrictionRows { row, count, .. } = L::FRICTIONS[f];
-                let solution = bodies.with(&decided.states).solve(state)?;
-                let force = |c: usize| if c < count { solution.multipliers[row + c].to_f64() } else { 0.0 };
-                let (x, y) = (force(0), force(1));
-                let size = Scalar::sqrt(x * x + y * y);
-                changed.slips = (size > 0.0).then(|| (f, [-x / size, -y / size]));
-            }
+            Friction::Sticks | Friction::Shares(_) => changed.slips = self.slips(f)?,
         }
         Ok(changed)
+    }
+
+    /// Friction that begins to slide where this one reaches its limit: all at their limits if they share their forces, and none
+    /// if another one that shares them has some of its limit left.
+    fn slips(&self, f: usize) -> Result<Vec<(usize, [f64; 2])>, Error> {
+        let Self { bodies, decided: Decided { states, .. }, state, .. } = self;
+        let solution = bodies.with(states).solve(state)?;
+        let (mut slips, mut is_left) = (Vec::new(), false);
+        let is_shared = states.frictions.iter().any(|friction| matches!(friction, Friction::Shares(_)));
+        for (other, &FrictionRows { row, count, contact, .. }) in L::FRICTIONS.iter().enumerate() {
+            let is_pressed = contact.is_none_or(|k| states.is_closed[k]);
+            let friction = states.frictions[other];
+            if other != f && !(is_shared && is_pressed && friction.is_at_rest()) {
+                continue;
+            }
+            let [limit, force] = held(&bodies.closed, other, state, &solution)?;
+            if other != f && force < (L::Scalar::constant(1.0 - BEYOND)) * limit {
+                is_left |= (0..count).any(|c| friction.keeps(c));
+                continue;
+            }
+            let part =
+                |c: usize| if c < count { -(solution.multipliers[row + c] / force).to_f64() } else { 0.0 };
+            if force > L::Scalar::constant(0.0) {
+                slips.push((other, [part(0), part(1)]));
+            }
+        }
+        Ok(if is_left { Vec::new() } else { slips })
     }
 }

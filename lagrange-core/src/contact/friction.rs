@@ -4,13 +4,14 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::bodies::{Bodies, Delassus, States};
+use super::cones::length;
 use super::grip::Decision;
 use super::instant::{Changed, Decided, IMPACTS, STOPS};
 use super::law::{ContactForces, Grip, NoForces, Rubbing, Touch};
 use super::trajectory::Transition;
 use super::{Contacts, Friction, FrictionRows};
 use crate::error::Error;
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::system::StateOf;
 use crate::vector::{Array, vector};
 
@@ -243,40 +244,64 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         Ok((decided, towards, gripped.forces))
     }
 
-    /// Takes the rates, all but zero, of what stays at rest, and gives those that begin to slide along two velocities a speed:
-    /// round-off of it, and what the force of friction changes it within the round-off of the time.
+    /// Takes the rates, all but zero, of what stays at rest, and gives those that begin to slide along two velocities a speed.
     fn halt(
         &self,
         rows: &TouchingRows<L>,
         (decided, outcome): (&Decided<L::Scalar>, &ContactForces<L::Scalar>),
         state: &mut StateOf<L>,
     ) {
-        let unit = L::Scalar::constant(L::Scalar::EPSILON) * larger(Scalar::abs(state.t), self.span);
         let mut problem = rows.problem();
         let mut active = rows.active(&decided.states);
-        let measured: Vec<_> = rows.all.iter().map(|&a| self.measured_at(a, state)).collect();
-        problem.constant = measured.iter().map(|measured| measured.rate).collect();
-        for &(f, place) in &rows.frictions {
-            let (Friction::Slides(direction), 2, true) =
-                (decided.states.frictions[f], L::FRICTIONS[f].count, decided.slips_from_rest[f])
-            else {
-                continue;
-            };
-            if direction == [0.0; 2] || decided.slip_is_implied[f] {
-                continue;
-            }
-            let both = [place, place + 1];
-            let changes = both.map(|row| Scalar::abs(rows.delassus.0[row][row] * outcome.forces[row]));
-            let noise = larger(measured[place].noise[1], measured[place + 1].noise[1]);
-            let begin = L::Scalar::constant(BEGIN) * (noise + unit * larger(changes[0], changes[1]));
-            for (row, component) in both.into_iter().zip(direction) {
-                problem.constant[row] -= begin * L::Scalar::constant(component);
+        problem.constant = rows.all.iter().map(|&a| self.measured_at(a, state).rate).collect();
+        for (row, velocity) in self.starts(rows, (decided, outcome), state) {
+            problem.constant[row] -= velocity;
+            if !problem.depends(row, &active) {
                 active.push(row);
             }
         }
         for (&impulse, response) in problem.equality(&active).iter().zip(&rows.delassus.1) {
             state.v = vector(Array::from_fn(|i| state.v[i] + response[i] * impulse));
         }
+    }
+
+    /// Velocities with which bodies begin to slide along two: a multiple of their accelerations, as those of one body go
+    /// together; along the directions of the forces where these have only reached their limits.
+    fn starts(
+        &self,
+        rows: &TouchingRows<L>,
+        (decided, outcome): (&Decided<L::Scalar>, &ContactForces<L::Scalar>),
+        state: &StateOf<L>,
+    ) -> Vec<(usize, L::Scalar)> {
+        let least = power_of_epsilon::<L::Scalar>(0.5);
+        let mut starts = Vec::new();
+        let mut time = Some(L::Scalar::constant(0.0));
+        for &(f, place) in &rows.frictions {
+            let Friction::Slides(direction) = decided.states.frictions[f] else { continue };
+            let rests = decided.slips_from_rest[f] && !decided.slip_is_implied[f];
+            if !rests || L::FRICTIONS[f].count != 2 || direction == [0.0; 2] {
+                continue;
+            }
+            let both = [place, place + 1];
+            let changes = both.map(|row| Scalar::abs(rows.delassus.0[row][row] * outcome.forces[row]));
+            let speed = self.start(both.map(|row| rows.all[row]), changes, state);
+            let acceleration = length(both.map(|row| outcome.rates[row]));
+            let is_known = acceleration > least * larger(changes[0], changes[1]);
+            time = time.filter(|_| is_known).map(|time| larger(time, speed / acceleration));
+            starts.extend(both.into_iter().zip(direction.map(|part| speed * L::Scalar::constant(part))));
+        }
+        if let Some(time) = time {
+            starts.iter_mut().for_each(|(row, velocity)| *velocity = outcome.rates[*row] * time);
+        }
+        starts
+    }
+
+    /// Speed with which bodies begin to slide: round-off of it, and what the force of friction changes it within the round-off
+    /// of the time.
+    fn start(&self, rows: [usize; 2], changes: [L::Scalar; 2], state: &StateOf<L>) -> L::Scalar {
+        let unit = L::Scalar::constant(L::Scalar::EPSILON) * larger(Scalar::abs(state.t), self.span);
+        let [x, y] = rows.map(|a| self.measured_at(a, state).noise[1]);
+        L::Scalar::constant(BEGIN) * (larger(x, y) + unit * larger(changes[0], changes[1]))
     }
 
     /// Reports the friction that begins to stick or to slide, or slides back, while its contact stays closed.
@@ -298,10 +323,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
                 continue;
             }
             match (was.frictions[f], is.frictions[f]) {
-                (Friction::Slides(_), Friction::Sticks) => {
+                (Friction::Slides(_), is) if is.is_at_rest() => {
                     transitions.push(Transition::Sticks { friction, time });
                 }
-                (Friction::Sticks, Friction::Slides(_)) => {
+                (was, Friction::Slides(_)) if was.is_at_rest() => {
                     transitions.push(Transition::Slips { friction, time });
                 }
                 (Friction::Slides([was, _]), Friction::Slides([is, _])) if *count == 1 && was * is < 0.0 => {

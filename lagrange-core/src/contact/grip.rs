@@ -11,7 +11,6 @@ use super::law::{ContactForces, Grip, Law, Touch};
 use super::{Contacts, Friction};
 use crate::error::Error;
 use crate::number::{Real, Scalar};
-use crate::solution::pivot::least_pivot;
 use crate::system::StateOf;
 
 /// A decision under way.
@@ -35,8 +34,8 @@ pub(super) struct Decision<'a, L: Contacts<Scalar: Real>> {
 /// Forces that satisfy the laws, and the touches that they belong to.
 pub(super) struct Gripped<T> {
     pub(super) forces: ContactForces<T>,
-    touches: Vec<Touch<T>>,
-    names: TouchNames,
+    pub(super) touches: Vec<Touch<T>>,
+    pub(super) names: TouchNames,
     /// Which of the touching contacts may push.
     plays: Vec<bool>,
 }
@@ -141,11 +140,12 @@ impl<L: Contacts<Scalar: Real> + Clone> TouchingRows<L> {
     /// Rows that stay at rest: closed gaps, and velocities of friction that sticks.
     pub(super) fn active(&self, states: &States) -> Vec<usize> {
         let gaps = (0..self.touching.len()).filter(|&place| states.is_closed[self.touching[place]]);
-        let sticks = self.frictions.iter().filter(|(f, _)| {
-            let is_pressed = L::FRICTIONS[*f].contact.is_none_or(|k| states.is_closed[k]);
-            is_pressed && states.frictions[*f] == Friction::Sticks
+        let sticks = self.frictions.iter().flat_map(|&(f, place)| {
+            let is_pressed = L::FRICTIONS[f].contact.is_none_or(|k| states.is_closed[k]);
+            let is_kept = move |c: &usize| is_pressed && states.frictions[f].keeps(*c);
+            (0..L::FRICTIONS[f].count).filter(is_kept).map(move |c| place + c)
         });
-        gaps.chain(sticks.flat_map(|&(f, place)| place..place + L::FRICTIONS[f].count)).collect()
+        gaps.chain(sticks).collect()
     }
 
     /// The matrix G over all rows, to decide which depend on others.
@@ -166,20 +166,13 @@ impl<T: Real> Gripped<T> {
         let mut decided = Decided::none::<L>(vec![OFF; L::FRICTIONS.len()]);
         self.mark(&mut decided);
         let problem = rows.problem();
-        self.hold_idle(rows, &problem, &mut decided);
+        self.share(rows, &problem, slips, &mut decided);
         let active = rows.active(&decided.states);
         for place in (0..self.plays.len()).filter(|&place| self.plays[place]) {
             let k = rows.touching[place];
             let is_still = Scalar::abs(self.forces.rates[place]) <= rows.noise(place, pressing, &self.forces);
             decided.is_implied[k] =
                 !decided.states.is_closed[k] && is_still && problem.depends(place, &active);
-        }
-        for &(f, place) in &rows.frictions {
-            let is_at_rest = slips[f].is_none();
-            decided.slips_from_rest[f] = is_at_rest;
-            decided.slip_is_implied[f] = is_at_rest
-                && !active.contains(&place)
-                && (place..place + L::FRICTIONS[f].count).all(|row| problem.depends(row, &active));
         }
         decided
     }
@@ -197,25 +190,6 @@ impl<T: Real> Gripped<T> {
                     Grip::Idle => OFF,
                     Grip::Open | Grip::Sticks => Friction::Sticks,
                 };
-            }
-        }
-    }
-
-    /// Where a velocity is zero without a force, friction keeps it so, unless the others do.
-    fn hold_idle<L: Contacts<Scalar = T> + Clone>(
-        &self,
-        rows: &TouchingRows<L>,
-        problem: &Complementarity<T>,
-        decided: &mut Decided<T>,
-    ) {
-        for (k, f) in self.names.iter().enumerate().filter_map(|(k, (_, friction))| Some((k, (*friction)?))) {
-            let Some(&(_, place)) = rows.frictions.iter().find(|(of, _)| *of == f) else { continue };
-            let is_idle = self.forces.grips[k] == Some(Grip::Idle);
-            // Independent enough for the elimination to trust the forces.
-            let least = least_pivot::<T>() * problem.matrix[place][place];
-            let response = problem.response(place, &rows.active(&decided.states));
-            if is_idle && response.is_some_and(|response| response > least) {
-                decided.states.frictions[f] = Friction::Sticks;
             }
         }
     }

@@ -29,8 +29,8 @@ pub(super) struct Changed {
     pub(super) closes: Option<usize>,
     /// The multiplier of this contact has just become zero.
     pub(super) opens: Option<usize>,
-    /// This friction has just reached its limit, and lets the bodies slide in this direction.
-    pub(super) slips: Option<(usize, [f64; 2])>,
+    /// Friction that has just reached its limit, and lets the bodies slide in these directions.
+    pub(super) slips: Vec<(usize, [f64; 2])>,
     /// The velocity of this friction has just become zero.
     pub(super) stops: Option<usize>,
 }

@@ -51,6 +51,7 @@ pub(super) struct Touch<T> {
 }
 
 /// Rows W of gaps and velocities of friction: G = W K⁻¹ Wᵀ, and the rates that they have without forces.
+#[derive(Clone)]
 pub(super) struct Law<'a, T> {
     pub(super) matrix: &'a [Vec<T>],
     pub(super) rates: Vec<T>,
@@ -98,7 +99,20 @@ enum Unknown {
 impl<T: Real> Law<'_, T> {
     /// Finds forces that satisfy the law, also for friction of two velocities: it sticks if forces within its limit keep the
     /// bodies together, and else slides in the direction that its forces lead to.
-    pub(super) fn decide(mut self) -> Result<ContactForces<T>, NoForces> {
+    ///
+    /// Where rows of friction depend on one another, forces are not unique. Those by cones come first, since they leave each
+    /// friction some of its limit.
+    pub(super) fn decide(self) -> Result<ContactForces<T>, NoForces> {
+        let is_shared = self.is_shared();
+        if let Some(forces) = is_shared.then(|| self.by_cones()).flatten() {
+            return Ok(forces);
+        }
+        let again = self.clone();
+        self.in_directions().or_else(|why| if is_shared { Err(why) } else { again.by_cones().ok_or(why) })
+    }
+
+    /// Finds forces by corrections of the directions in which bodies slide.
+    fn in_directions(mut self) -> Result<ContactForces<T>, NoForces> {
         let is_planar = |touch: &Touch<T>| {
             touch.friction.is_some_and(|friction| friction.count == 2 && friction.grip == Grip::Sticks)
         };

@@ -218,15 +218,19 @@ for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) 
 //! acceleration, or several do: [`Error::FrictionJams`](crate::Error::FrictionJams) ends the motion with the name of the
 //! friction, where the force that presses the bodies together would grow without bound.
 //!
-//! Several contacts or velocities of one body may share a force of friction in more than one way, as two ends of a rod that
-//! stick in a corner. Where no share is found that is within the limits, the motion ends with
+//! Several contacts or velocities of one body may share a force of friction in more than one way, as the corners of a box, or
+//! two ends of a rod that stick in a corner. The motion is the same for all shares. One is found to a residual of 10⁻¹² of
+//! Coulomb's law, by the sweeps of time stepping for friction along two velocities. Then only velocities that do not depend on
+//! one another stick, those with most of their limit left; the others act with the part of the limit that was found, as
+//! [`Contact::Shares`] says, until a force that sticks reaches its limit. Where no share is found, the motion ends with
 //! [`Error::FrictionUndecided`](crate::Error::FrictionUndecided).
 //!
 //! # Which methods
 //!
 //! Those that solve for accelerations: `Dop853`, `Dopri5`, `Taylor`, `Radau`, `RungeKutta4`. Structure-preserving methods do not
-//! compile for contacts with friction. Where bodies begin to slide in a plane with a force that grows slowly, the
-//! direction of sliding is stiff, by μ g/|v|: [`Radau`](crate::linearized::Radau) follows it.
+//! compile for contacts with friction. Where bodies begin to slide in a plane with a force that grows slowly, or several
+//! contacts of one body stop together, the direction of sliding is stiff, by μ g/|v|:
+//! [`Radau`](crate::linearized::Radau) follows it.
 //!
 //! # Several contacts at once
 //!
@@ -248,6 +252,8 @@ mod complementarity;
 #[cfg(feature = "alloc")]
 mod condition;
 #[cfg(feature = "alloc")]
+mod cones;
+#[cfg(feature = "alloc")]
 mod driver;
 #[cfg(feature = "alloc")]
 mod friction;
@@ -267,6 +273,10 @@ mod legs;
 mod lemke;
 #[cfg(feature = "alloc")]
 mod lifting;
+#[cfg(feature = "alloc")]
+mod newton;
+#[cfg(feature = "alloc")]
+mod sharing;
 #[cfg(feature = "alloc")]
 mod stepping;
 #[cfg(feature = "alloc")]
@@ -296,6 +306,9 @@ pub enum Contact {
     /// The bodies touch, and slide along one another. The friction of one velocity acts against the sign of the first number;
     /// that of two acts against the velocity, which has a positive part along this direction.
     Slides([f64; 2]),
+    /// The bodies touch and stay together, along with others that share the force of friction. The force along each velocity
+    /// is the one that keeps it zero, or this part of the force of sliding: the others then keep that velocity zero.
+    Shares([Option<f64>; 2]),
 }
 
 /// Whether friction keeps bodies together.
@@ -307,6 +320,25 @@ pub enum Friction {
     Sticks,
     /// The bodies slide, with a force as for [`Contact::Slides`].
     Slides([f64; 2]),
+    /// The bodies stay together, with a force as for [`Contact::Shares`].
+    Shares([Option<f64>; 2]),
+}
+
+impl Friction {
+    /// Whether its force keeps this component of the velocity at zero.
+    pub(crate) fn keeps(&self, component: usize) -> bool {
+        match self {
+            Self::Sticks => true,
+            Self::Shares(parts) => parts[component].is_none(),
+            Self::Slides(_) => false,
+        }
+    }
+
+    /// Whether the bodies stay together.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn is_at_rest(&self) -> bool {
+        !matches!(self, Self::Slides(_))
+    }
 }
 
 /// Law of impact of a contact, with a coefficient of restitution e.

@@ -95,7 +95,7 @@ const AT_LIMIT: f64 = 64.0;
 
 /// Part of its terms by which a force may exceed the limit of friction that is to stick. The solver of dependent contacts
 /// shares forces by their least norm, which need not be within the limits.
-const BEYOND: f64 = 1e-6;
+pub(super) const BEYOND: f64 = 1e-6;
 
 /// The events that friction reaches its limit, or stops the bodies, with the conditions that they watch.
 pub(super) fn of_friction<'w, L>(
@@ -114,7 +114,7 @@ where
         }
         let name = name(L::CONSTRAINTS, row);
         let event = match decided.states.frictions[f] {
-            Friction::Sticks => {
+            Friction::Sticks | Friction::Shares(_) => {
                 let left = move |sample: &Sample<&L>| {
                     let [limit, force] = held(closed, f, sample.state(), &shared.solution(sample)?)?;
                     Ok(limit - force)
@@ -144,7 +144,7 @@ fn least_speed<T: Real>() -> T {
 }
 
 /// Limit of friction that sticks, and its force.
-fn held<L: Contacts<Scalar: Real> + Clone>(
+pub(super) fn held<L: Contacts<Scalar: Real> + Clone>(
     closed: &L,
     f: usize,
     state: &StateOf<L>,

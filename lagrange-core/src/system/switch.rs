@@ -31,9 +31,13 @@ pub trait FrictionState {
     /// Sets the state of the friction.
     fn set_friction(&mut self, state: Friction);
 
-    /// Returns whether it slides in a direction.
+    /// Returns whether its force, or a part of it, is a multiple of that of sliding.
     fn slides(&self) -> bool {
-        matches!(self.friction(), Some(Friction::Slides(direction)) if direction != [0.0; 2])
+        match self.friction() {
+            Some(Friction::Slides(direction)) => direction != [0.0; 2],
+            Some(Friction::Shares(parts)) => parts.iter().any(|part| part.is_some_and(|part| part != 0.0)),
+            Some(Friction::Sticks) | None => false,
+        }
     }
 }
 
@@ -44,6 +48,7 @@ impl FrictionState for Contact {
             Self::Open => None,
             Self::Closed => Some(Friction::Sticks),
             Self::Slides(direction) => Some(Friction::Slides(direction)),
+            Self::Shares(parts) => Some(Friction::Shares(parts)),
         }
     }
 
@@ -52,6 +57,7 @@ impl FrictionState for Contact {
         *self = match state {
             Friction::Sticks => Self::Closed,
             Friction::Slides(direction) => Self::Slides(direction),
+            Friction::Shares(parts) => Self::Shares(parts),
         };
     }
 }
@@ -74,23 +80,25 @@ pub fn holds<T: Scalar>(field: &impl Switch) -> T {
     one_if(field.is_on())
 }
 
-/// 1 while the friction of the field sticks, else 0.
+/// 1 while the friction of the field keeps a component of the velocity at zero, else 0.
 #[inline(always)]
-pub fn sticks<T: Scalar>(field: &impl FrictionState) -> T {
-    one_if(field.friction() == Some(Friction::Sticks))
+pub fn sticks<T: Scalar>(field: &impl FrictionState, component: usize) -> T {
+    one_if(field.friction().is_some_and(|friction| friction.keeps(component)))
 }
 
 /// 1 while the friction of the field slides, else 0.
 #[inline(always)]
 pub fn slides<T: Scalar>(field: &impl FrictionState) -> T {
-    one_if(field.slides())
+    one_if(matches!(field.friction(), Some(Friction::Slides(direction)) if direction != [0.0; 2]))
 }
 
-/// A component of the direction in which the friction of the field slides; 0 while it does not.
+/// A component of the direction in which the friction of the field slides, or of the part of its sliding force that is
+/// stated; else 0.
 #[inline(always)]
 pub fn slip<T: Scalar>(field: &impl FrictionState, component: usize) -> T {
     match field.friction() {
         Some(Friction::Slides(direction)) => T::constant(direction[component]),
+        Some(Friction::Shares(parts)) => T::constant(-parts[component].unwrap_or(0.0)),
         _ => T::constant(0.0),
     }
 }

@@ -36,7 +36,9 @@ impl FunctionContext<'_> {
         let (scalar, place) = (self.types.scalar, self.place_of_state(entry));
         match reading {
             SwitchReading::Holds => quote!(__lagrange::generated::holds::<#scalar>(&#place)),
-            SwitchReading::Sticks => quote!(__lagrange::generated::sticks::<#scalar>(&#place)),
+            SwitchReading::Sticks(component) => {
+                quote!(__lagrange::generated::sticks::<#scalar>(&#place, #component))
+            }
             SwitchReading::Slides => quote!(__lagrange::generated::slides::<#scalar>(&#place)),
             SwitchReading::Start(component) => {
                 quote!(__lagrange::generated::start::<#scalar>(&#place, #component))

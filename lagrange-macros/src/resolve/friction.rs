@@ -102,7 +102,7 @@ impl Lowering<'_> {
 
     /// Components of the direction in which friction slides, each zero while it does not. That of two velocities v is v/|v|,
     /// with the sign of v·d for the direction d of the state: it stays the same as v passes through zero, where the next
-    /// state is decided, and is d at rest.
+    /// state is decided, and is d at rest. It is d as well where the state states the force.
     fn directions(&mut self, velocities: &[Id], entry: Entry) -> Vec<Id> {
         let slip = self.read(entry, SwitchReading::Slip(0));
         if velocities.len() == 1 {
@@ -124,11 +124,13 @@ impl Lowering<'_> {
             self.graph.sqrt(square)
         });
         let below = self.graph.mul(sizes[0], sizes[1]);
-        let part = |&velocity: &Id| {
+        let part = |(&velocity, &stated): (&Id, &Id)| {
             let above = self.graph.mul(velocity, along);
-            self.graph.div(above, below)
+            let sliding = self.graph.div(above, below);
+            let (sliding, stated) = (self.graph.mul(slides, sliding), self.graph.mul(rests, stated));
+            self.graph.add(sliding, stated)
         };
-        velocities.iter().map(part).collect()
+        velocities.iter().zip(&direction).map(part).collect()
     }
 
     /// Node of a number that the state of a constraint stands for.

@@ -40,11 +40,11 @@ pub(crate) struct Switch {
 pub(crate) enum SwitchReading {
     /// 1 while the constraint holds, else 0.
     Holds,
-    /// 1 while friction keeps the bodies together, else 0.
-    Sticks,
+    /// 1 while friction keeps this component of the velocity at zero, else 0.
+    Sticks(usize),
     /// 1 while friction slides, else 0.
     Slides,
-    /// Component of the direction in which friction slides, else 0.
+    /// Component of the direction in which friction slides, or of the part of its sliding force that is stated, else 0.
     Slip(usize),
     /// This component times a speed so small that it is lost beside any other.
     Start(usize),
@@ -285,7 +285,7 @@ impl Parameters {
     pub(crate) fn switched_on(&self, symbol: Symbol) -> Option<Id> {
         let Variable::Switch(k) = Variable::of(symbol) else { return None };
         Some(match self.switches[k].reading {
-            SwitchReading::Holds | SwitchReading::Sticks => Id::ONE,
+            SwitchReading::Holds | SwitchReading::Sticks(_) => Id::ONE,
             SwitchReading::Slides | SwitchReading::Slip(_) | SwitchReading::Start(_) => Id::ZERO,
         })
     }

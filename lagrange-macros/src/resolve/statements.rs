@@ -134,11 +134,17 @@ impl Lowering<'_> {
             }
             law => self.friction(law, (constraint, element), (&residual, rows.len()), entry, powers),
         }
-        let holds = if constraint.law.is_friction() { SwitchReading::Sticks } else { SwitchReading::Holds };
-        let switch = entry.map(|entry| self.read(entry, holds));
+        let mut component = 0;
+        let mut switches = Vec::new();
         // A switch of 0 leaves the equation 0 = 0, and no force.
-        let residual =
-            switch.map_or(residual.clone(), |switch| residual.map(&mut |row| self.graph.mul(switch, row)));
+        let residual = residual.map(&mut |row| {
+            let sticks = SwitchReading::Sticks(component);
+            let holds = if constraint.law.is_friction() { sticks } else { SwitchReading::Holds };
+            let switch = entry.map(|entry| self.read(entry, holds));
+            component += 1;
+            switches.push(switch);
+            switch.map_or(row, |switch| self.graph.mul(switch, row))
+        });
         let name = &constraint.target.name;
         let mut row = rows.len();
         let symbols = residual.map(&mut |_| {
@@ -146,7 +152,7 @@ impl Lowering<'_> {
             self.graph.symbol(Variable::Multiplier(row - 1).symbol())
         });
         let texts = entry_names(&element_name(&name.text, element), &residual.shape().lengths);
-        for (text, id) in texts.into_iter().zip(residual.flat()) {
+        for ((text, id), switch) in texts.into_iter().zip(residual.flat()).zip(switches) {
             if rows.iter().any(|(label, _)| label.text == text) {
                 self.diagnostics.error(name.place, format!("the constraint `{text}` is given twice"));
             }

@@ -67,7 +67,7 @@ impl Exhibit<5> for BouncingBall {
         scene.line(Paint::Fixed, 2.5, &[centre - spoke, centre + spoke]);
         match self.floor {
             Contact::Open => {}
-            Contact::Closed => scene.dot(Paint::Constraint, 9.0, foot),
+            Contact::Closed | Contact::Shares(_) => scene.dot(Paint::Constraint, 9.0, foot),
             Contact::Slides(_) => scene.dot(Paint::Force, 9.0, foot),
         }
         scene.constraint_force(foot, xy(now.force[0], now.force[1]));

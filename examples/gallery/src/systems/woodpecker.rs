@@ -130,7 +130,7 @@ impl Exhibit<3> for Woodpecker {
         for (contact, at) in touches {
             match contact {
                 Contact::Open => {}
-                Contact::Closed => scene.dot(Paint::Constraint, 9.0, at),
+                Contact::Closed | Contact::Shares(_) => scene.dot(Paint::Constraint, 9.0, at),
                 Contact::Slides(_) => scene.dot(Paint::Force, 9.0, at),
             }
         }

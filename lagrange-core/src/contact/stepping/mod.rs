@@ -1,8 +1,6 @@
 //! Steps of one length across contacts, for many of them: neither impacts nor transitions are located, and impulses take the
 //! place of forces.
 
-mod cones;
-mod newton;
 mod step;
 mod trajectory;
 

@@ -4,9 +4,9 @@ use alloc::vec::Vec;
 
 use nalgebra::ComplexField;
 
+use super::super::cones::{Cone, Cones, Swept};
 use super::super::friction::bounds;
 use super::MoreauJean;
-use super::cones::{Cone, Cones, Swept};
 use super::trajectory::TimeStep;
 use crate::contact::bodies::Bodies;
 use crate::contact::{Contacts, FrictionRows};

@@ -37,7 +37,7 @@ impl Boundary {
             Some(k) if leg.system().contact(k) == Some(Contact::Open) => Some(Self::Gap(k)),
             Some(k) => Some(Self::Push(k)),
             None => of_friction().map(|f| match leg.system().friction(f) {
-                Some(Friction::Sticks) => Self::Hold(f),
+                Some(Friction::Sticks | Friction::Shares(_)) => Self::Hold(f),
                 _ => Self::Slip(f),
             }),
         }

@@ -69,6 +69,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Change<'_, L> {
         for f in (0..L::FRICTIONS.len()).filter(others) {
             let is_same = match [before, after].map(|system| system.friction(f)) {
                 [Some(Friction::Slides(_)), Some(Friction::Slides(_))] if L::FRICTIONS[f].count == 2 => true,
+                [Some(one), Some(other)] if one.is_at_rest() && other.is_at_rest() => true,
                 [one, other] => one == other,
             };
             if !is_same && !self.follows(f, at)? {
@@ -83,6 +84,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Change<'_, L> {
     fn follows(&self, f: usize, at: &StateSensitivity<L::Scalar, L::N>) -> Result<bool, Error> {
         let [before, _] = self.systems;
         match before.friction(f) {
+            Some(Friction::Shares(_)) => Ok(false),
             Some(Friction::Sticks) => Ok(!is_at_limit(before, f, &self.states[0])?),
             Some(Friction::Slides(_)) => Ok(self.stops_with(f, at)),
             None => Ok(false),
@@ -111,7 +113,8 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Change<'_, L> {
         for f in (0..L::FRICTIONS.len()).filter(left) {
             let stuck = stuck(after, f);
             let rests = match after.friction(f) {
-                None | Some(Friction::Slides([0.0, 0.0])) => false,
+                // What others keep at rest does not depend on the shares of the forces.
+                None | Some(Friction::Slides([0.0, 0.0]) | Friction::Shares(_)) => false,
                 Some(Friction::Sticks) => true,
                 Some(Friction::Slides(_)) => {
                     boundary == Some(Boundary::Slip(f)) || is_at_rest(&stuck, f, self.states.each_ref())

@@ -192,7 +192,7 @@ impl<T: Real> Cones<T> {
     }
 
     /// The largest |c|/√g.
-    fn scale(&self) -> T {
+    pub(super) fn scale(&self) -> T {
         self.blocks.iter().filter(|block| block.response > T::constant(0.0)).fold(
             T::constant(0.0),
             |scale, block| {

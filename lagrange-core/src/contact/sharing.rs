@@ -1,0 +1,225 @@
+//! Forces of friction that several contacts share: they are not unique, but the motion is.
+
+use alloc::vec::Vec;
+
+use super::complementarity::Complementarity;
+use super::cones::{Cone, Cones, length};
+use super::friction::TouchingRows;
+use super::grip::Gripped;
+use super::instant::Decided;
+use super::law::{ContactForces, Grip, Law, Rubbing, Touch};
+use super::{Contacts, Friction};
+use crate::number::{Real, Scalar, larger};
+use crate::solution::pivot::least_pivot;
+
+/// Residual of Coulomb's law within which forces are found, relative to the rates without forces.
+const FOUND: f64 = 1e-12;
+
+/// Largest number of sweeps.
+const SWEEPS: usize = 10_000;
+
+/// Rates along a contact, in units of those that the residual allows, up to which it sticks. What sticks has the residual.
+const STICKS: f64 = 1e3;
+
+impl<T: Real> Law<'_, T> {
+    /// Finds forces that satisfy the law to a residual of 10⁻¹², whatever rows depend on one another. Gaps whose rows depend
+    /// on others that push do not push. `None` if none are found, or if something slides already.
+    pub(super) fn by_cones(&self) -> Option<ContactForces<T>> {
+        let problem = self.problem();
+        let mut plays: Vec<bool> = self.touches.iter().map(|_| true).collect();
+        loop {
+            let outcome = self.within_cones(&plays)?;
+            let Some(spare) = self.spare(&problem, &outcome) else { return Some(outcome) };
+            plays[spare] = false;
+        }
+    }
+
+    /// Whether a velocity of friction in the plane that may stick depends on others that may, and on gaps.
+    pub(super) fn is_shared(&self) -> bool {
+        let sticks = |touch: &Touch<T>| touch.friction.filter(|f| f.count == 2 && f.grip == Grip::Sticks);
+        if self.touches.iter().filter_map(sticks).count() < 2 {
+            return false;
+        }
+        let problem = self.problem();
+        let mut active = Vec::new();
+        // A gap that depends on others may be left out.
+        for gap in self.touches.iter().filter_map(|touch| touch.gap) {
+            if !problem.depends(gap, &active) {
+                active.push(gap);
+            }
+        }
+        let mut rows = self.touches.iter().filter_map(sticks).flat_map(|f| f.place..f.place + f.count);
+        rows.any(|row| {
+            let depends = problem.depends(row, &active);
+            active.push(row);
+            depends
+        })
+    }
+
+    fn problem(&self) -> Complementarity<T> {
+        Complementarity {
+            matrix: self.matrix.to_vec(),
+            constant: self.rates.clone(),
+            noise: self.noise.clone(),
+        }
+    }
+
+    /// The contact that pushes least of those whose gaps depend on others that push more.
+    fn spare(&self, problem: &Complementarity<T>, outcome: &ContactForces<T>) -> Option<usize> {
+        let mut pushing: Vec<(usize, usize)> = (0..self.touches.len())
+            .filter(|&k| outcome.pushes[k])
+            .filter_map(|k| Some((k, self.touches[k].gap?)))
+            .collect();
+        let force = |&(_, gap): &(usize, usize)| -outcome.forces[gap];
+        pushing.sort_by(|one, other| {
+            force(one).partial_cmp(&force(other)).unwrap_or(core::cmp::Ordering::Equal)
+        });
+        let mut active = Vec::new();
+        let mut spare = None;
+        for (k, gap) in pushing {
+            if problem.depends(gap, &active) {
+                spare = Some(k);
+            } else {
+                active.push(gap);
+            }
+        }
+        spare
+    }
+
+    /// Forces of the contacts that `plays` marks, and of dry friction.
+    fn within_cones(&self, plays: &[bool]) -> Option<ContactForces<T>> {
+        let (mut cones, places) = self.cones(plays)?;
+        let residual = cones.solve(T::constant(FOUND), SWEEPS).residual;
+        if !residual.is_finite() || residual > T::constant(FOUND) {
+            return None;
+        }
+        let mut forces: Vec<T> = self.rates.iter().map(|_| T::constant(0.0)).collect();
+        places.iter().zip(cones.impulses()).for_each(|(&place, &force)| forces[place] = force);
+        let rate = |row: usize| {
+            self.matrix[row].iter().zip(&forces).fold(self.rates[row], |sum, (&g, &force)| sum + g * force)
+        };
+        let rates: Vec<T> = (0..forces.len()).map(rate).collect();
+        let still = T::constant(FOUND * STICKS) * cones.scale();
+        let allowed = |row: usize| still * Scalar::sqrt(self.matrix[row][row]) + self.noise[row];
+        let parts = |touch: &Touch<T>| touch.gap.is_none_or(|gap| rates[gap] >= -allowed(gap));
+        let pushes = self.touches.iter().zip(plays).map(|(touch, &plays)| {
+            plays && touch.gap.is_some_and(|gap| forces[gap] > T::constant(0.0) && rates[gap] <= allowed(gap))
+        });
+        let grip = |Rubbing { place, count, .. }: Rubbing<T>| {
+            let of = |c: usize| if c < count { rates[place + c] } else { T::constant(0.0) };
+            let (size, least) = (length([of(0), of(1)]), larger(allowed(place), allowed(place + count - 1)));
+            if size <= least { Grip::Sticks } else { Grip::Slides([of(0) / size, of(1) / size]) }
+        };
+        let grips = self.touches.iter().map(|touch| touch.friction.map(grip));
+        let (pushes, grips) = (pushes.collect(), grips.collect());
+        self.touches.iter().all(parts).then_some(ContactForces { forces, rates, pushes, grips })
+    }
+
+    /// The law of the contacts that `plays` marks as a problem of cones, with the place of each of its rows. `None` if friction
+    /// slides already, or if smallest forces are stated.
+    fn cones(&self, plays: &[bool]) -> Option<(Cones<T>, Vec<usize>)> {
+        let (mut cones, mut places) = (Cones::with_room(self.rates.len()), Vec::new());
+        let mut push = |cones: &mut Cones<T>, place: usize| {
+            places.push(place);
+            cones.push_row(self.rates[place], T::constant(0.0), |other| self.matrix[place][places[other]]);
+            places.len() - 1
+        };
+        for (touch, _) in self.touches.iter().zip(plays).filter(|(_, plays)| **plays) {
+            if touch.least > T::constant(0.0) {
+                return None;
+            }
+            let press = touch.gap.map(|gap| {
+                let row = push(&mut cones, gap);
+                cones.push_block(1, Cone::Push);
+                row
+            });
+            let Some(Rubbing { place, count, grip, bounds: [radius, _] }) = touch.friction else { continue };
+            if matches!(grip, Grip::Slides(_) | Grip::Idle) {
+                return None;
+            }
+            (place..place + count).for_each(|row| {
+                push(&mut cones, row);
+            });
+            cones.push_block(count, Cone::Disc { radius, press });
+        }
+        Some((cones, places))
+    }
+}
+
+/// Friction at rest.
+struct RestingFriction<T> {
+    f: usize,
+    rubbing: Rubbing<T>,
+    /// Force of sliding.
+    sliding: T,
+    /// Part of its limit that is left.
+    slack: T,
+}
+
+impl<T: Real> Gripped<T> {
+    /// Lets friction at rest whose velocity depends on others at rest act with the part of the force of sliding that was found:
+    /// the rows that are left are independent, and their forces unique. Those that are furthest from their limits are left.
+    pub(super) fn share<L: Contacts<Scalar = T> + Clone>(
+        &self,
+        rows: &TouchingRows<L>,
+        problem: &Complementarity<T>,
+        slips: &[Option<[T; 2]>],
+        decided: &mut Decided<T>,
+    ) {
+        let gaps = (0..rows.touching.len()).filter(|&place| decided.states.is_closed[rows.touching[place]]);
+        let mut active: Vec<usize> = gaps.collect();
+        rows.frictions.iter().for_each(|&(f, _)| decided.slips_from_rest[f] = slips[f].is_none());
+        for RestingFriction { f, rubbing: Rubbing { place, count, grip, .. }, sliding, .. } in
+            self.at_rest(slips, decided)
+        {
+            let (mut parts, mut is_implied) = ([Some(0.0); 2], true);
+            let before = active.len();
+            for (row, part) in (place..place + count).zip(&mut parts) {
+                let response = problem.response(row, &active);
+                is_implied &= response.is_none();
+                // Without a force it sticks if its row is independent enough for the elimination to trust the forces.
+                let is_idle = grip == Grip::Idle;
+                let least = least_pivot::<T>() * problem.matrix[row][row];
+                if response.is_none_or(|response| is_idle && response <= least) {
+                    let ratio = (self.forces.forces[row] / sliding).to_f64();
+                    *part = Some(if ratio.is_finite() { ratio } else { 0.0 });
+                } else {
+                    *part = None;
+                    active.push(row);
+                }
+            }
+            let kept = active.len() - before;
+            match (grip, kept) {
+                // It begins to slide, unless the others keep it at rest.
+                (Grip::Slides(_), 1..) => active.truncate(before),
+                (_, kept) if kept == count => decided.states.frictions[f] = Friction::Sticks,
+                _ => decided.states.frictions[f] = Friction::Shares(parts),
+            }
+            decided.slip_is_implied[f] = is_implied;
+        }
+    }
+
+    /// Friction at rest, that which sticks first, in the order of what is left of its limit.
+    fn at_rest(&self, slips: &[Option<[T; 2]>], decided: &Decided<T>) -> Vec<RestingFriction<T>> {
+        let of = |k: usize| {
+            let ((contact, f), touch) = (self.names[k], self.touches[k]);
+            let (f, rubbing, grip) = (f?, touch.friction?, self.forces.grips[k]?);
+            let is_pressed = contact.is_none_or(|contact| decided.states.is_closed[contact]);
+            if slips[f].is_some() || !is_pressed {
+                return None;
+            }
+            let press = touch.gap.map_or(T::constant(1.0), |gap| self.forces.forces[gap]);
+            let Rubbing { place, count, bounds: [limit, sliding], .. } = rubbing;
+            let force = |c: usize| if c < count { self.forces.forces[place + c] } else { T::constant(0.0) };
+            let slack = limit * press - length([force(0), force(1)]);
+            Some(RestingFriction { f, rubbing: Rubbing { grip, ..rubbing }, sliding: sliding * press, slack })
+        };
+        let mut resting: Vec<_> = (0..self.names.len()).filter_map(of).collect();
+        let slides = |one: &RestingFriction<T>| matches!(one.rubbing.grip, Grip::Slides(_));
+        resting.sort_by(|one, other| {
+            let slack = other.slack.partial_cmp(&one.slack).unwrap_or(core::cmp::Ordering::Equal);
+            slides(one).cmp(&slides(other)).then(slack)
+        });
+        resting
+    }
+}

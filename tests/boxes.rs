@@ -1,0 +1,173 @@
+//! Boxes whose corners share forces of friction: at every stored state the laws of contacts hold, by a check written by hand.
+
+#![allow(clippy::unwrap_used)]
+
+use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use lagrange_core::{Ending, prelude::*};
+
+/// A box on a slope. The axis x points down along it, and z across it.
+#[derive(Clone, Lagrangian)]
+#[coordinates(r: [3], q: [4])]
+#[frame(body: translate(r), rotate(q))]
+#[define(sx = [1, -1, 1, -1, 1, -1, 1, -1])]
+#[define(sy = [1, 1, -1, -1, 1, 1, -1, -1])]
+#[define(sz = [1, 1, 1, 1, -1, -1, -1, -1])]
+#[define(corner(k) = [sx[k]*edges[0]/2, sy[k]*edges[1]/2, sz[k]*edges[2]/2])]
+#[define(square = [edges[0]^2, edges[1]^2, edges[2]^2])]
+#[define(about(i, j) = m/12*(square[i] + square[j]))]
+#[define(inertia = [[about(1, 2), 0, 0], [0, about(2, 0), 0], [0, 0, about(0, 1)]])]
+#[lagrangian(kinetic(body, m, [0, 0, 0], inertia) + m*g*(r[0]*sin(alpha) - r[2]*cos(alpha)))]
+#[contact(floor[k in 0..8]: position(body, corner(k))[2] >= 0, restitution: e,
+    friction(mu): express(velocity(body, corner(k)), fixed)[0..2])]
+struct Brick {
+    m: f64,
+    g: f64,
+    alpha: f64,
+    e: f64,
+    mu: f64,
+    edges: [f64; 3],
+    floor: [Contact; 8],
+}
+
+const BRICK: Brick =
+    Brick { m: 2.0, g: 9.81, alpha: 0.0, e: 0.0, mu: 0.3, edges: [0.4, 0.3, 0.2], floor: [Contact::Open; 8] };
+
+impl Brick {
+    /// Height and velocity of each corner, by hand.
+    fn corners(&self, state: &State<f64, 7>) -> [(f64, Vector3<f64>); 8] {
+        let vector = |x: &[f64]| Vector3::new(x[0], x[1], x[2]);
+        let quaternion = |x: &[f64]| Quaternion::new(x[0], x[1], x[2], x[3]);
+        let (q, v) = (state.q.as_slice(), state.v.as_slice());
+        let turned = UnitQuaternion::from_quaternion(quaternion(&q[3..]));
+        // ω = 2 q̇ q⁻¹ in fixed axes.
+        let omega = (quaternion(&v[3..]) * turned.conjugate().into_inner()).imag() * 2.0;
+        std::array::from_fn(|k| {
+            let side = |bit: usize| if k >> bit & 1 == 0 { 0.5 } else { -0.5 };
+            let corner = turned
+                * Vector3::new(side(0) * self.edges[0], side(1) * self.edges[1], side(2) * self.edges[2]);
+            (q[2] + corner.z, vector(&v[..3]) + omega.cross(&corner))
+        })
+    }
+
+    /// Gaps, forces, cones, the direction of friction and energy at every stored state.
+    fn keeps_the_laws(&self, case: &str, path: &ContactTrajectory<Self>) {
+        let weight = self.m * self.g;
+        let mut energy = f64::INFINITY;
+        let steps = path.legs().iter().flat_map(|leg| {
+            let last = leg.steps().count();
+            leg.steps().enumerate().map(move |(number, step)| (number + 1 == last, leg.system(), step))
+        });
+        for (is_last, system, step) in steps {
+            let (state, multipliers) = (step.state(), step.solution().unwrap().multipliers);
+            let corners = self.corners(state);
+            // At the end of a leg in which a corner stops, the direction of its velocity is the error of the method.
+            let stops = |k: usize| {
+                let speed = corners[k].1.x.hypot(corners[k].1.y);
+                matches!(system.floor[k], Contact::Slides(_)) && speed < 1e-7
+            };
+            if is_last && (0..8).any(stops) {
+                continue;
+            }
+            for (k, (gap, velocity)) in corners.into_iter().enumerate() {
+                let row = k;
+                let (press, x, y) = (multipliers[row], multipliers[row + 8 + k], multipliers[row + 9 + k]);
+                let (drag, speed) = (x.hypot(y), velocity.x.hypot(velocity.y));
+                let at = format!(
+                    "{case}, corner {k}, t = {}: press {press}, drag [{x}, {y}], {velocity}",
+                    state.t
+                );
+                let small = 1e-6 * (weight + press.abs());
+                assert!(gap > -1e-9, "{at}: gap {gap:e}");
+                assert!(press > -small, "{at}: pulls");
+                assert!(press * gap < 1e-8 * weight, "{at}: acts at {gap:e}");
+                assert!(drag <= self.mu * press + small, "{at}: leaves the cone");
+                // The most dissipation: what slides is dragged back with all that the cone allows.
+                let most = self.mu * press * speed;
+                assert!(-x * velocity.x - y * velocity.y > most - small * speed - 1e-8, "{at}");
+            }
+            let now = self.energy(state);
+            assert!(now < energy + 1e-8 * (1.0 + energy.abs()), "{case}: gains {:e}", now - energy);
+            energy = energy.min(now);
+        }
+    }
+}
+
+/// A number between two others, by a linear congruence.
+fn random(seed: &mut u64, low: f64, high: f64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    low + (high - low) * (*seed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Fails if one friction begins to stick or slide more than once at one instant.
+fn changes_once(case: &str, path: &ContactTrajectory<Brick>) {
+    let mut last = std::collections::HashMap::new();
+    for transition in path.transitions() {
+        if let Transition::Sticks { friction, time } | Transition::Slips { friction, time } = transition {
+            let before = last.insert(*friction, *time);
+            let is_new = before.is_none_or(|before| time - before > 1e-12);
+            assert!(is_new, "{case}: {friction} changes twice at {time}");
+        }
+    }
+}
+
+/// Boxes dropped on a floor at random attitudes. Friction that no forces are found for ends a motion by name.
+#[test]
+fn boxes_that_are_dropped() {
+    let (mut seed, mut complete) = (9, 0);
+    let cases = std::env::var("LAGRANGE_BOXES").map_or(5, |text| text.parse().unwrap());
+    for case in 0..cases {
+        let mut next = |low, high| random(&mut seed, low, high);
+        let brick = Brick {
+            e: [0.0, 0.3, 0.6][case % 3],
+            mu: next(0.0, 0.6),
+            edges: [next(0.1, 0.5), next(0.1, 0.5), next(0.1, 0.5)],
+            ..BRICK
+        };
+        let q = Quaternion::new(next(-1.0, 1.0), next(-1.0, 1.0), next(-1.0, 1.0), next(-1.0, 1.0));
+        let q = q.normalize();
+        let spin = Vector3::new(next(-3.0, 3.0), next(-3.0, 3.0), next(-3.0, 3.0));
+        let turns = Quaternion::from_imag(spin * 0.5) * q;
+        let start = State::new(
+            [0.0, 0.0, 0.6, q.w, q.i, q.j, q.k],
+            [next(-1.0, 1.0), next(-1.0, 1.0), next(-1.0, 1.0), turns.w, turns.i, turns.j, turns.k],
+        );
+        let motion = brick.motion(start).by(Radau::with_tolerance(1e-10)).with_contacts();
+        let path = motion.max_transitions(2_000).towards(0.6).unwrap();
+        match path.ending() {
+            Ending::Complete { .. } => complete += 1,
+            Ending::Unsolved { error: Error::FrictionUndecided { .. }, .. } => {}
+            other => panic!("case {case}: {other}"),
+        }
+        brick.keeps_the_laws(&format!("case {case}"), &path);
+        changes_once(&format!("case {case}"), &path);
+    }
+    println!("{complete} of {cases} complete");
+    assert!(4 * complete >= 3 * cases, "{complete} of {cases}");
+}
+
+/// Boxes that lie on a slope, and are thrown along it, turned, or at rest.
+#[test]
+fn boxes_that_lie_on_a_slope() {
+    let mut seed = 4;
+    for case in 0..40 {
+        let mut next = |low, high| random(&mut seed, low, high);
+        let (mu, alpha) = (next(0.1, 0.6), next(0.0, 0.5));
+        let brick = Brick { mu, alpha, edges: [next(0.2, 0.5), next(0.2, 0.5), next(0.1, 0.2)], ..BRICK };
+        let (s, c) = f64::sin_cos(next(0.0, 1.5) / 2.0);
+        let spin = if case % 2 == 0 { 0.0 } else { next(-3.0, 3.0) };
+        let speed = if case % 4 < 2 { 0.0 } else { next(0.0, 2.0) };
+        let start = State::new(
+            [0.0, 0.0, brick.edges[2] / 2.0, c, 0.0, 0.0, s],
+            [speed, speed * next(-1.0, 1.0), 0.0, -spin / 2.0 * s, 0.0, 0.0, spin / 2.0 * c],
+        );
+        let path = brick.motion(start).by(Radau::with_tolerance(1e-10)).with_contacts().to(1.0).unwrap();
+        brick.keeps_the_laws(&format!("case {case}"), &path);
+        changes_once(&format!("case {case}"), &path);
+        if case % 4 == 0 {
+            let a = (9.81 * (alpha.sin() - mu * alpha.cos())).max(0.0);
+            let v = path.end().v[0];
+            assert!((v - a).abs() < 1e-9, "case {case}: {v} for {a}");
+        }
+    }
+}
