@@ -222,7 +222,8 @@ for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) 
 //! two ends of a rod that stick in a corner. The motion is the same for all shares. One is found to a residual of 10⁻¹² of
 //! Coulomb's law, by the sweeps of time stepping for friction along two velocities. Then only velocities that do not depend on
 //! one another stick, those with most of their limit left; the others act with the part of the limit that was found, as
-//! [`Contact::Shares`] says, until a force that sticks reaches its limit. Where no share is found, the motion ends with
+//! [`Contact::Shares`] says, until a force that sticks reaches its limit. Where no share is found, or a force
+//! pulls by more than 10⁻⁶ of the largest force at the start of what follows, the motion ends with
 //! [`Error::FrictionUndecided`](crate::Error::FrictionUndecided).
 //!
 //! # Which methods

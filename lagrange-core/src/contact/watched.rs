@@ -67,6 +67,7 @@ where
         let (name, is_resting) = (name(L::CONSTRAINTS, row), decided.is_resting[k]);
         if decided.states.is_closed[k] {
             let force = move |sample: &Sample<&L>| Ok(shared.solution(sample)?.multipliers[row]);
+            check_push(system, state, name, force)?;
             let rest = is_resting.then_some(L::Scalar::constant(0.0));
             return Ok((watched(system, state, name, rest, force)?, LegCondition::Pushes { row }));
         }
@@ -90,11 +91,35 @@ where
     contacts.map(watches).collect()
 }
 
+/// Fails if a force pulls at the start of a leg, by more than what the decision leaves of the largest force of all contacts and
+/// its own round-off.
+fn check_push<L: Contacts<Scalar: Real>>(
+    system: &L,
+    state: &StateOf<L>,
+    name: &'static str,
+    force: impl Fn(&Sample<&L>) -> Result<L::Scalar, Error> + Copy,
+) -> Result<(), Error> {
+    let sample = system.sample(*state);
+    let push = force(&sample)?;
+    let zero = L::Scalar::constant(0.0);
+    if push >= zero {
+        return Ok(());
+    }
+    let multipliers = sample.solution()?.multipliers;
+    let largest = L::CONTACTS.iter().fold(zero, |size, &row| larger(size, Scalar::abs(multipliers[row])));
+    let noise = noise(&system.event(name, force), system, state)?;
+    let allowed = L::Scalar::constant(BEYOND) * largest + L::Scalar::constant(AT_LIMIT) * noise;
+    if push < -allowed {
+        return Err(Error::FrictionUndecided { friction: name, time: state.t.to_f64() });
+    }
+    Ok(())
+}
+
 /// Distance of a force from its limit, in units of round-off of both, within which it is watched for leaving it.
 const AT_LIMIT: f64 = 64.0;
 
-/// Part of its terms by which a force may exceed the limit of friction that is to stick. The solver of dependent contacts
-/// shares forces by their least norm, which need not be within the limits.
+/// Part of its terms by which a force may exceed the limit of friction that is to stick, or pull. The solver of dependent
+/// contacts shares forces by their least norm, which need not be within the limits.
 pub(super) const BEYOND: f64 = 1e-6;
 
 /// The events that friction reaches its limit, or stops the bodies, with the conditions that they watch.
