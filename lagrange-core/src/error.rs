@@ -328,7 +328,7 @@ pub enum Error {
     },
     /// The forces of friction that several contacts share, or its directions in a plane, could not be decided.
     FrictionUndecided {
-        /// Name of the friction.
+        /// Name of the friction, or of the contact.
         friction: &'static str,
         /// The time of the state.
         time: f64,
