@@ -20,7 +20,7 @@ struct System {
     slope: Contact,
     roof: Contact,
     joint: Contact,
-    pair: [Friction; 3],
+    pair: [Friction; 2],
 }
 
 fn main() {}
