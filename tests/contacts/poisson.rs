@@ -103,7 +103,7 @@ fn distance(one: [f64; 3], other: [f64; 3]) -> f64 {
 fn a_rod_bounces_by_both_stages_and_gains_no_energy() {
     let mut random = Random(5);
     let [mut differ, mut sticks, mut newton_gains] = [0; 3];
-    for case in 0..crate::count("LAGRANGE_CONTACTS", 2_000) {
+    for case in 0..crate::count("LAGRANGE_CONTACTS", 10_000) {
         let mut next = |low: f64, high: f64| random.between(low, high);
         let rod = Rod {
             m: next(0.5, 2.0),

@@ -163,7 +163,7 @@ struct Shaken {
 fn random_blocks_that_stick_and_slip_agree_with_differences() {
     let names = ["m", "n", "k", "c", "g", "b", "d", "mu", "nu", "a", "omega", "hold", "q", "pull"];
     let mut all = Vec::new();
-    for case in 0..crate::count("LAGRANGE_CASES", 6) {
+    for case in 0..crate::count("LAGRANGE_CASES", 9) {
         let mut seed = 1 + case as u64;
         let base = [1.0, 1.5, 6.0, 0.5, 9.81, 0.5, 0.1, 0.15, 0.02, 0.08, 5.0, 0.6, 0.1, 0.25];
         let given = base.map(|x| x * (1.0 + 0.3 * random(&mut seed)));
