@@ -147,3 +147,26 @@ fn a_contact_opens_once_whatever_the_method() {
         }
     }
 }
+
+/// A floor that falls away from a body at rest, y + t³ (t²/20 − 3.4 t/12 + 0.4), meets it again at 8/3: within a first step, too,
+/// where the gap is accelerated apart again.
+#[test]
+fn a_gap_that_closes_again_within_the_first_step() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(y)]
+    #[lagrangian(m/2 * y_dot^2)]
+    #[contact(floor: y + t^3*(t^2/20 - 3.4*t/12 + 0.4) >= 0)]
+    struct Floor {
+        m: f64,
+        floor: Contact,
+    }
+    for step in [0.5, 2.0, 3.1] {
+        let system = Floor { m: 1.0, floor: Contact::Closed };
+        let motion = system.motion(State::at_rest([0.0])).by(RungeKutta4::with_step(step));
+        let path = motion.with_contacts().to(5.0).unwrap();
+        let impact = path.transitions().iter().find(|of| matches!(of, Transition::Impact { .. }));
+        let time = impact.map(Transition::time).unwrap();
+        assert!((time - 8.0 / 3.0).abs() < 1e-9, "{step}: {time}");
+        assert!((path.end().q[0] - 0.737_448_559_670_77).abs() < 1e-9, "{step}: {}", path.end().q[0]);
+    }
+}

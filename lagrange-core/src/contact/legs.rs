@@ -90,7 +90,7 @@ where
 pub(super) struct LegWatch<'l, 'w, L: Lagrangian> {
     pub(super) bodies: &'l mut Bodies<L>,
     pub(super) is_closed: &'l [bool],
-    pub(super) lifting: &'l Lifting,
+    pub(super) lifting: &'l Lifting<L::Scalar>,
     pub(super) accept: &'l mut Accept<'w, L>,
     /// Number of the events before those of contacts.
     pub(super) first: usize,

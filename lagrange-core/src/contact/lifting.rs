@@ -9,25 +9,59 @@ use crate::number::Real;
 /// Contacts whose gaps have been zero, but for round-off, at the ends of all steps since the start of a leg.
 ///
 /// A gap g whose force has come to zero slowly grows as τ³, slower than the errors of dense output of any order up to 3. Since
-/// g = ∫∫ g̈, it cannot be negative as long as g̈ is positive: such an error is no gap that closes.
-pub(super) struct Lifting(Vec<Cell<bool>>);
+/// g = ∫∫ g̈, it cannot be negative where g̈ is positive and has not been negative before: there such an error is no gap that closes.
+pub(super) struct Lifting<T>(Vec<Cell<Rise<T>>>);
 
-impl Lifting {
+/// How long the acceleration of a gap is known not to be negative.
+#[derive(Clone, Copy)]
+enum Rise<T> {
+    /// The gap does not open at rest, or has risen.
+    None,
+    /// No state has been seen in which it is.
+    Always,
+    /// Up to this time, the earliest seen at which it is.
+    Until(T),
+}
+
+impl<T: Real> Lifting<T> {
     /// Those that are open and at rest at the start of a leg.
-    pub(super) fn of<T>(decided: &Decided<T>) -> Self {
+    pub(super) fn of(decided: &Decided<T>) -> Self {
         let rests = decided.is_resting.iter().zip(&decided.states.is_closed);
-        Self(rests.map(|(is_resting, is_closed)| Cell::new(*is_resting && !is_closed)).collect())
+        let rise = |(is_resting, is_closed): (&bool, &bool)| match *is_resting && !is_closed {
+            true => Rise::Always,
+            false => Rise::None,
+        };
+        Self(rests.map(rise).map(Cell::new).collect())
     }
 
-    /// Whether this gap of a contact may be an error of the dense output.
-    pub(super) fn hides<T: Real>(&self, k: usize, gap: T) -> bool {
-        gap < T::constant(0.0) && self.0[k].get()
+    /// Whether this contact opens at rest.
+    pub(super) fn is_at_rest(&self, k: usize) -> bool {
+        !matches!(self.0[k].get(), Rise::None)
+    }
+
+    /// Takes note of the acceleration of a gap at a time, and returns whether it is positive, and has not been negative before.
+    pub(super) fn rises(&self, k: usize, t: T, (acceleration, noise): (T, T)) -> bool {
+        let is_negative = acceleration < -noise;
+        let rise = match self.0[k].get() {
+            Rise::Always if is_negative => Rise::Until(t),
+            Rise::Until(turn) if is_negative && t < turn => Rise::Until(t),
+            rise => rise,
+        };
+        self.0[k].set(rise);
+        acceleration > noise
+            && match rise {
+                Rise::None => false,
+                Rise::Always => true,
+                Rise::Until(turn) => t < turn,
+            }
     }
 
     /// Takes note of the end of a step, at which gaps have risen.
     pub(super) fn pass(&self, has_risen: impl Fn(usize) -> bool) {
-        for (k, lifts) in self.0.iter().enumerate() {
-            lifts.set(lifts.get() && !has_risen(k));
+        for (k, rise) in self.0.iter().enumerate() {
+            if self.is_at_rest(k) && has_risen(k) {
+                rise.set(Rise::None);
+            }
         }
     }
 }

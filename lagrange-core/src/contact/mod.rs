@@ -137,8 +137,8 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //!   unnoticed; one that is at least 10⁻⁹ of its terms below zero at a step ends the motion with
 //!   [`Error::Penetration`](crate::Error::Penetration).
 //! - A gap that opens where a force comes to zero slowly grows as τ³, slower than the errors of dense output. Since g = ∫∫ g̈, it
-//!   cannot be negative as long as g̈ is positive: up to the first step that ends with it beyond its round-off, it is not taken to
-//!   close where g̈ exceeds its own, as events estimate it.
+//!   cannot be negative where g̈ is positive and has not been negative before: up to the first step that ends with the gap beyond its
+//!   round-off, it is not taken to close where g̈ exceeds its own, as events estimate it, but after a sample where −g̈ does.
 //! - A gap needs a gradient where it closes: [`Error::NoGradient`](crate::Error::NoGradient) names one that has none, as y³ at
 //!   0. One that touches zero at a single point, as x² + y² at 0, does not close there.
 //! - A contact rests if its rate is below the round-off of its terms, or if a bounce would rise by no more than 64 u.

@@ -56,7 +56,7 @@ impl<'l, L: Contacts<Scalar: Real> + Clone> Shared<'l, L> {
 /// The events that gaps close and forces of contacts come to zero, with the conditions that they watch.
 pub(super) fn of_contacts<'w, L>(
     (system, bodies): (&L, &Bodies<L>),
-    (shared, lifting): (&'w Shared<'_, L>, &'w Lifting),
+    (shared, lifting): (&'w Shared<'_, L>, &'w Lifting<L::Scalar>),
     decided: &Decided<L::Scalar>,
     state: &StateOf<L>,
 ) -> Result<Vec<ConditionEvent<'w, L>>, Error>
@@ -79,8 +79,11 @@ where
                 let noise = noise(&system.event(name, parts), system, state)?;
                 let gap = move |sample: &Sample<&L>| {
                     let gap = gap(sample)?;
-                    let is_unreal = lifting.hides(k, gap) && parts(sample)? > noise;
-                    Ok(if is_unreal { L::Scalar::constant(0.0) } else { gap })
+                    if !lifting.is_at_rest(k) {
+                        return Ok(gap);
+                    }
+                    let rises = lifting.rises(k, sample.state().t, (parts(sample)?, noise));
+                    Ok(if rises { larger(gap, L::Scalar::constant(0.0)) } else { gap })
                 };
                 watched(system, state, name, Some(bodies.touching(k, state) + least_speed()), gap)?
             }
