@@ -267,8 +267,11 @@ impl Parameters {
         for (field, (place, largest)) in core::mem::take(&mut self.states) {
             let Field { name, place: of_field, shape, .. } = &self.fields[field];
             let Ok(FieldShape { layout, scalar: Some(scalar), .. }) = shape else { continue };
-            if largest.iter().zip(&layout.lengths).any(|(i, &length)| i + 1 < length) {
-                let ty = largest.iter().rfold(text(scalar), |ty, i| format!("[{ty}; {}]", i + 1));
+            // A triangular family of several indices leaves some entries out.
+            if let ([last], [length]) = (&largest[..], &layout.lengths[..])
+                && last + 1 < *length
+            {
+                let ty = format!("[{}; {}]", text(scalar), last + 1);
                 let message =
                     format!("`{}` is longer than the family, so its type has to be `{ty}`", name.text);
                 diagnostics.push(of_field.error_beside(message, place, "the family is here"));
