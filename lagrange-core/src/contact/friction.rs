@@ -11,6 +11,7 @@ use super::law::{ContactForces, Grip, NoForces, Rubbing, Touch};
 use super::trajectory::Transition;
 use super::{Contacts, Friction, FrictionRows};
 use crate::error::Error;
+use crate::names::name;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::system::StateOf;
 use crate::vector::{Array, vector};
@@ -198,7 +199,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             self.report_friction(was, &decided.states, state, transitions);
             return Ok(decided);
         }
-        Err(Error::ImpactsDoNotEnd { time: state.t.to_f64() })
+        let friction = rows.frictions.first().map_or("", |&(f, _)| name(L::CONSTRAINTS, L::FRICTIONS[f].row));
+        Err(Error::FrictionUndecided { friction, time: state.t.to_f64() })
     }
 
     /// Whether a velocity is against the direction in which it slides: what was left of the rates of contacts at rest has turned it.
