@@ -251,9 +251,10 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// Associated constants of these traits.
-const CONSTANTS: [&str; 18] = [
+const CONSTANTS: [&str; 19] = [
     "HAS_CONTACTS",
     "HAS_FRICTION",
+    "HAS_PLANAR_FRICTION",
     "ARGUMENTS",
     "NAME",
     "DIGEST",

@@ -441,3 +441,46 @@ fn a_block_begins_to_slide_in_the_plane() {
     let v = path.end().v;
     assert!((v[0] - 0.6 * expected).abs() < 1e-8 && (v[1] - 0.8 * expected).abs() < 1e-8, "{v:?} {expected}");
 }
+
+/// A puck at rest begins to slide along a load that turns: against implicit steps by hand, v' = the projection of v + h F/m onto
+/// zero by h μ g.
+#[test]
+fn a_puck_begins_to_slide_along_a_load_that_turns() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y, z)]
+    #[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2) - m*g*z)]
+    #[force(x: m*(b*t + sin(omega*t)))]
+    #[force(y: m*c*t)]
+    #[contact(floor: z >= 0, friction(mu): [x_dot, y_dot])]
+    struct Puck {
+        m: f64,
+        g: f64,
+        b: f64,
+        c: f64,
+        omega: f64,
+        mu: f64,
+        floor: Contact,
+    }
+    let (omega, mu, h) = (3.0_f64, 0.5, 1e-5);
+    for (b, c) in [(0.2, 1.0), (1.0, 0.2), (-0.4, -0.7)] {
+        let (mut q, mut v) = ([0.0; 2], [0.0; 2]);
+        for step in 0..300_000 {
+            let t = (f64::from(step) + 0.5) * h;
+            let free = [v[0] + h * (b * t + (omega * t).sin()), v[1] + h * c * t];
+            let speed = f64::hypot(free[0], free[1]);
+            let kept = (1.0 - h * mu / speed).max(0.0);
+            for i in 0..2 {
+                q[i] += h * (v[i] + kept * free[i]) / 2.0;
+                v[i] = kept * free[i];
+            }
+        }
+        let puck = Puck { m: 2.0, g: 1.0, b, c, omega, mu, floor: Contact::Closed };
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let motion = puck.motion(State::at_rest([0.0; 3])).by(Radau::with_tolerance(tolerance));
+            let path = motion.with_contacts().to(3.0).unwrap();
+            let found = path.end().q;
+            let off = f64::hypot(found[0] - q[0], found[1] - q[1]);
+            assert!(off < 1e-5, "({b}, {c}), {tolerance}: {found:?} for {q:?}");
+        }
+    }
+}

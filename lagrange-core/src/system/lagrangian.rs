@@ -86,6 +86,8 @@ pub trait Lagrangian {
     const HAS_CONTACTS: bool = false;
     /// True if the force of friction is a multiple of a multiplier, by `#[contact(…, friction(mu): velocity)]`.
     const HAS_FRICTION: bool = false;
+    /// True if some friction acts along two velocities v: its derivatives grow as 1/|v| towards rest.
+    const HAS_PLANAR_FRICTION: bool = false;
     /// True if the momenta are linear in the velocities, p = M(q, t) q̇ + a(q, t), so that one linear solve
     /// inverts the Legendre transform.
     const MOMENTA_ARE_LINEAR: bool = false;

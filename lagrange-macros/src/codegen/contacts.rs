@@ -130,6 +130,16 @@ impl Emitter<'_> {
         })
     }
 
+    /// That some friction acts along two velocities. `None` if none does.
+    pub(super) fn planar_friction(&self) -> Option<TokenStream> {
+        let is_planar = self.problem.frictions.iter().any(|friction| friction.sliding.len() == 2);
+        is_planar.then(|| {
+            quote!(
+                const HAS_PLANAR_FRICTION: bool = true;
+            )
+        })
+    }
+
     /// True if an expression depends on parameters alone.
     fn is_constant(&self, expression: Id) -> bool {
         let is_parameter = |symbol| matches!(Variable::of(symbol), Variable::Parameter(_));

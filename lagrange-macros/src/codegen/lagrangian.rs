@@ -58,7 +58,7 @@ impl Emitter<'_> {
         let (pack, check_members) = (pack::pack(self.declaration, scalar), self.check_members());
         let markers = markers(self.declaration, &generics, &self.derived.markers);
         let [[_, _, doc], ..] = &self.rendered.forms;
-        let slides = self.slides();
+        let (slides, planar_friction) = (self.slides(), self.planar_friction());
         let has_contacts = contacts.iter().map(|_| {
             quote!(
                 const HAS_CONTACTS: bool = true;
@@ -101,6 +101,7 @@ impl Emitter<'_> {
                     #visit_parameters
                     #visit_defects
                     #slides
+            #planar_friction
                 }
 
                 #[doc = #doc]

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::linearized::jacobian::name_of;
 use crate::linearized::tangent::{Tangent, WideOf};
-use crate::number::{Real, Wide};
+use crate::number::{Real, Scalar, Wide};
 use crate::solution::consistent::BOTH;
 use crate::solution::consistent::level::Level;
 use crate::system::{Direction, SolutionOf, StateOf};
@@ -32,6 +32,17 @@ impl<T: Real, N: Length> Derivatives<T, N> {
     pub(super) fn new() -> Self {
         let [by_q, by_v, directions] = from_fn(|_| Square::filled(T::constant(0.0)));
         Self { by_q, by_v, directions }
+    }
+
+    /// What round-off of the state `y` changes a step of length `h` by.
+    pub(super) fn round_off(&self, y: &PhaseVector<T, N>, h: T) -> PhaseVector<T, N> {
+        let unit = T::constant(T::EPSILON) * Scalar::abs(h);
+        let mut changes = Array::filled(T::constant(0.0));
+        for (column, y) in self.by_q.iter().chain(self.by_v.iter()).zip(y.flat()) {
+            let y = unit * Scalar::abs(*y);
+            changes.iter_mut().zip(column.iter()).for_each(|(sum, x)| *sum += Scalar::abs(*x) * y);
+        }
+        PhaseVector::new([y.half(1).map(|v| unit * Scalar::abs(v)), changes])
     }
 
     /// Evaluates the derivatives at a state with a known solution.

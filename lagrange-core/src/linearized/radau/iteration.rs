@@ -14,6 +14,9 @@ pub(super) const fn iterations(s: usize) -> usize {
 /// too large by up to 10¹³: its corrections must shrink down to the last digits.
 pub(super) const ROUND_OFF: [f64; 2] = [100.0, 4.0];
 
+/// Largest part of what is left of the equations that may be round-off, in units of what it changes them by.
+const FLOOR: f64 = 64.0;
+
 /// Largest error of the iteration, in units of the tolerance.
 const MOST: f64 = 0.03;
 
@@ -89,15 +92,20 @@ pub(super) struct Iteration<'a, T: Real, N: Length> {
     pub(super) is_coupled: bool,
     /// Largest correction that may be round-off, in units of ε of the state.
     pub(super) round_off: f64,
+    /// What round-off leaves of the equations, where corrections alone do not tell that the iteration has converged: friction along
+    /// two velocities has derivatives μ g/|v|, which are too large without bound where it begins. Then what is left must be within
+    /// the tolerance or 64 times this.
+    pub(super) floor: Option<PhaseVector<T, N>>,
 }
 
 impl<T: Real, N: Length> Iteration<'_, T, N> {
-    /// Iterates from the guess `z`. `rates` evaluates the equations at a stage with these changes, and `corrections` solves the
-    /// linear equations for stages and their rates.
+    /// Iterates from the guess `z`. `rates` evaluates the equations at a stage with these changes, `corrections` solves the
+    /// linear equations for stages and their rates, and `left` is what the stages leave of the equations, as changes.
     pub(super) fn solve<const S: usize>(
         &self,
         z: &mut StageChanges<T, N, S>,
         corrections: impl Fn(&StageChanges<T, N, S>, &StageChanges<T, N, S>) -> StageChanges<T, N, S>,
+        left: impl Fn(&StageChanges<T, N, S>, &StageChanges<T, N, S>) -> StageChanges<T, N, S>,
         mut rates: impl FnMut(usize, &PhaseVector<T, N>) -> Result<PhaseVector<T, N>, NoSolution>,
     ) -> Result<Converged, NoSolution> {
         let mut largest = [PhaseVector::<T, N>::filled(T::constant(0.0)); S];
@@ -111,6 +119,7 @@ impl<T: Real, N: Length> Iteration<'_, T, N> {
                 *rate = rates(k, change)?;
             }
             let correction = corrections(z, &f);
+            let left_over = left(z, &f);
             let size = self.size(&correction);
             if !size.is_finite() {
                 return Err(NoSolution::TooSlow(0.5));
@@ -135,7 +144,7 @@ impl<T: Real, N: Length> Iteration<'_, T, N> {
             for (z, x) in z.iter_mut().zip(&correction) {
                 *z = zip(z, x, |z, x| z + x);
             }
-            let has_shrunk = self.has_shrunk(&correction, &mut largest);
+            let has_shrunk = self.has_shrunk(&correction, &left_over, &mut largest);
             let is_small = has_shrunk && remaining * size <= self.allowed;
             if is_confirmed || is_small && !self.is_coupled {
                 return Ok(Converged { iterations: iteration, contraction });
@@ -154,21 +163,28 @@ impl<T: Real, N: Length> Iteration<'_, T, N> {
     }
 
     /// True if each entry of a correction is less than half of the `largest` before, or round-off. A correction may be small
-    /// only because the derivatives are much too large: it then stays as large.
+    /// only because the derivatives are much too large: it then stays as large, and as much is `left` of the equations.
     fn has_shrunk<const S: usize>(
         &self,
         correction: &StageChanges<T, N, S>,
+        left: &StageChanges<T, N, S>,
         largest: &mut StageChanges<T, N, S>,
     ) -> bool {
         let half = T::constant(0.5);
         let round_off = T::constant(self.round_off * T::EPSILON);
+        let relative = T::constant(self.tolerance.relative);
         let typical = T::constant(self.tolerance.absolute / self.tolerance.relative);
         let mut all = true;
-        for (correction, largest) in correction.iter().zip(largest) {
-            for ((x, largest), y) in correction.flat().iter().zip(largest.flat_mut()).zip(self.y.flat()) {
-                let (size, before) = (Scalar::abs(*x), *largest);
+        for (k, (correction, largest)) in correction.iter().zip(largest).enumerate() {
+            let entries = correction.flat().iter().zip(largest.flat_mut()).zip(self.y.flat());
+            for (i, ((x, largest), y)) in entries.enumerate() {
+                let (size, before, of) = (Scalar::abs(*x), *largest, typical + Scalar::abs(*y));
                 *largest = larger(before, size);
-                all &= size <= half * before || size <= round_off * (typical + Scalar::abs(*y));
+                let left = Scalar::abs(left[k].flat()[i]);
+                let is_little = left <= relative * of;
+                all &= size <= half * before || size <= round_off * of && is_little;
+                let floor = |floor: PhaseVector<T, N>| left <= T::constant(FLOOR) * floor.flat()[i];
+                all &= is_little || self.floor.is_none_or(floor);
             }
         }
         all

@@ -140,7 +140,8 @@ where
     /// Length of the next step, and whether it takes the derivatives at each stage.
     pub(super) fn next(&self) -> (L::Scalar, bool) {
         let (planned, longest) = (self.planned.to_f64(), self.longest);
-        let is_coupled = planned > WORTH * longest;
+        // Without a step before, the guess of the stages is the start, which knows no more than its derivatives.
+        let is_coupled = self.taken.is_some() && planned > WORTH * longest;
         (L::Scalar::constant(if is_coupled { planned } else { planned.min(longest) }), is_coupled)
     }
 

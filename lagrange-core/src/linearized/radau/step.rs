@@ -9,7 +9,9 @@ use super::collocation::Collocation;
 use super::coupled::Coupled;
 use super::equations::{Derivatives, Factorizations};
 use super::estimate::StartSlopes;
-use super::iteration::{Converged, Iteration, NoSolution, ROUND_OFF, allowed, combination, reduction, zip};
+use super::iteration::{
+    Converged, Iteration, NoSolution, ROUND_OFF, allowed, combination, product, reduction, zip,
+};
 use super::lu::Lu;
 use super::memory::{Age, KnownState, RadauMemory};
 use super::tableau::{RadauStages, Transformation};
@@ -220,7 +222,15 @@ where
         let tolerance = self.tolerance::<L::Scalar>();
         let guess = memory.guess(h);
         let RadauMemory {
-            at, transformation, chart, derivatives, factorizations, coupled, contraction, ..
+            at,
+            transformation,
+            chart,
+            derivatives,
+            age,
+            factorizations,
+            coupled,
+            contraction,
+            ..
         } = memory;
         let mut z = guess;
         for change in &mut z {
@@ -251,10 +261,19 @@ where
             Some(coupled) => coupled.corrections(z, rates),
             None => factorizations.corrections(transformation, derivatives, z, rates),
         };
+        let left = |z: &_, rates: &[PhaseVector<_, _>; S]| {
+            let slopes = product(&transformation.slopes, z);
+            from_fn(|k| zip(&rates[k], &slopes[k], |rate, slope| rate * h - slope))
+        };
         let round_off = ROUND_OFF[usize::from(L::HAS_FRICTION)];
-        let iteration = Iteration { tolerance, y: &at.y, allowed, is_coupled, round_off };
+        // Old derivatives belong to another state, and bound nothing.
+        let floor = L::HAS_PLANAR_FRICTION.then(|| match age {
+            Age::New => derivatives.round_off(&at.y, h),
+            _ => PhaseVector::filled(L::Scalar::constant(0.0)),
+        });
+        let iteration = Iteration { tolerance, y: &at.y, allowed, is_coupled, round_off, floor };
         let Converged { iterations, contraction: found } =
-            iteration.solve(&mut z, corrections, |k, change| {
+            iteration.solve(&mut z, corrections, left, |k, change| {
                 Ok(rates_at(system, chart, &there(k, change)?, &at.active, statistics)?)
             })?;
         *contraction = found;
