@@ -1,0 +1,51 @@
+//! Robots described by URDF as structs with `#[derive(Lagrangian)]`.
+//!
+//! [`import`] reads a description and returns Rust for people to read and edit; the program `lagrange-urdf` does so for
+//! a file. Each joint that moves has a coordinate of its name, each link that moves a frame; links that are fixed to
+//! another become part of it. All quantities are in SI units, angles in radians.
+
+mod body;
+mod check;
+mod names;
+mod number;
+mod options;
+mod pose;
+mod read;
+mod steps;
+mod tree;
+mod write;
+
+pub use options::{HELP, Options};
+use tree::Tree;
+
+/// A robot as Rust.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Import {
+    /// Text of a module: a struct with its attributes, default values and the limits of its joints.
+    pub rust: String,
+    /// What differs from the description or is missing in it, one sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Returns the robot that the text of a URDF file describes, or all that is wrong with it, one message each.
+pub fn import(description: &str, options: &Options) -> Result<Import, Vec<String>> {
+    let mut robot = read::read(description).map_err(|error| vec![error])?;
+    let mut errors = options.fix_joints(&mut robot);
+    errors.extend(check::errors(&robot));
+    let mut notes: Vec<String> = robot.links.iter().filter_map(check::impossible_inertia).collect();
+    notes.extend(number::right_angles(&mut robot, options.right_angles));
+    let tree = match Tree::new(&robot, options) {
+        Ok(tree) if errors.is_empty() => tree,
+        Ok(_) => return Err(errors),
+        Err(more) => return Err(errors.into_iter().chain(more).collect()),
+    };
+    let labels = names::Labels::new(&robot.name, &tree, options);
+    notes.extend(labels.notes());
+    let (rust, is_long) = write::write(&robot.name, &tree, &labels, options);
+    if is_long {
+        notes.push(
+            "so many attributes need `#![recursion_limit = \"512\"]` at the top of the crate".to_owned(),
+        );
+    }
+    Ok(Import { rust, notes })
+}

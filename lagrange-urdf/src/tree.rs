@@ -1,0 +1,292 @@
+//! Links that move, parents first, with all that is fixed to them.
+
+use std::collections::HashMap;
+
+use nalgebra::Vector3;
+use urdf_rs::{Dynamics, Joint, JointType, Link, Mimic, Robot};
+
+use crate::body::Body;
+use crate::options::Options;
+use crate::pose::Pose;
+
+/// A robot without fixed joints.
+pub(crate) struct Tree<'a> {
+    /// Each after the one that carries it.
+    pub(crate) links: Vec<Moving<'a>>,
+    /// Links of `--tool`, with the moving link that each is part of and its place in there.
+    pub(crate) tools: Vec<Tool<'a>>,
+}
+
+/// A link that moves relative to the one that carries it.
+pub(crate) struct Moving<'a> {
+    pub(crate) link: &'a Link,
+    /// Index of the moving link that carries it; none where that is at rest.
+    pub(crate) parent: Option<usize>,
+    /// Place of the joint in the carrier.
+    pub(crate) origin: Pose,
+    /// None of a root that is free in space.
+    pub(crate) joint: Option<&'a Joint>,
+    /// Of the link and all that is fixed to it.
+    pub(crate) body: Body,
+    /// Names of links that are fixed to it and have a body.
+    pub(crate) merged: Vec<&'a str>,
+}
+
+impl Moving<'_> {
+    pub(crate) fn kind(&self) -> &JointType {
+        self.joint.map_or(&JointType::Floating, |joint| &joint.joint_type)
+    }
+
+    /// Axis of the joint, of length 1.
+    pub(crate) fn axis(&self) -> Vector3<f64> {
+        let axis = self.joint.map_or(Vector3::z(), |joint| Vector3::from(*joint.axis.xyz));
+        axis / axis.norm()
+    }
+
+    /// True with a single coordinate.
+    pub(crate) fn is_simple(&self) -> bool {
+        matches!(self.kind(), JointType::Revolute | JointType::Continuous | JointType::Prismatic)
+    }
+
+    /// What it follows in place of a coordinate of its own.
+    pub(crate) fn mimic(&self) -> Option<&Mimic> {
+        self.joint?.mimic.as_ref()
+    }
+
+    /// True with an effort: with a single coordinate of its own.
+    pub(crate) fn is_driven(&self) -> bool {
+        self.is_simple() && self.mimic().is_none()
+    }
+
+    /// Viscous damping, 0 without.
+    pub(crate) fn damping(&self) -> f64 {
+        self.dynamics().map_or(0.0, |dynamics| dynamics.damping)
+    }
+
+    /// Dry friction, 0 without.
+    pub(crate) fn friction(&self) -> f64 {
+        self.dynamics().map_or(0.0, |dynamics| dynamics.friction)
+    }
+
+    fn dynamics(&self) -> Option<&Dynamics> {
+        self.joint.filter(|_| self.is_simple())?.dynamics.as_ref()
+    }
+}
+
+/// A link with observables.
+pub(crate) struct Tool<'a> {
+    pub(crate) link: &'a str,
+    pub(crate) host: usize,
+    pub(crate) place: Pose,
+}
+
+/// Where a link is: within a moving link, or at rest.
+#[derive(Clone, Copy)]
+struct Site {
+    host: Option<usize>,
+    pose: Pose,
+}
+
+impl<'a> Tree<'a> {
+    /// Returns the tree, or all that is wrong with it.
+    pub(crate) fn new(robot: &'a Robot, options: &Options) -> Result<Self, Vec<String>> {
+        let root = root(robot)?;
+        let (links, sites) = grow(robot, root, options.floating);
+        let mut errors: Vec<_> = lost(robot, &sites).into_iter().collect();
+        errors.extend(weightless(&links));
+        errors.extend(mimic_errors(robot, &links));
+        if links.is_empty() && errors.is_empty() {
+            errors.push(
+                "no link of the robot moves: all joints are fixed, or --floating is missing".to_owned(),
+            );
+        }
+        let mut tools = Vec::new();
+        for name in &options.tools {
+            match tool(&sites, name) {
+                Ok(tool) => tools.push(tool),
+                Err(error) => errors.push(error),
+            }
+        }
+        if errors.is_empty() { Ok(Self { links, tools }) } else { Err(errors) }
+    }
+
+    /// Index of the link that a joint moves.
+    pub(crate) fn by_joint(&self, name: &str) -> Option<usize> {
+        by_joint(&self.links, name)
+    }
+
+    /// Number of joints that are mimicked one after another, until one with a coordinate.
+    pub(crate) fn depth(&self, moving: &Moving) -> usize {
+        let next = |moving: &&Moving| Some(&self.links[self.by_joint(&moving.mimic()?.joint)?]);
+        std::iter::successors(Some(moving), next).count() - 1
+    }
+}
+
+fn by_joint(links: &[Moving], name: &str) -> Option<usize> {
+    links.iter().position(|moving| moving.joint.is_some_and(|joint| joint.name == name))
+}
+
+/// The only link that no joint carries.
+fn root(robot: &Robot) -> Result<&Link, Vec<String>> {
+    let carriers = |link: &Link| robot.joints.iter().filter(|joint| joint.child.link == link.name).count();
+    let mut errors = Vec::new();
+    for link in robot.links.iter().filter(|link| carriers(link) > 1) {
+        let joints = robot.joints.iter().filter(|joint| joint.child.link == link.name);
+        let names = list(joints.map(|joint| joint.name.as_str()));
+        errors.push(format!(
+            "link `{}` is the child of several joints, {names}: a loop must be cut, and closed by a constraint",
+            link.name
+        ));
+    }
+    let roots: Vec<_> = robot.links.iter().filter(|link| carriers(link) == 0).collect();
+    match roots[..] {
+        [root] if errors.is_empty() => return Ok(root),
+        [_] => {}
+        [] => errors.push("every link is the child of a joint: the joints go round in a cycle".to_owned()),
+        _ => {
+            let names = list(roots.iter().map(|link| link.name.as_str()));
+            errors.push(format!(
+                "there are {} roots, {names}: all but one must be the child of a joint",
+                roots.len()
+            ));
+        }
+    }
+    Err(errors)
+}
+
+fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// Goes from the root to the leaves, each branch to its end, in the order of the description. Returns the moving links,
+/// and where each link that was reached is.
+fn grow<'a>(robot: &'a Robot, root: &'a Link, floating: bool) -> (Vec<Moving<'a>>, HashMap<&'a str, Site>) {
+    let links: HashMap<&str, &Link> = robot.links.iter().map(|link| (link.name.as_str(), link)).collect();
+    let mut children: HashMap<&str, Vec<&Joint>> = HashMap::new();
+    for joint in robot.joints.iter().rev() {
+        children.entry(&joint.parent.link).or_default().push(joint);
+    }
+    let (mut moving, mut sites) = (Vec::new(), HashMap::new());
+    let at_rest = Site { host: None, pose: Pose::HERE };
+    let start = if floating { depart(&mut moving, root, at_rest, None) } else { at_rest };
+    sites.insert(root.name.as_str(), start);
+    let mut waiting: Vec<&Joint> = children.get(root.name.as_str()).cloned().unwrap_or_default();
+    while let Some(joint) = waiting.pop() {
+        let (Some(&link), Some(&carrier)) =
+            (links.get(joint.child.link.as_str()), sites.get(joint.parent.link.as_str()))
+        else {
+            continue;
+        };
+        let origin = carrier.pose.then(&Pose::of(&joint.origin));
+        let site = Site { host: carrier.host, pose: origin };
+        let site = match joint.joint_type {
+            JointType::Fixed => stay(&mut moving, link, site),
+            _ => depart(&mut moving, link, site, Some(joint)),
+        };
+        sites.insert(link.name.as_str(), site);
+        waiting.extend(children.get(link.name.as_str()).into_iter().flatten());
+    }
+    (moving, sites)
+}
+
+/// Adds a link that moves from this site.
+fn depart<'a>(moving: &mut Vec<Moving<'a>>, link: &'a Link, from: Site, joint: Option<&'a Joint>) -> Site {
+    let body = Body::of(&link.inertial);
+    moving.push(Moving { link, parent: from.host, origin: from.pose, joint, body, merged: Vec::new() });
+    Site { host: Some(moving.len() - 1), pose: Pose::HERE }
+}
+
+/// Adds the body of a link that is fixed at this site to the one that it is part of.
+fn stay<'a>(moving: &mut [Moving<'a>], link: &'a Link, site: Site) -> Site {
+    let body = Body::of(&link.inertial);
+    if let Some(host) = site.host.filter(|_| !body.is_nothing()) {
+        moving[host].body = moving[host].body.with(&body.at(&site.pose));
+        moving[host].merged.push(&link.name);
+    }
+    site
+}
+
+/// Links that no path of joints leads to from the root: they hang on a cycle.
+fn lost(robot: &Robot, sites: &HashMap<&str, Site>) -> Option<String> {
+    let lost = robot.links.iter().map(|link| link.name.as_str()).filter(|name| !sites.contains_key(name));
+    let names = list(lost);
+    (!names.is_empty()).then(|| format!("the joints of {names} go round in a cycle"))
+}
+
+/// Errors for links that nothing gives a mass or an inertia: their equations would have no solution.
+fn weightless(links: &[Moving]) -> Vec<String> {
+    let mut has_body: Vec<bool> = links.iter().map(|moving| !moving.body.is_nothing()).collect();
+    for (k, moving) in links.iter().enumerate().rev() {
+        if let (true, Some(parent), Some(_)) = (has_body[k], moving.parent, moving.joint) {
+            has_body[parent] = true;
+        }
+    }
+    let is_leaf = |k: usize| links.iter().all(|moving| moving.parent != Some(k));
+    let resists = |k: usize, moving: &Moving| match moving.kind() {
+        JointType::Revolute | JointType::Continuous if is_leaf(k) => moving.body.about(&moving.axis()) != 0.0,
+        JointType::Prismatic if is_leaf(k) => moving.body.m != 0.0,
+        _ if moving.joint.is_none() => !moving.body.is_nothing(),
+        _ => has_body[k],
+    };
+    let idle = links.iter().enumerate().filter(|(k, moving)| !resists(*k, moving)).map(|(_, moving)| moving);
+    idle.map(|moving| match moving.joint {
+        Some(joint) => format!(
+            "link `{}` moves, and has neither mass nor inertia against the joint `{}`, nor has what it carries: give it \
+             some, or --fix {}",
+            moving.link.name, joint.name, joint.name
+        ),
+        None => format!("the root `{}` is free in space, and has no mass or inertia: give it some", moving.link.name),
+    })
+    .collect()
+}
+
+/// Errors for joints that mimic none that moves by a single coordinate, or each other.
+fn mimic_errors(robot: &Robot, links: &[Moving]) -> Vec<String> {
+    let mut errors = Vec::new();
+    for moving in links {
+        let Some((joint, mimic)) = moving.joint.and_then(|joint| Some((joint, joint.mimic.as_ref()?))) else {
+            continue;
+        };
+        let name = &joint.name;
+        match by_joint(links, &mimic.joint) {
+            _ if !moving.is_simple() => {
+                errors.push(format!("joint `{name}` has several coordinates, and cannot mimic"));
+            }
+            Some(other) if !links[other].is_simple() => {
+                errors
+                    .push(format!("joint `{name}` mimics `{}`, which has several coordinates", mimic.joint));
+            }
+            Some(_) if goes_round(robot, joint) => {
+                errors.push(format!("joint `{name}` mimics `{}`, which mimics it in turn", mimic.joint));
+            }
+            Some(_) => {}
+            None => {
+                errors.push(format!("joint `{name}` mimics `{}`, which is no joint that moves", mimic.joint));
+            }
+        }
+    }
+    errors
+}
+
+/// True if the joints that are mimicked one after another never end.
+fn goes_round(robot: &Robot, joint: &Joint) -> bool {
+    let next = |joint: &Joint| {
+        let name = &joint.mimic.as_ref()?.joint;
+        robot.joints.iter().find(|joint| joint.name == *name)
+    };
+    let mut place = Some(joint);
+    for _ in 0..=robot.joints.len() {
+        place = place.and_then(next);
+    }
+    place.is_some()
+}
+
+fn tool<'a>(sites: &HashMap<&'a str, Site>, name: &str) -> Result<Tool<'a>, String> {
+    let Some((link, site)) = sites.get_key_value(name) else {
+        return Err(format!("--tool {name}: there is no link of this name"));
+    };
+    match site.host {
+        Some(host) => Ok(Tool { link, host, place: site.pose }),
+        None => Err(format!("--tool {name}: the link does not move")),
+    }
+}

@@ -1,0 +1,203 @@
+//! Attributes of the struct: coordinates, frames, Lagrangian, forces, observables.
+
+use nalgebra::Vector3;
+use urdf_rs::JointType;
+
+use super::one_line;
+use crate::body::Body;
+use crate::names::{Label, Labels};
+use crate::number::{expression, vector};
+use crate::options::Options;
+use crate::steps;
+use crate::tree::{Moving, Tool, Tree};
+
+/// Longest line into which an attribute is folded.
+const WIDTH: usize = 110;
+
+pub(super) fn attributes(tree: &Tree, labels: &Labels, options: &Options) -> Vec<String> {
+    let links = || tree.links.iter().zip(&labels.links);
+    let mut lines = vec![coordinates(tree, labels)];
+    lines.extend(mimics(tree, labels));
+    lines.extend(links().flat_map(|(moving, label)| frame(moving, label, labels)));
+    lines
+        .extend(tree.tools.iter().zip(&labels.tools).flat_map(|(tool, name)| tool_frame(tool, name, labels)));
+    if !options.numbers {
+        lines.extend(links().filter(|(moving, _)| !moving.body.is_nothing()).map(|(_, label)| {
+            format!("#[parameter({}: {{m, centre: [3], inertia: symmetric}})]", label.body)
+        }));
+    }
+    lines.extend(lagrangian(tree, labels, options));
+    lines.extend(
+        links()
+            .filter(|(moving, _)| moving.is_driven())
+            .map(|(_, label)| format!("#[force({}: {})]", label.q, label.tau)),
+    );
+    lines.extend(dissipation(tree, labels, options));
+    if options.friction {
+        lines.extend(links().filter(|(moving, _)| moving.friction() > 0.0).map(|(moving, label)| {
+            let bound = if options.numbers { expression(moving.friction()) } else { label.coulomb.clone() };
+            let rate = rate(moving, label);
+            format!("#[friction({}: {rate}, limit: {bound}, sliding: {bound})]", label.friction)
+        }));
+    }
+    lines.extend(
+        tree.tools.iter().zip(&labels.tools).flat_map(|(tool, name)| observables(tool, name, labels)),
+    );
+    lines
+}
+
+fn coordinates(tree: &Tree, labels: &Labels) -> String {
+    let links = tree.links.iter().zip(&labels.links).filter(|(moving, _)| moving.mimic().is_none());
+    let entries = links.map(|(moving, Label { q, turn, .. })| match moving.kind() {
+        JointType::Floating => format!("{q}: [3], {turn}: [4]"),
+        JointType::Planar => format!("{q}: [3]"),
+        JointType::Spherical => format!("{q}: [4]"),
+        _ => q.clone(),
+    });
+    format!("#[coordinates({})]", entries.collect::<Vec<_>>().join(", "))
+}
+
+/// Definitions in place of the coordinates of mimic joints, each after the one that it needs.
+fn mimics(tree: &Tree, labels: &Labels) -> Vec<String> {
+    let mut found = Vec::new();
+    for (moving, label) in tree.links.iter().zip(&labels.links) {
+        let Some(mimic) = moving.mimic() else { continue };
+        let Some(other) = tree.by_joint(&mimic.joint) else { continue };
+        let value = steps::mimic(
+            &labels.links[other].q,
+            mimic.multiplier.unwrap_or(1.0),
+            mimic.offset.unwrap_or(0.0),
+        );
+        found.push((tree.depth(moving), format!("#[define({} = {value})]", label.q)));
+    }
+    found.sort_by_key(|(depth, _)| *depth);
+    found.into_iter().map(|(_, line)| line).collect()
+}
+
+fn frame(moving: &Moving, label: &Label, labels: &Labels) -> Vec<String> {
+    let mut steps = steps::place(&moving.origin);
+    steps.extend(steps::motion(moving.kind(), &moving.axis(), &label.q, &label.turn));
+    let within = moving.parent.map_or(String::new(), |parent| format!(" in {}", labels.links[parent].frame));
+    let mut lines = vec![comment(moving)];
+    lines.extend(placed(&label.frame, &within, &steps));
+    lines
+}
+
+fn comment(moving: &Moving) -> String {
+    let joint = match moving.joint {
+        Some(joint) => format!("by the {} joint `{}`", kind(moving.kind()), one_line(&joint.name)),
+        None => "free in space".to_owned(),
+    };
+    let merged =
+        moving.merged.iter().map(|name| format!("`{}`", one_line(name))).collect::<Vec<_>>().join(", ");
+    let with = if merged.is_empty() { String::new() } else { format!(", with {merged} fixed to it") };
+    format!("// `{}`, {joint}{with}", one_line(&moving.link.name))
+}
+
+fn kind(kind: &JointType) -> &'static str {
+    match kind {
+        JointType::Revolute => "revolute",
+        JointType::Continuous => "continuous",
+        JointType::Prismatic => "prismatic",
+        JointType::Fixed => "fixed",
+        JointType::Floating => "floating",
+        JointType::Planar => "planar",
+        JointType::Spherical => "spherical",
+    }
+}
+
+/// Frame of a tool that is not itself the frame of a moving link.
+fn tool_frame(tool: &Tool, name: &str, labels: &Labels) -> Vec<String> {
+    let steps = steps::place(&tool.place);
+    if steps.is_empty() {
+        return Vec::new();
+    }
+    placed(name, &format!(" in {}", labels.links[tool.host].frame), &steps)
+}
+
+fn observables(tool: &Tool, name: &str, labels: &Labels) -> [String; 3] {
+    let is_host = steps::place(&tool.place).is_empty();
+    let frame = if is_host { &labels.links[tool.host].frame } else { name };
+    let velocity = format!("express(velocity({frame}), fixed)");
+    [
+        format!("#[observable({name}_position = position({frame}))]"),
+        format!("#[observable({name}_velocity = {velocity})]"),
+        format!("#[observable({name}_jacobian = jacobian({velocity}))]"),
+    ]
+}
+
+/// Kinetic energies less potential energies, one a line.
+fn lagrangian(tree: &Tree, labels: &Labels, options: &Options) -> Vec<String> {
+    let links = || tree.links.iter().zip(&labels.links).filter(|(moving, _)| !moving.body.is_nothing());
+    let properties = |moving: &Moving, label: &Label| match options.numbers {
+        true => numbers(&moving.body),
+        false => ["m", "centre", "inertia"].map(|member| format!("{}.{member}", label.body)),
+    };
+    let kinetic = links().map(|(moving, label)| {
+        let [m, centre, inertia] = properties(moving, label);
+        format!("kinetic({}, {m}, {centre}, {inertia})", label.frame)
+    });
+    let heights = links().filter(|(moving, _)| moving.body.m > 0.0).map(|(moving, label)| {
+        let [m, centre, _] = properties(moving, label);
+        format!("{m}*position({}, {centre})[2]", label.frame)
+    });
+    let mut lines = vec!["#[lagrangian(".to_owned()];
+    lines.extend(sum("    ", kinetic));
+    lines.push("    - g*(".to_owned());
+    lines.extend(sum("        ", heights));
+    lines.extend(["    )".to_owned(), ")]".to_owned()]);
+    lines
+}
+
+/// Terms, one a line.
+fn sum(indent: &str, terms: impl Iterator<Item = String>) -> Vec<String> {
+    terms.enumerate().map(|(k, term)| format!("{indent}{}{term}", if k == 0 { "" } else { "+ " })).collect()
+}
+
+fn numbers(body: &Body) -> [String; 3] {
+    let rows = body.inertia.row_iter().map(|row| vector(row.transpose().as_slice()));
+    let inertia = format!("[{}]", rows.collect::<Vec<_>>().join(", "));
+    let centre =
+        if body.centre == Vector3::zeros() { "[0, 0, 0]".to_owned() } else { vector(body.centre.as_slice()) };
+    [expression(body.m), centre, inertia]
+}
+
+/// Rate of a joint with a single coordinate.
+fn rate(moving: &Moving, label: &Label) -> String {
+    if moving.mimic().is_some() { format!("der({})", label.q) } else { format!("{}_dot", label.q) }
+}
+
+fn dissipation(tree: &Tree, labels: &Labels, options: &Options) -> Vec<String> {
+    let links = tree.links.iter().zip(&labels.links).filter(|(moving, _)| moving.damping() > 0.0);
+    let terms: Vec<String> = links
+        .map(|(moving, label)| {
+            let factor = if options.numbers { expression(moving.damping()) } else { label.damping.clone() };
+            format!("{factor}/2*{}^2", rate(moving, label))
+        })
+        .collect();
+    if terms.is_empty() {
+        return Vec::new();
+    }
+    let mut lines = vec!["#[dissipation(".to_owned()];
+    lines.extend(sum("    ", terms.into_iter()));
+    lines.push(")]".to_owned());
+    folded(lines)
+}
+
+/// A frame by its steps.
+fn placed(name: &str, carrier: &str, steps: &[String]) -> Vec<String> {
+    let last = steps.len().saturating_sub(1);
+    let mut lines = vec![format!("#[frame({name}{carrier}:")];
+    lines.extend(
+        steps.iter().enumerate().map(|(k, step)| format!("    {step}{}", if k == last { "" } else { "," })),
+    );
+    lines.push(")]".to_owned());
+    folded(lines)
+}
+
+/// An attribute on one line if it fits there.
+fn folded(lines: Vec<String>) -> Vec<String> {
+    let parts: Vec<&str> = lines.iter().map(|line| line.trim_start()).collect();
+    let line = parts.join(" ").replace("( ", "(").replace(" )]", ")]");
+    if line.chars().count() <= WIDTH { vec![line] } else { lines }
+}
