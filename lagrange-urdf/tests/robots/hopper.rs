@@ -1,0 +1,88 @@
+// The robot `hopper`, written by lagrange-urdf from its description, to be read and edited.
+// SI units, angles in rad; gravity is along −z.
+
+use lagrange_core::prelude::*;
+
+/// The robot `hopper`: a frame for each link that moves, a coordinate for each joint.
+#[derive(Clone, Debug, Lagrangian)]
+#[allow(non_snake_case)]
+#[coordinates(place: [3], turn: [4], HIP, KNEE, ball: [4])]
+// `base_footprint`, free in space, with `trunk` fixed to it
+#[frame(base_footprint: translate(place), rotate(turn))]
+// `THIGH`, by the revolute joint `HIP`
+#[frame(THIGH in base_footprint:
+    translate([-0.015364674647749002, 0.10984944839838585, 0.012267306780543982]),
+    rotate_z(-2.8415926535897933),
+    rotate_y(0.2),
+    rotate_x(-0.1),
+    rotate_y(HIP)
+)]
+// `shank`, by the prismatic joint `KNEE`
+#[frame(shank in THIGH: translate([0, 0, -0.2]), translate([0, 0, KNEE]))]
+// `tail`, by the spherical joint `ball`
+#[frame(tail in base_footprint:
+    translate([-0.18725867271683985, -0.05792589552510311, 0.06026613384098776]),
+    rotate_z(0.4201405028452248),
+    rotate_y(0.7941042492909617),
+    rotate_x(0.14004940014784178),
+    rotate(ball)
+)]
+#[lagrangian(
+    kinetic(base_footprint, 8, [0.010842417772312015, -0.020611514883311657, 0.12928493522385998], [[0.09208056926493466, -0.007635005910314363, -0.002554530915544328], [-0.007635005910314363, 0.11603423354892252, 0.005338263575473512], [-0.002554530915544328, 0.005338263575473512, 0.1018851971861428]])
+    + kinetic(THIGH, 0.8, [0, 0, -0.1], [[0.004, 0, 0], [0, 0.004, 0], [0, 0, 0.0004]])
+    + kinetic(shank, 0.3, [0, 0, -0.08], [[0.001, 0, 0], [0, 0.001, 0], [0, 0, 0.0001]])
+    + kinetic(tail, 0.5, [0, 0, 0.2], [[0.002, 0, 0], [0, 0.003, 0], [0, 0, 0.001]])
+    - g*(
+        8*position(base_footprint, [0.010842417772312015, -0.020611514883311657, 0.12928493522385998])[2]
+        + 0.8*position(THIGH, [0, 0, -0.1])[2]
+        + 0.3*position(shank, [0, 0, -0.08])[2]
+        + 0.5*position(tail, [0, 0, 0.2])[2]
+    )
+)]
+#[force(HIP: tau_HIP)]
+#[force(KNEE: tau_KNEE)]
+#[dissipation(0.7/2*KNEE_dot^2)]
+pub struct Hopper {
+    /// Acceleration of gravity along −z, in m/s².
+    pub g: f64,
+    /// Effort of the joint `HIP`, in N m.
+    pub tau_HIP: f64,
+    /// Effort of the joint `KNEE`, in N.
+    pub tau_KNEE: f64,
+}
+
+#[rustfmt::skip]
+#[allow(clippy::approx_constant)]
+impl Default for Hopper {
+    /// The robot of the description, without efforts.
+    fn default() -> Self {
+        Self {
+            g:        9.81,
+            tau_HIP:  0.0,
+            tau_KNEE: 0.0,
+        }
+    }
+}
+
+/// Limits of a joint.
+#[allow(dead_code)]
+#[derive(Clone, Copy, Debug)]
+pub struct Limit {
+    /// Name of the joint, as in the coordinates.
+    pub joint: &'static str,
+    /// Least and greatest position, in rad or m.
+    pub position: [f64; 2],
+    /// Greatest speed, in rad/s or m/s.
+    pub velocity: f64,
+    /// Greatest effort, in N m or N.
+    pub effort: f64,
+}
+
+impl Hopper {
+    /// Limits of the joints, which the equations do not know.
+    #[rustfmt::skip]
+    #[allow(dead_code, clippy::approx_constant)]
+    pub const LIMITS: [Limit; 1] = [
+        Limit { joint: "HIP", position: [-1.0, 1.0], velocity: 10.0, effort: 30.0 },
+    ];
+}
