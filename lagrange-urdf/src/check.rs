@@ -1,11 +1,12 @@
-//! What must hold of a description, before anything is made of it.
+//! What must hold of a description, and of the tree that its joints make.
 
 use std::collections::HashSet;
 
 use nalgebra::Matrix3;
-use urdf_rs::{Inertial, Joint, JointType, Link, Robot};
+use urdf_rs::{Inertial, Joint, JointType, Link, Mimic, Robot};
 
 use crate::body;
+use crate::tree::{Moving, by_joint};
 
 /// Returns all errors of single links and joints.
 pub(crate) fn errors(robot: &Robot) -> Vec<String> {
@@ -89,4 +90,65 @@ fn joint_errors(robot: &Robot, joint: &Joint) -> Vec<String> {
         errors.push(format!("joint `{name}` has negative damping or friction"));
     }
     errors
+}
+
+/// Errors for links that nothing gives a mass or an inertia: their equations would have no solution.
+pub(crate) fn weightless(links: &[Moving]) -> Vec<String> {
+    let mut has_body: Vec<bool> = links.iter().map(|moving| !moving.body.is_nothing()).collect();
+    for (k, moving) in links.iter().enumerate().rev() {
+        if let (true, Some(parent), Some(_)) = (has_body[k], moving.parent, moving.joint) {
+            has_body[parent] = true;
+        }
+    }
+    let is_leaf = |k: usize| links.iter().all(|moving| moving.parent != Some(k));
+    let resists = |k: usize, moving: &Moving| match moving.kind() {
+        _ if moving.mimic().is_some() => true,
+        JointType::Revolute | JointType::Continuous if is_leaf(k) => moving.body.about(&moving.axis()) != 0.0,
+        JointType::Prismatic if is_leaf(k) => moving.body.m != 0.0,
+        _ if moving.joint.is_none() => !moving.body.is_nothing(),
+        _ => has_body[k],
+    };
+    let idle = links.iter().enumerate().filter(|(k, moving)| !resists(*k, moving)).map(|(_, moving)| moving);
+    idle.map(|moving| match moving.joint {
+        Some(joint) => format!(
+            "link `{}` moves, and has neither mass nor inertia against the joint `{}`, nor has what it carries: give it \
+             some, or --fix {}",
+            moving.link.name, joint.name, joint.name
+        ),
+        None => format!("the root `{}` is free in space, and has no mass or inertia: give it some", moving.link.name),
+    })
+    .collect()
+}
+
+/// Errors for joints that mimic none that moves by a single coordinate, or each other.
+pub(crate) fn mimic_errors(robot: &Robot, links: &[Moving]) -> Vec<String> {
+    let joints = links.iter().filter_map(|moving| Some((moving, moving.joint?, moving.mimic()?)));
+    let error = |(moving, joint, mimic): (&Moving, &Joint, &Mimic)| {
+        let (name, other) = (&joint.name, &mimic.joint);
+        match by_joint(links, other) {
+            _ if !moving.is_simple() => {
+                Some(format!("joint `{name}` has several coordinates, and cannot mimic"))
+            }
+            None => Some(format!("joint `{name}` mimics `{other}`, which is no joint that moves")),
+            Some(index) if !links[index].is_simple() => {
+                Some(format!("joint `{name}` mimics `{other}`, which has several coordinates"))
+            }
+            Some(_) => goes_round(robot, joint)
+                .then(|| format!("joint `{name}` mimics `{other}`, which mimics it in turn")),
+        }
+    };
+    joints.filter_map(error).collect()
+}
+
+/// True if the joints that are mimicked one after another never end.
+fn goes_round(robot: &Robot, joint: &Joint) -> bool {
+    let next = |joint: &Joint| {
+        let name = &joint.mimic.as_ref()?.joint;
+        robot.joints.iter().find(|joint| joint.name == *name)
+    };
+    let mut place = Some(joint);
+    for _ in 0..=robot.joints.len() {
+        place = place.and_then(next);
+    }
+    place.is_some()
 }

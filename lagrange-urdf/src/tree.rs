@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use urdf_rs::{Dynamics, Joint, JointType, Link, Mimic, Robot};
 
 use crate::body::Body;
+use crate::check;
 use crate::options::Options;
 use crate::pose::Pose;
 
@@ -93,8 +94,8 @@ impl<'a> Tree<'a> {
         let root = root(robot)?;
         let (links, sites) = grow(robot, root, options.floating);
         let mut errors: Vec<_> = lost(robot, &sites).into_iter().collect();
-        errors.extend(weightless(&links));
-        errors.extend(mimic_errors(robot, &links));
+        errors.extend(check::weightless(&links));
+        errors.extend(check::mimic_errors(robot, &links));
         if links.is_empty() && errors.is_empty() {
             errors.push(
                 "no link of the robot moves: all joints are fixed, or --floating is missing".to_owned(),
@@ -122,7 +123,8 @@ impl<'a> Tree<'a> {
     }
 }
 
-fn by_joint(links: &[Moving], name: &str) -> Option<usize> {
+/// Index of the link that a joint moves.
+pub(crate) fn by_joint(links: &[Moving], name: &str) -> Option<usize> {
     links.iter().position(|moving| moving.joint.is_some_and(|joint| joint.name == name))
 }
 
@@ -211,74 +213,6 @@ fn lost(robot: &Robot, sites: &HashMap<&str, Site>) -> Option<String> {
     let lost = robot.links.iter().map(|link| link.name.as_str()).filter(|name| !sites.contains_key(name));
     let names = list(lost);
     (!names.is_empty()).then(|| format!("the joints of {names} go round in a cycle"))
-}
-
-/// Errors for links that nothing gives a mass or an inertia: their equations would have no solution.
-fn weightless(links: &[Moving]) -> Vec<String> {
-    let mut has_body: Vec<bool> = links.iter().map(|moving| !moving.body.is_nothing()).collect();
-    for (k, moving) in links.iter().enumerate().rev() {
-        if let (true, Some(parent), Some(_)) = (has_body[k], moving.parent, moving.joint) {
-            has_body[parent] = true;
-        }
-    }
-    let is_leaf = |k: usize| links.iter().all(|moving| moving.parent != Some(k));
-    let resists = |k: usize, moving: &Moving| match moving.kind() {
-        JointType::Revolute | JointType::Continuous if is_leaf(k) => moving.body.about(&moving.axis()) != 0.0,
-        JointType::Prismatic if is_leaf(k) => moving.body.m != 0.0,
-        _ if moving.joint.is_none() => !moving.body.is_nothing(),
-        _ => has_body[k],
-    };
-    let idle = links.iter().enumerate().filter(|(k, moving)| !resists(*k, moving)).map(|(_, moving)| moving);
-    idle.map(|moving| match moving.joint {
-        Some(joint) => format!(
-            "link `{}` moves, and has neither mass nor inertia against the joint `{}`, nor has what it carries: give it \
-             some, or --fix {}",
-            moving.link.name, joint.name, joint.name
-        ),
-        None => format!("the root `{}` is free in space, and has no mass or inertia: give it some", moving.link.name),
-    })
-    .collect()
-}
-
-/// Errors for joints that mimic none that moves by a single coordinate, or each other.
-fn mimic_errors(robot: &Robot, links: &[Moving]) -> Vec<String> {
-    let mut errors = Vec::new();
-    for moving in links {
-        let Some((joint, mimic)) = moving.joint.and_then(|joint| Some((joint, joint.mimic.as_ref()?))) else {
-            continue;
-        };
-        let name = &joint.name;
-        match by_joint(links, &mimic.joint) {
-            _ if !moving.is_simple() => {
-                errors.push(format!("joint `{name}` has several coordinates, and cannot mimic"));
-            }
-            Some(other) if !links[other].is_simple() => {
-                errors
-                    .push(format!("joint `{name}` mimics `{}`, which has several coordinates", mimic.joint));
-            }
-            Some(_) if goes_round(robot, joint) => {
-                errors.push(format!("joint `{name}` mimics `{}`, which mimics it in turn", mimic.joint));
-            }
-            Some(_) => {}
-            None => {
-                errors.push(format!("joint `{name}` mimics `{}`, which is no joint that moves", mimic.joint));
-            }
-        }
-    }
-    errors
-}
-
-/// True if the joints that are mimicked one after another never end.
-fn goes_round(robot: &Robot, joint: &Joint) -> bool {
-    let next = |joint: &Joint| {
-        let name = &joint.mimic.as_ref()?.joint;
-        robot.joints.iter().find(|joint| joint.name == *name)
-    };
-    let mut place = Some(joint);
-    for _ in 0..=robot.joints.len() {
-        place = place.and_then(next);
-    }
-    place.is_some()
 }
 
 fn tool<'a>(sites: &HashMap<&'a str, Site>, name: &str) -> Result<Tool<'a>, String> {

@@ -124,6 +124,10 @@ fn a_link_without_inertia() {
     let joints = [turns("j", ["a", "b"]), turns("k", ["b", "c"])].concat();
     let carrying = imported(&[&link("a"), "<link name='b'/>", &link("c"), &joints], &Options::default());
     assert!(!carrying.rust.contains("kinetic(b,"));
+    // A joint that mimics another has no equation of its own.
+    let follows = joint("k", "revolute", ["a", "c"], "<mimic joint='j'/>");
+    let links = [link("a"), link("b"), "<link name='c'/>".to_owned()].concat();
+    imported(&[&links, &turns("j", ["a", "b"]), &follows], &Options::default());
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! Systems, Measurement, and Control* 102 (1980).
 
 use lagrange_core::nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
-use urdf_rs::{JointType, Robot};
+use urdf_rs::{Joint, JointType, Link, Robot};
 
 type V = Vector3<f64>;
 
@@ -62,77 +62,108 @@ fn turned(q: [Rates; 4]) -> (Rotation3<f64>, V, V) {
     (rotation, 2.0 * (q.conjugate() * v).imag(), 2.0 * (q.conjugate() * a).imag())
 }
 
-/// Links and joints as elements, the first at rest; joints of several coordinates as several elements without bodies.
-fn elements(robot: &Robot, floating: bool, of: Coordinates) -> Vec<Element> {
-    let bare = |parent, motion, row| Element {
-        parent,
-        rotation: Rotation3::identity(),
-        offset: V::zeros(),
-        motion,
-        body: (0.0, V::zeros(), Matrix3::zeros()),
-        row,
-    };
-    let mut elements = vec![bare(0, Motion::None, None)];
-    let push = |elements: &mut Vec<Element>, motion, name: &str, index| {
-        let parent = elements.len() - 1;
-        elements.push(bare(parent, motion, Some((name.to_owned(), index, 1.0))));
-    };
-    let root = robot.links.iter().find(|link| robot.joints.iter().all(|joint| joint.child.link != link.name));
-    let root = root.expect("a root");
-    if floating {
-        for k in 0..3 {
-            let axis = V::from_fn(|i, _| f64::from(u8::from(i == k)));
-            push(&mut elements, Motion::Slides(axis, of("place", k)), "place", k);
+/// Links and joints one after another, the first at rest. Joints of several coordinates are several elements without bodies.
+struct Elements<'a> {
+    robot: &'a Robot,
+    of: Coordinates<'a>,
+    all: Vec<Element>,
+    /// Links, each with its element.
+    placed: Vec<(&'a str, usize)>,
+}
+
+fn unit(k: usize) -> V {
+    V::from_fn(|i, _| f64::from(u8::from(i == k % 3)))
+}
+
+fn body(link: &Link) -> (f64, V, Matrix3<f64>) {
+    let (turn, centre) = pose(&link.inertial.origin);
+    let i = &link.inertial.inertia;
+    let inertia = Matrix3::new(i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz);
+    (link.inertial.mass.value, centre, turn.matrix() * inertia * turn.matrix().transpose())
+}
+
+impl<'a> Elements<'a> {
+    fn of(robot: &'a Robot, floating: bool, of: Coordinates<'a>) -> Vec<Element> {
+        let mut elements = Self { robot, of, all: Vec::new(), placed: Vec::new() };
+        elements.push(0, Motion::None, None);
+        let is_root = |link: &&Link| robot.joints.iter().all(|joint| joint.child.link != link.name);
+        let root = robot.links.iter().find(is_root).expect("a root");
+        if floating {
+            (0..3).for_each(|k| elements.moving(Motion::Slides(unit(k), of("place", k)), "place", k));
+            elements.quaternion("turn");
         }
-        push(&mut elements, Motion::Quaternion([0, 1, 2, 3].map(|k| of("turn", k))), "turn", 0);
+        elements.arrive(root);
+        while let Some(joint) = robot.joints.iter().find(|joint| {
+            elements.index(&joint.parent.link).is_some() && elements.index(&joint.child.link).is_none()
+        }) {
+            elements.joint(joint);
+        }
+        elements.all
     }
-    let body = |link: &urdf_rs::Link| {
-        let (turn, centre) = pose(&link.inertial.origin);
-        let i = &link.inertial.inertia;
-        let inertia = Matrix3::new(i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz);
-        (link.inertial.mass.value, centre, turn.matrix() * inertia * turn.matrix().transpose())
-    };
-    elements.last_mut().expect("an element").body = body(root);
-    let mut placed = vec![(root.name.clone(), elements.len() - 1)];
-    while let Some(joint) = robot.joints.iter().find(|joint| {
-        let is = |name: &str| placed.iter().any(|(known, _)| known == name);
-        is(&joint.parent.link) && !is(&joint.child.link)
-    }) {
-        let parent = placed.iter().find(|(name, _)| *name == joint.parent.link).expect("placed").1;
-        let (rotation, offset) = pose(&joint.origin);
-        elements.push(Element { rotation, offset, ..bare(parent, Motion::None, None) });
-        let axis = V::from(*joint.axis.xyz).normalize();
-        let name = joint.name.as_str();
+
+    fn index(&self, link: &str) -> Option<usize> {
+        self.placed.iter().find(|(name, _)| *name == link).map(|(_, index)| *index)
+    }
+
+    fn push(&mut self, parent: usize, motion: Motion, row: Option<(String, usize, f64)>) {
+        let body = (0.0, V::zeros(), Matrix3::zeros());
+        self.all.push(Element {
+            parent,
+            rotation: Rotation3::identity(),
+            offset: V::zeros(),
+            motion,
+            body,
+            row,
+        });
+    }
+
+    /// On the last element, by the coordinate of this joint with this index.
+    fn moving(&mut self, motion: Motion, name: &str, index: usize) {
+        self.push(self.all.len() - 1, motion, Some((name.to_owned(), index, 1.0)));
+    }
+
+    fn quaternion(&mut self, name: &str) {
+        self.moving(Motion::Quaternion([0, 1, 2, 3].map(|k| (self.of)(name, k))), name, 0);
+    }
+
+    /// Gives the last element the body of a link.
+    fn arrive(&mut self, link: &'a Link) {
+        self.all.last_mut().expect("an element").body = body(link);
+        self.placed.push((&link.name, self.all.len() - 1));
+    }
+
+    fn joint(&mut self, joint: &'a Joint) {
+        self.push(self.index(&joint.parent.link).expect("placed"), Motion::None, None);
+        let place = self.all.last_mut().expect("an element");
+        (place.rotation, place.offset) = pose(&joint.origin);
+        self.motions(joint);
+        let robot = self.robot;
+        self.arrive(robot.links.iter().find(|link| link.name == joint.child.link).expect("a link"));
+    }
+
+    fn motions(&mut self, joint: &Joint) {
+        let (name, axis) = (joint.name.as_str(), V::from(*joint.axis.xyz).normalize());
         match joint.joint_type {
             JointType::Fixed => {}
             JointType::Revolute | JointType::Continuous | JointType::Prismatic => {
-                let (rates, driver, factor) = resolve(robot, name, of);
+                let (rates, driver, factor) = resolve(self.robot, name, self.of);
                 let is_sliding = joint.joint_type == JointType::Prismatic;
                 let motion =
                     if is_sliding { Motion::Slides(axis, rates) } else { Motion::Turns(axis, rates) };
-                let last = elements.len() - 1;
-                elements.push(bare(last, motion, Some((driver, 0, factor))));
+                self.push(self.all.len() - 1, motion, Some((driver, 0, factor)));
             }
             JointType::Planar => {
-                // The axes that are written: any would do for the sum of both.
-                let k = axis.iamax();
-                let first = V::from_fn(|i, _| f64::from(u8::from(i == (k + 1) % 3)));
-                let second = axis.cross(&first).normalize();
-                push(&mut elements, Motion::Slides(second.cross(&axis), of(name, 0)), name, 0);
-                push(&mut elements, Motion::Slides(second, of(name, 1)), name, 1);
-                push(&mut elements, Motion::Turns(axis, of(name, 2)), name, 2);
+                // The axes of the plane that are written: the first is that of the space after the largest entry of the
+                // normal, as near as the plane allows.
+                let second = axis.cross(&unit(axis.iamax() + 1)).normalize();
+                self.moving(Motion::Slides(second.cross(&axis), (self.of)(name, 0)), name, 0);
+                self.moving(Motion::Slides(second, (self.of)(name, 1)), name, 1);
+                self.moving(Motion::Turns(axis, (self.of)(name, 2)), name, 2);
             }
-            JointType::Spherical => {
-                let motion = Motion::Quaternion([0, 1, 2, 3].map(|k| of(name, k)));
-                push(&mut elements, motion, name, 0);
-            }
+            JointType::Spherical => self.quaternion(name),
             JointType::Floating => unreachable!("none here"),
         }
-        let link = robot.links.iter().find(|link| link.name == joint.child.link).expect("a link");
-        elements.last_mut().expect("an element").body = body(link);
-        placed.push((link.name.clone(), elements.len() - 1));
     }
-    elements
 }
 
 impl Element {
@@ -171,9 +202,36 @@ impl Element {
     }
 }
 
+impl Element {
+    /// Force and moment about the origin that move the body so.
+    fn wrench(&self, Twist { spin, spin_rate, acceleration }: Twist) -> (V, V) {
+        let (m, c, inertia) = self.body;
+        let force = m * (acceleration + spin_rate.cross(&c) + spin.cross(&spin.cross(&c)));
+        (force, inertia * spin_rate + spin.cross(&(inertia * spin)) + c.cross(&force))
+    }
+
+    /// Generalized forces of the coordinates of the joint.
+    fn rows(&self, force: V, moment: V) -> Vec<(String, usize, f64)> {
+        let Some((name, index, factor)) = &self.row else { return Vec::new() };
+        let one = |row: f64| vec![(name.clone(), *index, factor * row)];
+        match self.motion {
+            Motion::None => Vec::new(),
+            Motion::Slides(axis, _) => one(axis.dot(&force)),
+            Motion::Turns(axis, _) => one(axis.dot(&moment)),
+            // The power n·ω with ω = 2 Im(q̄ q̇) is Q·q̇ with Q = 2 q n.
+            Motion::Quaternion(q) => {
+                let [w, x, y, z] = q.map(|q| q.0);
+                let push = 2.0 * (Quaternion::new(w, x, y, z) * Quaternion::from_imag(moment));
+                let entries = [push.w, push.i, push.j, push.k].into_iter().enumerate();
+                entries.map(|(k, entry)| (name.clone(), k, entry)).collect()
+            }
+        }
+    }
+}
+
 /// Generalized forces without friction and damping, each with its joint and its index among the joint's coordinates.
 pub(crate) fn forces(robot: &Robot, floating: bool, g: f64, of: Coordinates) -> Vec<(String, usize, f64)> {
-    let elements = elements(robot, floating, of);
+    let elements = Elements::of(robot, floating, of);
     let mut twists = vec![Twist { acceleration: V::new(0.0, 0.0, g), ..Twist::default() }];
     for element in &elements[1..] {
         twists.push(element.carried(twists[element.parent]));
@@ -181,26 +239,9 @@ pub(crate) fn forces(robot: &Robot, floating: bool, g: f64, of: Coordinates) -> 
     let mut wrenches = vec![(V::zeros(), V::zeros()); elements.len()];
     let mut found = Vec::new();
     for (k, element) in elements.iter().enumerate().skip(1).rev() {
-        let (m, c, inertia) = element.body;
-        let Twist { spin, spin_rate, acceleration } = twists[k];
-        let force = m * (acceleration + spin_rate.cross(&c) + spin.cross(&spin.cross(&c)));
-        let moment = inertia * spin_rate + spin.cross(&(inertia * spin)) + c.cross(&force);
+        let (force, moment) = element.wrench(twists[k]);
         let (force, moment) = (wrenches[k].0 + force, wrenches[k].1 + moment);
-        if let Some((name, index, factor)) = &element.row {
-            let along = |row: f64| (name.clone(), *index, factor * row);
-            match element.motion {
-                Motion::Slides(axis, _) => found.push(along(axis.dot(&force))),
-                Motion::Turns(axis, _) => found.push(along(axis.dot(&moment))),
-                // The power n·ω with ω = 2 Im(q̄ q̇) is Q·q̇ with Q = 2 q n.
-                Motion::Quaternion(q) => {
-                    let [w, x, y, z] = q.map(|q| q.0);
-                    let push = 2.0 * (Quaternion::new(w, x, y, z) * Quaternion::from_imag(moment));
-                    let entries = [push.w, push.i, push.j, push.k];
-                    found.extend(entries.into_iter().enumerate().map(|(k, entry)| (name.clone(), k, entry)));
-                }
-                Motion::None => {}
-            }
-        }
+        found.extend(element.rows(force, moment));
         let (rotation, p) = element.place();
         let (force, moment) = (rotation * force, rotation * moment);
         let below = &mut wrenches[element.parent];
