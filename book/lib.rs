@@ -32,6 +32,7 @@ pages!(
     hamiltonian,
     small_motions,
     control,
+    robots,
     fits,
     events,
     contacts,

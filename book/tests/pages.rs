@@ -42,6 +42,14 @@ fn programs_that_are_files_are_shown_as_they_are() {
     }
 }
 
+/// Its attributes, which is where it differs from others.
+#[test]
+fn the_robot_is_shown_as_it_is_written() {
+    let robot = read(&book().join("../lagrange-urdf/tests/robots/two_link.rs"));
+    let end = robot.find("pub struct").expect("a struct");
+    lagrange_book::shows("robots.md", "two_link.rs", &robot[..end]);
+}
+
 #[test]
 fn the_summary_has_every_page_once() {
     let summary = read(&book().join("src/SUMMARY.md"));
