@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use nalgebra::Matrix3;
-use urdf_rs::{Inertial, Joint, JointType, Link, Mimic, Robot};
+use urdf_rs::{Dynamics, Inertial, Joint, JointType, Link, Mimic, Robot};
 
 use crate::body;
 use crate::tree::{Moving, by_joint};
@@ -118,6 +118,26 @@ pub(crate) fn weightless(links: &[Moving]) -> Vec<String> {
         None => format!("the root `{}` is free in space, and has no mass or inertia: give it some", moving.link.name),
     })
     .collect()
+}
+
+/// Notes on damping and friction that the equations do not have.
+pub(crate) fn left_out(links: &[Moving], friction: bool) -> Vec<String> {
+    let with = |is: &dyn Fn(&Moving, &Dynamics) -> bool| -> Vec<String> {
+        let joints = links.iter().filter_map(|moving| Some((moving, moving.joint?)));
+        let joints = joints
+            .filter(|(moving, joint)| joint.dynamics.as_ref().is_some_and(|dynamics| is(moving, dynamics)));
+        joints.map(|(_, joint)| format!("`{}`", joint.name)).collect()
+    };
+    let several = with(&|moving, of| !moving.is_simple() && (of.damping > 0.0 || of.friction > 0.0));
+    let dry = with(&|moving, of| moving.is_simple() && of.friction > 0.0 && !friction);
+    let note = |joints: Vec<String>, what: &str| {
+        (!joints.is_empty()).then(|| format!("{what}: {}", joints.join(", ")))
+    };
+    let notes = [
+        note(several, "damping and friction are left out of joints with several coordinates"),
+        note(dry, "dry friction is left out without --friction, of the joints"),
+    ];
+    notes.into_iter().flatten().collect()
 }
 
 /// Errors for joints that mimic none that moves by a single coordinate, or each other.

@@ -39,6 +39,7 @@ pub fn import(description: &str, options: &Options) -> Result<Import, Vec<String
         Ok(_) => return Err(errors),
         Err(more) => return Err(errors.into_iter().chain(more).collect()),
     };
+    notes.extend(check::left_out(&tree.links, options.friction));
     let labels = names::Labels::new(&robot.name, &tree, options);
     notes.extend(labels.notes());
     let (rust, is_long) = write::write(&robot.name, &tree, &labels, options);

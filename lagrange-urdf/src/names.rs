@@ -123,12 +123,14 @@ impl Names {
     }
 }
 
-/// The name with `_` in place of all that is no letter, digit or `_`. Names of velocities and accelerations end in `_dot`
-/// and `_ddot`, and no others.
+/// The name with `_` in place of all that is no letter or digit. Names of velocities and accelerations end in `_dot` and
+/// `_ddot`, and no others.
 fn identifier(name: &str, kind: &str) -> String {
-    let mut text: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    let words: Vec<&str> =
+        name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let mut text = words.join("_");
     if !text.starts_with(|c: char| c.is_ascii_alphabetic()) {
-        text = format!("{kind}_{}", text.trim_start_matches('_'));
+        text = if text.is_empty() { kind.to_owned() } else { format!("{kind}_{text}") };
     }
     if text.ends_with("_dot") || text.ends_with("_ddot") {
         text.push('_');
@@ -153,8 +155,21 @@ mod tests {
     #[test]
     fn every_name_is_one_of_rust_and_given_once() {
         let mut names = Names::default();
-        let given =
-            ["elbow", "elbow", "elbow", "base-link", "base link", "7th", "t", "type", "x_dot", "", "é", "_a"];
+        let given = [
+            "elbow",
+            "elbow",
+            "elbow",
+            "base-link",
+            "base link",
+            "7th",
+            "t",
+            "type",
+            "x_dot",
+            "",
+            "é",
+            "_a",
+            "wheel__left_",
+        ];
         let claimed = given.map(|name| names.renaming(name, "joint"));
         let expected = [
             "elbow",
@@ -166,12 +181,13 @@ mod tests {
             "t_joint",
             "type_joint",
             "x_dot_",
-            "joint_",
-            "joint__joint",
-            "joint_a",
+            "joint",
+            "joint_joint",
+            "a",
+            "wheel_left",
         ];
         assert_eq!(claimed, expected);
-        assert_eq!(names.renamed.len(), 11);
+        assert_eq!(names.renamed.len(), 12);
     }
 
     #[test]

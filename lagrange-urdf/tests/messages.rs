@@ -253,6 +253,31 @@ fn angles_that_are_nearly_right_are_noted_or_read() {
 }
 
 #[test]
+fn friction_that_is_left_out_is_noted() {
+    let dry = "<dynamics damping='2' friction='1'/>";
+    let links = ["a", "b", "c"].map(link).concat();
+    let parts = [&*links, &joint("j", "revolute", ["a", "b"], dry), &joint("k", "planar", ["b", "c"], dry)];
+    let expected = [
+        "damping and friction are left out of joints with several coordinates: `k`",
+        "dry friction is left out without --friction, of the joints: `j`",
+    ];
+    assert_eq!(imported(&parts, &Options::default()).notes, expected);
+    let rubbing = imported(&parts, &Options { friction: true, ..Options::default() });
+    assert_eq!(rubbing.notes, expected[..1]);
+}
+
+/// An inertia without a mass has no weight.
+#[test]
+fn a_flywheel_without_a_mass() {
+    let wheel = link("b").replace("<mass value='1'/>", "<mass value='0'/>");
+    let rust = imported(&[&link("a"), &wheel, &turns("j", ["a", "b"])], &Options::default()).rust;
+    assert!(
+        rust.contains("#[lagrangian(\n    kinetic(b, b_body.m, b_body.centre, b_body.inertia)\n)]"),
+        "{rust}"
+    );
+}
+
+#[test]
 fn many_attributes_are_noted() {
     let names: Vec<String> = (0..45).map(|k| format!("l{k}")).collect();
     let links: String = names.iter().map(|name| link(name)).collect();
@@ -276,8 +301,9 @@ fn the_program_says_what_is_wrong_and_fails() {
     let arm = format!("{folder}two_link.urdf");
     let written = run(&["--tool", "tip", &arm]);
     let expected = std::fs::read(format!("{folder}two_link.rs")).expect("a file");
-    assert!(written.status.success() && written.stderr.is_empty());
-    assert_eq!(written.stdout, expected);
+    let note = "note: dry friction is left out without --friction, of the joints: `shoulder`\n";
+    assert!(written.status.success());
+    assert_eq!((written.stdout, written.stderr), (expected, note.as_bytes().to_vec()));
     assert_eq!(run(&["--help"]).stdout, lagrange_urdf::HELP.as_bytes());
     for (arguments, expected) in [
         (&["nowhere.urdf"][..], "error: nowhere.urdf: "),

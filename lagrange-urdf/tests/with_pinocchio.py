@@ -42,11 +42,13 @@ ROBOTS = [
     ("allegro_hand", "allegro_hand_description/urdf/allegro_right_hand.urdf", FIXED),
     ("talos_arm", "talos_data/robots/talos_left_arm.urdf", FIXED),
     ("tiago", "tiago_description/robots/tiago_no_hand.urdf", FIXED),
+    ("tiago_dual_numbers", "tiago_description/robots/tiago_dual.urdf", ["--numbers"]),
     ("baxter", "baxter_description/urdf/baxter.urdf", FIXED),
     ("solo12", "solo_description/robots/solo12.urdf", FLOATING),
     ("anymal", "anymal_c_simple_description/urdf/anymal.urdf", FLOATING),
     ("go2", "go2_description/urdf/go2.urdf", FLOATING),
     ("hyq", "hyq_description/robots/hyq_no_sensors.urdf", FLOATING),
+    ("talos_numbers", "talos_data/robots/talos_reduced.urdf", FLOATING + ["--numbers"]),
     ("g1_numbers", "g1_description/urdf/g1_29dof_rev_1_0.urdf", FLOATING + ["--numbers"]),
 ]
 
@@ -151,7 +153,7 @@ class Robot:
         for name, joint in zip(self.model.names, self.model.joints):
             if name in ("universe", "root_joint") or joint.nv == 0:
                 continue
-            ours = re.sub("[^A-Za-z0-9]", "_", name)
+            ours = re.sub("[^A-Za-z0-9]+", "_", name)
             self.joints.append((place.pop(ours), joint.idx_q, joint.idx_v, joint.nq == 2))
         assert all(name.startswith(("place", "turn")) for name in place), place
 
@@ -256,7 +258,7 @@ def main():
     with tempfile.TemporaryDirectory() as place:
         place = Path(place)
         agree, target = 0, Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")).resolve() / "robots"
-        print(f"{'robot':<18}{'coordinates':>12}{'compiled':>10}{'M':>10}{'inverse':>10}{'q̈':>10}")
+        print(f"{'robot':<20}{'coordinates':>12}{'compiled':>10}{'M':>10}{'inverse':>10}{'q̈':>10}")
         for name, file, options in crate(place, chosen):
             start = time.monotonic()
             command = ["cargo", "build", "--quiet", "--bin", name, "--target-dir", target]
@@ -265,7 +267,7 @@ def main():
             seconds = time.monotonic() - start
             worst, count = compare(target / "debug" / name, file, "--floating" in options)
             agree += worst.max() < TOLERANCE
-            print(f"{name:<18}{count:>12}{seconds:>8.1f} s" + "".join(f"{x:>10.1e}" for x in worst), flush=True)
+            print(f"{name:<20}{count:>12}{seconds:>8.1f} s" + "".join(f"{x:>10.1e}" for x in worst), flush=True)
     print(f"{agree} of {len(chosen)} robots agree to {TOLERANCE}")
     return 0 if agree == len(chosen) else 1
 

@@ -141,11 +141,15 @@ fn lagrangian(tree: &Tree, labels: &Labels, options: &Options) -> Vec<String> {
         let [m, centre, _] = properties(moving, label);
         format!("{m}*position({}, {centre})[2]", label.frame)
     });
+    let heights: Vec<String> = sum("        ", heights);
     let mut lines = vec!["#[lagrangian(".to_owned()];
     lines.extend(sum("    ", kinetic));
-    lines.push("    - g*(".to_owned());
-    lines.extend(sum("        ", heights));
-    lines.extend(["    )".to_owned(), ")]".to_owned()]);
+    if !heights.is_empty() {
+        lines.push("    - g*(".to_owned());
+        lines.extend(heights);
+        lines.push("    )".to_owned());
+    }
+    lines.push(")]".to_owned());
     lines
 }
 
