@@ -28,6 +28,29 @@ pub struct Import {
 }
 
 /// Returns the robot that the text of a URDF file describes, or all that is wrong with it, one message each.
+///
+/// ```
+/// let description = r#"
+///     <robot name="swing">
+///       <link name="frame"/>
+///       <joint name="hinge" type="continuous">
+///         <parent link="frame"/> <child link="seat"/> <axis xyz="0 1 0"/>
+///       </joint>
+///       <link name="seat">
+///         <inertial>
+///           <origin xyz="0 0 -2"/> <mass value="20"/>
+///           <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>
+///         </inertial>
+///       </link>
+///     </robot>"#;
+/// let swing = lagrange_urdf::import(description, &lagrange_urdf::Options::default())?;
+/// assert!(swing.rust.contains("#[frame(seat: rotate_y(hinge))]"));
+/// assert!(swing.rust.contains("seat_body: Body::new(20.0, [0.0, 0.0, -2.0], [1.0, 0.0, 0.0, 1.0, 0.0, 1.0])"));
+/// # Ok::<(), Vec<String>>(())
+/// ```
+///
+/// # Errors
+/// What the equations of motion cannot do without: one root, a body for each link that moves, axes of some length.
 pub fn import(description: &str, options: &Options) -> Result<Import, Vec<String>> {
     let mut robot = read::read(description).map_err(|error| vec![error])?;
     let mut errors = options.fix_joints(&mut robot);

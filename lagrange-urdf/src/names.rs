@@ -190,6 +190,34 @@ mod tests {
         assert_eq!(names.renamed.len(), 12);
     }
 
+    /// Words in quotes of a constant of the macro, without those that no expression may call.
+    fn words(file: &str, constant: &str) -> Vec<String> {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-macros/src").join(file);
+        let text = std::fs::read_to_string(path).expect("the macro beside this crate");
+        let start = text.find(constant).expect("the constant");
+        let body =
+            text[start..].split_once('=').and_then(|(_, rest)| rest.split_once(';')).expect("its value").0;
+        let quoted = body.split('"').skip(1).step_by(2).flat_map(|words| words.split([' ', '\n', '\\']));
+        let words = quoted.filter(|word| !word.is_empty() && !["ramp", "step"].contains(word));
+        words.map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn names_of_the_language_are_taken() {
+        let taken: Vec<&str> = TAKEN.split_whitespace().collect();
+        for (file, constant, least) in [
+            ("resolve/scope.rs", "const CALLS", 20),
+            ("resolve/scope.rs", "const CONSTANTS", 2),
+            ("resolve/frames/spatial.rs", "const CALLS", 7),
+            ("symbolic/graph.rs", "const NAMES", 10),
+        ] {
+            let words = words(file, constant);
+            assert!(words.len() >= least, "{file}: {words:?}");
+            let free: Vec<_> = words.iter().filter(|word| !taken.contains(&word.as_str())).collect();
+            assert!(free.is_empty(), "{file}: {free:?}");
+        }
+    }
+
     #[test]
     fn a_robot_has_the_name_of_a_type() {
         let names = ["two_link-arm", "UR5", "7dof", "body", "", "Body"].map(type_name);
