@@ -43,8 +43,9 @@ fn link_errors(link: &Link) -> Vec<String> {
     errors
 }
 
-/// Says by how much the largest principal moment exceeds the sum of the others, which no distribution of mass exceeds;
-/// rounding of the eigenvalues is allowed for.
+/// Says by how much the largest principal moment exceeds the sum of the others, which no distribution of mass exceeds.
+/// Of this moment 64 ε are allowed for the rounding of the eigenvalues: of 100,000 rods, whose excess is zero, the worst
+/// needs between 8 ε and 16 ε. An excess in the 13th digit is seen.
 pub(crate) fn impossible_inertia(link: &Link) -> Option<String> {
     let entries: Matrix3<f64> = body::matrix(&link.inertial.inertia);
     if !entries.iter().all(|x| x.is_finite()) {
@@ -171,4 +172,33 @@ fn goes_round(robot: &Robot, joint: &Joint) -> bool {
         place = place.and_then(next);
     }
     place.is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use urdf_rs::{Inertia, Mass};
+
+    use super::*;
+
+    /// A rod has the largest inertia that a body can have: one moment is the sum of the others, up to rounding.
+    #[test]
+    fn rods_in_any_direction_are_bodies() {
+        for k in 0..100_000 {
+            let (height, angle) = (f64::from(k) / 50_000.0 - 1.0, f64::from(k) * 2.399_963);
+            let across = (1.0 - height * height).sqrt();
+            let [x, y, z] = [across * angle.cos(), across * angle.sin(), height];
+            let inertia = |scale: f64| Inertia {
+                ixx: scale * (1.0 - x * x),
+                ixy: -scale * x * y,
+                ixz: -scale * x * z,
+                iyy: scale * (1.0 - y * y),
+                iyz: -scale * y * z,
+                izz: scale * (1.0 - z * z),
+            };
+            let inertial =
+                Inertial { mass: Mass { value: 1.0 }, inertia: inertia(0.037), ..Inertial::default() };
+            let link = Link { name: "rod".to_owned(), inertial, visual: Vec::new(), collision: Vec::new() };
+            assert_eq!(impossible_inertia(&link), None, "{x} {y} {z}");
+        }
+    }
 }
