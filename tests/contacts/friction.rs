@@ -484,3 +484,27 @@ fn a_puck_begins_to_slide_along_a_load_that_turns() {
         }
     }
 }
+
+/// A cart on four wheels, of which two on a diagonal carry it: all begin to slide at once, at μ m g, also those without a limit.
+#[test]
+fn four_wheels_begin_to_slide_at_once() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, z, a, b)]
+    #[lagrangian((m*x_dot^2 + m*z_dot^2 + a_dot^2 + b_dot^2)/2 - m*g*z)]
+    #[force(x: t)]
+    #[define(along = [1, -1, -1, 1])]
+    #[define(across = [1, 1, -1, -1])]
+    #[contact(wheel[i in 0..4]: z + across[i]*a - along[i]*b >= 0, friction(mu): x_dot)]
+    struct Cart {
+        m: f64,
+        g: f64,
+        mu: f64,
+        wheel: [Contact; 4],
+    }
+    let cart = Cart { m: 1.0, g: 10.0, mu: 0.2, wheel: [Contact::Closed; 4] };
+    let path = cart.motion(State::at_rest([0.0; 4])).with_contacts().to(5.0).unwrap();
+    let slips = path.transitions().iter().filter(|of| matches!(of, Transition::Slips { .. }));
+    assert!(slips.clone().count() > 0 && slips.map(Transition::time).all(|time| (time - 2.0).abs() < 1e-11));
+    // ẍ = t − μ g.
+    assert!((path.end().q[0] - 4.5).abs() < 1e-11 && (path.end().v[0] - 4.5).abs() < 1e-11);
+}

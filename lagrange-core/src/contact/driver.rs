@@ -8,7 +8,7 @@ use super::instant::{Changed, Decided};
 use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
 use super::lifting::Lifting;
 use super::trajectory::Transition;
-use super::watched::{BEYOND, Shared, held, of_contacts, of_friction};
+use super::watched::{BEYOND, SharedValues, held, of_contacts, of_friction, round_off};
 use super::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::{Ending, Error};
 use crate::motion::event::EventSearch;
@@ -160,7 +160,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let state = &{ run.state };
         let sizes = bodies.sizes(state);
         EventSearch::begin_leg(given, &system, [state, &sizes], self.statistics.accepted == 0)?;
-        let (shared, lifting) = (Shared::of(&closed), Lifting::of(decided));
+        let (shared, lifting) = (SharedValues::of(&closed), Lifting::of(decided));
         let mut own = of_contacts((&system, bodies), (&shared, &lifting), decided, state)?;
         own.extend(of_friction(&system, &shared, decided, state)?);
         let (own, conditions): (Vec<_>, Vec<_>) = own.into_iter().unzip();
@@ -251,7 +251,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     fn slips(&self, f: usize) -> Result<Vec<(usize, [f64; 2])>, Error> {
         let Self { bodies, decided: Decided { states, .. }, state, .. } = self;
         let solution = bodies.with(states).solve(state)?;
-        let (mut slips, mut is_left) = (Vec::new(), false);
+        let (mut slips, mut powerless, mut is_left) = (Vec::new(), Vec::new(), false);
         let is_shared = states.frictions.iter().any(|friction| matches!(friction, Friction::Shares(_)));
         for (other, &FrictionRows { row, count, contact, .. }) in L::FRICTIONS.iter().enumerate() {
             let is_pressed = contact.is_none_or(|k| states.is_closed[k]);
@@ -260,6 +260,11 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
                 continue;
             }
             let [limit, force] = held(&bodies.closed, other, state, &solution)?;
+            // Without a limit it has no force that says where to.
+            if other != f && limit <= round_off::<L>(&solution) {
+                powerless.push(other);
+                continue;
+            }
             if other != f && force < (L::Scalar::constant(1.0 - BEYOND)) * limit {
                 is_left |= (0..count).any(|c| friction.keeps(c));
                 continue;
@@ -270,6 +275,8 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
                 slips.push((other, [part(0), part(1)]));
             }
         }
+        let along = slips.iter().find(|(of, _)| *of == f).map_or([1.0, 0.0], |&(_, along)| along);
+        slips.extend(powerless.into_iter().map(|other| (other, along)));
         Ok(if is_left { Vec::new() } else { slips })
     }
 }

@@ -219,7 +219,9 @@ for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) 
 //! friction, where the force that presses the bodies together would grow without bound.
 //!
 //! Several contacts or velocities of one body may share a force of friction in more than one way, as the corners of a box, or
-//! two ends of a rod that stick in a corner. The motion is the same for all shares. One is found to a residual of 10⁻¹² of
+//! two ends of a rod that stick in a corner. While all stick, the motion is the same for all shares; where
+//! a body slides on more contacts than determine their forces, as a table on four legs, it is not: three legs press in events, and
+//! all four in time steps. One is found to a residual of 10⁻¹² of
 //! Coulomb's law, by the sweeps of time stepping for friction along two velocities. Then only velocities that do not depend on
 //! one another stick, those with most of their limit left; the others act with the part of the limit that was found, as
 //! [`Contact::Shares`] says, until a force that sticks reaches its limit. Where no share is found, or a force

@@ -23,13 +23,13 @@ use crate::vector::{Length, Vector};
 pub(super) type ConditionEvent<'w, L> = (Box<DynEvent<'w, L>>, LegCondition<<L as Lagrangian>::Scalar>);
 
 /// Quantities of a state that events share.
-pub(super) struct Shared<'l, L: Lagrangian> {
+pub(super) struct SharedValues<'l, L: Lagrangian> {
     closed: &'l L,
     solutions: LastValue<L, SolutionOf<L>>,
     residuals: LastValue<L, Vector<L::Scalar, L::M>>,
 }
 
-impl<'l, L: Contacts<Scalar: Real> + Clone> Shared<'l, L> {
+impl<'l, L: Contacts<Scalar: Real> + Clone> SharedValues<'l, L> {
     /// Nothing that is known yet of a system, all contacts of which are closed in `closed`.
     pub(super) fn of(closed: &'l L) -> Self {
         Self { closed, solutions: LastValue::new(), residuals: LastValue::new() }
@@ -56,7 +56,7 @@ impl<'l, L: Contacts<Scalar: Real> + Clone> Shared<'l, L> {
 /// The events that gaps close and forces of contacts come to zero, with the conditions that they watch.
 pub(super) fn of_contacts<'w, L>(
     (system, bodies): (&L, &Bodies<L>),
-    (shared, lifting): (&'w Shared<'_, L>, &'w Lifting<L::Scalar>),
+    (shared, lifting): (&'w SharedValues<'_, L>, &'w Lifting<L::Scalar>),
     decided: &Decided<L::Scalar>,
     state: &StateOf<L>,
 ) -> Result<Vec<ConditionEvent<'w, L>>, Error>
@@ -128,7 +128,7 @@ pub(super) const BEYOND: f64 = 1e-6;
 /// The events that friction reaches its limit, or stops the bodies, with the conditions that they watch.
 pub(super) fn of_friction<'w, L>(
     system: &L,
-    shared: &'w Shared<'_, L>,
+    shared: &'w SharedValues<'_, L>,
     decided: &Decided<L::Scalar>,
     state: &StateOf<L>,
 ) -> Result<Vec<ConditionEvent<'w, L>>, Error>
@@ -148,9 +148,10 @@ where
                     Ok(limit - force)
                 };
                 // A force that begins at its limit has no sign before, and may have no round-off.
-                let [limit, force] = held(closed, f, state, &system.solve(state)?)?;
+                let solution = system.solve(state)?;
+                let [limit, force] = held(closed, f, state, &solution)?;
                 let least = L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * (limit + force);
-                if force - limit > L::Scalar::constant(BEYOND) * (limit + force) + least {
+                if force - limit > L::Scalar::constant(BEYOND) * (limit + force) + round_off::<L>(&solution) {
                     return Err(Error::FrictionUndecided { friction: name, time: state.t.to_f64() });
                 }
                 watched(system, state, name, Some(least + least_speed::<L::Scalar>()), left)?
@@ -164,6 +165,17 @@ where
         events.push((event, LegCondition::of_friction((closed, f), &decided.states, state)?));
     }
     Ok(events)
+}
+
+/// What round-off leaves of a force of contact or friction beside the largest of them.
+pub(super) fn round_off<L: Contacts<Scalar: Real>>(
+    SolutionOf::<L> { multipliers, .. }: &SolutionOf<L>,
+) -> L::Scalar {
+    let frictions = L::FRICTIONS.iter().flat_map(|friction| friction.row..friction.row + friction.count);
+    let rows = L::CONTACTS.iter().copied().chain(frictions);
+    let largest =
+        rows.fold(L::Scalar::constant(0.0), |size, row| larger(size, Scalar::abs(multipliers[row])));
+    L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * largest
 }
 
 /// A number whose square is the least one: it gives a sign to what begins at zero and has no size.
