@@ -65,7 +65,7 @@ fn numbers_that_are_none_are_named() {
     let error = fails(&Box { g: f64::NAN, ..BOX }, start(), step, 1.0);
     assert!(matches!(error, Error::ParameterNotFinite { name: "g", .. }), "{error}");
     for (system, text) in [
-        (Box { e: f64::NAN, ..BOX }, "restitution is NaN"),
+        (Box { e: f64::NAN, ..BOX }, "restitution of `floor` is NaN"),
         (Box { mu: f64::NAN, ..BOX }, "`floor_friction`"),
         (Box { mu: -0.1, ..BOX }, "`floor_friction`"),
         (Box { top: f64::NAN, ..BOX }, "`lid`"),
