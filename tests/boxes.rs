@@ -111,39 +111,50 @@ fn changes_once(case: &str, path: &ContactTrajectory<Brick>) {
     }
 }
 
-/// Boxes dropped on a floor at random attitudes. Friction that no forces are found for ends a motion by name.
+/// A box above a floor, at a random attitude and with random velocities.
+fn dropped(case: usize, seed: &mut u64) -> (Brick, State<f64, 7>) {
+    let mut next = |low, high| random(seed, low, high);
+    let brick = Brick {
+        e: [0.0, 0.3, 0.6][case % 3],
+        mu: next(0.0, 0.6),
+        edges: [next(0.1, 0.5), next(0.1, 0.5), next(0.1, 0.5)],
+        ..BRICK
+    };
+    let q = Quaternion::new(next(-1.0, 1.0), next(-1.0, 1.0), next(-1.0, 1.0), next(-1.0, 1.0));
+    let q = q.normalize();
+    let spin = Vector3::new(next(-3.0, 3.0), next(-3.0, 3.0), next(-3.0, 3.0));
+    let turns = Quaternion::from_imag(spin * 0.5) * q;
+    let start = State::new(
+        [0.0, 0.0, 0.6, q.w, q.i, q.j, q.k],
+        [next(-1.0, 1.0), next(-1.0, 1.0), next(-1.0, 1.0), turns.w, turns.i, turns.j, turns.k],
+    );
+    (brick, start)
+}
+
+/// Friction that no forces are found for ends a motion by name. The box of case 11, the longest, came to an instant from which a
+/// corner pulled.
 #[test]
 fn boxes_that_are_dropped() {
-    let (mut seed, mut complete) = (9, 0);
-    let cases = std::env::var("LAGRANGE_BOXES").map_or(5, |text| text.parse().unwrap());
-    for case in 0..cases {
-        let mut next = |low, high| random(&mut seed, low, high);
-        let brick = Brick {
-            e: [0.0, 0.3, 0.6][case % 3],
-            mu: next(0.0, 0.6),
-            edges: [next(0.1, 0.5), next(0.1, 0.5), next(0.1, 0.5)],
-            ..BRICK
-        };
-        let q = Quaternion::new(next(-1.0, 1.0), next(-1.0, 1.0), next(-1.0, 1.0), next(-1.0, 1.0));
-        let q = q.normalize();
-        let spin = Vector3::new(next(-3.0, 3.0), next(-3.0, 3.0), next(-3.0, 3.0));
-        let turns = Quaternion::from_imag(spin * 0.5) * q;
-        let start = State::new(
-            [0.0, 0.0, 0.6, q.w, q.i, q.j, q.k],
-            [next(-1.0, 1.0), next(-1.0, 1.0), next(-1.0, 1.0), turns.w, turns.i, turns.j, turns.k],
-        );
+    let (mut seed, mut complete, mut run) = (9, 0, 0);
+    for case in 0..12 {
+        let (brick, start) = dropped(case, &mut seed);
+        if case >= 5 && case != 11 {
+            continue;
+        }
+        let end = if case == 11 { 2.0 } else { 0.6 };
         let motion = brick.motion(start).by(Radau::with_tolerance(1e-10)).with_contacts();
-        let path = motion.max_transitions(2_000).towards(0.6).unwrap();
+        let path = motion.max_transitions(2_000).towards(end).unwrap();
         match path.ending() {
             Ending::Complete { .. } => complete += 1,
             Ending::Unsolved { error: Error::FrictionUndecided { .. }, .. } => {}
             other => panic!("case {case}: {other}"),
         }
+        run += 1;
         brick.keeps_the_laws(&format!("case {case}"), &path);
         changes_once(&format!("case {case}"), &path);
     }
-    println!("{complete} of {cases} complete");
-    assert!(4 * complete >= 3 * cases, "{complete} of {cases}");
+    println!("{complete} of {run} complete");
+    assert!(3 * complete >= 2 * run, "{complete} of {run}");
 }
 
 /// Boxes that lie on a slope, and are thrown along it, turned, or at rest.

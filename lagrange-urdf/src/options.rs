@@ -20,7 +20,7 @@ Usage: lagrange-urdf [options] robot.urdf > robot.rs
 What is wrong goes to stderr, all at once, with exit status 1; so do notes on what differs from the description.
 ";
 
-/// What is to be made of a description.
+/// Options of an import: which joints move, and what is written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// The root link is free in space.

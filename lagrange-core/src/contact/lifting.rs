@@ -6,7 +6,8 @@ use core::cell::Cell;
 use super::instant::Decided;
 use crate::number::Real;
 
-/// Contacts whose gaps have been zero, but for round-off, at the ends of all steps since the start of a leg.
+/// The contacts that opened at the start of a leg, of two bodies at rest, and whose gaps have stayed zero to round-off at the end of
+/// each step since.
 ///
 /// A gap g whose force has come to zero slowly grows as τ³, slower than the errors of dense output of any order up to 3. Since
 /// g = ∫∫ g̈, it cannot be negative where g̈ is positive and has not been negative before: there such an error is no gap that closes.

@@ -64,7 +64,8 @@ impl<T: Real> Law<'_, T> {
         }
     }
 
-    /// The contact that pushes least of those whose gaps depend on others that push more.
+    /// The contact with the least force among those whose gap is a combination of gaps with larger forces: without it, the others
+    /// hold the body in the same way.
     fn spare(&self, problem: &Complementarity<T>, outcome: &ContactForces<T>) -> Option<usize> {
         let mut pushing: Vec<(usize, usize)> = (0..self.touches.len())
             .filter(|&k| outcome.pushes[k])

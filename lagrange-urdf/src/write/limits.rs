@@ -19,7 +19,11 @@ pub(super) fn limits(tree: &Tree, labels: &Labels) -> Vec<String> {
     lines.push(format!("impl {} {{", labels.robot));
     lines.push("    /// Limits of the joints, which the equations do not know.".to_owned());
     lines.extend(
-        ["    #[rustfmt::skip]", "    #[allow(dead_code, clippy::approx_constant)]"].map(str::to_owned),
+        [
+            "    #[rustfmt::skip]",
+            "    #[allow(dead_code, clippy::approx_constant, reason = \"for those who read the limits, as described\")]",
+        ]
+        .map(str::to_owned),
     );
     lines.push(format!("    pub const LIMITS: [Limit; {}] = [", rows.len()));
     lines.extend(columns(&rows).into_iter().map(|row| format!("        {row}")));
@@ -47,9 +51,9 @@ fn row(moving: &Moving, q: &str, limit: &JointLimit) -> Vec<String> {
     ]
 }
 
-const LIMIT: &str = "
+const LIMIT: &str = r#"
 /// Limits of a joint.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "for those who read the limits")]
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
     /// Name of the joint, as in the coordinates.
@@ -60,4 +64,4 @@ pub struct Limit {
     pub velocity: f64,
     /// Greatest effort, in N m or N.
     pub effort: f64,
-}";
+}"#;

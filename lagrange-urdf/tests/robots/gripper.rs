@@ -130,7 +130,7 @@ impl Body {
 }
 
 /// Limits of a joint.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "for those who read the limits")]
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
     /// Name of the joint, as in the coordinates.
@@ -146,7 +146,7 @@ pub struct Limit {
 impl CartAndGripper {
     /// Limits of the joints, which the equations do not know.
     #[rustfmt::skip]
-    #[allow(dead_code, clippy::approx_constant)]
+    #[allow(dead_code, clippy::approx_constant, reason = "for those who read the limits, as described")]
     pub const LIMITS: [Limit; 5] = [
         Limit { joint: "cart",         position: [0.0,               1.5],           velocity: 2.0, effort: 100.0 },
         Limit { joint: "t_joint",      position: [f64::NEG_INFINITY, f64::INFINITY], velocity: 5.0, effort: 30.0 },

@@ -65,7 +65,7 @@ impl Default for Hopper {
 }
 
 /// Limits of a joint.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "for those who read the limits")]
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
     /// Name of the joint, as in the coordinates.
@@ -81,7 +81,7 @@ pub struct Limit {
 impl Hopper {
     /// Limits of the joints, which the equations do not know.
     #[rustfmt::skip]
-    #[allow(dead_code, clippy::approx_constant)]
+    #[allow(dead_code, clippy::approx_constant, reason = "for those who read the limits, as described")]
     pub const LIMITS: [Limit; 1] = [
         Limit { joint: "HIP", position: [-1.0, 1.0], velocity: 10.0, effort: 30.0 },
     ];

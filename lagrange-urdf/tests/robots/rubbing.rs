@@ -54,7 +54,7 @@ impl Default for Rubbing {
 }
 
 /// Limits of a joint.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "for those who read the limits")]
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
     /// Name of the joint, as in the coordinates.
@@ -70,7 +70,7 @@ pub struct Limit {
 impl Rubbing {
     /// Limits of the joints, which the equations do not know.
     #[rustfmt::skip]
-    #[allow(dead_code, clippy::approx_constant)]
+    #[allow(dead_code, clippy::approx_constant, reason = "for those who read the limits, as described")]
     pub const LIMITS: [Limit; 2] = [
         Limit { joint: "shoulder", position: [-2.5, 2.5], velocity: 3.0, effort: 40.0 },
         Limit { joint: "elbow",    position: [-1.5, 2.0], velocity: 4.0, effort: 15.0 },

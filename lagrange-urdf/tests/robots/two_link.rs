@@ -87,7 +87,7 @@ impl Body {
 }
 
 /// Limits of a joint.
-#[allow(dead_code)]
+#[allow(dead_code, reason = "for those who read the limits")]
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
     /// Name of the joint, as in the coordinates.
@@ -103,7 +103,7 @@ pub struct Limit {
 impl TwoLink {
     /// Limits of the joints, which the equations do not know.
     #[rustfmt::skip]
-    #[allow(dead_code, clippy::approx_constant)]
+    #[allow(dead_code, clippy::approx_constant, reason = "for those who read the limits, as described")]
     pub const LIMITS: [Limit; 2] = [
         Limit { joint: "shoulder", position: [-2.5, 2.5], velocity: 3.0, effort: 40.0 },
         Limit { joint: "elbow",    position: [-1.5, 2.0], velocity: 4.0, effort: 15.0 },

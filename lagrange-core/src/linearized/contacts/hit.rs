@@ -101,8 +101,9 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         }
     }
 
-    /// Fails by Poisson's law unless the hit contact alone pushes and slides, if it has friction. Expansion then multiplies all
-    /// impulses of compression by e, as Newton's law does, also in neighbouring impacts.
+    /// Fails where a contact obeys Poisson's law and another one pushes, or its own friction sticks. If it alone pushes, and slides
+    /// or has no friction, expansion repeats e times the impulses of compression, as by Newton's law, and so it does in
+    /// neighbouring impacts.
     fn check_poisson(&self, after: &StateOf<L>) -> Result<(), Error> {
         let pushes = |k: &usize| self.pushing.contact(*k) != Some(Contact::Open);
         let pushing: alloc::vec::Vec<usize> = (0..L::CONTACTS.len()).filter(pushes).collect();

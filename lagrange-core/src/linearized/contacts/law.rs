@@ -34,8 +34,8 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> NamedLaw<'_, L> {
         (self.value)(system, state).unwrap_or(L::Scalar::constant(0.0))
     }
 
-    /// Derivative along a direction and by an argument, by differences of order six. Steps are shortened until three of them
-    /// agree; a law that varies within a sixteenth of the last one alone, and is flat around it, counts as flat.
+    /// Derivative along a direction and by an argument, by differences of order six. Steps are shortened until the differences
+    /// of three lengths agree. A law that varies only within a sixteenth of the shortest step is taken for a constant one.
     pub(super) fn change(
         &self,
         system: &L,

@@ -266,7 +266,7 @@ where
             from_fn(|k| zip(&rates[k], &slopes[k], |rate, slope| rate * h - slope))
         };
         let round_off = ROUND_OFF[usize::from(L::HAS_FRICTION)];
-        // Old derivatives belong to another state, and bound nothing.
+        // Derivatives of an earlier state do not say how far round-off of this one goes: nothing is allowed for it.
         let floor = L::HAS_PLANAR_FRICTION.then(|| match age {
             Age::New => derivatives.round_off(&at.y, h),
             _ => PhaseVector::filled(L::Scalar::constant(0.0)),

@@ -51,7 +51,7 @@ fn main() {
     let mut arguments = std::env::args().skip(1);
     let rate = arguments.next().and_then(|rate| rate.parse().ok()).expect("a rate");
     let ends = arguments.next().expect("a file");
-    // The equations of 600 coordinates and 300 constraints need more of a stack than a program begins with.
+    // The equations of 600 coordinates and 300 constraints need a larger stack than that of the main thread.
     let thread = std::thread::Builder::new().stack_size(64 << 20);
     thread.spawn(move || spheres::answer(&ends, || run(rate))).expect("a thread").join().expect("an answer");
 }
