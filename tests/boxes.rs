@@ -131,30 +131,23 @@ fn dropped(case: usize, seed: &mut u64) -> (Brick, State<f64, 7>) {
     (brick, start)
 }
 
-/// Friction that no forces are found for ends a motion by name. The box of case 11, the longest, came to an instant from which a
-/// corner pulled.
+/// Friction that no forces are found for ends a motion by name.
 #[test]
 fn boxes_that_are_dropped() {
-    let (mut seed, mut complete, mut run) = (9, 0, 0);
-    for case in 0..12 {
+    let (mut seed, mut complete) = (9, 0);
+    for case in 0..5 {
         let (brick, start) = dropped(case, &mut seed);
-        if case >= 5 && case != 11 {
-            continue;
-        }
-        let end = if case == 11 { 2.0 } else { 0.6 };
         let motion = brick.motion(start).by(Radau::with_tolerance(1e-10)).with_contacts();
-        let path = motion.max_transitions(2_000).towards(end).unwrap();
+        let path = motion.max_transitions(2_000).towards(0.6).unwrap();
         match path.ending() {
             Ending::Complete { .. } => complete += 1,
             Ending::Unsolved { error: Error::FrictionUndecided { .. }, .. } => {}
             other => panic!("case {case}: {other}"),
         }
-        run += 1;
         brick.keeps_the_laws(&format!("case {case}"), &path);
         changes_once(&format!("case {case}"), &path);
     }
-    println!("{complete} of {run} complete");
-    assert!(3 * complete >= 2 * run, "{complete} of {run}");
+    assert!(complete >= 4, "{complete} of 5");
 }
 
 /// Boxes that lie on a slope, and are thrown along it, turned, or at rest.
@@ -175,6 +168,11 @@ fn boxes_that_lie_on_a_slope() {
         let path = brick.motion(start).by(Radau::with_tolerance(1e-10)).with_contacts().to(1.0).unwrap();
         brick.keeps_the_laws(&format!("case {case}"), &path);
         changes_once(&format!("case {case}"), &path);
+        // Where this one begins to slide, a corner would pull by `Dop853`: the motion ends instead.
+        if case == 8 {
+            let motion = brick.motion(start).by(Dop853::with_tolerance(1e-10));
+            brick.keeps_the_laws("by Dop853", &motion.with_contacts().towards(1.0).unwrap());
+        }
         if case % 4 == 0 {
             let a = (9.81 * (alpha.sin() - mu * alpha.cos())).max(0.0);
             let v = path.end().v[0];
