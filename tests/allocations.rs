@@ -2,6 +2,7 @@
 
 use allocation_counter::measure;
 use lagrange_core::contact::Contact;
+use lagrange_core::linearized::DiscreteTime;
 use lagrange_core::{Method, StateOf, prelude::*, runge_kutta_step};
 
 /// Two links, the second driven at the elbow.
@@ -239,4 +240,21 @@ fn frames_across_contacts_free_what_they_allocate() {
     }
     assert_eq!((puck.floor, state.v[0]), (Contact::Closed, 0.0));
     assert!(largest[1] <= largest[0], "{largest:?}");
+}
+
+/// An interval with its derivatives, without constraints.
+#[test]
+fn an_interval_with_derivatives() {
+    let method = RungeKutta4::with_step(0.01);
+    let mut acrobot = DiscreteTime::new(Acrobot { g: 9.81, u: 0.0 }, method, &["u"]).expect("a parameter");
+    let mut state = State::new([0.1, 0.2], [0.0, 0.0]);
+    // The first interval allocates what the method needs.
+    acrobot.advance(&state, 0.02).expect("a step");
+    free(|| {
+        for k in 1..=100 {
+            acrobot.system_mut().u = state.q[1];
+            acrobot.advance(&state, 0.02 * f64::from(k)).expect("a step");
+            state = *acrobot.state();
+        }
+    });
 }

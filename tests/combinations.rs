@@ -6,7 +6,7 @@
 //! | `State` | all steps | all | no: a state between steps would be one of other parameters; who asks for it keeps samples alone | all |
 //! | `State` | samples | all | yes | all |
 //! | `PhaseState` | all steps, samples | as `State` | as `State` | pairs; not `Taylor`, whose series are those of Lagrange's equations, nor `Radau` and the methods of fixed steps (does not compile) |
-//! | `StateSensitivity` | all steps, samples | all; events that can be differentiated, others do not compile | no: what it sets depends on the state by a function that is not differentiated (does not compile) | pairs and `Radau`; `Taylor`, `Verlet`, `Gauss`, `Lobatto` and `DAlembert` where the number type is a parameter; not `RungeKutta4` (does not compile) |
+//! | `StateSensitivity` | all steps, samples | all; events that can be differentiated, others do not compile | no: what it sets depends on the state by a function that is not differentiated (does not compile) | pairs, `RungeKutta4` and `Radau`; `Taylor`, `Verlet`, `Gauss`, `Lobatto` and `DAlembert` where the number type is a parameter |
 //! | member of an `Ensemble` | samples | all; progress is `observe` | yes | all |
 //! | the same on lanes | samples | all; progress is `observe` | yes | pairs, `Taylor` |
 //!

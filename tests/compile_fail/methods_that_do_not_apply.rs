@@ -75,7 +75,6 @@ fn main() -> Result<(), Error> {
     let rail = Rail { rail: Table::new(&[(0.0, 0.0), (0.5, 0.3), (1.0, 1.0), (1.5, 1.4)])? };
     rail.integrate(State::at_rest([0.0, 0.0]), 1.0, Radau::default())?;
     // Derivatives of motions.
-    spring.integrate_sensitivities(start, 1.0, RungeKutta4::with_step(0.01), &["k"])?;
     DampedSpring { c: 0.1 }.integrate_sensitivities(
         State::at_rest([1.0]),
         1.0,

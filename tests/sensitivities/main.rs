@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod differences;
+mod discrete;
 mod event_differences;
 mod event_errors;
 mod events;

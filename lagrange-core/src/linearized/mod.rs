@@ -10,6 +10,8 @@ mod columns;
 #[cfg(feature = "alloc")]
 mod contacts;
 #[cfg(feature = "alloc")]
+mod discrete;
+#[cfg(feature = "alloc")]
 mod display;
 #[cfg(feature = "alloc")]
 mod dual_sample;
@@ -50,6 +52,8 @@ pub use across::MotionDerivatives;
 pub(crate) use argument::check_parameters;
 #[cfg(feature = "alloc")]
 pub use columns::SelectedJacobian;
+#[cfg(feature = "alloc")]
+pub use discrete::DiscreteTime;
 #[cfg(feature = "alloc")]
 pub use dual_sample::{DifferentiableEvent, DualSample, OverDuals};
 #[cfg(feature = "alloc")]
@@ -237,8 +241,8 @@ pub trait Linearized: StateDerivatives {
     /// state is. [`MotionDerivatives`] continues across events.
     ///
     /// Supported methods: [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded
-    /// [`Pair`](crate::motion::Pair)s, on Lagrange's equations, and [`Radau`], along whose steps the derivatives do not limit the
-    /// length. If the number type of the system is a type parameter, also [`Taylor`](crate::Taylor) and the methods of type
+    /// [`Pair`](crate::motion::Pair)s, on Lagrange's equations; [`Radau`] and [`RungeKutta4`](crate::RungeKutta4), along whose
+    /// steps the derivatives do not limit the length. If the number type of the system is a type parameter, also [`Taylor`](crate::Taylor) and the methods of type
     /// [`FixedStep`](crate::motion::FixedStep): the derivatives along these are those of the discrete map, so they are a symplectic
     /// matrix along a symplectic method, to round-off. Motions by other methods, and in momenta, are not differentiated.
     ///

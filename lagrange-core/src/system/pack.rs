@@ -5,9 +5,9 @@ use core::fmt::Debug;
 
 use nalgebra::{Isometry, Quaternion, Rotation, SMatrix, Translation, Unit};
 
+use crate::number::{Dual, Scalar};
 #[cfg(feature = "std")]
-use crate::number::Lanes;
-use crate::number::{Dual, Scalar, Wide};
+use crate::number::{FourLanes, Lanes};
 use crate::vector::{Array, Element, Length, PhaseVector};
 
 /// A system that can share SIMD lanes of type `V` with other systems of its type.
@@ -32,7 +32,7 @@ use crate::vector::{Array, Element, Length, PhaseVector};
 /// assert_eq!(accelerations[0].to_array()[2..4], [-8.0, -3.0]);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` cannot be computed with other numbers, as SIMD lanes require, and derivatives of motions by methods other than `Dop853`, `Dopri5` and `Radau`",
+    message = "`{Self}` cannot be computed with other numbers, as SIMD lanes require, and derivatives of motions by methods other than `Dop853`, `Dopri5`, `RungeKutta4` and `Radau`",
     label = "its number type is fixed",
     note = "make the number type a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`, and derive `Lagrangian` for that; of its fields the expressions must name one",
     note = "of any system, `Ensemble::integrate` integrates one member at a time, and `Dop853` differentiates motions"
@@ -64,30 +64,60 @@ pub trait Packed<X> {
 }
 
 #[cfg(feature = "std")]
-impl Packed<f64> for Lanes {
-    #[inline(always)]
-    fn splat(x: &f64) -> Self {
-        Self::constant(*x)
-    }
+macro_rules! on_lanes {
+    ($($lanes:ty),*) => {$(
+        impl Packed<f64> for $lanes {
+            #[inline(always)]
+            fn splat(x: &f64) -> Self {
+                Self::constant(*x)
+            }
 
-    #[inline(always)]
-    fn place(&mut self, lane: usize, x: &f64) {
-        let mut all = self.to_array();
-        all[lane] = *x;
-        *self = all.into();
-    }
+            #[inline(always)]
+            fn place(&mut self, lane: usize, x: &f64) {
+                let mut all = self.to_array();
+                all[lane] = *x;
+                *self = all.into();
+            }
+        }
+    )*};
 }
 
-/// Values are packed on lanes, with slope zero.
-impl<W: Wide<X>, X: Scalar> Packed<X> for Dual<W> {
+#[cfg(feature = "std")]
+on_lanes!(Lanes, FourLanes);
+
+/// Numbers that are a vector of one lane.
+#[cfg(any(feature = "std", feature = "libm"))]
+macro_rules! on_one_lane {
+    ($($scalar:ty),*) => {$(
+        impl Packed<$scalar> for $scalar {
+            #[inline(always)]
+            fn splat(x: &$scalar) -> Self {
+                *x
+            }
+
+            #[inline(always)]
+            fn place(&mut self, _: usize, x: &$scalar) {
+                *self = *x;
+            }
+        }
+    )*};
+}
+
+#[cfg(any(feature = "std", feature = "libm"))]
+on_one_lane!(f32);
+#[cfg(all(feature = "libm", not(feature = "std")))]
+on_one_lane!(f64);
+
+/// Values are packed as without derivatives, with slope zero.
+impl<W: Packed<X> + Scalar, X> Packed<X> for Dual<W> {
     #[inline]
     fn splat(x: &X) -> Self {
-        Self { value: W::of(*x), slope: W::constant(0.0) }
+        Self { value: W::splat(x), slope: W::constant(0.0) }
     }
 
     #[inline]
     fn place(&mut self, lane: usize, x: &X) {
-        self.value.put(lane, *x);
+        self.value.place(lane, x);
     }
 }
 

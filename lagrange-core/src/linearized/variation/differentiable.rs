@@ -13,15 +13,15 @@ use crate::vector::PhaseVector;
 
 /// A [`Method`] whose steps can be differentiated, so that derivatives of a motion can be integrated with it.
 ///
-/// [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded [`Pair`](crate::motion::Pair)s differentiate their
-/// stages, and [`Radau`](crate::linearized::Radau) the equations of its stages. [`Taylor`](crate::Taylor) expands the motion over
-/// dual numbers, and the methods with steps of one length ([`FixedStep`](crate::motion::FixedStep)) take their steps over dual
-/// numbers; for both, the number type of the system must be a type parameter. [`RungeKutta4`](crate::RungeKutta4) is not
-/// differentiated.
+/// [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5), other embedded [`Pair`](crate::motion::Pair)s and
+/// [`RungeKutta4`](crate::RungeKutta4) differentiate their stages, and [`Radau`](crate::linearized::Radau) the equations of its
+/// stages. [`Taylor`](crate::Taylor) expands the motion over dual numbers, and the methods that keep the structure of mechanics
+/// ([`FixedStep`](crate::motion::FixedStep)) take their steps over dual numbers; for both, the number type of the system must be a
+/// type parameter.
 #[diagnostic::on_unimplemented(
     message = "the steps of `{Self}` cannot be differentiated along motions of `{L}`",
     label = "no derivatives of its steps",
-    note = "take `Dop853` or `Dopri5`, for every system, or `Radau` if it is stiff",
+    note = "take `Dop853`, `Dopri5` or `RungeKutta4`, for every system, or `Radau` if it is stiff",
     note = "or, where the number type is a parameter, `struct X<T> {{ m: T, l: [T; 2] }}`: `Taylor`, `Verlet`, `Gauss`, `Lobatto` or `DAlembert`"
 )]
 pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> + Sized {
@@ -37,6 +37,19 @@ pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> + Sized {
         start: &StateOf<L>,
         variations: &Variations<L>,
     ) -> Result<Self::VariationMemory, Error>;
+
+    /// Prepares the memory for a motion from another start, or of a changed system.
+    #[doc(hidden)]
+    fn restart(
+        &self,
+        system: &L,
+        start: &StateOf<L>,
+        variations: &Variations<L>,
+        companion: &mut Self::VariationMemory,
+    ) -> Result<(), Error> {
+        *companion = self.companion(system, start, variations)?;
+        Ok(())
+    }
 
     /// Parts of the memory that are linear in the variations, block by block: linear combinations of variations apply
     /// to them too. Empty if the memory is recomputed at each step.

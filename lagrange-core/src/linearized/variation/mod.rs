@@ -10,6 +10,7 @@
 //! the error of a step. At the start, which parameters may shift, F is that of the holonomic constraints alone, as for
 //! the state.
 
+mod classical;
 mod differentiable;
 mod duals;
 mod fixed_step;
@@ -38,6 +39,8 @@ pub use differentiable::DifferentiableMethod;
 pub(crate) struct Block<W: Element, N: Length, P: Length> {
     /// Variations δ(q, q̇).
     pub(crate) y: PhaseVector<W, N>,
+    /// Variations at the stage of a step that is being computed.
+    pub(crate) at_stage: PhaseVector<W, N>,
     /// Rates of change of the parameters; `None` if no lane varies a parameter.
     pub(crate) rates: Option<Vector<W, P>>,
     /// Reciprocal scale of each lane: 1/|p| if the lane varies a parameter p ≠ 0, else 1.
@@ -62,19 +65,37 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
         arguments: Vec<Entry>,
         column: impl Fn(usize) -> [Vector<L::Scalar, L::N>; 2],
     ) -> Result<Self, Error> {
+        let mut variations = Self::none(tangent.system, arguments);
+        variations.restart(tangent, column)?;
+        Ok(variations)
+    }
+
+    /// Variations that are zero, by these arguments.
+    pub(super) fn none(system: &L, arguments: Vec<Entry>) -> Self {
         let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
         let parameters: Vec<_> = arguments.iter().map(|entry| parameter::<L>(*entry)).collect();
-        let values = tangent.system.parameters();
-        let mut blocks: Vec<Block<WideOf<L>, L::N, L::P>> =
-            parameters.chunks(lanes).map(|parameters| Block::of(parameters, &values)).collect();
-        for j in 0..arguments.len() {
+        let values = system.parameters();
+        let blocks = parameters.chunks(lanes).map(|parameters| Block::of(parameters, &values)).collect();
+        Self { arguments, blocks }
+    }
+
+    /// Puts the variations at the start of a motion again: `column` gives δ(q, q̇) for each argument.
+    pub(super) fn restart(
+        &mut self,
+        tangent: &Tangent<'_, L>,
+        column: impl Fn(usize) -> [Vector<L::Scalar, L::N>; 2],
+    ) -> Result<(), Error> {
+        let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
+        for j in 0..self.count() {
             let column = column(j);
             let entries = column.iter().flat_map(|half| half.iter());
-            blocks[j / lanes].y_mut().iter_mut().zip(entries).for_each(|(wide, x)| wide.put(j % lanes, *x));
+            self.blocks[j / lanes]
+                .y_mut()
+                .iter_mut()
+                .zip(entries)
+                .for_each(|(wide, x)| wide.put(j % lanes, *x));
         }
-        let mut variations = Self { arguments, blocks };
-        variations.set_out(tangent)?;
-        Ok(variations)
+        self.set_out(tangent)
     }
 
     /// Number of variations.
@@ -139,6 +160,12 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
     /// Argument of the variation in this lane of a block.
     pub(crate) fn argument(&self, block: usize, lane: usize) -> Entry {
         lane_names::<L>(&self.arguments, block)(lane)
+    }
+
+    /// Entry of δ(q, q̇) of variation `j`, coordinates first.
+    pub(super) fn entry(&self, j: usize, i: usize) -> L::Scalar {
+        let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
+        self.blocks[j / lanes].y.flat()[i].lane(j % lanes)
     }
 
     /// Variations δ(q, q̇) of a block.
@@ -235,7 +262,8 @@ impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
             let size = Scalar::abs(values[k]);
             unit.put(lane, if size > T::constant(0.0) { one / size } else { one });
         }
-        Self { y: PhaseVector::filled(zero), rates, unit, lanes: parameters.len() }
+        let none = PhaseVector::filled(zero);
+        Self { y: none, at_stage: none, rates, unit, lanes: parameters.len() }
     }
 
     fn y_mut(&mut self) -> &mut [W] {

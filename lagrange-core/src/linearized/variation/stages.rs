@@ -44,9 +44,19 @@ impl<Q: Pair, L: Linearized<Scalar: Real>> DifferentiableMethod<L> for Adaptive<
         let zero = PhaseVector::filled(WideOf::<L>::constant(0.0));
         let none = Stages { start: zero, slopes: Room::filled(zero), slope: zero };
         let mut all = vec![none; variations.blocks.len()];
-        let tangent = Tangent::at(system, start)?;
-        variations.slopes_at(&tangent, |_, block| block.y, |k, slope| all[k].slope = slope)?;
+        self.restart(system, start, variations, &mut all)?;
         Ok(all)
+    }
+
+    fn restart(
+        &self,
+        system: &L,
+        start: &StateOf<L>,
+        variations: &Variations<L>,
+        all: &mut Self::VariationMemory,
+    ) -> Result<(), Error> {
+        let tangent = Tangent::at(system, start)?;
+        variations.slopes_at(&tangent, |_, block| block.y, |k, slope| all[k].slope = slope)
     }
 
     fn linear(companion: &mut Self::VariationMemory) -> Vec<&mut PhaseVector<WideOf<L>, L::N>> {
@@ -179,7 +189,7 @@ fn go<Q: Pair, L: Linearized<Scalar: Real>>(
 fn stages<Q: Pair, L: Linearized<Scalar: Real>>(
     system: &L,
     memory: &PairMemory<L::Scalar, L::N, L::M>,
-    variations: &Variations<L>,
+    variations: &mut Variations<L>,
     all: &mut [Stages<WideOf<L>, L::N>],
     (first, rows): (usize, &[TableauRow]),
 ) -> Result<(), Error> {
@@ -189,13 +199,14 @@ fn stages<Q: Pair, L: Linearized<Scalar: Real>>(
         advance(&from.y, h, slopes, row, &mut place);
         let state = state_at(from.t + h * L::Scalar::constant(Q::NODES[number]), &place);
         let tangent = tangent_at(system, &state, &slopes[number].half(1), &memory.active)?;
-        let at_stage = |k: usize| {
-            let (Stages { start, slopes, .. }, mut y) = (&all[k], all[k].start);
-            advance(start, wide, slopes, row, &mut y);
-            y
-        };
-        let y: Vec<_> = (0..all.len()).map(at_stage).collect();
-        variations.slopes_at(&tangent, |k, _| y[k], |k, slope| all[k].slopes[number] = slope)?;
+        for (block, Stages { start, slopes, .. }) in variations.blocks.iter_mut().zip(&*all) {
+            advance(start, wide, slopes, row, &mut block.at_stage);
+        }
+        variations.slopes_at(
+            &tangent,
+            |_, block| block.at_stage,
+            |k, slope| all[k].slopes[number] = slope,
+        )?;
     }
     Ok(())
 }
