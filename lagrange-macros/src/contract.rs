@@ -251,7 +251,8 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// Associated constants of these traits.
-const CONSTANTS: [&str; 19] = [
+const CONSTANTS: [&str; 20] = [
+    "QUATERNIONS",
     "HAS_CONTACTS",
     "HAS_FRICTION",
     "HAS_PLANAR_FRICTION",
@@ -275,7 +276,9 @@ const CONSTANTS: [&str; 19] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
-const PROVIDED: [&str; 41] = [
+const PROVIDED: [&str; 43] = [
+    "linearize_locally",
+    "local_coordinates",
     "compliance",
     "slides",
     "completed_momentum",

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Compares imported robots with Pinocchio: mass matrix, inverse dynamics and accelerations at 200 random states each.
+"""Compares imported robots with Pinocchio: mass matrix, inverse dynamics, accelerations and their derivatives in the tangent of
+the state, at 200 random states each.
 
     pip install pin example-robot-data
     python3 lagrange-urdf/tests/with_pinocchio.py [NAME …]
@@ -70,12 +71,13 @@ debug = false
 opt-level = 2
 """
 
-# Reads a state, accelerations and efforts a line; writes mass matrix, inverse dynamics without efforts, accelerations with.
+# Reads a state, accelerations and efforts a line; writes mass matrix, inverse dynamics without efforts, accelerations with, and the
+# derivatives of these in local coordinates.
 ANSWERS = """
-use lagrange_core::nalgebra::{Const, SVector};
+use lagrange_core::nalgebra::{Const, DMatrix, SVector};
 use lagrange_core::prelude::*;
 
-pub fn answer<L, const N: usize, const M: usize>(mut robot: L)
+pub fn answer<L, const N: usize, const M: usize>(mut robot: L, linear: impl Fn(&L, &State<f64, N>) -> DMatrix<f64>)
 where
     L: Simulate + Linearized + Lagrangian<Scalar = f64, N = Const<N>, M = Const<M>>,
 {
@@ -94,7 +96,9 @@ where
         }
         let accelerations = robot.solve(&state).unwrap().accelerations;
         let matrix = robot.mass_matrix(&state);
-        let all = matrix.iter().chain(forces.iter()).chain(accelerations.iter());
+        let linear = linear(&robot, &state);
+        let below = linear.rows(linear.nrows() / 2, linear.nrows() / 2);
+        let all = matrix.iter().chain(forces.iter()).chain(accelerations.iter()).chain(below.iter());
         println!("{}", all.map(|number| format!("{number:e}")).collect::<Vec<_>>().join(" "));
     }
 }
@@ -102,9 +106,14 @@ where
 
 MAIN = """
 #![recursion_limit = "512"]
+use lagrange_core::prelude::*;
 mod robot {{ include!("{text}"); }}
-fn main() {{ robots::answer(robot::{name}::default()); }}
+fn main() {{ robots::answer(robot::{name}::default(), |robot, state| {linear}); }}
 """
+
+# In local coordinates there are no other constraints than those of quaternions.
+LINEAR = "robot.linearize_locally(state, &[]).unwrap().a"
+NO_LINEAR = "{ let _ = (robot, state); lagrange_core::nalgebra::DMatrix::zeros(0, 0) }"
 
 
 def folder():
@@ -131,7 +140,9 @@ def crate(place, robots):
         text = place / f"{name}.rs"
         text.write_text(result.stdout)
         struct = re.search(r"pub struct (\w+)", result.stdout)[1]
-        (place / f"src/bin/{name}.rs").write_text(MAIN.format(text=text, name=struct))
+        (place / f"src/bin/{name}.rs").write_text(
+            MAIN.format(text=text, name=struct, linear=NO_LINEAR if "#[constraint" in result.stdout else LINEAR)
+        )
         imported.append((name, file, options))
     return imported
 
@@ -145,6 +156,7 @@ class Robot:
         self.data = self.model.createData()
         self.model.gravity.linear = numpy.array([0.0, 0.0, -9.81])
         self.damping = self.model.damping + self.mimicked_damping(file)
+        self.mimics = any(joint.shortname().startswith("JointModelMimic") for joint in self.model.joints)
         self.floating = floating
         self.count = len(coordinates)
         place = {name: k for k, name in enumerate(coordinates)}
@@ -205,12 +217,49 @@ class Robot:
         """Accelerations for Pinocchio of these efforts along our coordinates."""
         there, speeds, rates = self.state(q, v)
         efforts = rates @ efforts - self.damping * speeds
-        if any(joint.shortname().startswith("JointModelMimic") for joint in self.model.joints):
+        if self.mimics:
             # The articulated-body algorithm of Pinocchio has no joints that mimic.
             upper = numpy.triu(pinocchio.crba(self.model, self.data, there))
             bias = pinocchio.rnea(self.model, self.data, there, speeds, numpy.zeros(self.model.nv))
             return numpy.linalg.solve(upper + numpy.triu(upper, 1).T, efforts - bias)
         return pinocchio.aba(self.model, self.data, there, speeds, efforts)
+
+
+    def derivatives(self, q, v, efforts):
+        """Derivatives of the accelerations by the tangent of the place and by the velocities, with damping."""
+        there, speeds, rates = self.state(q, v)
+        efforts = rates @ efforts - self.damping * speeds
+        by = pinocchio.computeABADerivatives(self.model, self.data, there, speeds, efforts)
+        inverse = numpy.triu(by[2]) + numpy.triu(by[2], 1).T
+        return numpy.hstack([by[0], by[1] - inverse * self.damping])
+
+    def converted(self, q, v, a, below):
+        """Ours, in local coordinates, in the tangent of Pinocchio: there places and velocities of the base are along its axes."""
+        _, speeds, rates = self.state(q, v)
+        n = len(below)
+        order, columns = numpy.zeros(n, dtype=int), numpy.arange(n)
+        if self.floating:
+            order[:6] = columns[:6]
+        for ours, _, velocity, _ in self.joints:
+            order[velocity] = ours - self.floating
+        below = below[order][:, numpy.concatenate([order, n + order])]
+        if not self.floating:
+            return below
+        turn, along, omega = rates[:3, :3].T, speeds[:3], speeds[3:6]
+        # Their changes of (place, rotation, …) and of (velocity, ω, …) in ours.
+        changes = numpy.eye(2 * n)
+        changes[:3, :3] = changes[n : n + 3, n : n + 3] = turn
+        changes[n : n + 3, 3:6] = -turn @ skew(along)
+        below = below @ changes
+        below[:3] = turn.T @ below[:3]
+        below[:3, 3:6] += skew(turn.T @ a[:3])
+        below[:3, n : n + 3] -= skew(omega)
+        below[:3, n + 3 : n + 6] += skew(along)
+        return below
+
+
+def skew(x):
+    return numpy.array([[0, -x[2], x[1]], [x[2], 0, -x[0]], [-x[1], x[0], 0]])
 
 
 def random_state(random, robot):
@@ -228,12 +277,12 @@ def difference(found, expected):
 
 
 def compare(program, file, floating):
-    """Largest differences of mass matrix, inverse dynamics and accelerations; number of our coordinates."""
+    """Largest differences of mass matrix, inverse dynamics, accelerations and their derivatives; number of our coordinates."""
     pipe = dict(stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     with subprocess.Popen([program], **pipe) as process:
         coordinates, driven = (process.stdout.readline().split() for _ in range(2))
         robot, random = Robot(file, floating, coordinates), numpy.random.default_rng(1)
-        n, worst = robot.count, numpy.zeros(3)
+        n, worst = robot.count, numpy.zeros(4)
         for _ in range(STATES):
             q, v, a = random_state(random, robot)
             efforts = numpy.zeros(n)
@@ -241,13 +290,19 @@ def compare(program, file, floating):
             line = [*q, *v, *a, *(efforts[coordinates.index(name)] for name in driven)]
             print(*line, file=process.stdin, flush=True)
             numbers = numpy.array(process.stdout.readline().split(), dtype=float)
-            matrix, forces, accelerations = numpy.split(numbers, [n * n, n * n + n])
+            matrix, forces, accelerations, below = numpy.split(numbers, [n * n, n * n + n, n * n + 2 * n])
             _, _, rates = robot.state(q, v)
             worst = numpy.maximum(worst, [
                 difference(matrix.reshape(n, n), robot.mass_matrix(q)),
                 difference(forces, robot.forces(q, v, a)),
                 difference(robot.accelerations(rates, v, accelerations), robot.free(q, v, efforts)),
+                0,
             ])
+            # Pinocchio has no derivatives of joints that mimic.
+            if len(below) and not robot.mimics:
+                below = below.reshape(-1, robot.model.nv).T
+                found = robot.converted(q, v, accelerations, below)
+                worst[3] = max(worst[3], difference(found, robot.derivatives(q, v, efforts)))
         process.stdin.close()
     return worst, n
 
@@ -258,7 +313,7 @@ def main():
     with tempfile.TemporaryDirectory() as place:
         place = Path(place)
         agree, target = 0, Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")).resolve() / "robots"
-        print(f"{'robot':<20}{'coordinates':>12}{'compiled':>10}{'M':>10}{'inverse':>10}{'q̈':>10}")
+        print(f"{'robot':<20}{'coordinates':>12}{'compiled':>10}{'M':>10}{'inverse':>10}{'q̈':>10}{'∂q̈':>10}")
         for name, file, options in crate(place, chosen):
             start = time.monotonic()
             command = ["cargo", "build", "--quiet", "--bin", name, "--target-dir", target]
@@ -266,9 +321,9 @@ def main():
                 continue
             seconds = time.monotonic() - start
             worst, count = compare(target / "debug" / name, file, "--floating" in options)
-            agree += worst.max() < TOLERANCE
+            agree += worst[:3].max() < TOLERANCE and worst[3] < 10 * TOLERANCE
             print(f"{name:<20}{count:>12}{seconds:>8.1f} s" + "".join(f"{x:>10.1e}" for x in worst), flush=True)
-    print(f"{agree} of {len(chosen)} robots agree to {TOLERANCE}")
+    print(f"{agree} of {len(chosen)} robots agree to {TOLERANCE}, derivatives to {10 * TOLERANCE}")
     return 0 if agree == len(chosen) else 1
 
 

@@ -9,6 +9,7 @@ mod equilibria;
 mod errors;
 mod inverse;
 mod large_fields;
+mod local;
 mod numbers;
 #[path = "../random/mod.rs"]
 mod random;

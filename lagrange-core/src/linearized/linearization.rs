@@ -39,13 +39,13 @@ pub struct Linearization<T> {
     pub basis: DMatrix<T>,
     /// Rate (q̇, q̈) at the state itself: zero at an equilibrium.
     pub rate: DVector<T>,
-    states: Vec<String>,
-    inputs: Vec<String>,
+    pub(super) states: Vec<String>,
+    pub(super) inputs: Vec<String>,
 }
 
 impl<T> Linearization<T> {
     /// Names of the rows of [`basis`](Self::basis): coordinates and velocities. Without constraints, also of the rows
-    /// and columns of A.
+    /// and columns of A. In [local coordinates](Linearized::linearize_locally), names of the rows and columns of A.
     pub fn states(&self) -> &[String] {
         &self.states
     }
@@ -103,7 +103,7 @@ impl<L: StateDerivatives<Scalar: Real>> Tangent<'_, L> {
     }
 
     /// Derivatives of (q̇, q̈) along each column of the basis.
-    fn change_along(&self, basis: &DMatrix<L::Scalar>) -> Result<DMatrix<L::Scalar>, Error> {
+    pub(super) fn change_along(&self, basis: &DMatrix<L::Scalar>) -> Result<DMatrix<L::Scalar>, Error> {
         let mut change = DMatrix::zeros(2 * <L::N>::COUNT, basis.ncols());
         let put = |j: usize, directions: &mut Direction<WideOf<L>, L::N>, lane: usize| {
             let changes = directions.q.iter_mut().chain(&mut directions.v).zip(basis.column(j));
@@ -120,7 +120,7 @@ impl<L: StateDerivatives<Scalar: Real>> Tangent<'_, L> {
     }
 
     /// Derivatives of (q̇, q̈) by each of these parameters.
-    fn change_by(&self, parameters: &[usize]) -> Result<DMatrix<L::Scalar>, Error>
+    pub(super) fn change_by(&self, parameters: &[usize]) -> Result<DMatrix<L::Scalar>, Error>
     where
         L: Linearized,
     {

@@ -25,6 +25,8 @@ mod jacobian;
 #[cfg(feature = "alloc")]
 mod linearization;
 #[cfg(feature = "alloc")]
+mod local;
+#[cfg(feature = "alloc")]
 mod lyapunov;
 mod radau;
 #[cfg(feature = "alloc")]
@@ -63,6 +65,8 @@ pub use inverse::InverseDynamics;
 pub use jacobian::{Jacobian, PartialDerivatives};
 #[cfg(feature = "alloc")]
 pub use linearization::Linearization;
+#[cfg(feature = "alloc")]
+pub use local::LocalCoordinates;
 #[cfg(feature = "alloc")]
 pub use lyapunov::LyapunovSpectrum;
 pub use radau::{Collocation, Radau, RadauMemory, RadauStages};
@@ -418,6 +422,81 @@ pub trait Linearized: StateDerivatives {
         Self: Lagrangian<Scalar: Real> + Sized,
     {
         linearization::linearize(self, state, inputs)
+    }
+
+    /// Local coordinates of the changes of a state whose frames are turned by quaternions: three for each quaternion, in the
+    /// place of four that a constraint holds together.
+    ///
+    /// # Errors
+    /// [`Error::StateNotFinite`]; [`Error::Inconsistent`] if a quaternion does not have length 1, or another constraint is
+    /// violated.
+    #[cfg(feature = "alloc")]
+    fn local_coordinates(&self, state: &StateOf<Self>) -> Result<LocalCoordinates<Self::Scalar>, Error>
+    where
+        Self: Lagrangian<Scalar: Real> + Sized,
+    {
+        LocalCoordinates::at(self, state)
+    }
+
+    /// Linearizes the system near a state in [local coordinates](Self::local_coordinates): ż = A z + B u, where z is the change
+    /// of the state, with three numbers for each quaternion. For a free body with 12 joints A is 36 × 36; its lower half
+    /// holds the derivatives of the accelerations by 18 changes of place and 18 changes of velocity.
+    ///
+    /// At a state in motion, z is the change of the moving state, and its coordinates are taken along the axes of the bodies,
+    /// which turn: δφ̇ = δω − ω × δφ. This A is the matrix of the variational equations along the motion, at that moment. Inputs
+    /// are as in [`linearize`](Self::linearize).
+    ///
+    /// All constraints must be those of quaternions; otherwise it does not compile, and `linearize` is the method:
+    ///
+    /// ```compile_fail,E0080
+    /// # use lagrange_core::prelude::*;
+    /// # #[derive(Lagrangian)]
+    /// # #[coordinates(x, y)]
+    /// # #[lagrangian((x_dot^2 + y_dot^2)/2 - g*y)]
+    /// # #[constraint(rod: x^2 + y^2 = 1)]
+    /// # struct Pendulum { g: f64 }
+    /// Pendulum { g: 9.81 }.linearize_locally(&State::at_rest([0.0, -1.0]), &[])?;
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// Without constraints the two are the same.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// /// A free body.
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(q: [4])]
+    /// #[frame(body: rotate(q))]
+    /// #[lagrangian(kinetic(body, 1, [0, 0, 0], [[a, 0, 0], [0, b, 0], [0, 0, c]]))]
+    /// struct Body { a: f64, b: f64, c: f64 }
+    ///
+    /// let body = Body { a: 1.0, b: 2.0, c: 3.0 };
+    /// // It spins about its middle axis: q̇ = ½ q ⊗ (0, 0, ω, 0).
+    /// let spin = 4.0;
+    /// let state = State::new([1.0, 0.0, 0.0, 0.0], [0.0, 0.0, spin / 2.0, 0.0]);
+    /// let near = body.linearize_locally(&state, &[])?;
+    /// assert_eq!(near.states()[3..], ["omega(q)[0]", "omega(q)[1]", "omega(q)[2]"]);
+    /// // a ω̇₀ = (b − c) ω₁ ω₂, c ω̇₂ = (a − b) ω₀ ω₁
+    /// assert!((near.a[(3, 5)] - (2.0 - 3.0) / 1.0 * spin).abs() < 1e-14);
+    /// assert!((near.a[(5, 3)] - (1.0 - 2.0) / 3.0 * spin).abs() < 1e-14);
+    /// // δφ̇ = δω − ω × δφ
+    /// assert!((near.a[(0, 2)] + spin).abs() < 1e-14 && (near.a[(0, 3)] - 1.0).abs() < 1e-14);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The errors of [`linearize`](Self::linearize).
+    #[cfg(feature = "alloc")]
+    fn linearize_locally(
+        &self,
+        state: &StateOf<Self>,
+        inputs: &[&str],
+    ) -> Result<Linearization<Self::Scalar>, Error>
+    where
+        Self: Lagrangian<Scalar: Real> + Sized,
+    {
+        local::linearize(self, state, inputs)
     }
 
     /// Finds an equilibrium or a steady motion near a state, on the constraints: a state with q̈ = 0.

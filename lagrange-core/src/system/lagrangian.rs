@@ -88,6 +88,9 @@ pub trait Lagrangian {
     const HAS_FRICTION: bool = false;
     /// True if some friction acts along two velocities v: its derivatives grow as 1/|v| towards rest.
     const HAS_PLANAR_FRICTION: bool = false;
+    /// Index of the first of the four coordinates (w, x, y, z) of each quaternion that turns a frame, by
+    /// `#[frame(…: rotate(q))]`; its length 1 is a constraint.
+    const QUATERNIONS: &'static [usize] = &[];
     /// True if the momenta are linear in the velocities, p = M(q, t) q̇ + a(q, t), so that one linear solve
     /// inverts the Legendre transform.
     const MOMENTA_ARE_LINEAR: bool = false;

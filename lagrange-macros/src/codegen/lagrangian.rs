@@ -58,6 +58,7 @@ impl Emitter<'_> {
         let (pack, check_members) = (pack::pack(self.declaration, scalar), self.check_members());
         let markers = markers(self.declaration, &generics, &self.derived.markers);
         let [[_, _, doc], ..] = &self.rendered.forms;
+        let quaternions = self.quaternions();
         let (slides, planar_friction) = (self.slides(), self.planar_friction());
         let has_contacts = contacts.iter().map(|_| {
             quote!(
@@ -93,6 +94,7 @@ impl Emitter<'_> {
                     const MOMENTA_ARE_LINEAR: bool = #are_linear;
                     const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
                     const DIGEST: u32 = #digest;
+                    #quaternions
                     #supplied
                     #facts
                     #(#has_contacts)*
@@ -241,6 +243,12 @@ impl Emitter<'_> {
     fn supplied(&self) -> Option<TokenStream> {
         let names = self.problem.functions.iter().map(|function| &function.name);
         (names.len() > 0).then(|| quote!(const SUPPLIED: &'static [&'static str] = &[#(#names),*];))
+    }
+
+    /// Emits where the quaternions are that turn frames. `None` if there are none.
+    fn quaternions(&self) -> Option<TokenStream> {
+        let first = &self.problem.quaternions;
+        (!first.is_empty()).then(|| quote!(const QUATERNIONS: &'static [usize] = &[#(#first),*];))
     }
 
     fn visit_parameters(&self) -> TokenStream {

@@ -71,6 +71,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let names = lowering.names(declaration);
     let frames_are_cheaper = lowering.frames_are_cheaper();
     let coordinates = labels(declaration);
+    let quaternions = lowering.quaternions(coordinates.len());
     let Lowering {
         mut graph, parameters, diagnostics, frames, mut rates, switches, contacts, frictions, ..
     } = lowering;
@@ -103,6 +104,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         functions,
         frames: frames.all,
         bodies: frames.bodies,
+        quaternions,
         rates,
         frames_are_cheaper,
         names,

@@ -40,6 +40,8 @@ pub(crate) struct Problem {
     /// Frames, each after the one that it lies in; the first is the fixed frame.
     pub(crate) frames: Vec<Frame>,
     pub(crate) bodies: Vec<Body>,
+    /// First of the four coordinates of each quaternion that turns a frame.
+    pub(crate) quaternions: Vec<usize>,
     /// Components of each total time derivative as written, and of each velocity in a frame.
     pub(crate) rates: Vec<Vec<Id>>,
     /// True if the system could be stated in frames at lower cost.

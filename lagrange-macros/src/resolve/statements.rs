@@ -170,8 +170,17 @@ impl Lowering<'_> {
     /// Returns whether the residual |q|² − 1 belongs to a quaternion that turns a frame. After an error this may be
     /// unknown, so the outline assumes it.
     fn is_of_frame(&mut self, residual: &Value) -> bool {
-        let square = residual.as_scalar().map(|residual| self.graph.add(residual, Id::ONE));
-        self.is_guessing || square.is_some_and(|square| self.frames.squares.contains(&square))
+        let Some(residual) = residual.as_scalar() else { return self.is_guessing };
+        let (square, graph) = (self.graph.add(residual, Id::ONE), &mut self.graph);
+        self.is_guessing || self.frames.quaternions.iter().any(|q| graph.dot(q, q) == square)
+    }
+
+    /// First of the four coordinates of each quaternion that turns a frame, among this many coordinates.
+    pub(super) fn quaternions(&mut self, coordinates: usize) -> Vec<usize> {
+        let mut at = |i: usize| self.graph.symbol(Variable::Coordinate(i).symbol());
+        let fours: Vec<[Id; 4]> =
+            (3..coordinates).map(|last| [last - 3, last - 2, last - 1, last].map(&mut at)).collect();
+        (0..fours.len()).filter(|&first| self.frames.quaternions.contains(&fours[first])).collect()
     }
 
     /// Returns whether the residual times ±1 or ±½ is already a constraint.

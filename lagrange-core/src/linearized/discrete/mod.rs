@@ -47,7 +47,7 @@ use crate::vector::{Array, Length, vector};
 /// let cart = Cart { m: 2.0, push: 0.0 };
 /// let mut cart = DiscreteTime::new(cart, RungeKutta4::with_step(0.1), &["push"])?;
 /// let mut state = State::new([1.0], [0.0]);
-/// for tick in 1..=20 {
+/// for tick in 1..=60 {
 ///     cart.system_mut().push = -3.0 * state.q[0] - 4.0 * state.v[0];
 ///     cart.advance(&state, 0.1 * f64::from(tick))?;
 ///     state = *cart.state();

@@ -16,8 +16,8 @@ pub(crate) struct Frames {
     /// One frame for each step: named frames, and the unnamed ones between them.
     pub(crate) all: Vec<Frame>,
     pub(crate) bodies: Vec<Body>,
-    /// |q|² of each quaternion that turns a frame.
-    pub(crate) squares: Vec<Id>,
+    /// Quaternions that turn frames.
+    pub(crate) quaternions: Vec<[Id; 4]>,
     /// Axes of each named frame, keyed by name and index; `None` after a reported error.
     pub(super) named: Vec<(Rc<str>, Option<Axes>)>,
     /// Name of the frame being declared.
@@ -46,7 +46,7 @@ impl Default for Frames {
         Self {
             all: vec![Frame::fixed()],
             bodies: Vec::new(),
-            squares: Vec::new(),
+            quaternions: Vec::new(),
             named: Vec::new(),
             current: None,
             asked: Vec::new(),

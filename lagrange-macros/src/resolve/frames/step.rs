@@ -176,7 +176,7 @@ impl Lowering<'_> {
     fn turned_by_quaternion(&mut self, q: [Id; 4], at: &Expression) -> Option<Turned> {
         let graph = &mut self.graph;
         let square = graph.dot(&q, &q);
-        self.frames.squares.push(square);
+        self.frames.quaternions.push(q);
         let is_unit = self.is_unit_parameter(at);
         let graph = &mut self.graph;
         let two = graph.integer(2);
