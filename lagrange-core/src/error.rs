@@ -240,6 +240,13 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// The given accelerations and the constraints leave others undetermined.
+    AccelerationsNotUnique {
+        /// Coordinates whose accelerations can change together.
+        coordinates: Names,
+        /// The time of the state.
+        time: f64,
+    },
     /// Several values of the named inputs produce the requested accelerations.
     InputsNotUnique {
         /// Inputs that can change together without changing the accelerations.

@@ -276,7 +276,8 @@ const CONSTANTS: [&str; 20] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
-const PROVIDED: [&str; 43] = [
+const PROVIDED: [&str; 44] = [
+    "complete_accelerations",
     "linearize_locally",
     "local_coordinates",
     "compliance",

@@ -125,6 +125,10 @@ impl Display for Error {
                 f,
                 "these accelerations violate {row} at t = {time}: F q_ddot + gamma is {residual:e}, not 0; `solve` gives some that do not"
             ),
+            Self::AccelerationsNotUnique { coordinates, time } => write!(
+                f,
+                "the constraints and the accelerations that are held do not determine those of {coordinates} at t = {time}: hold one of these too"
+            ),
             Self::InputsNotUnique { inputs, time } => {
                 write!(f, "many values of {inputs} give these accelerations at t = {time}: name fewer inputs")
             }

@@ -8,6 +8,8 @@ mod argument;
 #[cfg(feature = "alloc")]
 mod columns;
 #[cfg(feature = "alloc")]
+mod completed;
+#[cfg(feature = "alloc")]
 mod contacts;
 #[cfg(feature = "alloc")]
 mod discrete;
@@ -390,6 +392,48 @@ pub trait Linearized: StateDerivatives {
         Self: Lagrangian<Scalar: Real> + Clone,
     {
         inverse::inputs_for(self, state, accelerations, inputs)
+    }
+
+    /// Completes accelerations on the constraints: those of the `held` coordinates stay, the others become those that F q̈ + γ = 0
+    /// demands. Closed chains are led in this way: choose the accelerations of as many coordinates as there are degrees of
+    /// freedom, complete them, and ask [`inputs_for`](Self::inputs_for) for the forces.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// /// A crank that drives a slider by a rod.
+    /// #[derive(Clone, Lagrangian)]
+    /// #[coordinates(crank, rod, x)]
+    /// #[lagrangian(crank_dot^2 + rod_dot^2/2 + x_dot^2/2)]
+    /// #[constraint(closed: [cos(crank) + 3*cos(rod) - x, sin(crank) + 3*sin(rod)] = 0)]
+    /// #[force(crank: torque)]
+    /// struct SliderCrank { torque: f64 }
+    ///
+    /// let slider = SliderCrank { torque: 0.0 };
+    /// let start = slider.state_from(&[("crank", 1.0), ("crank_dot", 2.0), ("rod", -0.3), ("x", 3.0)])?;
+    /// let (state, _) = slider.make_consistent_holding(&start, &["crank", "crank_dot"])?;
+    /// // The crank shall turn at constant speed.
+    /// let wanted = slider.complete_accelerations(&state, &[0.0; 3].into(), &["crank"])?;
+    /// let torque = slider.inputs_for(&state, &wanted, &["torque"])?.inputs[0];
+    /// let moved = SliderCrank { torque }.solve(&state)?.accelerations;
+    /// assert!(moved[0].abs() < 1e-12 && (moved[2] - wanted[2]).abs() < 1e-12);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::AccelerationsNotUnique`] if more must be held, [`Error::NotRealizable`] if what is held violates a constraint (to
+    /// √ε of its terms); [`Error::UnknownName`] and [`Error::RepeatedName`]; [`Error::EquationsNotFinite`].
+    #[cfg(feature = "alloc")]
+    fn complete_accelerations(
+        &self,
+        state: &StateOf<Self>,
+        accelerations: &Vector<Self::Scalar, Self::N>,
+        held: &[&str],
+    ) -> Result<Vector<Self::Scalar, Self::N>, Error>
+    where
+        Self: Lagrangian<Scalar: Real> + Sized,
+    {
+        completed::complete(self, state, accelerations, held)
     }
 
     /// Linearizes the system near a state. The inputs are the parameters of these names (`u` stands for all elements of
