@@ -247,6 +247,25 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// The generalized forces are not linear in the inertial parameters of the named bodies.
+    NotInertial {
+        /// Coordinate whose generalized force is not what the regressor says.
+        row: Row,
+        /// The generalized force less what the regressor says.
+        residual: f64,
+        /// The time of the state.
+        time: f64,
+    },
+    /// Regressors that are put together are of different bodies.
+    OtherBodies,
+    /// Some states do not tell whether an inertial parameter can be found beside those before it.
+    #[cfg(feature = "alloc")]
+    BaseParametersUndecided {
+        /// Name of the parameter.
+        parameter: String,
+        /// What is left of its column beside the others, as a part of its length.
+        left: f64,
+    },
     /// Several values of the named inputs produce the requested accelerations.
     InputsNotUnique {
         /// Inputs that can change together without changing the accelerations.

@@ -276,7 +276,9 @@ const CONSTANTS: [&str; 20] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
-const PROVIDED: [&str; 44] = [
+const PROVIDED: [&str; 46] = [
+    "inertial_parameters",
+    "regressor",
     "complete_accelerations",
     "linearize_locally",
     "local_coordinates",

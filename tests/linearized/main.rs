@@ -14,6 +14,7 @@ mod numbers;
 #[path = "../random/mod.rs"]
 mod random;
 mod ranks;
+mod regressor;
 mod steady;
 
 use lagrange_core::nalgebra::{Complex, DMatrix};

@@ -129,6 +129,18 @@ impl Display for Error {
                 f,
                 "the constraints and the accelerations that are held do not determine those of {coordinates} at t = {time}: hold one of these too"
             ),
+            Self::NotInertial { row, residual, time } => write!(
+                f,
+                "the generalized forces are not linear in the masses, first moments and inertias of these bodies at t = {time}: the row of {row} differs by {residual:e}; name bodies whose members `m`, `centre` and `inertia` enter by `kinetic` and by their weight alone"
+            ),
+            Self::OtherBodies => {
+                write!(f, "these regressors are of different bodies: ask for all with the same names")
+            }
+            #[cfg(feature = "alloc")]
+            Self::BaseParametersUndecided { parameter, left } => write!(
+                f,
+                "it is not decided whether {parameter} is a base parameter: {left:e} of its column is left beside those before it; give more states, with joints and velocities that vary more"
+            ),
             Self::InputsNotUnique { inputs, time } => {
                 write!(f, "many values of {inputs} give these accelerations at t = {time}: name fewer inputs")
             }

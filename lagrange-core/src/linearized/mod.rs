@@ -32,6 +32,8 @@ mod local;
 mod lyapunov;
 mod radau;
 #[cfg(feature = "alloc")]
+mod regressor;
+#[cfg(feature = "alloc")]
 mod sampled_sensitivity;
 #[cfg(feature = "alloc")]
 mod sensitivities;
@@ -72,6 +74,8 @@ pub use local::LocalCoordinates;
 #[cfg(feature = "alloc")]
 pub use lyapunov::LyapunovSpectrum;
 pub use radau::{Collocation, Radau, RadauMemory, RadauStages};
+#[cfg(feature = "alloc")]
+pub use regressor::{BaseParameters, Regressor};
 #[cfg(feature = "alloc")]
 pub use sampled_sensitivity::SampledSensitivity;
 #[cfg(feature = "alloc")]
@@ -434,6 +438,73 @@ pub trait Linearized: StateDerivatives {
         Self: Lagrangian<Scalar: Real> + Sized,
     {
         completed::complete(self, state, accelerations, held)
+    }
+
+    /// Regressor of the inertial parameters of some bodies at a state with these accelerations: the generalized forces as Y π + τ₀
+    /// (C. G. Atkeson, C. H. An and J. M. Hollerbach, "Estimation of inertial parameters of manipulator loads and links", *International
+    /// Journal of Robotics Research* 5, 1986). A body is a field, or an element of one, with the members `m`, `centre: [3]` and
+    /// `inertia: symmetric` of `kinetic(frame, body.m, body.centre, body.inertia)`.
+    ///
+    /// ```
+    /// use lagrange_core::nalgebra::{Matrix3, Vector3};
+    /// use lagrange_core::linearized::BaseParameters;
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Clone)]
+    /// struct Body { m: f64, centre: Vector3<f64>, inertia: Matrix3<f64> }
+    ///
+    /// /// Two links in a vertical plane.
+    /// #[derive(Clone, Lagrangian)]
+    /// #[coordinates(q: [2])]
+    /// #[frame(upper: rotate_z(q[0]))]
+    /// #[frame(lower in upper: translate([0.5, 0, 0]), rotate_z(q[1]))]
+    /// #[parameter(a: {m, centre: [3], inertia: symmetric})]
+    /// #[parameter(b: {m, centre: [3], inertia: symmetric})]
+    /// #[lagrangian(kinetic(upper, a.m, a.centre, a.inertia) + kinetic(lower, b.m, b.centre, b.inertia)
+    ///     - g*(a.m*position(upper, a.centre)[1] + b.m*position(lower, b.centre)[1]))]
+    /// struct Arm { a: Body, b: Body, g: f64 }
+    ///
+    /// let body = |m| Body { m, centre: Vector3::new(0.2, 0.01, 0.0), inertia: Matrix3::identity() * 0.03 * m };
+    /// let arm = Arm { a: body(2.0), b: body(1.0), g: 9.81 };
+    /// let pi = arm.inertial_parameters(&["a", "b"])?;
+    /// assert_eq!((pi[0], pi[1], pi[10]), (2.0, 0.4, 1.0)); // m(a), mc(a)[0], m(b)
+    /// let at = |k: f64| arm.regressor(&State::new([k, 2.0 - k * k], [3.0 - k, k]), &[5.0 * k, -k * k].into(), &["a", "b"]);
+    /// let regressors = (1..20).map(|k| at(0.3 * f64::from(k))).collect::<Result<Vec<_>, _>>()?;
+    /// // Of the twenty parameters six combinations can be found from motions.
+    /// let base = BaseParameters::of(&regressors)?;
+    /// assert_eq!(base.to_string().lines().collect::<Vec<_>>(), [
+    ///     "I(a)[2][2] + 0.25 m(b)", "I(b)[2][2]", "mc(a)[0] + 0.5 m(b)", "mc(a)[1]", "mc(b)[0]", "mc(b)[1]",
+    /// ]);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] and [`Error::RepeatedName`]; [`Error::ParameterFixed`]; [`Error::NotInertial`] if the parameters
+    /// enter in another way; [`Error::DerivativeNotFinite`]; with constraints, the errors of [`solve`](crate::Simulate::solve).
+    #[cfg(feature = "alloc")]
+    fn regressor(
+        &self,
+        state: &StateOf<Self>,
+        accelerations: &Vector<Self::Scalar, Self::N>,
+        bodies: &[&str],
+    ) -> Result<Regressor<Self::Scalar>, Error>
+    where
+        Self: Lagrangian<Scalar: Real> + Clone,
+    {
+        regressor::regressor(self, state, accelerations, bodies)
+    }
+
+    /// Inertial parameters π of some bodies, in the order of the columns of their [regressor](Self::regressor): mass m, first moment m c
+    /// and inertia I_O about the origin of the frame, for each.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] and [`Error::RepeatedName`].
+    #[cfg(feature = "alloc")]
+    fn inertial_parameters(&self, bodies: &[&str]) -> Result<nalgebra::DVector<Self::Scalar>, Error>
+    where
+        Self: Lagrangian<Scalar: Real> + Sized,
+    {
+        regressor::inertial_parameters(self, bodies)
     }
 
     /// Linearizes the system near a state. The inputs are the parameters of these names (`u` stands for all elements of

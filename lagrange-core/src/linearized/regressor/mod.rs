@@ -1,0 +1,214 @@
+//! Generalized forces as a linear function of the inertial parameters of bodies.
+
+mod base;
+
+use alloc::string::String;
+use alloc::vec::Vec;
+use alloc::{format, vec};
+
+use nalgebra::{ComplexField, DMatrix, DVector};
+
+pub use base::BaseParameters;
+
+use super::Linearized;
+use super::argument::check_parameters;
+use super::tangent::Tangent;
+use crate::error::Error;
+use crate::names::{Entry, Row};
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::solution::solve::first_row;
+use crate::system::{Solution, StateOf, finite::check_finite, lookup, unit};
+use crate::vector::{Array, Length, Vector, vector};
+
+/// Generalized forces τ = M q̈ − h = Y π + τ₀ at a state with given accelerations, linear in the inertial parameters π of bodies.
+///
+/// π has ten numbers for each body: its mass m, its first moment m c, and its inertia I_O about the origin of its frame, in the axes of
+/// the frame, in the order of the upper triangle. τ₀ is what other parts of the system need: springs, damping, rotors of motors, and
+/// the forces of the inputs with the opposite sign. In a motion Y π + τ₀ = Fᵀλ: without constraints zero, with constraints zero
+/// along the [`free`](Self::free) directions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Regressor<T> {
+    /// Y: one row for each coordinate, one column for each inertial parameter.
+    pub matrix: DMatrix<T>,
+    /// τ₀, the forces that do not depend on the inertial parameters.
+    pub offset: DVector<T>,
+    /// Basis of the velocities that the constraints allow, F Z = 0, one column each; without constraints the identity.
+    pub free: DMatrix<T>,
+    names: Vec<String>,
+}
+
+impl<T: Real> Regressor<T> {
+    /// Names of the inertial parameters, in the order of the columns: `m(body)`, `mc(body)[0]`, …, `I(body)[0][0]`, ….
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Zᵀ Y and Zᵀ τ₀: rows that hold whatever the forces of the constraints are. In a motion Zᵀ Y π = −Zᵀ τ₀.
+    pub fn along_free(&self) -> (DMatrix<T>, DVector<T>) {
+        (self.free.tr_mul(&self.matrix), self.free.tr_mul(&self.offset))
+    }
+}
+
+/// Entries of the upper triangle of an inertia, row by row.
+const TRIANGLE: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
+
+/// Indices of the parameters of a body: mass, centre of mass, inertia about the centre.
+type Indices = [usize; 10];
+
+/// Finds the parameters `body.m`, `body.centre` and `body.inertia` of each of these bodies.
+fn indices<L: Linearized>(bodies: &[&str]) -> Result<Vec<Indices>, Error> {
+    const { check_parameters::<L>() };
+    let repeated = bodies.iter().enumerate().find(|(k, body)| bodies[..*k].contains(body));
+    if let Some((_, body)) = repeated {
+        return Err(Error::RepeatedName { name: (*body).into() });
+    }
+    let of = |body: &&str| {
+        let mut names = vec![format!("{body}.m")];
+        names.extend((0..3).map(|k| format!("{body}.centre[{k}]")));
+        names.extend(TRIANGLE.map(|[j, k]| format!("{body}.inertia[{j}][{k}]")));
+        let mut found = [0; 10];
+        for (index, name) in found.iter_mut().zip(&names) {
+            *index = lookup::index::<L>(L::PARAMETERS, "parameter", name)?;
+        }
+        Ok(found)
+    };
+    bodies.iter().map(of).collect()
+}
+
+fn names(bodies: &[&str]) -> Vec<String> {
+    let of = |body: &&str| {
+        let mut names = vec![format!("m({body})")];
+        names.extend((0..3).map(|k| format!("mc({body})[{k}]")));
+        names.extend(TRIANGLE.map(|[j, k]| format!("I({body})[{j}][{k}]")));
+        names
+    };
+    bodies.iter().flat_map(of).collect()
+}
+
+/// Inertial parameters (m, m c, I_O) of a body with these parameters (m, c, I about c), by Steiner's theorem.
+fn inertial<T: Real>(values: [T; 10]) -> [T; 10] {
+    let (m, c) = (values[0], &values[1..4]);
+    let square = c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+    core::array::from_fn(|k| match k {
+        0 => m,
+        1..4 => m * c[k - 1],
+        _ => {
+            let [i, j] = TRIANGLE[k - 4];
+            let across = if i == j { square } else { T::constant(0.0) };
+            values[k] + m * (across - c[i] * c[j])
+        }
+    })
+}
+
+/// See [`Linearized::inertial_parameters`].
+pub(super) fn inertial_parameters<L: Linearized<Scalar: Real>>(
+    system: &L,
+    bodies: &[&str],
+) -> Result<DVector<L::Scalar>, Error> {
+    let values = system.parameters();
+    let all = indices::<L>(bodies)?;
+    let all = all.iter().flat_map(|body| inertial(body.map(|k| values[k])));
+    Ok(DVector::from_iterator(10 * bodies.len(), all))
+}
+
+/// See [`Linearized::regressor`].
+pub(super) fn regressor<L: Linearized<Scalar: Real> + Clone>(
+    system: &L,
+    state: &StateOf<L>,
+    accelerations: &Vector<L::Scalar, L::N>,
+    bodies: &[&str],
+) -> Result<Regressor<L::Scalar>, Error> {
+    check_finite(system, state)?;
+    let all = indices::<L>(bodies)?;
+    let matrix = columns(system, state, accelerations, &all)?;
+    let offset = forces(&with(system, &all, 0.0)?, state, accelerations);
+    let expected = &matrix * inertial_parameters(system, bodies)? + &offset;
+    check::<L>(&forces(system, state, accelerations), &expected, (&matrix, &offset), state)?;
+    Ok(Regressor { matrix, offset, free: free(system, state)?, names: names(bodies) })
+}
+
+/// τ = M q̈ − h.
+fn forces<L: Linearized<Scalar: Real>>(
+    system: &L,
+    state: &StateOf<L>,
+    accelerations: &Vector<L::Scalar, L::N>,
+) -> DVector<L::Scalar> {
+    let none = vector(Array::filled(L::Scalar::constant(0.0)));
+    let forces = system.inverse_dynamics(state, accelerations, &none);
+    DVector::from_iterator(<L::N>::COUNT, forces.iter().copied())
+}
+
+/// The system whose bodies have this mass at the origins of their frames, without inertia.
+fn with<L: Linearized<Scalar: Real> + Clone>(system: &L, bodies: &[Indices], mass: f64) -> Result<L, Error> {
+    let mut bare = system.clone();
+    for (k, &index) in bodies.iter().flat_map(|body| body.iter().enumerate()) {
+        let value = L::Scalar::constant(if k == 0 { mass } else { 0.0 });
+        if !bare.set_parameter(index, value) {
+            return Err(Error::ParameterFixed { name: L::PARAMETERS[index] });
+        }
+    }
+    Ok(bare)
+}
+
+/// Y, from the derivatives by m, c and I at m = 1, c = 0 and I = 0: there they are those by m, m c and I_O.
+fn columns<L: Linearized<Scalar: Real> + Clone>(
+    system: &L,
+    state: &StateOf<L>,
+    accelerations: &Vector<L::Scalar, L::N>,
+    bodies: &[Indices],
+) -> Result<DMatrix<L::Scalar>, Error> {
+    let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
+    let points = with(system, bodies, 1.0)?;
+    let here = Solution {
+        accelerations: *accelerations,
+        multipliers: vector(Array::filled(zero)),
+        pivot: one,
+        rank: <L::M>::COUNT,
+    };
+    let mut matrix = DMatrix::from_element(<L::N>::COUNT, 10 * bodies.len(), zero);
+    for (column, &index) in bodies.iter().flatten().enumerate() {
+        let change = points.residual_change_by_parameters(state, &here, &unit(index)).motion;
+        if let Some(row) = first_row::<L>(|i| !change[i].is_finite(), |_| false) {
+            let entry = Entry::Parameter(L::PARAMETERS[index]);
+            return Err(Error::DerivativeNotFinite { row, entry, time: state.t.to_f64() });
+        }
+        matrix.column_mut(column).copy_from_slice(change.as_slice());
+    }
+    Ok(matrix)
+}
+
+/// Requires each row of τ to be what Y π + τ₀ says, to √ε of its terms.
+fn check<L: Linearized<Scalar: Real>>(
+    forces: &DVector<L::Scalar>,
+    expected: &DVector<L::Scalar>,
+    (matrix, offset): (&DMatrix<L::Scalar>, &DVector<L::Scalar>),
+    state: &StateOf<L>,
+) -> Result<(), Error> {
+    let most = matrix
+        .iter()
+        .chain(offset)
+        .chain(forces)
+        .fold(L::Scalar::constant(0.0), |most, x| larger(most, Scalar::abs(*x)));
+    let is_off = |i: &usize| {
+        let allowed = power_of_epsilon::<L::Scalar>(0.5) * most;
+        !(Scalar::abs(forces[*i] - expected[*i]) <= allowed)
+    };
+    match (0..forces.len()).find(is_off) {
+        None => Ok(()),
+        Some(i) => Err(Error::NotInertial {
+            row: Row::Coordinate(L::COORDINATES[i]),
+            residual: (forces[i] - expected[i]).to_f64(),
+            time: state.t.to_f64(),
+        }),
+    }
+}
+
+/// Basis of the velocities that the constraints allow.
+fn free<L: Linearized<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Result<DMatrix<L::Scalar>, Error> {
+    if const { <L::M>::COUNT == 0 } {
+        return Ok(DMatrix::identity(<L::N>::COUNT, <L::N>::COUNT));
+    }
+    let tangent = Tangent::at(system, state)?;
+    let columns: Vec<_> = tangent.matrices().factors.rows.null_space().collect();
+    Ok(DMatrix::from_fn(<L::N>::COUNT, columns.len(), |i, j| columns[j][i]))
+}
