@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::singular::Singular;
 use crate::error::Error;
 use crate::names::Row;
-use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::number::{Real, Scalar, exceeds, larger, power_of_epsilon};
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, StateOf, finite::check_finite, lookup};
 use crate::vector::{Length, Vector};
@@ -94,7 +94,7 @@ impl<T: Real> Demands<T> {
         for a in 0..left.len() {
             let terms = (0..<L::N>::COUNT).map(|i| Scalar::abs(self.f[(a, i)] * accelerations[i]));
             let most = terms.fold(Scalar::abs(self.gamma[a]), larger);
-            if !(Scalar::abs(left[a]) <= power_of_epsilon::<T>(0.5) * most) {
+            if exceeds(Scalar::abs(left[a]), power_of_epsilon::<T>(0.5) * most) {
                 let (row, residual) =
                     (Row::Constraint(L::CONSTRAINTS[a]), (left[a] * self.lengths[a]).to_f64());
                 return Err(Error::NotRealizable { row, residual, time: self.time });

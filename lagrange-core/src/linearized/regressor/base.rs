@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::Regressor;
 use crate::error::Error;
-use crate::number::{Real, larger, power_of_epsilon};
+use crate::number::{Real, exceeds, larger, power_of_epsilon};
 
 /// The combinations β = C π of inertial parameters that the forces at some states depend on, and no more.
 ///
@@ -108,7 +108,7 @@ impl<T: Real> Basis<T> {
             self.rows.push((j, along));
             return Ok(());
         }
-        if !(left >= length * power_of_epsilon::<T>(0.25)) {
+        if exceeds(length * power_of_epsilon::<T>(0.25), left) {
             return Err(Error::BaseParametersUndecided {
                 parameter: name.into(),
                 left: (left / length).to_f64(),

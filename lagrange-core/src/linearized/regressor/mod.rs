@@ -15,7 +15,7 @@ use super::argument::check_parameters;
 use super::tangent::Tangent;
 use crate::error::Error;
 use crate::names::{Entry, Row};
-use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::number::{Real, Scalar, exceeds, larger, power_of_epsilon};
 use crate::solution::solve::first_row;
 use crate::system::{Solution, StateOf, finite::check_finite, lookup, unit};
 use crate::vector::{Array, Length, Vector, vector};
@@ -191,7 +191,7 @@ fn check<L: Linearized<Scalar: Real>>(
         .fold(L::Scalar::constant(0.0), |most, x| larger(most, Scalar::abs(*x)));
     let is_off = |i: &usize| {
         let allowed = power_of_epsilon::<L::Scalar>(0.5) * most;
-        !(Scalar::abs(forces[*i] - expected[*i]) <= allowed)
+        exceeds(Scalar::abs(forces[*i] - expected[*i]), allowed)
     };
     match (0..forces.len()).find(is_off) {
         None => Ok(()),
