@@ -173,6 +173,8 @@ pub mod linearized;
 pub mod motion;
 mod names;
 pub mod number;
+#[cfg(feature = "alloc")]
+pub mod orbits;
 pub mod prelude;
 mod room;
 mod solution;

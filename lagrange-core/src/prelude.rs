@@ -15,6 +15,8 @@ pub use crate::motion::Taylor;
 pub use crate::motion::{DAlembert, Dop853, Dopri5, Gauss, Lobatto, Motion, RungeKutta4, Verlet};
 pub use crate::number::Scalar;
 #[cfg(feature = "alloc")]
+pub use crate::orbits::PeriodicMotion;
+#[cfg(feature = "alloc")]
 pub use crate::trajectory::Trajectory;
 // Both the trait and the derive macro.
 pub use crate::Lagrangian;

@@ -276,7 +276,7 @@ const CONSTANTS: [&str; 20] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
-const PROVIDED: [&str; 46] = [
+const PROVIDED: [&str; 48] = [
     "inertial_parameters",
     "regressor",
     "complete_accelerations",
@@ -323,6 +323,8 @@ const PROVIDED: [&str; 46] = [
     "linearize",
     "equilibrium",
     "series_functions",
+    "monodromy",
+    "monodromy_across",
 ];
 
 /// Inherent function of the struct, and methods of traits that other derives implement.
@@ -436,7 +438,7 @@ mod tests {
                 _ => None,
             }));
         }
-        for name in ["Simulate", "Hamiltonian", "MotionDerivatives"] {
+        for name in ["Simulate", "Hamiltonian", "MotionDerivatives", "PeriodicMotion"] {
             provided.extend(methods(&traits[name]).into_keys());
         }
         let sorted = |names: &[&str]| {

@@ -84,6 +84,8 @@ pub use sensitivities::TrajectorySensitivity;
 pub use sensitivity::StateSensitivity;
 #[cfg(feature = "alloc")]
 pub use spectrum::Stability;
+#[cfg(feature = "alloc")]
+pub(crate) use spectrum::eigenvalues;
 pub use state_derivatives::StateDerivatives;
 #[cfg(feature = "alloc")]
 pub use variation::DifferentiableMethod;

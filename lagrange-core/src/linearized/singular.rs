@@ -18,17 +18,17 @@ const SWEEPS: usize = 30;
 
 /// A singular value decomposition, with the singular values unsorted. Squares of entries must be finite; callers scale
 /// columns by their lengths.
-pub(super) struct Singular<T> {
+pub(crate) struct Singular<T> {
     rows: usize,
     /// A V stacked on V; rotations act on both.
     columns: DMatrix<T>,
     /// Singular values σ, one for each column of A.
-    pub(super) values: Vec<T>,
+    pub(crate) values: Vec<T>,
 }
 
 impl<T: Real> Singular<T> {
     /// Decomposes `a`; `None` if an entry is not finite, or if the rotations do not converge.
-    pub(super) fn of(a: &DMatrix<T>) -> Option<Self> {
+    pub(crate) fn of(a: &DMatrix<T>) -> Option<Self> {
         if !a.iter().all(|x| x.is_finite()) {
             return None;
         }
@@ -45,17 +45,17 @@ impl<T: Real> Singular<T> {
     }
 
     /// Largest singular value.
-    pub(super) fn norm(&self) -> T {
+    pub(crate) fn norm(&self) -> T {
         self.values.iter().fold(T::constant(0.0), |most, x| larger(most, *x))
     }
 
     /// Entry `j` of the right singular vector v_k.
-    pub(super) fn direction(&self, k: usize, j: usize) -> T {
+    pub(crate) fn direction(&self, k: usize, j: usize) -> T {
         self.columns[(self.rows + j, k)]
     }
 
     /// σ_k u_k·b, the component of b along the left singular vector u_k, times σ_k.
-    pub(super) fn along(&self, k: usize, b: impl Iterator<Item = T>) -> T {
+    pub(crate) fn along(&self, k: usize, b: impl Iterator<Item = T>) -> T {
         b.zip(self.columns.column(k).iter())
             .take(self.rows)
             .fold(T::constant(0.0), |sum, (x, y)| sum + x * *y)

@@ -32,15 +32,7 @@ impl<T: Real> Linearization<T> {
     /// # Errors
     /// [`Error::EigenvaluesNotFound`] if the QR iteration does not converge, or if an entry of A is not finite.
     pub fn eigenvalues(&self) -> Result<Vec<Complex<T>>, Error> {
-        if self.a.is_empty() {
-            return Ok(Vec::new());
-        }
-        let balanced = balanced(self.a.clone());
-        // Scale by a unit of time in which no square overflows.
-        let unit = power_of_two(balanced.amax());
-        let balanced = balanced / unit;
-        let mut found = francis::eigenvalues(balanced).ok_or(Error::EigenvaluesNotFound)?;
-        found.iter_mut().for_each(|s| *s = Complex::new(s.re * unit, s.im * unit));
+        let mut found = eigenvalues(&self.a)?;
         found.sort_by(|x, y| order(y.re, x.re).then(order(y.im, x.im)));
         Ok(found)
     }
@@ -81,6 +73,19 @@ impl<T: Real> Linearization<T> {
             None => Stability::AsymptoticallyStable,
         })
     }
+}
+
+/// Eigenvalues of a square matrix, as accurate as those of a [`Linearization`], in no particular order.
+pub(crate) fn eigenvalues<T: Real>(a: &DMatrix<T>) -> Result<Vec<Complex<T>>, Error> {
+    if a.is_empty() {
+        return Ok(Vec::new());
+    }
+    let balanced = balanced(a.clone());
+    // Scale by a unit of time in which no square overflows.
+    let unit = power_of_two(balanced.amax());
+    let mut found = francis::eigenvalues(balanced / unit).ok_or(Error::EigenvaluesNotFound)?;
+    found.iter_mut().for_each(|s| *s = Complex::new(s.re * unit, s.im * unit));
+    Ok(found)
 }
 
 /// Balances a matrix: D⁻¹ A D with a diagonal D of powers of 2 makes rows as large as columns (Parlett and Reinsch,

@@ -1,0 +1,7 @@
+//! Orbits that close: monodromy matrices, periodic orbits, and families of them.
+
+// What helps tests may panic as they do.
+#![allow(clippy::unwrap_used)]
+
+mod monodromy;
+mod systems;

@@ -1,0 +1,23 @@
+//! Systems of the tests, and the motions that are known of them.
+
+use lagrange_core::prelude::*;
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 + 1/sqrt(x^2 + y^2))]
+pub(crate) struct Planet;
+
+/// Three equal masses in a plane.
+#[derive(Clone, Lagrangian)]
+#[coordinates(a: [2], b: [2], c: [2])]
+#[lagrangian((dot(a_dot, a_dot) + dot(b_dot, b_dot) + dot(c_dot, c_dot))/2 + 1/norm(a - b) + 1/norm(b - c) + 1/norm(c - a))]
+pub(crate) struct ThreeMasses;
+
+/// The figure of eight (Chenciner and Montgomery, *Annals of Mathematics* 152, 2000): start and period by `recompute.py`, of which the
+/// first eight digits are those published.
+pub(crate) const EIGHT: [f64; 5] = [0.970_004_36, -0.243_087_53, 0.466_203_685, 0.432_365_73, 6.325_913_98];
+
+pub(crate) fn eight() -> (State<f64, 6>, f64) {
+    let [x, y, vx, vy, period] = EIGHT;
+    (State::new([x, y, -x, -y, 0.0, 0.0], [vx, vy, vx, vy, -2.0 * vx, -2.0 * vy]), period)
+}
