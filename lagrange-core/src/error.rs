@@ -302,6 +302,9 @@ pub enum Error {
         /// The sample time.
         time: f64,
     },
+    /// No periodic orbit was found, or it has no family.
+    #[cfg(feature = "alloc")]
+    Orbit(Box<crate::orbits::OrbitError>),
     /// An error of an ensemble as a whole, or of one of its members.
     #[cfg(feature = "std")]
     Ensemble(EnsembleError),

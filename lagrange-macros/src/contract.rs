@@ -276,7 +276,7 @@ const CONSTANTS: [&str; 20] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
-const PROVIDED: [&str; 48] = [
+const PROVIDED: [&str; 49] = [
     "inertial_parameters",
     "regressor",
     "complete_accelerations",
@@ -325,6 +325,7 @@ const PROVIDED: [&str; 48] = [
     "series_functions",
     "monodromy",
     "monodromy_across",
+    "periodic_orbit",
 ];
 
 /// Inherent function of the struct, and methods of traits that other derives implement.

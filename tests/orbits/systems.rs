@@ -15,7 +15,13 @@ pub(crate) struct ThreeMasses;
 
 /// The figure of eight (Chenciner and Montgomery, *Annals of Mathematics* 152, 2000): start and period by `recompute.py`, of which the
 /// first eight digits are those published.
-pub(crate) const EIGHT: [f64; 5] = [0.970_004_36, -0.243_087_53, 0.466_203_685, 0.432_365_73, 6.325_913_98];
+pub(crate) const EIGHT: [f64; 5] = [
+    0.970_004_36,
+    -0.243_087_538_924_877_45,
+    0.466_203_687_306_882_35,
+    0.432_365_726_412_457_87,
+    6.325_914_030_368_495,
+];
 
 pub(crate) fn eight() -> (State<f64, 6>, f64) {
     let [x, y, vx, vy, period] = EIGHT;

@@ -163,6 +163,8 @@ impl Display for Error {
                 f,
                 "the sample time {index} (counted from 0) is {time}: give finite times in the order of the motion"
             ),
+            #[cfg(feature = "alloc")]
+            Self::Orbit(error) => write!(f, "{error}"),
             #[cfg(feature = "std")]
             Self::Ensemble(error) => write!(f, "{error}"),
             Self::Restitution { constraint, value } => write!(

@@ -83,6 +83,8 @@ pub use sensitivities::TrajectorySensitivity;
 #[cfg(feature = "alloc")]
 pub use sensitivity::StateSensitivity;
 #[cfg(feature = "alloc")]
+pub(crate) use singular::Singular;
+#[cfg(feature = "alloc")]
 pub use spectrum::Stability;
 #[cfg(feature = "alloc")]
 pub(crate) use spectrum::eigenvalues;

@@ -2,11 +2,22 @@
 //!
 //! [`PeriodicMotion`] is the way in, a trait of every [`Linearized`] system over `f64` or `f32`.
 
+mod conditions;
+mod correction;
+mod error;
 mod form;
+mod frame;
+mod leg;
 mod monodromy;
 mod multipliers;
+mod orbit;
+mod search;
+mod shot;
 
+pub use error::OrbitError;
 pub use monodromy::Monodromy;
+pub use orbit::PeriodicOrbit;
+pub use search::OrbitSearch;
 
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, MotionDerivatives, StateSensitivity};
@@ -94,6 +105,31 @@ pub trait PeriodicMotion: Linearized<Scalar: Real> + Sized {
         end: &StateSensitivity<Self::Scalar, Self::N>,
     ) -> Result<Monodromy<Self::Scalar>, Error> {
         monodromy::across(self, start, end)
+    }
+
+    /// Starts the settings of a search for a periodic orbit near a state: what is known of its period, its symmetry, its energy, and
+    /// by which method and in how many segments it is computed. [`find`](OrbitSearch::find) searches.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Clone, Lagrangian)]
+    /// #[coordinates(theta)]
+    /// #[lagrangian(theta_dot^2/2 + cos(theta))]
+    /// struct Pendulum;
+    ///
+    /// // Released at 1 rad; its period is 4 K(sin ½).
+    /// let guess = State::at_rest([1.0]);
+    /// let swing = Pendulum.periodic_orbit(&guess).period_near(6.6).energy(-(1.0_f64.cos())).find()?;
+    /// assert!((swing.period - 6.699_975_664_370_453).abs() < 1e-11);
+    /// assert!(swing.error < 1e-11);
+    /// # Ok::<(), Error>(())
+    /// ```
+    fn periodic_orbit(&self, guess: &StateOf<Self>) -> OrbitSearch<Self>
+    where
+        Self: Clone,
+    {
+        OrbitSearch::new(self, guess)
     }
 }
 

@@ -1,0 +1,237 @@
+//! Newton's method with damped least steps (Levenberg and Marquardt) for the conditions on an orbit.
+//!
+//! The damping is proportional to the residual, so the convergence is quadratic to orbits that fill a family too (Fan and Yuan,
+//! *Computing* 74, 2005). The iteration ends when a step no longer halves the residual: at the noise of the method.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::OrbitError;
+use super::frame::{flat, size};
+use super::shot::{Chain, Problem, Shot, least_step};
+use crate::error::Error;
+use crate::linearized::{DifferentiableMethod, Linearized};
+use crate::number::{Real, Scalar, larger};
+use crate::vector::Length;
+
+/// Steps allowed. Ten are usual; a search that takes more has left the neighbourhood of its guess.
+const STEPS: usize = 50;
+
+/// Dampings tried at a step, each ten times the one before.
+const DAMPINGS: usize = 10;
+
+/// Point of a family from which the next is sought, at a given arclength.
+#[derive(Clone, Debug)]
+pub(super) struct Arc<T> {
+    /// Direction of the family, of length 1, in the unknowns at the base.
+    pub(super) tangent: DVector<T>,
+    /// B⁺ at the base, and its start.
+    pub(super) dual: DMatrix<T>,
+    pub(super) start: DVector<T>,
+    pub(super) period: T,
+    /// Value of the parameter at the base, and its unit.
+    pub(super) parameter: (T, T),
+    /// Arclength from the base.
+    pub(super) length: T,
+}
+
+impl<T: Real> Arc<T> {
+    pub(super) fn from<L: Linearized<Scalar = T> + Clone>(
+        problem: &Problem<T>,
+        shot: &Shot<L>,
+        tangent: DVector<T>,
+    ) -> Self {
+        Self {
+            tangent,
+            dual: shot.frames[0].dual.clone(),
+            start: flat::<L>(&shot.chain.nodes[0]),
+            period: shot.chain.period,
+            parameter: problem.parameter_of(&shot.chain.system),
+            length: T::constant(0.0),
+        }
+    }
+
+    /// Direction at the base in the unknowns of another shot.
+    pub(super) fn along<L: Linearized<Scalar = T> + Clone>(
+        &self,
+        problem: &Problem<T>,
+        shot: &Shot<L>,
+    ) -> DVector<T> {
+        let count = shot.frames[0].count();
+        let components = (self.tangent.rows(0, count).transpose() * &self.dual) * &shot.frames[0].basis;
+        let mut along = self.tangent.clone();
+        along.rows_mut(0, count).copy_from(&components.transpose());
+        if problem.conditions.period_is_free() {
+            along[count] *= shot.chain.period / self.period;
+        }
+        if let Some(column) = problem.parameter_column(count) {
+            along[column] *= problem.parameter_of(&shot.chain.system).1 / self.parameter.1;
+        }
+        along
+    }
+
+    /// Arclength of a shot less the one demanded.
+    fn residual<L: Linearized<Scalar = T> + Clone>(&self, problem: &Problem<T>, shot: &Shot<L>) -> T {
+        let count = shot.frames[0].count();
+        let moved = &self.dual * (flat::<L>(&shot.chain.nodes[0]) - &self.start);
+        let mut length = self.tangent.rows(0, count).dot(&moved);
+        if problem.conditions.period_is_free() {
+            length += self.tangent[count] * (shot.chain.period / self.period - T::constant(1.0));
+        }
+        if let Some(column) = problem.parameter_column(count) {
+            let value = problem.parameter_of(&shot.chain.system).0;
+            length += self.tangent[column] * (value - self.parameter.0) / self.parameter.1;
+        }
+        length - self.length
+    }
+}
+
+impl<T: Real> Problem<T> {
+    /// Conditions of a shot with those of the arclength, and their derivatives.
+    fn bordered<L: Linearized<Scalar = T> + Clone>(
+        &self,
+        shot: &Shot<L>,
+        arc: Option<&Arc<T>>,
+    ) -> (DMatrix<T>, DVector<T>) {
+        let right = shot.condensed(&self.conditions.mirror);
+        let Some(arc) = arc else { return (shot.jacobian.clone(), right) };
+        (self.with_row(shot, &arc.along(self, shot)), right.push(arc.residual(self, shot)))
+    }
+
+    /// The derivatives with one row more.
+    pub(super) fn with_row<L: Linearized<Scalar = T>>(&self, shot: &Shot<L>, row: &DVector<T>) -> DMatrix<T> {
+        let rows = shot.jacobian.nrows();
+        let mut bordered = shot.jacobian.clone().insert_row(rows, T::constant(0.0));
+        bordered.row_mut(rows).copy_from(&row.transpose());
+        bordered
+    }
+
+    /// Corrects a chain until its gaps stay.
+    pub(super) fn correct<L, D>(
+        &self,
+        chain: Chain<L>,
+        method: &D,
+        arc: Option<&Arc<T>>,
+        tolerance: T,
+    ) -> Result<(Shot<L>, usize), Error>
+    where
+        L: Linearized<Scalar = T> + Clone,
+        D: DifferentiableMethod<L> + Clone,
+    {
+        let distance = |shot: &Shot<L>| {
+            let along = arc.map_or(T::constant(0.0), |arc| arc.residual(self, shot));
+            let found = shot.distance();
+            Scalar::sqrt(found * found + along * along)
+        };
+        let mut shot = self.shoot(chain, method)?;
+        let (mut damping, span) = (T::constant(1e-3), shot.chain.period);
+        for step in 0..STEPS {
+            let before = distance(&shot);
+            if before <= T::constant(2.0 * T::EPSILON) {
+                return Ok((shot, step));
+            }
+            let (matrix, right) = self.bordered(&shot, arc);
+            let mut failure = None;
+            let next = (0..DAMPINGS).find_map(|_| {
+                let trial = self.trial(&shot, &matrix, &right, damping * before, method, span);
+                match trial {
+                    Ok(next) if distance(&next) < before => Some(next),
+                    other => {
+                        failure = other.err().or(failure.take());
+                        damping *= T::constant(10.0);
+                        None
+                    }
+                }
+            });
+            damping = larger(damping * T::constant(0.1), T::constant(1e-3));
+            let is_small = before <= tolerance;
+            match next {
+                Some(next) => {
+                    let stands = distance(&next) > T::constant(0.5) * before;
+                    shot = next;
+                    if is_small && stands {
+                        return Ok((shot, step + 1));
+                    }
+                }
+                None if is_small => return Ok((shot, step)),
+                None => return Err(failure.unwrap_or_else(|| self.not_closed(&shot, step))),
+            }
+        }
+        if distance(&shot) <= tolerance { Ok((shot, STEPS)) } else { Err(self.not_closed(&shot, STEPS)) }
+    }
+
+    fn trial<L, D>(
+        &self,
+        shot: &Shot<L>,
+        matrix: &DMatrix<T>,
+        right: &DVector<T>,
+        damping: T,
+        method: &D,
+        span: T,
+    ) -> Result<Shot<L>, Error>
+    where
+        L: Linearized<Scalar = T> + Clone,
+        D: DifferentiableMethod<L> + Clone,
+    {
+        let step = least_step(matrix, right, damping, T::constant(T::EPSILON))?;
+        let chain = self.moved_by(shot, &step, true)?;
+        // A period that shrinks to nothing closes every motion.
+        let ratio = chain.period / span;
+        if !(ratio > T::constant(0.1) && ratio < T::constant(10.0)) {
+            return Err(OrbitError::PeriodLost { guess: span.to_f64(), period: chain.period.to_f64() }.into());
+        }
+        self.shoot(chain, method)
+    }
+
+    pub(super) fn not_closed<L: Linearized<Scalar = T> + Clone>(
+        &self,
+        shot: &Shot<L>,
+        steps: usize,
+    ) -> Error {
+        let (entry, gap) = shot.worst(&self.conditions);
+        OrbitError::NotClosed {
+            entry: Shot::<L>::entry(entry),
+            gap: gap.to_f64(),
+            iterations: steps,
+            start: (0..2 * <L::N>::COUNT)
+                .map(|i| {
+                    let value = flat::<L>(&shot.chain.nodes[0])[i];
+                    alloc::format!("{} = {:?}", Shot::<L>::entry(i), value.to_f64())
+                })
+                .collect(),
+            period: shot.chain.period.to_f64(),
+        }
+        .into()
+    }
+
+    /// Estimate of the distance from a true orbit: the largest change of a node, or of the period, by a step that would remove the gaps
+    /// and the errors of the method.
+    pub(super) fn error_of<L, D>(&self, shot: &Shot<L>, method: &D) -> Result<T, Error>
+    where
+        L: Linearized<Scalar = T> + Clone,
+        D: DifferentiableMethod<L> + Clone,
+    {
+        let mut gaps = shot.gaps.clone();
+        let mut closing = shot.closing.clone();
+        for (k, leg) in shot.legs.iter().enumerate() {
+            let trip = leg.round_trip(&shot.chain.system, &shot.chain.nodes[k], method.clone())?;
+            let at_the_end = &leg.by_state * trip;
+            match gaps.get_mut(k) {
+                Some(gap) => *gap += &shot.frames[k + 1].dual * at_the_end,
+                None => {
+                    let components = &shot.frames[0].dual * at_the_end;
+                    let mut rows = closing.rows_mut(0, components.len());
+                    rows += components;
+                }
+            }
+        }
+        let offsets = shot.offsets_of(&gaps);
+        let right = closing + shot.folded(&offsets[offsets.len() - 1], &self.conditions.mirror);
+        let step =
+            least_step(&shot.jacobian, &right, T::constant(0.0), crate::number::power_of_epsilon(0.5))?;
+        let moves = offsets.iter().zip(&shot.spread).map(|(offset, spread)| (spread * &step + offset).amax());
+        let moved = moves.fold(T::constant(0.0), larger);
+        let count = shot.frames[0].count();
+        let later = if self.conditions.period_is_free() { size(step[count]) } else { T::constant(0.0) };
+        Ok(larger(moved, later))
+    }
+}

@@ -1,0 +1,105 @@
+//! Errors of searches for periodic orbits.
+
+use alloc::{string::String, vec::Vec};
+use core::fmt::{self, Display, Formatter};
+
+use crate::error::{Entry, Error};
+
+/// Reason why no periodic orbit was found, or why a family does not start.
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq)]
+pub enum OrbitError {
+    /// No period was given, nor a guess of it.
+    NoPeriod,
+    /// The equations depend on the time, so that the period cannot be found.
+    Clock {
+        /// Period guessed.
+        period: f64,
+    },
+    /// The orbit does not close.
+    NotClosed {
+        /// Entry of the state with the largest gap in the units of the orbit.
+        entry: Entry,
+        /// That gap.
+        gap: f64,
+        /// Steps done.
+        iterations: usize,
+        /// Best start found, as text: `x = 1.5`.
+        start: Vec<String>,
+        /// Period there.
+        period: f64,
+    },
+    /// The period shrinks, or grows, to a tenth or ten times of the guess.
+    PeriodLost {
+        /// Period guessed.
+        guess: f64,
+        /// Last period tried.
+        period: f64,
+    },
+    /// The orbit shrinks to an equilibrium, which closes after any time.
+    Equilibrium {
+        /// Period of the search.
+        period: f64,
+        /// Largest velocity left.
+        velocity: f64,
+    },
+    /// The motion after half a period is not the mirror image of the half before.
+    NotMirrored {
+        /// Entry of the state that differs most.
+        entry: Entry,
+        /// Its difference.
+        gap: f64,
+        /// Period of the half that was found, doubled.
+        period: f64,
+    },
+    /// The orbits near this one form no curve, but are isolated or fill a surface.
+    NoFamily {
+        /// Unknowns less independent conditions, which should be 1.
+        freedom: usize,
+    },
+}
+
+impl Display for OrbitError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoPeriod => write!(
+                f,
+                "the period of the orbit is not known: guess it by `period_near`, or fix it by `period` or `driven_by`"
+            ),
+            Self::Clock { period } => write!(
+                f,
+                "the equations depend on the time, so that no other period than that of their clock closes an orbit: in place of the guess {period} give it by `period` or `driven_by`"
+            ),
+            Self::NotClosed { entry, gap, iterations, start, period } => write!(
+                f,
+                "no periodic orbit found: after {iterations} steps `{entry}` misses by {gap:e} with the period {period}, from {}; start closer, divide the orbit into more `segments`, or take a method of a smaller tolerance",
+                start.join(", ")
+            ),
+            Self::PeriodLost { guess, period } => write!(
+                f,
+                "the period goes from the guess {guess} to {period}, where the orbit is an equilibrium or another one: start closer, or fix the period or the energy"
+            ),
+            Self::Equilibrium { period, velocity } => write!(
+                f,
+                "no orbit of the period {period} near the guess but an equilibrium, with velocities of {velocity:e}: give another period, or fix the energy"
+            ),
+            Self::NotMirrored { entry, gap, period } => write!(
+                f,
+                "the second half of the orbit of period {period} is not the mirror image of the first: `{entry}` differs by {gap:e}; the equations do not have this symmetry, so name other entries in `mirrored`, or none"
+            ),
+            Self::NoFamily { freedom: 0 } => {
+                write!(f, "the orbit is isolated: continue it in a parameter, or free its period or energy")
+            }
+            Self::NoFamily { freedom } => write!(
+                f,
+                "the orbits near this one fill a space of {freedom} dimensions: fix the energy or the period, name a symmetry by `mirrored`, or take coordinates without what is conserved"
+            ),
+        }
+    }
+}
+
+impl From<OrbitError> for Error {
+    fn from(error: OrbitError) -> Self {
+        Self::Orbit(alloc::boxed::Box::new(error))
+    }
+}
