@@ -10,7 +10,7 @@ use super::frame::{flat, size};
 use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized};
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, norm};
 use crate::vector::Length;
 
 /// Steps allowed. Ten are usual; a search that takes more has left the neighbourhood of its guess.
@@ -67,6 +67,19 @@ impl<T: Real> Arc<T> {
             along[column] *= problem.parameter_of(&shot.chain.system).1 / self.parameter.1;
         }
         along
+    }
+
+    /// True if a shot is within a step of the base, and has not just left it: on its way back.
+    pub(super) fn is_met<L: Linearized<Scalar = T> + Clone>(
+        &self,
+        problem: &Problem<T>,
+        shot: &Shot<L>,
+        step: T,
+    ) -> bool {
+        let moved = &self.dual * (flat::<L>(&shot.chain.nodes[0]) - &self.start);
+        let period = shot.chain.period / self.period - T::constant(1.0);
+        let parameter = (problem.parameter_of(&shot.chain.system).0 - self.parameter.0) / self.parameter.1;
+        norm(&[moved.norm(), period, parameter]) < step && self.residual(problem, shot) <= T::constant(0.0)
     }
 
     /// Arclength of a shot less the one demanded.
@@ -130,8 +143,10 @@ impl<T: Real> Problem<T> {
                 return Ok((shot, step));
             }
             let (matrix, right) = self.bordered(&shot, arc);
+            let is_small = before <= tolerance;
             let mut failure = None;
-            let next = (0..DAMPINGS).find_map(|_| {
+            // A residual that may be noise is not worth more than one try.
+            let next = (0..if is_small { 1 } else { DAMPINGS }).find_map(|_| {
                 let trial = self.trial(&shot, &matrix, &right, damping * before, method, span);
                 match trial {
                     Ok(next) if distance(&next) < before => Some(next),
@@ -143,7 +158,6 @@ impl<T: Real> Problem<T> {
                 }
             });
             damping = larger(damping * T::constant(0.1), T::constant(1e-3));
-            let is_small = before <= tolerance;
             match next {
                 Some(next) => {
                     let stands = distance(&next) > T::constant(0.5) * before;

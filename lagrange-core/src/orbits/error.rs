@@ -3,6 +3,7 @@
 use alloc::{string::String, vec::Vec};
 use core::fmt::{self, Display, Formatter};
 
+use super::bifurcation::BifurcationKind;
 use crate::error::{Entry, Error};
 
 /// Reason why no periodic orbit was found, or why a family does not start.
@@ -52,6 +53,11 @@ pub enum OrbitError {
         /// Period of the half that was found, doubled.
         period: f64,
     },
+    /// No family leaves at a bifurcation of this kind.
+    NoBranch {
+        /// The kind.
+        kind: BifurcationKind,
+    },
     /// The orbits near this one form no curve, but are isolated or fill a surface.
     NoFamily {
         /// Unknowns less independent conditions, which should be 1.
@@ -86,6 +92,10 @@ impl Display for OrbitError {
             Self::NotMirrored { entry, gap, period } => write!(
                 f,
                 "the second half of the orbit of period {period} is not the mirror image of the first: `{entry}` differs by {gap:e}; the equations do not have this symmetry, so name other entries in `mirrored`, or none"
+            ),
+            Self::NoBranch { kind } => write!(
+                f,
+                "no family of periodic orbits leaves at a {kind}: follow the one of a branch point or of a period doubling"
             ),
             Self::NoFamily { freedom: 0 } => {
                 write!(f, "the orbit is isolated: continue it in a parameter, or free its period or energy")

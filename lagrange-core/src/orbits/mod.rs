@@ -2,9 +2,11 @@
 //!
 //! [`PeriodicMotion`] is the way in, a trait of every [`Linearized`] system over `f64` or `f32`.
 
+mod bifurcation;
 mod conditions;
 mod correction;
 mod error;
+mod family;
 mod form;
 mod frame;
 mod leg;
@@ -13,11 +15,15 @@ mod multipliers;
 mod orbit;
 mod search;
 mod shot;
+mod table;
 
+pub use bifurcation::{Bifurcation, BifurcationKind};
 pub use error::OrbitError;
+pub use family::FamilySearch;
 pub use monodromy::Monodromy;
 pub use orbit::PeriodicOrbit;
 pub use search::OrbitSearch;
+pub use table::{Family, FamilyEnding};
 
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, MotionDerivatives, StateSensitivity};

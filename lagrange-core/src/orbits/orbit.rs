@@ -6,7 +6,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 use nalgebra::{Complex, DMatrix};
 
 use super::error::OrbitError;
-use super::frame::Frame;
+use super::frame::{Frame, Units};
 use super::monodromy::Monodromy;
 use super::multipliers::{modulus, reciprocal};
 use super::shot::{Chain, Problem, Shot};
@@ -40,6 +40,7 @@ pub struct PeriodicOrbit<L: Linearized> {
     pub iterations: usize,
     /// Derivative of the motion once around.
     pub monodromy: Monodromy<L::Scalar>,
+    pub(super) units: Units<L::Scalar>,
 }
 
 impl<L: Linearized<Scalar: Real>> PeriodicOrbit<L> {
@@ -156,12 +157,13 @@ impl<T: Real> Problem<T> {
         }
         let error = whole.error_of(&around, method)?;
         let monodromy = whole.monodromy(&around);
+        let units = around.size();
         let Chain { system, nodes, period, .. } = around.chain;
-        Ok(PeriodicOrbit { system, start: nodes[0], period, nodes, gap, error, iterations, monodromy })
+        Ok(PeriodicOrbit { system, start: nodes[0], period, nodes, gap, error, iterations, monodromy, units })
     }
 
     /// Chain of the whole orbit.
-    fn unfolded<L: Linearized<Scalar = T> + Clone>(&self, shot: &Shot<L>) -> Result<Chain<L>, Error> {
+    pub(super) fn unfolded<L: Linearized<Scalar = T> + Clone>(&self, shot: &Shot<L>) -> Result<Chain<L>, Error> {
         let mut chain = shot.chain.clone();
         if !self.conditions.is_half() {
             return Ok(chain);

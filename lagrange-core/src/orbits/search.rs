@@ -22,7 +22,7 @@ use crate::system::{Lagrangian, StateOf, check_contacts, lookup};
 #[must_use = "`find` searches for the orbit"]
 pub struct OrbitSearch<L: Linearized, D = Dop853> {
     pub(super) system: L,
-    guess: StateOf<L>,
+    pub(super) guess: StateOf<L>,
     pub(super) method: D,
     pub(super) conditions: Result<Conditions<L::Scalar>, Error>,
     pub(super) tolerance: L::Scalar,
