@@ -3,6 +3,7 @@
 // What helps tests may panic as they do.
 #![allow(clippy::unwrap_used)]
 
+mod families;
 mod monodromy;
 mod shooting;
 mod systems;

@@ -27,3 +27,17 @@ pub(crate) fn eight() -> (State<f64, 6>, f64) {
     let [x, y, vx, vy, period] = EIGHT;
     (State::new([x, y, -x, -y, 0.0, 0.0], [vx, vy, vx, vy, -2.0 * vx, -2.0 * vy]), period)
 }
+
+/// A small body near Earth and Moon, in the frame that turns with them. Jacobi's constant is −2 times the energy.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, z)]
+#[define(r1 = sqrt((x + mu)^2 + y^2 + z^2))]
+#[define(r2 = sqrt((x - 1 + mu)^2 + y^2 + z^2))]
+#[lagrangian(((x_dot - y)^2 + (y_dot + x)^2 + z_dot^2)/2 + (1 - mu)/r1 + mu/r2)]
+pub(crate) struct Moon {
+    pub(crate) mu: f64,
+}
+
+impl Moon {
+    pub(crate) const EARTHS: Self = Self { mu: 0.012_150_585_609_624_04 };
+}

@@ -193,15 +193,16 @@ impl<T: Real> Problem<T> {
                 direction: least_direction(&self.with_row(shot, tangent))?,
             }),
             Test::Unity => {
-                let problem = self.with(self.conditions.whole());
-                let around = problem.shoot(self.unfolded(shot)?, method)?;
+                let energy = self.conditions.energy;
+                let problem = self.with(Conditions { energy, ..self.conditions.whole() });
+                let around = self.whole_of(&problem, shot, method)?;
                 let along = tangent.clone().resize_vertically(around.jacobian.ncols(), T::constant(0.0));
                 let direction = least_direction(&problem.with_row(&around, &along))?;
                 Some(Branch { problem, chain: around.chain, direction })
             }
             Test::Doubling => {
                 let whole = self.with(self.conditions.whole());
-                let around = whole.shoot(self.unfolded(shot)?, method)?;
+                let around = self.whole_of(&whole, shot, method)?;
                 let problem = self.with(self.conditions.doubled());
                 let direction = doubling(&around, problem.unknowns(around.frames[0].count()))?;
                 Some(Branch { problem, chain: twice(around.chain), direction })

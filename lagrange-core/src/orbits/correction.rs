@@ -63,10 +63,24 @@ impl<T: Real> Arc<T> {
         if problem.conditions.period_is_free() {
             along[count] *= shot.chain.period / self.period;
         }
-        if let Some(column) = problem.parameter_column(count) {
-            along[column] *= problem.parameter_of(&shot.chain.system).1 / self.parameter.1;
-        }
         along
+    }
+
+    /// Cosine of the angle between the direction at the base and one at another shot, in the units of the base.
+    pub(super) fn cosine<L: Linearized<Scalar = T> + Clone>(
+        &self,
+        problem: &Problem<T>,
+        shot: &Shot<L>,
+        tangent: &DVector<T>,
+    ) -> T {
+        let count = shot.frames[0].count();
+        let mut here = tangent.clone();
+        let components = &self.dual * (&shot.frames[0].basis * tangent.rows(0, count));
+        here.rows_mut(0, count).copy_from(&components);
+        if problem.conditions.period_is_free() {
+            here[count] *= shot.chain.period / self.period;
+        }
+        self.tangent.dot(&here) / here.norm()
     }
 
     /// True if a shot is within a step of the base, and has not just left it: on its way back.
@@ -157,7 +171,7 @@ impl<T: Real> Problem<T> {
                     }
                 }
             });
-            damping = larger(damping * T::constant(0.1), T::constant(1e-3));
+            damping = larger(damping * T::constant(0.1), T::constant(1e-6));
             match next {
                 Some(next) => {
                     let stands = distance(&next) > T::constant(0.5) * before;

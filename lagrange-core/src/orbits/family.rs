@@ -7,7 +7,7 @@ use core::fmt::{self, Debug, Formatter};
 
 use nalgebra::DVector;
 
-use super::bifurcation::{Bifurcation, Branch, Test, Tests, least_direction};
+use super::bifurcation::{Bifurcation, BifurcationKind, Branch, Test, Tests, least_direction};
 use super::correction::Arc;
 use super::error::OrbitError;
 use super::orbit::PeriodicOrbit;
@@ -31,8 +31,8 @@ const COINCIDENT: f64 = 1e-2;
 
 /// Settings of the continuation of a periodic orbit to a family.
 ///
-/// Lengths are relative: of the start in units of the largest coordinate and velocity, of the period and of the parameter relative to
-/// their values (to 1, if the parameter is zero).
+/// Lengths are relative: of the start in units of the largest coordinate and velocity, of the period to its value, of the parameter to
+/// its value where the family starts (to 1, if it is zero).
 #[must_use = "`follow` continues the orbit"]
 pub struct FamilySearch<'u, L: Linearized, D> {
     method: D,
@@ -42,6 +42,8 @@ pub struct FamilySearch<'u, L: Linearized, D> {
     longest: L::Scalar,
     count: usize,
     is_backwards: bool,
+    /// Kind of the bifurcation that ends the family.
+    last: Option<BifurcationKind>,
     #[allow(clippy::type_complexity, reason = "a predicate")]
     until: Option<Box<dyn FnMut(&PeriodicOrbit<L>) -> bool + 'u>>,
 }
@@ -58,7 +60,11 @@ impl<L: Linearized<Scalar: Real>> Start<L> {
     /// Makes parameter `k` an unknown, in place of another if there is one.
     fn choose(&mut self, k: usize) {
         let before = self.problem.parameter.replace(k);
-        let count = self.chain.system.linearize(&self.chain.nodes[0], &[]).map_or(0, |near| near.basis.ncols());
+        let value = Scalar::abs(self.chain.system.parameters()[k]);
+        self.problem.parameter_unit =
+            if value > L::Scalar::constant(0.0) { value } else { L::Scalar::constant(1.0) };
+        let count =
+            self.chain.system.linearize(&self.chain.nodes[0], &[]).map_or(0, |near| near.basis.ncols());
         let column = self.problem.parameter_column(count).unwrap_or(count);
         self.direction = self.direction.take().map(|mut direction| match before {
             None => direction.insert_row(column, L::Scalar::constant(0.0)),
@@ -85,7 +91,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: Clone> OrbitSearch<L, D> {
     pub fn family<'u>(&self, orbit: &PeriodicOrbit<L>) -> FamilySearch<'u, L, D> {
         let system = orbit.system.clone();
         let search = Self { system, ..self.clone() };
-        let start = search.problem(None).map(|problem| {
+        let start = search.problem().map(|problem| {
             let nodes = orbit.nodes[..problem.conditions.segments].to_vec();
             let chain = Chain { system: search.system, nodes, period: orbit.period, units: orbit.units };
             Start { problem, chain, direction: None }
@@ -108,7 +114,17 @@ impl<L: Linearized<Scalar: Real> + Clone, D: Clone> OrbitSearch<L, D> {
     fn continued<'u>(&self, start: Result<Start<L>, Error>) -> FamilySearch<'u, L, D> {
         let (step, longest) = (L::Scalar::constant(0.02), L::Scalar::constant(0.1));
         let (method, tolerance) = (self.method.clone(), self.tolerance);
-        FamilySearch { method, tolerance, start, step, longest, count: 100, is_backwards: false, until: None }
+        FamilySearch {
+            method,
+            tolerance,
+            start,
+            step,
+            longest,
+            count: 100,
+            is_backwards: false,
+            last: None,
+            until: None,
+        }
     }
 }
 
@@ -150,6 +166,11 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
     /// Ends the family with the first orbit of which this is true.
     pub fn until(self, is_last: impl FnMut(&PeriodicOrbit<L>) -> bool + 'u) -> Self {
         Self { until: Some(Box::new(is_last)), ..self }
+    }
+
+    /// Ends the family behind its first bifurcation of this kind.
+    pub fn until_first(self, kind: BifurcationKind) -> Self {
+        Self { last: Some(kind), ..self }
     }
 
     /// Follows the family (pseudo-arclength continuation: Keller 1977; Doedel, Keller and Kernévez, *International Journal of Bifurcation
@@ -201,6 +222,10 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
             step = if is_easy { smaller(taken * L::Scalar::constant(1.3), self.longest) } else { taken };
             member = next;
             family.push(member.orbit.clone());
+            if self.last.is_some_and(|kind| family.first(kind).is_some()) {
+                family.end(FamilyEnding::Until);
+                return Ok(family);
+            }
             if family.orbits().len() > 4 && first.is_met(&problem, &member.shot, taken) {
                 family.end(FamilyEnding::Closed);
                 return Ok(family);
@@ -254,14 +279,31 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
     }
 
     /// The member at an arclength from an earlier one.
-    fn member(&self, problem: &Problem<L::Scalar>, from: &Shot<L>, arc: &Arc<L::Scalar>) -> Result<Member<L>, Error>
+    fn member(
+        &self,
+        problem: &Problem<L::Scalar>,
+        from: &Shot<L>,
+        arc: &Arc<L::Scalar>,
+    ) -> Result<Member<L>, Error>
     where
         D: DifferentiableMethod<L> + Clone,
     {
-        let predicted = problem.moved_by(from, &(&arc.tangent * arc.length), false)?;
+        self.corrected(problem, problem.moved_by(from, &(&arc.tangent * arc.length), false)?, arc)
+    }
+
+    /// The member at an arclength, from a chain near it.
+    fn corrected(
+        &self,
+        problem: &Problem<L::Scalar>,
+        predicted: Chain<L>,
+        arc: &Arc<L::Scalar>,
+    ) -> Result<Member<L>, Error>
+    where
+        D: DifferentiableMethod<L> + Clone,
+    {
         let (mut shot, iterations) = problem.correct(predicted, &self.method, Some(arc), self.tolerance)?;
         let units = shot.size();
-        if units != shot.chain.units {
+        if units.differ(shot.chain.units) {
             shot.chain.units = units;
             shot = problem.shoot(shot.chain, &self.method)?;
         }
@@ -294,9 +336,8 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
             let is_short = step * L::Scalar::constant(0.5) < shortest;
             match found {
                 Ok(next) => {
-                    let along = arc.along(problem, &next.shot);
-                    let cosine = along.dot(&next.tangent) / norm(along.as_slice());
-                    if cosine >= L::Scalar::constant(TURN) || is_short {
+                    if arc.cosine(problem, &next.shot, &next.tangent) >= L::Scalar::constant(TURN) || is_short
+                    {
                         return Ok((next, step));
                     }
                 }
@@ -305,6 +346,21 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
             }
             step *= L::Scalar::constant(0.5);
         }
+    }
+
+    /// The member at an arclength near that of another.
+    fn beside(
+        &self,
+        problem: &Problem<L::Scalar>,
+        (length, near): (L::Scalar, &Member<L>),
+        arc: &Arc<L::Scalar>,
+    ) -> Result<Member<L>, Error>
+    where
+        D: DifferentiableMethod<L> + Clone,
+    {
+        let rate = arc.along(problem, &near.shot).dot(&near.tangent);
+        let step = &near.tangent * ((arc.length - length) / rate);
+        self.corrected(problem, problem.moved_by(&near.shot, &step, false)?, arc)
     }
 
     /// Bifurcations between a member and the next.
@@ -356,10 +412,15 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
         let resolution = step * power_of_epsilon(0.75);
         for _ in 0..TRIES {
             let length = (left.0 * right.1 - right.0 * left.1) / (right.1 - left.1);
-            let found = self.member(problem, &from.shot, &Arc { length, ..arc.clone() });
+            let arc = Arc { length, ..arc.clone() };
+            let found = match &best {
+                None => self.member(problem, &from.shot, &arc),
+                Some((at, near)) => self.beside(problem, (*at, near), &arc),
+            };
             let Ok(found) = found else { break };
             let value = of(&found.tests);
-            let moved = best.as_ref().map_or(step, |(at, _): &(L::Scalar, Member<L>)| Scalar::abs(*at - length));
+            let moved =
+                best.as_ref().map_or(step, |(at, _): &(L::Scalar, Member<L>)| Scalar::abs(*at - length));
             best = Some((length, found));
             if value == zero || moved <= resolution {
                 break;

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::form::symplectic_form;
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::number::{Real, Scalar, larger, norm};
+use crate::number::{Real, Scalar, larger, norm, smaller};
 use crate::system::StateOf;
 use crate::trajectory::Trajectory;
 use crate::vector::Length;
@@ -28,6 +28,12 @@ impl<T: Real> Units<T> {
         }
         let [q, v] = largest.map(|size| if size > T::constant(0.0) { size } else { T::constant(1.0) });
         Self { q, v }
+    }
+
+    /// True if either differs by more than a factor of 2.
+    pub(super) fn differ(self, other: Self) -> bool {
+        let differs = |x: T, y: T| larger(x, y) > T::constant(2.0) * smaller(x, y);
+        differs(self.q, other.q) || differs(self.v, other.v)
     }
 
     /// The larger of both.

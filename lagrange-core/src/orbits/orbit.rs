@@ -148,7 +148,7 @@ impl<T: Real> Problem<T> {
             return Err(OrbitError::Equilibrium { period, velocity }.into());
         }
         let whole = Self { conditions: self.conditions.whole(), parameter: None, ..self.clone() };
-        let around = whole.shoot(self.unfolded(shot)?, method)?;
+        let around = self.whole_of(&whole, shot, method)?;
         let gap = around.largest_gap();
         if self.conditions.is_half() && !(gap <= T::constant(1e3) * tolerance) {
             let (entry, gap) = around.worst(&whole.conditions);
@@ -162,12 +162,21 @@ impl<T: Real> Problem<T> {
         Ok(PeriodicOrbit { system, start: nodes[0], period, nodes, gap, error, iterations, monodromy, units })
     }
 
-    /// Chain of the whole orbit.
-    pub(super) fn unfolded<L: Linearized<Scalar = T> + Clone>(&self, shot: &Shot<L>) -> Result<Chain<L>, Error> {
-        let mut chain = shot.chain.clone();
-        if !self.conditions.is_half() {
-            return Ok(chain);
+    /// The whole orbit of a shot, with the conditions of `whole`.
+    pub(super) fn whole_of<L, D>(&self, whole: &Self, shot: &Shot<L>, method: &D) -> Result<Shot<L>, Error>
+    where
+        L: Linearized<Scalar = T> + Clone,
+        D: DifferentiableMethod<L> + Clone,
+    {
+        match self.conditions.is_half() {
+            true => whole.shoot(self.unfolded(shot), method),
+            false => Ok(whole.conditioned(shot.clone())),
         }
+    }
+
+    /// Chain of the whole orbit, from that of half of it.
+    fn unfolded<L: Linearized<Scalar = T> + Clone>(&self, shot: &Shot<L>) -> Chain<L> {
+        let mut chain = shot.chain.clone();
         let (n, count) = (<L::N>::COUNT, chain.nodes.len());
         let duration = chain.period / T::constant(2.0 * count as f64);
         let mirrored = |state: &StateOf<L>, k: usize| {
@@ -188,7 +197,7 @@ impl<T: Real> Problem<T> {
         });
         let second: Vec<_> = second.collect();
         chain.nodes.extend(second);
-        Ok(chain)
+        chain
     }
 
     /// Monodromy of a closed orbit: multipliers that are 1 for every orbit of the kind are split off.

@@ -136,13 +136,13 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
     where
         D: DifferentiableMethod<L> + Clone,
     {
-        let problem = self.problem(None)?;
+        let problem = self.problem()?;
         let (shot, iterations) = problem.correct(self.chain()?, &self.method, None, self.tolerance)?;
         problem.orbit(&shot, iterations, &self.method, self.tolerance)
     }
 
-    /// The equations of the search, with a parameter that may change.
-    pub(super) fn problem(&self, parameter: Option<usize>) -> Result<Problem<L::Scalar>, Error> {
+    /// The equations of the search.
+    pub(super) fn problem(&self) -> Result<Problem<L::Scalar>, Error> {
         let conditions = self.conditions.clone()?;
         let period = self.checked_period(&conditions)?;
         let has_clock = has_clock(&self.system, &self.guess, period);
@@ -150,7 +150,8 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
             return Err(OrbitError::Clock { period: period.to_f64() }.into());
         }
         let is_conservative = !has_clock && L::FACTS.energy_is_conserved.is_some();
-        Ok(Problem { conditions, parameter, has_clock, is_conservative })
+        let parameter_unit = L::Scalar::constant(1.0);
+        Ok(Problem { conditions, parameter: None, parameter_unit, has_clock, is_conservative })
     }
 
     fn checked_period(&self, conditions: &Conditions<L::Scalar>) -> Result<L::Scalar, Error> {

@@ -34,6 +34,8 @@ pub(super) struct Problem<T> {
     pub(super) conditions: Conditions<T>,
     /// Parameter that changes along a family.
     pub(super) parameter: Option<usize>,
+    /// Unit of the parameter, the same along a family, which may pass through zero.
+    pub(super) parameter_unit: T,
     /// True if the equations depend on the time.
     pub(super) has_clock: bool,
     /// True if the energy is conserved: closing the orbit then leaves one equation that follows from the others.
@@ -81,11 +83,6 @@ impl<T: Real> Problem<T> {
             + usize::from(self.is_unfolded())
     }
 
-    /// Unit of the parameter.
-    fn parameter_unit(value: T) -> T {
-        if value == T::constant(0.0) { T::constant(1.0) } else { size(value) }
-    }
-
     /// Integrates the segments of a chain, and finds gaps and derivatives.
     pub(super) fn shoot<L, D>(&self, chain: Chain<L>, method: &D) -> Result<Shot<L>, Error>
     where
@@ -102,12 +99,15 @@ impl<T: Real> Problem<T> {
         let gaps = (1..segments)
             .map(|k| &frames[k].dual * (flat::<L>(&legs[k - 1].end) - flat::<L>(&chain.nodes[k])))
             .collect();
-        let none = (DVector::zeros(0), DMatrix::zeros(0, 0));
-        let mut shot =
-            Shot { chain, frames, legs, gaps, closing: none.0, spread: Vec::new(), jacobian: none.1 };
+        let (closing, jacobian) = (DVector::zeros(0), DMatrix::zeros(0, 0));
+        Ok(self.conditioned(Shot { chain, frames, legs, gaps, closing, spread: Vec::new(), jacobian }))
+    }
+
+    /// A shot of the same segments with these conditions.
+    pub(super) fn conditioned<L: Linearized<Scalar = T> + Clone>(&self, mut shot: Shot<L>) -> Shot<L> {
         let last = self.spread(&mut shot);
-        self.close(&mut shot, &last)?;
-        Ok(shot)
+        self.close(&mut shot, &last);
+        shot
     }
 
     /// Derivative of the end of leg `k` by the unknowns, from that of its start.
@@ -135,7 +135,7 @@ impl<T: Real> Problem<T> {
     /// Value of the parameter, and its unit.
     pub(super) fn parameter_of<L: Linearized<Scalar = T>>(&self, system: &L) -> (T, T) {
         let value = self.parameter.map_or(T::constant(0.0), |k| system.parameters()[k]);
-        (value, Self::parameter_unit(value))
+        (value, self.parameter_unit)
     }
 
     /// Change of node `k` with the parameter, where a constraint moves with it.
@@ -161,11 +161,7 @@ impl<T: Real> Problem<T> {
 
     /// Fills the conditions: the orbit closes, or meets its mirror image; the start does not slide along the orbit; the energy is as
     /// demanded.
-    fn close<L: Linearized<Scalar = T> + Clone>(
-        &self,
-        shot: &mut Shot<L>,
-        last: &DMatrix<T>,
-    ) -> Result<(), Error> {
+    fn close<L: Linearized<Scalar = T> + Clone>(&self, shot: &mut Shot<L>, last: &DMatrix<T>) {
         let (frame, n, count) = (&shot.frames[0], <L::N>::COUNT, shot.frames[0].count());
         let (start, end) = (flat::<L>(&shot.chain.nodes[0]), flat::<L>(&shot.legs[shot.legs.len() - 1].end));
         let energy = frame.energy(&shot.chain.system, &shot.chain.nodes[0]);
@@ -206,7 +202,6 @@ impl<T: Real> Problem<T> {
         }
         shot.closing = DVector::from_iterator(rows.len(), rows.iter().map(|(off, _)| *off));
         shot.jacobian = DMatrix::from_fn(rows.len(), self.unknowns(count), |i, j| rows[i].1[j]);
-        Ok(())
     }
 
     /// Growth of entry `i` of (q, q̇) in a period.

@@ -18,7 +18,8 @@ use crate::system::lookup;
 pub enum FamilyEnding {
     /// It has as many orbits as were asked for.
     Count,
-    /// The condition of [`until`](super::FamilySearch::until) holds.
+    /// The condition of [`until`](super::FamilySearch::until) holds, or the bifurcation of
+    /// [`until_first`](super::FamilySearch::until_first) is found.
     Until,
     /// It has come back to its first orbit.
     Closed,
@@ -46,7 +47,10 @@ impl<L: Linearized<Scalar: Real>> Family<L> {
         self.orbits.push(orbit);
     }
 
-    pub(super) fn push_bifurcation(&mut self, (test, orbit, branch): (Test, PeriodicOrbit<L>, Option<Branch<L>>)) {
+    pub(super) fn push_bifurcation(
+        &mut self,
+        (test, orbit, branch): (Test, PeriodicOrbit<L>, Option<Branch<L>>),
+    ) {
         let (kind, value, after) = (test.kind(), self.value(&orbit), self.orbits.len() - 1);
         self.bifurcations.push(Bifurcation { kind, orbit, value, after, branch });
     }
