@@ -31,6 +31,7 @@ pages!(
     bodies,
     hamiltonian,
     small_motions,
+    orbits,
     control,
     robots,
     fits,

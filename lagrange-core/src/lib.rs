@@ -123,6 +123,7 @@ println!("{}", path.csv(50).energy());
 //! - [`Hamiltonian`]: momenta, the Legendre transform, Hamilton's equations, motion in (q, p).
 //! - [`Linearized`] and [`StateDerivatives`]: exact derivatives; equilibria, the linear system near a state,
 //!   inverse dynamics, sensitivities of motions; [`MotionDerivatives`]: sensitivities across impacts.
+//! - [`PeriodicMotion`](orbits::PeriodicMotion): monodromy matrices, periodic orbits, their families and bifurcations.
 //! - [`Ensemble`]: many members at once, on SIMD lanes, on all threads, on many machines ([`ensemble`]).
 //! - [`HybridTrajectory`]: a motion in several legs, each with its own system; [`Simulate::impact`].
 //! - [`Lagrangian`]: the trait that generated code implements; [`Solution`]: accelerations and multipliers at a

@@ -100,7 +100,8 @@ pub(super) fn has_clock<L: Linearized<Scalar: Real>>(
     let zero = L::Scalar::constant(0.0);
     (1..=16).any(|k| {
         let mut state = *state;
-        state.t += period * L::Scalar::constant((GOLDEN * f64::from(k)).fract());
+        let turns = GOLDEN * f64::from(k);
+        state.t += period * L::Scalar::constant(turns - f64::from(turns as u32));
         let Ok(solution) = system.solve(&state) else { return false };
         let change = system.residual_change(&state, &solution, &Direction::of_time());
         (0..<L::N>::COUNT).any(|i| change.motion[i] != zero)

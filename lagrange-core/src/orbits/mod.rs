@@ -10,12 +10,14 @@ mod family;
 mod form;
 mod frame;
 mod leg;
+mod location;
 mod monodromy;
 mod multipliers;
 mod orbit;
 mod search;
 mod shot;
 mod table;
+mod tracing;
 
 pub use bifurcation::{Bifurcation, BifurcationKind};
 pub use error::OrbitError;

@@ -119,7 +119,7 @@ impl<T: Real> Monodromy<T> {
     /// True if the [`symplectic_error`](Self::symplectic_error) is below √ε. Multipliers are then paired, which changes them by about
     /// that error at most.
     pub fn is_symplectic(&self) -> bool {
-        self.symplectic_error() <= power_of_epsilon(0.5) && self.basis.ncols() % 2 == 0
+        self.symplectic_error() <= power_of_epsilon(0.5) && self.basis.ncols().is_multiple_of(2)
     }
 
     /// Floquet multipliers: the eigenvalues, in descending order of the modulus. If the motion is

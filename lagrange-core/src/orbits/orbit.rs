@@ -12,7 +12,7 @@ use super::multipliers::{modulus, reciprocal};
 use super::shot::{Chain, Problem, Shot};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Stability};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, exceeds};
 use crate::system::StateOf;
 use crate::vector::Length;
 
@@ -150,7 +150,7 @@ impl<T: Real> Problem<T> {
         let whole = Self { conditions: self.conditions.whole(), parameter: None, ..self.clone() };
         let around = self.whole_of(&whole, shot, method)?;
         let gap = around.largest_gap();
-        if self.conditions.is_half() && !(gap <= T::constant(1e3) * tolerance) {
+        if self.conditions.is_half() && exceeds(gap, T::constant(1e3) * tolerance) {
             let (entry, gap) = around.worst(&whole.conditions);
             let (entry, gap) = (Shot::<L>::entry(entry), gap.to_f64());
             return Err(OrbitError::NotMirrored { entry, gap, period: shot.chain.period.to_f64() }.into());

@@ -1,0 +1,94 @@
+//! Bifurcations between two members of a family.
+
+use alloc::vec::Vec;
+
+use super::bifurcation::{Branch, Test, Tests};
+use super::correction::Arc;
+use super::orbit::PeriodicOrbit;
+use super::tracing::{Member, Tracer};
+use crate::error::Error;
+use crate::linearized::{DifferentiableMethod, Linearized};
+use crate::number::{Real, Scalar, power_of_epsilon};
+
+/// Distance of a fold and a branch point, as part of a step, within which they are one.
+const COINCIDENT: f64 = 1e-2;
+
+impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tracer<'_, L, D> {
+    /// The member at an arclength near that of another.
+    fn beside(
+        &self,
+        (length, near): (L::Scalar, &Member<L>),
+        arc: &Arc<L::Scalar>,
+    ) -> Result<Member<L>, Error> {
+        let rate = arc.along(&self.problem, &near.shot).dot(&near.tangent);
+        let step = &near.tangent * ((arc.length - length) / rate);
+        self.corrected(self.problem.moved_by(&near.shot, &step, false)?, arc)
+    }
+
+    /// Bifurcations between a member and the next.
+    ///
+    /// A fold and a branch point that coincide are one, a pitchfork seen from the family that leaves: the orbit is the one of the fold,
+    /// since the determinant there is small to the left and right.
+    pub(super) fn between(
+        &self,
+        from: &Member<L>,
+        arc: &Arc<L::Scalar>,
+        next: (L::Scalar, Tests<L::Scalar>),
+    ) -> Vec<(Test, PeriodicOrbit<L>, Option<Branch<L>>)> {
+        let located = |test: Test| Some((test, self.locate(from, arc, next, test).ok()?));
+        let mut found: Vec<_> = from.tests.changed(&next.1).into_iter().filter_map(located).collect();
+        if let [(Test::Turning, (fold, _)), (Test::Determinant, (branch, _)), ..] = &found[..]
+            && Scalar::abs(*fold - *branch) <= next.0 * L::Scalar::constant(COINCIDENT)
+        {
+            found.remove(1);
+            found[0].0 = Test::Determinant;
+        }
+        let with_branch = |(test, (_, at)): (Test, (L::Scalar, Member<L>))| {
+            let branch = self.problem.branch(test, &at.shot, &at.tangent, self.method).ok()?;
+            Some((test, at.orbit, branch))
+        };
+        found.into_iter().filter_map(with_branch).collect()
+    }
+
+    /// The member at which a test vanishes, between one and the next: regula falsi with the weights of Illinois.
+    fn locate(
+        &self,
+        from: &Member<L>,
+        arc: &Arc<L::Scalar>,
+        (step, tests): (L::Scalar, Tests<L::Scalar>),
+        test: Test,
+    ) -> Result<(L::Scalar, Member<L>), Error> {
+        const TRIES: usize = 40;
+        let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
+        let of = |tests: &Tests<L::Scalar>| tests.value(test).unwrap_or(zero);
+        let (mut left, mut right) = ((zero, of(&from.tests)), (step, of(&tests)));
+        let (mut best, mut last) = (None, 0);
+        let resolution = step * power_of_epsilon(0.75);
+        for _ in 0..TRIES {
+            let length = (left.0 * right.1 - right.0 * left.1) / (right.1 - left.1);
+            let arc = Arc { length, ..arc.clone() };
+            let found = match &best {
+                None => self.member(&from.shot, &arc),
+                Some((at, near)) => self.beside((*at, near), &arc),
+            };
+            let Ok(found) = found else { break };
+            let value = of(&found.tests);
+            let moved =
+                best.as_ref().map_or(step, |(at, _): &(L::Scalar, Member<L>)| Scalar::abs(*at - length));
+            best = Some((length, found));
+            if value == zero || moved <= resolution {
+                break;
+            }
+            if value * left.1 > zero {
+                left = (length, value);
+                right.1 *= if last == 1 { half } else { L::Scalar::constant(1.0) };
+                last = 1;
+            } else {
+                right = (length, value);
+                left.1 *= if last == 2 { half } else { L::Scalar::constant(1.0) };
+                last = 2;
+            }
+        }
+        best.ok_or(Error::EigenvaluesNotFound)
+    }
+}

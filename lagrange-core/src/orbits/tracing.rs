@@ -1,0 +1,168 @@
+//! Members of a family: the first, and each from the one before.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::bifurcation::{Tests, least_direction};
+use super::correction::Arc;
+use super::error::OrbitError;
+use super::orbit::PeriodicOrbit;
+use super::shot::{Chain, Problem, Shot, least_step};
+use crate::error::Error;
+use crate::linearized::{DifferentiableMethod, Linearized, Singular};
+use crate::number::{Real, Scalar, norm, power_of_epsilon};
+
+/// Least cosine of the angle between neighbours of a family; a step across which it turns more is halved. 20° are small enough that a
+/// step does not end on another family that crosses at a right angle.
+const TURN: f64 = 0.94;
+
+/// Part of the first step below which a family counts as stuck.
+const SHORTEST: f64 = 1e-5;
+
+/// Where a family starts.
+pub(super) struct Start<L: Linearized> {
+    pub(super) problem: Problem<L::Scalar>,
+    pub(super) chain: Chain<L>,
+    /// Direction in which it leaves the orbit of a bifurcation, itself no member.
+    pub(super) direction: Option<DVector<L::Scalar>>,
+}
+
+impl<L: Linearized<Scalar: Real>> Start<L> {
+    /// Makes parameter `k` an unknown, in place of another if there is one.
+    pub(super) fn choose(&mut self, k: usize) {
+        let before = self.problem.parameter.replace(k);
+        let value = Scalar::abs(self.chain.system.parameters()[k]);
+        self.problem.parameter_unit =
+            if value > L::Scalar::constant(0.0) { value } else { L::Scalar::constant(1.0) };
+        let count =
+            self.chain.system.linearize(&self.chain.nodes[0], &[]).map_or(0, |near| near.basis.ncols());
+        let column = self.problem.parameter_column(count).unwrap_or(count);
+        self.direction = self.direction.take().map(|mut direction| match before {
+            None => direction.insert_row(column, L::Scalar::constant(0.0)),
+            Some(other) if other != k => {
+                direction[column] = L::Scalar::constant(0.0);
+                direction
+            }
+            Some(_) => direction,
+        });
+    }
+}
+
+/// A member of a family with what the next is sought from.
+pub(super) struct Member<L: Linearized> {
+    pub(super) shot: Shot<L>,
+    pub(super) orbit: PeriodicOrbit<L>,
+    pub(super) tangent: DVector<L::Scalar>,
+    pub(super) tests: Tests<L::Scalar>,
+}
+
+/// Equations of a family, with the method by which its members are computed.
+pub(super) struct Tracer<'m, L: Linearized, D> {
+    pub(super) problem: Problem<L::Scalar>,
+    pub(super) method: &'m D,
+    pub(super) tolerance: L::Scalar,
+    /// First step.
+    pub(super) step: L::Scalar,
+}
+
+impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tracer<'_, L, D> {
+    /// First member: the orbit itself, or the first along a branch.
+    pub(super) fn first(&self, start: Start<L>, is_backwards: bool) -> Result<Member<L>, Error> {
+        let sign = L::Scalar::constant(if is_backwards { -1.0 } else { 1.0 });
+        if let Some(direction) = start.direction {
+            let origin = self.problem.shoot(start.chain, self.method)?;
+            let direction = direction * sign;
+            let arc = Arc { length: self.step, ..Arc::from(&self.problem, &origin, direction.clone()) };
+            return self.member(&origin, &arc);
+        }
+        let (mut shot, iterations) = self.problem.correct(start.chain, self.method, None, self.tolerance)?;
+        shot.chain.units = shot.size();
+        let shot = self.problem.shoot(shot.chain, self.method)?;
+        let mut tangent = only_direction(&shot.jacobian)?;
+        let orbit = self.problem.orbit(&shot, iterations, self.method, self.tolerance)?;
+        let mut tests = self.problem.tests(&shot, &tangent, &orbit)?;
+        let grows = self.grows(&shot, &tangent, &orbit)?;
+        if grows == is_backwards {
+            tangent = -tangent;
+            tests = self.problem.tests(&shot, &tangent, &orbit)?;
+        }
+        Ok(Member { shot, orbit, tangent, tests })
+    }
+
+    /// True if the parameter, or the energy, grows in this direction.
+    fn grows(
+        &self,
+        shot: &Shot<L>,
+        tangent: &DVector<L::Scalar>,
+        orbit: &PeriodicOrbit<L>,
+    ) -> Result<bool, Error> {
+        if let Some(column) = self.problem.parameter_column(shot.frames[0].count()) {
+            return Ok(tangent[column] > L::Scalar::constant(0.0));
+        }
+        let little = tangent * (self.step * L::Scalar::constant(1e-3));
+        let moved = self.problem.moved_by(shot, &little, false)?;
+        Ok(moved.system.energy(&moved.nodes[0]) > orbit.energy())
+    }
+
+    /// The member at an arclength from an earlier one.
+    pub(super) fn member(&self, from: &Shot<L>, arc: &Arc<L::Scalar>) -> Result<Member<L>, Error> {
+        self.corrected(self.problem.moved_by(from, &(&arc.tangent * arc.length), false)?, arc)
+    }
+
+    /// The member at an arclength, from a chain near it.
+    pub(super) fn corrected(&self, predicted: Chain<L>, arc: &Arc<L::Scalar>) -> Result<Member<L>, Error> {
+        let (mut shot, iterations) =
+            self.problem.correct(predicted, self.method, Some(arc), self.tolerance)?;
+        let units = shot.size();
+        if units.differ(shot.chain.units) {
+            shot.chain.units = units;
+            shot = self.problem.shoot(shot.chain, self.method)?;
+        }
+        let along = arc.along(&self.problem, &shot);
+        let mut last = DVector::zeros(shot.jacobian.nrows() + 1);
+        last[shot.jacobian.nrows()] = L::Scalar::constant(-1.0);
+        let (none, part) = (L::Scalar::constant(0.0), L::Scalar::constant(L::Scalar::EPSILON));
+        let tangent = least_step(&self.problem.with_row(&shot, &along), &last, none, part)?;
+        let length = norm(tangent.as_slice());
+        let tangent = tangent / length;
+        let orbit = self.problem.orbit(&shot, iterations, self.method, self.tolerance)?;
+        let tests = self.problem.tests(&shot, &tangent, &orbit)?;
+        Ok(Member { shot, orbit, tangent, tests })
+    }
+
+    /// The next member, and the step to it.
+    pub(super) fn advance(
+        &self,
+        from: &Member<L>,
+        arc: &Arc<L::Scalar>,
+        mut step: L::Scalar,
+    ) -> Result<(Member<L>, L::Scalar), Error> {
+        let shortest = self.step * L::Scalar::constant(SHORTEST);
+        loop {
+            let found = self.member(&from.shot, &Arc { length: step, ..arc.clone() });
+            let is_short = step * L::Scalar::constant(0.5) < shortest;
+            match found {
+                Ok(next) => {
+                    if arc.cosine(&self.problem, &next.shot, &next.tangent) >= L::Scalar::constant(TURN)
+                        || is_short
+                    {
+                        return Ok((next, step));
+                    }
+                }
+                Err(error) if is_short => return Err(error),
+                Err(_) => {}
+            }
+            step *= L::Scalar::constant(0.5);
+        }
+    }
+}
+
+/// The one direction along which the conditions stay.
+fn only_direction<T: Real>(jacobian: &DMatrix<T>) -> Result<DVector<T>, Error> {
+    let factors = Singular::of(jacobian).ok_or(Error::EigenvaluesNotFound)?;
+    let least = factors.norm() * power_of_epsilon(0.5);
+    let freedom = factors.values.iter().filter(|sigma| **sigma <= least).count();
+    match freedom {
+        1 => least_direction(jacobian),
+        freedom => Err(OrbitError::NoFamily { freedom }.into()),
+    }
+}
