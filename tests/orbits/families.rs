@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use lagrange_core::nalgebra::Complex;
 use lagrange_core::orbits::{
     Bifurcation, BifurcationKind, Family, FamilyEnding, OrbitError, OrbitSearch, PeriodicOrbit,
 };
@@ -223,4 +224,98 @@ fn halo_orbits_to_the_moon() {
     assert_eq!(*halo.ending(), FamilyEnding::Until);
     assert!(halo.orbits().len() >= 200);
     check_halo(&halo);
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - x^2/2)]
+#[dissipation(c/2 * x_dot^2)]
+#[force(x: cos(omega*t))]
+struct Resonator {
+    c: f64,
+    omega: f64,
+}
+
+/// The period follows the frequency of the drive, at all nodes.
+#[test]
+fn resonance_in_closed_form() {
+    let system = Resonator { c: 0.2, omega: 0.7 };
+    let search = system.periodic_orbit(&State::at_rest([0.0])).driven_by("omega", 1).segments(3);
+    let first = search.find().unwrap();
+    let family = search.family(&first).in_parameter("omega").longest_step(0.3);
+    let family = family.until(|orbit| orbit.system.omega > 1.4).follow().unwrap();
+    assert!(family.bifurcations().is_empty() && *family.ending() == FamilyEnding::Until);
+    for orbit in family.orbits() {
+        let omega = orbit.system.omega;
+        assert_eq!(orbit.period, TAU / omega);
+        let response = Complex::new(1.0 - omega * omega, 0.2 * omega).inv();
+        for node in &orbit.nodes {
+            let exact = response * Complex::new(0.0, omega * node.t).exp();
+            assert!((node.q[0] - exact.re).abs() < 1e-10, "{omega}, {}", node.t);
+        }
+    }
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, z)]
+#[lagrangian((x_dot^2 + z_dot^2)/2 - 9.81*z)]
+#[constraint(rod: (x^2 + z^2 - l^2)/2 = 0)]
+#[dissipation(c/2 * (x_dot^2 + z_dot^2))]
+#[force(x: cos(omega*t))]
+struct OnARod {
+    l: f64,
+    c: f64,
+    omega: f64,
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(l^2/2*theta_dot^2 + 9.81*l*cos(theta))]
+#[dissipation(c/2 * l^2*theta_dot^2)]
+#[force(theta: l*cos(theta)*cos(omega*t))]
+struct ByAngle {
+    l: f64,
+    c: f64,
+    omega: f64,
+}
+
+/// A constraint that moves with the parameter of the family; the same orbits by an angle.
+#[test]
+fn length_of_a_rod() {
+    let system = OnARod { l: 1.0, c: 0.5, omega: 2.0 };
+    let search = system.periodic_orbit(&State::at_rest([0.1, -1.0])).driven_by("omega", 1).segments(2);
+    let first = search.find().unwrap();
+    let family = search.family(&first).in_parameter("l").step(0.1).orbits(4).follow().unwrap();
+    assert!(family.orbits()[3].system.l > 1.1);
+    for orbit in family.orbits() {
+        let OnARod { l, c, omega } = orbit.system;
+        let angle = ByAngle { l, c, omega };
+        let same = angle
+            .periodic_orbit(&State::at_rest([orbit.start.q[0] / l]))
+            .driven_by("omega", 1)
+            .find()
+            .unwrap();
+        assert!((l * same.start.q[0].sin() - orbit.start.q[0]).abs() < 1e-10);
+        assert!((l * same.start.v[0] * same.start.q[0].cos() - orbit.start.v[0]).abs() < 1e-10);
+        let determinant = |all: Vec<Complex<f64>>| all.into_iter().product::<Complex<f64>>().re;
+        let [rod, theta] = [orbit.multipliers().unwrap(), same.multipliers().unwrap()].map(determinant);
+        assert!((rod - theta).abs() < 1e-10 && (rod - (-c * orbit.period).exp()).abs() < 1e-10);
+    }
+}
+
+#[test]
+fn what_cannot_be_followed_is_said() {
+    let system = Resonator { c: 0.2, omega: 0.7 };
+    let search = system.periodic_orbit(&State::at_rest([0.0])).driven_by("omega", 1);
+    let first = search.find().unwrap();
+    // Without a parameter the orbit is isolated.
+    let error = search.family(&first).follow().unwrap_err();
+    assert!(
+        matches!(&error, Error::Orbit(error) if **error == OrbitError::NoFamily { freedom: 0 }),
+        "{error}"
+    );
+    let error = search.family(&first).in_parameter("omega_0").follow().unwrap_err();
+    assert!(matches!(error, Error::UnknownName { .. }), "{error}");
+    let error = search.family(&first).in_parameter("c").step(0.0).follow().unwrap_err();
+    assert!(matches!(error, Error::Setting { .. }), "{error}");
 }

@@ -112,3 +112,6 @@ pub(super) fn product_of<T: Real>(multipliers: &[Complex<T>], shift: T) -> T {
 pub(super) fn logarithm<T: Real>(x: Complex<T>) -> Complex<T> {
     Complex::new(Scalar::ln(modulus(x)), Scalar::atan2(x.im, x.re))
 }
+
+#[cfg(test)]
+mod tests;
