@@ -208,7 +208,7 @@ fn halo_orbits_to_the_moon() {
     }
     let search = lyapunov();
     let first = search.find().unwrap();
-    let planar = search.family(&first).orbits(30).longest_step(0.05).follow().unwrap();
+    let planar = search.family(&first).orbits(40).longest_step(0.05).follow().unwrap();
     let points = planar.bifurcations().iter().filter(|found| found.kind == BifurcationKind::BranchPoint);
     let points: Vec<_> = points.collect();
     assert_eq!(points.len(), 2);

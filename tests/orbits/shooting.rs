@@ -7,7 +7,7 @@ use lagrange_core::nalgebra::Complex;
 use lagrange_core::orbits::{OrbitError, PeriodicOrbit};
 use lagrange_core::{Error, prelude::*};
 
-use crate::systems::{Planet, ThreeMasses, eight};
+use crate::systems::{Moon, Planet, ThreeMasses, eight};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y, z)]
@@ -218,5 +218,18 @@ fn what_cannot_be_found_is_said() {
     }
     for error in [search().period(-1.0).find().unwrap_err(), search().period(f64::NAN).find().unwrap_err()] {
         assert!(matches!(error, Error::Setting { name: "period of an orbit", .. }), "{error}");
+    }
+}
+
+/// Lyapunov's orbit between Earth and Moon, of which deviations grow 2361-fold: the same multipliers of 3 and of 30 segments.
+#[test]
+fn unstable_orbit_in_few_or_many_segments() {
+    let guess = State::new([0.8234, 0.0, 0.0], [0.0, 0.1263, 0.0]);
+    let near = Moon::EARTHS.periodic_orbit(&guess).period_near(2.743).energy(-1.587_178_946);
+    let [few, many] =
+        [3, 30].map(|segments| near.clone().segments(segments).find().unwrap().multipliers().unwrap());
+    assert!((few[0].re - 2361.3).abs() < 1.0, "{few:?}");
+    for (x, y) in few.iter().zip(&many) {
+        assert!((x - y).norm() < 1e-9 * x.norm().max(1.0), "{few:?} {many:?}");
     }
 }
