@@ -275,11 +275,10 @@ const CONSTANTS: [&str; 20] = [
 ];
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
+/// methods of `Simulate`, `Hamiltonian`, `MotionDerivatives` and `PeriodicMotion`.
 const PROVIDED: [&str; 49] = [
-/// methods of `Simulate`, `Hamiltonian` and `MotionDerivatives`.
     "inertial_parameters",
     "regressor",
-/// methods of `Simulate`, `Hamiltonian`, `MotionDerivatives` and `PeriodicMotion`.
     "complete_accelerations",
     "linearize_locally",
     "local_coordinates",
