@@ -184,9 +184,9 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
                 Ok(found) => found,
                 Err(error) => return FamilyEnding::Stopped(Box::new(error)),
             };
-            for found in tracer.between(&member, &arc, (taken, next.tests)) {
-                family.push_bifurcation(found);
-            }
+            let (found, lost) = tracer.between(&member, &arc, (taken, next.tests));
+            found.into_iter().for_each(|found| family.push_bifurcation(found));
+            lost.into_iter().for_each(|lost| family.push_lost(lost));
             let is_easy = next.orbit.iterations <= EASY;
             step = if is_easy { smaller(taken * L::Scalar::constant(1.3), self.longest) } else { taken };
             member = next;

@@ -13,6 +13,9 @@ use crate::number::{Real, Scalar, power_of_epsilon};
 /// Distance of a fold and a branch point, as part of a step, within which they are one.
 const COINCIDENT: f64 = 1e-2;
 
+/// A bifurcation: its test, the orbit there, and the family that leaves.
+pub(super) type Located<L> = (Test, PeriodicOrbit<L>, Option<Branch<L>>);
+
 impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tracer<'_, L, D> {
     /// The member at an arclength near that of another.
     fn beside(
@@ -25,7 +28,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         self.corrected(self.problem.moved_by(&near.shot, &step, false)?, arc)
     }
 
-    /// Bifurcations between a member and the next.
+    /// Bifurcations between a member and the next, and those of which the orbit or the family that leaves was not found.
     ///
     /// A fold and a branch point that coincide are one, a pitchfork seen from the family that leaves: the orbit is the one of the fold,
     /// since the determinant there is small to the left and right.
@@ -34,20 +37,28 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         from: &Member<L>,
         arc: &Arc<L::Scalar>,
         next: (L::Scalar, Tests<L::Scalar>),
-    ) -> Vec<(Test, PeriodicOrbit<L>, Option<Branch<L>>)> {
-        let located = |test: Test| Some((test, self.locate(from, arc, next, test).ok()?));
-        let mut found: Vec<_> = from.tests.changed(&next.1).into_iter().filter_map(located).collect();
+    ) -> (Vec<Located<L>>, Vec<(Test, Error)>) {
+        let (mut found, mut lost) = (Vec::new(), Vec::new());
+        for test in from.tests.changed(&next.1) {
+            match self.locate(from, arc, next, test) {
+                Ok(at) => found.push((test, at)),
+                Err(error) => lost.push((test, error)),
+            }
+        }
         if let [(Test::Turning, (fold, _)), (Test::Determinant, (branch, _)), ..] = &found[..]
             && Scalar::abs(*fold - *branch) <= next.0 * L::Scalar::constant(COINCIDENT)
         {
             found.remove(1);
             found[0].0 = Test::Determinant;
         }
-        let with_branch = |(test, (_, at)): (Test, (L::Scalar, Member<L>))| {
-            let branch = self.problem.branch(test, &at.shot, &at.tangent, self.method).ok()?;
-            Some((test, at.orbit, branch))
-        };
-        found.into_iter().filter_map(with_branch).collect()
+        let mut located = Vec::new();
+        for (test, (_, at)) in found {
+            match self.problem.branch(test, &at.shot, &at.tangent, self.method) {
+                Ok(branch) => located.push((test, at.orbit, branch)),
+                Err(error) => lost.push((test, error)),
+            }
+        }
+        (located, lost)
     }
 
     /// The member at which a test vanishes, between one and the next: regula falsi with the weights of Illinois.
@@ -59,6 +70,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         test: Test,
     ) -> Result<(L::Scalar, Member<L>), Error> {
         const TRIES: usize = 40;
+        let mut reason = Error::EigenvaluesNotFound;
         let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
         let of = |tests: &Tests<L::Scalar>| tests.value(test).unwrap_or(zero);
         let (mut left, mut right) = ((zero, of(&from.tests)), (step, of(&tests)));
@@ -71,7 +83,13 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
                 None => self.member(&from.shot, &arc),
                 Some((at, near)) => self.beside((*at, near), &arc),
             };
-            let Ok(found) = found else { break };
+            let found = match found {
+                Ok(found) => found,
+                Err(error) => {
+                    reason = error;
+                    break;
+                }
+            };
             let value = of(&found.tests);
             let moved =
                 best.as_ref().map_or(step, |(at, _): &(L::Scalar, Member<L>)| Scalar::abs(*at - length));
@@ -89,6 +107,6 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
                 last = 2;
             }
         }
-        best.ok_or(Error::EigenvaluesNotFound)
+        best.ok_or(reason)
     }
 }

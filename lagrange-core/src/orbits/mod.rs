@@ -25,7 +25,7 @@ pub use family::FamilySearch;
 pub use monodromy::Monodromy;
 pub use orbit::PeriodicOrbit;
 pub use search::OrbitSearch;
-pub use table::{Family, FamilyEnding};
+pub use table::{Family, FamilyEnding, LostBifurcation};
 
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, MotionDerivatives, StateSensitivity};

@@ -27,6 +27,17 @@ pub enum FamilyEnding {
     Stopped(Box<Error>),
 }
 
+/// A bifurcation that is known to lie between two orbits of a family, and was not found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LostBifurcation {
+    /// Its kind.
+    pub kind: BifurcationKind,
+    /// Index of the member of the family before it.
+    pub after: usize,
+    /// Reason why it was not found.
+    pub reason: Error,
+}
+
 /// A family of periodic orbits, with its bifurcations.
 #[derive(Clone)]
 pub struct Family<L: Linearized> {
@@ -34,13 +45,14 @@ pub struct Family<L: Linearized> {
     parameter: Option<usize>,
     orbits: Vec<PeriodicOrbit<L>>,
     bifurcations: Vec<Bifurcation<L>>,
+    lost: Vec<LostBifurcation>,
     ending: FamilyEnding,
 }
 
 impl<L: Linearized<Scalar: Real>> Family<L> {
     pub(super) fn begin(name: String, parameter: Option<usize>) -> Self {
-        let (orbits, bifurcations) = (Vec::new(), Vec::new());
-        Self { name, parameter, orbits, bifurcations, ending: FamilyEnding::Count }
+        let (orbits, bifurcations, lost) = (Vec::new(), Vec::new(), Vec::new());
+        Self { name, parameter, orbits, bifurcations, lost, ending: FamilyEnding::Count }
     }
 
     pub(super) fn push(&mut self, orbit: PeriodicOrbit<L>) {
@@ -55,6 +67,10 @@ impl<L: Linearized<Scalar: Real>> Family<L> {
         self.bifurcations.push(Bifurcation { kind, orbit, value, after, branch });
     }
 
+    pub(super) fn push_lost(&mut self, (test, reason): (Test, Error)) {
+        self.lost.push(LostBifurcation { kind: test.kind(), after: self.orbits.len() - 1, reason });
+    }
+
     pub(super) fn end(&mut self, ending: FamilyEnding) {
         self.ending = ending;
     }
@@ -67,6 +83,12 @@ impl<L: Linearized<Scalar: Real>> Family<L> {
     /// The bifurcations, along the family.
     pub fn bifurcations(&self) -> &[Bifurcation<L>] {
         &self.bifurcations
+    }
+
+    /// Bifurcations that lie between two orbits, but whose own orbit, or the family that leaves there, was not found. Shorter
+    /// steps find them, as a rule.
+    pub fn lost(&self) -> &[LostBifurcation] {
+        &self.lost
     }
 
     /// The first bifurcation of a kind.
@@ -85,7 +107,7 @@ impl<L: Linearized<Scalar: Real>> Family<L> {
     }
 
     /// The family as comma-separated values, an orbit a line: parameter or energy, period, gap, error, the start, the multipliers
-    /// (real and imaginary parts), and the bifurcations found between this orbit and the next.
+    /// (real and imaginary parts), and the bifurcations between this orbit and the next.
     pub fn csv(&self) -> String {
         let mut text = String::new();
         let names: Vec<String> = lookup::entries::<L>();
@@ -110,8 +132,14 @@ impl<L: Linearized<Scalar: Real>> Family<L> {
         for multiplier in orbit.multipliers().unwrap_or_default() {
             write!(text, ",{},{}", multiplier.re, multiplier.im)?;
         }
-        let then: Vec<String> = self.after(k).map(|found| alloc::format!("{}", found.kind)).collect();
+        let found = self.after(k).map(|found| alloc::format!("{}", found.kind));
+        let lost = self.lost_after(k).map(|lost| alloc::format!("{} not found", lost.kind));
+        let then: Vec<String> = found.chain(lost).collect();
         writeln!(text, ",{}", then.join("; "))
+    }
+
+    fn lost_after(&self, k: usize) -> impl Iterator<Item = &LostBifurcation> {
+        self.lost.iter().filter(move |lost| lost.after == k)
     }
 
     fn after(&self, k: usize) -> impl Iterator<Item = &Bifurcation<L>> {
@@ -131,6 +159,9 @@ impl<L: Linearized<Scalar: Real>> Display for Family<L> {
             }
             for found in self.after(k) {
                 self.line(f, k, &found.orbit, &alloc::format!("  {}", found.kind))?;
+            }
+            for lost in self.lost_after(k) {
+                writeln!(f, "{k:>6} then {} that is not found: {}", lost.kind, lost.reason)?;
             }
         }
         match &self.ending {
@@ -154,7 +185,36 @@ impl<L: Linearized<Scalar: Real>> Family<L> {
 impl<L: Linearized<Scalar: Real>> Debug for Family<L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut text = f.debug_struct("Family");
-        text.field("orbits", &self.orbits).field("bifurcations", &self.bifurcations);
+        text.field("orbits", &self.orbits)
+            .field("bifurcations", &self.bifurcations)
+            .field("lost", &self.lost);
         text.field("ending", &self.ending).finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prelude::*;
+
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(theta)]
+    #[lagrangian(theta_dot^2/2 + cos(theta))]
+    struct Pendulum;
+
+    /// A sign that changes is told, though no orbit is found there.
+    #[test]
+    fn what_is_not_found_is_told() {
+        let search = Pendulum.periodic_orbit(&State::at_rest([1.0])).period_near(6.7);
+        let orbit = search.energy(-(1.0_f64.cos())).find().expect("an orbit");
+        let mut family = Family::begin("energy".into(), None);
+        family.push(orbit.clone());
+        family.push(orbit);
+        family.push_lost((Test::Doubling, Error::EigenvaluesNotFound));
+        let [lost] = family.lost() else { panic!("{:?}", family.lost()) };
+        assert_eq!((lost.kind, lost.after), (BifurcationKind::PeriodDoubling, 1));
+        let (text, csv) = (family.to_string(), family.csv());
+        assert!(text.contains("     1 then period doubling that is not found: the eigenvalues"), "{text}");
+        assert!(csv.lines().nth(2).is_some_and(|line| line.ends_with(",period doubling not found")), "{csv}");
     }
 }
