@@ -17,6 +17,7 @@ mod random;
 mod rest;
 mod rubbing_sensitivities;
 mod sensitivities;
+mod shared;
 mod slipping;
 mod tables;
 mod toys;

@@ -153,6 +153,14 @@ impl<T: Real> Complementarity<T> {
         z
     }
 
+    /// The row of an unknown as a combination of those of the active ones, on which it depends.
+    pub(super) fn combination(&self, k: usize, active: &[usize]) -> Vec<T> {
+        match active.iter().position(|&of| of == k) {
+            Some(place) => (0..active.len()).map(|of| T::constant(f64::from(of == place))).collect(),
+            None => self.growth(k, active).0.into_iter().map(|part| -part).collect(),
+        }
+    }
+
     /// Growth of w of an unknown as it grows by 1 while those of the active ones stay. `None` if it depends on them.
     pub(super) fn response(&self, k: usize, active: &[usize]) -> Option<T> {
         self.growth(k, active).1

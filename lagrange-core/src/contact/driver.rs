@@ -32,6 +32,8 @@ pub(super) struct Journey<'w, L: Lagrangian, K> {
     crossings: Vec<Crossing<L::Scalar, L::N>>,
     statistics: Statistics,
     accept: Accept<'w, L>,
+    /// State, contacts and number of transitions at the end of the last leg.
+    arrived: Option<(StateOf<L>, States, usize)>,
 }
 
 /// A motion that has ended.
@@ -67,7 +69,8 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let decided = bodies.settle(&mut state, (&was, &Changed::default()), &mut transitions)?;
         let (crossings, statistics, accept) =
             (Vec::new(), Statistics::default(), Box::new(|_: &_, _| Ok(())));
-        Ok(Self { bodies, decided, state, times, kept, transitions, crossings, statistics, accept })
+        let arrived = None;
+        Ok(Self { bodies, decided, state, times, kept, transitions, crossings, statistics, accept, arrived })
     }
 
     /// Calls this after every step; it may end the motion.
@@ -105,13 +108,25 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
             };
             is_first = false;
             match after {
-                Err(error) => break Ending::of(error, self.state.t.to_f64()),
+                Err(error) => {
+                    let ending = Ending::of(error, self.state.t.to_f64());
+                    break self.retreat(ending);
+                }
                 Ok(After::Ending(ending)) => break ending,
                 Ok(After::Transition) => transitions += 1,
                 Ok(After::Leg) => {}
             }
         };
         Ok(self.ended(ending))
+    }
+
+    /// Ends the motion before a transition that cannot be decided, with the state and the contacts of the last leg.
+    fn retreat(&mut self, ending: Ending) -> Ending {
+        if let Some((state, states, transitions)) = self.arrived.take() {
+            (self.state, self.decided.states) = (state, states);
+            self.transitions.truncate(transitions);
+        }
+        ending
     }
 
     fn ended(mut self, ending: Ending) -> Ended<L, K> {
@@ -198,6 +213,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     /// Decides what follows at the end of a leg.
     fn goes_on(&mut self, leg: Driven<L>, given: &mut [Box<DynEvent<'w, L>>]) -> Result<After, Error> {
         self.state = leg.state;
+        self.arrived = Some((self.state, self.decided.states.clone(), self.transitions.len()));
         self.bodies.passes(&self.state);
         self.statistics = leg.statistics;
         let last = leg.crossings.last().filter(|last| last.index >= given.len()).map(|last| last.event);
@@ -222,6 +238,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     /// Decides what follows at the event of this contact or friction.
     fn transition(&mut self, event: &str) -> Result<(), Error> {
         let changed = self.changed(event)?;
+        self.bodies.reaches(&self.state, self.bodies.span)?;
         let was = &self.decided.states;
         self.decided = self.bodies.settle(&mut self.state, (was, &changed), &mut self.transitions)?;
         Ok(())
@@ -230,7 +247,8 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     /// What an event says about the contact or the friction of its name.
     fn changed(&self, event: &str) -> Result<Changed, Error> {
         let Self { bodies, decided, state, .. } = self;
-        let mut changed = Changed::default();
+        let implied = decided.is_implied.clone();
+        let mut changed = Changed { ends_leg: true, implied, ..Changed::default() };
         if let Some(k) = L::CONTACTS.iter().position(|&row| L::CONSTRAINTS[row] == event) {
             let is = |closed| (decided.states.is_closed[k] == closed).then_some(k);
             (changed.closes, changed.opens) = (is(false), is(true));
@@ -247,12 +265,15 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     }
 
     /// Friction that begins to slide where this one reaches its limit: all at their limits if they share their forces, and none
-    /// if another one that shares them has some of its limit left.
+    /// if another one that shares them has some of its limit left. Along two velocities the shares are decided anew.
     fn slips(&self, f: usize) -> Result<Vec<(usize, [f64; 2])>, Error> {
         let Self { bodies, decided: Decided { states, .. }, state, .. } = self;
         let solution = bodies.with(states).solve(state)?;
         let (mut slips, mut powerless, mut is_left) = (Vec::new(), Vec::new(), false);
         let is_shared = states.frictions.iter().any(|friction| matches!(friction, Friction::Shares(_)));
+        if is_shared && L::FRICTIONS[f].count == 2 {
+            return Ok(Vec::new());
+        }
         for (other, &FrictionRows { row, count, contact, .. }) in L::FRICTIONS.iter().enumerate() {
             let is_pressed = contact.is_none_or(|k| states.is_closed[k]);
             let friction = states.frictions[other];

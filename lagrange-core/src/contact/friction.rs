@@ -63,20 +63,24 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let touching = self.all_touching(&was.is_closed, changed, state);
         self.check_gradients(&touching, state)?;
         let rows = self.rows(touching, state)?;
+        let mut changed = changed.clone();
         for _ in 0..IMPACTS {
             let pressing = self.pressing(&rows.all, state)?;
             let noise = self.motion_noise(&rows.delassus.0, state);
-            let rests =
-                |place: usize| self.rests(rows.touching[place], (pressing[place][0], noise[place]), state);
+            let rests = |place: usize| {
+                let k = rows.touching[place];
+                changed.is_implied(k) || self.rests(k, (pressing[place][0], noise[place]), state)
+            };
             let resting: Vec<bool> = (0..rows.touching.len()).map(rests).collect();
             let approaches = |place: usize| {
                 !resting[place] && self.measured(rows.touching[place], state).rate < L::Scalar::constant(0.0)
             };
             if (0..rows.touching.len()).any(approaches) {
                 self.impact(&rows, &resting, state, transitions)?;
+                (changed.ends_leg, changed.implied) = (false, Vec::new());
                 continue;
             }
-            return self.grip(&rows, resting, &pressing, state, (was, changed), transitions);
+            return self.grip(&rows, resting, &pressing, state, (was, &changed), transitions);
         }
         Err(Error::ImpactsDoNotEnd { time: state.t.to_f64() })
     }
@@ -190,7 +194,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let before = *state;
         for _ in 0..STOPS {
             let (decided, towards, forces) =
-                self.gripped(rows, resting.clone(), pressing, (&before, state), changed)?;
+                self.gripped(rows, resting.clone(), pressing, (&before, state), (was, changed))?;
             self.halt(rows, (&decided, &forces), state);
             if self.slides_back(&decided, state) {
                 continue;
@@ -225,9 +229,9 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         resting: Vec<bool>,
         pressing: &[[L::Scalar; 2]],
         (before, state): (&StateOf<L>, &StateOf<L>),
-        changed: &Changed,
+        (was, changed): (&States, &Changed),
     ) -> Result<(Decided<L::Scalar>, Vec<L::Scalar>, ContactForces<L::Scalar>), Error> {
-        let mut decision = Decision::new(self, (rows, pressing), resting, state, changed);
+        let mut decision = Decision::new(self, (rows, pressing), resting, state, (was, changed));
         let gripped = decision.settle(state)?;
         let Decision { resting, slips, .. } = decision;
         let mut decided = gripped.decided(rows, pressing, &slips);
@@ -276,6 +280,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         state: &StateOf<L>,
     ) -> Vec<(usize, L::Scalar)> {
         let least = power_of_epsilon::<L::Scalar>(0.5);
+        let motion = outcome.motion.as_ref().unwrap_or(&outcome.rates);
         let mut starts = Vec::new();
         let mut time = Some(L::Scalar::constant(0.0));
         for &(f, place) in &rows.frictions {
@@ -287,13 +292,13 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let both = [place, place + 1];
             let changes = both.map(|row| Scalar::abs(rows.delassus.0[row][row] * outcome.forces[row]));
             let speed = self.start(both.map(|row| rows.all[row]), changes, state);
-            let acceleration = length(both.map(|row| outcome.rates[row]));
-            let is_known = acceleration > least * larger(changes[0], changes[1]);
+            let acceleration = length(both.map(|row| motion[row]));
+            let is_known = outcome.motion.is_some() || acceleration > least * larger(changes[0], changes[1]);
             time = time.filter(|_| is_known).map(|time| larger(time, speed / acceleration));
             starts.extend(both.into_iter().zip(direction.map(|part| speed * L::Scalar::constant(part))));
         }
         if let Some(time) = time {
-            starts.iter_mut().for_each(|(row, velocity)| *velocity = outcome.rates[*row] * time);
+            starts.iter_mut().for_each(|(row, velocity)| *velocity = motion[*row] * time);
         }
         starts
     }
@@ -325,6 +330,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
                 continue;
             }
             match (was.frictions[f], is.frictions[f]) {
+                // It has had no force.
+                (Friction::Slides([0.0, 0.0]), is) if is.is_at_rest() => {}
                 (Friction::Slides(_), is) if is.is_at_rest() => {
                     transitions.push(Transition::Sticks { friction, time });
                 }

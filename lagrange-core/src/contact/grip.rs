@@ -21,6 +21,8 @@ pub(super) struct Decision<'a, L: Contacts<Scalar: Real>> {
     pressing: &'a [[L::Scalar; 2]],
     /// The contact that has just ceased to push.
     opens: Option<usize>,
+    /// The contacts that were closed in the leg that ends here, if none of them opens and no other one closes.
+    were_closed: Option<&'a [bool]>,
     /// Which of the touching contacts are at rest.
     pub(super) resting: Vec<bool>,
     /// Direction in which each friction slides; none if it is at rest.
@@ -46,15 +48,22 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
         (rows, pressing): (&'a TouchingRows<L>, &'a [[L::Scalar; 2]]),
         resting: Vec<bool>,
         state: &StateOf<L>,
-        changed: &Changed,
+        (was, changed): (&'a States, &Changed),
     ) -> Self {
         // What has the same velocity as another friction stops with it.
         let units = if changed.stops.is_some() { BEGIN } else { 1.0 };
-        let slip = |f| if changed.stops == Some(f) { None } else { bodies.slip(f, state, units) };
+        let has_stuck = |f: usize| {
+            let is_pressed = L::FRICTIONS[f].contact.is_none_or(|k| was.is_closed[k]);
+            changed.ends_leg && is_pressed && was.frictions.get(f).is_some_and(Friction::is_at_rest)
+        };
+        let is_at_rest = |f| changed.stops == Some(f) || has_stuck(f);
+        let slip = |f| if is_at_rest(f) { None } else { bodies.slip(f, state, units) };
         let slips = (0..L::FRICTIONS.len()).map(slip).collect();
         let begun = changed.slips.iter().map(|&(f, direction)| (f, direction.map(L::Scalar::constant)));
         let (begun, held) = (begun.collect(), Vec::new());
-        Self { bodies, rows, pressing, opens: changed.opens, resting, slips, begun, held }
+        let goes_on = changed.ends_leg && changed.opens.is_none() && changed.closes.is_none();
+        let were_closed = goes_on.then_some(&was.is_closed[..]);
+        Self { bodies, rows, pressing, opens: changed.opens, were_closed, resting, slips, begun, held }
     }
 
     /// Finds forces after which nothing else comes to rest or begins to slide.
@@ -70,6 +79,30 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
     fn forces(&self, state: &StateOf<L>) -> Result<Gripped<L::Scalar>, Error> {
         let touching = self.rows.touching.iter().zip(&self.resting);
         let plays: Vec<bool> = touching.map(|(&k, &rests)| rests && self.opens != Some(k)).collect();
+        if let Some(gripped) = self.by_those_before(&plays, state) {
+            return Ok(gripped);
+        }
+        self.of_playing(plays, state)
+    }
+
+    /// Forces of the contacts that were closed before, if they hold the bodies at rest without others that touch.
+    fn by_those_before(&self, plays: &[bool], state: &StateOf<L>) -> Option<Gripped<L::Scalar>> {
+        let were_closed = self.were_closed?;
+        let of_those = |(&plays, &k): (&bool, &usize)| plays && were_closed[k];
+        let those: Vec<bool> = plays.iter().zip(&self.rows.touching).map(of_those).collect();
+        if those == plays {
+            return None;
+        }
+        let gripped = self.of_playing(those, state).ok()?;
+        let stays_apart = |place: usize| {
+            gripped.forces.rates[place] >= -self.rows.noise(place, self.pressing, &gripped.forces)
+        };
+        let others = (0..plays.len()).filter(|&place| plays[place] && !gripped.plays[place]);
+        let holds = gripped.forces.motion.is_none() && others.clone().all(stays_apart);
+        holds.then(|| Gripped { plays: plays.to_vec(), ..gripped })
+    }
+
+    fn of_playing(&self, plays: Vec<bool>, state: &StateOf<L>) -> Result<Gripped<L::Scalar>, Error> {
         let grip = |f: usize| {
             let begun = self.begun.iter().find(|(of, _)| *of == f).map(|(_, direction)| *direction);
             let undecided = if L::FRICTIONS[f].count == 1 { Grip::Open } else { Grip::Sticks };
@@ -170,7 +203,10 @@ impl<T: Real> Gripped<T> {
         let active = rows.active(&decided.states);
         for place in (0..self.plays.len()).filter(|&place| self.plays[place]) {
             let k = rows.touching[place];
-            let is_still = Scalar::abs(self.forces.rates[place]) <= rows.noise(place, pressing, &self.forces);
+            decided.is_resting[k] = true;
+            // Forces at the limits of friction are off by what is left of these.
+            let is_still = self.forces.motion.is_some()
+                || Scalar::abs(self.forces.rates[place]) <= rows.noise(place, pressing, &self.forces);
             decided.is_implied[k] =
                 !decided.states.is_closed[k] && is_still && problem.depends(place, &active);
         }
@@ -182,7 +218,6 @@ impl<T: Real> Gripped<T> {
         for (k, &(contact, friction)) in self.names.iter().enumerate() {
             if let Some(contact) = contact {
                 decided.states.is_closed[contact] = self.forces.pushes[k];
-                decided.is_resting[contact] = true;
             }
             if let (Some(f), Some(grip)) = (friction, self.forces.grips[k]) {
                 decided.states.frictions[f] = match grip {

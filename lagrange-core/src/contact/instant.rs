@@ -23,8 +23,12 @@ pub(super) const STOPS: usize = 8;
 const BOUNCE: f64 = 2.7;
 
 /// What brings a motion to an instant at which its contacts are decided.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Changed {
+    /// A leg ends here, at the end of which all that stuck in it is at rest.
+    pub(super) ends_leg: bool,
+    /// Open contacts whose gaps have remained zero in that leg because of the closed ones; empty if there is none.
+    pub(super) implied: Vec<bool>,
     /// The gap of this contact has just become zero.
     pub(super) closes: Option<usize>,
     /// The multiplier of this contact has just become zero.
@@ -33,6 +37,13 @@ pub(super) struct Changed {
     pub(super) slips: Vec<(usize, [f64; 2])>,
     /// The velocity of this friction has just become zero.
     pub(super) stops: Option<usize>,
+}
+
+impl Changed {
+    /// Whether this open contact has touched in the leg that ends here because of closed ones.
+    pub(super) fn is_implied(&self, k: usize) -> bool {
+        self.implied.get(k) == Some(&true)
+    }
 }
 
 /// Contacts and friction after an instant.
@@ -74,7 +85,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         state: &StateOf<L>,
     ) -> Vec<usize> {
         let is_touching = |k: usize| {
-            was_closed[k] || changed.closes == Some(k) || self.gap(k, state) <= self.touching(k, state)
+            was_closed[k]
+                || changed.closes == Some(k)
+                || changed.is_implied(k)
+                || self.gap(k, state) <= self.touching(k, state)
         };
         (0..L::CONTACTS.len()).filter(|&k| is_touching(k)).collect()
     }

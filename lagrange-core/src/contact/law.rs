@@ -61,6 +61,7 @@ pub(super) struct Law<'a, T> {
 }
 
 /// What the law gives.
+#[derive(Clone)]
 pub(super) struct ContactForces<T> {
     /// Force or impulse of each row.
     pub(super) forces: Vec<T>,
@@ -70,6 +71,8 @@ pub(super) struct ContactForces<T> {
     pub(super) pushes: Vec<bool>,
     /// What the friction of each touch does: it sticks or slides.
     pub(super) grips: Vec<Option<Grip<T>>>,
+    /// Velocities of the rows, in some unit, with which bodies begin to slide whose forces have reached their limits together.
+    pub(super) motion: Option<Vec<T>>,
 }
 
 /// Why no forces were found.
@@ -99,20 +102,20 @@ enum Unknown {
 impl<T: Real> Law<'_, T> {
     /// Finds forces that satisfy the law, also for friction of two velocities: it sticks if forces within its limit keep the
     /// bodies together, and else slides in the direction that its forces lead to.
-    ///
-    /// Where rows of friction depend on one another, forces are not unique. Those by cones come first, since they leave each
-    /// friction some of its limit.
     pub(super) fn decide(self) -> Result<ContactForces<T>, NoForces> {
-        let is_shared = self.is_shared();
-        if let Some(forces) = is_shared.then(|| self.by_cones()).flatten() {
-            return Ok(forces);
-        }
-        let again = self.clone();
-        self.in_directions().or_else(|why| if is_shared { Err(why) } else { again.by_cones().ok_or(why) })
+        let law = self.clone();
+        let mut forces = if self.is_shared() { self.shared()? } else { self.unshared()? };
+        law.close_idle(&mut forces);
+        Ok(forces)
+    }
+
+    fn unshared(self) -> Result<ContactForces<T>, NoForces> {
+        let law = self.clone();
+        self.in_directions().or_else(|why| law.by_cones().ok_or(why))
     }
 
     /// Finds forces by corrections of the directions in which bodies slide.
-    fn in_directions(mut self) -> Result<ContactForces<T>, NoForces> {
+    pub(super) fn in_directions(mut self) -> Result<ContactForces<T>, NoForces> {
         let is_planar = |touch: &Touch<T>| {
             touch.friction.is_some_and(|friction| friction.count == 2 && friction.grip == Grip::Sticks)
         };
@@ -160,7 +163,8 @@ impl<T: Real> Law<'_, T> {
         }
     }
 
-    fn solve(&self) -> Option<ContactForces<T>> {
+    /// Finds forces with which friction of two velocities does what its grip says.
+    pub(super) fn solve(&self) -> Option<ContactForces<T>> {
         let unknowns = self.unknowns();
         let (pushes, known) = self.pushes(&unknowns);
         let (zero, size) = (T::constant(0.0), unknowns.len());
@@ -294,7 +298,7 @@ impl<T: Real> Law<'_, T> {
                 Unknown::Back | Unknown::Speed(_) | Unknown::Hold => {}
             }
         }
-        ContactForces { forces, rates, pushes, grips }
+        ContactForces { forces, rates, pushes, grips, motion: None }
     }
 }
 

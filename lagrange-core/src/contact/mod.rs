@@ -148,6 +148,10 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both.
 //! - The direction in which bodies slide along two velocities is renewed where the velocity has turned by 60°; at 90° the
 //!   force of the old direction would change its sign.
+//! - A force of contact that begins within 64 ε of the largest force is watched for falling below zero by as much.
+//! - Friction that has stuck up to the end of a leg is at rest there, unless an impact follows.
+//! - Frictions along two velocities that share their load begin to slide where the first of them, as they share it, is within 10⁻¹⁰
+//!   of its limit; each that is within 5·10⁻⁵ of its own slides with it.
 //! - Friction that needs no force sticks if what the other contacts leave of its row is a pivot that the elimination trusts.
 //! - A step is not searched for forces that leave their limits where the 16 stages of `Dop853`, or those of `Dopri5` and one more
 //!   evaluation, bound the multipliers away from them: no force leaves its limit there unless it is off every cubic polynomial of
@@ -278,6 +282,8 @@ mod lemke;
 mod lifting;
 #[cfg(feature = "alloc")]
 mod newton;
+#[cfg(feature = "alloc")]
+mod reserve;
 #[cfg(feature = "alloc")]
 mod sharing;
 #[cfg(feature = "alloc")]

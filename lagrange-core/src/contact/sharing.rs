@@ -4,10 +4,11 @@ use alloc::vec::Vec;
 
 use super::complementarity::Complementarity;
 use super::cones::{Cone, Cones, length};
-use super::friction::TouchingRows;
+use super::friction::{BEGIN, TouchingRows};
 use super::grip::Gripped;
 use super::instant::Decided;
-use super::law::{ContactForces, Grip, Law, Rubbing, Touch};
+use super::law::{ContactForces, Grip, Law, NoForces, Rubbing, Touch};
+use super::reserve::{Reserve, Resting, reserve};
 use super::{Contacts, Friction};
 use crate::number::{Real, Scalar, larger};
 use crate::solution::pivot::least_pivot;
@@ -21,7 +22,72 @@ const SWEEPS: usize = 10_000;
 /// Rates along a contact, in units of those that the residual allows, up to which it sticks. What sticks has the residual.
 const STICKS: f64 = 1e3;
 
+/// Acceleration, relative to its terms, below which forces of friction that have reached their limits together are in balance:
+/// those are within 10⁻¹⁰ of their limits, or 5·10⁻⁵ where the motion in which they slide is slow.
+const BALANCED: f64 = 1e-8;
+
+/// Part of its limit that friction at rest has left, where others could begin to slide; as large as what their forces lack.
+const LEFT: f64 = 1e-10;
+
+impl<T> ContactForces<T> {
+    /// Whether some friction slides.
+    fn slide(&self) -> bool {
+        self.grips.iter().any(|grip| matches!(grip, Some(Grip::Slides(_))))
+    }
+}
+
 impl<T: Real> Law<'_, T> {
+    /// Finds forces of friction that several contacts share. Those with which the contacts that push first keep all at rest are
+    /// tried first, and then those by cones, where others may push. Friction that has reached its limits together slides.
+    pub(super) fn shared(self) -> Result<ContactForces<T>, NoForces> {
+        let at_rest = self.solve().and_then(|outcome| self.with_reserve(outcome));
+        if let Some(forces) = at_rest.as_ref().filter(|forces| !forces.slide()) {
+            return Ok(forces.clone());
+        }
+        let by_cones = self.by_cones();
+        let found = [
+            by_cones.clone().filter(|forces| !forces.slide() && self.has_reserve(forces)),
+            at_rest.clone().filter(|forces| self.is_balanced(forces, BALANCED)),
+            by_cones,
+        ];
+        match found.into_iter().flatten().next() {
+            Some(forces) => Ok(forces),
+            None => self.in_directions().or_else(|why| at_rest.ok_or(why)),
+        }
+    }
+
+    /// Whether all friction is in balance, with some of its limit left.
+    fn has_reserve(&self, forces: &ContactForces<T>) -> bool {
+        let is_left = |touch: &Touch<T>| {
+            let Some(Rubbing { place, count, bounds: [limit, _], .. }) = touch.friction else { return true };
+            let press = touch.gap.map_or(T::constant(1.0), |gap| forces.forces[gap]);
+            let force = |c: usize| if c < count { forces.forces[place + c] } else { T::constant(0.0) };
+            let size = length([force(0), force(1)]);
+            size == T::constant(0.0) || size < limit * press * T::constant(1.0 - LEFT)
+        };
+        self.touches.iter().all(is_left) && self.is_balanced(forces, LEFT)
+    }
+
+    /// Whether the velocities of friction have no accelerations, but for this part of their terms.
+    fn is_balanced(&self, forces: &ContactForces<T>, part: f64) -> bool {
+        let frictions = self.touches.iter().filter_map(|touch| touch.friction);
+        frictions.flat_map(|friction| friction.place..friction.place + friction.count).all(|row| {
+            let size = Scalar::abs(self.rates[row]) + self.size(row, forces);
+            Scalar::abs(forces.rates[row]) <= T::constant(part) * size
+        })
+    }
+
+    /// Size of the terms of what forces change a rate by.
+    fn size(&self, row: usize, forces: &ContactForces<T>) -> T {
+        let parts = self.matrix[row].iter().zip(&forces.forces);
+        parts.fold(T::constant(0.0), |sum, (&g, &force)| sum + Scalar::abs(g * force))
+    }
+
+    /// The rate of a row with these forces.
+    fn rate(&self, row: usize, forces: &[T]) -> T {
+        self.matrix[row].iter().zip(forces).fold(self.rates[row], |sum, (&g, &force)| sum + g * force)
+    }
+
     /// Finds forces that satisfy the law to a residual of 10⁻¹², whatever rows depend on one another. Gaps whose rows depend
     /// on others that push do not push. `None` if none are found, or if something slides already.
     pub(super) fn by_cones(&self) -> Option<ContactForces<T>> {
@@ -29,7 +95,9 @@ impl<T: Real> Law<'_, T> {
         let mut plays: Vec<bool> = self.touches.iter().map(|_| true).collect();
         loop {
             let outcome = self.within_cones(&plays)?;
-            let Some(spare) = self.spare(&problem, &outcome) else { return Some(outcome) };
+            let Some(spare) = self.spare(&problem, &outcome) else {
+                return Some(self.with_reserve(outcome.clone()).unwrap_or(outcome));
+            };
             plays[spare] = false;
         }
     }
@@ -96,10 +164,7 @@ impl<T: Real> Law<'_, T> {
         }
         let mut forces: Vec<T> = self.rates.iter().map(|_| T::constant(0.0)).collect();
         places.iter().zip(cones.impulses()).for_each(|(&place, &force)| forces[place] = force);
-        let rate = |row: usize| {
-            self.matrix[row].iter().zip(&forces).fold(self.rates[row], |sum, (&g, &force)| sum + g * force)
-        };
-        let rates: Vec<T> = (0..forces.len()).map(rate).collect();
+        let rates: Vec<T> = (0..forces.len()).map(|row| self.rate(row, &forces)).collect();
         let still = T::constant(FOUND * STICKS) * cones.scale();
         let allowed = |row: usize| still * Scalar::sqrt(self.matrix[row][row]) + self.noise[row];
         let parts = |touch: &Touch<T>| touch.gap.is_none_or(|gap| rates[gap] >= -allowed(gap));
@@ -113,7 +178,52 @@ impl<T: Real> Law<'_, T> {
         };
         let grips = self.touches.iter().map(|touch| touch.friction.map(grip));
         let (pushes, grips) = (pushes.collect(), grips.collect());
-        self.touches.iter().all(parts).then_some(ContactForces { forces, rates, pushes, grips })
+        self.touches.iter().all(parts).then_some(ContactForces { forces, rates, pushes, grips, motion: None })
+    }
+
+    /// Keeps gaps closed that neither need a force nor open, if those that push do not determine them: a body whose weight is on
+    /// two of its four feet would else be free to turn about these.
+    pub(super) fn close_idle(&self, outcome: &mut ContactForces<T>) {
+        let problem = self.problem();
+        let gap = |k: usize| self.touches[k].gap;
+        let mut active: Vec<usize> =
+            (0..self.touches.len()).filter(|&k| outcome.pushes[k]).filter_map(gap).collect();
+        for k in 0..self.touches.len() {
+            let Some(gap) = gap(k).filter(|_| !outcome.pushes[k]) else { continue };
+            let noise = self.noise[gap] + T::constant(T::EPSILON * BEGIN) * self.size(gap, outcome);
+            if Scalar::abs(outcome.rates[gap]) <= noise && !problem.depends(gap, &active) {
+                outcome.pushes[k] = true;
+                active.push(gap);
+            }
+        }
+    }
+
+    /// Shares out the forces of friction where all of it is at rest.
+    fn with_reserve(&self, mut outcome: ContactForces<T>) -> Option<ContactForces<T>> {
+        let (mut touches, mut resting) = (Vec::new(), Vec::new());
+        // What is not pressed has no force.
+        for (k, touch) in self.touches.iter().enumerate() {
+            let Some(Rubbing { place, count, bounds: [limit, _], .. }) = touch.friction else { continue };
+            let press = touch.gap.map_or(T::constant(1.0), |gap| outcome.forces[gap]);
+            let limit = larger(limit * press, T::constant(0.0));
+            if !matches!(outcome.grips[k], Some(Grip::Sticks | Grip::Idle)) {
+                return None;
+            }
+            touches.push(k);
+            resting.push(Resting { place, count, limit });
+        }
+        let mut motion = self.rates.iter().map(|_| T::constant(0.0)).collect::<Vec<T>>();
+        let Reserve { forces, slips, velocities } = reserve(&self.problem(), &resting, &outcome.forces)?;
+        for (n, (&k, Resting { place, count, .. })) in touches.iter().zip(resting).enumerate() {
+            outcome.forces[place..place + count].copy_from_slice(&forces[n][..count]);
+            motion[place..place + count].copy_from_slice(&velocities[n][..count]);
+            if let Some(direction) = slips[n] {
+                outcome.grips[k] = Some(Grip::Slides(direction));
+            }
+        }
+        outcome.motion = slips.iter().any(Option::is_some).then_some(motion);
+        outcome.rates = (0..self.rates.len()).map(|row| self.rate(row, &outcome.forces)).collect();
+        Some(outcome)
     }
 
     /// The law of the contacts that `plays` marks as a problem of cones, with the place of each of its rows. `None` if friction

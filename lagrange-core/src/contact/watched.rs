@@ -68,7 +68,8 @@ where
         if decided.states.is_closed[k] {
             let force = move |sample: &Sample<&L>| Ok(shared.solution(sample)?.multipliers[row]);
             check_push(system, state, name, force)?;
-            let rest = is_resting.then_some(L::Scalar::constant(0.0));
+            // One that begins at zero has no sign before, and may have no round-off of its own.
+            let rest = if is_resting { Some(round_off::<L>(&system.solve(state)?)) } else { None };
             return Ok((watched(system, state, name, rest, force)?, LegCondition::Pushes { row }));
         }
         let gap = move |sample: &Sample<&L>| shared.gap(row, sample);

@@ -1,0 +1,250 @@
+//! Shares of friction at rest that leave it a reserve: forces that several contacts share are not unique.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::complementarity::Complementarity;
+use super::cones::length;
+use crate::number::{Real, Scalar, larger};
+
+/// Largest number of Newton steps. Those towards a limit multiply u by 1.5 each, and a few find it.
+const STEPS: usize = 200;
+
+/// Halvings of one Newton step.
+const HALVINGS: usize = 40;
+
+/// |u|²/g at which friction has reached its limit: its force is within 5·10⁻¹¹ of it.
+const AT_LIMIT: f64 = 1e10;
+
+/// |u|²/g from which friction slides where others have reached their limits: its force is within 5·10⁻⁵ of its own.
+const MOVES: f64 = 1e4;
+
+/// Imbalance of forces, relative to the sum of their limits, below which they are found.
+const FOUND: f64 = 1e-14;
+
+/// Friction at rest whose force is shared out anew.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Resting<T> {
+    /// Place of its first velocity among the rows.
+    pub(super) place: usize,
+    pub(super) count: usize,
+    /// Largest force.
+    pub(super) limit: T,
+}
+
+/// What friction at rest that shares its forces does.
+pub(super) struct Reserve<T> {
+    /// Force of each friction.
+    pub(super) forces: Vec<[T; 2]>,
+    /// Direction in which each begins to slide, where together they have reached their limits.
+    pub(super) slips: Vec<Option<[T; 2]>>,
+    /// Velocities, in some unit, of the motion in which they begin to slide.
+    pub(super) velocities: Vec<[T; 2]>,
+}
+
+/// Friction with its limit s and its mean response g, and the rows of its velocities u = C x.
+struct Part<T> {
+    limit: T,
+    response: T,
+    combinations: Vec<Vec<T>>,
+}
+
+impl<T: Real> Part<T> {
+    fn velocity(&self, x: &[T]) -> [T; 2] {
+        let of = |row: &Vec<T>| row.iter().zip(x).fold(T::constant(0.0), |sum, (&c, &x)| sum + c * x);
+        let mut u = [T::constant(0.0); 2];
+        u.iter_mut().zip(&self.combinations).for_each(|(u, row)| *u = of(row));
+        u
+    }
+
+    /// |u|²/g.
+    fn far(&self, [x, y]: [T; 2]) -> T {
+        (x * x + y * y) / self.response
+    }
+
+    /// s u/√(g + |u|²).
+    fn force(&self, [x, y]: [T; 2]) -> [T; 2] {
+        let size = Scalar::sqrt(self.response + x * x + y * y);
+        [x, y].map(|u| self.limit * u / size)
+    }
+
+    /// Derivatives of the force by u.
+    fn derivatives(&self, u: [T; 2]) -> [[T; 2]; 2] {
+        let square = self.response + u[0] * u[0] + u[1] * u[1];
+        let factor = self.limit / (square * Scalar::sqrt(square));
+        let across = -(factor * u[0] * u[1]);
+        let along = |other: usize| factor * (self.response + u[other] * u[other]);
+        [[along(1), across], [across, along(0)]]
+    }
+}
+
+/// Shares out forces T of friction at rest with limits s and mean responses g. Of all forces within the limits that act in the
+/// same way, it gives those for which Σ √g √(s² − |T|²) is largest. By duality T = s u/√(g + |u|²) with velocities u of a motion of
+/// the bodies, which grow without end as the forces come to their limits together; the bodies then begin to slide along −u.
+/// Newton's method minimizes the convex Σ s √(g + |u|²) − Tᵀu.
+pub(super) fn reserve<T: Real>(
+    problem: &Complementarity<T>,
+    resting: &[Resting<T>],
+    forces: &[T],
+) -> Option<Reserve<T>> {
+    let parts = parts(problem, resting, forces)?;
+    let size = parts.first()?.combinations.first()?.len();
+    let imbalance = |x: &[T]| {
+        let mut sum = vec![T::constant(0.0); size];
+        for (part, of) in parts.iter().zip(resting) {
+            let force = part.force(part.velocity(x));
+            for (c, row) in part.combinations.iter().enumerate() {
+                let more = force[c] - forces[of.place + c];
+                sum.iter_mut().zip(row).for_each(|(sum, &entry)| *sum += entry * more);
+            }
+        }
+        sum
+    };
+    let scale = parts.iter().fold(T::constant(0.0), |sum, part| {
+        let entries = part.combinations.iter().flatten();
+        sum + part.limit * entries.fold(T::constant(0.0), |most, &entry| larger(most, Scalar::abs(entry)))
+    });
+    let mut x = vec![T::constant(0.0); size];
+    let mut left = imbalance(&x);
+    for _ in 0..STEPS {
+        let velocities: Vec<[T; 2]> = parts.iter().map(|part| part.velocity(&x)).collect();
+        let far = |k: usize| parts[k].far(velocities[k]);
+        let is_at_limit = (0..parts.len()).any(|k| far(k) > T::constant(AT_LIMIT));
+        let is_found = left.iter().all(|part| Scalar::abs(*part) <= T::constant(FOUND) * scale);
+        if is_at_limit || is_found {
+            let moves = |k: usize| is_at_limit && far(k) > T::constant(MOVES);
+            let slip = |k: usize| moves(k).then(|| velocities[k].map(|u| -(u / length(velocities[k]))));
+            let force = |(part, &u): (&Part<T>, &[T; 2])| part.force(u);
+            return Some(Reserve {
+                forces: parts.iter().zip(&velocities).map(force).collect(),
+                slips: (0..parts.len()).map(slip).collect(),
+                velocities: velocities.iter().map(|velocity| velocity.map(|u| -u)).collect(),
+            });
+        }
+        (x, left) = descent(&x, &left, curvature(&parts, &velocities), imbalance)?;
+    }
+    None
+}
+
+/// The next x: a Newton step, halved until the slope along it does not rise to more than it fell.
+fn descent<T: Real>(
+    x: &[T],
+    left: &[T],
+    curvature: Vec<Vec<T>>,
+    imbalance: impl Fn(&[T]) -> Vec<T>,
+) -> Option<(Vec<T>, Vec<T>)> {
+    let noise = vec![T::constant(0.0); x.len()];
+    let all: Vec<usize> = (0..x.len()).collect();
+    let step = Complementarity { matrix: curvature, constant: left.to_vec(), noise }.equality(&all);
+    let slope = |left: &[T]| left.iter().zip(&step).fold(T::constant(0.0), |sum, (&l, &s)| sum + l * s);
+    let before = slope(left);
+    let mut part = T::constant(1.0);
+    for _ in 0..HALVINGS {
+        let next: Vec<T> = x.iter().zip(&step).map(|(&x, &step)| x + part * step).collect();
+        let left = imbalance(&next);
+        if slope(&left) <= -before {
+            return Some((next, left));
+        }
+        part *= T::constant(0.5);
+    }
+    None
+}
+
+/// `None` if friction without a limit has to hold what nothing else does.
+fn parts<T: Real>(
+    problem: &Complementarity<T>,
+    resting: &[Resting<T>],
+    forces: &[T],
+) -> Option<Vec<Part<T>>> {
+    let mut active = Vec::new();
+    // What has no limit moves along with the others.
+    let with_force = resting.iter().filter(|of| of.limit > T::constant(0.0));
+    for row in with_force.flat_map(|of| of.place..of.place + of.count) {
+        if !problem.depends(row, &active) {
+            active.push(row);
+        }
+    }
+    let is_held = |row: usize| {
+        forces[row] == T::constant(0.0) || active.contains(&row) || problem.depends(row, &active)
+    };
+    if !resting.iter().flat_map(|of| of.place..of.place + of.count).all(is_held) {
+        return None;
+    }
+    let part = |&Resting { place, count, limit }: &Resting<T>| {
+        let rows = place..place + count;
+        let response = rows.clone().fold(T::constant(0.0), |sum, row| sum + problem.matrix[row][row]);
+        let response = response / T::constant(count as f64);
+        Part { limit, response, combinations: rows.map(|row| problem.combination(row, &active)).collect() }
+    };
+    Some(resting.iter().map(part).collect())
+}
+
+fn curvature<T: Real>(parts: &[Part<T>], velocities: &[[T; 2]]) -> Vec<Vec<T>> {
+    let size = parts[0].combinations[0].len();
+    let mut sum = vec![vec![T::constant(0.0); size]; size];
+    for (part, &u) in parts.iter().zip(velocities) {
+        let derivatives = part.derivatives(u);
+        for (a, one) in part.combinations.iter().enumerate() {
+            for (b, other) in part.combinations.iter().enumerate() {
+                for (row, &entry) in sum.iter_mut().zip(one) {
+                    row.iter_mut().zip(other).for_each(|(sum, &by)| *sum += entry * derivatives[a][b] * by);
+                }
+            }
+        }
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Forces on three points of a body of unit mass and inertia that hold it against a force and a moment about the first point,
+    /// and whether they slide.
+    fn held([x, turn]: [f64; 2], limits: [f64; 3]) -> ([[f64; 2]; 3], bool) {
+        let points = [[0.0, 0.0], [1.0, 0.3], [-0.4, 0.8]];
+        let rows: Vec<[f64; 3]> =
+            points.iter().flat_map(|&[px, py]| [[1.0, 0.0, -py], [0.0, 1.0, px]]).collect();
+        let dot = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let matrix = rows.iter().map(|row| rows.iter().map(|other| dot(row, other)).collect()).collect();
+        let problem = Complementarity { matrix, constant: vec![0.0; 6], noise: vec![0.0; 6] };
+        let [px, py] = points[1];
+        let couple = [-py, px].map(|part| part * turn / (px * px + py * py));
+        let forces = [-x + couple[0], couple[1], -couple[0], -couple[1], 0.0, 0.0];
+        let resting: Vec<Resting<f64>> =
+            (0..3).map(|k| Resting { place: 2 * k, count: 2, limit: limits[k] }).collect();
+        let found = reserve(&problem, &resting, &forces).expect("forces");
+        let shared = [found.forces[0], found.forces[1], found.forces[2]];
+        // They act as those given.
+        let moment = |forces: &[[f64; 2]; 3]| {
+            points.iter().zip(forces).map(|([px, py], [fx, fy])| px * fy - py * fx).sum::<f64>()
+        };
+        let sum = |c: usize| shared.iter().map(|force| force[c]).sum::<f64>();
+        let off = [sum(0) + x, sum(1), moment(&shared) + turn].map(f64::abs);
+        assert!(found.slips[0].is_some() || off.iter().all(|off| *off < 1e-12), "{off:?}");
+        (shared, found.slips.iter().any(Option::is_some))
+    }
+
+    /// Limits 1, 2 and 1/2 hold a pull of up to 3.5 whose line passes the centre of the limits.
+    #[test]
+    fn forces_come_to_their_limits_together() {
+        let limits = [1.0, 2.0, 0.5];
+        for (load, slides) in
+            [(0.1, false), (0.9, false), (0.999_999, false), (1.0 - 1e-9, false), (1.0, true)]
+        {
+            let (forces, slide) = held([3.5 * load, -load], limits);
+            assert_eq!(slide, slides, "{load}");
+            for (force, limit) in forces.iter().zip(limits) {
+                let part = f64::hypot(force[0], force[1]) / limit;
+                assert!(part < 1.0 && part > load - 0.06, "{load}: {part}");
+            }
+        }
+    }
+
+    /// A contact without a limit takes no force.
+    #[test]
+    fn what_has_no_limit_takes_no_force() {
+        let (forces, slides) = held([1.0, 0.2], [1.0, 2.0, 0.0]);
+        assert!(forces[2] == [0.0; 2] && !slides, "{forces:?}");
+    }
+}
