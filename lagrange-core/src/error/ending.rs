@@ -271,7 +271,7 @@ impl Display for Ending {
             }
             Self::TransitionLimit { time, transitions } => write!(
                 f,
-                "stopped at t = {time}, after {transitions} transitions of contacts, the limit; raise it with `max_transitions`"
+                "stopped at t = {time}, after {transitions} transitions of contacts, the limit; raise it with `max_transitions`, or take `Radau` where bodies slide along two velocities"
             ),
             Self::WallTimeLimit { time } => {
                 write!(f, "stopped at t = {time} by the limit on wall time; raise it with `wall_time`")
