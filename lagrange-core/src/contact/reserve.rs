@@ -43,13 +43,13 @@ pub(super) struct Reserve<T> {
 }
 
 /// Friction with its limit s and its mean response g, and the rows of its velocities u = C x.
-struct Part<T> {
+struct SharedFriction<T> {
     limit: T,
     response: T,
     combinations: Vec<Vec<T>>,
 }
 
-impl<T: Real> Part<T> {
+impl<T: Real> SharedFriction<T> {
     fn velocity(&self, x: &[T]) -> [T; 2] {
         let of = |row: &Vec<T>| row.iter().zip(x).fold(T::constant(0.0), |sum, (&c, &x)| sum + c * x);
         let mut u = [T::constant(0.0); 2];
@@ -114,7 +114,7 @@ pub(super) fn reserve<T: Real>(
         if is_at_limit || is_found {
             let moves = |k: usize| is_at_limit && far(k) > T::constant(MOVES);
             let slip = |k: usize| moves(k).then(|| velocities[k].map(|u| -(u / length(velocities[k]))));
-            let force = |(part, &u): (&Part<T>, &[T; 2])| part.force(u);
+            let force = |(part, &u): (&SharedFriction<T>, &[T; 2])| part.force(u);
             return Some(Reserve {
                 forces: parts.iter().zip(&velocities).map(force).collect(),
                 slips: (0..parts.len()).map(slip).collect(),
@@ -155,7 +155,7 @@ fn parts<T: Real>(
     problem: &Complementarity<T>,
     resting: &[Resting<T>],
     forces: &[T],
-) -> Option<Vec<Part<T>>> {
+) -> Option<Vec<SharedFriction<T>>> {
     let mut active = Vec::new();
     // What has no limit moves along with the others.
     let with_force = resting.iter().filter(|of| of.limit > T::constant(0.0));
@@ -174,12 +174,16 @@ fn parts<T: Real>(
         let rows = place..place + count;
         let response = rows.clone().fold(T::constant(0.0), |sum, row| sum + problem.matrix[row][row]);
         let response = response / T::constant(count as f64);
-        Part { limit, response, combinations: rows.map(|row| problem.combination(row, &active)).collect() }
+        SharedFriction {
+            limit,
+            response,
+            combinations: rows.map(|row| problem.combination(row, &active)).collect(),
+        }
     };
     Some(resting.iter().map(part).collect())
 }
 
-fn curvature<T: Real>(parts: &[Part<T>], velocities: &[[T; 2]]) -> Vec<Vec<T>> {
+fn curvature<T: Real>(parts: &[SharedFriction<T>], velocities: &[[T; 2]]) -> Vec<Vec<T>> {
     let size = parts[0].combinations[0].len();
     let mut sum = vec![vec![T::constant(0.0); size]; size];
     for (part, &u) in parts.iter().zip(velocities) {

@@ -1,9 +1,9 @@
 //! Local coordinates of the changes of a state: a quaternion of length 1 changes by a rotation.
 //!
 //! A frame that a quaternion Q turns has the angular velocity ω = 2 Q̄ ⊗ Q̇ along its own axes, and a change of its
-//! orientation is a small rotation δφ = 2 Q̄ ⊗ δQ along these axes (vector parts; J. Solà, J. Deray and D. Atchuthan, "A micro
-//! Lie theory for state estimation in robotics", 2018, (22) and example 5). With |Q| = 1 they follow from (Q, Q̇), and the other way
-//! around: δQ = ½ Q ⊗ δφ, δQ̇ = ½ δQ ⊗ ω + ½ Q ⊗ δω.
+//! orientation is a small rotation δφ = 2 Q̄ ⊗ δQ along these axes (vector parts; J. Solà, J. Deray and D. Atchuthan, "A
+//! micro Lie theory for state estimation in robotics", 2018, (22) and example 5). With |Q| = 1 they follow from (Q, Q̇),
+//! and the other way around: δQ = ½ Q ⊗ δφ, δQ̇ = ½ δQ ⊗ ω + ½ Q ⊗ δω.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -26,10 +26,11 @@ use crate::vector::Length;
 
 /// Local coordinates z of the changes of a state: δ(q, q̇) = Z z.
 ///
-/// Where a quaternion `q` turns a frame, its change is δφ, a rotation about the axes of the frame, and the change of its velocity
-/// is δω, the change of the angular velocity along these axes. All other coordinates are their own local coordinates. With
-/// [`basis`](Self::basis) and [`inverse`](Self::inverse) other derivatives are converted, such as those of a
-/// [`DiscreteTime`](super::DiscreteTime) step from x to x⁺: A in local coordinates is Z⁻(x⁺) A Z(x), and B is Z⁻(x⁺) B.
+/// Where a quaternion `q` turns a frame, its change is δφ, a rotation about the axes of the frame, and the change of its
+/// velocity is δω, the change of the angular velocity along these axes. All other coordinates are their own local
+/// coordinates. With [`basis`](Self::basis) and [`inverse`](Self::inverse) other derivatives are converted, such as those
+/// of a [`DiscreteTime`](super::DiscreteTime) step from x to x⁺: A in local coordinates is Z⁻(x⁺) A Z(x), and B is Z⁻(x⁺)
+/// B.
 ///
 /// ```
 /// use lagrange_core::linearized::DiscreteTime;
@@ -191,8 +192,8 @@ impl Blocks {
         columns
     }
 
-    /// Rows of Z⁻ for the quaternions at (q, q̇): δφ = 2 Q̄ ⊗ δQ, δω = 2 (δQ)‾ ⊗ Q̇ + 2 Q̄ ⊗ δQ̇, vector parts. They are linear in (q,
-    /// q̇).
+    /// Rows of Z⁻ for the quaternions at (q, q̇): δφ = 2 Q̄ ⊗ δQ, δω = 2 (δQ)‾ ⊗ Q̇ + 2 Q̄ ⊗ δQ̇, vector parts. They are
+    /// linear in (q, q̇).
     fn turning<T: Real>(&self, point: [&[T]; 2]) -> DMatrix<T> {
         let ([n, count], two) = (self.counts, T::constant(2.0));
         let mut columns = DMatrix::from_element(2 * count, 2 * n, T::constant(0.0));

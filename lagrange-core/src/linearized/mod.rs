@@ -255,10 +255,11 @@ pub trait Linearized: StateDerivatives {
     /// state is. [`MotionDerivatives`] continues across events.
     ///
     /// Supported methods: [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded
-    /// [`Pair`](crate::motion::Pair)s, on Lagrange's equations; [`Radau`] and [`RungeKutta4`](crate::RungeKutta4), along whose
-    /// steps the derivatives do not limit the length. If the number type of the system is a type parameter, also [`Taylor`](crate::Taylor) and the methods of type
-    /// [`FixedStep`](crate::motion::FixedStep): the derivatives along these are those of the discrete map, so they are a symplectic
-    /// matrix along a symplectic method, to round-off. Motions by other methods, and in momenta, are not differentiated.
+    /// [`Pair`](crate::motion::Pair)s, on Lagrange's equations; [`Radau`] and [`RungeKutta4`](crate::RungeKutta4), along
+    /// whose steps the derivatives do not limit the length. If the number type of the system is a type parameter, also
+    /// [`Taylor`](crate::Taylor) and the methods of type [`FixedStep`](crate::motion::FixedStep): the derivatives along
+    /// these are those of the discrete map, so they are a symplectic matrix along a symplectic method, to round-off.
+    /// Motions by other methods, and in momenta, are not differentiated.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -402,9 +403,9 @@ pub trait Linearized: StateDerivatives {
         inverse::inputs_for(self, state, accelerations, inputs)
     }
 
-    /// Completes accelerations on the constraints: those of the `held` coordinates stay, the others become those that F q̈ + γ = 0
-    /// demands. Closed chains are led in this way: choose the accelerations of as many coordinates as there are degrees of
-    /// freedom, complete them, and ask [`inputs_for`](Self::inputs_for) for the forces.
+    /// Completes accelerations on the constraints: those of the `held` coordinates stay, the others become those that the
+    /// rows F q̈ + γ = 0 demand. Closed chains are led in this way: choose the accelerations of as many coordinates as there
+    /// are degrees of freedom, complete them, and ask [`inputs_for`](Self::inputs_for) for the forces.
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -429,8 +430,8 @@ pub trait Linearized: StateDerivatives {
     /// ```
     ///
     /// # Errors
-    /// [`Error::AccelerationsNotUnique`] if more must be held, [`Error::NotRealizable`] if what is held violates a constraint (to
-    /// √ε of its terms); [`Error::UnknownName`] and [`Error::RepeatedName`]; [`Error::EquationsNotFinite`].
+    /// [`Error::AccelerationsNotUnique`] if more must be held, [`Error::NotRealizable`] if what is held violates a
+    /// constraint (to √ε of its terms); [`Error::UnknownName`] and [`Error::RepeatedName`]; [`Error::EquationsNotFinite`].
     #[cfg(feature = "alloc")]
     fn complete_accelerations(
         &self,
@@ -444,10 +445,10 @@ pub trait Linearized: StateDerivatives {
         completed::complete(self, state, accelerations, held)
     }
 
-    /// Regressor of the inertial parameters of some bodies at a state with these accelerations: the generalized forces as Y π + τ₀
-    /// (C. G. Atkeson, C. H. An and J. M. Hollerbach, "Estimation of inertial parameters of manipulator loads and links", *International
-    /// Journal of Robotics Research* 5, 1986). A body is a field, or an element of one, with the members `m`, `centre: [3]` and
-    /// `inertia: symmetric` of `kinetic(frame, body.m, body.centre, body.inertia)`.
+    /// Regressor of the inertial parameters of some bodies at a state with these accelerations: the generalized forces as Y
+    /// π + τ₀ (C. G. Atkeson, C. H. An and J. M. Hollerbach, "Estimation of inertial parameters of manipulator loads and
+    /// links", *International Journal of Robotics Research* 5, 1986). A body is a field, or an element of one, with the
+    /// members `m`, `centre: [3]` and `inertia: symmetric` of `kinetic(frame, body.m, body.centre, body.inertia)`.
     ///
     /// ```
     /// use lagrange_core::nalgebra::{Matrix3, Vector3};
@@ -498,8 +499,8 @@ pub trait Linearized: StateDerivatives {
         regressor::regressor(self, state, accelerations, bodies)
     }
 
-    /// Inertial parameters π of some bodies, in the order of the columns of their [regressor](Self::regressor): mass m, first moment m c
-    /// and inertia I_O about the origin of the frame, for each.
+    /// Inertial parameters π of some bodies, in the order of the columns of their [regressor](Self::regressor): mass m,
+    /// first moment m c and inertia I_O about the origin of the frame, for each.
     ///
     /// # Errors
     /// [`Error::UnknownName`] and [`Error::RepeatedName`].
@@ -561,9 +562,9 @@ pub trait Linearized: StateDerivatives {
     /// of the state, with three numbers for each quaternion. For a free body with 12 joints A is 36 × 36; its lower half
     /// holds the derivatives of the accelerations by 18 changes of place and 18 changes of velocity.
     ///
-    /// At a state in motion, z is the change of the moving state, and its coordinates are taken along the axes of the bodies,
-    /// which turn: δφ̇ = δω − ω × δφ. This A is the matrix of the variational equations along the motion, at that moment. Inputs
-    /// are as in [`linearize`](Self::linearize).
+    /// At a state in motion, z is the change of the moving state, and its coordinates are taken along the axes of the
+    /// bodies, which turn: δφ̇ = δω − ω × δφ. This A is the matrix of the variational equations along the motion, at that
+    /// moment. Inputs are as in [`linearize`](Self::linearize).
     ///
     /// All constraints must be those of quaternions; otherwise it does not compile, and `linearize` is the method:
     ///

@@ -230,7 +230,7 @@ fn doubling<L: Linearized<Scalar: Real>>(
 ) -> Result<DVector<L::Scalar>, Error> {
     let count = shot.frames[0].count();
     let unit = DMatrix::identity(count, count);
-    let once = (0..shot.legs.len()).fold(unit.clone(), |product, k| shot.factor(k) * product);
+    let once = (0..shot.segments.len()).fold(unit.clone(), |product, k| shot.factor(k) * product);
     Ok(least_direction(&(once + unit))?.resize_vertically(unknowns, L::Scalar::constant(0.0)))
 }
 

@@ -240,9 +240,9 @@ impl<T: Real> Problem<T> {
     {
         let mut gaps = shot.gaps.clone();
         let mut closing = shot.closing.clone();
-        for (k, leg) in shot.legs.iter().enumerate() {
-            let trip = leg.round_trip(&shot.chain.system, &shot.chain.nodes[k], method.clone())?;
-            let at_the_end = &leg.by_state * trip;
+        for (k, segment) in shot.segments.iter().enumerate() {
+            let trip = segment.round_trip(&shot.chain.system, &shot.chain.nodes[k], method.clone())?;
+            let at_the_end = &segment.by_state * trip;
             match gaps.get_mut(k) {
                 Some(gap) => *gap += &shot.frames[k + 1].dual * at_the_end,
                 None => {

@@ -11,7 +11,7 @@ use super::orbit::PeriodicOrbit;
 use super::search::OrbitSearch;
 use super::shot::Chain;
 use super::table::{Family, FamilyEnding};
-use super::tracing::{Member, Start, Tracer};
+use super::tracing::{FamilyStart, TracedOrbit, Tracer};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::number::{Real, Scalar, larger, smaller};
@@ -28,7 +28,7 @@ const EASY: usize = 6;
 pub struct FamilySearch<'u, L: Linearized, D> {
     method: D,
     tolerance: L::Scalar,
-    start: Result<Start<L>, Error>,
+    start: Result<FamilyStart<L>, Error>,
     step: L::Scalar,
     longest: L::Scalar,
     count: usize,
@@ -48,7 +48,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: Clone> OrbitSearch<L, D> {
         let start = search.problem().map(|problem| {
             let nodes = orbit.nodes[..problem.conditions.segments].to_vec();
             let chain = Chain { system: search.system, nodes, period: orbit.period, units: orbit.units };
-            Start { problem, chain, direction: None }
+            FamilyStart { problem, chain, direction: None }
         });
         self.continued(start)
     }
@@ -58,14 +58,14 @@ impl<L: Linearized<Scalar: Real> + Clone, D: Clone> OrbitSearch<L, D> {
     pub fn branch<'u>(&self, bifurcation: &Bifurcation<L>) -> FamilySearch<'u, L, D> {
         let kind = bifurcation.kind;
         let start = bifurcation.branch.clone().ok_or_else(|| OrbitError::NoBranch { kind }.into());
-        self.continued(start.map(|Branch { problem, chain, direction }| Start {
+        self.continued(start.map(|Branch { problem, chain, direction }| FamilyStart {
             problem,
             chain,
             direction: Some(direction),
         }))
     }
 
-    fn continued<'u>(&self, start: Result<Start<L>, Error>) -> FamilySearch<'u, L, D> {
+    fn continued<'u>(&self, start: Result<FamilyStart<L>, Error>) -> FamilySearch<'u, L, D> {
         let (step, longest) = (L::Scalar::constant(0.02), L::Scalar::constant(0.1));
         let (method, tolerance) = (self.method.clone(), self.tolerance);
         FamilySearch {
@@ -164,7 +164,7 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
     fn trace(
         &mut self,
         tracer: &Tracer<'_, L, D>,
-        mut member: Member<L>,
+        mut member: TracedOrbit<L>,
         family: &mut Family<L>,
     ) -> FamilyEnding
     where

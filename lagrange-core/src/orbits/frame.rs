@@ -12,12 +12,12 @@ use crate::vector::Length;
 
 /// Units of an orbit: its largest coordinate and its largest velocity, 1 if all are zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Units<T> {
+pub(super) struct OrbitUnits<T> {
     pub(super) q: T,
     pub(super) v: T,
 }
 
-impl<T: Real> Units<T> {
+impl<T: Real> OrbitUnits<T> {
     /// Largest coordinate and velocity of all steps of some motions.
     pub(super) fn of<'t, L: Linearized<Scalar = T> + 't>(
         motions: impl Iterator<Item = &'t Trajectory<&'t L>>,
@@ -65,7 +65,7 @@ impl<T: Real> Frame<T> {
     pub(super) fn at<L: Linearized<Scalar = T>>(
         system: &L,
         state: &StateOf<L>,
-        units: Units<T>,
+        units: OrbitUnits<T>,
     ) -> Result<Self, Error> {
         let (near, n) = (system.linearize(state, &[])?, <L::N>::COUNT);
         let scaled =

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::bifurcation::{Branch, Test, Tests};
 use super::correction::Arc;
 use super::orbit::PeriodicOrbit;
-use super::tracing::{Member, Tracer};
+use super::tracing::{TracedOrbit, Tracer};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::number::{Real, Scalar, power_of_epsilon};
@@ -20,9 +20,9 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
     /// The member at an arclength near that of another.
     fn beside(
         &self,
-        (length, near): (L::Scalar, &Member<L>),
+        (length, near): (L::Scalar, &TracedOrbit<L>),
         arc: &Arc<L::Scalar>,
-    ) -> Result<Member<L>, Error> {
+    ) -> Result<TracedOrbit<L>, Error> {
         let rate = arc.along(&self.problem, &near.shot).dot(&near.tangent);
         let step = &near.tangent * ((arc.length - length) / rate);
         self.corrected(self.problem.moved_by(&near.shot, &step, false)?, arc)
@@ -34,7 +34,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
     /// since the determinant there is small to the left and right.
     pub(super) fn between(
         &self,
-        from: &Member<L>,
+        from: &TracedOrbit<L>,
         arc: &Arc<L::Scalar>,
         next: (L::Scalar, Tests<L::Scalar>),
     ) -> (Vec<Located<L>>, Vec<(Test, Error)>) {
@@ -64,11 +64,11 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
     /// The member at which a test vanishes, between one and the next: regula falsi with the weights of Illinois.
     fn locate(
         &self,
-        from: &Member<L>,
+        from: &TracedOrbit<L>,
         arc: &Arc<L::Scalar>,
         (step, tests): (L::Scalar, Tests<L::Scalar>),
         test: Test,
-    ) -> Result<(L::Scalar, Member<L>), Error> {
+    ) -> Result<(L::Scalar, TracedOrbit<L>), Error> {
         const TRIES: usize = 40;
         let mut reason = Error::EigenvaluesNotFound;
         let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
@@ -92,7 +92,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
             };
             let value = of(&found.tests);
             let moved =
-                best.as_ref().map_or(step, |(at, _): &(L::Scalar, Member<L>)| Scalar::abs(*at - length));
+                best.as_ref().map_or(step, |(at, _): &(L::Scalar, TracedOrbit<L>)| Scalar::abs(*at - length));
             best = Some((length, found));
             if value == zero || moved <= resolution {
                 break;

@@ -6,7 +6,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 use nalgebra::{Complex, DMatrix};
 
 use super::error::OrbitError;
-use super::frame::{Frame, Units};
+use super::frame::{Frame, OrbitUnits};
 use super::monodromy::Monodromy;
 use super::multipliers::{modulus, reciprocal};
 use super::shot::{Chain, Problem, Shot};
@@ -40,7 +40,7 @@ pub struct PeriodicOrbit<L: Linearized> {
     pub iterations: usize,
     /// Derivative of the motion once around.
     pub monodromy: Monodromy<L::Scalar>,
-    pub(super) units: Units<L::Scalar>,
+    pub(super) units: OrbitUnits<L::Scalar>,
 }
 
 impl<L: Linearized<Scalar: Real>> PeriodicOrbit<L> {
@@ -190,7 +190,7 @@ impl<T: Real> Problem<T> {
             image.t = chain.nodes[0].t + duration * T::constant(k as f64);
             image
         };
-        let half = shot.legs[count - 1].end;
+        let half = shot.segments[count - 1].end;
         let second = (count..2 * count).map(|k| match k == count {
             true => StateOf::<L> { t: chain.nodes[0].t + duration * T::constant(k as f64), ..half },
             false => mirrored(&chain.nodes[2 * count - k], k),
@@ -202,7 +202,7 @@ impl<T: Real> Problem<T> {
 
     /// Monodromy of a closed orbit: multipliers that are 1 for every orbit of the kind are split off.
     pub(super) fn monodromy<L: Linearized<Scalar = T> + Clone>(&self, shot: &Shot<L>) -> Monodromy<T> {
-        let (first, m) = (&shot.frames[0], shot.legs.len());
+        let (first, m) = (&shot.frames[0], shot.segments.len());
         let product = (0..m)
             .fold(DMatrix::identity(first.count(), first.count()), |product, k| shot.factor(k) * product);
         let columns = &first.basis * (product * (&first.dual * &first.tangents));

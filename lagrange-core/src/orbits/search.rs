@@ -5,7 +5,7 @@ use core::fmt::{self, Debug, Formatter};
 
 use super::conditions::{Conditions, Period, has_clock};
 use super::error::OrbitError;
-use super::frame::Units;
+use super::frame::OrbitUnits;
 use super::orbit::PeriodicOrbit;
 use super::shot::{Chain, Problem};
 use crate::error::Error;
@@ -183,7 +183,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
             motions.push(motion);
         }
         nodes.truncate(conditions.segments);
-        Ok(Chain { system: self.system.clone(), nodes, period, units: Units::of(motions.iter()) })
+        Ok(Chain { system: self.system.clone(), nodes, period, units: OrbitUnits::of(motions.iter()) })
     }
 }
 

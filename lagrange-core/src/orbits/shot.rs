@@ -9,8 +9,8 @@ use alloc::vec::Vec;
 use nalgebra::{DMatrix, DVector};
 
 use super::conditions::Conditions;
-use super::frame::{Frame, Units, flat, shifted, size};
-use super::leg::Leg;
+use super::frame::{Frame, OrbitUnits, flat, shifted, size};
+use super::segment::Segment;
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
 use crate::motion::Simulate;
@@ -25,7 +25,7 @@ pub(super) struct Chain<L: Linearized> {
     pub(super) nodes: Vec<StateOf<L>>,
     pub(super) period: L::Scalar,
     /// Units in which gaps and steps are measured; they stay during a search.
-    pub(super) units: Units<L::Scalar>,
+    pub(super) units: OrbitUnits<L::Scalar>,
 }
 
 /// What is solved, beside the chain.
@@ -47,7 +47,7 @@ pub(super) struct Problem<T> {
 pub(super) struct Shot<L: Linearized> {
     pub(super) chain: Chain<L>,
     pub(super) frames: Vec<Frame<L::Scalar>>,
-    pub(super) legs: Vec<Leg<L>>,
+    pub(super) segments: Vec<Segment<L>>,
     /// Gap at the start of each node but the first, in components there.
     pub(super) gaps: Vec<DVector<L::Scalar>>,
     /// Residuals of closing and of the other conditions, before elimination.
@@ -89,18 +89,18 @@ impl<T: Real> Problem<T> {
         L: Linearized<Scalar = T> + Clone,
         D: DifferentiableMethod<L> + Clone,
     {
-        let (units, segments) = (chain.units, chain.nodes.len());
-        let duration = self.conditions.part() * chain.period / T::constant(segments as f64);
-        let (mut frames, mut legs) = (Vec::with_capacity(segments), Vec::with_capacity(segments));
+        let (units, count) = (chain.units, chain.nodes.len());
+        let duration = self.conditions.part() * chain.period / T::constant(count as f64);
+        let (mut frames, mut segments) = (Vec::with_capacity(count), Vec::with_capacity(count));
         for node in &chain.nodes {
             frames.push(Frame::at(&chain.system, node, units)?);
-            legs.push(Leg::from(&chain.system, node, duration, method.clone(), self.parameter)?);
+            segments.push(Segment::from(&chain.system, node, duration, method.clone(), self.parameter)?);
         }
-        let gaps = (1..segments)
-            .map(|k| &frames[k].dual * (flat::<L>(&legs[k - 1].end) - flat::<L>(&chain.nodes[k])))
+        let gaps = (1..count)
+            .map(|k| &frames[k].dual * (flat::<L>(&segments[k - 1].end) - flat::<L>(&chain.nodes[k])))
             .collect();
         let (closing, jacobian) = (DVector::zeros(0), DMatrix::zeros(0, 0));
-        Ok(self.conditioned(Shot { chain, frames, legs, gaps, closing, spread: Vec::new(), jacobian }))
+        Ok(self.conditioned(Shot { chain, frames, segments, gaps, closing, spread: Vec::new(), jacobian }))
     }
 
     /// A shot of the same segments with these conditions.
@@ -110,20 +110,21 @@ impl<T: Real> Problem<T> {
         shot
     }
 
-    /// Derivative of the end of leg `k` by the unknowns, from that of its start.
+    /// Derivative of the end of segment `k` by the unknowns, from that of its start.
     fn follow<L: Linearized<Scalar = T>>(&self, shot: &Shot<L>, k: usize) -> DMatrix<T> {
-        let (leg, frame) = (&shot.legs[k], &shot.frames[k]);
-        let mut end = &leg.by_state * (&frame.basis * &shot.spread[k]);
-        let segments = T::constant(shot.legs.len() as f64);
-        // The start of a leg moves in time too, which matters if there is a clock.
-        let later = &leg.rate - &leg.by_state * &frame.rate;
-        let per_period = (&leg.rate + later * T::constant(k as f64)) * (self.conditions.part() / segments);
+        let (segment, frame) = (&shot.segments[k], &shot.frames[k]);
+        let mut end = &segment.by_state * (&frame.basis * &shot.spread[k]);
+        let segments = T::constant(shot.segments.len() as f64);
+        // The start of a segment moves in time too, which matters if there is a clock.
+        let later = &segment.rate - &segment.by_state * &frame.rate;
+        let per_period =
+            (&segment.rate + later * T::constant(k as f64)) * (self.conditions.part() / segments);
         let count = frame.count();
         if let Some(column) = self.period_column(count) {
             let mut column = end.column_mut(column);
             column += &per_period * shot.chain.period;
         }
-        if let (Some(column), Some([by, _])) = (self.parameter_column(count), &leg.by_parameter) {
+        if let (Some(column), Some([by, _])) = (self.parameter_column(count), &segment.by_parameter) {
             let (value, unit) = self.parameter_of(&shot.chain.system);
             let by_period = self.conditions.period_by(self.parameter, value, shot.chain.period);
             let mut column = end.column_mut(column);
@@ -140,7 +141,7 @@ impl<T: Real> Problem<T> {
 
     /// Change of node `k` with the parameter, where a constraint moves with it.
     fn moved<L: Linearized<Scalar = T>>(&self, shot: &Shot<L>, k: usize) -> Option<DVector<T>> {
-        let [_, start] = shot.legs[k].by_parameter.as_ref()?;
+        let [_, start] = shot.segments[k].by_parameter.as_ref()?;
         Some(start * self.parameter_of(&shot.chain.system).1)
     }
 
@@ -148,7 +149,7 @@ impl<T: Real> Problem<T> {
     fn spread<L: Linearized<Scalar = T>>(&self, shot: &mut Shot<L>) -> DMatrix<T> {
         let count = shot.frames[0].count();
         shot.spread = alloc::vec![DMatrix::identity(count, self.unknowns(count))];
-        for k in 0..shot.legs.len() - 1 {
+        for k in 0..shot.segments.len() - 1 {
             let mut end = self.follow(shot, k);
             if let (Some(column), Some(moved)) = (self.parameter_column(count), self.moved(shot, k + 1)) {
                 let mut column = end.column_mut(column);
@@ -156,14 +157,15 @@ impl<T: Real> Problem<T> {
             }
             shot.spread.push(&shot.frames[k + 1].dual * end);
         }
-        self.follow(shot, shot.legs.len() - 1)
+        self.follow(shot, shot.segments.len() - 1)
     }
 
     /// Fills the conditions: the orbit closes, or meets its mirror image; the start does not slide along the orbit; the energy is as
     /// demanded.
     fn close<L: Linearized<Scalar = T> + Clone>(&self, shot: &mut Shot<L>, last: &DMatrix<T>) {
         let (frame, n, count) = (&shot.frames[0], <L::N>::COUNT, shot.frames[0].count());
-        let (start, end) = (flat::<L>(&shot.chain.nodes[0]), flat::<L>(&shot.legs[shot.legs.len() - 1].end));
+        let (start, end) =
+            (flat::<L>(&shot.chain.nodes[0]), flat::<L>(&shot.segments[shot.segments.len() - 1].end));
         let energy = frame.energy(&shot.chain.system, &shot.chain.nodes[0]);
         let column = self.parameter_column(count);
         let mut first = &frame.basis * &shot.spread[0];
@@ -261,10 +263,10 @@ impl<T: Real> Problem<T> {
 }
 
 impl<L: Linearized<Scalar: Real>> Shot<L> {
-    /// Derivative of leg `k` between the frames at its ends; the frame after the last leg is the first.
+    /// Derivative of segment `k` between the frames at its ends; the frame after the last segment is the first.
     pub(super) fn factor(&self, k: usize) -> DMatrix<L::Scalar> {
-        let next = (k + 1) % self.legs.len();
-        &self.frames[next].dual * (&self.legs[k].by_state * &self.frames[k].basis)
+        let next = (k + 1) % self.segments.len();
+        &self.frames[next].dual * (&self.segments[k].by_state * &self.frames[k].basis)
     }
 
     /// Changes of the nodes that close the gaps between, for a start that stays.
@@ -283,8 +285,8 @@ impl<L: Linearized<Scalar: Real>> Shot<L> {
 
     /// Change of the conditions if the nodes move by the offsets.
     pub(super) fn folded(&self, offset: &DVector<L::Scalar>, mirror: &[usize]) -> DVector<L::Scalar> {
-        let k = self.legs.len() - 1;
-        let end = &self.legs[k].by_state * (&self.frames[k].basis * offset);
+        let k = self.segments.len() - 1;
+        let end = &self.segments[k].by_state * (&self.frames[k].basis * offset);
         let mut folded = DVector::zeros(self.closing.len());
         if mirror.is_empty() {
             let components = &self.frames[0].dual * end;
@@ -305,8 +307,12 @@ impl<L: Linearized<Scalar: Real>> Shot<L> {
     }
 
     /// Largest coordinate and velocity along the orbit.
-    pub(super) fn size(&self) -> Units<L::Scalar> {
-        self.legs.iter().map(|leg| leg.size).reduce(Units::united).unwrap_or(self.chain.units)
+    pub(super) fn size(&self) -> OrbitUnits<L::Scalar> {
+        self.segments
+            .iter()
+            .map(|segment| segment.size)
+            .reduce(OrbitUnits::united)
+            .unwrap_or(self.chain.units)
     }
 
     /// Length of all residuals.

@@ -19,14 +19,14 @@ const TURN: f64 = 0.94;
 const SHORTEST: f64 = 1e-5;
 
 /// Where a family starts.
-pub(super) struct Start<L: Linearized> {
+pub(super) struct FamilyStart<L: Linearized> {
     pub(super) problem: Problem<L::Scalar>,
     pub(super) chain: Chain<L>,
     /// Direction in which it leaves the orbit of a bifurcation, itself no member.
     pub(super) direction: Option<DVector<L::Scalar>>,
 }
 
-impl<L: Linearized<Scalar: Real>> Start<L> {
+impl<L: Linearized<Scalar: Real>> FamilyStart<L> {
     /// Makes parameter `k` an unknown, in place of another if there is one.
     pub(super) fn choose(&mut self, k: usize) {
         let before = self.problem.parameter.replace(k);
@@ -48,7 +48,7 @@ impl<L: Linearized<Scalar: Real>> Start<L> {
 }
 
 /// A member of a family with what the next is sought from.
-pub(super) struct Member<L: Linearized> {
+pub(super) struct TracedOrbit<L: Linearized> {
     pub(super) shot: Shot<L>,
     pub(super) orbit: PeriodicOrbit<L>,
     pub(super) tangent: DVector<L::Scalar>,
@@ -66,7 +66,7 @@ pub(super) struct Tracer<'m, L: Linearized, D> {
 
 impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tracer<'_, L, D> {
     /// First member: the orbit itself, or the first along a branch.
-    pub(super) fn first(&self, start: Start<L>, is_backwards: bool) -> Result<Member<L>, Error> {
+    pub(super) fn first(&self, start: FamilyStart<L>, is_backwards: bool) -> Result<TracedOrbit<L>, Error> {
         let sign = L::Scalar::constant(if is_backwards { -1.0 } else { 1.0 });
         if let Some(direction) = start.direction {
             let origin = self.problem.shoot(start.chain, self.method)?;
@@ -85,7 +85,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
             tangent = -tangent;
             tests = self.problem.tests(&shot, &tangent, &orbit)?;
         }
-        Ok(Member { shot, orbit, tangent, tests })
+        Ok(TracedOrbit { shot, orbit, tangent, tests })
     }
 
     /// True if the parameter, or the energy, grows in this direction.
@@ -104,12 +104,16 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
     }
 
     /// The member at an arclength from an earlier one.
-    pub(super) fn member(&self, from: &Shot<L>, arc: &Arc<L::Scalar>) -> Result<Member<L>, Error> {
+    pub(super) fn member(&self, from: &Shot<L>, arc: &Arc<L::Scalar>) -> Result<TracedOrbit<L>, Error> {
         self.corrected(self.problem.moved_by(from, &(&arc.tangent * arc.length), false)?, arc)
     }
 
     /// The member at an arclength, from a chain near it.
-    pub(super) fn corrected(&self, predicted: Chain<L>, arc: &Arc<L::Scalar>) -> Result<Member<L>, Error> {
+    pub(super) fn corrected(
+        &self,
+        predicted: Chain<L>,
+        arc: &Arc<L::Scalar>,
+    ) -> Result<TracedOrbit<L>, Error> {
         let (mut shot, iterations) =
             self.problem.correct(predicted, self.method, Some(arc), self.tolerance)?;
         let units = shot.size();
@@ -126,16 +130,16 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         let tangent = tangent / length;
         let orbit = self.problem.orbit(&shot, iterations, self.method, self.tolerance)?;
         let tests = self.problem.tests(&shot, &tangent, &orbit)?;
-        Ok(Member { shot, orbit, tangent, tests })
+        Ok(TracedOrbit { shot, orbit, tangent, tests })
     }
 
     /// The next member, and the step to it.
     pub(super) fn advance(
         &self,
-        from: &Member<L>,
+        from: &TracedOrbit<L>,
         arc: &Arc<L::Scalar>,
         mut step: L::Scalar,
-    ) -> Result<(Member<L>, L::Scalar), Error> {
+    ) -> Result<(TracedOrbit<L>, L::Scalar), Error> {
         let shortest = self.step * L::Scalar::constant(SHORTEST);
         loop {
             let found = self.member(&from.shot, &Arc { length: step, ..arc.clone() });

@@ -25,8 +25,8 @@ use crate::vector::{Array, Length, vector};
 /// Optimisers of trajectories (iLQR, sequential quadratic programming, model predictive control) and Kalman filters ask
 /// for this at every tick. Inputs are parameters, as in [`linearize`](Linearized::linearize).
 ///
-/// A and B are the derivatives of the steps that the method takes. For [`RungeKutta4`](crate::RungeKutta4) they are
-/// those of the map f that it computes, to round-off; for [`Dop853`](crate::Dop853) and other methods that choose their steps, at
+/// A and B are the derivatives of the steps that the method takes. For [`RungeKutta4`](crate::RungeKutta4) they are those
+/// of the map f that it computes, to round-off; for [`Dop853`](crate::Dop853) and other methods that choose their steps, at
 /// the lengths chosen. The result depends on the system, the state and the end alone, not on earlier intervals.
 ///
 /// With constraints, f projects its argument onto them first: the columns of A are the images of the projected unit
@@ -121,7 +121,7 @@ impl<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> DiscreteTime<L, D>
         let limits = Watchdog::new(self.method.limits(), &run.statistics);
         let Self { system, method, variations, memory, .. } = self;
         if let Some(memory) = memory {
-            run.drive(method, &limits, &mut Interval { system, end, variations, memory })?;
+            run.drive(method, &limits, &mut HeldInputs { system, end, variations, memory })?;
         }
         self.keep(&run.state);
         Ok(())
@@ -183,14 +183,14 @@ where
 }
 
 /// Observer that carries the variations to the end of an interval.
-struct Interval<'m, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> {
+struct HeldInputs<'m, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> {
     system: &'m L,
     end: L::Scalar,
     variations: &'m mut Variations<L>,
     memory: &'m mut D::VariationMemory,
 }
 
-impl<L, D> Observer<L, D> for Interval<'_, L, D>
+impl<L, D> Observer<L, D> for HeldInputs<'_, L, D>
 where
     L: Linearized<Scalar: Real>,
     D: DifferentiableMethod<L>,

@@ -20,19 +20,19 @@ use crate::vector::{Length, Vector, from_fn, vector};
 /// Numbers with first and second derivatives: by one argument in all lanes, and by one argument in each lane.
 type SecondDuals<L> = Dual<Dual<WideOf<L>>>;
 /// The system over these numbers.
-type Packed<L> = <L as Pack<SecondDuals<L>>>::Packed;
+type PackedSecondDuals<L> = <L as Pack<SecondDuals<L>>>::Packed;
 
 impl<L> DiscreteTime<L, RungeKutta4>
 where
     L: Linearized<Scalar: Real> + Pack<SecondDuals<L>>,
-    Packed<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = SecondDuals<L>>,
+    PackedSecondDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = SecondDuals<L>>,
 {
     /// Second derivatives of wᵀx⁺ by the entries of x, then the inputs: the symmetric matrix Σ wᵢ ∂²fᵢ/∂(x, u)² that
     /// Newton-type optimisers add (differential dynamic programming). `weights` are those of the coordinates and of the
     /// velocities.
     ///
-    /// The steps are taken over dual numbers of dual numbers, once for each argument and vector of lanes. The number type of the
-    /// system must be a type parameter. A system with constraints does not compile.
+    /// The steps are taken over dual numbers of dual numbers, once for each argument and vector of lanes. The number type
+    /// of the system must be a type parameter. A system with constraints does not compile.
     ///
     /// ```
     /// use lagrange_core::{linearized::DiscreteTime, prelude::*};
@@ -145,16 +145,16 @@ fn seed<L: Linearized<Scalar: Real>>(
 /// A motion over dual numbers of dual numbers.
 struct Sweep<L: Linearized<Scalar: Real> + Pack<SecondDuals<L>>>
 where
-    Packed<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = SecondDuals<L>>,
+    PackedSecondDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = SecondDuals<L>>,
 {
-    system: Packed<L>,
+    system: PackedSecondDuals<L>,
     state: State<SecondDuals<L>, L::N>,
 }
 
 /// Observer that takes the steps of a motion in all sweeps.
 struct Sweeps<'m, L: Linearized<Scalar: Real> + Pack<SecondDuals<L>>>
 where
-    Packed<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = SecondDuals<L>>,
+    PackedSecondDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = SecondDuals<L>>,
 {
     system: &'m L,
     end: L::Scalar,
@@ -164,7 +164,7 @@ where
 impl<L> Observer<L, RungeKutta4> for Sweeps<'_, L>
 where
     L: Linearized<Scalar: Real> + Pack<SecondDuals<L>>,
-    Packed<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = SecondDuals<L>>,
+    PackedSecondDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = SecondDuals<L>>,
 {
     fn system(&self) -> &L {
         self.system

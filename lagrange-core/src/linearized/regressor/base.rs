@@ -1,8 +1,8 @@
 //! Base parameters: the combinations of inertial parameters that forces depend on.
 //!
-//! Columns of the regressors at several states are taken one after the other; one that is a combination of those before it is
-//! regrouped into them (M. Gautier, "Numerical calculation of the base inertial parameters of robots", *Journal of Robotic Systems* 8,
-//! 1991).
+//! Columns of the regressors at several states are taken one after the other; one that is a combination of those before it
+//! is regrouped into them (M. Gautier, "Numerical calculation of the base inertial parameters of robots", *Journal of
+//! Robotic Systems* 8, 1991).
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -16,11 +16,11 @@ use crate::number::{Real, exceeds, larger, power_of_epsilon};
 
 /// The combinations β = C π of inertial parameters that the forces at some states depend on, and no more.
 ///
-/// Each is one parameter, plus multiples of others that are regrouped into it. Inertias are taken first, then first moments, then masses,
-/// so that the coefficients are 1, lengths and squares of lengths. Whether a column is a combination of those taken before is
-/// decided by what is left of it beside them, as a part of its length: below ε^¾ (2·10⁻¹²) it is one, above ε^¼ (10⁻⁴) it is none.
-/// In between it is not decided, and the error asks for other states. The number is that of the states given: what matters at
-/// none of them is not among the base parameters.
+/// Each is one parameter, plus multiples of others that are regrouped into it. Inertias are taken first, then first
+/// moments, then masses, so that the coefficients are 1, lengths and squares of lengths. Whether a column is a combination
+/// of those taken before is decided by what is left of it beside them, as a part of its length: below ε^¾ (2·10⁻¹²) it is
+/// one, above ε^¼ (10⁻⁴) it is none. In between it is not decided, and the error asks for other states. The number is that
+/// of the states given: what matters at none of them is not among the base parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BaseParameters<T> {
     /// C: one row for each base parameter, one column for each inertial parameter.

@@ -20,12 +20,13 @@ use crate::solution::solve::first_row;
 use crate::system::{Solution, StateOf, finite::check_finite, lookup, unit};
 use crate::vector::{Array, Length, Vector, vector};
 
-/// Generalized forces τ = M q̈ − h = Y π + τ₀ at a state with given accelerations, linear in the inertial parameters π of bodies.
+/// Generalized forces τ = M q̈ − h = Y π + τ₀ at a state with given accelerations, linear in the inertial parameters π of
+/// bodies.
 ///
-/// π has ten numbers for each body: its mass m, its first moment m c, and its inertia I_O about the origin of its frame, in the axes of
-/// the frame, in the order of the upper triangle. τ₀ is what other parts of the system need: springs, damping, rotors of motors, and
-/// the forces of the inputs with the opposite sign. In a motion Y π + τ₀ = Fᵀλ: without constraints zero, with constraints zero
-/// along the [`free`](Self::free) directions.
+/// π has ten numbers for each body: its mass m, its first moment m c, and its inertia I_O about the origin of its frame, in
+/// the axes of the frame, in the order of the upper triangle. τ₀ is what other parts of the system need: springs, damping,
+/// rotors of motors, and the forces of the inputs with the opposite sign. In a motion Y π + τ₀ = Fᵀλ: without constraints
+/// zero, with constraints zero along the [`free`](Self::free) directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regressor<T> {
     /// Y: one row for each coordinate, one column for each inertial parameter.

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::frame::{Units, flat};
+use super::frame::{OrbitUnits, flat};
 use super::monodromy::stacked;
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, MotionDerivatives};
@@ -15,7 +15,7 @@ use crate::system::{StateOf, lookup};
 
 /// A segment of an orbit.
 #[derive(Clone)]
-pub(super) struct Leg<L: Linearized> {
+pub(super) struct Segment<L: Linearized> {
     /// State at the end, which should be the start of the next.
     pub(super) end: StateOf<L>,
     /// Derivatives of the end by (q, q̇) at the start.
@@ -23,12 +23,12 @@ pub(super) struct Leg<L: Linearized> {
     /// Derivative of the end by the parameter, and that of the start, which moves with the constraints.
     pub(super) by_parameter: Option<[DVector<L::Scalar>; 2]>,
     /// Largest coordinate and velocity on the way.
-    pub(super) size: Units<L::Scalar>,
+    pub(super) size: OrbitUnits<L::Scalar>,
     /// Rate (q̇, q̈) at the end.
     pub(super) rate: DVector<L::Scalar>,
 }
 
-impl<L: Linearized<Scalar: Real> + MotionDerivatives> Leg<L> {
+impl<L: Linearized<Scalar: Real> + MotionDerivatives> Segment<L> {
     pub(super) fn from<D: DifferentiableMethod<L>>(
         system: &L,
         start: &StateOf<L>,
@@ -53,7 +53,7 @@ impl<L: Linearized<Scalar: Real> + MotionDerivatives> Leg<L> {
         let rates = end.state.v.iter().chain(&accelerations).copied();
         Ok(Self {
             end: end.state,
-            size: Units::of(core::iter::once(motion.trajectory())),
+            size: OrbitUnits::of(core::iter::once(motion.trajectory())),
             by_state: all.columns(0, entries).into_owned(),
             by_parameter,
             rate: DVector::from_iterator(entries, rates),
