@@ -251,7 +251,8 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// Associated constants of these traits.
-const CONSTANTS: [&str; 20] = [
+const CONSTANTS: [&str; 21] = [
+    "DEPENDS_ON_TIME",
     "QUATERNIONS",
     "HAS_CONTACTS",
     "HAS_FRICTION",

@@ -265,3 +265,29 @@ fn accelerations_are_completed_to_those_of_the_motion() {
         assert!(told([0.0; 5], &["a", "a[1]"]).contains("`a[1]`"));
     }
 }
+
+/// At rest the torques are all there is: they hold the weight, and nothing else gives the scale of what is left.
+#[test]
+fn motors_hold_an_arm_in_every_pose() {
+    let arm = Holding { m: 1.0, l: 0.5, g: 9.81, torque: [0.0; 2] };
+    for k in 0..1000 {
+        let k = f64::from(k);
+        let state = State::at_rest([(1.3 * k).sin() * 3.0, (0.7 * k).cos() * 3.0]);
+        let found = arm.inputs_for(&state, &[0.0; 2].into(), &["torque"]).unwrap();
+        let exact = arm.inverse_dynamics(&state, &[0.0; 2].into(), &[].into());
+        assert!((found.inputs[0] - exact[0]).abs() < 1e-13 && (found.inputs[1] - exact[1]).abs() < 1e-13);
+    }
+}
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(q: [2])]
+#[define(elbow = l*[cos(q[0]), sin(q[0])])]
+#[define(tip = elbow + l*[cos(q[0] + q[1]), sin(q[0] + q[1])])]
+#[lagrangian(m/2*(dot(der(elbow), der(elbow)) + dot(der(tip), der(tip))) - m*g*(elbow[1] + tip[1]))]
+#[force(q: torque)]
+struct Holding {
+    m: f64,
+    l: f64,
+    g: f64,
+    torque: [f64; 2],
+}

@@ -220,6 +220,16 @@ struct Odd {
     odd: Body,
 }
 
+/// The inertia of a body may be any matrix, of which the symmetric part counts.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[frame(wheel: rotate_z(x))]
+#[parameter(body: {m, centre: [3], inertia: [3, 3]})]
+#[lagrangian(kinetic(wheel, body.m, body.centre, body.inertia))]
+struct Loose {
+    body: Body,
+}
+
 #[test]
 fn what_is_no_body_is_refused() {
     let mut random = Random(1);
@@ -228,6 +238,15 @@ fn what_is_no_body_is_refused() {
     let told = |bodies: &[&str]| odd.regressor(&state, &[1.0].into(), bodies).unwrap_err().to_string();
     assert!(told(&["odd"]).contains("not linear in the masses"), "{}", told(&["odd"]));
     assert!(told(&["even"]).contains("no parameter `even.m`"), "{}", told(&["even"]));
+    // At m = 2 its derivative is that at m = 1 of another law.
+    for m in [0.0, 1.0, 2.0] {
+        let odd = Odd { odd: Body { m, ..odd.odd } };
+        let error = odd.regressor(&state, &[1.0].into(), &["odd"]).unwrap_err().to_string();
+        assert!(error.contains("not linear in the masses"), "{m}: {error}");
+    }
+    let loose = Loose { body: odd.odd };
+    let error = loose.regressor(&state, &[1.0].into(), &["body"]).unwrap_err().to_string();
+    assert!(error.contains("`inertia: symmetric`"), "{error}");
     assert!(told(&["odd", "odd"]).contains("`odd`"));
     let puma = puma(&mut random);
     let (state, accelerations) = somewhere(&mut random);

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use lagrange_core::linearized::Stability;
 use lagrange_core::nalgebra::Complex;
-use lagrange_core::orbits::{OrbitError, PeriodicOrbit};
+use lagrange_core::orbits::{BifurcationKind, OrbitError, PeriodicOrbit};
 use lagrange_core::{Error, prelude::*};
 
 use crate::systems::{Moon, Planet, ThreeMasses, eight};
@@ -232,4 +232,135 @@ fn unstable_orbit_in_few_or_many_segments() {
     for (x, y) in few.iter().zip(&many) {
         assert!((x - y).norm() < 1e-9 * x.norm().max(1.0), "{few:?} {many:?}");
     }
+}
+
+/// A pendulum whose pivot is shaken up and down. At θ = 0, and at a = 0, the time has no effect.
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(theta_dot^2/2 + (1 + a*cos(omega*t))*cos(theta))]
+#[dissipation(c/2 * theta_dot^2)]
+struct Shaken {
+    a: f64,
+    omega: f64,
+    c: f64,
+}
+
+/// The time counts wherever it occurs, whatever the guess: no multiplier is split off, and no other period is found.
+#[test]
+fn clock_that_rests_at_the_guess() {
+    let shaken = Shaken { a: 0.5, omega: 2.0, c: 0.1 };
+    let guess = State::new([0.0], [2.0]);
+    let orbit = shaken.periodic_orbit(&guess).driven_by("omega", 2).find().unwrap();
+    let exact = shaken.monodromy(&orbit.start, orbit.period, Dop853::with_tolerance(1e-13)).unwrap();
+    for (found, exact) in orbit.multipliers().unwrap().iter().zip(exact.multipliers().unwrap()) {
+        assert!((found - exact).norm() < 1e-9, "{found} for {exact}");
+    }
+    let error = shaken.periodic_orbit(&guess).period_near(6.28).find().unwrap_err();
+    assert!(matches!(&error, Error::Orbit(error) if matches!(**error, OrbitError::Clock { .. })), "{error}");
+    // The product of the multipliers is e^{−c T} along a branch that leaves at θ = 0.
+    let search = Shaken { a: 0.1, ..shaken }.periodic_orbit(&State::at_rest([0.0])).driven_by("omega", 1);
+    let hanging = search.family(&search.find().unwrap()).in_parameter("a");
+    let hanging = hanging.until_first(BifurcationKind::PeriodDoubling).follow().unwrap();
+    let doubling = hanging.first(BifurcationKind::PeriodDoubling).unwrap();
+    let swinging = search.branch(doubling).orbits(5).follow().unwrap();
+    for orbit in swinging.orbits() {
+        let multipliers = orbit.multipliers().unwrap();
+        let product = multipliers[0] * multipliers[1];
+        assert!((product.re - (-0.1 * orbit.period).exp()).abs() < 1e-9, "{multipliers:?}");
+    }
+    assert!((swinging.orbits()[4].system.a - swinging.orbits()[0].system.a).abs() > 1e-6);
+}
+
+/// A period that is not the drive's, and a drive that is none.
+#[test]
+fn periods_that_drive_nothing() {
+    let shaken = Shaken { a: 0.7, omega: 2.0, c: 0.1 };
+    let guess = State::new([0.0], [1.0]);
+    for search in [shaken.periodic_orbit(&guess).period(3.0), shaken.periodic_orbit(&guess).driven_by("a", 1)]
+    {
+        let error = search.find().unwrap_err();
+        let is_named = |error: &OrbitError| {
+            matches!(error, OrbitError::NotItsClock { .. } | OrbitError::NotClosed { .. })
+        };
+        assert!(matches!(&error, Error::Orbit(error) if is_named(error)), "{error}");
+    }
+    let cycle = Relaxing { mu: 1.0 };
+    let error = cycle.periodic_orbit(&State::new([2.0], [0.0])).driven_by("mu", 1).find().unwrap_err();
+    assert!(matches!(&error, Error::Orbit(error) if **error == OrbitError::NoClock), "{error}");
+}
+
+/// Van der Pol's oscillator.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - x^2/2)]
+#[force(x: mu*(1 - x^2)*x_dot)]
+struct Relaxing {
+    mu: f64,
+}
+
+/// The family ends where its orbits get too unstable for one segment, and lists nothing that is no orbit.
+#[test]
+fn family_of_relaxing_oscillations() {
+    let search = Relaxing { mu: 1.0 }.periodic_orbit(&State::new([2.0], [0.0])).period_near(6.6);
+    let family = search.family(&search.find().unwrap()).in_parameter("mu").backwards().orbits(80);
+    let family = family.follow().unwrap();
+    for orbit in family.orbits() {
+        assert!(orbit.gap < 1e-8 && orbit.error < 1e-3 && orbit.period > 6.0, "{orbit}");
+    }
+    assert!(family.bifurcations().iter().all(|found| found.orbit.period > 6.0), "{family}");
+}
+
+/// Orbits of a planet fill a space: nothing bifurcates among those of one energy.
+#[test]
+fn planets_do_not_bifurcate() {
+    let guess = State::new([0.5, 0.0], [0.0, 3.0_f64.sqrt()]);
+    let search = Planet.periodic_orbit(&guess).period_near(6.28).mirrored(&["y", "x_dot"]).energy(-0.5);
+    let family = search.family(&search.find().unwrap()).backwards().orbits(30).follow().unwrap();
+    assert!(family.bifurcations().is_empty() && family.lost().is_empty(), "{family}");
+}
+
+/// A saddle beside a spring, both with friction, both driven.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 + x^2/2 - k*y^2/2 + cos(t)*(x + y))]
+#[dissipation(x_dot^2/4 + y_dot^2/2)]
+struct Saddle {
+    k: f64,
+}
+
+/// Real multipliers of which two have the product 1 are no torus.
+#[test]
+fn neutral_saddle_is_no_torus() {
+    let search = Saddle { k: 0.1 }.periodic_orbit(&State::at_rest([0.0, 0.0])).period(TAU);
+    let family = search.family(&search.find().unwrap()).in_parameter("k").longest_step(0.02).orbits(40);
+    let family = family.follow().unwrap();
+    let last = &family.orbits()[family.orbits().len() - 1];
+    assert!(last.system.k > 0.175, "{family}");
+    assert!(family.bifurcations().is_empty() && family.lost().is_empty(), "{family}");
+}
+
+/// A skate on a slope that turns.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, phi)]
+#[lagrangian((x_dot^2 + y_dot^2 + k*phi_dot^2)/2 - h*x^2/2)]
+#[constraint(blade: x_dot*sin(phi) - y_dot*cos(phi) = 0)]
+struct Skate {
+    k: f64,
+    h: f64,
+}
+
+/// The energy of a motion on a constraint on velocities is a condition as any other.
+#[test]
+fn skate_of_known_energy() {
+    let skate = Skate { k: 0.5, h: 1.0 };
+    let guess = State::new([0.3, 0.0, 0.0], [0.2, 0.0, 2.0]);
+    let search = skate.periodic_orbit(&guess).period_near(PI).advancing("phi", TAU);
+    let free = search.find().unwrap();
+    let energy = free.energy() + 0.05;
+    let search = skate.periodic_orbit(&guess).period_near(PI).advancing("phi", TAU).energy(energy);
+    let orbit = search.find().unwrap();
+    assert!(
+        (orbit.energy() - energy).abs() < 1e-12 && orbit.gap < 1e-11 && orbit.iterations < 15,
+        "{orbit:?}"
+    );
 }

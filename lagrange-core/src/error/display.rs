@@ -123,7 +123,7 @@ impl Display for Error {
             ),
             Self::NotRealizable { row, residual, time } => write!(
                 f,
-                "these accelerations violate {row} at t = {time}: F q_ddot + gamma is {residual:e}, not 0; `solve` gives some that do not"
+                "these accelerations violate {row} at t = {time}: F q_ddot + gamma is {residual:e}, not 0; hold those of fewer coordinates, and `complete_accelerations` gives the others"
             ),
             Self::AccelerationsNotUnique { coordinates, time } => write!(
                 f,

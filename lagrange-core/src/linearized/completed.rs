@@ -8,6 +8,7 @@ use super::singular::Singular;
 use crate::error::Error;
 use crate::names::Row;
 use crate::number::{Real, Scalar, exceeds, larger, power_of_epsilon};
+use crate::solution::consistent;
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, StateOf, finite::check_finite, lookup};
 use crate::vector::{Length, Vector};
@@ -20,6 +21,7 @@ pub(super) fn complete<L: Lagrangian<Scalar: Real>>(
     held: &[&str],
 ) -> Result<Vector<L::Scalar, L::N>, Error> {
     check_finite(system, state)?;
+    consistent::check(system, state)?;
     let held = lookup::indices::<L>(L::COORDINATES, "coordinate", held)?;
     let demands = Demands::at(system, state)?;
     let (mut completed, sought): (_, Vec<usize>) =

@@ -228,6 +228,11 @@ impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
             terms[i] =
                 self.scaled(i, forces + sum(&mut (0..<L::N>::COUNT).map(|j| m[(i, j)] * accelerations[j])));
         }
+        // What the inputs do is in h, where it may cancel what it holds.
+        let by_inputs = self.jacobian()?;
+        for (j, value) in self.values.iter().enumerate() {
+            (0..<L::N>::COUNT).for_each(|i| terms[i] += Scalar::abs(by_inputs[(i, j)] * *value));
+        }
         for a in 0..<L::M>::COUNT {
             let demands =
                 sum(&mut (0..<L::N>::COUNT).map(|j| f[(a, j)] * accelerations[j])) + Scalar::abs(gamma[a]);

@@ -11,7 +11,7 @@ use super::orbit::PeriodicOrbit;
 use super::shot::{Chain, Problem, Shot};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, larger, smaller};
 use crate::system::StateOf;
 
 /// Kind of a bifurcation of periodic orbits.
@@ -23,8 +23,8 @@ pub enum BifurcationKind {
     BranchPoint,
     /// A family of twice the period leaves: a multiplier is −1.
     PeriodDoubling,
-    /// Two multipliers pass through the unit circle away from ±1 (Neimark and Sacker), or, in a conservative system, two pairs meet
-    /// on the circle and leave it (Krein's collision): tori may leave.
+    /// Two multipliers pass through the unit circle away from ±1 (Neimark and Sacker), or, in a conservative system, two
+    /// pairs meet on the circle and leave it (Krein's collision): tori may leave.
     Torus,
 }
 
@@ -38,6 +38,11 @@ impl Display for BifurcationKind {
         })
     }
 }
+
+/// Size of a least singular value or of Π (1 − λ), in units of the error of an orbit, below which its sign is noise.
+/// Derivatives of a motion are allowed ten times its error, and some tens of them make up the matrix; among the orbits of a
+/// planet Π (1 − λ), which is zero, comes to 10⁻³.
+const NOISE: f64 = 1e3;
 
 /// A bifurcation of a family.
 #[derive(Clone)]
@@ -75,7 +80,8 @@ pub(super) struct Branch<L: Linearized> {
 pub(super) struct Tests<T> {
     /// Rate of the parameter, or of the energy, along the family.
     pub(super) turning: T,
-    /// Determinant of the derivatives of the conditions, bordered by the direction of the family.
+    /// Least singular value of the derivatives of the conditions, bordered by the direction of the family, with the sign of
+    /// their determinant.
     pub(super) determinant: Option<T>,
     /// Π (1 − λ).
     pub(super) unity: T,
@@ -83,6 +89,8 @@ pub(super) struct Tests<T> {
     pub(super) doubling: T,
     /// Π_{i<j} (1 − λ_i λ_j), or of symplectic motions the discriminant Π_{i<j} (s_i − s_j)² of the indices s = λ + 1/λ.
     pub(super) torus: T,
+    /// Size below which a determinant and `unity` are noise.
+    pub(super) noise: T,
 }
 
 /// A function of the [`Tests`], by the kind of bifurcation at which it changes sign.
@@ -120,11 +128,16 @@ impl<T: Real> Tests<T> {
         }
     }
 
-    /// Tests whose signs differ between two neighbours of a family. `Unity` changes with folds and branch points too, and counts alone
-    /// only, as a broken symmetry.
+    /// Tests whose signs differ between two neighbours of a family. `Unity` changes with folds and branch points too, and
+    /// counts alone only, as a broken symmetry.
     pub(super) fn changed(&self, next: &Self) -> Vec<Test> {
         let zero = T::constant(0.0);
+        let noise = larger(self.noise, next.noise);
         let changes = |test: &Test| match (self.value(*test), next.value(*test)) {
+            // Where orbits fill more than a curve these are zero, and their signs are those of errors.
+            (Some(x), Some(y)) if matches!(test, Test::Determinant | Test::Unity) => {
+                x * y <= zero && larger(Scalar::abs(x), Scalar::abs(y)) > noise && x != zero
+            }
             (Some(x), Some(y)) => x * y < zero || (y == zero && x != zero),
             _ => false,
         };
@@ -145,7 +158,7 @@ impl<T: Real> Problem<T> {
         orbit: &PeriodicOrbit<L>,
     ) -> Result<Tests<T>, Error> {
         let bordered = self.with_row(shot, tangent);
-        let determinant = bordered.is_square().then(|| bordered.lu().determinant());
+        let determinant = if bordered.is_square() { Some(signed_least(&bordered)?) } else { None };
         let multipliers = orbit.monodromy.nontrivial()?;
         let one = T::constant(1.0);
         let torus = match orbit.monodromy.is_symplectic() {
@@ -158,6 +171,7 @@ impl<T: Real> Problem<T> {
             unity: product_of(&multipliers, -one),
             doubling: product_of(&multipliers, one),
             torus,
+            noise: T::constant(NOISE) * (orbit.error + T::constant(T::EPSILON)),
         })
     }
 
@@ -166,6 +180,10 @@ impl<T: Real> Problem<T> {
         let count = shot.frames[0].count();
         if let Some(column) = self.parameter_column(count) {
             return tangent[column];
+        }
+        // A fixed energy has no folds.
+        if self.conditions.energy.is_some() {
+            return T::constant(1.0);
         }
         let energy = shot.frames[0].energy(&shot.chain.system, &shot.chain.nodes[0]);
         let gradient = energy.map(|(gradient, _)| gradient);
@@ -221,6 +239,22 @@ pub(super) fn least_direction<T: Real>(a: &DMatrix<T>) -> Result<DVector<T>, Err
     let values = &factors.values;
     let least = (1..values.len()).fold(0, |least, k| if values[k] < values[least] { k } else { least });
     Ok(DVector::from_fn(a.ncols(), |j, _| factors.direction(least, j)))
+}
+
+/// Least singular value of a square matrix, with the sign of its determinant.
+fn signed_least<T: Real>(a: &DMatrix<T>) -> Result<T, Error> {
+    let factors = Singular::of(a).ok_or(Error::EigenvaluesNotFound)?;
+    let least = factors.values.iter().fold(factors.norm(), |least, x| smaller(least, *x));
+    let is_negative = a.clone().lu().determinant() < T::constant(0.0);
+    Ok(if is_negative { -least } else { least })
+}
+
+/// True if a complex pair of multipliers is on the unit circle, to a thousandth.
+pub(super) fn touches_circle<T: Real>(multipliers: &[nalgebra::Complex<T>]) -> bool {
+    let little = T::constant(1e-3);
+    multipliers
+        .iter()
+        .any(|x| Scalar::abs(x.im) > little && Scalar::abs(modulus(*x) - T::constant(1.0)) < little)
 }
 
 /// Change of the start that the motion once around turns into its opposite.

@@ -4,9 +4,9 @@ use alloc::vec::Vec;
 
 use crate::linearized::Linearized;
 use crate::motion::Simulate;
-use crate::number::{Real, Scalar};
-use crate::system::{Direction, StateOf};
-use crate::vector::Length;
+use crate::number::{Real, Scalar, larger};
+use crate::system::StateOf;
+use crate::vector::Vector;
 
 /// What is known of the period.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,22 +89,26 @@ impl<T: Real> Conditions<T> {
     }
 }
 
-/// True if the equations depend on the time: if at one of 16 times over a period their derivative by the time is not zero. The times
-/// are in no simple ratio to the period, at which a derivative may vanish.
-pub(super) fn has_clock<L: Linearized<Scalar: Real>>(
+/// True if the equations at these states are the same a period later: to 10⁻⁶ of what the accelerations change in eighths
+/// of the period, or to round-off.
+pub(super) fn repeats<L: Linearized<Scalar: Real>>(
     system: &L,
-    state: &StateOf<L>,
+    states: &[StateOf<L>],
     period: L::Scalar,
 ) -> bool {
-    const GOLDEN: f64 = 0.618_033_988_749_895;
     let zero = L::Scalar::constant(0.0);
-    (1..=16).any(|k| {
-        let mut state = *state;
-        let turns = GOLDEN * f64::from(k);
-        state.t += period * L::Scalar::constant(turns - f64::from(turns as u32));
-        let Ok(solution) = system.solve(&state) else { return false };
-        let change = system.residual_change(&state, &solution, &Direction::of_time());
-        (0..<L::N>::COUNT).any(|i| change.motion[i] != zero)
-            || (0..<L::M>::COUNT).any(|a| change.acceleration[a] != zero || change.position[a] != zero)
+    states.iter().all(|state| {
+        let after = |part: f64| {
+            let t = state.t + period * L::Scalar::constant(part);
+            system.solve(&StateOf::<L> { t, ..*state }).ok().map(|solution| solution.accelerations)
+        };
+        let (Some(now), Some(later)) = (after(0.0), after(1.0)) else { return true };
+        let apart = |then: &Vector<L::Scalar, L::N>| {
+            then.iter().zip(now.iter()).fold(zero, |most, (x, y)| larger(most, Scalar::abs(*x - *y)))
+        };
+        let eighths = (1..8).filter_map(|k| after(f64::from(k) / 8.0));
+        let most = eighths.fold(zero, |most, then| larger(most, apart(&then)));
+        let round_off = L::Scalar::constant(64.0 * L::Scalar::EPSILON) * (now.amax() + most);
+        apart(&later) <= L::Scalar::constant(1e-6) * most + round_off
     })
 }

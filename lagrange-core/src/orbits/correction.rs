@@ -96,6 +96,29 @@ impl<T: Real> Arc<T> {
         norm(&[moved.norm(), period, parameter]) < step && self.residual(problem, shot) <= T::constant(0.0)
     }
 
+    /// Distance of a shot from the point of the tangent at the arclength demanded.
+    pub(super) fn deviation<L: Linearized<Scalar = T> + Clone>(
+        &self,
+        problem: &Problem<T>,
+        shot: &Shot<L>,
+    ) -> T {
+        let count = shot.frames[0].count();
+        let mut off = &self.dual * (flat::<L>(&shot.chain.nodes[0]) - &self.start);
+        off -= self.tangent.rows(0, count) * self.length;
+        let mut squares = off.norm_squared();
+        if problem.conditions.period_is_free() {
+            let period =
+                shot.chain.period / self.period - T::constant(1.0) - self.tangent[count] * self.length;
+            squares += period * period;
+        }
+        if let Some(column) = problem.parameter_column(count) {
+            let value = (problem.parameter_of(&shot.chain.system).0 - self.parameter.0) / self.parameter.1;
+            let off = value - self.tangent[column] * self.length;
+            squares += off * off;
+        }
+        Scalar::sqrt(squares)
+    }
+
     /// Arclength of a shot less the one demanded.
     fn residual<L: Linearized<Scalar = T> + Clone>(&self, problem: &Problem<T>, shot: &Shot<L>) -> T {
         let count = shot.frames[0].count();
@@ -231,8 +254,8 @@ impl<T: Real> Problem<T> {
         .into()
     }
 
-    /// Estimate of the distance from a true orbit: the largest change of a node, or of the period, by a step that would remove the gaps
-    /// and the errors of the method.
+    /// Estimate of the distance from a true orbit: the largest change of a node, or of the period, by a step that would
+    /// remove the gaps and the errors of the method.
     pub(super) fn error_of<L, D>(&self, shot: &Shot<L>, method: &D) -> Result<T, Error>
     where
         L: Linearized<Scalar = T> + Clone,

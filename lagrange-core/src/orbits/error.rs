@@ -17,6 +17,20 @@ pub enum OrbitError {
         /// Period guessed.
         period: f64,
     },
+    /// The equations do not depend on the time, so that nothing drives them.
+    NoClock,
+    /// The equations a period later are not those at the start.
+    NotItsClock {
+        /// Period given.
+        period: f64,
+    },
+    /// What was found is not near an orbit.
+    Vague {
+        /// Estimated distance from a true orbit, in units of its size.
+        error: f64,
+        /// Period of what was found.
+        period: f64,
+    },
     /// The orbit does not close.
     NotClosed {
         /// Entry of the state with the largest gap in the units of the orbit.
@@ -75,6 +89,18 @@ impl Display for OrbitError {
             Self::Clock { period } => write!(
                 f,
                 "the equations depend on the time, so that no other period than that of their clock closes an orbit: in place of the guess {period} give it by `period` or `driven_by`"
+            ),
+            Self::NoClock => write!(
+                f,
+                "the equations do not depend on the time, so that nothing drives them: guess the period by `period_near` in place of `driven_by`"
+            ),
+            Self::NotItsClock { period } => write!(
+                f,
+                "the equations at t + {period} are not those at t, so that this is not the period of an orbit: give a multiple of the period of what drives them, by `period`, or by `driven_by` and its frequency"
+            ),
+            Self::Vague { error, period } => write!(
+                f,
+                "what was found with the period {period} may be {error:.1e} of its size away from an orbit: divide the orbit into more `segments`, or take a method of a smaller tolerance"
             ),
             Self::NotClosed { entry, gap, iterations, start, period } => write!(
                 f,

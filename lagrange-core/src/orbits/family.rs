@@ -22,8 +22,8 @@ const EASY: usize = 6;
 
 /// Settings of the continuation of a periodic orbit to a family.
 ///
-/// Lengths are relative: of the start in units of the largest coordinate and velocity, of the period to its value, of the parameter to
-/// its value where the family starts (to 1, if it is zero).
+/// Lengths are relative: of the start in units of the largest coordinate and velocity, of the period to its value, of the
+/// parameter to its value where the family starts (to 1, if it is zero).
 #[must_use = "`follow` continues the orbit"]
 pub struct FamilySearch<'u, L: Linearized, D> {
     method: D,
@@ -40,8 +40,8 @@ pub struct FamilySearch<'u, L: Linearized, D> {
 }
 
 impl<L: Linearized<Scalar: Real> + Clone, D: Clone> OrbitSearch<L, D> {
-    /// Starts the settings of the family of an orbit that this search has found: in a parameter, or, without one, along the orbits of
-    /// a conservative system, which differ in energy and period.
+    /// Starts the settings of the family of an orbit that this search has found: in a parameter, or, without one, along the
+    /// orbits of a conservative system, which differ in energy and period.
     pub fn family<'u>(&self, orbit: &PeriodicOrbit<L>) -> FamilySearch<'u, L, D> {
         let system = orbit.system.clone();
         let search = Self { system, ..self.clone() };
@@ -53,8 +53,9 @@ impl<L: Linearized<Scalar: Real> + Clone, D: Clone> OrbitSearch<L, D> {
         self.continued(start)
     }
 
-    /// Starts the settings of the family that leaves at a bifurcation, to the one side, or [backwards](FamilySearch::backwards) to the
-    /// other. At a period doubling its orbits have twice the period, and need no symmetry.
+    /// Starts the settings of the family that leaves at a bifurcation, to the one side, or
+    /// [backwards](FamilySearch::backwards) to the other. At a period doubling its orbits have twice the period, and need
+    /// no symmetry.
     pub fn branch<'u>(&self, bifurcation: &Bifurcation<L>) -> FamilySearch<'u, L, D> {
         let kind = bifurcation.kind;
         let start = bifurcation.branch.clone().ok_or_else(|| OrbitError::NoBranch { kind }.into());
@@ -83,7 +84,8 @@ impl<L: Linearized<Scalar: Real> + Clone, D: Clone> OrbitSearch<L, D> {
 }
 
 impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
-    /// Lets a parameter change along the family. A branch has the parameter of the family that it leaves, unless another is named.
+    /// Lets a parameter change along the family. A branch has the parameter of the family that it leaves, unless another is
+    /// named.
     pub fn in_parameter(mut self, name: &str) -> Self {
         self.start = self.start.and_then(|mut start| {
             let k = lookup::index::<L>(L::PARAMETERS, "parameter", name)?;
@@ -127,14 +129,15 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
         Self { last: Some(kind), ..self }
     }
 
-    /// Follows the family (pseudo-arclength continuation: Keller 1977; Doedel, Keller and Kernévez, *International Journal of Bifurcation
-    /// and Chaos* 1, 1991). The parameter increases at first, or the energy, unless it is followed [backwards](Self::backwards).
+    /// Follows the family (pseudo-arclength continuation: Keller 1977; Doedel, Keller and Kernévez, *International Journal
+    /// of Bifurcation and Chaos* 1, 1991). The parameter increases at first, or the energy, unless it is followed
+    /// [backwards](Self::backwards).
     ///
-    /// Bifurcations are told by functions that change sign from one orbit to the next: the rate of the parameter or energy, the
-    /// bordered determinant of the equations, Π(1 − λ), Π(1 + λ) and Π(1 − λλ′) of the multipliers. A change of sign proves that
-    /// there is one between; two of a kind between neighbours are not seen. Each is found by regula falsi on the arclength, to
-    /// round-off of the function. The family ends early where no orbit is found, which is no error: see
-    /// [`Family::ending`].
+    /// Bifurcations are told by functions that change sign from one orbit to the next: the rate of the parameter or energy,
+    /// the bordered determinant of the equations, Π(1 − λ), Π(1 + λ) and Π(1 − λλ′) of the multipliers. A change of sign
+    /// between two orbits of one curve proves that there is one between; two of a kind between neighbours are not seen.
+    /// Each is found by regula falsi on the arclength, to round-off of the function. The family ends early where no orbit
+    /// is found, which is no error: see [`Family::ending`].
     ///
     /// # Errors
     /// Those of [`OrbitSearch::find`] at the first orbit; [`Error::Orbit`] if the orbit is isolated, or one of a family of more

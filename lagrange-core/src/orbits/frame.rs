@@ -6,7 +6,7 @@ use super::form::symplectic_form;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::number::{Real, Scalar, larger, norm, smaller};
-use crate::system::StateOf;
+use crate::system::{ConstraintKind, StateOf};
 use crate::trajectory::Trajectory;
 use crate::vector::Length;
 
@@ -47,8 +47,8 @@ impl<T: Real> OrbitUnits<T> {
     }
 }
 
-/// Components at a state: δ(q, q̇) = B ξ with columns B that are orthonormal in the units of the orbit, and span the tangent space of the
-/// constraints.
+/// Components at a state: δ(q, q̇) = B ξ with columns B that are orthonormal in the units of the orbit, and span the
+/// tangent space of the constraints.
 #[derive(Clone, Debug)]
 pub(super) struct Frame<T> {
     /// B, one row for each entry of (q, q̇).
@@ -86,15 +86,29 @@ impl<T: Real> Frame<T> {
         unit(&self.dual * &self.rate)
     }
 
-    /// Components of the gradient of the energy, of length 1, and its length: dE = ω(·, f) for the rate f. `None` where it vanishes.
+    /// Components of the gradient of the energy, of length 1, and its length: dE = ω(·, f) for the rate f. `None` where it
+    /// vanishes.
     pub(super) fn energy<L: Linearized<Scalar = T>>(
         &self,
         system: &L,
         state: &StateOf<L>,
     ) -> Option<(DVector<T>, T)> {
-        let gradient = self.basis.tr_mul(&(symplectic_form(system, state) * &self.rate));
+        let gradient = match L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity) {
+            false => self.basis.tr_mul(&(symplectic_form(system, state) * &self.rate)),
+            // There the form lacks the work of the multipliers along changes that velocities do not allow.
+            true => self.energy_by_differences(system, state),
+        };
         let length = norm(gradient.as_slice());
         Some((unit(gradient)?, length))
+    }
+}
+
+impl<T: Real> Frame<T> {
+    /// Derivatives of the energy along the columns of B, by central differences.
+    fn energy_by_differences<L: Linearized<Scalar = T>>(&self, system: &L, state: &StateOf<L>) -> DVector<T> {
+        let step = T::constant(1e-5);
+        let energy = |by: T, j: usize| system.energy(&shifted::<L>(state, &(self.basis.column(j) * by)));
+        DVector::from_fn(self.basis.ncols(), |j, _| (energy(step, j) - energy(-step, j)) / (step + step))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::bifurcation::{Branch, Test, Tests};
+use super::bifurcation::{Branch, Test, Tests, touches_circle};
 use super::correction::Arc;
 use super::orbit::PeriodicOrbit;
 use super::tracing::{TracedOrbit, Tracer};
@@ -30,8 +30,8 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
 
     /// Bifurcations between a member and the next, and those of which the orbit or the family that leaves was not found.
     ///
-    /// A fold and a branch point that coincide are one, a pitchfork seen from the family that leaves: the orbit is the one of the fold,
-    /// since the determinant there is small to the left and right.
+    /// A fold and a branch point that coincide are one, a pitchfork seen from the family that leaves: the orbit is the one
+    /// of the fold, since the determinant there is small to the left and right.
     pub(super) fn between(
         &self,
         from: &TracedOrbit<L>,
@@ -41,6 +41,10 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         let (mut found, mut lost) = (Vec::new(), Vec::new());
         for test in from.tests.changed(&next.1) {
             match self.locate(from, arc, next, test) {
+                // Real multipliers collide, or have the product 1, without a torus.
+                Ok((_, at))
+                    if test == Test::Torus
+                        && !at.orbit.monodromy.nontrivial().is_ok_and(|all| touches_circle(&all)) => {}
                 Ok(at) => found.push((test, at)),
                 Err(error) => lost.push((test, error)),
             }

@@ -5,6 +5,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 
 use nalgebra::{Complex, DMatrix};
 
+use super::conditions::repeats;
 use super::error::OrbitError;
 use super::frame::{Frame, OrbitUnits};
 use super::monodromy::Monodromy;
@@ -146,6 +147,9 @@ impl<T: Real> Problem<T> {
         if !self.has_clock && velocity <= Scalar::sqrt(tolerance) * shot.chain.units.v {
             let (period, velocity) = (shot.chain.period.to_f64(), velocity.to_f64());
             return Err(OrbitError::Equilibrium { period, velocity }.into());
+        }
+        if self.has_clock && !repeats(&shot.chain.system, &shot.chain.nodes, shot.chain.period) {
+            return Err(OrbitError::NotItsClock { period: shot.chain.period.to_f64() }.into());
         }
         let whole = Self { conditions: self.conditions.whole(), parameter: None, ..self.clone() };
         let around = self.whole_of(&whole, shot, method)?;

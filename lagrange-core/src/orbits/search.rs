@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 
-use super::conditions::{Conditions, Period, has_clock};
+use super::conditions::{Conditions, Period};
 use super::error::OrbitError;
 use super::frame::OrbitUnits;
 use super::orbit::PeriodicOrbit;
@@ -145,7 +145,10 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
     pub(super) fn problem(&self) -> Result<Problem<L::Scalar>, Error> {
         let conditions = self.conditions.clone()?;
         let period = self.checked_period(&conditions)?;
-        let has_clock = has_clock(&self.system, &self.guess, period);
+        let has_clock = L::DEPENDS_ON_TIME;
+        if !has_clock && matches!(conditions.period, Period::Driven { .. }) {
+            return Err(OrbitError::NoClock.into());
+        }
         if has_clock && conditions.period_is_free() {
             return Err(OrbitError::Clock { period: period.to_f64() }.into());
         }

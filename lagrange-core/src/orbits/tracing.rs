@@ -9,11 +9,18 @@ use super::orbit::PeriodicOrbit;
 use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
-use crate::number::{Real, Scalar, norm, power_of_epsilon};
+use crate::number::{Real, Scalar, exceeds, norm, power_of_epsilon};
 
-/// Least cosine of the angle between neighbours of a family; a step across which it turns more is halved. 20° are small enough that a
-/// step does not end on another family that crosses at a right angle.
+/// Least cosine of the angle between neighbours of a family; a step across which it turns more is halved. 20° are small
+/// enough that a step does not end on another family that crosses at a right angle.
 const TURN: f64 = 0.94;
+
+/// Distance of a member from where its neighbour pointed, as part of the step; where it is larger, the step is halved. A
+/// curve that turns by less than 20° over the step stays within tan 20°.
+const ASIDE: f64 = 0.36;
+
+/// Estimated error, in units of the orbit, from which it is no member.
+const VAGUE: f64 = 1e-3;
 
 /// Part of the first step below which a family counts as stuck.
 const SHORTEST: f64 = 1e-5;
@@ -114,12 +121,15 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         predicted: Chain<L>,
         arc: &Arc<L::Scalar>,
     ) -> Result<TracedOrbit<L>, Error> {
-        let (mut shot, iterations) =
+        let (mut shot, mut iterations) =
             self.problem.correct(predicted, self.method, Some(arc), self.tolerance)?;
         let units = shot.size();
         if units.differ(shot.chain.units) {
+            // In its own units it may not be closed yet, nor an orbit.
             shot.chain.units = units;
-            shot = self.problem.shoot(shot.chain, self.method)?;
+            let more;
+            (shot, more) = self.problem.correct(shot.chain, self.method, Some(arc), self.tolerance)?;
+            iterations += more;
         }
         let along = arc.along(&self.problem, &shot);
         let mut last = DVector::zeros(shot.jacobian.nrows() + 1);
@@ -129,6 +139,10 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         let length = norm(tangent.as_slice());
         let tangent = tangent / length;
         let orbit = self.problem.orbit(&shot, iterations, self.method, self.tolerance)?;
+        if exceeds(orbit.error, L::Scalar::constant(VAGUE)) {
+            let (error, period) = (orbit.error.to_f64(), orbit.period.to_f64());
+            return Err(OrbitError::Vague { error, period }.into());
+        }
         let tests = self.problem.tests(&shot, &tangent, &orbit)?;
         Ok(TracedOrbit { shot, orbit, tangent, tests })
     }
@@ -142,13 +156,15 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
     ) -> Result<(TracedOrbit<L>, L::Scalar), Error> {
         let shortest = self.step * L::Scalar::constant(SHORTEST);
         loop {
-            let found = self.member(&from.shot, &Arc { length: step, ..arc.clone() });
+            let arc = Arc { length: step, ..arc.clone() };
+            let found = self.member(&from.shot, &arc);
             let is_short = step * L::Scalar::constant(0.5) < shortest;
             match found {
                 Ok(next) => {
-                    if arc.cosine(&self.problem, &next.shot, &next.tangent) >= L::Scalar::constant(TURN)
-                        || is_short
-                    {
+                    let turns =
+                        arc.cosine(&self.problem, &next.shot, &next.tangent) < L::Scalar::constant(TURN);
+                    let strays = arc.deviation(&self.problem, &next.shot) > step * L::Scalar::constant(ASIDE);
+                    if !(turns || strays) || is_short {
                         return Ok((next, step));
                     }
                 }

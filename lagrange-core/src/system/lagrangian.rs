@@ -88,6 +88,8 @@ pub trait Lagrangian {
     const HAS_FRICTION: bool = false;
     /// True if some friction acts along two velocities v: its derivatives grow as 1/|v| towards rest.
     const HAS_PLANAR_FRICTION: bool = false;
+    /// True if the time occurs in the equations of motion, whatever the values of the parameters. A manual implementation must say so.
+    const DEPENDS_ON_TIME: bool = false;
     /// Index of the first of the four coordinates (w, x, y, z) of each quaternion that turns a frame, by
     /// `#[frame(…: rotate(q))]`; its length 1 is a constraint.
     const QUATERNIONS: &'static [usize] = &[];

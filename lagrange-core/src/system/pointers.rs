@@ -32,6 +32,7 @@ macro_rules! forward {
             const HAS_CONTACTS: bool = L::HAS_CONTACTS;
             const HAS_FRICTION: bool = L::HAS_FRICTION;
             const HAS_PLANAR_FRICTION: bool = L::HAS_PLANAR_FRICTION;
+            const DEPENDS_ON_TIME: bool = L::DEPENDS_ON_TIME;
             const QUATERNIONS: &'static [usize] = L::QUATERNIONS;
             const MOMENTA_ARE_LINEAR: bool = L::MOMENTA_ARE_LINEAR;
             const OBSERVABLES: &'static [&'static str] = L::OBSERVABLES;

@@ -13,6 +13,7 @@ use crate::contract::{COMPLETED, Gives, LAGRANGIAN, Method, Quantity, SWITCHED};
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::{Completed, ConstraintKind};
 use crate::symbolic::Id;
+use crate::variables::Variable;
 
 impl Emitter<'_> {
     /// Emits the implementation. Reports functions that are too long.
@@ -58,7 +59,7 @@ impl Emitter<'_> {
         let (pack, check_members) = (pack::pack(self.declaration, scalar), self.check_members());
         let markers = markers(self.declaration, &generics, &self.derived.markers);
         let [[_, _, doc], ..] = &self.rendered.forms;
-        let quaternions = self.quaternions();
+        let (quaternions, depends_on_time) = (self.quaternions(), self.depends_on_time());
         let (slides, planar_friction) = (self.slides(), self.planar_friction());
         let has_contacts = contacts.iter().map(|_| {
             quote!(
@@ -95,6 +96,7 @@ impl Emitter<'_> {
                     const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
                     const DIGEST: u32 = #digest;
                     #quaternions
+                    #depends_on_time
                     #supplied
                     #facts
                     #(#has_contacts)*
@@ -249,6 +251,22 @@ impl Emitter<'_> {
     fn quaternions(&self) -> Option<TokenStream> {
         let first = &self.problem.quaternions;
         (!first.is_empty()).then(|| quote!(const QUATERNIONS: &'static [usize] = &[#(#first),*];))
+    }
+
+    /// Emits that the time occurs in the equations of motion, whatever the values of parameters. `None` if it does not.
+    fn depends_on_time(&self) -> Option<TokenStream> {
+        let problem = self.problem;
+        let mut roots = vec![problem.lagrangian];
+        roots.extend(&problem.forces);
+        roots.extend(problem.powers.iter().flat_map(|(force, velocity)| [force, velocity]));
+        roots.extend(problem.dissipation.iter().map(|(function, _)| function));
+        roots.extend(problem.constraints.iter().map(|(_, residual)| residual));
+        let occurs = self.style.graph.symbols(&roots).any(|symbol| Variable::of(symbol) == Variable::Time);
+        occurs.then(|| {
+            quote!(
+                const DEPENDS_ON_TIME: bool = true;
+            )
+        })
     }
 
     fn visit_parameters(&self) -> TokenStream {

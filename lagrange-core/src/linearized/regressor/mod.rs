@@ -68,8 +68,26 @@ fn indices<L: Linearized>(bodies: &[&str]) -> Result<Vec<Indices>, Error> {
         names.extend((0..3).map(|k| format!("{body}.centre[{k}]")));
         names.extend(TRIANGLE.map(|[j, k]| format!("{body}.inertia[{j}][{k}]")));
         let mut found = [0; 10];
+        let refused = |name: String, hint: &str| Error::UnknownName {
+            name,
+            kind: "body with the members `m`, `centre: [3]` and `inertia: symmetric`",
+            hint: Some(hint.into()),
+            known: Vec::new(),
+        };
+        let other = format!("{body}.inertia[1][0]");
+        if L::PARAMETERS.contains(&&*other) {
+            return Err(refused(
+                (*body).into(),
+                "its inertia is declared as any matrix; declare it as `inertia: symmetric`",
+            ));
+        }
         for (index, name) in found.iter_mut().zip(&names) {
-            *index = lookup::index::<L>(L::PARAMETERS, "parameter", name)?;
+            *index = lookup::index::<L>(L::PARAMETERS, "parameter", name).map_err(|error| match error {
+                Error::UnknownName { .. } => {
+                    refused((*body).into(), &format!("there is no parameter `{name}`"))
+                }
+                error => error,
+            })?;
         }
         Ok(found)
     };
@@ -123,8 +141,11 @@ pub(super) fn regressor<L: Linearized<Scalar: Real> + Clone>(
     let all = indices::<L>(bodies)?;
     let matrix = columns(system, state, accelerations, &all)?;
     let offset = forces(&with(system, &all, 0.0)?, state, accelerations);
-    let expected = &matrix * inertial_parameters(system, bodies)? + &offset;
-    check::<L>(&forces(system, state, accelerations), &expected, (&matrix, &offset), state)?;
+    // At two sets of parameters: a square of a mass may be the mass itself at one of them.
+    for system in [system, &changed(system, &all)] {
+        let expected = &matrix * inertial_parameters(system, bodies)? + &offset;
+        check::<L>(&forces(system, state, accelerations), &expected, (&matrix, &offset), state)?;
+    }
     Ok(Regressor { matrix, offset, free: free(system, state)?, names: names(bodies) })
 }
 
@@ -149,6 +170,15 @@ fn with<L: Linearized<Scalar: Real> + Clone>(system: &L, bodies: &[Indices], mas
         }
     }
     Ok(bare)
+}
+
+/// The system with other masses, centres and inertias.
+fn changed<L: Linearized<Scalar: Real> + Clone>(system: &L, bodies: &[Indices]) -> L {
+    let (mut changed, values) = (system.clone(), system.parameters());
+    for &index in bodies.iter().flatten() {
+        changed.set_parameter(index, L::Scalar::constant(1.3) * values[index] + L::Scalar::constant(0.7));
+    }
+    changed
 }
 
 /// Y, from the derivatives by m, c and I at m = 1, c = 0 and I = 0: there they are those by m, m c and I_O.
