@@ -431,7 +431,8 @@ pub trait Linearized: StateDerivatives {
     ///
     /// # Errors
     /// [`Error::AccelerationsNotUnique`] if more must be held, [`Error::NotRealizable`] if what is held violates a
-    /// constraint (to √ε of its terms); [`Error::UnknownName`] and [`Error::RepeatedName`]; [`Error::EquationsNotFinite`].
+    /// constraint (to √ε of its terms); [`Error::Inconsistent`] if the state does; [`Error::UnknownName`] and
+    /// [`Error::RepeatedName`]; [`Error::EquationsNotFinite`].
     #[cfg(feature = "alloc")]
     fn complete_accelerations(
         &self,
