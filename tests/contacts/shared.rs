@@ -110,9 +110,14 @@ fn a_table_that_is_pushed_slides() {
     let time = 0.4 * WEIGHT / 3.0;
     // ẍ = k (t − t₀)/m.
     let moved = 3.0 * (4.0 - time).powi(3) / 12.0;
+    // Events search for forces that are zero, which takes long where it is not optimised.
+    let all = std::env::var_os("LAGRANGE_CASES").is_some();
     for h in [0.0, 0.5] {
         for d in [[1.0, 0.0], [-0.28, 0.96]] {
             for p in [0.0, 0.3, 1.0] {
+                if !all && (h, p) != (0.5, 0.3) {
+                    continue;
+                }
                 let table = Table { h, d, p, ..TABLE };
                 let case = format!("h = {h}, d = {d:?}, p = {p}");
                 let path = table.by_radau(if p < 1.0 { 4.0 } else { 3.0 });
