@@ -4,6 +4,7 @@
 //! is regrouped into them (M. Gautier, "Numerical calculation of the base inertial parameters of robots", *Journal of
 //! Robotic Systems* 8, 1991).
 
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt::{self, Display, Formatter};
@@ -148,7 +149,9 @@ impl<T: Real> Display for BaseParameters<T> {
                 let x = self.combinations[(k, j)].to_f64();
                 if x.abs() > 1e-9 {
                     let sign = if x < 0.0 { '-' } else { '+' };
-                    write!(f, " {sign} {} {name}", (x.abs() * 1e12).round() / 1e12)?;
+                    let coefficient = format!("{:.12}", x.abs());
+                    let coefficient = coefficient.trim_end_matches('0').trim_end_matches('.');
+                    write!(f, " {sign} {coefficient} {name}")?;
                 }
             }
             writeln!(f)?;
