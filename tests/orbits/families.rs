@@ -319,3 +319,28 @@ fn what_cannot_be_followed_is_said() {
     let error = search.family(&first).in_parameter("c").step(0.0).follow().unwrap_err();
     assert!(matches!(error, Error::Setting { .. }), "{error}");
 }
+
+/// Orbits in the plane of Earth and Moon about the point between them.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[define(r1 = sqrt((x + mu)^2 + y^2))]
+#[define(r2 = sqrt((x - 1 + mu)^2 + y^2))]
+#[lagrangian(((x_dot - y)^2 + (y_dot + x)^2)/2 + (1 - mu)/r1 + mu/r2)]
+struct PlaneOfMoon {
+    mu: f64,
+}
+
+/// Where the orbits get unstable another family is as near as the next member: the steps shorten, and the family does not change.
+#[test]
+fn orbits_of_one_family_stay_in_it() {
+    let system = PlaneOfMoon { mu: Moon::EARTHS.mu };
+    let point = system.equilibrium(&State::at_rest([0.84, 0.0]), &["x", "y"]).unwrap().state;
+    let guess = State::new([point.q[0] - 0.005, 0.0], [0.0, 0.04]);
+    let search = system.periodic_orbit(&guess).period_near(2.7).mirrored(&["y", "x_dot"]);
+    let family = search.family(&search.find().unwrap()).orbits(47).follow().unwrap();
+    for pair in family.orbits().windows(2) {
+        let ratio = pair[1].period / pair[0].period;
+        assert!((0.95..1.1).contains(&ratio), "{ratio} in {family}");
+    }
+    assert!(family.first(BifurcationKind::BranchPoint).is_none(), "{family}");
+}

@@ -40,7 +40,7 @@ pub(super) struct Changed {
 }
 
 impl Changed {
-    /// Whether this open contact has touched in the leg that ends here because of closed ones.
+    /// Whether the gap of this open contact has remained zero in the leg that ends here, since closed contacts hold it there.
     pub(super) fn is_implied(&self, k: usize) -> bool {
         self.implied.get(k) == Some(&true)
     }

@@ -13,14 +13,14 @@ use crate::number::Real;
 /// g = ∫∫ g̈, it cannot be negative where g̈ is positive and has not been negative before: there such an error is no gap that closes.
 pub(super) struct Lifting<T>(Vec<Cell<Rise<T>>>);
 
-/// How long the acceleration of a gap is known not to be negative.
+/// How long the acceleration of a gap is known not to be negative, from the states at which it was evaluated.
 #[derive(Clone, Copy)]
 enum Rise<T> {
     /// The gap does not open at rest, or has risen.
     None,
-    /// No state has been seen in which it is.
+    /// It was negative at no state so far.
     Always,
-    /// Up to this time, the earliest seen at which it is.
+    /// Up to this time, the earliest at which it was negative.
     Until(T),
 }
 

@@ -133,7 +133,8 @@ fn go<L: Linearized<Scalar: Real>>(
         let tangent = Tangent::of(system, &state, solution);
         let length = WideOf::<L>::of(length);
         for (block, ClassicalStages { start, slopes }) in variations.blocks.iter_mut().zip(&*all) {
-            block.at_stage = along(start, length, &slopes[number.saturating_sub(1)]);
+            let before = number.checked_sub(1).map(|before| &slopes[before]);
+            block.at_stage = before.map_or(*start, |slope| along(start, length, slope));
         }
         variations.slopes_at(
             &tangent,
@@ -142,16 +143,20 @@ fn go<L: Linearized<Scalar: Real>>(
         )?;
     }
     let sixth = WideOf::<L>::of(h / L::Scalar::constant(6.0));
-    for (block, ClassicalStages { start, slopes: [a, b, c, d] }) in variations.blocks.iter_mut().zip(&*all) {
-        let two = WideOf::<L>::constant(2.0);
-        let sum = |half: usize, i: usize| a[half][i] + two * (b[half][i] + c[half][i]) + d[half][i];
-        let sum = from_fn(|half| Array::from_fn(|i| sum(half, i)));
-        block.y = along(start, sixth, &sum);
+    for (block, ClassicalStages { start, slopes }) in variations.blocks.iter_mut().zip(&*all) {
+        block.y = along(start, sixth, &weighted(slopes));
     }
     match const { <L::M>::COUNT == 0 } {
         true => Ok(()),
         false => variations.arrive(&Tangent::at(system, after)?),
     }
+}
+
+/// Sum of the slopes of a step by their weights, in sixths.
+fn weighted<T: Scalar, N: Length>([a, b, c, d]: &[PhaseVector<T, N>; 4]) -> PhaseVector<T, N> {
+    let two = T::constant(2.0);
+    let sum = |half: usize, i: usize| a[half][i] + two * (b[half][i] + c[half][i]) + d[half][i];
+    from_fn(|half| Array::from_fn(|i| sum(half, i)))
 }
 
 /// start + length · slope
