@@ -113,7 +113,8 @@ pub enum Error {
     /// order such a constraint restricts nothing.
     ///
     /// Criterion: each entry of the constraint's row of F is at most 16 times its change when the coordinates
-    /// change by ε^(3/4) (2·10⁻¹² for `f64`). A row that is zero throughout a neighbourhood does not count, for
+    /// change by ε^(3/4) (2·10⁻¹² for `f64`). Or the parameters alone cancel the row, as across the plane of a linkage that
+    /// two bases turn by equal angles: no entry exceeds 4 times the bound of its rounding error. A row that is zero throughout a neighbourhood does not count, for
     /// example that of a constraint times a parameter that is zero. At a singular pose the gradient may vanish
     /// at that pose alone: no first derivative then tells which way a motion leaves rest.
     NoGradient {

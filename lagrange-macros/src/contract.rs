@@ -30,6 +30,7 @@ pub(crate) enum Quantity {
     Rate,
     Jacobian,
     Bias,
+    JacobianRoundOff,
     Integral,
     ConstraintForce,
     InverseDynamics,
@@ -190,6 +191,10 @@ pub(crate) const SWITCHED: [Method; 1] =
 
 /// Methods of `Contacts`.
 pub(crate) const RESTITUTION: Method =
+/// Method of `Lagrangian` that is emitted where parameters may cancel a row of F.
+pub(crate) const CANCELLING: [Method; 1] =
+    [of_state(Quantity::JacobianRoundOff, "jacobian_round_off", Matrix(Constraints, Coordinates))];
+
     method(Quantity::Law, "restitution", &[System, Index, State], Optional);
 pub(crate) const FRICTION_LIMIT: Method =
     method(Quantity::Law, "friction_limit", &[System, Index, State], Optional);
@@ -277,7 +282,7 @@ const CONSTANTS: [&str; 21] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian`, `MotionDerivatives` and `PeriodicMotion`.
-const PROVIDED: [&str; 49] = [
+const PROVIDED: [&str; 50] = [
     "inertial_parameters",
     "regressor",
     "complete_accelerations",
@@ -285,6 +290,7 @@ const PROVIDED: [&str; 49] = [
     "local_coordinates",
     "compliance",
     "slides",
+    "jacobian_round_off",
     "completed_momentum",
     "completed_momentum_rate",
     "completed_mass_matrix",

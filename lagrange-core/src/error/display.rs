@@ -67,7 +67,7 @@ impl Display for Error {
             ),
             Self::NoGradient { constraint, time } => write!(
                 f,
-                "the gradient of constraint `{constraint}` vanishes at t = {time}, where it holds, so that it fixes no acceleration; write it by a function that changes sign there, as `sin(a) = 0` for `cos(a) = 1` or `x - y = 0` for `(x - y)^2 = 0`, or leave it out if others imply it; if it vanishes at this pose alone, start beside it"
+                "the gradient of constraint `{constraint}` vanishes at t = {time}, where it holds, so that it fixes no acceleration; write it by a function that changes sign there, as `sin(a) = 0` for `cos(a) = 1` or `x - y = 0` for `(x - y)^2 = 0`, or leave it out if others imply it, or the parameters alone; if it vanishes at this pose alone, start beside it"
             ),
             Self::DependentToFirstOrder { constraints, time } => write!(
                 f,

@@ -18,12 +18,13 @@ use crate::motion::{
 };
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
+use crate::solution::solve::solve;
 use crate::system::finite::check_entries;
 use crate::system::{Lagrangian, StateOf};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Trajectory;
 use crate::vector::{Array, Vector, vector};
-use phase::equations;
+use phase::rate;
 
 /// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints, for every [`Lagrangian`]
 /// over `f64` or `f32`.
@@ -113,7 +114,7 @@ pub trait Hamiltonian: Lagrangian<Scalar: Real> + Sized {
         phase: &PhaseState<Self::Scalar, Self::N>,
     ) -> Result<PhaseDerivative<Self::Scalar, Self::N, Self::M>, Error> {
         let state = self.legendre(phase)?;
-        equations(self, &state, None).map(|(rate, ..)| rate)
+        solve(self, &state).map(|solution| rate(self, &state, solution.multipliers))
     }
 
     /// Integrates Hamilton's equations from a phase state to the time `end`, as

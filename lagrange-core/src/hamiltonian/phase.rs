@@ -90,8 +90,16 @@ pub(super) fn equations<L: Lagrangian<Scalar: Real>>(
     active: Option<&Array<bool, L::M>>,
 ) -> Result<Rates<L::Scalar, L::N, L::M>, Error> {
     solve_near(system, state, active, |solution, &active| {
-        let multipliers = solution.multipliers;
-        let p = system.momentum_rate(state).plus(&system.constraint_force(state, &multipliers));
-        (PhaseDerivative { q: state.v, p, multipliers }, solution.rank, active)
+        (rate(system, state, solution.multipliers), solution.rank, active)
     })
+}
+
+/// Rates of coordinates and momenta for these multipliers.
+pub(super) fn rate<L: Lagrangian>(
+    system: &L,
+    state: &StateOf<L>,
+    multipliers: Vector<L::Scalar, L::M>,
+) -> PhaseDerivative<L::Scalar, L::N, L::M> {
+    let p = system.momentum_rate(state).plus(&system.constraint_force(state, &multipliers));
+    PhaseDerivative { q: state.v, p, multipliers }
 }

@@ -10,6 +10,7 @@ use super::singular::Singular;
 use crate::error::Error;
 use crate::names::Row;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::solution::consistent::gradient::check_parameters;
 use crate::solution::kkt::Units;
 use crate::solution::solve::first_row;
 use crate::system::{Solution, StateOf, finite::check_finite, unit};
@@ -44,6 +45,7 @@ pub(super) fn inputs_for<L: Linearized<Scalar: Real> + Clone>(
     names: &[&str],
 ) -> Result<InverseDynamics<L::Scalar, L::M>, Error> {
     check_finite(system, state)?;
+    check_parameters(system, state)?;
     let inputs = Argument::actuators::<L>(names)?;
     let mut balance = InputBalance::new(system.clone(), state, accelerations, inputs)?;
     for _ in 0..STEPS {

@@ -21,6 +21,9 @@ pub(crate) fn solve<L: Lagrangian<Scalar: Real>>(
     state: &StateOf<L>,
 ) -> Result<SolutionOf<L>, Error> {
     check_finite(system, state)?;
+    if const { <L::M>::COUNT > 0 } {
+        gradient::check_parameters(system, state)?;
+    }
     let solution = solve_near(system, state, None, |solution, _| *solution)
         .map_err(|error| reason(system, state, error))?;
     if !solution.multipliers_are_unique() {

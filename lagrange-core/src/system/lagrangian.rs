@@ -8,7 +8,7 @@ use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
 use super::state::{Solution, SolutionOf, StateOf};
 use crate::number::{Broadcast, Scalar};
-use crate::vector::{Array, Length, Matrix, Vector, vector};
+use crate::vector::{Array, Length, Matrix, Vector, matrix, vector};
 
 /// Form in which a constraint is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -123,7 +123,7 @@ pub trait Lagrangian {
     /// Lagrangian L(t, q, q̇).
     fn lagrangian(&self, state: &StateOf<Self>) -> Self::Scalar;
 
-    /// Energy function E = p·q̇ − L (Milton (8.17)); its rate is −∂L/∂t + Q·q̇ − Σ_α λ_α b_α.
+    /// Energy function E = p·q̇ − L (Milton (8.17)).
     fn energy(&self, state: &StateOf<Self>) -> Self::Scalar;
 
     /// Generalized momenta p = ∂L/∂q̇.
@@ -160,6 +160,14 @@ pub trait Lagrangian {
     fn compliance(&self) -> Vector<Self::Scalar, Self::M> {
         vector(Array::filled(Self::Scalar::constant(0.0)))
     }
+    /// Bounds of the rounding errors of [`constraint_jacobian`](Self::constraint_jacobian), in units of ε, for each
+    /// constraint whose gradient some values of the parameters cancel at every pose; zeros for the others. (To first order,
+    /// each operation adds its result: Higham, *Accuracy and Stability of Numerical Algorithms*, 3.3.)
+    #[allow(unused_variables)]
+    fn jacobian_round_off(&self, state: &StateOf<Self>) -> Matrix<Self::Scalar, Self::M, Self::N> {
+        matrix(Array::filled(Array::filled(Self::Scalar::constant(0.0))))
+    }
+
 
     /// Index of the first constraint whose friction slides with a force μ λ, proportional to the multiplier of its contact;
     /// `None` if there is none. Such a force is no part of Fᵀλ, and c has an entry μ beside its diagonal.

@@ -58,6 +58,7 @@ macro_rules! forward {
                 fn completed_momentum(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
                 fn completed_momentum_rate(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
                 fn completed_mass_matrix(state: &State<Self::Scalar, L::N>) -> Matrix<Self::Scalar, L::N, L::N>;
+                fn jacobian_round_off(state: &State<Self::Scalar, L::N>) -> Matrix<Self::Scalar, L::M, L::N>;
                 fn compliance() -> Vector<Self::Scalar, L::M>;
                 fn slides() -> Option<usize>;
                 fn forcing(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;

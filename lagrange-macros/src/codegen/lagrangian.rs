@@ -9,7 +9,7 @@ use super::markers::markers;
 use super::observables::OBSERVABLE;
 use super::pack;
 use super::shape::ResultShape;
-use crate::contract::{COMPLETED, Gives, LAGRANGIAN, Method, Quantity, SWITCHED};
+use crate::contract::{CANCELLING, COMPLETED, Gives, LAGRANGIAN, Method, Quantity, SWITCHED};
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::{Completed, ConstraintKind};
 use crate::symbolic::Id;
@@ -44,8 +44,11 @@ impl Emitter<'_> {
         let observables = self.observable_names();
         let completed = self.derived.equations.completed.iter().flat_map(|_| &COMPLETED);
         let switched = SWITCHED.iter().filter(|_| !problem.parameters.switches.is_empty());
-        let methods: Written =
-            LAGRANGIAN.iter().chain(completed).chain(switched).map(|method| self.method(method)).collect();
+        let may_cancel =
+            self.derived.equations.jacobian_round_off.iter().flatten().any(|&bound| bound != Id::ZERO);
+        let cancelling = CANCELLING.iter().filter(|_| may_cancel);
+        let methods = LAGRANGIAN.iter().chain(completed).chain(switched).chain(cancelling);
+        let methods: Written = methods.map(|method| self.method(method)).collect();
         let inherent: Written =
             problem.observables.iter().map(|observable| self.observable(observable)).collect();
         let contacts = self.contacts();
@@ -149,6 +152,7 @@ impl Emitter<'_> {
             Quantity::RateMagnitude => equations.magnitudes[1].clone(),
             Quantity::Jacobian => columns(&equations.jacobian),
             Quantity::Bias => equations.bias.clone(),
+            Quantity::JacobianRoundOff => columns(&equations.jacobian_round_off),
             Quantity::ConstraintForce => {
                 let force = |i| equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
                 (0..problem.coordinates.len()).map(force).collect()

@@ -9,7 +9,7 @@ use super::form::Form;
 use super::formulation::Formulation;
 use super::integrability::Kinds;
 use super::twists::Twists;
-use super::{consistency, constraints, determinacy, dissipation, integrability};
+use super::{consistency, constraints, determinacy, dissipation, integrability, vanishing};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
@@ -41,6 +41,8 @@ pub(crate) struct Equations {
     pub(crate) magnitudes: [Vec<Id>; 2],
     /// Constraint Jacobian F, row by row
     pub(crate) jacobian: Vec<Vec<Id>>,
+    /// Bounds of the rounding errors of F, in units of the round-off unit, of rows that parameters may cancel; else zero
+    pub(crate) jacobian_round_off: Vec<Vec<Id>>,
     /// γ of F q̈ + γ = 0
     pub(crate) bias: Vec<Id>,
     /// Diagonal of c in F q̈ + γ + c λ = 0: zero, but 1 while a switched constraint does not hold
@@ -121,6 +123,7 @@ impl Equations {
                 constraints.magnitude(graph, Variable::Coordinate, |kind| kind == ConstraintKind::Holonomic),
                 constraints.magnitude(graph, Variable::Velocity, |_| true),
             ],
+            jacobian_round_off: vanishing::round_off(graph, &constraints.jacobian),
             kinds: constraints.kinds,
             residual: constraints.residual,
             rate: constraints.rate,

@@ -24,6 +24,7 @@ mod linearization;
 mod marker;
 mod moment;
 mod twists;
+mod vanishing;
 mod velocities;
 
 use rustc_hash::FxHashMap;

@@ -137,7 +137,7 @@ impl Graph {
     }
 
     /// Distinct nonconstant operands of a product, a power or a function: one for xˣ.
-    fn distinct_operands(&self, id: Id) -> Vec<Id> {
+    pub(super) fn distinct_operands(&self, id: Id) -> Vec<Id> {
         let mut operands = Vec::new();
         self.operands(id, |operand| operands.push(operand));
         operands.retain(|&operand| self.as_number(operand).is_none());
@@ -147,7 +147,7 @@ impl Graph {
     }
 
     /// `weight` · ∂`id`/∂`operand`, for a product, a power or a function.
-    fn partial(&mut self, id: Id, operand: Id, weight: Id) -> Id {
+    pub(super) fn partial(&mut self, id: Id, operand: Id, weight: Id) -> Id {
         match *self.node(id) {
             Node::Product(_) => self.factor_partial(id, operand, weight),
             Node::Function(function, x) => {

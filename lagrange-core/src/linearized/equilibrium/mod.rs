@@ -12,6 +12,7 @@ use super::Linearized;
 use super::argument::Argument;
 use crate::error::Error;
 use crate::number::Real;
+use crate::solution::consistent::gradient::check_parameters;
 use crate::solution::newton;
 use crate::solution::solve::solve;
 use crate::system::finite::check_finite;
@@ -64,6 +65,7 @@ pub(super) fn equilibrium<L: Linearized<Scalar: Real> + Clone>(
     names: &[&str],
 ) -> Result<Equilibrium<L>, Error> {
     check_finite(system, guess)?;
+    check_parameters(system, guess)?;
     let unknowns = match names {
         [] => (0..<L::N>::COUNT).map(Argument::Coordinate).collect(),
         names => Argument::named::<L>(names)?,

@@ -6,7 +6,7 @@ use core::fmt::{self, Display, Formatter};
 use nalgebra::Const;
 
 use super::level::Level;
-use super::{Adjustment, make_consistent};
+use super::{Adjustment, gradient, make_consistent};
 use crate::error::Error;
 use crate::names::{Names, name};
 use crate::number::{Real, Scalar, larger, norm, power_of_epsilon};
@@ -59,6 +59,7 @@ pub(crate) fn assemble<L: Lagrangian<Scalar: Real>>(
     system: &L,
     guess: &StateOf<L>,
 ) -> Result<Assembly<L::Scalar, L::N>, Error> {
+    gradient::check_parameters(system, guess)?;
     let free = [Array::filled(false); 2];
     let found = match make_consistent(system, guess, &free) {
         Err(Error::NotProjected { .. } | Error::NoGradient { .. }) => {
