@@ -80,6 +80,11 @@ impl Excerpt {
         })
     }
 
+    /// Returns the equations in LaTeX, each with its label.
+    pub(super) fn latex_rows(&self) -> impl Iterator<Item = &'static str> + use<> {
+        latex_rows(self.latex.rows)
+    }
+
     /// Returns the equation of this name: a coordinate's name among the equations of motion, a constraint's,
     /// `p_x` among momenta, `R_x` among forces of constraint, `y` for the definition of y. For coordinates that
     /// are printed as a vector, the name is the vector's.

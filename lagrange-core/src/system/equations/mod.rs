@@ -1,10 +1,12 @@
 //! Readable form of the equations of a system.
 
 mod excerpt;
+mod slides;
 
 use core::fmt::{self, Display, Formatter};
 
 pub use excerpt::Excerpt;
+use slides::Slides;
 
 /// Readable equations of a system, as text, LaTeX and MathML.
 ///
@@ -160,6 +162,28 @@ impl Equations {
     /// pages.
     pub const fn document(&self) -> impl Display + Copy + use<> {
         Document(*self)
+    }
+
+    /// Returns slides for a lecture: a LaTeX document of the class `beamer` in 16:9, as a value to display or convert by
+    /// `to_string`.
+    ///
+    /// Each part of the page is a frame, or several if it is long; a frame ends between two equations. Notes in place of
+    /// equations are left out. A single frame is `equations.motion().latex()` between `\begin{frame}` and `\end{frame}`.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(theta)]
+    /// #[lagrangian(m/2 * l^2 * theta_dot^2 + m*g*l*cos(theta))]
+    /// struct Pendulum { m: f64, l: f64, g: f64 }
+    ///
+    /// let slides = Pendulum::equations().slides().to_string();
+    /// assert!(slides.contains(r"\begin{frame}{Equations of motion}"));
+    /// assert!(slides.contains(r"l \ddot\theta &= -g \sin \theta"));
+    /// ```
+    pub const fn slides(&self) -> impl Display + Copy + use<> {
+        Slides(*self)
     }
 }
 
