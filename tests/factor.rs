@@ -237,6 +237,9 @@ impl<L: Lagrangian<Scalar = f64>> Lagrangian for Counted<L> {
     fn lagrangian(&self, state: &StateOf<L>) -> f64 {
         self.system.lagrangian(state)
     }
+    fn energy_rate(&self, state: &StateOf<L>, multipliers: &Vector<f64, L::M>) -> f64 {
+        self.system.energy_rate(state, multipliers)
+    }
     fn energy(&self, state: &StateOf<L>) -> f64 {
         self.system.energy(state)
     }

@@ -61,6 +61,11 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian for Mechanism<N,
         state.v.dot(&self.momentum(state))
     }
 
+    /// For constant masses.
+    fn energy_rate(&self, state: &At<N>, multipliers: &SVector<f64, M>) -> f64 {
+        2.0 * state.v.dot(&(self.forcing(state) + self.constraint_force(state, multipliers)))
+    }
+
     fn momentum_rate(&self, state: &At<N>) -> SVector<f64, N> {
         self.forcing(state)
     }

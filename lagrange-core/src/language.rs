@@ -549,7 +549,7 @@
 //! `#[conserved(name = expression)]` is an observable that must be conserved. The macro evaluates its rate of change at
 //! such states, with random parameters and with random functions in place of supplied ones. A rate that is not zero
 //! within rounding is a compile error that shows the numbers. A [`Trajectory`](crate::Trajectory::drift) reports the
-//! drift of each conserved quantity.
+//! drift of each conserved quantity, and balances an energy that changes with its work.
 //!
 #![cfg_attr(
     feature = "std",

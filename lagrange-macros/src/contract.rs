@@ -17,6 +17,7 @@ pub(crate) struct Method {
 pub(crate) enum Quantity {
     Lagrangian,
     Energy,
+    EnergyRate,
     Momentum,
     MomentumRate,
     MassMatrix,
@@ -29,8 +30,8 @@ pub(crate) enum Quantity {
     Residual,
     Rate,
     Jacobian,
-    Bias,
     JacobianRoundOff,
+    Bias,
     Integral,
     ConstraintForce,
     InverseDynamics,
@@ -150,9 +151,10 @@ const fn of_state(quantity: Quantity, name: &'static str, gives: Gives) -> Metho
 }
 
 /// Emitted methods of `Lagrangian`, in this order.
-pub(crate) const LAGRANGIAN: [Method; 20] = [
+pub(crate) const LAGRANGIAN: [Method; 21] = [
     of_state(Quantity::Lagrangian, "lagrangian", Number),
     of_state(Quantity::Energy, "energy", Number),
+    method(Quantity::EnergyRate, "energy_rate", &[System, State, Multipliers], Number),
     of_state(Quantity::Momentum, "momentum", Vector(Coordinates)),
     of_state(Quantity::MomentumRate, "momentum_rate", Vector(Coordinates)),
     of_state(Quantity::MassMatrix, "mass_matrix", Matrix(Coordinates, Coordinates)),
@@ -189,12 +191,12 @@ pub(crate) const COMPLETED: [Method; 3] = [
 pub(crate) const SWITCHED: [Method; 1] =
     [method(Quantity::Compliance, "compliance", &[System], Vector(Constraints))];
 
-/// Methods of `Contacts`.
-pub(crate) const RESTITUTION: Method =
 /// Method of `Lagrangian` that is emitted where parameters may cancel a row of F.
 pub(crate) const CANCELLING: [Method; 1] =
     [of_state(Quantity::JacobianRoundOff, "jacobian_round_off", Matrix(Constraints, Coordinates))];
 
+/// Methods of `Contacts`.
+pub(crate) const RESTITUTION: Method =
     method(Quantity::Law, "restitution", &[System, Index, State], Optional);
 pub(crate) const FRICTION_LIMIT: Method =
     method(Quantity::Law, "friction_limit", &[System, Index, State], Optional);
@@ -288,9 +290,9 @@ const PROVIDED: [&str; 50] = [
     "complete_accelerations",
     "linearize_locally",
     "local_coordinates",
+    "jacobian_round_off",
     "compliance",
     "slides",
-    "jacobian_round_off",
     "completed_momentum",
     "completed_momentum_rate",
     "completed_mass_matrix",

@@ -1,5 +1,6 @@
 //! What the derive finds conserved, and that the motion does conserve it.
 
+mod balance;
 mod drift;
 mod energy;
 mod gauge;

@@ -274,9 +274,10 @@ impl<L: Lagrangian<Scalar: Real>> ContactTrajectory<L> {
         self.states(count).map(|(system, state)| Sample { system: system.clone(), state })
     }
 
-    /// Returns the largest deviation of each quantity that is conserved between impacts from its initial value.
+    /// Returns the largest deviation of each quantity that is conserved between impacts from its initial value, and that of
+    /// the balance of an energy that is not conserved, without what impacts take.
     pub fn drift(&self) -> Drift<L::Scalar> {
-        Drift::of(self.states_of_steps())
+        Drift::of(self.states_of_steps()).balanced(&self.legs)
     }
 
     /// Numbers of impacts, of contacts that come to rest, that close, and that open, and of friction that sticks, slips and

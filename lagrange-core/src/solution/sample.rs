@@ -60,6 +60,15 @@ impl<S: Lagrangian<Scalar: Real>> Sample<S> {
     pub fn energy(&self) -> S::Scalar {
         self.system.energy(&self.state)
     }
+
+    /// Returns dE/dt along the motion, the power of forces, moving constraints and a Lagrangian that changes with time; see
+    /// [`energy_rate`](Lagrangian::energy_rate).
+    ///
+    /// # Errors
+    /// Those of [`solution`](Self::solution).
+    pub fn energy_rate(&self) -> Result<S::Scalar, Error> {
+        Ok(self.system.energy_rate(&self.state, &self.solution()?.multipliers))
+    }
 }
 
 /// Lookup by name.

@@ -126,6 +126,12 @@ pub trait Lagrangian {
     /// Energy function E = p·q̇ − L (Milton (8.17)).
     fn energy(&self, state: &StateOf<Self>) -> Self::Scalar;
 
+    /// Rate of the energy along the motion with these multipliers, dE/dt = −∂L/∂t + Q·q̇ − Σ_α λ_α b_α: a Lagrangian that
+    /// changes with time, forces with dissipation and sliding friction, and constraints F q̇ + b = 0 that move. Zero if E is
+    /// conserved.
+    fn energy_rate(&self, state: &StateOf<Self>, multipliers: &Vector<Self::Scalar, Self::M>)
+    -> Self::Scalar;
+
     /// Generalized momenta p = ∂L/∂q̇.
     fn momentum(&self, state: &StateOf<Self>) -> Vector<Self::Scalar, Self::N>;
 
@@ -154,12 +160,6 @@ pub trait Lagrangian {
         self.mass_matrix(state)
     }
 
-    /// 1 for each constraint that its field switches off, `#[constraint(…, when: field)]`, and for friction that does not
-    /// stick, else 0: the diagonal of c in F q̈ + γ + c λ = 0. While a constraint is off, its Φ, F, b and γ are zero, and so is
-    /// its λ; that of friction which slides is its force.
-    fn compliance(&self) -> Vector<Self::Scalar, Self::M> {
-        vector(Array::filled(Self::Scalar::constant(0.0)))
-    }
     /// Bounds of the rounding errors of [`constraint_jacobian`](Self::constraint_jacobian), in units of ε, for each
     /// constraint whose gradient some values of the parameters cancel at every pose; zeros for the others. (To first order,
     /// each operation adds its result: Higham, *Accuracy and Stability of Numerical Algorithms*, 3.3.)
@@ -168,6 +168,12 @@ pub trait Lagrangian {
         matrix(Array::filled(Array::filled(Self::Scalar::constant(0.0))))
     }
 
+    /// 1 for each constraint that its field switches off, `#[constraint(…, when: field)]`, and for friction that does not
+    /// stick, else 0: the diagonal of c in F q̈ + γ + c λ = 0. While a constraint is off, its Φ, F, b and γ are zero, and so is
+    /// its λ; that of friction which slides is its force.
+    fn compliance(&self) -> Vector<Self::Scalar, Self::M> {
+        vector(Array::filled(Self::Scalar::constant(0.0)))
+    }
 
     /// Index of the first constraint whose friction slides with a force μ λ, proportional to the multiplier of its contact;
     /// `None` if there is none. Such a force is no part of Fᵀλ, and c has an entry μ beside its diagonal.

@@ -61,6 +61,10 @@ macro_rules! forward {
                 fn jacobian_round_off(state: &State<Self::Scalar, L::N>) -> Matrix<Self::Scalar, L::M, L::N>;
                 fn compliance() -> Vector<Self::Scalar, L::M>;
                 fn slides() -> Option<usize>;
+                fn energy_rate(
+                    state: &State<Self::Scalar, L::N>,
+                    multipliers: &Vector<Self::Scalar, L::M>
+                ) -> Self::Scalar;
                 fn forcing(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::N>;
                 fn constraint_residual(state: &State<Self::Scalar, L::N>) -> Vector<Self::Scalar, L::M>;
                 fn constraint_integral(index: usize, state: &State<Self::Scalar, L::N>) -> Option<Self::Scalar>;

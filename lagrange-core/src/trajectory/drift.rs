@@ -1,18 +1,32 @@
-//! Drift of conserved quantities along a trajectory.
+//! Drift of conserved quantities along a trajectory, and of the balance of an energy that changes.
 
 use alloc::vec::Vec;
 use core::fmt::{self, Display, Formatter};
 
-use super::stored::Trajectory;
+use super::stored::{Trajectory, between};
+use crate::error::Error;
 use crate::number::{Real, Scalar, exceeds};
+use crate::solution::solve::solve;
 use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, StateOf};
+use crate::vector::{Array, Length, vector};
+
+/// Nodes in a step and weights of Gauss's formula of order 8 (Abramowitz and Stegun, table 25.4).
+const GAUSS: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
+
+/// Name of the balance of the energy among the deviations.
+const BALANCE: &str = "energy - work";
 
 /// Largest deviation of a conserved quantity from its initial value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Deviation<T> {
-    /// Name of the quantity in [`Facts::conserved`](crate::facts::Facts::conserved).
+    /// Name of the quantity in [`Facts::conserved`](crate::facts::Facts::conserved), or `energy - work`.
     pub name: &'static str,
     /// Value at the start of the trajectory.
     pub start: T,
@@ -22,6 +36,10 @@ pub struct Deviation<T> {
 
 /// Deviations of every conserved quantity of a system along a trajectory.
 ///
+/// An energy that is not conserved, or only while nothing slides, is balanced: `energy - work` is E − ∫ dE/dt dt, with the rate
+/// [`energy_rate`](Lagrangian::energy_rate) of forces, moving constraints and a Lagrangian that changes with time. The integral
+/// is that of Gauss's formula of order 8 over each step, on the dense output. Its error comes to that of the motion; a
+/// deviation far above the tolerance tells of an inaccurate motion, or of a rate that changes abruptly within a step.
 #[cfg_attr(
     feature = "std",
     doc = r#"
@@ -51,9 +69,37 @@ pub struct Drift<T> {
 }
 
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
-    /// Returns the largest deviation of each conserved quantity from its initial value.
+    /// Returns the largest deviation of each conserved quantity from its initial value, and that of the balance of an energy
+    /// that is not conserved.
     pub fn drift(&self) -> Drift<S::Scalar> {
-        Drift::of(self.states_of_steps().map(|state| (&self.system, state)))
+        Drift::of(self.states_of_steps().map(|state| (&self.system, state))).balanced([self])
+    }
+
+    /// Adds E − ∫ dE/dt dt − `start` at each step to the largest deviation, and returns the last; NaN if a state or its
+    /// multipliers have an error.
+    fn balance(&self, start: S::Scalar, balance: &mut Deviation<S::Scalar>) -> S::Scalar {
+        let (mut left, mut from) = (start, self.path.start.t);
+        let mut before = self.system.energy(&self.path.start);
+        for state in self.states_of_steps().skip(1) {
+            let energy = self.system.energy(&state);
+            left += energy - before - self.work(from, state.t).unwrap_or(S::Scalar::constant(f64::NAN));
+            balance.largest = farther(balance.largest, left);
+            (from, before) = (state.t, energy);
+        }
+        left
+    }
+
+    /// ∫ dE/dt dt between two times.
+    fn work(&self, from: S::Scalar, to: S::Scalar) -> Result<S::Scalar, Error> {
+        GAUSS.iter().try_fold(S::Scalar::constant(0.0), |sum, (node, weight)| {
+            let state = self.state_at(between(from, to, *node))?;
+            let multipliers = match <S::M>::COUNT {
+                0 => vector(Array::filled(S::Scalar::constant(0.0))),
+                _ => solve(&self.system, &state)?.multipliers,
+            };
+            Ok(sum
+                + self.system.energy_rate(&state, &multipliers) * (to - from) * S::Scalar::constant(*weight))
+        })
     }
 }
 
@@ -79,6 +125,24 @@ impl<T: Real> Drift<T> {
             }
         }
         Self { quantities: quantities.into_iter().map(|(_, deviation)| deviation).collect() }
+    }
+
+    /// Adds the balance of an energy that is not conserved along these trajectories, which follow one another. What the
+    /// energy changes from one to the next, as at an impact, is left out.
+    pub(crate) fn balanced<'t, S: Lagrangian<Scalar = T> + 't, F: VectorField<S> + 't>(
+        mut self,
+        legs: impl IntoIterator<Item = &'t Trajectory<S, F>>,
+    ) -> Self {
+        let (zero, mut legs) = (T::constant(0.0), legs.into_iter().peekable());
+        let may_change = S::FACTS.energy_is_conserved.is_none() || S::HAS_FRICTION;
+        let first = legs.peek().filter(|_| may_change);
+        let start = first.map(|leg| leg.system.energy(&leg.path.start));
+        self.quantities.extend(start.map(|start| {
+            let mut balance = Deviation { name: BALANCE, start, largest: zero };
+            legs.fold(zero, |left, leg| leg.balance(left, &mut balance));
+            balance
+        }));
+        self
     }
 
     /// Iterates over the quantities in the order of [`Facts::conserved`](crate::facts::Facts::conserved).
@@ -110,9 +174,6 @@ impl<'d, T> IntoIterator for &'d Drift<T> {
 
 impl<T: Real> Display for Drift<T> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        if self.iter().next().is_none() {
-            return writeln!(f, "nothing is known to be conserved: `#[conserved(name = …)]` says what is");
-        }
         let width = self.iter().map(|quantity| quantity.name.chars().count()).max().unwrap_or(0).max(9);
         writeln!(f, "{:width$}  {:>13}  {:>17}", "conserved", "at the start", "largest deviation")?;
         for Deviation { name, start, largest } in self {

@@ -138,6 +138,7 @@ impl Emitter<'_> {
         let entries: Vec<Id> = match method.quantity {
             Quantity::Lagrangian => vec![problem.lagrangian],
             Quantity::Energy => vec![equations.energy],
+            Quantity::EnergyRate => vec![self.derived.facts.energy_rate],
             Quantity::Momentum => equations.momentum.clone(),
             Quantity::MomentumRate => equations.momentum_rate.clone(),
             Quantity::MassMatrix => columns(&equations.mass),
@@ -151,8 +152,8 @@ impl Emitter<'_> {
             Quantity::ResidualMagnitude => equations.magnitudes[0].clone(),
             Quantity::RateMagnitude => equations.magnitudes[1].clone(),
             Quantity::Jacobian => columns(&equations.jacobian),
-            Quantity::Bias => equations.bias.clone(),
             Quantity::JacobianRoundOff => columns(&equations.jacobian_round_off),
+            Quantity::Bias => equations.bias.clone(),
             Quantity::ConstraintForce => {
                 let force = |i| equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
                 (0..problem.coordinates.len()).map(force).collect()

@@ -70,8 +70,12 @@ pub(super) fn found(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> O
     }
 }
 
-/// The energy as a conserved quantity; otherwise the terms of its rate that do not vanish individually.
-pub(super) fn of_energy(graph: &mut Graph, moments: &mut Moments) -> Result<Conserved, Vec<EnergyChange>> {
+/// The energy if it is a conserved quantity, as long as nothing slides, and the terms of its rate that do not vanish
+/// individually.
+pub(super) fn of_energy(
+    graph: &mut Graph,
+    moments: &mut Moments,
+) -> (Option<Conserved>, Vec<(EnergyChange, Id)>) {
     let &mut Moments { problem, equations, .. } = moments;
     let changes = energy_changes(graph, problem, equations);
     let rate = graph.total(changes.map(|(_, part)| part));
@@ -81,10 +85,8 @@ pub(super) fn of_energy(graph: &mut Graph, moments: &mut Moments) -> Result<Cons
     };
     let conserved =
         |evidence| Conserved { name: "energy".to_owned(), quantity: ConservedKind::Energy, evidence };
-    evidence.map(conserved).ok_or_else(|| {
-        let remain = changes.into_iter().filter(|&(_, part)| vanishes(graph, problem, part).is_none());
-        remain.map(|(change, _)| change).collect()
-    })
+    let remain = changes.into_iter().filter(|&(_, part)| vanishes(graph, problem, part).is_none());
+    (evidence.map(conserved), remain.collect())
 }
 
 /// dE/dt = −∂L/∂t + Q·q̇ − Σ_α λ_α b_α

@@ -20,6 +20,8 @@ pub(crate) struct Facts {
     pub(crate) energy_form: EnergyForm,
     /// Terms that dE/dt may have, if E is not known to be conserved.
     pub(crate) energy_changes: Vec<EnergyChange>,
+    /// dE/dt along the motion, with multipliers as symbols; zero if E is conserved, whatever slides.
+    pub(crate) energy_rate: Id,
     pub(crate) total_derivatives: Vec<TotalDerivative>,
     pub(crate) linear_part: LinearPart,
 }
@@ -34,13 +36,13 @@ impl Facts {
     ) -> Self {
         let mut moments = Moments::new(problem, equations);
         let (cyclic, mut conserved) = momenta(graph, &mut moments);
-        let energy_changes = match conservation::of_energy(graph, &mut moments) {
-            Ok(energy) => {
-                conserved.push(energy);
-                Vec::new()
-            }
-            Err(changes) => changes,
-        };
+        let (energy, changes) = conservation::of_energy(graph, &mut moments);
+        let may_change = energy.is_none() || !problem.frictions.is_empty();
+        let rates = changes.iter().filter(|_| may_change).map(|(_, part)| *part).collect::<Vec<_>>();
+        let energy_rate = graph.total(rates);
+        let changes = changes.into_iter().filter(|_| energy.is_none());
+        let energy_changes = changes.map(|(change, _)| change).collect();
+        conserved.extend(energy);
         let said = conservation::of_observables(graph, &mut moments, diagnostics);
         conserved.retain(|found| said.iter().all(|said| said.name != found.name));
         conserved.extend(said);
@@ -50,7 +52,7 @@ impl Facts {
             None => gauge::linear_part(graph, problem, equations),
         };
         let total_derivatives = gauge::total_derivatives(graph, problem);
-        Self { cyclic, conserved, energy_form, energy_changes, total_derivatives, linear_part }
+        Self { cyclic, conserved, energy_form, energy_changes, energy_rate, total_derivatives, linear_part }
     }
 }
 

@@ -64,6 +64,16 @@ const _: () = {
             let r13 = m * (l * ((0.5 * (l * (theta_dot * theta_dot))) - (g * r6)));
             r13
         }
+        ///0 operations (+ − × ÷ √), 0 elementary functions.
+        #[inline]
+        #[allow(unused_variables)]
+        fn energy_rate(
+            &self,
+            state: &__lagrange::State<f64, 1usize>,
+            multipliers: &__lagrange::nalgebra::SVector<f64, 0usize>,
+        ) -> f64 {
+            0.0
+        }
         ///3 operations (+ − × ÷ √), 0 elementary functions.
         #[inline]
         #[allow(unused_variables)]
