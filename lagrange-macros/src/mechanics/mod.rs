@@ -50,6 +50,7 @@ pub(crate) use integrability::{Classification, Integrability, Integrals};
 use linearization::linearize;
 pub(crate) use linearization::{Changes, Linearization, changes};
 pub(crate) use marker::Marker;
+pub(crate) use twists::{Euler, Turning, Turnings};
 
 /// Results derived from a problem. Their expressions are nodes of the graph of the problem.
 pub(crate) struct Derived {
@@ -59,6 +60,8 @@ pub(crate) struct Derived {
     pub(crate) potential: Option<Id>,
     /// M q̈, for display
     pub(crate) inertia: Vec<Id>,
+    /// Rotations by quaternions, with their equations of motion, for display
+    pub(crate) turnings: Turnings,
     /// Shorter expression to display in place of each key, found by inlining definitions that frames introduce.
     pub(crate) read: FxHashMap<Id, Id>,
     /// Hamilton's equations in symbols, or the reason why they are missing
@@ -80,13 +83,15 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
         if problem.frames.len() > 1 { read(graph, &equations, &inertia) } else { FxHashMap::default() };
     diagnostics.stop_at_fault(problem.place, graph)?;
     diagnostics.is_empty().then_some(())?;
+    let turnings = Turnings::of(graph, problem);
+    graph.take_fault();
     let linearization = linearize(graph, problem, &equations);
     let potential = energy_form::potential(graph, problem, facts.energy_form);
     let of_frames = potential.filter(|_| problem.frames.len() > 1);
     read.extend(of_frames.map(|id| (id, shorter(graph, id))));
     let hamilton = Hamilton::derive(graph, problem, &equations);
     let markers = Marker::proved(graph, &equations);
-    Some(Derived { equations, facts, potential, inertia, read, hamilton, linearization, markers })
+    Some(Derived { equations, facts, potential, inertia, turnings, read, hamilton, linearization, markers })
 }
 
 /// Replaces the intermediate names of frames by their values, which shortens the printed equations.

@@ -87,7 +87,10 @@ impl Page<'_> {
     }
 
     pub(super) fn variable(&self, variable: Variable) -> Formula {
-        let coordinate = |i: usize, dots| Formula::labelled(&self.problem.coordinates[i].text, dots);
+        let coordinate = |i: usize, dots: usize| match self.problem.coordinates.get(i) {
+            Some(coordinate) => Formula::labelled(&coordinate.text, dots),
+            None => Formula::labelled(&self.angular_velocity(i), dots.saturating_sub(1)),
+        };
         match variable {
             Variable::Time => Formula::labelled("t", 0),
             Variable::Coordinate(i) => coordinate(i, 0),

@@ -66,7 +66,8 @@ impl Page<'_> {
     }
 
     fn energy_line(&self, remark: Vec<Fragment>) -> Line {
-        let energy = self.quantity(self.derived.equations.energy);
+        let of_turnings = self.energy_of_turnings();
+        let energy = of_turnings.unwrap_or_else(|| self.quantity(self.derived.equations.energy));
         Line { remark: Remark::of(remark), ..Line::known(name("E"), energy) }
     }
 

@@ -24,6 +24,7 @@ mod spelling;
 mod supplied;
 #[cfg(test)]
 mod tests;
+mod turning;
 mod written;
 
 use crate::mechanics::Derived;

@@ -20,7 +20,10 @@ impl Page<'_> {
         };
         let mut rows: Vec<(Id, Vec<Id>)> =
             inertia.iter().enumerate().map(|(i, &left)| (left, right(i))).collect();
+        let mut first = 0;
         let lines = self.vectors().flat_map(|labels| {
+            let turning = self.derived.turnings.all.iter().find(|turning| turning.first == first);
+            first += labels.len();
             let others = rows.split_off(labels.len());
             let rows = std::mem::replace(&mut rows, others);
             let line = |text: &str, equation| {
@@ -28,6 +31,9 @@ impl Page<'_> {
                 Line { label, ..Line::of(equation) }
             };
             let whole = (labels.len() > 1).then(|| self.vector_row(&rows)).flatten();
+            if let Some(turning) = turning {
+                return self.turning(turning, labels);
+            }
             match (whole, vector(&labels[0].text)) {
                 (Some([left, right]), Some(text)) => vec![line(text, Equation::Known(left, right))],
                 _ => labels
@@ -90,6 +96,6 @@ impl Page<'_> {
 }
 
 /// Name without its last index: `r` for `r[0]`, `r[1]` for `r[1][0]`.
-fn vector(text: &str) -> Option<&str> {
+pub(super) fn vector(text: &str) -> Option<&str> {
     text.strip_suffix(']')?.rsplit_once('[').map(|(vector, _)| vector)
 }

@@ -45,11 +45,17 @@ impl Graph {
 
     /// Replaces the nodes `zeros` by zero and keeps definitions.
     pub(crate) fn without(&mut self, root: Id, zeros: &[Id]) -> Id {
+        self.replaced(root, &zeros.iter().map(|&node| (node, Id::ZERO)).collect())
+    }
+
+    /// Replaces nodes by others and keeps definitions.
+    pub(crate) fn replaced(&mut self, root: Id, replacements: &FxHashMap<Id, Id>) -> Id {
         let mut new: FxHashMap<Id, Id> = FxHashMap::default();
-        for id in self.reachable_to(&[root], zeros) {
+        let leaves: Vec<Id> = replacements.keys().copied().collect();
+        for id in self.reachable_to(&[root], &leaves) {
             let node = self.node(id).clone();
             let rebuilt = match node {
-                _ if zeros.contains(&id) => Id::ZERO,
+                _ if replacements.contains_key(&id) => replacements[&id],
                 Node::Defined(inner) => self.defined(new[&inner]),
                 _ => self.rebuilt(&node, |operand| new[&operand]),
             };

@@ -11,6 +11,7 @@ mod composite;
 mod parts;
 mod places;
 mod poincare;
+mod turning;
 
 use super::euler_lagrange::forces_along;
 use super::form::Form;
@@ -20,6 +21,7 @@ use crate::variables::{drift, has_velocity, total_time_derivative};
 use accelerations::InTime;
 pub(super) use components::Twists;
 use parts::TwistParts;
+pub(crate) use turning::{Euler, Turning, Turnings};
 
 impl Formulation for Twists<'_> {
     fn mass_and_forcing(&self, graph: &mut Graph) -> (Vec<Vec<Id>>, Vec<Id>) {

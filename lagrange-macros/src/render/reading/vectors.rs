@@ -119,7 +119,11 @@ impl Collector<'_, '_> {
 
     /// Number of components of the vector of coordinates that begins at `first`.
     fn length_from(&self, first: usize) -> usize {
-        let labels = &self.page.problem.coordinates[first..];
+        // Angular velocities stand beyond the coordinates.
+        let Some(labels) = self.page.problem.coordinates.get(first..).filter(|labels| !labels.is_empty())
+        else {
+            return 3;
+        };
         let Some((base, _)) = labels[0].text.rsplit_once('[') else { return 1 };
         labels
             .iter()

@@ -1,0 +1,268 @@
+//! Equations of motion of rigid bodies in their angular velocities, to be read.
+//!
+//! A quaternion q turns a frame with the angular velocity ω, along the axes of the frame: q̇ = ½ q (0, ω). The equations of
+//! its four coordinates, projected onto the three rotations that leave |q| = 1 alone, are Poincaré's equations in ω. For a
+//! body alone they are Euler's: I ω̇ + ω × I ω = N.
+
+use rustc_hash::FxHashMap;
+
+use super::super::evidence::vanishes;
+use super::Twists;
+use crate::resolve::{Problem, cross};
+use crate::symbolic::{Graph, Id, Node, Rational};
+use crate::variables::{Variable, drift, has_velocity, nodes};
+
+/// Largest number of quaternions for which the equations are derived: beyond it they are too long to be read.
+const MOST: usize = 3;
+
+/// Rotation of a frame by a quaternion, with the equations of motion in its angular velocity ω.
+///
+/// In these, ω and its rate stand as the velocities and accelerations [`rate`](Self::rate) to `rate` + 2, beyond those of
+/// the coordinates.
+#[derive(Debug)]
+pub(crate) struct Turning {
+    /// Index of the first of the four coordinates.
+    pub(crate) first: usize,
+    /// Index of the first component of ω among the velocities.
+    pub(crate) rate: usize,
+    /// Terms with accelerations of each equation, and the others, on the other side.
+    pub(crate) rows: [(Id, Vec<Id>); 3],
+    /// I and N of Euler's equations I ω̇ + ω × I ω = N, if the accelerations in the equations are I ω̇ with a constant I that
+    /// is not diagonal: if it is, the equations of the components are shorter.
+    pub(crate) euler: Option<Euler>,
+}
+
+/// Moments of inertia, and the components of the torque.
+#[derive(Debug)]
+pub(crate) struct Euler {
+    pub(crate) inertia: [[Id; 3]; 3],
+    pub(crate) torque: [Id; 3],
+}
+
+/// Rotations by quaternions, with the energy in their angular velocities, if it is T + U. The energy is that without the
+/// ½ ω·I ω of each [`Euler`].
+#[derive(Debug, Default)]
+pub(crate) struct Turnings {
+    pub(crate) all: Vec<Turning>,
+    pub(crate) energy: Option<Id>,
+}
+
+impl Turnings {
+    /// Empty if a rotation depends on more than a quaternion, or if fields switch constraints on and off.
+    pub(in super::super) fn of(graph: &mut Graph, problem: &Problem) -> Self {
+        let quaternions = &problem.quaternions;
+        let is_short = (1..=MOST).contains(&quaternions.len()) && problem.parameters.switches.is_empty();
+        let twists = Some(()).filter(|()| is_short).and_then(|()| Twists::of(graph, problem));
+        twists.and_then(|twists| twists.turnings(graph)).unwrap_or_default()
+    }
+}
+
+impl Twists<'_> {
+    fn turnings(&self, graph: &mut Graph) -> Option<Turnings> {
+        let n = self.problem.coordinates.len();
+        let quaternions = &self.problem.quaternions;
+        (self.outer == n + 3 * quaternions.len()).then_some(())?;
+        let mut spins = Vec::new();
+        for k in 0..quaternions.len() {
+            spins.push(self.spin(graph, k)?);
+        }
+        let equations = OuterEquations {
+            mass: self.mass(graph),
+            linear: self.handed_back(graph, drift, self.outer),
+            rows: self.rows(graph, self.outer),
+        };
+        let new = self.in_angular_velocities(graph, &spins);
+        let mut all = Vec::new();
+        for spin in &spins {
+            all.push(self.turning(graph, spin, &spins, &equations, &new)?);
+        }
+        let energy =
+            (!has_velocity(graph, &[self.others])).then(|| self.energy(graph, &equations.mass, &all, &new));
+        Some(Turnings { all, energy })
+    }
+
+    /// ½ wᵀM w − V, where w are the outer velocities and V is L without the kinetic energies of bodies.
+    fn energy(
+        &self,
+        graph: &mut Graph,
+        mass: &[Vec<Id>],
+        turnings: &[Turning],
+        new: &FxHashMap<Id, Id>,
+    ) -> Id {
+        let w = nodes(graph, mass.len(), Variable::Velocity);
+        let apart = |i: usize, j: usize| {
+            let of = |turning: &&Turning| [i, j].iter().all(|k| (turning.rate..turning.rate + 3).contains(k));
+            turnings.iter().find(of).is_some_and(|turning| turning.euler.is_some())
+        };
+        let mut twice = Id::ZERO;
+        for i in 0..w.len() {
+            let row: Vec<Id> =
+                (0..w.len()).map(|j| if apart(i, j) { Id::ZERO } else { mass[i][j] }).collect();
+            let momentum = graph.dot(&row, &w);
+            let part = graph.mul(momentum, w[i]);
+            twice = graph.add(twice, part);
+        }
+        let half = graph.number(Rational::new(1, 2));
+        let kinetic = graph.mul(half, twice);
+        let energy = graph.sub(kinetic, self.others);
+        graph.replaced(energy, new)
+    }
+
+    /// The `k`-th rotation; `None` if its angular velocity is another than that of the quaternion.
+    fn spin(&self, graph: &mut Graph, k: usize) -> Option<Spin> {
+        let n = self.problem.coordinates.len();
+        let rows = &self.velocities.rows[3 * k..3 * k + 3];
+        let entries = |row: &Vec<Id>| row.iter().position(|&entry| entry != Id::ZERO);
+        let first = *self.problem.quaternions.iter().find(|&&first| {
+            rows.iter().all(|row| entries(row).is_some_and(|at| (first..first + 4).contains(&at)))
+        })?;
+        let q = nodes(graph, n, Variable::Coordinate);
+        let [w, x, y, z] = [q[first], q[first + 1], q[first + 2], q[first + 3]];
+        let negative = [x, y, z].map(|entry| graph.neg(entry));
+        // ∂q̇/∂ω = ½ spread
+        let spread = [
+            [negative[0], negative[1], negative[2]],
+            [w, negative[2], y],
+            [z, w, negative[0]],
+            [negative[1], x, w],
+        ];
+        let half = graph.number(Rational::new(1, 2));
+        let spread = spread.map(|row| row.map(|entry| graph.mul(half, entry)));
+        for (i, row) in rows.iter().enumerate() {
+            for j in 0..3 {
+                let turned: Vec<Id> = (0..4).map(|a| graph.mul(row[first + a], spread[a][j])).collect();
+                let turned = graph.total(turned);
+                let expected = if i == j { Id::ONE } else { Id::ZERO };
+                let off = graph.sub(turned, expected);
+                vanishes(graph, self.problem, off)?;
+            }
+        }
+        Some(Spin { first, number: n + 3 * k, spread })
+    }
+
+    /// What stands in place of nodes: new velocities for ω, q̇ by ω, 1 for |q|², and one of two equal moments of inertia for
+    /// their mean.
+    fn in_angular_velocities(&self, graph: &mut Graph, spins: &[Spin]) -> FxHashMap<Id, Id> {
+        let mut new = FxHashMap::default();
+        let q = nodes(graph, self.problem.coordinates.len(), Variable::Coordinate);
+        for &Spin { first, number, ref spread } in spins {
+            let rates = [0, 1, 2].map(|axis| graph.symbol(Variable::Velocity(number + axis).symbol()));
+            new.extend((0..3).map(|axis| (self.velocities.nodes[number + axis], rates[axis])));
+            for (a, row) in spread.iter().enumerate() {
+                let rate = graph.dot(row, &rates);
+                new.insert(graph.symbol(Variable::Velocity(first + a).symbol()), rate);
+            }
+            let square = graph.dot(&q[first..first + 4], &q[first..first + 4]);
+            new.insert(square, Id::ONE);
+        }
+        for body in &self.bodies {
+            let entries = body.inertia.iter().flatten().copied().collect::<Vec<_>>();
+            new.extend(entries.into_iter().filter_map(|entry| Some((entry, mean(graph, entry)?))));
+        }
+        new
+    }
+
+    fn turning(
+        &self,
+        graph: &mut Graph,
+        spin: &Spin,
+        spins: &[Spin],
+        OuterEquations { mass, linear, rows }: &OuterEquations,
+        new: &FxHashMap<Id, Id>,
+    ) -> Option<Turning> {
+        let is_quaternion = |j: usize| spins.iter().any(|spin| (spin.first..spin.first + 4).contains(&j));
+        // A mass of the coordinates of a quaternion belongs to no rigid body.
+        let is_massless = |i: usize| mass[i].iter().all(|&entry| entry == Id::ZERO);
+        (0..linear.len()).all(|i| !is_quaternion(i) || is_massless(i)).then_some(())?;
+        let multipliers = nodes(graph, rows.len(), Variable::Multiplier);
+        let row = |graph: &mut Graph, axis: usize| {
+            let number = spin.number + axis;
+            let accelerations = (0..mass.len()).map(Variable::Acceleration);
+            let terms: Vec<Id> = accelerations
+                .zip(&mass[number])
+                .map(|(variable, &entry)| {
+                    let variable = graph.symbol(variable.symbol());
+                    graph.mul(entry, variable)
+                })
+                .collect();
+            let left = graph.total(terms);
+            let along = |graph: &mut Graph, values: &dyn Fn(usize) -> Id| {
+                let by_coordinates: Vec<Id> =
+                    (0..4).map(|a| graph.mul(spin.spread[a][axis], values(spin.first + a))).collect();
+                let by_coordinates = graph.total(by_coordinates);
+                graph.add(values(number), by_coordinates)
+            };
+            let force = along(graph, &|i| linear[i]);
+            let constraints = rows.iter().zip(&multipliers).map(|(row, &multiplier)| {
+                let entry = along(graph, &|i| row[i]);
+                graph.mul(entry, multiplier)
+            });
+            let constraints: Vec<Id> = constraints.collect();
+            let right = [force].into_iter().chain(constraints).map(|part| graph.replaced(part, new));
+            let right = right.filter(|&part| part != Id::ZERO).collect::<Vec<_>>();
+            (graph.replaced(left, new), right)
+        };
+        let rows = [0, 1, 2].map(|axis| row(graph, axis));
+        let entry = |i: usize, j: usize| mass[spin.number + i][spin.number + j];
+        let inertia = [0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.replaced(entry(i, j), new)));
+        let euler = self.euler(graph, spin.number, &rows, inertia);
+        Some(Turning { first: spin.first, rate: spin.number, rows, euler })
+    }
+}
+
+impl Twists<'_> {
+    fn euler(
+        &self,
+        graph: &mut Graph,
+        number: usize,
+        rows: &[(Id, Vec<Id>); 3],
+        inertia: [[Id; 3]; 3],
+    ) -> Option<Euler> {
+        let is_parameter = |symbol| matches!(Variable::of(symbol), Variable::Parameter(_));
+        let is_constant = graph.symbols(&inertia.concat()).all(is_parameter);
+        let is_diagonal = (0..3).all(|i| (0..3).all(|j| i == j || inertia[i][j] == Id::ZERO));
+        (is_constant && !is_diagonal).then_some(())?;
+        let [rate, acceleration] = [Variable::Velocity, Variable::Acceleration]
+            .map(|variable| [0, 1, 2].map(|axis| graph.symbol(variable(number + axis).symbol())));
+        for (row, (left, _)) in inertia.iter().zip(rows) {
+            let turned = graph.dot(row, &acceleration);
+            let others = graph.sub(*left, turned);
+            vanishes(graph, self.problem, others)?;
+        }
+        let momentum = inertia.map(|row| graph.dot(&row, &rate));
+        let gyroscopic = cross(rate, momentum, graph);
+        let torque =
+            [0, 1, 2].map(|axis| graph.total([rows[axis].1.as_slice(), &[gyroscopic[axis]]].concat()));
+        Some(Euler { inertia, torque })
+    }
+}
+
+/// First of two parameters of which this is the mean.
+fn mean(graph: &Graph, entry: Id) -> Option<Id> {
+    let is_parameter = |id: Id| matches!(graph.node(id), Node::Symbol(symbol) if matches!(Variable::of(*symbol), Variable::Parameter(_)));
+    let half = Rational::new(1, 2);
+    match graph.node(entry) {
+        Node::Sum(terms) => match terms[..] {
+            [(one, c), (other, d)] if c == half && d == half && is_parameter(one) && is_parameter(other) => {
+                Some(one.min(other))
+            }
+            _ => None,
+        },
+        Node::Defined(inner) => mean(graph, *inner),
+        _ => None,
+    }
+}
+
+/// A quaternion, the index of its angular velocity among the velocities, and ∂q̇/∂ω.
+struct Spin {
+    first: usize,
+    number: usize,
+    spread: [[Id; 3]; 4],
+}
+
+/// Equations over the rates of the outer velocities: M, h, and the rows of the constraints.
+struct OuterEquations {
+    mass: Vec<Vec<Id>>,
+    linear: Vec<Id>,
+    rows: Vec<Vec<Id>>,
+}

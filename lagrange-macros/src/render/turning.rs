@@ -1,0 +1,129 @@
+//! Renders equations of motion in the angular velocity of a quaternion.
+
+use super::formula::Formula;
+use super::lines::{Equation, Line};
+use super::motion::vector;
+use super::notation::Notation;
+use super::page::Page;
+use super::remark::{Fragment, Remark};
+use crate::mechanics::{EnergyForm, Euler, Turning, Turnings};
+use crate::resolve::Label;
+use crate::symbolic::{Id, Node, Rational};
+use crate::variables::Variable;
+
+impl Page<'_> {
+    /// Name of a component of an angular velocity, by its index among the velocities: `omega_q[0]` for the quaternion q.
+    pub(super) fn angular_velocity(&self, number: usize) -> String {
+        let of = |turning: &&Turning| (turning.rate..turning.rate + 3).contains(&number);
+        let found = self.derived.turnings.all.iter().find(of).map(|turning| {
+            let quaternion = &self.problem.coordinates[turning.first].text;
+            format!("omega_{}[{}]", vector(quaternion).unwrap_or(quaternion), number - turning.rate)
+        });
+        found.unwrap_or_default()
+    }
+
+    /// q̇ = ½ q ω, and the equation of ω: as a vector, or one line for each component.
+    pub(super) fn turning(&self, turning: &Turning, labels: &[Label]) -> Vec<Line> {
+        let quaternion = vector(&labels[0].text).unwrap_or_default();
+        let name = format!("omega_{quaternion}");
+        let line = |text: &str, equation| {
+            let label = Some(Notation::UNICODE.write(&Formula::labelled(text, 0)));
+            Line { label, ..Line::of(equation) }
+        };
+        let [omega, _] = angular(quaternion);
+        let half = Formula::product(
+            Rational::new(1, 2).into(),
+            vec![Formula::labelled(quaternion, 0), omega.clone()],
+            Vec::new(),
+        );
+        let relation = Equation::Known(Formula::labelled(quaternion, 1), half);
+        let remark = vec![
+            Fragment::words("product of quaternions, "),
+            Fragment::Formula(omega),
+            Fragment::words(" along the turned axes"),
+        ];
+        let relation = Line { remark: Remark::of(remark), ..line(quaternion, relation) };
+        let rows = match &turning.euler {
+            Some(euler) => self.euler(euler, quaternion),
+            None => (0..3)
+                .map(|axis| {
+                    let (left, right) = &turning.rows[axis];
+                    line(&format!("{name}[{axis}]"), self.row(*left, right))
+                })
+                .collect(),
+        };
+        [relation].into_iter().chain(rows).collect()
+    }
+
+    /// I ω̇ + ω × I ω = N, and I if it is no parameter.
+    fn euler(&self, euler: &Euler, quaternion: &str) -> Vec<Line> {
+        let ([rate, acceleration], inertia) = (angular(quaternion), self.inertia(euler, quaternion));
+        let times = |vector: Formula| Formula::Product(vec![inertia.clone(), vector], Vec::new());
+        let gyroscopic = Formula::Call("cross".to_owned(), vec![rate.clone(), times(rate.clone())]);
+        let left = Formula::sum(vec![times(acceleration), gyroscopic]);
+        let label = Some(Notation::UNICODE.write(&rate));
+        let equation = Line { label, ..Line::known(left, self.torque(&euler.torque)) };
+        let rows = euler.inertia.iter().map(|row| self.vector_of(row));
+        let entries = rows.collect::<Result<_, u64>>().map(Formula::Vector);
+        let definition = self.matrix(&euler.inertia).is_none().then(|| Line::known(inertia, entries));
+        [equation].into_iter().chain(definition).collect()
+    }
+
+    /// Name of the moments of inertia: of the parameter, or I with the name of the quaternion.
+    fn inertia(&self, euler: &Euler, quaternion: &str) -> Formula {
+        let parameter = self.matrix(&euler.inertia);
+        Formula::labelled(&parameter.unwrap_or_else(|| format!("I_{quaternion}")), 0)
+    }
+
+    /// E = … + ½ ω·(I ω); `None` if it is not T + U, or if no quaternion turns a body.
+    pub(super) fn energy_of_turnings(&self) -> Option<Result<Formula, u64>> {
+        let Turnings { all, energy } = &self.derived.turnings;
+        let is_sum = matches!(self.derived.facts.energy_form, EnergyForm::Sum(_));
+        let energy = energy.filter(|_| is_sum)?;
+        let spinning = all.iter().filter_map(|turning| {
+            let quaternion = vector(&self.problem.coordinates[turning.first].text)?;
+            let inertia = self.inertia(turning.euler.as_ref()?, quaternion);
+            let [rate, _] = angular(quaternion);
+            let momentum = Formula::Product(vec![inertia, rate.clone()], Vec::new());
+            let dot = Formula::Call("dot".to_owned(), vec![rate, momentum]);
+            Some(Formula::product(Rational::new(1, 2).into(), vec![dot], Vec::new()))
+        });
+        let spinning = spinning.collect::<Vec<_>>();
+        Some(self.quantity(energy).map(|rest| match rest {
+            Formula::Sum(terms) => Formula::Sum(spinning.into_iter().chain(terms).collect()),
+            rest => Formula::sum(spinning.into_iter().chain([rest]).collect()),
+        }))
+    }
+
+    fn vector_of(&self, components: &[Id; 3]) -> Result<Formula, u64> {
+        let components = components.iter().map(|&component| self.expression(component));
+        Ok(Formula::Vector(components.collect::<Result<_, _>>()?))
+    }
+
+    /// The torque as a vector, or by its components along the turned axes.
+    fn torque(&self, torque: &[Id; 3]) -> Result<Formula, u64> {
+        self.vector_expression(torque).map_or_else(|| self.vector_of(torque), Ok)
+    }
+
+    /// Name of the parameter whose entries these are.
+    fn matrix(&self, entries: &[[Id; 3]; 3]) -> Option<String> {
+        let name = |id: Id| match self.graph.node(id) {
+            Node::Symbol(symbol) => match Variable::of(*symbol) {
+                Variable::Parameter(k) => Some(self.problem.parameters.name(k)),
+                _ => None,
+            },
+            _ => None,
+        };
+        let whole = name(entries[0][0])?.strip_suffix("[0][0]")?.to_owned();
+        let is_entry = |i: usize, j: usize| {
+            let name = name(entries[i][j]);
+            [[i, j], [j, i]].iter().any(|[i, j]| name.as_deref() == Some(&format!("{whole}[{i}][{j}]")))
+        };
+        (0..3).all(|i| (0..3).all(|j| is_entry(i, j))).then_some(whole)
+    }
+}
+
+/// ω and ω̇ of a quaternion.
+fn angular(quaternion: &str) -> [Formula; 2] {
+    [0, 1].map(|dots| Formula::labelled(&format!("omega_{quaternion}"), dots))
+}
