@@ -52,7 +52,7 @@ fn main() -> Result<()> {
         [count, file, ..] => (count.parse()?, file.as_str()),
         _ => return Err("usage: ensemble_mpi COUNT FILE [--plain]".into()),
     };
-    let pendulums = Ensemble::from_fn(count, member).samples_at([END]);
+    let pendulums = Ensemble::from_fn(count, member).samples_at([END]).tag("energy");
     let pendulums = pendulums.quantity("energy", |sample| sample.energy());
     if arguments.len() > 2 {
         return with_file(pendulums, file, |all| all.integrate_on_lanes(END, Dop853::default()).map(Some));
@@ -100,10 +100,7 @@ fn with_file(
     write(&cleaned, outcome.csv().to_string())?;
     rename(&cleaned, file)?;
     let (done, failed) = (outcome.members().len(), outcome.failures().count());
-    println!(
-        "{done} members, {failed} failures; of those done now the energy is off by {:e}",
-        off(&outcome)?
-    );
+    println!("{done} members, {failed} failures; the energy is off by {:e}", off(&outcome)?);
     eprintln!("{:.3} s", started.elapsed().as_secs_f64());
     Ok(())
 }

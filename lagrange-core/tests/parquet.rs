@@ -32,16 +32,24 @@ fn member(index: usize) -> (Oscillators<f64>, State<f64, 2>) {
     (Oscillators { m: [1.0, x], k }, State::new([0.3 * x, -0.1], [x - 2.0, 1.0 / 3.0]))
 }
 
+/// A quantity that is infinite at the start.
+const SLOWNESS: &str = "1/t, \"slowness\"\n";
+
 type Members = Ensemble<'static, Oscillators<f64>, true>;
 
-/// Some meet the limit on steps, and some are ended early: by the observer, by an event.
+/// Some meet the limit on steps, and some are ended early: by the observer, by an event. Samples, quantities and crossings are
+/// kept.
 fn members() -> Members {
     members_by(member)
 }
 
 fn members_by(member: fn(usize) -> (Oscillators<f64>, State<f64, 2>)) -> Members {
     let back = member(0).0.event("back", |sample| sample.state().v[0] + 5.0).terminal();
-    Ensemble::from_fn(COUNT, member).event(back).tag("back").observe(|index, state| {
+    let turns = member(0).0.event("turns", |sample| sample.state().v[0]);
+    let members = Ensemble::from_fn(COUNT, member).event(back).event(turns).tag("back");
+    let members = members.samples_at((0..=6).map(|k| 0.5 * f64::from(k)));
+    let members = members.quantity("energy", |sample| sample.energy());
+    members.quantity(SLOWNESS, |sample| sample.time().recip()).observe(|index, state| {
         match index % 5 == 1 && state.t > 1.0 {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
@@ -182,6 +190,67 @@ fn a_run_that_was_stopped_goes_on_from_the_files() {
     assert_eq!(table(&directory).read().unwrap(), expected(&whole()));
 }
 
+/// As if nothing had happened: also in samples, quantities and crossings.
+#[test]
+fn a_run_that_was_stopped_twice_has_all_bits() {
+    let (directory, whole) = (Directory::new("twice"), whole());
+    for after in [7, 13, COUNT] {
+        let mut table = table(&directory).every(Duration::ZERO);
+        let (done, mut pushed) = (table.read().unwrap(), 0);
+        let resumed = members().resume_from(done).unwrap().on_progress(|progress| {
+            pushed += 1;
+            table.push(progress.member).unwrap();
+            if pushed == after { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let outcome = resumed.integrate_on_lanes(TO, method()).unwrap();
+        assert_eq!(outcome.members().len() == COUNT, after == COUNT);
+        for member in outcome.members() {
+            let expected = whole.get(member.index).unwrap();
+            // A NaN equals itself in print.
+            assert_eq!(format!("{member:?}"), format!("{expected:?}"));
+        }
+        if after == COUNT {
+            assert_eq!(outcome.csv().to_string(), whole.csv().to_string());
+        }
+    }
+    let read = table_of(&directory);
+    let crossed = read.rows().iter().filter(|row| row.crossings.len() > 1).count();
+    assert!(crossed > 10 && read.get(7).unwrap().samples.is_empty(), "{crossed}");
+    let slowness: Vec<f64> = read.get(0).unwrap().quantity(SLOWNESS).unwrap().collect();
+    assert_eq!(slowness, [f64::INFINITY, 2.0, 1.0, 1.0 / 1.5, 0.5, 0.4, 1.0 / 3.0]);
+}
+
+/// NaN and single numbers; members without samples and crossings before, between and after others.
+#[test]
+fn lists_of_every_length_and_numbers_of_every_kind_are_read() {
+    let directory = Directory::new("lists");
+    let member =
+        |index: usize| (Oscillators { m: [1.0, 1.0 + index as f64], k: 1.0 }, State::at_rest([1.0, 0.0]));
+    let run = || {
+        // Ends at once, or late: by a terminal event that depends on the member.
+        let ends = member(0).0.event("ends", |sample| {
+            sample.time() - [0.0, 0.05, 2.5, 0.15][sample.system().m[1] as usize % 4] - 1e-3
+        });
+        let members = Ensemble::from_fn(9, member).event(ends.terminal()).samples_at([0.1, 0.2, 1.0]).tag("");
+        members.quantity("none", |sample| if sample.time() < 0.15 { f64::NAN } else { -0.0 })
+    };
+    let outcome = run().integrate(TO, Dop853::default()).unwrap();
+    let lengths = outcome.members().iter().map(|member| member.arrival().unwrap().samples.len());
+    assert!(lengths.eq([0, 3, 1, 0, 0, 3, 1, 0, 0]));
+    let mut table = ParquetTable::open(&directory.0, member).unwrap();
+    for part in outcome.members().chunks(4) {
+        part.iter().for_each(|member| table.push(member).unwrap());
+        table.flush().unwrap();
+    }
+    for _ in 0..2 {
+        assert_eq!(table.read().unwrap().to_string(), outcome.csv().to_string());
+        let again =
+            run().resume_from(table.read().unwrap()).unwrap().integrate(TO, Dop853::default()).unwrap();
+        assert_eq!(format!("{again:?}"), format!("{outcome:?}"));
+        table.clean().unwrap();
+    }
+}
+
 #[test]
 fn a_file_that_was_cut_off_loses_its_rows_alone() {
     let directory = Directory::new("cut");
@@ -229,7 +298,8 @@ fn tables_of_other_runs_are_refused() {
     let directory = Directory::new("other");
     let outcome = whole();
     write_parts(&directory, &outcome, ALL, 2);
-    let settings = "the method, one of its settings, an event, the tag or the end is another";
+    let settings =
+        "the method, one of its settings, a sample, a quantity, an event, the tag or the end is another";
     // By the ensemble.
     let resumed = || members().resume_from(table(&directory).read().unwrap()).unwrap();
     let others = [

@@ -9,6 +9,7 @@ mod fields;
 mod members;
 mod parts;
 mod samples;
+mod tables;
 mod taylor;
 mod unseen;
 

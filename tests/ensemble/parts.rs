@@ -40,7 +40,7 @@ fn a_table_reads_back_the_same() {
     assert_eq!(
         lines.next(),
         Some(
-            "member,system,run,start,t,a,b,a_dot,b_dot,accepted,rejected,evaluations,multipliers_are_unique,ending,member_again"
+            "member,system,run,start,t,a,b,a_dot,b_dot,accepted,rejected,evaluations,multipliers_are_unique,ending,samples,crossings,member_again"
         )
     );
     assert_eq!(lines.clone().count(), COUNT);
@@ -215,13 +215,13 @@ fn a_table_of_another_ensemble_is_refused() {
     assert_eq!(reason(ensemble().resume(&table.replace(",b,", ",c,"))), (1, 7, "its columns are others"));
     for (broken, column, why) in [
         ("x\n", 1, "a row starts with the index of a member"),
-        ("3,7,7,7,1.0,1,2,3,4,5,6,7,true,fine,3\n", 14, "it cannot be read"),
-        ("3,7,7,7,1.0,1,2,3,4.x,5,6,7,true,complete,3\n", 9, "it is no finite number"),
+        ("3,7,7,7,1.0,1,2,3,4,5,6,7,true,fine,,,3\n", 14, "it cannot be read"),
+        ("3,7,7,7,1.0,1,2,3,4.x,5,6,7,true,complete,,,3\n", 9, "it is no finite number"),
     ] {
         let rows = format!("{}{broken}", table.lines().next().unwrap().to_owned() + "\n");
         assert_eq!(reason(ensemble().resume(&rows)), (2, column, why));
     }
-    let failed = format!("{COUNT},7,7,7{}\"why, no more\",{COUNT}\n", ",".repeat(10));
+    let failed = format!("{COUNT},7,7,7{}\"why, no more\",,,{COUNT}\n", ",".repeat(10));
     assert_eq!(reason(ensemble().resume(&failed)), (1, 1, "there is no such member"));
 }
 
@@ -232,7 +232,8 @@ fn members_integrated_to_another_time_are_refused_where_they_belong_to_the_part(
         let resumed = ensemble().resume(&table).unwrap().shard(part, 3);
         resumed.integrate_on_lanes(END + 1.0, Dop853::default())
     };
-    let differs = "the method, one of its settings, an event, the tag or the end is another";
+    let differs =
+        "the method, one of its settings, a sample, a quantity, an event, the tag or the end is another";
     assert_eq!(later(1).unwrap_err(), Error::Ensemble(EnsembleError::OtherRun { member: 4, differs }));
     assert!(later(0).is_ok());
 }
@@ -249,7 +250,8 @@ fn rows_of_another_run_are_refused_by_name() {
         Err(Error::Ensemble(EnsembleError::OtherRun { member, differs })) => (member, differs),
         other => panic!("{other:?}"),
     };
-    const RUN: &str = "the method, one of its settings, an event, the tag or the end is another";
+    const RUN: &str =
+        "the method, one of its settings, a sample, a quantity, an event, the tag or the end is another";
     let method = Dop853::default();
     let others = [
         method.relative_tolerance(1e-10),
@@ -289,7 +291,7 @@ fn rows_of_another_run_are_refused_by_name() {
     }
     assert_eq!(
         resumed(ensemble()).integrate(END, method).unwrap_err().to_string(),
-        "member 0 of the table to resume from is of another run: the method, one of its settings, an event, the tag or the end is another; resume with what made the table, or begin a new one"
+        "member 0 of the table to resume from is of another run: the method, one of its settings, a sample, a quantity, an event, the tag or the end is another; resume with what made the table, or begin a new one"
     );
 }
 
@@ -369,7 +371,8 @@ fn rows_of_other_equations_are_refused() {
     let outcome = other().integrate_on_lanes(END, Dop853::default()).unwrap();
     assert_eq!(whole().merge(outcome).unwrap_err(), Error::Ensemble(EnsembleError::Merge { reason }));
     let coarse = ensemble().integrate_on_lanes(END, Dop853::with_tolerance(1e-8)).unwrap();
-    let reason = "the method, one of its settings, an event, the tag or the end is another";
+    let reason =
+        "the method, one of its settings, a sample, a quantity, an event, the tag or the end is another";
     assert_eq!(whole().merge(coarse.clone()).unwrap_err(), Error::Ensemble(EnsembleError::Merge { reason }));
     // Two runs in one table: the first row of the second is refused.
     let mixed = whole().csv().to_string() + &coarse.csv().to_string();

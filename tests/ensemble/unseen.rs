@@ -57,10 +57,16 @@ fn rows_are_taken_over_by_tag_where_code_decides() {
     }
 }
 
-/// A quantity only looks: the last state of a member is the same without.
+/// The values of a quantity are in the table.
 #[test]
-fn rows_of_runs_that_only_look_need_no_tag() {
+fn rows_of_runs_with_quantities_need_a_tag() {
     let run = || ensemble().samples_at([END]).quantity("energy", |sample| sample.energy());
+    let table = run().integrate_on_lanes(END, Dop853::default()).unwrap().csv().to_string();
+    let untagged = run().resume(&table).unwrap().integrate_on_lanes(END, Dop853::default()).unwrap_err();
+    assert_eq!(untagged, Error::Ensemble(EnsembleError::Untagged { code: "the quantity `energy`".into() }));
+    assert!(run().tag("").resume(&table).unwrap().integrate_on_lanes(END, Dop853::default()).is_ok());
+    // Samples alone need none.
+    let run = || ensemble().samples_at([END]);
     let table = run().integrate_on_lanes(END, Dop853::default()).unwrap().csv().to_string();
     assert!(run().resume(&table).unwrap().integrate_on_lanes(END, Dop853::default()).is_ok());
 }

@@ -1,7 +1,7 @@
 //! Members whose motions cross contacts.
 
 use super::job::Job;
-use super::outcome::{Member, Outcome};
+use super::outcome::Outcome;
 use super::settings::Ensemble;
 use crate::contact::{Contacts, arrive};
 use crate::error::Error;
@@ -59,7 +59,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Job<'_, L> {
             let (system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
             let result = self.cross(index, &system, &start, method);
-            self.report(Member { index, fingerprint, result });
+            self.report(self.member(index, fingerprint, result));
         }
     }
 

@@ -9,7 +9,7 @@ use crate::system::{Lagrangian, StateOf};
 /// every machine.
 ///
 /// Rows with different hashes come from different runs. Two different runs have equal hashes by chance once in 4·10⁹
-/// times. The hashes cannot see code and the values that it captures: events, a controller, an observer, functions
+/// times. The hashes cannot see code and the values that it captures: events, quantities, a controller, an observer, functions
 /// supplied to the system, equations written by hand. Only its [tag](super::Ensemble::tag) distinguishes a run with
 /// such code from another, and such a run is not resumed without a tag. Limits on steps and wall-clock time are left
 /// out: they may be raised for the members that reached them.
@@ -56,7 +56,11 @@ impl Fingerprint {
         let Self { system, run, start } = *other;
         let differences = [
             (2, OTHER_SYSTEM, self.system != system),
-            (3, "the method, one of its settings, an event, the tag or the end is another", self.run != run),
+            (
+                3,
+                "the method, one of its settings, a sample, a quantity, an event, the tag or the end is another",
+                self.run != run,
+            ),
             (4, OTHER_START, self.start != start),
         ];
         differences.into_iter().find_map(|(column, what, differs)| differs.then_some((column, what)))

@@ -6,8 +6,10 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::fingerprint::Fingerprint;
+use super::names::Names;
 use super::outcome::{Member, Outcome};
 use super::plan::{EnsembleProgress, Make, MemberObserver, MemberPlan, Plan, Watch};
+use super::table::MemberRow;
 use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::progress::unless_broken;
 use crate::motion::record::{Arrival, Moving, Recorded};
@@ -23,6 +25,7 @@ pub(super) struct Job<'a, L: Lagrangian<Scalar: Real>> {
     pub(super) make: Make<'a, L>,
     observer: Option<MemberObserver<'a, L>>,
     pub(super) member_plan: Arc<MemberPlan<'a, L>>,
+    pub(super) names: Arc<Names>,
     pub(super) end: L::Scalar,
     /// Fingerprint of the run, common to all members.
     pub(super) run: Fingerprint,
@@ -98,30 +101,26 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
         let Plan { count, make, shard, shards, list, done, observer, watch, member_plan, tag: _ } = plan;
         member_plan.check()?;
         let part = Part::new(count, shard, shards, list)?;
-        let events = member_plan.events();
-        let mine = done.into_iter().filter(|row| part.contains(row.index));
-        let mut members: Vec<_> = mine.map(|row| row.into_member(&events)).collect();
-        members.iter().try_for_each(|member| {
-            let (system, start) = make(member.index);
-            check_run_of(member, &run.with_start(&system, &start))
+        let (events, names) = (member_plan.events(), member_plan.names());
+        let mut mine: Vec<_> = done.into_iter().filter(|row| part.contains(row.index)).collect();
+        mine.iter().try_for_each(|row| {
+            let (system, start) = make(row.index);
+            check_run_of(row, &run.with_start(&system, &start))
         })?;
-        members.sort_by_key(|member| member.index);
-        members.dedup_by_key(|member| member.index);
-        let done = members.iter().map(|member| member.index).collect();
+        mine.sort_by_key(|row| row.index);
+        mine.dedup_by_key(|row| row.index);
+        let done = mine.iter().map(|row| row.index).collect();
+        let members = mine.into_iter().map(|row| row.into_member(&events, &names));
+        let members = members.collect::<Result<Vec<_>, _>>()?;
         let ledger = Mutex::new(Ledger { members, of: part.len(), watch });
         let (given, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
         let member_plan = Arc::new(member_plan);
-        Ok(Self { make, observer, member_plan, end, run, part, done, given, stopped, ledger })
+        Ok(Self { make, observer, member_plan, names, end, run, part, done, given, stopped, ledger })
     }
 
     pub(super) fn outcome(self) -> Outcome<L::Scalar, L::N> {
         let ledger = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Outcome::new(
-            ledger.members,
-            L::COORDINATES,
-            self.member_plan.samples.quantities(),
-            (self.end, self.run),
-        )
+        Outcome::new(ledger.members, self.names, (self.end, self.run))
     }
 
     /// Creates a job that integrates only the members of `list`, with its own work queue and results. Rank 0
@@ -137,6 +136,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
             make: Box::new(&self.make),
             observer,
             member_plan: self.member_plan.clone(),
+            names: self.names.clone(),
             end: self.end,
             run: self.run,
             part: Part { count: self.part.count, shard: 0, shards: 1, list: Some(list) },
@@ -224,8 +224,17 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
             let (mut system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
             let result = self.integrate::<P, HAS_DENSE_OUTPUT>(index, &mut system, &start, method);
-            self.report(Member { index, fingerprint, result });
+            self.report(self.member(index, fingerprint, result));
         }
+    }
+
+    pub(super) fn member(
+        &self,
+        index: usize,
+        fingerprint: Fingerprint,
+        result: Result<Arrival<L::Scalar, L::N>, Error>,
+    ) -> Member<L::Scalar, L::N> {
+        Member { index, fingerprint, names: self.names.clone(), result }
     }
 
     fn integrate<P: Method<L>, const HAS_DENSE_OUTPUT: bool>(
@@ -248,9 +257,9 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
 }
 
 /// Rejects a member taken over from another run, or with another start or other parameters.
-fn check_run_of<T: Real, N: Length>(member: &Member<T, N>, expected: &Fingerprint) -> Result<(), Error> {
-    match member.fingerprint.difference(expected) {
-        Some((_, differs)) => Err(Error::Ensemble(EnsembleError::OtherRun { member: member.index, differs })),
+fn check_run_of<T: Real, N: Length>(row: &MemberRow<T, N>, expected: &Fingerprint) -> Result<(), Error> {
+    match row.fingerprint.difference(expected) {
+        Some((_, differs)) => Err(Error::Ensemble(EnsembleError::OtherRun { member: row.index, differs })),
         None => Ok(()),
     }
 }
@@ -299,7 +308,7 @@ impl<L: Lagrangian<Scalar = f64>> Job<'_, L> {
     ) -> Member<f64, L::N> {
         let LaneMotion { index, start, statistics, record, .. } = motion;
         let fingerprint = Fingerprint { start, ..self.run };
-        Member { index, fingerprint, result: Ok(record.arrive(state, ending, statistics)) }
+        self.member(index, fingerprint, Ok(record.arrive(state, ending, statistics)))
     }
 
     /// Next member that has a motion. Members without a motion, because their start has an error or they end
@@ -323,7 +332,7 @@ impl<L: Lagrangian<Scalar = f64>> Job<'_, L> {
                 )
             });
             match motion {
-                Err(error) => self.report(Member { index, fingerprint, result: Err(error) }),
+                Err(error) => self.report(self.member(index, fingerprint, Err(error))),
                 Ok((mut motion, state)) => match motion.ending_at_start(method) {
                     None => return Some(motion),
                     Some(ending) => self.report(self.arrived(motion, state, ending)),

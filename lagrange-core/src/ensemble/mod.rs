@@ -14,6 +14,7 @@
 mod contacts;
 mod fingerprint;
 mod job;
+mod names;
 mod outcome;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -36,4 +37,4 @@ pub use plan::EnsembleProgress;
 #[cfg(feature = "mpi")]
 pub use ranks::OnRanks;
 pub use settings::Ensemble;
-pub use table::{MemberEnding, MemberRow, MemberTable};
+pub use table::{MemberCrossing, MemberEnding, MemberRow, MemberTable};

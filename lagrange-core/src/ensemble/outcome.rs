@@ -1,8 +1,10 @@
 //! Results of the members of an ensemble.
 
 use core::fmt::{self, Display, Formatter};
+use std::sync::Arc;
 
 use super::fingerprint::Fingerprint;
+use super::names::Names;
 use crate::error::{EnsembleError, Error};
 use crate::motion::record::Arrival;
 use crate::number::Real;
@@ -18,6 +20,8 @@ pub struct Member<T: Element, N: Length> {
     pub index: usize,
     /// Hashes of the member's run, start and parameters.
     pub fingerprint: Fingerprint,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) names: Arc<Names>,
     /// End of the motion: its last state and the reason why it ended there; an error if the motion did not start.
     pub result: Result<Arrival<T, N>, Error>,
 }
@@ -54,8 +58,7 @@ impl<T: Real, N: Length> Display for Member<T, N> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome<T: Element, N: Length> {
     pub(super) members: Vec<Member<T, N>>,
-    pub(super) names: &'static [&'static str],
-    quantities: Vec<&'static str>,
+    pub(super) names: Arc<Names>,
     end: T,
     run: Fingerprint,
 }
@@ -63,12 +66,11 @@ pub struct Outcome<T: Element, N: Length> {
 impl<T: Real, N: Length> Outcome<T, N> {
     pub(super) fn new(
         mut members: Vec<Member<T, N>>,
-        names: &'static [&'static str],
-        quantities: Vec<&'static str>,
+        names: Arc<Names>,
         (end, run): (T, Fingerprint),
     ) -> Self {
         members.sort_by_key(|member| member.index);
-        Self { members, names, quantities, end, run }
+        Self { members, names, end, run }
     }
 
     /// All finished members, in ascending order of index.
@@ -88,14 +90,8 @@ impl<T: Real, N: Length> Outcome<T, N> {
     /// # Errors
     /// [`Error::UnknownName`].
     pub fn quantity(&self, index: usize, name: &str) -> Result<impl Iterator<Item = T> + '_, Error> {
-        let count = self.quantities.len();
-        let place = self.quantities.iter().position(|known| *known == name).ok_or_else(|| {
-            let known = self.quantities.iter().map(|known| (*known).into()).collect();
-            let hint = self.quantities.is_empty().then(|| "ask for it by `Ensemble::quantity`".into());
-            Error::UnknownName { name: name.into(), kind: "quantity", hint, known }
-        })?;
         let values = self.get(index).and_then(Member::arrival).map_or(&[][..], |arrival| &arrival.values);
-        Ok(values.iter().skip(place).step_by(count).copied())
+        self.names.values(name, values)
     }
 
     /// Indices and last states of the members that reached the end.
@@ -115,7 +111,7 @@ impl<T: Real, N: Length> Outcome<T, N> {
     /// [`EnsembleError::Merge`] if the parts differ in system, end time, method or settings, or if a member in both has
     /// another start or other parameters.
     pub fn merge(mut self, other: Self) -> Result<Self, Error> {
-        if self.names != other.names {
+        if self.names.coordinates != other.names.coordinates {
             return Err(Error::Ensemble(EnsembleError::Merge { reason: "their coordinates differ" }));
         }
         if self.end != other.end {

@@ -2,8 +2,10 @@
 
 use core::fmt::{self, Display, Write};
 use core::ops::ControlFlow;
+use std::sync::Arc;
 
 use super::fingerprint::{Fingerprint, Hash};
+use super::names::Names;
 use super::outcome::Member;
 use super::table::MemberRow;
 use crate::error::{EnsembleError, Error};
@@ -66,7 +68,7 @@ impl<L: Lagrangian<Scalar: Real>> Plan<'_, L> {
         }
     }
 
-    /// Description of the first piece of code, unseen by the fingerprint, that can change the last states of members.
+    /// Description of the first piece of code, unseen by the fingerprint, that can change the results of members.
     fn unseen(&self) -> Option<String> {
         let of_system = match L::SUPPLIED.first() {
             Some(name) => Some(format!("the function `{name}` of the system")),
@@ -136,18 +138,26 @@ impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
         self.events.iter().map(Event::name).collect()
     }
 
+    /// Names of the coordinates and quantities.
+    pub(super) fn names(&self) -> Arc<Names> {
+        let quantities = self.samples.quantities().map(String::from).collect();
+        Arc::new(Names { coordinates: L::COORDINATES, quantities })
+    }
+
     /// Checks the settings that are the same for all members.
     pub(super) fn check(&self) -> Result<(), Error> {
         self.samples.check()?;
+        self.names().check()?;
         let interval = self.controller.as_ref().map(|(interval, _)| *interval);
         interval.map_or(Ok(()), |interval| check_interval(CONTROLLER, interval))
     }
 
-    /// Description of the first function that can change the end of a motion. Quantities of samples are left out: they
-    /// can only make a member fail.
+    /// Description of the first function that can change the result of a member.
     fn unseen(&self) -> Option<String> {
         let event = self.events.first().map(|event| format!("the event `{}`", event.name()));
-        event.or_else(|| self.controller.as_ref().map(|_| "the controller".into()))
+        let controller = self.controller.as_ref().map(|_| "the controller".into());
+        let quantity = self.samples.quantities().next().map(|name| format!("the quantity `{name}`"));
+        event.or(controller).or(quantity)
     }
 
     /// Writes the settings that distinguish this plan from others, for the fingerprint. Functions and the values they

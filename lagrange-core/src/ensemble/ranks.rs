@@ -271,7 +271,9 @@ impl<L: Lagrangian<Scalar: Real>> Desk<'_, '_, L> {
             // Hand out the next batch before unpacking: the rank is idle meanwhile.
             self.close(rank);
             self.hand_out(rank);
-            message.members(self.job.run(), &events).for_each(|member| self.job.report(member));
+            message
+                .members(self.job.run(), &events, &self.job.names)
+                .for_each(|member| self.job.report(member));
         }
     }
 

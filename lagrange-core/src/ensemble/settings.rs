@@ -118,8 +118,8 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
         self
     }
 
-    /// Names the code that this run uses: closures for [events](Self::event), a [controller](Self::controlled), an
-    /// [observer](Self::observe), functions [supplied](crate::Function) to the system, equations written by hand. A
+    /// Names the code that this run uses: closures for [events](Self::event), [quantities](Self::quantity), a
+    /// [controller](Self::controlled), an [observer](Self::observe), functions [supplied](crate::Function) to the system, equations written by hand. A
     /// [`Fingerprint`] cannot see code or the values that it captures, so a run with such code takes over rows only of
     /// a run with the same tag. Choose another tag whenever the code changes, and include captured numbers:
     /// `format!("gain {gain}")`. Without a tag such a run can be integrated, but not [resumed](Self::resume). The empty
@@ -153,6 +153,7 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
     /// # Errors
     /// Errors of the whole ensemble: [`Error::Setting`], [`Error::EndNotFinite`], [`EnsembleError::Shard`],
     /// [`EnsembleError::NoSuchMember`], [`EnsembleError::OtherRun`], [`EnsembleError::Untagged`],
+    /// [`EnsembleError::QuantityName`],
     /// [`Error::SampleTime`]. The errors of single members are in the outcome.
     pub fn integrate<P: Method<L> + Sync>(
         self,
@@ -169,7 +170,7 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
     /// comes from [`Outcome::csv`] or from rows of [`Member::csv`](super::Member::csv); tables of several
     /// runs may be concatenated. Repeated calls add tables. If a member has several rows, the first counts.
     ///
-    /// Members that failed are integrated again: with the same settings they fail in the same way, except at a limit on
+    /// Members that are taken over have their samples, quantities and crossings. Members that failed are integrated again: with the same settings they fail in the same way, except at a limit on
     /// wall-clock time. Rows of another part are ignored. So are incomplete lines, even if another row was appended to
     /// one. A row is taken over only if its [`Fingerprint`] shows that it was computed from the same start and
     /// parameters, of the same equations, with the same method and settings (limits may differ) to the same end, with
@@ -192,7 +193,8 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
     /// ```
     ///
     /// # Errors
-    /// [`EnsembleError::Resume`] if a line is no row of this system, or if the rows are of different runs.
+    /// [`EnsembleError::Resume`] if a line is no row of this system, if the rows are of different runs, or if two rows of a
+    /// member that reached the end have different numbers.
     /// [`integrate`](Self::integrate) returns [`EnsembleError::OtherRun`] for members of another run, end or start. It
     /// returns [`EnsembleError::Untagged`] if code that no fingerprint sees can change the members and there is no
     /// [tag](Self::tag).

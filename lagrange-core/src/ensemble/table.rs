@@ -1,5 +1,6 @@
 //! Tables of members as comma-separated values: written and read.
 
+mod cells;
 mod read;
 mod row;
 
@@ -7,8 +8,10 @@ use core::fmt::{self, Display, Formatter};
 use core::str::FromStr;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::fingerprint::Fingerprint;
+use super::names::Names;
 use super::outcome::{Member, Outcome};
 use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::record::Arrival;
@@ -17,8 +20,12 @@ use crate::system::Lagrangian;
 use crate::vector::{Element, Length};
 
 pub(super) use read::read;
+#[cfg(feature = "parquet")]
+pub(super) use row::CROSSING;
 use row::{Line, header};
-pub use row::{MemberEnding, MemberRow};
+pub use row::{MemberCrossing, MemberEnding, MemberRow};
+#[cfg(any(feature = "parquet", feature = "mpi"))]
+pub(super) use row::{entries, entry, state_of};
 
 impl<T: Real, N: Length> Member<T, N> {
     /// The member's row of a table.
@@ -38,6 +45,10 @@ impl<T: Real, N: Length> Member<T, N> {
                 }
                 Ok(Arrival { ending, .. }) => MemberEnding::Failed(ending.to_string()),
             },
+            samples: arrival.map(|arrival| arrival.samples.clone()).unwrap_or_default(),
+            values: arrival.map(|arrival| arrival.values.clone()).unwrap_or_default(),
+            crossings: arrival.into_iter().flat_map(|arrival| &arrival.crossings).map(Into::into).collect(),
+            names: self.names.clone(),
         }
     }
 
@@ -50,22 +61,28 @@ impl<T: Real, N: Length> Member<T, N> {
 impl<T: Real, N: Length> Outcome<T, N> {
     /// Table as comma-separated values, one line per member. The columns are `member`, its [`Fingerprint`] as `system`,
     /// `run` and `start`, `t`, coordinates `x` and velocities `x_dot` of the last state, the
-    /// [`Statistics`](crate::Statistics), `ending`, and `member_again`, which marks a line as complete. The fingerprint
-    /// takes at most 33 bytes of a line.
+    /// [`Statistics`](crate::Statistics), `ending`, `samples`, `crossings`, and `member_again`, which marks a line as
+    /// complete. The fingerprint takes at most 33 bytes of a line.
     ///
-    /// The ending is `complete`, `cancelled`, `event: ` and the event's name, or the message of the error. Numbers have
-    /// the fewest digits that read back to the same value. [`MemberTable`] reads the table.
+    /// The ending is `complete`, `cancelled`, `event: ` and the event's name, or the message of the error, with line breaks
+    /// as `\u000a` and `\` as `\\`. Numbers have the fewest digits that read back to the same value. [`MemberTable`] reads
+    /// the table.
+    ///
+    /// Samples and crossings are JSON, an object of lists: `{"t":[0.0,0.5],"x":[1.0,0.7],"x_dot":[0.0,-1.1],"energy":[0.5,0.5]}`
+    /// has two samples with the quantity `energy`. Lists of crossings are `event` (its name), `event_index`, `event_count`,
+    /// `event_rising` and the state. A cell is empty if there is nothing in it. NaN is `null`, infinities are ±`1e999`.
+    /// In Python, `pandas.DataFrame(json.loads(cell))` is the table of the samples of a member.
     pub fn csv(&self) -> impl Display + '_ {
-        Lines { names: self.names, members: &self.members, line: Member::csv }
+        Lines { names: &self.names, members: &self.members, line: Member::csv }
     }
 }
 
 /// A table of members, read back from its text without integrating.
 ///
 /// Accepts the output of [`Outcome::csv`] and [`Member::csv`]: one table, several concatenated, or rows without a
-/// header. Incomplete lines are dropped, even if another row was appended to one. If a member has several rows, the
-/// first that did not fail counts; if all failed, the last. The `Display` writes the table with these rows, ordered by
-/// member.
+/// header. Incomplete lines are dropped, even if another row was appended to one: a row has all samples of its member, or it
+/// is none. If a member has several rows, the first that did not fail counts; if all failed, the last. The `Display`
+/// writes the table with these rows, ordered by member.
 ///
 /// ```
 /// # use lagrange_core::prelude::*;
@@ -87,7 +104,7 @@ impl<T: Real, N: Length> Outcome<T, N> {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct MemberTable<T: Element, N: Length> {
-    names: &'static [&'static str],
+    names: Arc<Names>,
     rows: Vec<MemberRow<T, N>>,
 }
 
@@ -95,8 +112,8 @@ impl<T: Real, N: Length> MemberTable<T, N> {
     /// Reads the rows of a table of systems `L`.
     ///
     /// # Errors
-    /// [`EnsembleError::Resume`] if a line is no row of this system with these equations, or if the rows are of
-    /// different runs.
+    /// [`EnsembleError::Resume`] if a line is no row of this system with these equations, if the rows are of different
+    /// runs, or if two rows of a member that reached the end have different numbers.
     pub fn read<L>(table: &str) -> Result<Self, Error>
     where
         L: Lagrangian<N = N, Scalar = T>,
@@ -109,7 +126,7 @@ impl<T: Real, N: Length> MemberTable<T, N> {
     /// [hash](Fingerprint::system) `system`.
     pub(super) fn of(
         table: &str,
-        names: &'static [&'static str],
+        coordinates: &'static [&'static str],
         system: u32,
         count: usize,
     ) -> Result<Self, Error>
@@ -117,13 +134,13 @@ impl<T: Real, N: Length> MemberTable<T, N> {
         T: FromStr,
     {
         let wrong = |line, column, reason| Error::Ensemble(EnsembleError::Resume { line, column, reason });
-        Self::gather(names, system, read(table, names, count)?, wrong)
+        Self::gather(coordinates, system, read(table, coordinates, count)?, wrong)
     }
 
     /// Collects rows, each with its place in the source, and checks that all are of one run. `wrong` makes the error
     /// from the place of a row, the differing column and the difference.
     pub(super) fn gather<X>(
-        names: &'static [&'static str],
+        coordinates: &'static [&'static str],
         system: u32,
         rows: impl IntoIterator<Item = (X, MemberRow<T, N>)>,
         wrong: impl Fn(X, usize, &'static str) -> Error,
@@ -141,9 +158,11 @@ impl<T: Real, N: Length> MemberTable<T, N> {
             match known {
                 None => drop(kept.insert(row.index, row)),
                 Some(known) if known.has_failed() => *known = row,
+                Some(known) if known.contradicts(&row) => return Err(wrong(place, 1, TWO_RESULTS)),
                 Some(_) => {}
             }
         }
+        let names = Arc::new(Names { coordinates, quantities: Vec::new() });
         Ok(Self { names, rows: kept.into_values().collect() })
     }
 
@@ -164,13 +183,15 @@ impl<T: Real, N: Length> MemberTable<T, N> {
 
 impl<T: Real, N: Length> Display for MemberTable<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        Lines { names: self.names, members: &self.rows, line: MemberRow::csv }.fmt(f)
+        Lines { names: &self.names, members: &self.rows, line: MemberRow::csv }.fmt(f)
     }
 }
 
+const TWO_RESULTS: &str = "an earlier row of the member has another result: other code, or a library with other roundings, was at work";
+
 /// Prints the header, then one line per member.
 struct Lines<'o, X, F> {
-    names: &'static [&'static str],
+    names: &'o Names,
     members: &'o [X],
     line: F,
 }

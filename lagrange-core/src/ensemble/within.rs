@@ -37,9 +37,8 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// The times must be in the order of the motion, and lie between the start of each member and the end. The member
-    /// in [`Progress`](super::EnsembleProgress) has its samples, to be written as soon as it is finished. A table of
-    /// [`csv`](super::Outcome::csv) does not hold samples, and a member [taken over](Self::resume) from one has none.
+    /// The times must be in the order of the motion, and lie between the start of each member and the end. The row
+    /// of a member in a [table](super::Outcome::csv) has its samples, and a member [taken over](Self::resume) has them too.
     ///
     /// # Errors
     /// [`integrate`](Self::integrate) returns [`Error::SampleTime`](crate::Error::SampleTime) for times that are not
@@ -144,7 +143,9 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
     /// sample.observable("height")`.
     ///
     /// The function is also evaluated at the start, so that an error there is reported before the first step. If it
-    /// fails later, the member ends.
+    /// fails later, the member ends. The name is the name of a column in tables; [`integrate`](Self::integrate) returns
+    /// [`EnsembleError::QuantityName`](super::EnsembleError::QuantityName) if it is that of another quantity, `t`, or the
+    /// name of a coordinate or velocity.
     pub fn quantity<V: EventValue<L::Scalar>>(
         mut self,
         name: &'static str,

@@ -60,6 +60,11 @@ pub enum EnsembleError {
         /// Number of members.
         count: usize,
     },
+    /// A quantity has the name of another, or of an entry of the state. Both would be columns of one name in a table.
+    QuantityName {
+        /// Name of the quantity.
+        name: String,
+    },
     /// The table of finished members belongs to another system, or to several runs.
     Resume {
         /// Line of the table, counted from 1.
@@ -106,6 +111,10 @@ impl Display for EnsembleError {
             Self::NoSuchMember { member, count } => {
                 write!(f, "there is no member {member}: the ensemble has {count}, counted from 0")
             }
+            Self::QuantityName { name } => write!(
+                f,
+                "the quantity `{name}` has the name of another quantity, of the time, of a coordinate or of a velocity: give it a name of its own"
+            ),
             Self::Resume { line, column, reason } => write!(
                 f,
                 "line {line}, column {column} of the table of members does not belong there: {reason}"

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Write;
 use std::sync::Arc;
 
-use parquet::basic::{LogicalType, Repetition, Type as Physical};
+use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::ColumnReader;
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
@@ -12,12 +12,12 @@ use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{Type, TypePtr};
 
 use crate::ensemble::fingerprint::Fingerprint;
 
-/// A column of a file. Columns of the group `end` have no entries in the rows of members that did not start.
+/// A column of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Column {
     /// Parquet group that contains the column; empty at the top level.
@@ -36,10 +36,51 @@ pub(super) enum Values {
 
 /// Optional group for the end of the motion; null for a member that did not start.
 pub(super) const END: &str = "end";
+/// List of the samples of a member.
+pub(super) const SAMPLES: &str = "samples";
+/// List of the crossings of a member.
+pub(super) const CROSSINGS: &str = "crossings";
+/// Groups with any number of entries in a row; [`END`] has at most one.
+const GROUPS: [&str; 3] = [END, SAMPLES, CROSSINGS];
+
+/// Columns of a file, and how many entries each row has in the groups [`END`], [`SAMPLES`] and [`CROSSINGS`].
+pub(super) struct Sheet {
+    pub(super) columns: Vec<Column>,
+    pub(super) counts: [Vec<usize>; GROUPS.len()],
+}
+
+impl Sheet {
+    /// Values of the columns of a group.
+    pub(super) fn group(&self, name: &str) -> Vec<&Values> {
+        self.columns.iter().filter(|column| column.group == name).map(|column| &column.values).collect()
+    }
+}
+
+/// Definition and repetition levels of the entries of a group: a row without an entry has the definition level 0, and the
+/// entries of a row after the first have the repetition level 1.
+fn levels(counts: &[usize]) -> (Vec<i16>, Vec<i16>) {
+    let of_row = |count: &usize| {
+        let count = *count;
+        (0..count.max(1)).map(move |k| (i16::from(count > 0), i16::from(k > 0)))
+    };
+    counts.iter().flat_map(of_row).unzip()
+}
+
+/// Numbers of entries of the rows with these levels. There are no repetition levels where a row has at most one entry.
+fn counts(defined: &[i16], repeated: &[i16]) -> Vec<usize> {
+    let mut counts = Vec::new();
+    for (k, defined) in defined.iter().enumerate() {
+        match (repeated.get(k), counts.last_mut()) {
+            (Some(1..), Some(count)) => *count += 1,
+            _ => counts.push(usize::from(*defined > 0)),
+        }
+    }
+    counts
+}
 
 impl Values {
-    pub(super) fn integer(&self, place: usize) -> Option<i64> {
-        if let Self::Integers(values) = self { values.get(place).copied() } else { None }
+    pub(super) fn count(&self, place: usize) -> Option<usize> {
+        if let Self::Integers(values) = self { values.get(place)?.to_owned().try_into().ok() } else { None }
     }
 
     pub(super) fn number(&self, place: usize) -> Option<f64> {
@@ -63,43 +104,49 @@ impl Values {
         }
     }
 
-    fn write(&self, to: &mut ColumnWriter<'_>, levels: Option<&[i16]>) -> Result<usize> {
+    fn write(
+        &self,
+        to: &mut ColumnWriter<'_>,
+        defined: Option<&[i16]>,
+        repeated: Option<&[i16]>,
+    ) -> Result<usize> {
         match (self, to) {
             (Self::Integers(values), ColumnWriter::Int64ColumnWriter(to)) => {
-                to.write_batch(values, levels, None)
+                to.write_batch(values, defined, repeated)
             }
             (Self::Numbers(values), ColumnWriter::DoubleColumnWriter(to)) => {
-                to.write_batch(values, levels, None)
+                to.write_batch(values, defined, repeated)
             }
-            (Self::Flags(values), ColumnWriter::BoolColumnWriter(to)) => to.write_batch(values, levels, None),
+            (Self::Flags(values), ColumnWriter::BoolColumnWriter(to)) => {
+                to.write_batch(values, defined, repeated)
+            }
             (Self::Texts(values), ColumnWriter::ByteArrayColumnWriter(to)) => {
-                to.write_batch(values, levels, None)
+                to.write_batch(values, defined, repeated)
             }
             _ => Err(other_columns()),
         }
     }
 
-    /// Appends the next `rows` rows of a column; `levels` receives 1 for each row of an optional group that has an
-    /// entry, else 0.
+    /// Appends the next `rows` rows of a column, with their definition and repetition levels.
     fn read(
         &mut self,
         from: ColumnReader,
         rows: usize,
-        levels: &mut Vec<i16>,
+        (defined, repeated): (&mut Vec<i16>, &mut Vec<i16>),
     ) -> Result<(usize, usize, usize)> {
-        let levels = Some(levels);
+        let (defined, repeated) = (Some(defined), Some(repeated));
         match (self, from) {
             (Self::Integers(to), ColumnReader::Int64ColumnReader(mut from)) => {
-                from.read_records(rows, levels, None, to)
+                from.read_records(rows, defined, repeated, to)
             }
             (Self::Numbers(to), ColumnReader::DoubleColumnReader(mut from)) => {
-                from.read_records(rows, levels, None, to)
+                from.read_records(rows, defined, repeated, to)
             }
             (Self::Flags(to), ColumnReader::BoolColumnReader(mut from)) => {
-                from.read_records(rows, levels, None, to)
+                from.read_records(rows, defined, repeated, to)
             }
             (Self::Texts(to), ColumnReader::ByteArrayColumnReader(mut from)) => {
-                from.read_records(rows, levels, None, to)
+                from.read_records(rows, defined, repeated, to)
             }
             _ => Err(other_columns()),
         }
@@ -116,14 +163,40 @@ fn schema(columns: &[Column]) -> Result<TypePtr> {
         let leaves = group.iter().map(leaf).collect::<Result<Vec<_>>>()?;
         match group[0].group {
             "" => fields.extend(leaves),
+            name @ (SAMPLES | CROSSINGS) => fields.push(list(name, leaves)?),
             name => {
                 let needed = if name == END { Repetition::OPTIONAL } else { Repetition::REQUIRED };
-                let group = Type::group_type_builder(name).with_repetition(needed).with_fields(leaves);
-                fields.push(Arc::new(group.build()?));
+                fields.push(struct_of(name, needed, leaves)?);
             }
         }
     }
     Ok(Arc::new(Type::group_type_builder("members").with_fields(fields).build()?))
+}
+
+fn struct_of(name: &str, needed: Repetition, fields: Vec<TypePtr>) -> Result<TypePtr> {
+    Type::group_type_builder(name).with_repetition(needed).with_fields(fields).build().map(Arc::new)
+}
+
+/// A list of structs, in the three levels that the format prescribes.
+fn list(name: &str, fields: Vec<TypePtr>) -> Result<TypePtr> {
+    let element = struct_of("element", Repetition::REQUIRED, fields)?;
+    let entries = struct_of("list", Repetition::REPEATED, vec![element])?;
+    let list = Type::group_type_builder(name)
+        .with_repetition(Repetition::REQUIRED)
+        .with_logical_type(Some(LogicalType::List))
+        .with_converted_type(ConvertedType::LIST)
+        .with_fields(vec![entries]);
+    list.build().map(Arc::new)
+}
+
+/// Names of the fields of the list [`SAMPLES`] in this schema.
+fn fields_of_samples(schema: &Type) -> Option<Vec<String>> {
+    let inner = |group: &Type, name: &str| {
+        let fields = if group.is_group() { group.get_fields() } else { &[] };
+        fields.iter().find(|field| field.name() == name).cloned()
+    };
+    let element = inner(&*inner(&*inner(schema, SAMPLES)?, "list")?, "element")?;
+    Some(element.get_fields().iter().map(|field| field.name().to_string()).collect())
 }
 
 fn leaf(column: &Column) -> Result<TypePtr> {
@@ -143,12 +216,10 @@ const FIRST: &str = "lagrange.fingerprint.first";
 const NAME: &str = "lagrange.system";
 const EQUATIONS: &str = "lagrange.equations";
 
-/// Writes these columns to a file. `has_end` is true for the rows whose member has a motion. `first` is the fingerprint
-/// of member 0.
+/// Writes these columns to a file. `first` is the fingerprint of member 0.
 pub(super) fn write(
     to: impl Write + Send,
-    columns: &[Column],
-    has_end: &[bool],
+    Sheet { columns, counts }: &Sheet,
     first: Fingerprint,
     [name, equations]: [&str; 2],
 ) -> Result<()> {
@@ -163,20 +234,17 @@ pub(super) fn write(
     let properties = WriterProperties::builder().set_key_value_metadata(Some(head)).build();
     let mut writer = SerializedFileWriter::new(to, schema(columns)?, Arc::new(properties))?;
     let mut group = writer.next_row_group()?;
-    let levels: Vec<i16> = has_end.iter().map(|has| i16::from(*has)).collect();
-    columns.iter().try_for_each(|column| write_column(&mut group, column, &levels))?;
+    let levels = counts.each_ref().map(|counts| levels(counts));
+    for column in columns {
+        let of_group = GROUPS.iter().position(|group| *group == column.group).map(|place| &levels[place]);
+        let mut writer = group.next_column()?.ok_or_else(other_columns)?;
+        let (defined, repeated) =
+            (of_group.map(|(defined, _)| &defined[..]), of_group.map(|(_, repeated)| &repeated[..]));
+        column.values.write(writer.untyped(), defined, repeated)?;
+        writer.close()?;
+    }
     group.close()?;
     writer.close().map(drop)
-}
-
-fn write_column<W: Write + Send>(
-    group: &mut SerializedRowGroupWriter<'_, W>,
-    column: &Column,
-    levels: &[i16],
-) -> Result<()> {
-    let mut writer = group.next_column()?.ok_or_else(other_columns)?;
-    column.values.write(writer.untyped(), (column.group == END).then_some(levels))?;
-    writer.close()
 }
 
 /// Reason why a file cannot be read or written.
@@ -216,33 +284,43 @@ fn first(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fing
     }
 }
 
-/// Reads a file: its columns, a flag per row that tells whether the member has a motion, and the fingerprint of member
-/// 0. `columns` holds the expected schema, without rows.
+/// Reads a file, of its columns those that `is_wanted` chooses, and the fingerprint of member 0. `columns` makes the
+/// columns, without rows, from the fields of the samples.
 pub(super) fn read(
     file: File,
-    mut columns: Vec<Column>,
-) -> Result<(Vec<Column>, Vec<bool>, Fingerprint), FileFault> {
+    columns: impl FnOnce(Vec<String>) -> Vec<Column>,
+    is_wanted: impl Fn(&Column) -> bool,
+) -> Result<(Sheet, Fingerprint), FileFault> {
     let reader = SerializedFileReader::new(file)?;
+    let fields = fields_of_samples(reader.metadata().file_metadata().schema());
+    let columns = columns(fields.unwrap_or_default());
     let first = first(&reader, &columns)?;
-    let mut levels = Vec::new();
+    let mut sheet = Sheet { columns, counts: Default::default() };
     for group in 0..reader.num_row_groups() {
-        read_group(&*reader.get_row_group(group)?, &mut columns, &mut levels)?;
+        read_group(&*reader.get_row_group(group)?, &mut sheet, &is_wanted)?;
     }
-    let has_end = levels.into_iter().map(|level: i16| level > 0).collect();
-    Ok((columns, has_end, first))
+    Ok((sheet, first))
 }
 
-fn read_group(from: &dyn RowGroupReader, columns: &mut [Column], levels: &mut Vec<i16>) -> Result<()> {
+fn read_group(
+    from: &dyn RowGroupReader,
+    sheet: &mut Sheet,
+    is_wanted: impl Fn(&Column) -> bool,
+) -> Result<()> {
     let rows = usize::try_from(from.metadata().num_rows()).map_err(|_| other_columns())?;
-    let mut of_group = Vec::new();
-    for (k, column) in columns.iter_mut().enumerate() {
-        of_group.clear();
-        let (read, ..) = column.values.read(from.get_column_reader(k)?, rows, &mut of_group)?;
+    let (mut defined, mut repeated) = (Vec::new(), Vec::new());
+    let wanted = sheet.columns.iter_mut().enumerate().filter(|(_, column)| is_wanted(column));
+    for (k, column) in wanted {
+        defined.clear();
+        repeated.clear();
+        let levels = (&mut defined, &mut repeated);
+        let (read, ..) = column.values.read(from.get_column_reader(k)?, rows, levels)?;
         if read != rows {
             return Err(ParquetError::General("it has fewer rows than it says".into()));
         }
-        if column.group == END && column.name == "t" {
-            levels.extend(&of_group);
+        let group = GROUPS.iter().position(|group| *group == column.group && column.name == "t");
+        if let Some(group) = group {
+            sheet.counts[group].extend(counts(&defined, &repeated));
         }
     }
     Ok(())

@@ -12,13 +12,15 @@ use core::fmt::{self, Debug, Formatter};
 use core::time::Duration;
 use std::fs::{File, create_dir_all, read_dir, remove_file, rename};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
-use self::file::FileFault;
-use self::rows::{columns, rows};
+use self::file::{Column, FileFault, Sheet};
+use self::rows::{fingerprints, rows, sheet};
 use super::fingerprint::{Fingerprint, Hash, OTHER_START};
+use super::names::Names;
 use super::outcome::Member;
-use super::table::{MemberRow, MemberTable};
+use super::table::{MemberRow, MemberTable, entries};
 use crate::error::{EnsembleError, Error};
 use crate::linearized::{Linearized, check_parameters};
 use crate::number::Real;
@@ -29,7 +31,9 @@ use crate::vector::{Element, Length};
 ///
 /// Each row holds the member's start, its parameters by name, and the entries of a row of [`csv`](super::Outcome::csv).
 /// The columns are `member`, `fingerprint` (of the start) and `ending`, and the groups `start`, `parameters` and `end`.
-/// The group `end` is null for a member that did not start. The metadata of each file hold the [`Fingerprint`] of the
+/// The group `end` is null for a member that did not start. `samples` is a list of structs: time, coordinates,
+/// velocities and quantities. `crossings` is a list of structs: `event` (its name), `event_index`, `event_count`,
+/// `event_rising` and the state. In polars, `table.explode("samples").unnest("samples")` has a row per sample. The metadata of each file hold the [`Fingerprint`] of the
 /// run and the equations as text.
 ///
 /// Files are written every 10 s ([`every`](Self::every)), when the table is dropped, and by [`flush`](Self::flush),
@@ -203,16 +207,29 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
         Ok(paths)
     }
 
-    /// Reads the rows of a file, and checks that its member 0 has the start and the parameters that `member`
-    /// gives.
     fn rows_in(&self, path: &Path) -> Result<Vec<MemberRow<L::Scalar, L::N>>, FileFault> {
+        let (sheet, first, names) = self.sheet_in(path, |_| true)?;
+        rows(&sheet, first, &Arc::new(names))
+    }
+
+    /// Reads the columns that `is_wanted` chooses, and checks that member 0 of the file has the start and the parameters
+    /// that `member` gives.
+    fn sheet_in(
+        &self,
+        path: &Path,
+        is_wanted: impl Fn(&Column) -> bool,
+    ) -> Result<(Sheet, Fingerprint, Names), FileFault> {
         let file = File::open(path).map_err(|error| FileFault::Other(error.to_string()))?;
-        let read = file::read(file, columns::<L>(&[], &[]))?;
-        let (.., first) = &read;
+        let mut names = Names { coordinates: L::COORDINATES, quantities: Vec::new() };
+        let columns = |mut fields: Vec<String>| {
+            names.quantities = fields.split_off(entries::<L::N>().min(fields.len()));
+            sheet::<L>(&[], &[], &names).columns
+        };
+        let (sheet, first) = file::read(file, columns, is_wanted)?;
         if first.system == Fingerprint::of_system::<L>() && first.start != self.first() {
             return Err(FileFault::Other(OTHER_START.into()));
         }
-        rows::<L::Scalar, L::N, L::P>(&read)
+        Ok((sheet, first, names))
     }
 
     /// [`Fingerprint::start`] of member 0, which every run of an ensemble can compute.
@@ -226,22 +243,22 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
     /// Checks that the rows of a file belong to the run of the waiting rows, and that members below `end`
     /// have the starts and the parameters that `member` gives.
     fn compare(&self, path: &Path, end: usize) -> Result<(), Error> {
-        let rows = match self.rows_in(path) {
-            Ok(rows) => rows,
+        let (sheet, first, _) = match self.sheet_in(path, |column| column.group.is_empty()) {
+            Ok(read) => read,
             // A damaged file contributes no rows, so there is nothing to compare.
             Err(FileFault::Damaged(_)) => return Ok(()),
             Err(FileFault::Other(reason)) => return Err(wrong(path, reason)),
         };
         let run = self.waiting[0].fingerprint;
-        for row in rows {
+        for (index, found) in fingerprints(&sheet, first) {
             // The file may hold indices for which `member` cannot make a member.
-            let expected = if row.index < end {
-                let (system, start) = (self.member)(row.index);
+            let expected = if index < end {
+                let (system, start) = (self.member)(index);
                 run.with_start(&system, &start)
             } else {
-                Fingerprint { start: row.fingerprint.start, ..run }
+                Fingerprint { start: found.start, ..run }
             };
-            if let Some((_, reason)) = expected.difference(&row.fingerprint) {
+            if let Some((_, reason)) = expected.difference(&found) {
                 return Err(wrong(path, reason));
             }
         }
@@ -251,13 +268,12 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
     /// Writes a file of these rows under a temporary name, and renames it when it is complete.
     fn write(&self, rows: &[MemberRow<L::Scalar, L::N>]) -> Result<PathBuf, Error> {
         let made: Vec<_> = rows.iter().map(|row| (self.member)(row.index)).collect();
-        let columns = columns(rows, &made);
-        let has_end: Vec<bool> = rows.iter().map(|row| row.state.is_some()).collect();
+        let sheet = sheet(rows, &made, &rows[0].names);
         let first = Fingerprint { start: self.first(), ..rows[0].fingerprint };
         let path = self.directory.join(name(rows));
         let unfinished = path.with_extension(&UNFINISHED[1..]);
         let written = File::create(&unfinished).map_err(FileFault::from).and_then(|file| {
-            file::write(&file, &columns, &has_end, first, [L::NAME, L::EQUATIONS.text()])?;
+            file::write(&file, &sheet, first, [L::NAME, L::EQUATIONS.text()])?;
             file.sync_all()?;
             Ok(rename(&unfinished, &path)?)
         });

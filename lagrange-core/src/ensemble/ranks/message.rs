@@ -1,19 +1,20 @@
 //! Results of the members of a batch, encoded for MPI: numbers, and the endings as text.
 
+use std::sync::Arc;
+
 use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination, MatchedReceiveVec, Source};
 
 use crate::ensemble::fingerprint::Fingerprint;
+use crate::ensemble::names::Names;
 use crate::ensemble::outcome::Member;
-use crate::ensemble::table::MemberRow;
-use crate::motion::Crossing;
-use crate::motion::record::Arrival;
+use crate::ensemble::table::{MemberCrossing, MemberRow, entries, entry, state_of};
 use crate::number::Real;
 use crate::statistics::Statistics;
 use crate::system::State;
-use crate::vector::{Array, Length, vector};
+use crate::vector::Length;
 
-/// Encodes each member as a table row, followed by its samples, values and crossings if it has a motion.
+/// Encodes each member as a row of a table; the names of events and quantities are known to all ranks.
 #[derive(Default)]
 pub(super) struct MemberMessage {
     /// Numbers of all members; integers are exact up to 2⁵³.
@@ -33,18 +34,18 @@ impl MemberMessage {
     }
 
     fn pack<T: Real, N: Length>(&mut self, member: &Member<T, N>) {
-        let MemberRow { index, fingerprint, state, statistics, ending } = member.row();
+        let MemberRow { index, fingerprint, state, statistics, ending, samples, values, crossings, .. } =
+            member.row();
         let Statistics { accepted, rejected, evaluations, multipliers_are_unique } = statistics;
         let ending = ending.to_string();
         self.words += &ending;
         self.counts([index, fingerprint.start as usize, ending.len()]);
         self.counts([accepted, rejected, evaluations, multipliers_are_unique.into(), state.is_some().into()]);
-        let Some(Arrival { state, samples, values, crossings, .. }) = member.arrival() else { return };
-        self.state(state);
         self.counts([samples.len(), values.len(), crossings.len()]);
+        state.iter().for_each(|state| self.state(state));
         samples.iter().for_each(|state| self.state(state));
         self.numbers.extend(values.iter().map(|x| x.to_f64()));
-        for Crossing { index, count, rising, state, .. } in crossings {
+        for MemberCrossing { index, count, rising, state, .. } in &crossings {
             self.counts([*index, *count, (*rising).into()]);
             self.state(state);
         }
@@ -55,8 +56,7 @@ impl MemberMessage {
     }
 
     fn state<T: Real, N: Length>(&mut self, state: &State<T, N>) {
-        let entries = [&state.t].into_iter().chain(&state.q).chain(&state.v);
-        self.numbers.extend(entries.map(|x| x.to_f64()));
+        self.numbers.extend((0..entries::<N>()).map(|place| entry(state, place).to_f64()));
     }
 
     pub(super) fn send(&self, to: &impl Destination) {
@@ -74,14 +74,15 @@ impl MemberMessage {
         Some((rank.unsigned_abs() as usize, Self { numbers, words }))
     }
 
-    /// Decodes the members. `run` is the fingerprint of the run, `events` the names of its events.
+    /// Decodes the members. `run` is the fingerprint of the run, `events` and `names` are those of the job.
     pub(super) fn members<T: Real, N: Length>(
         &self,
         run: Fingerprint,
         events: &[&'static str],
+        names: &Arc<Names>,
     ) -> impl Iterator<Item = Member<T, N>> {
         let mut rest = Rest { numbers: self.numbers.iter(), words: &self.words };
-        core::iter::from_fn(move || rest.member(run, events))
+        core::iter::from_fn(move || rest.member(run, events, names))
     }
 }
 
@@ -96,9 +97,11 @@ impl Rest<'_> {
         &mut self,
         run: Fingerprint,
         events: &[&'static str],
+        names: &Arc<Names>,
     ) -> Option<Member<T, N>> {
         let [index, start, length] = self.counts()?;
         let [accepted, rejected, evaluations, is_unique, has_motion] = self.counts()?;
+        let [samples, values, crossings] = self.counts()?;
         let (ending, words) = self.words.split_at_checked(length)?;
         self.words = words;
         let state = if has_motion == 1 { Some(self.state()?) } else { None };
@@ -113,38 +116,22 @@ impl Rest<'_> {
                 multipliers_are_unique: is_unique == 1,
             },
             ending: ending.into(),
+            samples: (0..samples).map_while(|_| self.state()).collect(),
+            values: (0..values).map_while(|_| self.number()).collect(),
+            crossings: (0..crossings).map_while(|_| self.crossing(events)).collect(),
+            names: names.clone(),
         };
-        let mut member = row.into_member(events);
-        if let Ok(arrival) = &mut member.result {
-            self.restore(arrival, events)?;
-        }
-        Some(member)
+        row.into_member(events, names).ok()
     }
 
-    fn restore<T: Real, N: Length>(
-        &mut self,
-        arrival: &mut Arrival<T, N>,
-        events: &[&'static str],
-    ) -> Option<()> {
-        let [samples, values, crossings] = self.counts()?;
-        arrival.samples = (0..samples).map_while(|_| self.state()).collect();
-        arrival.values = (0..values).map_while(|_| self.number()).collect();
-        arrival.crossings = (0..crossings).map_while(|_| self.crossing(events)).collect();
-        Some(())
-    }
-
-    fn crossing<T: Real, N: Length>(&mut self, events: &[&'static str]) -> Option<Crossing<T, N>> {
+    fn crossing<T: Real, N: Length>(&mut self, events: &[&'static str]) -> Option<MemberCrossing<T, N>> {
         let [index, count, rising] = self.counts()?;
-        Some(Crossing { event: events.get(index)?, index, count, rising: rising == 1, state: self.state()? })
+        let event = (*events.get(index)?).into();
+        Some(MemberCrossing { event, index, count, rising: rising == 1, state: self.state()? })
     }
 
     fn state<T: Real, N: Length>(&mut self) -> Option<State<T, N>> {
-        let zero = vector(Array::<T, N>::filled(T::constant(0.0)));
-        let mut state = State { t: self.number()?, q: zero, v: zero };
-        for x in state.q.iter_mut().chain(&mut state.v) {
-            *x = self.number()?;
-        }
-        Some(state)
+        state_of(|_| self.number().ok_or(())).ok()
     }
 
     fn number<T: Real>(&mut self) -> Option<T> {
@@ -161,7 +148,7 @@ impl Rest<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::prelude::*;
+    use crate::prelude::{State, *};
 
     #[derive(Lagrangian)]
     #[coordinates(x)]
@@ -185,7 +172,8 @@ mod tests {
         assert!(outcome.members().iter().any(|member| member.to_string().contains("event `turn`")));
         let run = outcome.members()[0].fingerprint;
         let message = MemberMessage::of(outcome.members());
-        let members: Vec<Member<f64, 1>> = message.members(run, &["zero", "turn"]).collect();
+        let members: Vec<Member<f64, nalgebra::Const<1>>> =
+            message.members(run, &["zero", "turn"], &outcome.names).collect();
         assert_eq!(members.len(), 9);
         for (member, original) in members.iter().zip(outcome.members()) {
             assert_eq!(member.row(), original.row());

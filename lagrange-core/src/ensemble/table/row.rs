@@ -2,16 +2,19 @@
 
 use core::fmt::{self, Display, Formatter};
 use std::borrow::Cow;
+use std::sync::Arc;
 
+use super::cells::{Lists, Number, escaped, quoted, text};
 use crate::ensemble::fingerprint::Fingerprint;
+use crate::ensemble::names::Names;
 use crate::ensemble::outcome::Member;
 use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::record::Arrival;
-use crate::names::Entry;
 use crate::number::Real;
+use crate::solution::crossing::Crossing;
 use crate::statistics::Statistics;
 use crate::system::State;
-use crate::vector::{Element, Length};
+use crate::vector::{Array, Element, Length, vector};
 
 /// Data of one member in a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +29,44 @@ pub struct MemberRow<T: Element, N: Length> {
     pub statistics: Statistics,
     /// Reason why the motion ended at this state.
     pub ending: MemberEnding,
+    /// States at the times of samples, up to the end of the motion.
+    pub samples: Vec<State<T, N>>,
+    /// Quantities of the samples: all of the first sample, all of the second, …
+    pub values: Vec<T>,
+    /// Crossings of events, in the order of the motion.
+    pub crossings: Vec<MemberCrossing<T, N>>,
+    pub(crate) names: Arc<Names>,
+}
+
+/// A crossing of an event, as a table stores it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MemberCrossing<T: Element, N: Length> {
+    /// Name of the event.
+    pub event: String,
+    /// Index of the event, in the order in which the events were given.
+    pub index: usize,
+    /// Number of this crossing among those of the event, counted from 1.
+    pub count: usize,
+    /// True if the event function rises through zero, false if it falls.
+    pub rising: bool,
+    /// State at the crossing.
+    pub state: State<T, N>,
+}
+
+impl<T: Element, N: Length> From<&Crossing<T, N>> for MemberCrossing<T, N> {
+    fn from(crossing: &Crossing<T, N>) -> Self {
+        let Crossing { event, index, count, rising, state } = *crossing;
+        Self { event: event.into(), index, count, rising, state }
+    }
+}
+
+impl<T: Element, N: Length> MemberCrossing<T, N> {
+    /// The crossing of one of these events; `None` if there is no such event.
+    fn of(self, events: &[&'static str]) -> Option<Crossing<T, N>> {
+        let Self { event: name, index, count, rising, state } = self;
+        let event = events.get(index).copied().filter(|event| *event == name)?;
+        Some(Crossing { event, index, count, rising, state })
+    }
 }
 
 /// Reason why a member's motion ended, as a table stores it.
@@ -78,9 +119,29 @@ impl<T: Real, N: Length> MemberRow<T, N> {
         matches!(self.ending, MemberEnding::Failed(_))
     }
 
-    /// Converts the row to a member of an ensemble with these events. Errors are kept as text only.
-    pub(crate) fn into_member(self, events: &[&'static str]) -> Member<T, N> {
-        let Self { index, fingerprint, state, statistics, ending } = self;
+    /// Values of a quantity at the samples; empty without samples.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`].
+    pub fn quantity(&self, name: &str) -> Result<impl Iterator<Item = T> + '_, Error> {
+        self.names.values(name, &self.values)
+    }
+
+    /// Converts the row to a member of an ensemble with these events and names. Errors are kept as text only.
+    ///
+    /// # Errors
+    /// [`EnsembleError::OtherRun`] if the row has other quantities or events.
+    pub(crate) fn into_member(
+        self,
+        events: &[&'static str],
+        names: &Arc<Names>,
+    ) -> Result<Member<T, N>, Error> {
+        let Self { index, fingerprint, state, statistics, ending, samples, values, crossings, names: found } =
+            self;
+        let differs = "its quantities or events are others";
+        let other = Error::Ensemble(EnsembleError::OtherRun { member: index, differs });
+        let crossings: Option<_> = crossings.into_iter().map(|crossing| crossing.of(events)).collect();
+        let crossings = crossings.filter(|_| samples.is_empty() || *names == found).ok_or(other)?;
         let result = match (state, ending) {
             (None, ending) => Err(Error::Ensemble(EnsembleError::Elsewhere { said: ending.to_string() })),
             (Some(state), ending) => {
@@ -94,17 +155,16 @@ impl<T: Real, N: Length> MemberRow<T, N> {
                     },
                     MemberEnding::Failed(said) => Ending::Elsewhere { time, said },
                 };
-                Ok(Arrival {
-                    state,
-                    ending,
-                    statistics,
-                    samples: Vec::new(),
-                    values: Vec::new(),
-                    crossings: Vec::new(),
-                })
+                Ok(Arrival { state, ending, statistics, samples, values, crossings })
             }
         };
-        Member { index, fingerprint, result }
+        Ok(Member { index, fingerprint, names: names.clone(), result })
+    }
+
+    /// True if both rows reached the end, but not with the same bits. An observer may end a member at another time.
+    pub(super) fn contradicts(&self, other: &Self) -> bool {
+        let are_complete = [self, other].iter().all(|row| row.ending == MemberEnding::Complete);
+        are_complete && self.csv().to_string() != other.csv().to_string()
     }
 
     /// The row as a line of the table.
@@ -117,14 +177,41 @@ pub(super) const COMPLETE: &str = "complete";
 pub(super) const CANCELLED: &str = "cancelled";
 pub(super) const EVENT: &str = "event: ";
 
-pub(super) fn header(names: &'static [&'static str]) -> String {
-    let velocities = names.iter().map(|name| Entry::Velocity(name).to_string());
-    let first = ["member", "system", "run", "start", "t"];
-    let names = first.into_iter().chain(names.iter().copied()).map(String::from).chain(velocities);
-    let counts = ["accepted", "rejected", "evaluations", "multipliers_are_unique", "ending", "member_again"]
-        .map(String::from);
-    names.chain(counts).collect::<Vec<_>>().join(",")
+pub(super) fn header(names: &Names) -> String {
+    let first = ["member", "system", "run", "start"].map(String::from).into_iter().chain(names.of_state());
+    let counts = ["accepted", "rejected", "evaluations", "multipliers_are_unique", "ending"];
+    let lists = ["samples", "crossings", "member_again"];
+    first.chain(counts.into_iter().chain(lists).map(String::from)).collect::<Vec<_>>().join(",")
 }
+
+/// Number of entries of a state: time, coordinates, velocities.
+pub(crate) const fn entries<N: Length>() -> usize {
+    1 + 2 * N::COUNT
+}
+
+/// An entry of a state.
+pub(crate) fn entry<T: Real, N: Length>(state: &State<T, N>, place: usize) -> T {
+    match place.checked_sub(1) {
+        None => state.t,
+        Some(i) if i < N::COUNT => state.q[i],
+        Some(i) => state.v[i - N::COUNT],
+    }
+}
+
+/// The state with these entries.
+pub(crate) fn state_of<T: Real, N: Length, E>(
+    mut entry: impl FnMut(usize) -> Result<T, E>,
+) -> Result<State<T, N>, E> {
+    let zero = vector(Array::<T, N>::filled(T::constant(0.0)));
+    let mut state = State { t: entry(0)?, q: zero, v: zero };
+    for (k, x) in (1..).zip(state.q.iter_mut().chain(&mut state.v)) {
+        *x = entry(k)?;
+    }
+    Ok(state)
+}
+
+/// Names of the columns of a crossing before those of its state.
+pub(crate) const CROSSING: [&str; 4] = ["event", "event_index", "event_count", "event_rising"];
 
 /// Prints one line of the table. The index stands at both ends, so that a truncated line with another row appended is
 /// not mistaken for the row of a third member.
@@ -132,7 +219,7 @@ pub(super) struct Line<'m, T: Real, N: Length>(pub(super) Cow<'m, MemberRow<T, N
 
 impl<T: Real, N: Length> Display for Line<'_, T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let MemberRow { index, fingerprint, state, statistics, ending } = &*self.0;
+        let MemberRow { index, fingerprint, state, statistics, ending, .. } = &*self.0;
         let Fingerprint { system, run, start } = fingerprint;
         write!(f, "{index},{system},{run},{start}")?;
         match state {
@@ -146,12 +233,47 @@ impl<T: Real, N: Length> Display for Line<'_, T, N> {
             }
         }
         match ending {
-            MemberEnding::Complete | MemberEnding::Cancelled => writeln!(f, ",{ending},{index}"),
-            ending => writeln!(f, ",{},{index}", quoted(&ending.to_string())),
+            MemberEnding::Complete | MemberEnding::Cancelled => write!(f, ",{ending}")?,
+            ending => write!(f, ",{}", quoted(&escaped(&ending.to_string(), "")))?,
         }
+        writeln!(f, ",{},{},{index}", self.0.samples_cell(), self.0.crossings_cell())
     }
 }
 
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
+impl<T: Real, N: Length> MemberRow<T, N> {
+    /// Samples and quantities as an object of lists; empty without samples.
+    fn samples_cell(&self) -> String {
+        if self.samples.is_empty() {
+            return String::new();
+        }
+        let (mut lists, names) = (Lists::default(), &self.names);
+        push_states(&mut lists, names, &self.samples);
+        let count = names.quantities.len();
+        for (place, name) in names.quantities.iter().enumerate() {
+            lists.push(name, self.values.iter().skip(place).step_by(count).map(|x| Number(*x)));
+        }
+        lists.cell()
+    }
+
+    /// Crossings as an object of lists; empty without crossings.
+    fn crossings_cell(&self) -> String {
+        let of = &self.crossings;
+        if of.is_empty() {
+            return String::new();
+        }
+        let [event, index, count, rising] = CROSSING;
+        let mut lists = Lists::default();
+        lists.push(event, of.iter().map(|crossing| text(&crossing.event)));
+        lists.push(index, of.iter().map(|crossing| crossing.index));
+        lists.push(count, of.iter().map(|crossing| crossing.count));
+        lists.push(rising, of.iter().map(|crossing| crossing.rising));
+        push_states(&mut lists, &self.names, &of.iter().map(|crossing| crossing.state).collect::<Vec<_>>());
+        lists.cell()
+    }
+}
+
+fn push_states<T: Real, N: Length>(lists: &mut Lists, names: &Names, states: &[State<T, N>]) {
+    for (place, name) in names.of_state().enumerate() {
+        lists.push(&name, states.iter().map(|state| Number(entry(state, place))));
+    }
 }

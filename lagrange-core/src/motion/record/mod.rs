@@ -34,12 +34,11 @@ pub struct Arrival<T: Element, N: Length> {
     pub ending: Ending,
     /// Numbers of steps and evaluations.
     pub statistics: Statistics,
-    /// States at the times of `samples_at` or `every`, up to the end of the motion. Empty for a member of an ensemble
-    /// that is read from a table.
+    /// States at the times of `samples_at` or `every`, up to the end of the motion.
     pub samples: Vec<State<T, N>>,
     /// Quantities of the samples: all of the first sample, all of the second, …
     pub values: Vec<T>,
-    /// Crossings of events, in the order of the motion. Empty for a member that is read from a table.
+    /// Crossings of events, in the order of the motion.
     pub crossings: Vec<Crossing<T, N>>,
 }
 

@@ -142,8 +142,8 @@ impl<'a, L: Lagrangian<Scalar: Real>> RecordPlan<'a, L> {
 
     /// Names of the quantities.
     #[cfg(feature = "std")]
-    pub(crate) fn quantities(&self) -> Vec<&'static str> {
-        self.quantities.iter().map(|(name, _)| *name).collect()
+    pub(crate) fn quantities(&self) -> impl Iterator<Item = &'static str> {
+        self.quantities.iter().map(|(name, _)| *name)
     }
 
     /// Writes the times and the names of the quantities, to tell plans apart; functions are not part of it.
@@ -153,7 +153,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> RecordPlan<'a, L> {
             SampleTimes::At(times) => times.iter().try_for_each(|t| write!(to, " at {:?}", t.to_f64()))?,
             SampleTimes::Every(interval) => write!(to, " at every {:?}", interval.to_f64())?,
         }
-        self.quantities.iter().try_for_each(|(name, _)| write!(to, " of {name}"))
+        self.quantities.iter().try_for_each(|(name, _)| write!(to, " of {name:?}"))
     }
 }
 
