@@ -161,7 +161,23 @@ fn other_samples_quantities_and_events_are_other_runs() {
         names.iter().fold(plain, |run, name| run.quantity(name, |s| s.time()))
     };
     let table = run(&["u of v"]).integrate(END, Dop853::default()).unwrap().csv().to_string();
-    assert!(run(&["u", "v"]).resume(&table).unwrap().integrate(END, Dop853::default()).is_err());
+    let error = run(&["u", "v"]).resume(&table).unwrap().integrate(END, Dop853::default()).unwrap_err();
+    assert!(error.to_string().contains("a sample, a quantity"), "{error}");
+}
+
+/// Two tables that say different things of a member, each whole in itself.
+#[test]
+fn tables_that_contradict_each_other_are_refused() {
+    let run = |shift: f64| ensemble().samples_at([0.5]).quantity("q", move |s| s.time() + shift).tag("");
+    let [one, other] =
+        [0.0, 1e-15].map(|shift| run(shift).integrate(END, Dop853::default()).unwrap().csv().to_string());
+    let both = run(0.0).resume(&one).unwrap().resume(&other).unwrap().integrate(END, Dop853::default());
+    let error = both.unwrap_err();
+    assert!(matches!(error, Error::Ensemble(EnsembleError::OtherRun { member: 0, .. })), "{error}");
+    assert!(matches!(
+        run(0.0).resume(&(one + &other)),
+        Err(Error::Ensemble(EnsembleError::Resume { column: 1, .. }))
+    ));
 }
 
 /// Columns of one name could not be told apart.

@@ -9,7 +9,7 @@ use super::fingerprint::Fingerprint;
 use super::names::Names;
 use super::outcome::{Member, Outcome};
 use super::plan::{EnsembleProgress, Make, MemberObserver, MemberPlan, Plan, Watch};
-use super::table::MemberRow;
+use super::table::{MemberRow, TWO_RESULTS};
 use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::progress::unless_broken;
 use crate::motion::record::{Arrival, Moving, Recorded};
@@ -108,6 +108,12 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
             check_run_of(row, &run.with_start(&system, &start))
         })?;
         mine.sort_by_key(|row| row.index);
+        let mut pairs = mine.windows(2);
+        if let Some([row, _]) =
+            pairs.find(|pair| pair[0].index == pair[1].index && pair[0].contradicts(&pair[1]))
+        {
+            return Err(Error::Ensemble(EnsembleError::OtherRun { member: row.index, differs: TWO_RESULTS }));
+        }
         mine.dedup_by_key(|row| row.index);
         let done = mine.iter().map(|row| row.index).collect();
         let members = mine.into_iter().map(|row| row.into_member(&events, &names));

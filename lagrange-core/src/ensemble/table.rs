@@ -146,7 +146,7 @@ impl<T: Real, N: Length> MemberTable<T, N> {
         wrong: impl Fn(X, usize, &'static str) -> Error,
     ) -> Result<Self, Error> {
         let mut kept: BTreeMap<usize, MemberRow<T, N>> = BTreeMap::new();
-        let mut first: Option<Fingerprint> = None;
+        let (mut first, mut names): (Option<Fingerprint>, Option<Arc<Names>>) = (None, None);
         for (place, row) in rows {
             let common = row.fingerprint.without_start();
             let known = kept.get_mut(&row.index);
@@ -155,6 +155,11 @@ impl<T: Real, N: Length> MemberTable<T, N> {
             if let Some((column, reason)) = run.or(start) {
                 return Err(wrong(place, column, reason));
             }
+            // A line of a member without samples does not name the quantities.
+            let names_quantities = !row.samples.is_empty() || !row.names.quantities.is_empty();
+            if names_quantities && *names.get_or_insert_with(|| row.names.clone()) != row.names {
+                return Err(wrong(place, 2 * N::COUNT + 11, "its quantities are others"));
+            }
             match known {
                 None => drop(kept.insert(row.index, row)),
                 Some(known) if known.has_failed() => *known = row,
@@ -162,7 +167,8 @@ impl<T: Real, N: Length> MemberTable<T, N> {
                 Some(_) => {}
             }
         }
-        let names = Arc::new(Names { coordinates, quantities: Vec::new() });
+        let names = names.unwrap_or_else(|| Arc::new(Names { coordinates, quantities: Vec::new() }));
+        kept.values_mut().for_each(|row| row.names = names.clone());
         Ok(Self { names, rows: kept.into_values().collect() })
     }
 
@@ -187,7 +193,7 @@ impl<T: Real, N: Length> Display for MemberTable<T, N> {
     }
 }
 
-const TWO_RESULTS: &str = "an earlier row of the member has another result: other code, or a library with other roundings, was at work";
+pub(super) const TWO_RESULTS: &str = "an earlier row of the member has another result: other code, or a library with other roundings, was at work";
 
 /// Prints the header, then one line per member.
 struct Lines<'o, X, F> {

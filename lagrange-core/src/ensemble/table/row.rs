@@ -162,7 +162,7 @@ impl<T: Real, N: Length> MemberRow<T, N> {
     }
 
     /// True if both rows reached the end, but not with the same bits. An observer may end a member at another time.
-    pub(super) fn contradicts(&self, other: &Self) -> bool {
+    pub(crate) fn contradicts(&self, other: &Self) -> bool {
         let are_complete = [self, other].iter().all(|row| row.ending == MemberEnding::Complete);
         are_complete && self.csv().to_string() != other.csv().to_string()
     }

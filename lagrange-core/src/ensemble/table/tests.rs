@@ -261,6 +261,12 @@ fn samples_quantities_and_crossings_come_back_to_the_bit() {
     let row = read.get(21).expect("a row");
     let MemberCrossing { event, index, .. } = &row.crossings[2];
     assert_eq!((event.as_str(), *index), (EVENTS[0], 0));
+    // The first row names no quantities.
+    let lines: Vec<&str> = table.lines().collect();
+    let turned = format!("{}\n{}\n", lines[2], lines[1]);
+    let turned = MemberTable::<f64, Const<1>>::of(&turned, NAMES, MINE.system, COUNT).expect("a table");
+    assert_eq!(turned.rows(), &read.rows()[..2]);
+    assert_eq!(turned.get(12).expect("a row").quantity("c").expect("a quantity").count(), 0);
     let values = row.values.iter().skip(1).step_by(2).copied();
     assert!(row.quantity("c").expect("a quantity").eq(values));
 }
@@ -297,6 +303,8 @@ fn lists_that_do_not_belong_together_are_refused_with_their_place() {
         assert!(line.contains(text), "{text} is not in {line}");
         refused(&line.replacen(text, other, 1), (1, column));
     }
+    let other = format!("{line}\n{}\n", line.replace(r#"""c"":["#, r#"""d"":["#));
+    refused(&other, (2, 13));
     // Read, but not of a run with these events and quantities.
     for (text, other) in
         [(r#"""event_index"":[0,1"#, r#"""event_index"":[1,1"#), (r#"""c"":["#, r#"""d"":["#)]
