@@ -335,3 +335,28 @@ fn a_member_with_two_results_is_refused() {
     // An observer may end a member earlier or later.
     assert_eq!(taken(&format!("{ROW}\n{}\n", other.replace("complete", "cancelled"))).len(), 1);
 }
+
+/// Any character changed, left out or put in: read or refused, and every row that is read can be written and read again.
+#[test]
+fn an_edited_table_is_read_or_refused() {
+    let table = table();
+    let (mut read, mut refused) = (0, 0);
+    for at in 0..table.len() {
+        for edit in ["", "\"", ",", "[", "]", "{", "\\", "\\u", "\n", "1", "é"] {
+            for until in [at, at + 1] {
+                let edited = format!("{}{edit}{}", &table[..at], &table[until..]);
+                match MemberTable::<f64, Const<1>>::of(&edited, NAMES, MINE.system, COUNT) {
+                    Ok(rows) => {
+                        let again =
+                            MemberTable::<f64, Const<1>>::of(&rows.to_string(), NAMES, MINE.system, COUNT);
+                        assert_eq!(again.expect("a table").to_string(), rows.to_string());
+                        read += 1;
+                    }
+                    Err(Error::Ensemble(EnsembleError::Resume { .. })) => refused += 1,
+                    Err(error) => panic!("{error}"),
+                }
+            }
+        }
+    }
+    assert!(read > 1000 && refused > 1000, "{read} read, {refused} refused");
+}
