@@ -1,12 +1,15 @@
 //! The Hamiltonian and Hamilton's equations in symbols, for display. Computations use the numerical Legendre transform
 //! instead.
 
+use num_traits::One;
+
 use super::equations::Equations;
 use super::euler_lagrange::generalized_forces;
 use super::evidence::vanishes;
+use super::legendre::Split;
 use crate::resolve::Problem;
 use crate::symbolic::{Approximate, Graph, Id, Rational, Sample, rank};
-use crate::variables::{Variable, nodes, symbols};
+use crate::variables::{Variable, has_velocity, nodes, symbols};
 
 /// H(t, q, p) and its derivatives.
 #[derive(Debug)]
@@ -23,63 +26,109 @@ pub(crate) struct Hamilton {
 /// Reason why H is not written in symbols.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum NoHamiltonian {
-    /// The momenta are not linear in the velocities.
-    NotQuadratic,
+    /// No closed form of the velocities by the momenta is known.
+    NotSolved,
     /// M has no inverse, as with quaternions and massless coordinates.
     Singular,
     Long,
 }
 
 /// Largest number of coordinates: H of more would be too long to read.
-const COORDINATES: usize = 8;
+const COORDINATES: usize = 9;
 
 /// Largest block of M that is inverted by Cramer's rule: the inverse of a block of four has hundreds of terms.
 const BLOCK: usize = 3;
 
 impl Hamilton {
-    /// Derives H = ½ (p − b)ᵀM⁻¹(p − b) − L₀, where p = M q̇ + b and L₀ is L at q̇ = 0. Returns the reason if H is not
-    /// written.
+    /// Derives H = p·q̇ − L. Each block of coordinates that M couples is solved by itself: by ½ (p − b)ᵀM⁻¹(p − b) where p
+    /// = M q̇ + b, or by the transform of a [power](super::legendre). Returns the reason if H is not written.
     pub(super) fn derive(
         graph: &mut Graph,
         problem: &Problem,
         equations: &Equations,
     ) -> Result<Self, NoHamiltonian> {
         let n = problem.coordinates.len();
-        if !equations.momenta_are_linear {
-            return Err(NoHamiltonian::NotQuadratic);
-        }
         if n > COORDINATES {
             return Err(NoHamiltonian::Long);
         }
-        let at_rest = nodes(graph, n, Variable::Velocity);
-        let momenta = nodes(graph, n, Variable::Momentum);
-        let moving: Vec<Id> = (0..n)
-            .map(|i| {
-                let rest = graph.without(equations.momentum[i], &at_rest);
-                graph.sub(momenta[i], rest)
-            })
-            .collect();
+        let mut parts = Parts { terms: Vec::new(), velocities: vec![Id::ZERO; n] };
+        let (at_rest, mut still) = (nodes(graph, n, Variable::Velocity), problem.lagrangian);
         let mass: Vec<Vec<Id>> = equations
             .mass
             .iter()
             .map(|row| row.iter().map(|&entry| graph.defined(entry)).collect())
             .collect();
-        let mut velocities = vec![Id::ZERO; n];
         for block in blocks(&mass) {
-            let inverse = inverse(graph, problem, &mass, &block)?;
-            let part: Vec<Id> = block.iter().map(|&i| moving[i]).collect();
-            for (&i, row) in block.iter().zip(&inverse) {
-                velocities[i] = graph.dot(row, &part);
+            let entries: Vec<Id> =
+                block.iter().flat_map(|&i| block.iter().map(|&j| mass[i][j]).collect::<Vec<_>>()).collect();
+            match has_velocity(graph, &entries) {
+                false => parts.quadratic(graph, problem, (equations, &mass), &block)?,
+                true => still = parts.power(graph, problem, &block, still)?,
             }
         }
-        let twice = graph.dot(&moving, &velocities);
-        let potential = graph.without(problem.lagrangian, &at_rest);
-        let hamiltonian = graph.sum([(twice, Rational::new(1, 2)), (potential, -Rational::from_integer(1))]);
-        let rates = rates(graph, problem, equations, hamiltonian, &velocities);
+        let potential = graph.without(still, &at_rest);
+        parts.terms.push((potential, -Rational::from_integer(1)));
+        let hamiltonian = graph.sum(parts.terms);
+        let rates = rates(graph, problem, equations, hamiltonian, &parts.velocities);
         let entries = mass.concat();
         let is_exact = graph.take_fault().is_none();
+        let velocities = parts.velocities;
         is_exact.then_some(Self { hamiltonian, velocities, rates, entries }).ok_or(NoHamiltonian::Long)
     }
+}
+
+/// H as a sum of terms with coefficients, and the velocities, of the blocks solved so far.
+struct Parts {
+    terms: Vec<(Id, Rational)>,
+    velocities: Vec<Id>,
+}
+
+impl Parts {
+    /// Adds a block whose momenta are linear in the velocities.
+    fn quadratic(
+        &mut self,
+        graph: &mut Graph,
+        problem: &Problem,
+        (equations, mass): (&Equations, &[Vec<Id>]),
+        block: &[usize],
+    ) -> Result<(), NoHamiltonian> {
+        let at_rest = nodes(graph, mass.len(), Variable::Velocity);
+        let rest: Vec<Id> = block.iter().map(|&i| graph.without(equations.momentum[i], &at_rest)).collect();
+        let moving = moving(graph, block, &rest);
+        let inverse = inverse(graph, problem, mass, block)?;
+        for (&i, row) in block.iter().zip(&inverse) {
+            self.velocities[i] = graph.dot(row, &moving);
+        }
+        let velocities: Vec<Id> = block.iter().map(|&i| self.velocities[i]).collect();
+        let twice = graph.dot(&moving, &velocities);
+        self.terms.push((twice, Rational::new(1, 2)));
+        Ok(())
+    }
+
+    /// Adds a block whose velocities enter L by one power, and returns L without the power.
+    fn power(
+        &mut self,
+        graph: &mut Graph,
+        problem: &Problem,
+        block: &[usize],
+        lagrangian: Id,
+    ) -> Result<Id, NoHamiltonian> {
+        let split = Split::of(graph, lagrangian, block).ok_or(NoHamiltonian::NotSolved)?;
+        let velocities: Vec<_> = block.iter().map(|&i| Variable::Velocity(i).symbol()).collect();
+        let slopes = graph.gradient(split.others, &velocities);
+        let moving = moving(graph, block, &slopes);
+        let [power] = &split.powers[..] else { return Err(NoHamiltonian::NotSolved) };
+        let (whole, velocities) = power.transform(graph, problem, (block, &moving))?;
+        block.iter().zip(velocities).for_each(|(&i, velocity)| self.velocities[i] = velocity);
+        self.terms.push((whole, Rational::one()));
+        Ok(split.others)
+    }
+}
+
+/// p − b of a block of coordinates.
+fn moving(graph: &mut Graph, block: &[usize], rest: &[Id]) -> Vec<Id> {
+    let momenta: Vec<Id> = block.iter().map(|&i| graph.symbol(Variable::Momentum(i).symbol())).collect();
+    momenta.into_iter().zip(rest).map(|(momentum, &rest)| graph.sub(momentum, rest)).collect()
 }
 
 fn rates(
@@ -117,7 +166,7 @@ fn blocks(mass: &[Vec<Id>]) -> Vec<Vec<usize>> {
 }
 
 /// The inverse of a block of M: adjugate over determinant.
-fn inverse(
+pub(super) fn inverse(
     graph: &mut Graph,
     problem: &Problem,
     mass: &[Vec<Id>],

@@ -20,6 +20,7 @@ mod gauss;
 mod hamilton;
 mod integrability;
 mod kinetic;
+mod legendre;
 mod linearization;
 mod marker;
 mod moment;

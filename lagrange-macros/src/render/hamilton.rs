@@ -54,7 +54,7 @@ impl Page<'_> {
     /// Explains why H is not written out.
     pub(super) fn why_no_hamiltonian(&self) -> Option<String> {
         let why = match self.legible().err()? {
-            NoHamiltonian::NotQuadratic => "L is not quadratic in the velocities",
+            NoHamiltonian::NotSolved => "no closed form of the velocities by the momenta is known",
             NoHamiltonian::Singular if self.problem.constraints.is_empty() => {
                 return Some(
                     "there is none: the mass matrix is singular, and velocities do not follow from momenta"
