@@ -11,6 +11,9 @@ use super::remark::{Fragment, Remark};
 /// Widest left side in the column, in points at a font size of 10 points. A wider one begins its line.
 const LEFT: f64 = 60.0;
 
+/// Widest formula that is kept on one line of a page, in points at a font size of 10 points.
+const LINE: f64 = 310.0;
+
 // Styles are inline, because the surrounding page provides no style sheet.
 const PAGE: &str = "overflow-x:auto";
 const ROWS: &str =
@@ -66,28 +69,30 @@ impl HtmlRows<'_> {
             }
         };
         if notation.spelling.width(&left.concat()) > LEFT || right.is_empty() {
-            return format!("<div style=\"{LONG}\">{}{remark}</div>\n", formulas(&[left, right].concat()));
+            let all = self.formulas([left, right].concat());
+            return format!("<div style=\"{LONG}\">{all}{remark}</div>\n");
         }
-        let [left, right] = [left, right].map(|pieces| formulas(&pieces));
+        let [left, right] = [left, right].map(|pieces| self.formulas(pieces));
         format!("<div style=\"{SHORT}\">{left}</div><div style=\"{WRAPPED}\">{right}{remark}</div>\n")
+    }
+
+    /// MathML formulas side by side, with optional line breaks between them.
+    fn formulas(&self, pieces: Vec<String>) -> String {
+        let pieces = pieces.into_iter().flat_map(|piece| self.notation.within(piece, LINE));
+        let formulas = pieces.map(|piece| format!("<math displaystyle=\"true\">{piece}</math>"));
+        formulas.collect::<Vec<_>>().join("<wbr/>")
     }
 
     /// Remark with the name and the kind of a constraint.
     fn remark(&self, label: Option<&str>, remark: &Remark) -> String {
         let part = |part| match part {
             Fragment::Words(words) => text(&words),
-            Fragment::Formula(formula) => formulas(&self.notation.pieces(&formula)),
+            Fragment::Formula(formula) => self.formulas(self.notation.pieces(&formula)),
         };
         let said: String = remark.in_parentheses().into_iter().map(part).collect();
         let name = label.map_or(String::new(), |label| text(label) + " ");
         if said.is_empty() { said } else { format!("<span style=\"{REMARK}\">{name}{said}</span>") }
     }
-}
-
-/// MathML formulas side by side, with optional line breaks between them.
-fn formulas(pieces: &[String]) -> String {
-    let formulas = pieces.iter().map(|piece| format!("<math displaystyle=\"true\">{piece}</math>"));
-    formulas.collect::<Vec<_>>().join("<wbr/>")
 }
 
 fn text(plain: &str) -> String {

@@ -19,6 +19,9 @@ const LEFT: f64 = 110.0;
 /// Widest remark, in points, that is kept on one line: about half of [`LINE`].
 const REMARK: f64 = 150.0;
 
+/// Indent of a line that continues an equation, in points.
+const INDENT: f64 = 25.0;
+
 /// Start of a heading. TeX keeps the heading with the equations below: the penalty before a display is infinite.
 const HEADING: &str = r"\par\medskip\noindent\textbf";
 
@@ -90,7 +93,8 @@ impl Lines<'_> {
         for part in remark.in_parentheses() {
             let (parts, ends) = match part {
                 Fragment::Words(words) => {
-                    let parts = clauses(&words).map(|clause| format!(r"\text{{{clause}}}"));
+                    let parts =
+                        clauses(&words).map(|clause| format!(r"\text{{{}}}", clause.replace('≤', r"$\le$")));
                     (parts.collect(), words.ends_with([' ']) && !words.ends_with("not "))
                 }
                 Fragment::Formula(formula) => (self.held_together(&formula), false),
@@ -139,17 +143,18 @@ impl Lines<'_> {
     fn filled(&self, pieces: &[String], first: &str, others: &str, room: f64) -> Vec<String> {
         let mut lines = vec![first.to_owned()];
         let mut used = 15.0;
+        let pieces = pieces.iter().flat_map(|piece| self.notation.within(piece.clone(), room - INDENT));
         for piece in pieces {
-            let wide = self.width(piece);
+            let wide = self.width(&piece);
             if used + wide > room && used > 20.0 {
                 lines.push(others.to_owned());
-                used = 25.0;
+                used = INDENT;
             }
             used += wide;
             let space = if piece.starts_with(' ') { "" } else { " " };
             lines.last_mut().into_iter().for_each(|line| {
                 *line += if line.ends_with("quad") { space } else { "" };
-                *line += piece;
+                *line += &piece;
             });
         }
         lines

@@ -2,38 +2,54 @@
 
 use super::formula::Formula;
 use super::notation::Notation;
-use super::spelling::WIDE;
+
+/// Brackets within brackets at whose sums a line may break.
+const DEPTH: i32 = 4;
 
 impl Notation<'_> {
-    /// Splits a formula into pieces between which a line may break: before signs and after commas, and in wide pieces
-    /// between words, but never inside a group that is held together.
+    /// Splits a formula into the terms of its sum, between which a line may break.
     pub(super) fn pieces(self, formula: &Formula) -> Vec<String> {
+        self.terms(&self.write(formula), 0)
+    }
+
+    /// Splits a piece that is wider than `room`, in points: at sums and commas in brackets, in the outer ones first, and
+    /// between words if there are none. A group that is held together stays whole.
+    pub(super) fn within(self, piece: String, room: f64) -> Vec<String> {
+        if self.spelling.width(&piece) <= room {
+            return vec![piece];
+        }
+        let words = self.spelling.between_words();
+        let ways = (0..DEPTH).map(|depth| self.terms(&piece, depth));
+        let words = std::iter::once_with(|| self.parted(&piece, DEPTH, |before, _| before.ends_with(words)));
+        let parts = ways.chain(words).find(|parts| parts.len() > 1);
+        let narrow =
+            |parts: Vec<String>| parts.into_iter().flat_map(|part| self.within(part, room)).collect();
+        parts.map_or_else(|| vec![piece.clone()], narrow)
+    }
+
+    /// Splits text before signs and after commas that are in so many brackets at most.
+    fn terms(self, text: &str, depth: i32) -> Vec<String> {
         let signs = [" + ", " − "].map(|sign| self.spelling.sign(sign));
         let comma = self.spelling.sign(", ");
         let (comma, space) = comma.split_at(comma.trim_end().len());
-        let may_end = |before: &str, rest: &str| {
+        self.parted(text, depth, |before, rest| {
             let is_after_comma = before.ends_with(comma) && rest.starts_with(space);
             is_after_comma || signs.iter().any(|sign| rest.starts_with(sign))
-        };
-        let words = self.spelling.between_words();
-        let pieces = self.parted(&self.write(formula), may_end);
-        let narrow = |piece: String| match self.spelling.width(&piece) > WIDE {
-            true => self.parted(&piece, |before, _| before.ends_with(words)),
-            false => vec![piece],
-        };
-        pieces.into_iter().flat_map(narrow).collect()
+        })
     }
 
-    /// Splits text outside such groups, where `may_end` accepts the text before and after the break.
-    fn parted(self, text: &str, may_end: impl Fn(&str, &str) -> bool) -> Vec<String> {
-        let (mut parts, mut depth, mut start) = (Vec::new(), 0, 0);
-        for (place, _) in text.char_indices() {
+    /// Splits text outside of groups that are held together and in `depth` brackets at most, where `may_end` accepts the
+    /// text before and after the break.
+    fn parted(self, text: &str, depth: i32, may_end: impl Fn(&str, &str) -> bool) -> Vec<String> {
+        let (mut parts, mut groups, mut brackets, mut start) = (Vec::new(), 0, 0, 0);
+        for (place, sign) in text.char_indices() {
             let (before, rest) = text.split_at(place);
-            if depth == 0 && place > start && may_end(before, rest) {
+            if groups == 0 && brackets <= depth && place > start && may_end(before, rest) {
                 parts.push(text[start..place].to_owned());
                 start = place;
             }
-            depth += self.spelling.nesting(rest);
+            groups += self.spelling.nesting(rest);
+            brackets += i32::from("([".contains(sign)) - i32::from(")]".contains(sign));
         }
         parts.push(text[start..].to_owned());
         parts
