@@ -162,7 +162,7 @@ impl<'a> Notation<'a> {
         let is_narrow = |text: &str| self.spelling.width(text) < WIDE;
         if is_narrow(&over) && is_narrow(&under) {
             self.spelling.fraction(&over, &under)
-        } else if is_narrow(&under) && !sums.is_empty() {
+        } else if is_narrow(&under) && !sums.is_empty() && is_narrow(&self.factors(&others, false)) {
             let one = vec![Formula::Number(Rational::one())];
             let before = self.fraction(if others.is_empty() { &one } else { &others }, below);
             let sums = self.factors(&sums, true);
@@ -174,7 +174,7 @@ impl<'a> Notation<'a> {
 
     /// Writes factors side by side, with a dot where a number would run into the next factor.
     fn factors(self, factors: &[Formula], is_followed: bool) -> String {
-        let mut text = String::new();
+        let (mut text, words) = (String::new(), words(factors));
         for (position, factor) in factors.iter().enumerate() {
             let factor = match (factor, factors.get(position + 1)) {
                 // A factor after a dot product would be read as part of it.
@@ -185,7 +185,11 @@ impl<'a> Notation<'a> {
                     self.factor(factor, next.map_or(is_followed, |next| !begins_with_function(next)))
                 }
             };
-            text += if position == 0 { "" } else { self.spelling.beside(&text, &factor) };
+            text += match position {
+                0 => "",
+                _ if words.contains(&position) => self.spelling.between_words(),
+                _ => self.spelling.beside(&text, &factor),
+            };
             text += &factor;
         }
         text
@@ -213,10 +217,19 @@ impl<'a> Notation<'a> {
         }
         let exponent = match exponent {
             Formula::Number(value) if value.is_integer() => self.number(*value),
+            Formula::Number(value) => self.slanted(*value),
             exponent if self.spelling.is_flat() => self.at_least(exponent, Binding::Atom),
             exponent => self.write(exponent),
         };
         self.spelling.power(&self.at_least(base, Binding::Atom), &exponent)
+    }
+
+    /// Writes a fraction in an exponent, such as 3/2.
+    fn slanted(self, value: Rational) -> String {
+        let sign = if value.is_negative() { self.spelling.sign("−") } else { String::new() };
+        let [above, below] = [value.numer().abs(), *value.denom()].map(|number| number.to_string());
+        let fraction = sign + &self.slashed(&above, &below);
+        if self.spelling.is_flat() { self.parentheses(&fraction) } else { fraction }
     }
 
     /// Writes a partial derivative: ∂U/∂x, ∂²U/∂x∂y.
@@ -318,4 +331,26 @@ impl<'a> Notation<'a> {
         };
         digits + &self.spelling.sign("×") + &power
     }
+}
+
+/// Places of factors that would form a word with the ones before: three single Latin letters or more, a vowel among them,
+/// as in m a g. A space sets them apart.
+fn words(factors: &[Formula]) -> Vec<usize> {
+    let letter = |factor: &Formula| match factor {
+        Formula::Name { base, dots: 0, indices } if indices.is_empty() && base.len() == 1 => {
+            base.chars().next()
+        }
+        _ => None,
+    };
+    let letters: Vec<Option<char>> = factors.iter().map(letter).collect();
+    let mut places = Vec::new();
+    let mut first = 0;
+    for run in letters.chunk_by(|one, other| one.is_some() == other.is_some()) {
+        let is_vowel = |letter: &Option<char>| letter.is_some_and(|letter| "aeiouAEIOU".contains(letter));
+        if run.len() > 2 && run.iter().any(is_vowel) {
+            places.extend(first + 1..first + run.len());
+        }
+        first += run.len();
+    }
+    places
 }
