@@ -147,3 +147,53 @@ fn single_precision() {
     let path = system.motion_in_momenta(phase).by(Dopri5::with_tolerance(1e-5)).to(5.0).unwrap();
     assert!(path.ending().is_complete() && (path.end().energy() - 2.25).abs() < 1e-3);
 }
+
+/// The forms that are printed, at random (q, p): the inverse by Newton's method gives the same H and the same velocities.
+#[test]
+fn roots_and_powers_are_printed_in_closed_form() {
+    #[derive(Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian(-m*c^2*sqrt(1 - (x_dot^2 + y_dot^2)/c^2) + e*B/2*(x*y_dot - y*x_dot) - e*E*x)]
+    struct Charged {
+        m: f64,
+        c: f64,
+        e: f64,
+        B: f64,
+        E: f64,
+    }
+    #[derive(Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(a/4*(x_dot - w*x)^4 - k*x^2)]
+    struct Quartic {
+        a: f64,
+        w: f64,
+        k: f64,
+    }
+    let printed = [Charged::equations().hamiltonian(), Quartic::equations().hamiltonian()];
+    let hamiltonians = [
+        "H = e E x + √(c² ((p_x + ½ e B y)² + (p_y − ½ e B x)²) + m² c⁴)",
+        "H = w x p_x + k x² + ¾ a (|p_x|/a)^(4/3)",
+    ];
+    assert_eq!(printed.map(|hamiltonian| hamiltonian.to_string()), hamiltonians);
+
+    let mut random = Random(11);
+    let (charged, quartic) =
+        (Charged { m: 1.3, c: 2.0, e: 0.7, B: 0.9, E: 0.4 }, Quartic { a: 1.7, w: 0.6, k: 0.8 });
+    for _ in 0..200 {
+        let phase = PhaseState::new(random.vector::<2>(), random.vector::<2>());
+        let Charged { m, c, e, B, E } = charged;
+        let ([x, y], [p_x, p_y]): ([f64; 2], [f64; 2]) = (phase.q.into(), phase.p.into());
+        let kinetic = [p_x + 0.5 * e * B * y, p_y - 0.5 * e * B * x];
+        let root = (c * c * (kinetic[0].powi(2) + kinetic[1].powi(2)) + (m * c * c).powi(2)).sqrt();
+        agree(&[charged.hamiltonian(&phase).unwrap()], &[e * E * x + root], 1e-12);
+        let velocities = kinetic.map(|p| c * c * p / root);
+        agree(charged.legendre(&phase).unwrap().v.as_slice(), &velocities, 1e-12);
+
+        let Quartic { a, w, k } = quartic;
+        let (x, p) = (random.number(), (1.0 + random.number().abs()).copysign(random.number()));
+        let phase = PhaseState::new([x], [p]);
+        let hamiltonian = w * x * p + k * x * x + 0.75 * a * (p.abs() / a).powf(4.0 / 3.0);
+        agree(&[quartic.hamiltonian(&phase).unwrap()], &[hamiltonian], 1e-12);
+        agree(quartic.legendre(&phase).unwrap().v.as_slice(), &[(p / a).cbrt() + w * x], 1e-12);
+    }
+}

@@ -5,7 +5,7 @@ use num_traits::{One, Signed};
 use super::formula::Formula;
 use super::length::READABLE;
 use super::page::Page;
-use crate::symbolic::{Function, Id, Node, Rational, Scaled};
+use crate::symbolic::{Function, Id, Node, Rational, Scaled, times};
 use crate::variables::Variable;
 
 impl Page<'_> {
@@ -28,10 +28,10 @@ impl Page<'_> {
             Node::Pi => Formula::Pi,
             Node::Symbol(symbol) => self.variable(Variable::of(*symbol)),
             Node::Sum(terms) => {
-                let mut terms: Vec<_> = terms.iter().map(|&(term, c)| self.derived_term(term, c)).collect();
-                terms.sort_by_key(Formula::is_negative);
-                // Nested sums are not flattened: parentheses show the terms that a definition groups.
-                if terms.len() == 1 { terms.remove(0) } else { Formula::Sum(terms) }
+                let order = terms.iter().copied();
+                let mut order: Vec<(Id, Rational)> = order.collect();
+                order.sort_by_key(|(term, _)| self.leads[term.index()]);
+                self.derived_sum(&order)
             }
             Node::Product(_) => self.derived_term(id, Rational::one()),
             Node::Function(name, x) => function(*name, self.derived(*x)),
@@ -47,6 +47,25 @@ impl Page<'_> {
         }
     }
 
+    /// Sum of terms in this order, but for those with a minus sign, which follow the others.
+    fn derived_sum(&self, terms: &[(Id, Rational)]) -> Formula {
+        let mut terms: Vec<_> = terms.iter().map(|&(term, c)| self.derived_term(term, c)).collect();
+        terms.sort_by_key(Formula::is_negative);
+        // Nested sums are not flattened: parentheses show the terms that a definition groups.
+        if terms.len() == 1 { terms.remove(0) } else { Formula::Sum(terms) }
+    }
+
+    /// Base of an even power: the sign of a sum is that of its leading term, as in (x − l)².
+    fn derived_square(&self, base: Id) -> Formula {
+        let Node::Sum(terms) = self.graph.node(base) else { return self.derived(base) };
+        let leading = terms.iter().min_by_key(|(term, _)| self.leads[term.index()]);
+        let is_turned = leading.is_some_and(|(_, c)| c.is_negative()) && terms.len() > 1;
+        let mut order: Vec<(Id, Rational)> =
+            terms.iter().map(|&(term, c)| (term, if is_turned { -c } else { c })).collect();
+        order.sort_by_key(|(term, _)| self.leads[term.index()]);
+        self.derived_sum(&order)
+    }
+
     /// Product coefficient · term.
     fn derived_term(&self, term: Id, coefficient: Rational) -> Formula {
         let graph = self.graph;
@@ -60,10 +79,25 @@ impl Page<'_> {
         factors.sort_by_key(|&(factor, _)| self.reading_order(factor));
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for (factor, exponent) in factors {
-            let power = power(self.derived(factor), exponent.abs());
-            if exponent.is_negative() { below.push(power) } else { above.push(power) }
+            let (power, is_below) = self.derived_power(factor, exponent);
+            if is_below { below.push(power) } else { above.push(power) }
         }
         Formula::product(coefficient, above, below)
+    }
+
+    /// Power of a node, without the sign of its exponent, and whether it is a divisor.
+    fn derived_power(&self, base: Id, exponent: Rational) -> (Formula, bool) {
+        let root = self.roots.iter().find(|root| root.base == base && *exponent.denom() == 2);
+        match (root, times(exponent, Rational::from_integer(2))) {
+            (Some(root), Some(twice)) => {
+                (power(root.name.clone(), twice.abs()), twice.is_negative() != root.is_below)
+            }
+            _ => {
+                let is_even = exponent.is_integer() && exponent.numer() % 2 == 0;
+                let base = if is_even { self.derived_square(base) } else { self.derived(base) };
+                (power(base, exponent.abs()), exponent.is_negative())
+            }
+        }
     }
 
     /// Sort key of factors: parameters, then multipliers, definitions, coordinates, velocities, accelerations,

@@ -96,6 +96,62 @@ impl Formula {
         }
     }
 
+    /// Parts that the formula is composed of.
+    fn parts(&self) -> Vec<&Self> {
+        match self {
+            Self::Number(_) | Self::Scaled(_) | Self::Pi | Self::Multiplier(_) => Vec::new(),
+            Self::Name { indices, .. } => indices.iter().collect(),
+            Self::Member(one, other) | Self::Entry(one, other) | Self::Power(one, other) => vec![one, other],
+            Self::Running { from, to, .. } => vec![from, to],
+            Self::Negative(inner) | Self::Root(inner) => vec![inner],
+            Self::Sum(all) | Self::Vector(all) | Self::Call(_, all) => all.iter().collect(),
+            Self::Product(above, below) => above.iter().chain(below).collect(),
+            Self::SumOver { from, to, body, .. } => vec![from, to, body],
+            Self::Derivative { function, argument, .. } => vec![function, argument],
+            Self::Partial { function, by, arguments } => {
+                std::iter::once(&**function).chain(by).chain(arguments).collect()
+            }
+        }
+    }
+
+    pub(super) fn contains(&self, formula: &Self) -> bool {
+        self == formula || self.parts().into_iter().any(|part| part.contains(formula))
+    }
+
+    /// True if a term is a product with a sum whose terms differ in their degree in the velocities, as w (2 ẏ + w x).
+    pub(super) fn mixes_degrees(&self) -> bool {
+        match self {
+            Self::Sum(terms) => terms.iter().any(Self::mixes_degrees),
+            Self::Negative(inner) => inner.mixes_degrees(),
+            Self::Product(above, _) => above.iter().any(Self::is_mixed),
+            other => other.is_mixed(),
+        }
+    }
+
+    fn is_mixed(&self) -> bool {
+        match self {
+            Self::Power(base, _) => base.is_mixed(),
+            Self::Sum(terms) => terms.iter().any(|term| term.speeds() != terms[0].speeds()),
+            _ => false,
+        }
+    }
+
+    /// Degree of a term in the velocities that are visible in it.
+    fn speeds(&self) -> Rational {
+        match self {
+            Self::Name { dots: 1, .. } => Rational::one(),
+            Self::Negative(inner) => inner.speeds(),
+            Self::Product(above, _) => above.iter().map(Self::speeds).sum(),
+            Self::Power(base, exponent) => match **exponent {
+                Self::Number(exponent) => base.speeds() * exponent,
+                _ => Rational::zero(),
+            },
+            Self::Sum(terms) => terms.iter().map(Self::speeds).max().unwrap_or_default(),
+            Self::Call(_, arguments) => arguments.iter().map(Self::speeds).sum(),
+            _ => Rational::zero(),
+        }
+    }
+
     /// Sum of the parts, flattened into one list of terms.
     pub(super) fn sum(parts: Vec<Self>) -> Self {
         let mut terms: Vec<Self> = Vec::new();

@@ -21,7 +21,10 @@ pub(super) fn length(formula: &Formula) -> usize {
         }
         Formula::Product(above, below) => {
             let factors = above.iter().chain(below);
-            let parentheses = factors.filter(|factor| matches!(factor, Formula::Sum(_))).count();
+            let is_apart = |factor: &&Formula| {
+                matches!(factor, Formula::Sum(_) | Formula::Product(..) | Formula::Negative(_))
+            };
+            let parentheses = factors.filter(is_apart).count();
             all(above) + all(below) + parentheses + usize::from(!below.is_empty())
         }
         Formula::Power(base, exponent) => {

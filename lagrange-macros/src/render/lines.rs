@@ -28,6 +28,18 @@ impl Line {
         Self { label: None, equation, remark: Remark::default() }
     }
 
+    /// True if a side of the equation, or the remark on it, contains this formula.
+    pub(super) fn mentions(&self, formula: &Formula) -> bool {
+        let is_in_equation = match &self.equation {
+            Equation::Known(left, right) | Equation::Complementary(left, right) => {
+                left.contains(formula) || right.contains(formula)
+            }
+            Equation::Term(term) => term.contains(formula),
+            Equation::TooLong(_) => false,
+        };
+        is_in_equation || self.remark.mentions(formula)
+    }
+
     /// The equation left = right; if the right side is too long, the left side becomes a label.
     pub(super) fn known(left: Formula, right: Result<Formula, u64>) -> Self {
         match right {

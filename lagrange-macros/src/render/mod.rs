@@ -20,6 +20,7 @@ mod page;
 mod pieces;
 mod reading;
 mod remark;
+mod roots;
 mod spelling;
 mod supplied;
 #[cfg(test)]
@@ -76,7 +77,7 @@ impl Page<'_> {
         let Self { problem, derived, .. } = self;
         let term = |formula| Line::of(Equation::Term(formula));
         let section = |heading, lines| Section { heading, lines, note: None };
-        let sections = [
+        let mut sections = [
             section("Lagrangian", self.lagrangian()),
             Section {
                 note: derived.equations.integrability.integrals.and_then(kinds::note),
@@ -97,6 +98,8 @@ impl Page<'_> {
                 self.total_derivatives().into_iter().map(term).collect(),
             ),
         ];
+        let roots = self.root_lines(sections[1..].iter().flat_map(|section| &section.lines));
+        sections[0].lines.extend(roots);
         let name = self.declaration.ident.to_string();
         let [in_latex, in_mathml] =
             [Notation::LATEX, Notation::MATHML].map(|notation| notation.with(&self.arrays));

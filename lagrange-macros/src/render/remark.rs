@@ -33,6 +33,11 @@ impl Remark {
         }
     }
 
+    pub(super) fn mentions(&self, formula: &Formula) -> bool {
+        let is_in = |part: &Fragment| matches!(part, Fragment::Formula(inner) if inner.contains(formula));
+        self.0.iter().flatten().any(is_in)
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

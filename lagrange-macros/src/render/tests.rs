@@ -2,6 +2,7 @@
 
 mod everywhere;
 mod excerpts;
+mod forms;
 mod golden;
 mod golden_contacts;
 mod mathml;

@@ -16,10 +16,18 @@ use slides::Slides;
 ///
 /// Expressions are expanded and collected, and sines and cosines are combined (sin² + cos², sums of angles).
 /// Each row is divided by the common factor of its terms, and components of vector equations are combined into
-/// vectors. Definitions appear by name or written out, whichever is shorter; [`named`](Self::named) and
+/// vectors. In products, parameters stand in the order in which the Lagrangian multiplies them. Definitions appear by name or written out, whichever is shorter; [`named`](Self::named) and
 /// [`written_out`](Self::written_out) use one form throughout. A row divided by a coordinate is equivalent to
 /// the equation except where that coordinate vanishes. This form is for reading only: computations do not use
 /// it.
+///
+/// Some roots get a name, on a line of its own below the Lagrangian, unless a definition names them: distances √(x² + y²)
+/// are r, several of them r₁, r₂, … (r₁₂ between bodies with the coordinates x1 and x2), and 1/√(1 − v²/c²) is γ. If the
+/// names are taken, other letters replace them. Forces of different degrees in the velocities, such as Coriolis and
+/// centrifugal forces, stay apart. The Hamiltonian is printed in closed form if the velocities of each block of
+/// coordinates enter L by a quadratic form, by the root of one, or by one power of one; the signs of factors are those at
+/// random points, where parameters are in their [ranges](crate::language), positive by default:
+/// √(m²c⁴ + p²c²) takes m as positive.
 ///
 /// An expression longer than 250 characters is replaced by its length. Expressions of more than 100 expanded
 /// terms are printed in the form that is computed.
@@ -41,7 +49,7 @@ use slides::Slides;
 /// println!("{}", Pendulum::equations());
 ///
 /// // Single parts, each as text, LaTeX and MathML.
-/// assert_eq!(Pendulum::equations().hamiltonian().to_string(), "H = p_θ²/(2 m l²) − m l g cos θ");
+/// assert_eq!(Pendulum::equations().hamiltonian().to_string(), "H = p_θ²/(2 m l²) − m g l cos θ");
 /// let row = Pendulum::equations().motion().row("theta").expect("its equation");
 /// assert_eq!(
 ///     row.latex().to_string(),

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use indexmap::IndexSet;
 use num_traits::{One, Signed};
-use rustc_hash::{FxBuildHasher, FxHashMap};
+use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
 use super::super::formula::Formula;
 use super::polynomial::{Atom, Monomial, Polynomial};
@@ -40,6 +40,8 @@ pub(super) struct Atoms {
     sizes: Vec<u64>,
     /// Graph node of each sum.
     sources: FxHashMap<Atom, Id>,
+    /// Sums of which a definition is the root: powers of them are not multiplied out.
+    pub(super) kept: FxHashSet<Atom>,
     /// Number of products computed so far.
     #[cfg(test)]
     products: usize,
@@ -166,7 +168,7 @@ impl Atoms {
         let product = x.times(y)?;
         let is_natural = |&(atom, exponent): &(Atom, Rational)| {
             let is_sum = matches!(self.meaning(atom), Meaning::Sum(_));
-            is_sum && exponent.is_integer() && exponent.is_positive()
+            is_sum && exponent.is_integer() && exponent.is_positive() && !self.kept.contains(&atom)
         };
         let found = product.terms().find_map(|(monomial, &c)| {
             let factor = *monomial.factors().iter().find(|factor| is_natural(factor))?;
@@ -202,6 +204,48 @@ impl Atoms {
             }
         }
         Some(polynomial)
+    }
+}
+
+impl Atoms {
+    /// Multiplies powers of sums out to the lowest power where that leaves fewer terms: √X + (1 − X)/√X = 1/√X.
+    pub(super) fn combined(&mut self, polynomial: Polynomial) -> Option<Polynomial> {
+        let factors = polynomial.terms().flat_map(|(monomial, _)| monomial.factors().to_vec());
+        let sums: BTreeSet<Atom> = factors
+            .filter(|&(atom, exponent)| {
+                exponent.is_negative() && matches!(self.meaning(atom), Meaning::Sum(_))
+            })
+            .map(|(atom, _)| atom)
+            .collect();
+        let mut combined = polynomial;
+        for atom in sums {
+            if let Some(lowest) = self.at_lowest(&combined, atom).filter(|it| it.len() < combined.len()) {
+                combined = lowest;
+            }
+        }
+        Some(combined)
+    }
+
+    /// The polynomial with the sum of an atom multiplied out, but for the lowest power of it in each class of powers that
+    /// differ by integers.
+    fn at_lowest(&mut self, polynomial: &Polynomial, atom: Atom) -> Option<Polynomial> {
+        let Meaning::Sum(sum) = self.meaning(atom).clone() else { return None };
+        let exponents: BTreeSet<Rational> =
+            polynomial.terms().map(|(monomial, _)| monomial.exponent(atom)).collect();
+        let mut whole = Polynomial::default();
+        for (monomial, &c) in polynomial.terms() {
+            let own = monomial.exponent(atom);
+            let lowest = exponents.iter().find(|lowest| (own - **lowest).is_integer())?;
+            let rest = monomial.filtered(|other| other != atom).times(&Monomial::of(atom, *lowest))?;
+            let times = (own - lowest).to_integer();
+            let power = if times == 0 {
+                Polynomial::number(Rational::one())
+            } else {
+                self.natural_power(&sum, times)?
+            };
+            whole.add(&power.scaled(&rest, c)?, Rational::one())?;
+        }
+        self.merged(whole)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Converts polynomials to formulas. Common factors of several terms are taken out where that is shorter.
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use num_traits::{One, Signed};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -10,6 +10,7 @@ use super::super::derived::{function, power};
 use super::super::formula::Formula;
 use super::super::length::{READABLE, length};
 use super::super::page::Page;
+use super::super::roots::NamedRoot;
 use super::atoms::Meaning;
 use super::expand::Expansion;
 use super::polynomial::{Atom, Monomial, Polynomial, common};
@@ -25,16 +26,20 @@ pub(super) struct Collector<'a, 'p> {
     pub(super) written: RefCell<FxHashMap<Atom, Formula>>,
 }
 
-/// Product number · monomial · quotient that equals the `members`, which are terms of a sum.
-struct Group {
-    members: Vec<Monomial>,
-    number: Rational,
-    monomial: Monomial,
-    quotient: Polynomial,
+/// Product number · monomial · quotient, or number · monomial · quotient², that equals the `members`, which are terms of a
+/// sum.
+pub(super) struct Group {
+    pub(super) members: Vec<Monomial>,
+    pub(super) number: Rational,
+    pub(super) monomial: Monomial,
+    pub(super) quotient: Polynomial,
+    pub(super) is_square: bool,
+    /// A second sum that the product has as a factor, of constants.
+    pub(super) constants: Option<Polynomial>,
     /// Number of symbols that the product saves compared with the sum of the members.
-    saving: isize,
+    pub(super) saving: isize,
     /// Number of symbols of number and monomial.
-    size: isize,
+    pub(super) size: isize,
 }
 
 impl Group {
@@ -44,29 +49,61 @@ impl Group {
     }
 }
 
-/// Sort key of a term in a sum: multipliers last, plus signs before minus signs, higher degree in the velocities first.
-type TermOrder = (bool, bool, Option<Rational>, Monomial);
+/// Sort key of a term in a sum: multipliers last, plus signs before minus signs, higher degree in the velocities first
+/// (lower beside accelerations), squares before products, and in the order of the velocities.
+pub(super) type TermOrder = (bool, bool, Option<Rational>, usize, Monomial, Monomial);
 
 impl Collector<'_, '_> {
     pub(super) fn sum(&self, polynomial: &Polynomial) -> Formula {
+        in_order(self.parts(polynomial))
+    }
+
+    /// Sum in which no product contains terms of different degrees in the velocities: Coriolis and centrifugal forces
+    /// stay apart.
+    pub(super) fn sum_by_degree(&self, polynomial: &Polynomial) -> Formula {
+        let mut degrees: BTreeMap<Option<Rational>, Polynomial> = BTreeMap::new();
+        for (monomial, &c) in polynomial.terms() {
+            let part = degrees.entry(self.degree(monomial, is_velocity)).or_default();
+            let added = part.push(monomial.clone(), c);
+            debug_assert!(added.is_some(), "each monomial occurs once");
+        }
+        in_order(degrees.values().flat_map(|part| self.parts(part)).collect())
+    }
+
+    /// Terms of a sum, some of them products of several terms, with their places.
+    fn parts(&self, polynomial: &Polynomial) -> Vec<(TermOrder, Formula)> {
         let mut parts: Vec<(TermOrder, Formula)> = Vec::new();
         let mut rest = polynomial.clone();
         while let Some(group) = self.group(&rest) {
             group.members.iter().for_each(|member| rest.remove(member));
-            let place = self.place(&group.members[0], group.number);
-            parts.push((place, self.product(group.number, &group.monomial, Some(&group.quotient))));
+            let places = group.members.iter().map(|member| self.place(member, group.number));
+            parts.extend(places.min().map(|place| (place, self.grouped(&group))));
         }
         let terms =
-            rest.terms().map(|(monomial, &c)| (self.place(monomial, c), self.product(c, monomial, None)));
+            rest.terms().map(|(monomial, &c)| (self.place(monomial, c), self.product(c, monomial, &[])));
         parts.extend(terms);
-        parts.sort_by(|(one, _), (two, _)| one.cmp(two));
-        Formula::sum(parts.into_iter().map(|(_, part)| part).collect())
+        parts
     }
 
-    fn place(&self, monomial: &Monomial, number: Rational) -> TermOrder {
-        let speed = self.degree(monomial, is_velocity).map(|degree| -degree);
+    pub(super) fn grouped(&self, group: &Group) -> Formula {
+        let Group { number, monomial, quotient, is_square, constants, .. } = group;
+        let constants = constants.iter().map(|sum| (sum, false));
+        let sums: Vec<(&Polynomial, bool)> = constants.chain([(quotient, *is_square)]).collect();
+        self.product(*number, monomial, &sums)
+    }
+
+    pub(super) fn term_length(&self, number: Rational, monomial: &Monomial) -> isize {
+        length(&self.product(number, monomial, &[])) as isize
+    }
+
+    pub(super) fn place(&self, monomial: &Monomial, number: Rational) -> TermOrder {
+        let is_inertia = monomial.factors().iter().any(|(atom, _)| self.acceleration(*atom).is_some());
+        let speed =
+            self.degree(monomial, is_velocity).map(|degree| if is_inertia { degree } else { -degree });
+        let velocities = monomial.filtered(|atom| self.variable(atom).is_some_and(is_velocity));
+        let count = velocities.factors().len();
         let has_multiplier = monomial.factors().iter().any(|(atom, _)| self.is_multiplier(*atom));
-        (has_multiplier, number.is_negative() && !has_multiplier, speed, monomial.clone())
+        (has_multiplier, number.is_negative() && !has_multiplier, speed, count, velocities, monomial.clone())
     }
 
     /// Variable of an atom, or all variables in a product of vectors.
@@ -87,10 +124,10 @@ impl Collector<'_, '_> {
     }
 
     pub(super) fn acceleration(&self, atom: Atom) -> Option<usize> {
-        match self.variable(atom) {
-            Some(Variable::Acceleration(i)) => Some(i),
+        self.variables(atom).iter().find_map(|variable| match variable {
+            Variable::Acceleration(i) => Some(*i),
             _ => None,
-        }
+        })
     }
 
     pub(super) fn velocity(&self, atom: Atom) -> Option<usize> {
@@ -143,7 +180,9 @@ impl Collector<'_, '_> {
             monomials.iter().copied().filter(|monomial| monomial.shared(shared) == *shared).collect()
         });
         let groups = with_equal.chain(with_shared).filter_map(|members| self.candidate(polynomial, members));
-        groups.reduce(|best, next| if next.worth() > best.worth() { next } else { best })
+        groups
+            .chain(self.squares(polynomial))
+            .reduce(|best, next| if next.worth() > best.worth() { next } else { best })
     }
 
     /// Factors the sum of these terms of a polynomial into one product. `None` if that saves too few symbols.
@@ -155,14 +194,90 @@ impl Collector<'_, '_> {
             members.iter().filter_map(|&m| Some((m.clone(), polynomial.coefficient(m)?))).collect();
         let (number, monomial) = chosen.content();
         let is_negative = chosen.terms().all(|(_, c)| c.is_negative());
-        let number = if is_negative { -number } else { number };
         let quotient = chosen.scaled(&monomial.power(-Rational::one())?, number.recip())?;
+        let is_turned = is_negative || self.is_turned(&quotient);
+        let (number, quotient) = if is_turned { (-number, quotient.negated()) } else { (number, quotient) };
+        if self.are_unlike(&monomial, &quotient) {
+            return None;
+        }
         let (monomial, quotient) = self.over_common(monomial, quotient)?;
         let size = self.size(&monomial) + isize::from(!number.abs().is_one());
         let (parentheses, least) = self.parentheses(&monomial, &quotient);
         let saving = (members.len() as isize - 1) * size - parentheses;
         let members = members.into_iter().cloned().collect();
-        (saving >= least).then_some(Group { members, number, monomial, quotient, saving, size })
+        let is_square = false;
+        let mut group =
+            Group { members, number, monomial, quotient, is_square, constants: None, saving, size };
+        self.factor(&mut group);
+        (group.saving >= least).then_some(group)
+    }
+
+    /// Splits a sum of constants off the quotient of a group, as in (1 − μ) (x + μ).
+    fn factor(&self, group: &mut Group) {
+        let Some(constants) = self.constant_factor(&group.quotient) else { return };
+        let Some(quotient) = group.quotient.divided(&constants).filter(|quotient| quotient.len() > 1) else {
+            return;
+        };
+        let flat = |sum: &Polynomial| {
+            let terms = sum.terms().map(|(monomial, &c)| self.term_length(c.abs(), monomial) + 1);
+            terms.sum::<isize>()
+        };
+        let [before, first, second] = [&group.quotient, &constants, &quotient].map(flat);
+        if before > first + second + 1 {
+            let is_turned = quotient.terms().all(|(_, c)| c.is_negative()) || self.is_turned(&quotient);
+            let quotient = if is_turned { quotient.negated() } else { quotient };
+            group.number = if is_turned { -group.number } else { group.number };
+            group.saving += before - first - second - 1;
+            (group.constants, group.quotient) = (Some(constants), quotient);
+        }
+    }
+
+    /// The shortest sum of constants that one moving factor is multiplied by, with a positive first term.
+    fn constant_factor(&self, sum: &Polynomial) -> Option<Polynomial> {
+        let mut parts: BTreeMap<Monomial, Polynomial> = BTreeMap::new();
+        for (monomial, &c) in sum.terms() {
+            let moving = self.moving(monomial);
+            parts.entry(moving.clone()).or_default().push(monomial.over(&moving)?, c)?;
+        }
+        let shortest =
+            parts.into_values().min_by_key(Polynomial::len).filter(|shortest| shortest.len() > 1)?;
+        let (number, monomial) = shortest.content();
+        let number = if shortest.terms().next()?.1.is_negative() { -number } else { number };
+        shortest.scaled(&monomial.power(-Rational::one())?, number.recip())
+    }
+
+    /// True for a sum of constants of different degrees that a coordinate is multiplied by, such as the one of a spring and
+    /// the one of a centrifugal force, (m ω² − k) x. Numbers have any degree.
+    fn are_unlike(&self, monomial: &Monomial, quotient: &Polynomial) -> bool {
+        let is_moving = |atom: Atom| {
+            self.variables(atom).iter().any(|&variable| {
+                is_velocity(variable)
+                    || matches!(variable, Variable::Acceleration(_) | Variable::Multiplier(_))
+            })
+        };
+        if !self.are_constant(quotient) || monomial.factors().iter().any(|&(atom, _)| is_moving(atom)) {
+            return false;
+        }
+        let degree = |monomial: &Monomial| {
+            monomial.factors().iter().try_fold(Rational::default(), |sum, &(_, e)| symbolic::plus(sum, e))
+        };
+        let degrees: BTreeSet<Option<Rational>> =
+            quotient.terms().map(|(monomial, _)| degree(monomial)).collect();
+        degrees.len() > 1 && quotient.terms().all(|(monomial, _)| !monomial.is_one())
+    }
+
+    /// True for l − x: a coordinate with a minus sign, and constants beside it.
+    pub(super) fn is_turned(&self, quotient: &Polynomial) -> bool {
+        let is_coordinate = |monomial: &Monomial| match monomial.factors() {
+            [(atom, exponent)] => {
+                exponent.is_one() && matches!(self.variable(*atom), Some(Variable::Coordinate(_)))
+            }
+            _ => false,
+        };
+        let (coordinates, others): (Vec<_>, Vec<_>) =
+            quotient.terms().partition(|(monomial, _)| is_coordinate(monomial));
+        let are_constant = others.iter().all(|(monomial, _)| self.moving(monomial).is_one());
+        matches!(coordinates[..], [(_, c)] if c.is_negative()) && are_constant && !others.is_empty()
     }
 
     /// Combines constants over a common denominator: (a m + b)/m for a + b/m.
@@ -195,9 +310,10 @@ impl Collector<'_, '_> {
             _ if monomial.is_one() => (2, 1),
             (true, _) => (1, 0),
             _ if quotient.len() == 2 && quotient.terms().any(has_fraction) => (5, 0),
-            (_, true) if self.are_differences(quotient) => (1, 0),
+            (_, true) if self.are_differences(quotient) || self.is_elongation(quotient) => (1, 0),
             (_, true) if self.are_alike(quotient) => (2, 0),
             (_, true) => (4, 1),
+            (_, false) if quotient.len() == 2 && self.are_differences(quotient) => (1, 0),
             (_, false) if self.is_of_coordinates(quotient) => (2, 1),
             (_, false) => (2, 3),
         }
@@ -217,6 +333,18 @@ impl Collector<'_, '_> {
         quotient.terms().all(|(monomial, _)| monomial.factors().iter().all(|&(atom, _)| is_it(atom)))
     }
 
+    /// Returns whether the polynomial is x − l, with a coordinate and a constant.
+    fn is_elongation(&self, quotient: &Polynomial) -> bool {
+        let is_name = |(monomial, c): (&Monomial, &Rational)| {
+            c.abs().is_one() && matches!(monomial.factors(), [(_, exponent)] if exponent.is_one())
+        };
+        let moving = quotient.terms().filter(|(monomial, _)| !self.moving(monomial).is_one()).count();
+        quotient.len() == 2
+            && quotient.terms().all(is_name)
+            && moving == 1
+            && self.is_of_coordinates(quotient)
+    }
+
     /// Returns whether all terms are products of coordinates of one degree with coefficients ±1, such as x₁ − x₂.
     fn are_differences(&self, quotient: &Polynomial) -> bool {
         let is_coordinate = |variable| matches!(variable, Variable::Coordinate(_));
@@ -230,7 +358,7 @@ impl Collector<'_, '_> {
     }
 
     /// Degree of a monomial in the variables that `counts` selects; `None` if the exponents overflow.
-    fn degree(&self, monomial: &Monomial, counts: impl Fn(Variable) -> bool) -> Option<Rational> {
+    pub(super) fn degree(&self, monomial: &Monomial, counts: impl Fn(Variable) -> bool) -> Option<Rational> {
         let count = |atom| self.variables(atom).iter().filter(|variable| counts(**variable)).count();
         monomial.factors().iter().try_fold(Rational::default(), |degree, &(atom, exponent)| {
             symbolic::plus(degree, symbolic::times(exponent, Rational::from_integer(count(atom) as i128))?)
@@ -238,17 +366,16 @@ impl Collector<'_, '_> {
     }
 
     fn size(&self, monomial: &Monomial) -> isize {
-        let sizes =
-            monomial.factors().iter().map(|&(atom, exponent)| length(&self.power(atom, exponent.abs())));
+        let sizes = monomial.factors().iter().map(|&(atom, exponent)| length(&self.power(atom, exponent).0));
         sizes.sum::<usize>() as isize
     }
 
-    /// Product number · monomial · quotient.
+    /// Product number · monomial · sums, each of which may be squared.
     pub(super) fn product(
         &self,
         number: Rational,
         monomial: &Monomial,
-        quotient: Option<&Polynomial>,
+        sums: &[(&Polynomial, bool)],
     ) -> Formula {
         let mut factors: Vec<_> = monomial.factors().to_vec();
         let tens = factors.iter().position(|&(atom, exponent)| self.is_ten(atom) && exponent.is_integer());
@@ -257,15 +384,20 @@ impl Collector<'_, '_> {
         factors.sort_by_key(|&(atom, _)| self.reading_order(atom));
         let (mut above, mut below, mut place) = (Vec::new(), Vec::new(), 0);
         for (atom, exponent) in factors {
-            let power = self.power(atom, exponent.abs());
-            let before = if exponent.is_negative() { &mut below } else { &mut above };
-            before.push(power);
+            let (power, is_below) = self.power(atom, exponent);
+            if is_below {
+                below.push(power)
+            } else {
+                above.push(power)
+            }
             // The quotient goes before velocities, accelerations and functions.
             place = if self.reading_order(atom) < (MOVING, 0) { above.len() } else { place };
         }
-        if let Some(quotient) = quotient {
-            let place = if self.are_constant(quotient) { 0 } else { place };
-            above.insert(place, self.sum(quotient));
+        for &(sum, is_square) in sums {
+            let at = if self.are_constant(sum) { 0 } else { place };
+            let exponent = Rational::from_integer(if is_square { 2 } else { 1 });
+            above.insert(at, power(self.sum(sum), exponent));
+            place += 1;
         }
         Formula::product(number, above, below)
     }
@@ -295,10 +427,22 @@ impl Collector<'_, '_> {
         }
     }
 
+    /// Power of an atom, without the sign of its exponent, and whether it is a divisor. A power of a named root is written
+    /// by the name.
+    fn power(&self, atom: Atom, exponent: Rational) -> (Formula, bool) {
+        let root = self.expansion.roots.get(&atom).map(|&place| &self.page.roots[place]);
+        match (root, symbolic::times(exponent, Rational::from_integer(2))) {
+            (Some(NamedRoot { name, is_below, .. }), Some(twice)) => {
+                (power(name.clone(), twice.abs()), twice.is_negative() != *is_below)
+            }
+            _ => (self.unnamed(atom, exponent.abs()), exponent.is_negative()),
+        }
+    }
+
     /// Power of an atom with a positive exponent. A half-integer power of a sum of squares becomes a power of a norm,
     /// as in
     /// |r|³.
-    fn power(&self, atom: Atom, exponent: Rational) -> Formula {
+    pub(super) fn unnamed(&self, atom: Atom, exponent: Rational) -> Formula {
         if let Meaning::Sum(sum) = self.expansion.atoms.meaning(atom)
             && let Some(norm) = self.squared_norm(sum)
             && let Some(exponent) = symbolic::times(exponent, Rational::from_integer(2))
@@ -333,6 +477,8 @@ impl Collector<'_, '_> {
             Meaning::Vector(written, _) => written.clone(),
             Meaning::Sum(terms) => {
                 let collected = self.sum(terms);
+                let dotted = self.dotted_sum(terms).filter(|dotted| length(dotted) <= length(&collected));
+                let collected = dotted.unwrap_or(collected);
                 // Squares of differences are shorter as written.
                 let source = self.expansion.atoms.source(atom).filter(|&id| self.keeps_names_of(id));
                 let source = source.map(|id| page.derived(id));
@@ -357,7 +503,12 @@ impl Collector<'_, '_> {
     }
 }
 
-fn is_velocity(variable: Variable) -> bool {
+fn in_order(mut parts: Vec<(TermOrder, Formula)>) -> Formula {
+    parts.sort_by(|(one, _), (two, _)| one.cmp(two));
+    Formula::sum(parts.into_iter().map(|(_, part)| part).collect())
+}
+
+pub(super) fn is_velocity(variable: Variable) -> bool {
     matches!(variable, Variable::Velocity(_) | Variable::Momentum(_))
 }
 

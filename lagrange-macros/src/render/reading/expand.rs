@@ -5,8 +5,9 @@ use std::cell::RefCell;
 use num_traits::One;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::super::roots::NamedRoot;
 use super::atoms::{Atoms, Meaning};
-use super::polynomial::Polynomial;
+use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::mechanics::Derived;
 use crate::resolve::Problem;
 use crate::symbolic::{External, Graph, Id, Node, Rational};
@@ -21,6 +22,8 @@ pub(super) struct Expansion<'a> {
     /// Definitions that keep their names.
     pub(super) names: FxHashSet<Id>,
     pub(super) atoms: Atoms,
+    /// Sums whose square roots have names, with the place of the name in the list of the page.
+    pub(super) roots: FxHashMap<Atom, usize>,
     /// Entries of the mass matrix: unnamed definitions whose sines and cosines are merged by trigonometric identities.
     entries: FxHashSet<Id>,
     done: FxHashMap<Id, Option<Polynomial>>,
@@ -31,7 +34,8 @@ impl<'a> Expansion<'a> {
     pub(super) fn new(graph: &'a Graph, problem: &Problem, derived: &Derived, names: FxHashSet<Id>) -> Self {
         let entries = derived.hamilton.iter().flat_map(|hamilton| &hamilton.entries).copied().collect();
         let (atoms, done) = (Atoms::default(), FxHashMap::default());
-        let mut expansion = Self { graph, names, atoms, entries, done, work: WORK };
+        let roots = FxHashMap::default();
+        let mut expansion = Self { graph, names, atoms, roots, entries, done, work: WORK };
         // Registration order decides the sign taken out of a sum: φ₁ − φ₂ instead of φ₂ − φ₁.
         let n = problem.coordinates.len();
         let parameters = problem.parameters.by_field().into_iter().map(Variable::Parameter);
@@ -40,6 +44,30 @@ impl<'a> Expansion<'a> {
             expansion.atoms.atom(Meaning::Variable(variable));
         }
         expansion
+    }
+
+    /// Names the roots of all sums but those of definitions that are written out.
+    fn name(&mut self, roots: &[NamedRoot]) {
+        for (place, root) in roots.iter().enumerate() {
+            let is_kept = root.definition.is_none_or(|definition| self.names.contains(&definition));
+            let Some(atom) = is_kept.then(|| self.under_root(root.base)).flatten() else { continue };
+            self.roots.entry(atom).or_insert(place);
+            if let Some(definition) = root.definition {
+                self.atoms.kept.insert(atom);
+                let exponent = Rational::new_raw(if root.is_below { -1 } else { 1 }, 2);
+                let root = Polynomial::term(Monomial::of(atom, exponent), Rational::one());
+                self.done.insert(definition, Some(root));
+            }
+        }
+    }
+
+    /// Atom of a sum under a square root, if nothing is taken out of the root.
+    fn under_root(&mut self, base: Id) -> Option<Atom> {
+        let polynomial = self.of(base)?;
+        let root = self.atoms.power(&polynomial, Rational::new_raw(1, 2), base)?;
+        let (monomial, number) = root.single()?;
+        let [(atom, _)] = monomial.factors()[..] else { return None };
+        (number.is_one() && matches!(self.atoms.meaning(atom), Meaning::Sum(_))).then_some(atom)
     }
 
     /// Polynomial of a node; `None` if it takes too many terms.
@@ -126,11 +154,10 @@ impl<'a> Expansion<'a> {
 pub(crate) struct Reading<'a>(pub(super) RefCell<Expansion<'a>>);
 
 /// Readings with all definitions by name, with only constant ones by name, and with none, without repetitions.
-pub(crate) fn readings<'a>(
-    graph: &'a Graph,
-    problem: &Problem,
-    derived: &Derived,
+pub(in crate::render) fn readings<'a>(
+    (graph, problem, derived): (&'a Graph, &Problem, &Derived),
     constants: &FxHashSet<Id>,
+    roots: &[NamedRoot],
     names: Names,
 ) -> Vec<Reading<'a>> {
     let all: FxHashSet<Id> = problem.names.keys().copied().collect();
@@ -141,9 +168,12 @@ pub(crate) fn readings<'a>(
         Names::WrittenOut => vec![none],
     };
     kept.dedup();
-    kept.into_iter()
-        .map(|kept| Reading(RefCell::new(Expansion::new(graph, problem, derived, kept))))
-        .collect()
+    let reading = |kept| {
+        let mut expansion = Expansion::new(graph, problem, derived, kept);
+        expansion.name(roots);
+        Reading(RefCell::new(expansion))
+    };
+    kept.into_iter().map(reading).collect()
 }
 
 /// Form in which definitions appear: by name or written out.

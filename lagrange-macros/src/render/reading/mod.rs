@@ -12,6 +12,7 @@ mod dots;
 mod expand;
 mod polynomial;
 mod row;
+mod squares;
 mod vectors;
 
 use std::cell::RefCell;
@@ -23,6 +24,7 @@ use super::formula::Formula;
 use super::length::{READABLE, length};
 use super::lines::Equation;
 use super::page::Page;
+use super::roots::NamedRoot;
 use crate::symbolic::{Id, Rational};
 use collect::Collector;
 pub(super) use expand::{Names, Reading, constants, readings};
@@ -45,7 +47,11 @@ impl Page<'_> {
         let computed = self.computed([&[inertia], forces]);
         let size = |[left, right]: &[Formula; 2]| length(left) + length(right);
         let read = self.readings.iter().filter_map(sides).filter(|sides| size(sides) <= READABLE as usize);
-        self.chosen(read, computed, size, false).into()
+        let read: Vec<[Formula; 2]> = read.collect();
+        let is_apart = |[_, right]: &[Formula; 2]| !right.mixes_degrees();
+        let computed =
+            computed.and_then(|sides| if read.is_empty() || is_apart(&sides) { Ok(sides) } else { Err(0) });
+        self.chosen(read.into_iter(), computed, size, false).into()
     }
 
     /// Chooses the shortest reading, or the computed form if that is shorter. With `is_first`, the computed form also
@@ -121,7 +127,8 @@ impl Page<'_> {
     fn read(&self, id: Id) -> impl Iterator<Item = Formula> {
         let formulas = move |reading: &Reading| {
             let all = self.polynomial(reading, &[(id, 1)], &[])?;
-            let terms = self.collected(reading, |collector| collector.dotted_terms(&all));
+            let terms =
+                self.collected(reading, |collector| Some(collector.squared(collector.dotted_terms(&all)?)));
             let dotted = terms.and_then(|terms| Self::assembled(reading, terms));
             let sum = |all: Polynomial| self.collected(reading, |collector| Some(collector.sum(&all)));
             Some([Some(all), dotted].into_iter().flatten().filter_map(sum).collect::<Vec<_>>())
@@ -142,6 +149,22 @@ impl Page<'_> {
         self.chosen(read, computed, length, true)
     }
 
+    /// Formula of a named root, √X or 1/√X.
+    pub(super) fn root(&self, root: &NamedRoot) -> Option<Formula> {
+        let place = self.roots.iter().position(|known| known.name == root.name)?;
+        let written = |reading: &Reading| {
+            let atom =
+                reading.0.borrow().roots.iter().find(|(_, known)| **known == place).map(|(&atom, _)| atom)?;
+            self.collected(reading, |collector| Some(collector.unnamed(atom, Rational::new_raw(1, 2))))
+        };
+        let written = shortest(self.readings.iter().filter_map(written), length)?;
+        Some(if root.is_below {
+            Formula::product(Rational::one().into(), Vec::new(), vec![written])
+        } else {
+            written
+        })
+    }
+
     fn polynomial(
         &self,
         Reading(expansion): &Reading,
@@ -158,7 +181,8 @@ impl Page<'_> {
             return None;
         }
         let merged = expansion.atoms.merged(sum)?;
-        let read = expansion.atoms.cancelled(merged)?;
+        let cancelled = expansion.atoms.cancelled(merged)?;
+        let read = expansion.atoms.combined(cancelled)?;
         (expansion.atoms.size(&read) <= SIZE).then_some(read)
     }
 

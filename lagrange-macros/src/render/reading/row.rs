@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use num_traits::{One, Signed};
 
 use super::super::formula::Formula;
-use super::collect::{Collector, shared};
+use super::super::length::length;
+use super::collect::{Collector, is_velocity, shared};
 use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::symbolic::Rational;
 use crate::variables::Variable;
@@ -23,7 +24,11 @@ impl Collector<'_, '_> {
             let (side, c) = if self.is_inertia(monomial) { (&mut left, c) } else { (&mut right, -c) };
             side.push(monomial.clone(), c)?;
         }
-        Some([self.collected(&left, Self::acceleration)?, self.sum(&right)])
+        let [by_acceleration, grouped] = [self.collected(&left, Self::acceleration)?, self.sum(&left)];
+        // Velocities beside accelerations, as of a relativistic particle, are read in products: ẋ (ẋ ẍ + ẏ ÿ).
+        let has_velocity = left.terms().any(|(monomial, _)| self.moved(monomial, Self::velocity).is_some());
+        let is_shorter = has_velocity && length(&grouped) < length(&by_acceleration);
+        Some([if is_shorter { grouped } else { by_acceleration }, self.sum_by_degree(&right)])
     }
 
     fn is_inertia(&self, monomial: &Monomial) -> bool {
@@ -63,7 +68,8 @@ impl Collector<'_, '_> {
         let number = if is_negative { -number } else { number };
         let quotient = coefficient.scaled(&monomial.power(-Rational::one())?, number.recip())?;
         let monomial = monomial.times(&Monomial::of(atom, Rational::one()))?;
-        Some(self.product(number, &monomial, Some(&quotient).filter(|quotient| quotient.len() > 1)))
+        let sums = [(&quotient, false)];
+        Some(self.product(number, &monomial, if quotient.len() > 1 { &sums } else { &[] }))
     }
 
     /// Coefficient of each variable of this kind that occurs, in the order of the variables.
@@ -81,7 +87,10 @@ impl Collector<'_, '_> {
                 None => coefficients.push((atom, Polynomial::term(factors, c))),
             }
         }
-        coefficients.sort_by_key(|(atom, _)| variables(self, *atom));
+        let degree = |polynomial: &Polynomial| {
+            polynomial.terms().map(|(monomial, _)| self.degree(monomial, is_velocity)).max()
+        };
+        coefficients.sort_by_cached_key(|(atom, coefficient)| (variables(self, *atom), degree(coefficient)));
         Some(coefficients)
     }
 

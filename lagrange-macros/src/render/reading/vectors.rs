@@ -107,11 +107,15 @@ impl Collector<'_, '_> {
         (expected.collect::<BTreeMap<_, _>>() == products).then_some(norm)
     }
 
-    /// Returns whether a vector of coordinates, velocities or momenta is known to have `n` components.
+    /// Returns whether a vector is known to have `n` components.
     pub(super) fn has_length(&self, vector: &Vector, n: usize) -> bool {
-        match vector.of {
-            Some(Variable::Coordinate(i) | Variable::Velocity(i) | Variable::Momentum(i)) => {
+        match (vector.of, &vector.written) {
+            (Some(Variable::Coordinate(i) | Variable::Velocity(i) | Variable::Momentum(i)), _) => {
                 self.length_from(i) == n
+            }
+            (None, Formula::Call(name, _)) => {
+                let functions = &self.page.problem.functions;
+                functions.iter().any(|function| function.name == *name && function.outputs == n)
             }
             _ => false,
         }
@@ -184,12 +188,13 @@ fn in_vectors(
     rows: &[BTreeMap<Components, Rational>],
     known: &[Vector],
 ) -> Option<Vec<(Rational, Vec<Meaning>)>> {
-    // Accelerations must stand alone on the left side, outside of products of vectors.
-    let is_accelerated = vectors.iter().any(|&i| matches!(known[i].of, Some(Variable::Acceleration(_))));
-    (vectors.len() == 1 || !is_accelerated).then_some(())?;
     let whole = |i: usize| Meaning::Vector(known[i].written.clone(), known[i].of.into_iter().collect());
+    // A product is counted among the accelerations, but not among the velocities, that it contains.
+    let accelerations = vectors.iter().filter_map(|&i| known[i].of);
+    let accelerations =
+        accelerations.filter(|of| matches!(of, Variable::Acceleration(_))).collect::<Vec<_>>();
     let call = |name: &str, i: Formula, j: Formula| {
-        Meaning::Vector(Formula::Call(name.to_owned(), vec![i, j]), Vec::new())
+        Meaning::Vector(Formula::Call(name.to_owned(), vec![i, j]), accelerations.clone())
     };
     let name = |i: usize| known[i].written.clone();
     let at = |row: usize, components: &[(usize, usize)]| {

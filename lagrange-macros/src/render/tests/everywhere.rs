@@ -12,6 +12,7 @@ use crate::mechanics::Derived;
 use crate::render::arrays::Arrays;
 use crate::render::formula::Formula;
 use crate::render::notation::Notation;
+use crate::render::roots::named_roots;
 use crate::resolve::{self, Supplied};
 use crate::symbolic::{Approximate, External, Function, Id, Sample, apply, superposition};
 use crate::variables::Variable;
@@ -122,7 +123,22 @@ impl<'a> State<'a> {
             put(Formula::labelled(name, 0), sample.values(graph, &[id])[0].value);
         }
         vectors.append(&mut names);
-        Self { system, names: vectors, draw }
+        let mut state = Self { system, names: vectors, draw };
+        state.read_roots();
+        state
+    }
+
+    /// Reads the values of named roots from the lines that state them.
+    fn read_roots(&mut self) {
+        let System { graph, problem, .. } = self.system.system;
+        let lines = self.system.lines("Lagrangian\n");
+        for root in named_roots(graph, problem).iter().filter(|root| root.definition.is_none()) {
+            let name = self.system.written(&root.name);
+            let text = lines.iter().find_map(|line| line.strip_prefix(&format!("{name} = ")));
+            if let Some(value) = text.map(|text| self.read(text)) {
+                assert!(self.names.insert(name, value).is_none(), "{} stands for two", self.system.text);
+            }
+        }
     }
 
     fn read(&self, text: &str) -> Value {
@@ -396,7 +412,7 @@ fn check_line(system: &Page, line: &str, computed: impl Fn(&mut Sample) -> Value
 }
 
 /// Checks all pages about a system.
-fn check(system: &System) {
+pub(super) fn check(system: &System) {
     for [text, _, html] in &system.forms {
         let read = mathml::read(text, html);
         for (text, written) in [(text.clone(), systems::in_unicode as _), (read, mathml::written as _)] {

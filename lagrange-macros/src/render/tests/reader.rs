@@ -85,6 +85,17 @@ fn dot(x: &Value, y: &Value) -> Value {
     vec![x.iter().zip(y).map(|(x, y)| x * y).sum()]
 }
 
+/// Power of a number, or the square of a vector.
+fn raised(base: &Value, exponent: f64) -> Value {
+    match base[..] {
+        [number] => vec![number.powf(exponent)],
+        _ => {
+            assert!(exponent == 2.0, "a vector to the power {exponent}");
+            dot(base, base)
+        }
+    }
+}
+
 fn cross(x: &Value, y: &Value) -> Value {
     let ([a, b, c], [d, e, f]) = (&x[..], &y[..]) else { panic!("a cross product of other lengths") };
     vec![b * f - c * e, c * d - a * f, a * e - b * d]
@@ -180,11 +191,8 @@ impl Reader<'_> {
     fn power(&mut self) -> Value {
         let base = self.atom();
         let value = match self.superscript() {
-            Some(exponent) => vec![number(base).powf(exponent)],
-            None if self.take("^") => {
-                let exponent = number(self.atom());
-                vec![number(base).powf(exponent)]
-            }
+            Some(exponent) => raised(&base, exponent),
+            None if self.take("^") => raised(&base, number(self.atom())),
             None => base,
         };
         assert!(!matches!(self.peek(), Some('^')), "a tower without parentheses");

@@ -1,0 +1,333 @@
+//! Printed equations have the forms that textbooks choose: closed Hamiltonians, names for roots, squares, separate forces.
+//!
+//! Each system is also read back at random states: `everywhere` finds the systems in this file.
+
+use super::everywhere::check;
+use super::systems::System;
+
+/// Systems, and lines that their pages have.
+#[rustfmt::skip]
+const ENTRIES: &[(&str, &[&str])] = &[
+    (
+        "#[coordinates(x)]
+         #[lagrangian(-m*c^2*sqrt(1 - x_dot^2/c^2) - k*x^2/2)]
+         struct RelativisticOscillator { m: f64, c: f64, k: f64 }",
+        &[
+            "γ = 1/√(1 − ẋ²/c²)",
+            "p_x = m γ ẋ",
+            "m γ³ ẍ = −k x",
+            "E = ½ k x² + m c² γ",
+            "H = ½ k x² + √(c² p_x² + m² c⁴)",
+        ],
+    ),
+    (
+        "#[coordinates(x, y, z)] #[function(U(x, y, z) = potential)]
+         #[lagrangian(-m*c^2*sqrt(1 - (x_dot^2 + y_dot^2 + z_dot^2)/c^2) - U(x, y, z))]
+         struct Relativistic3 { m: f64, c: f64, potential: P }",
+        &[
+            "p_z = m γ ż",
+            "E = m c² γ + U(x, y, z)",
+            "m γ ẍ + m γ³ (ẋ ẍ + ẏ ÿ + ż z̈) ẋ/c² = −∂U/∂x",
+        ],
+    ),
+    (
+        "#[coordinates(r: [3])] #[function(A(r): [3] = potential)] #[function(phi(r) = scalar)]
+         #[lagrangian(-m*c^2*sqrt(1 - dot(r_dot, r_dot)/c^2) + e*dot(r_dot, A(r)) - e*phi(r))]
+         struct ChargeRelativistic { m: f64, c: f64, e: f64, potential: P, scalar: Q }",
+        &[
+            "γ = 1/√(1 − (ṙ·ṙ)/c²)",
+            "p_r = m γ ṙ + e A(r)",
+            "H = e φ(r) + √(m² c⁴ + c² (p_r − e A(r))²)",
+            "ṙ = c² (p_r − e A(r))/√(m² c⁴ + c² (p_r − e A(r))²)",
+        ],
+    ),
+    (
+        "#[coordinates(x, y, z)]
+         #[lagrangian(-m*c^2*sqrt(1 - (x_dot^2 + y_dot^2 + z_dot^2)/c^2) + e*B/2*(x*y_dot - y*x_dot) + e*E*z)]
+         struct ChargeInFields { m: f64, c: f64, e: f64, B: f64, E: f64 }",
+        &[
+            "H = √(c² ((p_x + ½ e B y)² + (p_y − ½ e B x)² + p_z²) + m² c⁴) − e E z",
+        ],
+    ),
+    (
+        "#[coordinates(r: [3])] #[function(A(r): [3] = potential)] #[function(phi(r) = scalar)]
+         #[lagrangian(m/2*dot(r_dot, r_dot) + e*dot(r_dot, A(r)) - e*phi(r))]
+         struct Charge { m: f64, e: f64, potential: P, scalar: Q }",
+        &[
+            "H = (p_r − e A(r))²/(2 m) + e φ(r)",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian(m/2*(x_dot^2 + y_dot^2) + e*B/2*(x*y_dot - y*x_dot))]
+         struct Landau { m: f64, e: f64, B: f64 }",
+        &[
+            "H = (p_x + ½ e B y)²/(2 m) + (p_y − ½ e B x)²/(2 m)",
+        ],
+    ),
+    (
+        "#[coordinates(x)]
+         #[lagrangian(a*abs(x_dot)^n/n - k*x^2/2)]
+         struct PowerN { a: f64, n: f64, k: f64 }",
+        &[
+            "H = ½ k x² + (n − 1) a (|p_x|/a)^(n/(n − 1))/n",
+            "ẋ = (|p_x|/a)^(1/(n − 1)) p_x/|p_x|",
+        ],
+    ),
+    (
+        "#[coordinates(x)]
+         #[lagrangian(a*x_dot^4/4 - k*x^2/2)]
+         struct Quartic { a: f64, k: f64 }",
+        &[
+            "H = ½ k x² + ¾ a (|p_x|/a)^(4/3)",
+        ],
+    ),
+    (
+        "#[coordinates(r: [3])]
+         #[lagrangian(a*norm(r_dot)^3/3 + k/norm(r))]
+         struct Cubic3 { a: f64, k: f64 }",
+        &[
+            "H = ⅔ a (|p_r|/a)^(3/2) − k/|r|",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian(m/2*(x_dot^2 + y_dot^2) + k/sqrt(x^2 + y^2))]
+         struct Kepler { m: f64, k: f64 }",
+        &[
+            "r = √(x² + y²)",
+            "m ẍ = −k x/r³",
+            "H = (p_x² + p_y²)/(2 m) − k/r",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian((x_dot^2 + y_dot^2)/2 + x*y_dot - y*x_dot + (x^2 + y^2)/2 + (1 - mu)/sqrt((x + mu)^2 + y^2) + mu/sqrt((x - 1 + mu)^2 + y^2))]
+         struct Restricted { mu: f64 }",
+        &[
+            "r₁ = √((x + μ)² + y²)",
+            "r₂ = √((x + μ − 1)² + y²)",
+            "ẍ = 2 ẏ + x − (1 − μ) (x + μ)/r₁³ − μ (x + μ − 1)/r₂³",
+        ],
+    ),
+    (
+        "#[coordinates(x, y, z)] #[define(r1 = sqrt((x + mu)^2 + y^2 + z^2))] #[define(r2 = sqrt((x - 1 + mu)^2 + y^2 + z^2))]
+         #[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 + x*y_dot - y*x_dot + (x^2 + y^2)/2 + (1 - mu)/r1 + mu/r2)]
+         struct RestrictedNamed { mu: f64 }",
+        &[
+            "z̈ = (μ − 1) z/r₁³ − μ z/r₂³",
+        ],
+    ),
+    (
+        "#[coordinates(a: [3], b: [3], c: [3])]
+         #[lagrangian(ma/2*dot(a_dot, a_dot) + mb/2*dot(b_dot, b_dot) + mc/2*dot(c_dot, c_dot) + G*ma*mb/norm(a - b) + G*mb*mc/norm(b - c) + G*ma*mc/norm(a - c))]
+         struct ThreeBodies { ma: f64, mb: f64, mc: f64, G: f64 }",
+        &[
+            "r_ab = |a − b|",
+            "ä = G mb (b − a)/r_ab³ + G mc (c − a)/r_ac³",
+        ],
+    ),
+    (
+        "#[coordinates(x1, y1, x2, y2)]
+         #[lagrangian(m1/2*(x1_dot^2 + y1_dot^2) + m2/2*(x2_dot^2 + y2_dot^2) + G*m1*m2/sqrt((x1 - x2)^2 + (y1 - y2)^2))]
+         struct TwoBodies { m1: f64, m2: f64, G: f64 }",
+        &[
+            "r = √((x₁ − x₂)² + (y₁ − y₂)²)",
+            "ẍ₁ = G m₂ (x₂ − x₁)/r³",
+        ],
+    ),
+    (
+        "#[coordinates(r: [3])]
+         #[lagrangian(m/2*dot(r_dot, r_dot) + q1/norm(r - s1) + q2/norm(r - s2))]
+         struct TwoCentres { m: f64, q1: f64, q2: f64, s1: [f64; 3], s2: [f64; 3] }",
+        &[
+            "d₁ = |r − s₁|",
+            "m r̈ = −q₁ (r − s₁)/d₁³ − q₂ (r − s₂)/d₂³",
+        ],
+    ),
+    (
+        "#[coordinates(theta)] #[function(l(t) = length)]
+         #[lagrangian(m/2*(der(l(t))^2 + l(t)^2*theta_dot^2) + m*g*l(t)*cos(theta))]
+         struct VaryingLength { m: f64, g: f64, length: Length }",
+        &[
+            "l(t) θ̈ = −2 l′(t) θ̇ − g sin θ",
+        ],
+    ),
+    (
+        "#[coordinates(theta)] #[define(l = l0 - u*t)]
+         #[lagrangian(m/2*(der(l)^2 + l^2*theta_dot^2) + m*g*l*cos(theta))]
+         struct PulledPendulum { m: f64, g: f64, l0: f64, u: f64 }",
+        &[
+            "l θ̈ = 2 u θ̇ − g sin θ",
+        ],
+    ),
+    (
+        "#[coordinates(theta)]
+         #[lagrangian(m*a^2/2*(theta_dot^2 + w^2*sin(theta)^2) + m*g*a*cos(theta))]
+         struct BeadOnHoop { m: f64, a: f64, g: f64, w: f64 }",
+        &[
+            "a θ̈ = a w² sin θ cos θ − g sin θ",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian(m/2*(x_dot^2 + y_dot^2) + m*w*(x*y_dot - y*x_dot) + m/2*w^2*(x^2 + y^2) - k/2*(x^2 + y^2))]
+         struct RotatingPlane { m: f64, w: f64, k: f64 }",
+        &[
+            "m ẍ = 2 m w ẏ + m w² x − k x",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian(m/2*((x_dot - w*y)^2 + (y_dot + w*x)^2) - k/2*(x^2 + y^2))]
+         struct RotatingPlaneSquares { m: f64, w: f64, k: f64 }",
+        &[
+            "m ẍ = 2 m w ẏ + m w² x − k x",
+        ],
+    ),
+    (
+        "#[coordinates(r)]
+         #[lagrangian(m/2*(r_dot^2 + r^2*w^2) - k/2*(r - l)^2)]
+         struct RotatingSpring { m: f64, w: f64, k: f64, l: f64 }",
+        &[
+            "m r̈ = m w² r − k (r − l)",
+            "E = ½ m ṙ² + ½ k (r − l)² − ½ m w² r²",
+        ],
+    ),
+    (
+        "#[coordinates(r, phi)]
+         #[lagrangian(m/2*(r_dot^2 + r^2*(phi_dot + w)^2) + k/r)]
+         struct RotatingPolar { m: f64, w: f64, k: f64 }",
+        &[
+            "m r̈ = m r φ̇² + 2 m w r φ̇ + m w² r − k/r²",
+        ],
+    ),
+    (
+        "#[coordinates(r, theta)]
+         #[lagrangian(m/2*(r_dot^2 + r^2*theta_dot^2) + m*g*r*cos(theta) - k/2*(r - l)^2)]
+         struct SpringPendulum { m: f64, l: f64, g: f64, k: f64 }",
+        &[
+            "m r̈ = m r θ̇² + m g cos θ − k (r − l)",
+        ],
+    ),
+    (
+        "#[coordinates(theta, phi, psi)]
+         #[lagrangian(I1/2*(theta_dot^2 + sin(theta)^2*phi_dot^2) + I3/2*(psi_dot + phi_dot*cos(theta))^2 - M*g*l*cos(theta))]
+         struct Top { I1: f64, I3: f64, M: f64, g: f64, l: f64 }",
+        &[
+            "H = p_θ²/(2 I₁) + (p_φ − p_ψ cos θ)²/(2 I₁ sin² θ) + p_ψ²/(2 I₃) + M g l cos θ",
+        ],
+    ),
+    (
+        "#[coordinates(r, phi)]
+         #[lagrangian(-m*c^2*sqrt(1 - (r_dot^2 + r^2*phi_dot^2)/c^2) + k/r)]
+         struct Sommerfeld { m: f64, c: f64, k: f64 }",
+        &[
+            "p_φ = m r² γ φ̇",
+            "H = √(c² (p_r² + p_φ²/r²) + m² c⁴) − k/r",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian(-m*c^2*sqrt(1 - ((x_dot - w*y)^2 + (y_dot + w*x)^2)/c^2))]
+         struct RelativisticRotating { m: f64, c: f64, w: f64 }",
+        &[
+            "p_x = m (ẋ − w y) γ",
+            "H = w y p_x + √(c² p_x² + c² p_y² + m² c⁴) − w x p_y",
+        ],
+    ),
+    (
+        "#[coordinates(x1, x2)]
+         #[lagrangian(-m1*c^2*sqrt(1 - x1_dot^2/c^2) - m2*c^2*sqrt(1 - x2_dot^2/c^2) - k/2*(x1 - x2)^2)]
+         struct TwoRelativistic { m1: f64, m2: f64, c: f64, k: f64 }",
+        &[
+            "γ₂ = 1/√(1 − ẋ₂²/c²)",
+            "m₁ γ₁³ ẍ₁ = k (x₂ − x₁)",
+            "H = ½ k (x₁ − x₂)² + √(c² p_x₂² + m₂² c⁴) + √(c² p_x₁² + m₁² c⁴)",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian(m/2*x_dot^2 - m*c^2*sqrt(1 - y_dot^2/c^2) - k*x*y)]
+         struct Mixed { m: f64, c: f64, k: f64 }",
+        &[
+            "H = p_x²/(2 m) + k x y + √(c² p_y² + m² c⁴)",
+        ],
+    ),
+    (
+        "#[coordinates(u, v)]
+         #[lagrangian(-m*c^2*sqrt(1 - (u_dot^2 + v_dot^2 + u_dot*v_dot)/c^2) - k*u*v)]
+         struct Oblique { m: f64, c: f64, k: f64 }",
+        &[
+            "p_v = m γ v̇ + ½ m γ u̇",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian(a/3*(x_dot^2 + 2*y_dot^2)^(3/2) + e*(x*y_dot - y*x_dot) - k*x)]
+         struct PowerInField { a: f64, k: f64, e: f64 }",
+        &[
+            "H = k x + ⅔ a (√((p_x + e y)² + ½ (p_y − e x)²)/a)^(3/2)",
+        ],
+    ),
+    (
+        "#[coordinates(x)]
+         #[lagrangian(a/4*(x_dot - w*x)^4 - k*x^2)]
+         struct Shifted { a: f64, w: f64, k: f64 }",
+        &[
+            "H = w x p_x + k x² + ¾ a (|p_x|/a)^(4/3)",
+        ],
+    ),
+    (
+        "#[coordinates(x)] #[define(gamma = 1/sqrt(1 - x_dot^2/c^2))]
+         #[lagrangian(-m*c^2/gamma - k/2*x^2)]
+         struct UserGamma { m: f64, c: f64, k: f64 }",
+        &[
+            "p_x = m γ ẋ",
+            "E = ½ k x² + m c² γ",
+        ],
+    ),
+    (
+        "#[coordinates(r: [3])] #[function(U(r) = potential)]
+         #[lagrangian(-m*c^2*sqrt(1 - dot(r_dot, r_dot)/c^2) - U(r))]
+         struct RelativisticVector { m: f64, c: f64, potential: P }",
+        &[
+            "m γ r̈ + m γ³ ṙ (ṙ·r̈)/c² = −∂U/∂r",
+        ],
+    ),
+    (
+        "#[coordinates(x1, y1, x2, y2, x3, y3)]
+         #[lagrangian(m1/2*(x1_dot^2 + y1_dot^2) + m2/2*(x2_dot^2 + y2_dot^2) + m3/2*(x3_dot^2 + y3_dot^2) + G*m1*m2/sqrt((x1 - x2)^2 + (y1 - y2)^2) + G*m2*m3/sqrt((x2 - x3)^2 + (y2 - y3)^2) + G*m1*m3/sqrt((x1 - x3)^2 + (y1 - y3)^2))]
+         struct ThreePlane { m1: f64, m2: f64, m3: f64, G: f64 }",
+        &[
+            "r₁₃ = √((x₁ − x₃)² + (y₁ − y₃)²)",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian(m/2*(x_dot^2 + y_dot^2) - k/2*(sqrt(x^2 + y^2) - l)^2 - m*g*y)]
+         struct ElasticPendulum2 { m: f64, k: f64, l: f64, g: f64 }",
+        &[
+            "m ẍ = k l x/r − k x",
+        ],
+    ),
+];
+
+/// The lines are compared as far as their remarks. Each page is read at several states, where H must be the energy and
+/// Hamilton's equations must give the velocities whose momenta they contain.
+#[test]
+fn equations_have_the_forms_of_textbooks() {
+    let mut missed = Vec::new();
+    for (source, lines) in ENTRIES {
+        let system = System::new(source.parse().expect("tokens")).unwrap_or_else(|| panic!("{source}"));
+        let printed =
+            system.forms[0][0].lines().map(|line| line.split("   (").next().unwrap_or_default().trim());
+        let printed: Vec<&str> =
+            printed.map(|line| line.split_once(": ").map_or(line, |(_, line)| line.trim())).collect();
+        let missing = lines.iter().filter(|line| !printed.contains(line));
+        missed.extend(missing.map(|line| format!("{line} is not in\n{}", printed.join("\n"))));
+        check(&system);
+        assert!(!system.forms[0][0].contains(" symbols)"), "{}", system.forms[0][0]);
+    }
+    assert!(missed.is_empty(), "{}", missed.join("\n\n"));
+}
