@@ -80,7 +80,8 @@ impl Page<'_> {
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for (factor, exponent) in factors {
             let (power, is_below) = self.derived_power(factor, exponent);
-            if is_below { below.push(power) } else { above.push(power) }
+            let side = if is_below { &mut below } else { &mut above };
+            side.push(power);
         }
         Formula::product(coefficient, above, below)
     }

@@ -385,11 +385,8 @@ impl Collector<'_, '_> {
         let (mut above, mut below, mut place) = (Vec::new(), Vec::new(), 0);
         for (atom, exponent) in factors {
             let (power, is_below) = self.power(atom, exponent);
-            if is_below {
-                below.push(power)
-            } else {
-                above.push(power)
-            }
+            let side = if is_below { &mut below } else { &mut above };
+            side.push(power);
             // The quotient goes before velocities, accelerations and functions.
             place = if self.reading_order(atom) < (MOVING, 0) { above.len() } else { place };
         }
