@@ -98,8 +98,13 @@ impl Collector<'_, '_> {
 
     pub(super) fn place(&self, monomial: &Monomial, number: Rational) -> TermOrder {
         let is_inertia = monomial.factors().iter().any(|(atom, _)| self.acceleration(*atom).is_some());
-        let speed =
-            self.degree(monomial, is_velocity).map(|degree| if is_inertia { degree } else { -degree });
+        // A Lorentz factor is a function of the velocities.
+        let is_lorentz =
+            |atom| self.expansion.roots.get(&atom).is_some_and(|&place| self.page.roots[place].is_below);
+        let has_lorentz = monomial.factors().iter().any(|&(atom, _)| is_lorentz(atom));
+        let degree = self.degree(monomial, is_velocity);
+        let degree = degree.and_then(|degree| symbolic::plus(degree, i128::from(has_lorentz).into()));
+        let speed = degree.map(|degree| if is_inertia { degree } else { -degree });
         let velocities = monomial.filtered(|atom| self.variable(atom).is_some_and(is_velocity));
         let count = velocities.factors().len();
         let has_multiplier = monomial.factors().iter().any(|(atom, _)| self.is_multiplier(*atom));

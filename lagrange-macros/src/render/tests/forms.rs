@@ -16,7 +16,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
             "γ = 1/√(1 − ẋ²/c²)",
             "p_x = m γ ẋ",
             "m γ³ ẍ = −k x",
-            "E = ½ k x² + m c² γ",
+            "E = m c² γ + ½ k x²",
             "H = ½ k x² + √(c² p_x² + m² c⁴)",
         ],
     ),
@@ -284,7 +284,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          struct UserGamma { m: f64, c: f64, k: f64 }",
         &[
             "p_x = m γ ẋ",
-            "E = ½ k x² + m c² γ",
+            "E = m c² γ + ½ k x²",
         ],
     ),
     (
