@@ -119,7 +119,10 @@ impl Page<'_> {
             let name = name(entries[i][j]);
             [[i, j], [j, i]].iter().any(|[i, j]| name.as_deref() == Some(&format!("{whole}[{i}][{j}]")))
         };
-        (0..3).all(|i| (0..3).all(|j| is_entry(i, j))).then_some(whole)
+        let parameters = &self.problem.parameters;
+        let names: Vec<String> = (0..parameters.entries.len()).map(|k| parameters.name(k)).collect();
+        let is_used = |i: usize, j: usize| names.contains(&format!("{whole}[{i}][{j}]"));
+        (0..3).all(|i| (0..3).all(|j| is_entry(i, j) && is_used(i, j))).then_some(whole)
     }
 }
 

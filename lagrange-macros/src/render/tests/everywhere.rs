@@ -1,6 +1,8 @@
 //! Printed equations agree with the computed ones. For every system that any test, example or page of documentation
 //! derives, the equations are read from the text and compared with the graph at random states.
 
+mod turns;
+
 use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::sync::LazyLock;
@@ -30,13 +32,16 @@ impl System {
             .chain(switches)
             .chain((0..m).map(Variable::Multiplier))
             .chain([Variable::Time]);
-        Sample::new(all.map(Variable::symbol), draw, |symbol, draw| match Variable::of(symbol) {
-            Variable::Switch(_) => {
-                let is_one = self.problem.parameters.switched_on(symbol) == Some(Id::ONE);
-                Approximate::exact(f64::from(u8::from(is_one)))
-            }
-            _ => self.problem.drawn(symbol, draw),
-        })
+        let mut sample =
+            Sample::new(all.map(Variable::symbol), draw, |symbol, draw| match Variable::of(symbol) {
+                Variable::Switch(_) => {
+                    let is_one = self.problem.parameters.switched_on(symbol) == Some(Id::ONE);
+                    Approximate::exact(f64::from(u8::from(is_one)))
+                }
+                _ => self.problem.drawn(symbol, draw),
+            });
+        turns::make_consistent(self, &mut sample);
+        sample
     }
 
     /// Redraws the accelerations and multipliers of a sample, and keeps its state.
@@ -47,6 +52,7 @@ impl System {
             .chain([(Variable::Multiplier as fn(usize) -> Variable, self.problem.constraints.len())]);
         let solved = solved.flat_map(|(kind, count)| (0..count).map(kind)).map(Variable::symbol);
         sample.set(solved.map(|symbol| (symbol, self.problem.drawn(symbol, draw))).collect::<Vec<_>>());
+        turns::make_consistent(self, sample);
     }
 }
 
@@ -110,6 +116,22 @@ impl<'a> State<'a> {
         }
         for k in 0..problem.parameters.entries.len() {
             put(Formula::labelled(&problem.parameters.name(k), 0), value(sample, Variable::Parameter(k)));
+        }
+        for turning in &system.derived.turnings.all {
+            let quaternion = &problem.coordinates[turning.first].text;
+            let quaternion = quaternion.strip_suffix("[0]").expect("a vector");
+            for (dots, values) in turns::angular(sample, turning).into_iter().enumerate() {
+                for (axis, value) in values.into_iter().enumerate() {
+                    put(Formula::labelled(&format!("omega_{quaternion}[{axis}]"), dots), value);
+                }
+            }
+            let euler = turning.euler.iter().flat_map(|euler| euler.inertia.iter().enumerate());
+            for (i, row) in euler {
+                for (j, &entry) in row.iter().enumerate() {
+                    let value = sample.values(graph, &[entry])[0].value;
+                    put(Formula::labelled(&format!("I_{quaternion}[{i}][{j}]"), 0), value);
+                }
+            }
         }
         for i in 0..n {
             let value = sample.values(graph, &[system.derived.equations.momentum[i]])[0].value;
@@ -256,7 +278,15 @@ fn wanted() -> usize {
 /// printed row may be divided by a factor.
 fn check_motion(system: &Page) {
     let mut first = 0;
-    for row in system.lines("Equations of motion\n") {
+    let mut lines = system.lines("Equations of motion\n").into_iter().peekable();
+    while let Some(row) = lines.peek() {
+        if let Some(turning) = system.derived.turnings.all.iter().find(|turning| turning.first == first) {
+            turns::check(system, turning, &mut lines);
+            first += 4;
+            continue;
+        }
+        let row = *row;
+        lines.next();
         let (label, equation) = row.split_once(": ").expect("a label");
         let labels = system.problem.coordinates[first..].iter();
         let labels = labels.map(|label| Notation::UNICODE.write(&Formula::labelled(&label.text, 0)));
@@ -275,18 +305,22 @@ fn check_motion(system: &Page) {
 }
 
 fn check_rows(system: &Page, rows: std::ops::Range<usize>, sides: [&str; 2]) {
+    check_sides(system, rows.len(), sides, |sample| left_over(system, sample, rows.clone()));
+}
+
+fn check_sides(system: &Page, count: usize, sides: [&str; 2], computed: impl Fn(&mut Sample) -> Vec<f64>) {
     let mut states = 0;
     for draw in 0..STATES {
         let mut sample = system.sample(draw);
         let moved = (0..3).flat_map(|other| {
             system.moved(&mut sample, 1000 * (other + 1) + draw);
-            let left_over = left_over(system, &mut sample, rows.clone());
+            let left_over = computed(&mut sample);
             let state = State::new(system, &mut sample, draw);
             let [left, right] = sides.map(|side| state.read(side));
             assert!(right.len() == left.len() || right == [0.0], "{sides:?}");
             let right = right.into_iter().chain(std::iter::repeat(0.0));
             let read: Vec<f64> = left.into_iter().zip(right).map(|(left, right)| left - right).collect();
-            assert_eq!(read.len(), rows.len(), "{sides:?} in {}", system.text);
+            assert_eq!(read.len(), count, "{sides:?} in {}", system.text);
             read.into_iter().zip(left_over).map(|(read, computed)| [read, computed]).collect::<Vec<_>>()
         });
         let pairs: Vec<[f64; 2]> = moved.collect();

@@ -118,7 +118,9 @@ impl Xml {
             ("mi" | "mtext", _) => self.text().replace([' ', '\u{a0}'], "_"),
             ("mn", _) => text(),
             ("mo", _) => operator(self),
-            ("mrow", all) => line(all.iter()),
+            ("mrow" | "mtd", all) => line(all.iter()),
+            ("mtable", rows) => separated(rows),
+            ("mtr", entries) => format!("[{}]", separated(entries)),
             ("mfrac", [above, below]) if is_differential(above) => {
                 format!("{}/{}", differential(above), differential(below))
             }
@@ -168,6 +170,10 @@ fn superscript(digits: &str) -> String {
 fn is_differential(above: &Xml) -> bool {
     let first = above.inside().first().filter(|_| above.is("mrow"));
     first.is_some_and(|first| !first.is("mfrac") && first.text().starts_with('∂'))
+}
+
+fn separated(parts: &[Xml]) -> String {
+    parts.iter().map(Xml::said).collect::<Vec<_>>().join(", ")
 }
 
 /// Reads a differential: `∂²U`, `∂x∂y`.

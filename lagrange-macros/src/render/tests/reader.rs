@@ -71,12 +71,18 @@ fn plus(x: &Value, y: &Value, sign: f64) -> Value {
     x.iter().zip(y).map(|(x, y)| x + sign * y).collect()
 }
 
-/// Product of two values, at least one of them a number.
+/// Product of two values: at least one of them a number, a matrix of 3 by 3 and a vector, or a quaternion and a vector.
 fn times(x: &Value, y: &Value) -> Value {
     match (&x[..], &y[..]) {
         ([x], y) => y.iter().map(|y| x * y).collect(),
         (x, [y]) => x.iter().map(|x| x * y).collect(),
-        _ => panic!("vectors side by side"),
+        (x, [_, _, _]) if x.len() == 9 => {
+            x.chunks(3).map(|row| row.iter().zip(y).map(|(x, y)| x * y).sum()).collect()
+        }
+        (&[w, x, y, z], &[a, b, c]) => {
+            vec![-x * a - y * b - z * c, w * a + y * c - z * b, w * b + z * a - x * c, w * c + x * b - y * a]
+        }
+        _ => panic!("vectors side by side: {x:?} {y:?}"),
     }
 }
 
@@ -240,7 +246,13 @@ impl Reader<'_> {
             Some(first) => {
                 self.at += 1;
                 let known = FRACTIONS.into_iter().find(|(sign, _)| *sign == first);
-                vec![known.unwrap_or_else(|| panic!("«{first}» is no fraction")).1]
+                vec![
+                    known
+                        .unwrap_or_else(|| {
+                            panic!("«{first}» is no fraction in {}", self.text.iter().collect::<String>())
+                        })
+                        .1,
+                ]
             }
             None => panic!("the text ends too early"),
         }
