@@ -3,18 +3,23 @@
 use rustc_hash::FxHashSet;
 
 use super::formula::Formula;
+use crate::mechanics::Turnings;
 use crate::resolve::Problem;
 
 /// Set of array names, with empty brackets for each index: `r`, `p[]`, `link[].c`.
 pub(super) struct Arrays(FxHashSet<String>);
 
 impl Arrays {
-    pub(super) fn of(problem: &Problem) -> Self {
+    pub(super) fn of(problem: &Problem, turnings: &Turnings) -> Self {
         let mut arrays = Self(FxHashSet::default());
         for label in &problem.coordinates {
             ["", "p_", "R_", "Q_"].iter().for_each(|of| arrays.add(&format!("{of}{}", label.text)));
         }
         (0..problem.parameters.entries.len()).for_each(|k| arrays.add(&problem.parameters.name(k)));
+        for turning in &turnings.all {
+            let quaternion = problem.coordinates[turning.first].text.trim_end_matches("[0]");
+            ["omega_", "I_"].iter().for_each(|of| arrays.add(&format!("{of}{quaternion}[0]")));
+        }
         problem.names.values().for_each(|name| arrays.add(name));
         problem.functions.iter().flat_map(|function| &function.names).for_each(|name| arrays.add(name));
         problem.observables.iter().flat_map(|observed| observed.names()).for_each(|name| arrays.add(&name));

@@ -2,7 +2,7 @@
 
 use super::formula::Formula;
 use super::length::length;
-use super::lines::Line;
+use super::lines::{Equation, Line};
 use super::page::Page;
 use super::remark::{Fragment, Remark};
 use crate::mechanics::{ConservedKind, EnergyChange, EnergyForm, Evidence};
@@ -44,7 +44,8 @@ impl Page<'_> {
             .all(|contact| is_elastic(contact.restitution) && contact.impact == contacts[0].impact)
     }
 
-    /// Line of an energy that changes, with the rate of change if it is known.
+    /// Line of an energy that changes, and its rate with the terms that contribute to it; these alone if the rate is long or
+    /// fields switch parts of it.
     pub(super) fn changing_energy(&self) -> Vec<Line> {
         let facts = &self.derived.facts;
         if facts.conserved.iter().any(|conserved| conserved.quantity == ConservedKind::Energy) {
@@ -52,17 +53,27 @@ impl Page<'_> {
         }
         let mut remark = self.energy_form();
         let changes: Vec<Formula> = facts.energy_changes.iter().copied().map(change).collect();
-        if !changes.is_empty() {
-            let rate = Formula::Call("der".to_owned(), vec![name("E")]);
-            let rate = Fragment::Formula(rate);
-            remark.extend([
-                Fragment::words("; "),
-                rate,
-                Fragment::words(" is "),
-                Fragment::Formula(Formula::sum(changes)),
-            ]);
+        if changes.is_empty() {
+            return vec![self.energy_line(remark)];
         }
-        vec![self.energy_line(remark)]
+        let rate = Formula::Call("der".to_owned(), vec![name("E")]);
+        let changes = Fragment::Formula(Formula::sum(changes));
+        let known = Some(facts.energy_rate).filter(|_| self.problem.parameters.switches.is_empty());
+        match known.and_then(|rate| self.expression(rate).ok()) {
+            Some(written) => {
+                let line = Line::of(Equation::Known(rate, written));
+                vec![self.energy_line(remark), Line { remark: Remark::of(vec![changes]), ..line }]
+            }
+            None => {
+                remark.extend([
+                    Fragment::words("; "),
+                    Fragment::Formula(rate),
+                    Fragment::words(" is "),
+                    changes,
+                ]);
+                vec![self.energy_line(remark)]
+            }
+        }
     }
 
     fn energy_line(&self, remark: Vec<Fragment>) -> Line {

@@ -53,7 +53,7 @@ impl<'a> Page<'a> {
             names,
             readings: readings((graph, problem, derived), &constants, &roots, names),
             constants,
-            arrays: Arrays::of(problem),
+            arrays: Arrays::of(problem, &derived.turnings),
             roots,
         }
     }

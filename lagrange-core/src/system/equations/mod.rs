@@ -29,6 +29,10 @@ use slides::Slides;
 /// random points, where parameters are in their [ranges](crate::language), positive by default:
 /// √(m²c⁴ + p²c²) takes m as positive.
 ///
+/// A frame turned by a quaternion q moves by its angular velocity ω, along the turned axes: q̇ = ½ q ω, a product of
+/// quaternions, and the equations of q are projected onto the three rotations. A rigid body alone turns by Euler's
+/// I ω̇ + ω×(I ω) = N (Goldstein, Poole and Safko, *Classical Mechanics*, (5.39)).
+///
 /// An expression longer than 250 characters is replaced by its length. Expressions of more than 100 expanded
 /// terms are printed in the form that is computed.
 ///
@@ -133,8 +137,8 @@ impl Equations {
         self.below("Conserved")
     }
 
-    /// Returns the energy function E = p·q̇ − L with its form in parentheses. If E is not known to be
-    /// conserved, the parentheses also tell its rate of change (see [`EnergyForm`](crate::facts::EnergyForm)).
+    /// Returns the energy function E = p·q̇ − L with its form in parentheses (see
+    /// [`EnergyForm`](crate::facts::EnergyForm)). If E is not known to be conserved, its rate of change follows.
     pub fn energy(&self) -> Excerpt {
         let changing = || self.below("Energy");
         self.conserved().row("E").unwrap_or_else(changing)

@@ -140,8 +140,8 @@ impl Twists<'_> {
         Some(Spin { first, number: n + 3 * k, spread })
     }
 
-    /// What stands in place of nodes: new velocities for ω, q̇ by ω, 1 for |q|², and one of two equal moments of inertia for
-    /// their mean.
+    /// What stands in place of nodes: new velocities for ω, q̇ by ω, 1 for |q|², and one for the other of two equal
+    /// moments of inertia.
     fn in_angular_velocities(&self, graph: &mut Graph, spins: &[Spin]) -> FxHashMap<Id, Id> {
         let mut new = FxHashMap::default();
         let q = nodes(graph, self.problem.coordinates.len(), Variable::Coordinate);
@@ -156,8 +156,8 @@ impl Twists<'_> {
             new.insert(square, Id::ONE);
         }
         for body in &self.bodies {
-            let entries = body.inertia.iter().flatten().copied().collect::<Vec<_>>();
-            new.extend(entries.into_iter().filter_map(|entry| Some((entry, mean(graph, entry)?))));
+            let equal = body.inertia.iter().flatten().filter_map(|&entry| equal(graph, entry));
+            new.extend(equal.map(|[one, other]| (other, one)));
         }
         new
     }
@@ -237,18 +237,22 @@ impl Twists<'_> {
     }
 }
 
-/// First of two parameters of which this is the mean.
-fn mean(graph: &Graph, entry: Id) -> Option<Id> {
-    let is_parameter = |id: Id| matches!(graph.node(id), Node::Symbol(symbol) if matches!(Variable::of(*symbol), Variable::Parameter(_)));
+/// Two parameters of which this is the mean, as those on both sides of the diagonal of a matrix of inertia, which must be
+/// equal.
+fn equal(graph: &Graph, entry: Id) -> Option<[Id; 2]> {
+    let is_parameter = |id: Id| match graph.node(id) {
+        Node::Symbol(symbol) => matches!(Variable::of(*symbol), Variable::Parameter(_)),
+        _ => false,
+    };
     let half = Rational::new(1, 2);
     match graph.node(entry) {
         Node::Sum(terms) => match terms[..] {
             [(one, c), (other, d)] if c == half && d == half && is_parameter(one) && is_parameter(other) => {
-                Some(one.min(other))
+                Some([one.min(other), one.max(other)])
             }
             _ => None,
         },
-        Node::Defined(inner) => mean(graph, *inner),
+        Node::Defined(inner) => equal(graph, *inner),
         _ => None,
     }
 }

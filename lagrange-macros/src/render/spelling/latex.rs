@@ -4,6 +4,11 @@ use super::parts::{Spelling, WIDE, greek};
 
 pub(crate) struct Latex;
 
+/// Widest matrix, in points: a line of `article`, less a short left side.
+const WIDEST_MATRIX: f64 = 270.0;
+/// Space between the columns of a matrix, in points.
+const GAP: f64 = 10.0;
+
 impl Spelling for Latex {
     fn width(&self, text: &str) -> f64 {
         Measure { rest: text }.all()
@@ -113,7 +118,16 @@ impl Spelling for Latex {
         }
     }
 
+    /// A matrix, or the list of its rows if it is too wide for a line: lines break in a list.
     fn matrix(&self, rows: &[Vec<String>]) -> String {
+        let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+        let wide =
+            |column: usize| rows.iter().map(move |row| row.get(column).map_or(0.0, |text| self.width(text)));
+        let width: f64 = (0..columns).map(|column| GAP + wide(column).fold(0.0, f64::max)).sum();
+        if width > WIDEST_MATRIX {
+            let rows: Vec<String> = rows.iter().map(|row| format!("[{}]", row.join(", "))).collect();
+            return format!("[{}]", rows.join(", "));
+        }
         let rows: Vec<String> = rows.iter().map(|row| row.join(" & ")).collect();
         format!(r"\begin{{bmatrix}} {} \end{{bmatrix}}", rows.join(r" \\ "))
     }

@@ -361,6 +361,11 @@ fn check_quantities(system: &Page) {
     for line in conserved.iter().chain(&energy).filter(|line| line.starts_with("E = ")) {
         check_line(system, line, |sample| vec![sample.values(&system.graph, &[equations.energy])[0].value]);
     }
+    for line in energy.iter().filter(|line| line.starts_with("d/dt E = ")) {
+        check_line(system, line, |sample| {
+            vec![sample.values(&system.graph, &[system.derived.facts.energy_rate])[0].value]
+        });
+    }
     let value = |sample: &mut Sample, root: Option<&Id>| {
         root.map_or(0.0, |&root| sample.values(&system.graph, &[root])[0].value)
     };

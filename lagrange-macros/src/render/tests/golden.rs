@@ -305,7 +305,8 @@ fn rotating_frame() {
               r: m r̈ = m (r×Ω′(t) − W×(W×r) − 2 (W×ṙ) − A(t)) − ∂U/∂r
 
             Energy
-              E = ½ m ṙ·ṙ + m r·A(t) + U(r) − ½ m (W×r)·(W×r)   (L₂ − L₀ by degree in the velocities; d/dt E is −∂L/∂t)
+              E = ½ m ṙ·ṙ + m r·A(t) + U(r) − ½ m (W×r)·(W×r)   (L₂ − L₀ by degree in the velocities)
+              d/dt E = m Ω[0]′(t) (W[1] r[0] r[1] + W[2] r[0] r[2] − W[0] (r[1]² + r[2]²)) + m Ω[1]′(t) (W[0] r[0] r[1] + W[2] r[1] r[2] − W[1] (r[0]² + r[2]²)) + m Ω[2]′(t) (W[0] r[0] r[2] + W[1] r[1] r[2] − W[2] (r[0]² + r[1]²)) + m r·A′(t) − m Ω′(t)·(r×ṙ)   (−∂L/∂t)
 
             Momenta
               p_r = m ṙ − m (r×W)
@@ -332,8 +333,13 @@ fn rotating_frame() {
             \end{align}
             \par\medskip\noindent\textbf{Energy}
             \begin{align}
-              E &= \tfrac{1}{2} m \dot{\mathbf{r}} \cdot \dot{\mathbf{r}} + m \mathbf{r} \cdot \mathbf{A}(t) + U(\mathbf{r}) - \tfrac{1}{2} m (\mathbf{W} \times \mathbf{r}) \cdot (\mathbf{W} \times \mathbf{r}) \nonumber \\*
-                &\quad \quad \text{(}L_2 - L_0\text{ by degree in the velocities; }\frac{d}{dt} E\text{ is }-\frac{\partial L}{\partial t}\text{)} \label{eq:RotatingFrame-E}
+              E &= \tfrac{1}{2} m \dot{\mathbf{r}} \cdot \dot{\mathbf{r}} + m \mathbf{r} \cdot \mathbf{A}(t) + U(\mathbf{r}) \nonumber \\*
+                &\quad - \tfrac{1}{2} m (\mathbf{W} \times \mathbf{r}) \cdot (\mathbf{W} \times \mathbf{r}) \nonumber \\*
+                &\quad \quad \text{(}L_2 - L_0\text{ by degree in the velocities)} \label{eq:RotatingFrame-E} \\
+              \frac{d}{dt} E &= m \Omega_0'(t) (W_1 r_0 r_1 + W_2 r_0 r_2 - W_0 (r_1^2 + r_2^2)) \nonumber \\*
+                &\quad + m \Omega_1'(t) (W_0 r_0 r_1 + W_2 r_1 r_2 - W_1 (r_0^2 + r_2^2)) \nonumber \\*
+                &\quad + m \Omega_2'(t) (W_0 r_0 r_2 + W_1 r_1 r_2 - W_2 (r_0^2 + r_1^2)) \nonumber \\*
+                &\quad + m \mathbf{r} \cdot \mathbf{A}'(t) - m \boldsymbol{\Omega}'(t) \cdot (\mathbf{r} \times \dot{\mathbf{r}}) \quad \text{(}-\frac{\partial L}{\partial t}\text{)} \label{eq:RotatingFrame-d-dt-E}
             \end{align}
             \par\medskip\noindent\textbf{Momenta}
             \begin{align}
@@ -391,7 +397,8 @@ fn functions_families_and_vectors() {
               R_b[1] = λ_meet a[0]
 
             Energy
-              E = ½ ȧ·ȧ + ½ ḃ·ḃ + ½ ṡ² + a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]   (T + U if U is a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]; d/dt E is Q·q̇)
+              E = ½ ȧ·ȧ + ½ ḃ·ḃ + ½ ṡ² + a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]   (T + U if U is a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0])
+              d/dt E = −k ȧ·ȧ   (Q·q̇)
 
             Momenta
               p_a = ȧ
@@ -445,8 +452,9 @@ fn functions_families_and_vectors() {
             \par\medskip\noindent\textbf{Energy}
             \begin{align}
               E &= \tfrac{1}{2} \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} + \tfrac{1}{2} \dot{\mathbf{b}} \cdot \dot{\mathbf{b}} + \tfrac{1}{2} \dot s^2 + a_0 + f([s, 1], s) + f(\mathbf{a}, s) \nonumber \\*
-                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0} \quad \text{(}T + U\text{ if }U\text{ is }a_0 + f([s, 1], s) \nonumber \\*
-                &\quad + f(\mathbf{a}, s) + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0}\text{; }\frac{d}{dt} E\text{ is }Q \cdot \dot q\text{)} \label{eq:Everything-E}
+                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0} \quad \text{(}T + U\text{ if }U\text{ is }a_0 \nonumber \\*
+                &\quad + f([s, 1], s) + f(\mathbf{a}, s) + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0}\text{)} \label{eq:Everything-E} \\
+              \frac{d}{dt} E &= -k \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} \quad \text{(}Q \cdot \dot q\text{)} \label{eq:Everything-d-dt-E}
             \end{align}
             \par\medskip\noindent\textbf{Momenta}
             \begin{align}
@@ -583,7 +591,7 @@ fn the_energy_is_called_t_plus_u_where_that_is_certain() {
             "free",
             "#[coordinates(x)] #[lagrangian(m/2*x_dot^2)] #[force(x: -k*x)] struct S { m: f64, k: f64 }",
             "Energy\n",
-            "E = ½ m ẋ²   (T if U is 0; d/dt E is Q·q̇)",
+            "E = ½ m ẋ²   (T if U is 0)\n  d/dt E = −k x ẋ   (Q·q̇)",
         ),
         // Here U is 0 and E is not T + U, so the remark must not claim it.
         (
@@ -620,7 +628,7 @@ fn the_energy_is_called_t_plus_u_where_that_is_certain() {
              #[lagrangian(m/2*(der(x)^2 + der(y)^2) - m*g*y)]
              struct S { m: f64, l: f64, a: f64, w: f64, g: f64 }",
             "Energy\n",
-            "not T + U, as positions move with time; d/dt E is −∂L/∂t)",
+            "(not T + U, as positions move with time)\n  d/dt E = ",
         ),
         (
             "body on a frame that is turned",
@@ -649,7 +657,7 @@ fn the_energy_is_called_t_plus_u_where_that_is_certain() {
             "#[coordinates(x)] #[lagrangian(m/2*x_dot^2 - k/2*x^2 + c*der(x*t))]
              struct S { m: f64, k: f64, c: f64 }",
             "Energy\n",
-            "(L₂ − L₀ by degree in the velocities; d/dt E is −∂L/∂t)",
+            "(L₂ − L₀ by degree in the velocities)\n  d/dt E = −c ẋ   (−∂L/∂t)",
         ),
         (
             "relativistic",
@@ -663,7 +671,7 @@ fn the_energy_is_called_t_plus_u_where_that_is_certain() {
             "#[coordinates(x, y)] #[lagrangian(m/2*(x_dot^2 + y_dot^2))]
              #[constraint(rod: (x - a*sin(w*t))^2 + y^2 = l^2)] struct S { m: f64, a: f64, w: f64, l: f64 }",
             "Energy\n",
-            "(T if U is 0; d/dt E is −λ·b)",
+            "(T if U is 0)\n  d/dt E = 2 a w λ_rod (x − a sin(w t)) cos(w t)   (−λ·b)",
         ),
     ];
     let missed = cases.into_iter().filter_map(|(what, source, heading, line)| {
@@ -706,4 +714,30 @@ fn a_hamiltonian_that_is_not_written_says_why() {
          struct S { m: f64, c: f64, k: f64 }";
     assert_eq!(lines(relativistic, "Momenta\n"), "p_x = m γ ẋ");
     assert!(lines(relativistic, "Lagrangian\n").ends_with("γ = 1/√(1 − ẋ²/c²)"));
+}
+
+/// Goldstein, Poole and Safko, *Classical Mechanics*, (5.39): the equation of a top in its angular velocity.
+#[test]
+fn bodies_turn_by_their_angular_velocities() {
+    let top = "#[coordinates(q: [4])] #[frame(top: rotate(q))]
+         #[lagrangian(kinetic(top, m, [0, 0, l], inertia) - m*g*position(top, [0, 0, l])[2])]
+         struct Top { m: f64, g: f64, l: f64, inertia: Matrix3<f64> }";
+    expect![[r#"
+        q:   q̇ = ½ q ω_q   (product of quaternions, ω_q along the turned axes)
+          ω_q: I_q ω̇_q + ω_q×(I_q ω_q) = [2 m g l (q[0] q[1] + q[2] q[3]), 2 m g l (q[0] q[2] − q[1] q[3]), 0]
+          I_q = [[m l² + inertia[0][0], inertia[0][1], inertia[0][2]], [inertia[0][1], m l² + inertia[1][1], inertia[1][2]], [inertia[0][2], inertia[1][2], inertia[2][2]]]"#]]
+    .assert_eq(&lines(top, "Equations of motion\n"));
+    expect!["E = ½ ω_q·(I_q ω_q) + m g l (1 − 2 q[1]² − 2 q[2]²)   (T + U)"]
+        .assert_eq(&lines(top, "Conserved\n"));
+    // With a diagonal matrix the components are shorter: Euler's equations.
+    let free = "#[coordinates(r: [3], q: [4])] #[frame(body: translate(r), rotate(q))]
+         #[lagrangian(kinetic(body, m, [0, 0, 0], [[a, 0, 0], [0, b, 0], [0, 0, c]]))]
+         struct Free { m: f64, a: f64, b: f64, c: f64 }";
+    expect![[r#"
+        r:      r̈ = 0
+          q:      q̇ = ½ q ω_q   (product of quaternions, ω_q along the turned axes)
+          ω_q[0]: a ω̇_q[0] = (b − c) ω_q[1] ω_q[2]
+          ω_q[1]: b ω̇_q[1] = (c − a) ω_q[0] ω_q[2]
+          ω_q[2]: c ω̇_q[2] = (a − b) ω_q[0] ω_q[1]"#]]
+    .assert_eq(&lines(free, "Equations of motion\n"));
 }

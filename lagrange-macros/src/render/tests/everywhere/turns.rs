@@ -96,7 +96,7 @@ pub(super) fn check<'l>(
             if let Some((left, right)) = equation.split_once(" = ") {
                 check_sides(system, 3, [left, right], |sample| torques(sample).to_vec());
             }
-            if let Some(inertia) = lines.next_if(|line| line.starts_with("I_")) {
+            if let Some(inertia) = lines.next_if(|line| !line.contains(": ")) {
                 let entries =
                     turning.euler.iter().flat_map(|euler| euler.inertia).flatten().collect::<Vec<_>>();
                 check_line(system, inertia, |sample| {
