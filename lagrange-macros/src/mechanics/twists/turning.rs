@@ -117,21 +117,11 @@ impl Twists<'_> {
             rows.iter().all(|row| entries(row).is_some_and(|at| (first..first + 4).contains(&at)))
         })?;
         let q = nodes(graph, n, Variable::Coordinate);
-        let [w, x, y, z] = [q[first], q[first + 1], q[first + 2], q[first + 3]];
-        let negative = [x, y, z].map(|entry| graph.neg(entry));
-        // ∂q̇/∂ω = ½ spread
-        let spread = [
-            [negative[0], negative[1], negative[2]],
-            [w, negative[2], y],
-            [z, w, negative[0]],
-            [negative[1], x, w],
-        ];
-        let half = graph.number(Rational::new(1, 2));
-        let spread = spread.map(|row| row.map(|entry| graph.mul(half, entry)));
+        let spread = spread(graph, [q[first], q[first + 1], q[first + 2], q[first + 3]]);
         for (i, row) in rows.iter().enumerate() {
-            for j in 0..3 {
-                let turned: Vec<Id> = (0..4).map(|a| graph.mul(row[first + a], spread[a][j])).collect();
-                let turned = graph.total(turned);
+            for j in [0, 1, 2] {
+                let column = spread.map(|row| row[j]);
+                let turned = graph.dot(&row[first..first + 4], &column);
                 let expected = if i == j { Id::ONE } else { Id::ZERO };
                 let off = graph.sub(turned, expected);
                 vanishes(graph, self.problem, off)?;
@@ -235,6 +225,14 @@ impl Twists<'_> {
             [0, 1, 2].map(|axis| graph.total([rows[axis].1.as_slice(), &[gyroscopic[axis]]].concat()));
         Some(Euler { inertia, torque })
     }
+}
+
+/// ∂q̇/∂ω of the quaternion q, from q̇ = ½ q ω.
+fn spread(graph: &mut Graph, [w, x, y, z]: [Id; 4]) -> [[Id; 3]; 4] {
+    let [minus_x, minus_y, minus_z] = [x, y, z].map(|entry| graph.neg(entry));
+    let twice = [[minus_x, minus_y, minus_z], [w, minus_z, y], [z, w, minus_x], [minus_y, x, w]];
+    let half = graph.number(Rational::new(1, 2));
+    twice.map(|row| row.map(|entry| graph.mul(half, entry)))
 }
 
 /// Two parameters of which this is the mean, as those on both sides of the diagonal of a matrix of inertia, which must be
