@@ -58,10 +58,12 @@ impl MovedBy {
                     Some(term) => pending.push(term),
                     None => return false,
                 },
+                // Parameters that cancel in an argument leave a constant, as in sin((a - b) q).
                 Node::Function(..) | Node::Atan2(..) | Node::Power(..) => {
                     if self.0[&id].iter().all(|&word| word == 0) {
                         return false;
                     }
+                    graph.operands(id, |operand| pending.push(operand));
                 }
             }
         }
