@@ -163,6 +163,9 @@ pub trait Lagrangian {
     /// Bounds of the rounding errors of [`constraint_jacobian`](Self::constraint_jacobian), in units of ε, for each
     /// constraint whose gradient some values of the parameters cancel at every pose; zeros for the others. (To first order,
     /// each operation adds its result: Higham, *Accuracy and Stability of Numerical Algorithms*, 3.3.)
+    ///
+    /// Parameters count as correct to round-off of themselves, and supplied functions as exact: a matrix entry that was
+    /// computed as the round-off of zero cannot be told from a small one.
     #[allow(unused_variables)]
     fn jacobian_round_off(&self, state: &StateOf<Self>) -> Matrix<Self::Scalar, Self::M, Self::N> {
         matrix(Array::filled(Array::filled(Self::Scalar::constant(0.0))))
