@@ -154,6 +154,7 @@ fn roots_and_powers_are_printed_in_closed_form() {
     #[derive(Lagrangian)]
     #[coordinates(x, y)]
     #[lagrangian(-m*c^2*sqrt(1 - (x_dot^2 + y_dot^2)/c^2) + e*B/2*(x*y_dot - y*x_dot) - e*E*x)]
+    #[expect(non_snake_case, reason = "as they are written in the Lagrangian")]
     struct Charged {
         m: f64,
         c: f64,
