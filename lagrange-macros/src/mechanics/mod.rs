@@ -84,7 +84,7 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
         if problem.frames.len() > 1 { read(graph, &equations, &inertia) } else { FxHashMap::default() };
     diagnostics.stop_at_fault(problem.place, graph)?;
     diagnostics.is_empty().then_some(())?;
-    let turnings = Turnings::of(graph, problem);
+    let turnings = Turnings::of(graph, problem, facts.energy_rate);
     graph.take_fault();
     let linearization = linearize(graph, problem, &equations);
     let potential = energy_form::potential(graph, problem, facts.energy_form);

@@ -58,7 +58,9 @@ impl Page<'_> {
         }
         let rate = Formula::Call("der".to_owned(), vec![name("E")]);
         let changes = Fragment::Formula(Formula::sum(changes));
-        let known = Some(facts.energy_rate).filter(|_| self.problem.parameters.switches.is_empty());
+        let of_turnings = self.derived.turnings.energy.map(|[_, rate]| rate);
+        let known = Some(of_turnings.unwrap_or(facts.energy_rate))
+            .filter(|_| self.problem.parameters.switches.is_empty());
         match known.and_then(|rate| self.expression(rate).ok()) {
             Some(written) => {
                 let line = Line::of(Equation::Known(rate, written));

@@ -20,6 +20,7 @@ impl Page<'_> {
         };
         let mut rows: Vec<(Id, Vec<Id>)> =
             inertia.iter().enumerate().map(|(i, &left)| (left, right(i))).collect();
+        self.derived.turnings.coupled.iter().for_each(|(i, row)| rows[*i] = row.clone());
         let mut first = 0;
         let lines = self.vectors().flat_map(|labels| {
             let turning = self.derived.turnings.all.iter().find(|turning| turning.first == first);

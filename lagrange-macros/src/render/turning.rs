@@ -75,11 +75,11 @@ impl Page<'_> {
         Formula::labelled(&parameter.unwrap_or_else(|| format!("I_{quaternion}")), 0)
     }
 
-    /// E = … + ½ ω·(I ω); `None` if it is not T + U, or if no quaternion turns a body.
+    /// E = … + ½ ω·(I ω); `None` if no quaternion turns a body, or if L is not quadratic in the velocities.
     pub(super) fn energy_of_turnings(&self) -> Option<Result<Formula, u64>> {
-        let Turnings { all, energy } = &self.derived.turnings;
-        let is_sum = matches!(self.derived.facts.energy_form, EnergyForm::Sum(_));
-        let energy = energy.filter(|_| is_sum)?;
+        let Turnings { all, energy, .. } = &self.derived.turnings;
+        let is_quadratic = !matches!(self.derived.facts.energy_form, EnergyForm::General);
+        let [energy, _] = energy.filter(|_| is_quadratic)?;
         let spinning = all.iter().filter_map(|turning| {
             let quaternion = vector(&self.problem.coordinates[turning.first].text)?;
             let inertia = self.inertia(turning.euler.as_ref()?, quaternion);
@@ -90,6 +90,7 @@ impl Page<'_> {
         });
         let spinning = spinning.collect::<Vec<_>>();
         Some(self.quantity(energy).map(|rest| match rest {
+            _ if energy == Id::ZERO && !spinning.is_empty() => Formula::sum(spinning),
             Formula::Sum(terms) => Formula::Sum(spinning.into_iter().chain(terms).collect()),
             rest => Formula::sum(spinning.into_iter().chain([rest]).collect()),
         }))

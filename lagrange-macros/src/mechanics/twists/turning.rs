@@ -39,26 +39,28 @@ pub(crate) struct Euler {
     pub(crate) torque: [Id; 3],
 }
 
-/// Rotations by quaternions, with the energy in their angular velocities, if it is T + U. The energy is that without the
-/// ½ ω·I ω of each [`Euler`].
+/// Rotations by quaternions, and what is printed in their angular velocities.
 #[derive(Debug, Default)]
 pub(crate) struct Turnings {
     pub(crate) all: Vec<Turning>,
-    pub(crate) energy: Option<Id>,
+    /// Equations of other coordinates whose accelerations are coupled to ω̇, each with the index of its coordinate.
+    pub(crate) coupled: Vec<(usize, (Id, Vec<Id>))>,
+    /// E of an L that is quadratic in the velocities, without the ½ ω·I ω of each [`Euler`], and dE/dt.
+    pub(crate) energy: Option<[Id; 2]>,
 }
 
 impl Turnings {
     /// Empty if a rotation depends on more than a quaternion, or if fields switch constraints on and off.
-    pub(in super::super) fn of(graph: &mut Graph, problem: &Problem) -> Self {
+    pub(in super::super) fn of(graph: &mut Graph, problem: &Problem, energy_rate: Id) -> Self {
         let quaternions = &problem.quaternions;
         let is_short = (1..=MOST).contains(&quaternions.len()) && problem.parameters.switches.is_empty();
         let twists = Some(()).filter(|()| is_short).and_then(|()| Twists::of(graph, problem));
-        twists.and_then(|twists| twists.turnings(graph)).unwrap_or_default()
+        twists.and_then(|twists| twists.turnings(graph, energy_rate)).unwrap_or_default()
     }
 }
 
 impl Twists<'_> {
-    fn turnings(&self, graph: &mut Graph) -> Option<Turnings> {
+    fn turnings(&self, graph: &mut Graph, energy_rate: Id) -> Option<Turnings> {
         let n = self.problem.coordinates.len();
         let quaternions = &self.problem.quaternions;
         (self.outer == n + 3 * quaternions.len()).then_some(())?;
@@ -76,12 +78,16 @@ impl Twists<'_> {
         for spin in &spins {
             all.push(self.turning(graph, spin, &spins, &equations, &new)?);
         }
-        let energy =
-            (!has_velocity(graph, &[self.others])).then(|| self.energy(graph, &equations.mass, &all, &new));
-        Some(Turnings { all, energy })
+        let is_quaternion = |i: usize| spins.iter().any(|spin| (spin.first..spin.first + 4).contains(&i));
+        let is_coupled = |i: &usize| equations.mass[*i][n..].iter().any(|&entry| entry != Id::ZERO);
+        let coupled = (0..n).filter(|&i| !is_quaternion(i)).filter(is_coupled);
+        let coupled = coupled.map(|i| (i, equations.row(graph, i, &|_, values| values[i], &new))).collect();
+        let energy = [self.energy(graph, &equations.mass, &all, &new), graph.replaced(energy_rate, &new)];
+        let is_quadratic = !has_velocity(graph, &equations.mass.concat());
+        Some(Turnings { all, coupled, energy: Some(energy).filter(|_| is_quadratic) })
     }
 
-    /// ½ wᵀM w − V, where w are the outer velocities and V is L without the kinetic energies of bodies.
+    /// ½ wᵀM w − L₀, where w are the outer velocities and L₀ is L at rest.
     fn energy(
         &self,
         graph: &mut Graph,
@@ -104,7 +110,9 @@ impl Twists<'_> {
         }
         let half = graph.number(Rational::new(1, 2));
         let kinetic = graph.mul(half, twice);
-        let energy = graph.sub(kinetic, self.others);
+        let rest = w[..self.problem.coordinates.len()].iter().map(|&velocity| (velocity, Id::ZERO)).collect();
+        let at_rest = graph.replaced(self.problem.lagrangian, &rest);
+        let energy = graph.sub(kinetic, at_rest);
         graph.replaced(energy, new)
     }
 
@@ -157,42 +165,23 @@ impl Twists<'_> {
         graph: &mut Graph,
         spin: &Spin,
         spins: &[Spin],
-        OuterEquations { mass, linear, rows }: &OuterEquations,
+        equations: &OuterEquations,
         new: &FxHashMap<Id, Id>,
     ) -> Option<Turning> {
+        let OuterEquations { mass, linear, .. } = equations;
         let is_quaternion = |j: usize| spins.iter().any(|spin| (spin.first..spin.first + 4).contains(&j));
         // A mass of the coordinates of a quaternion belongs to no rigid body.
         let is_massless = |i: usize| mass[i].iter().all(|&entry| entry == Id::ZERO);
         (0..linear.len()).all(|i| !is_quaternion(i) || is_massless(i)).then_some(())?;
-        let multipliers = nodes(graph, rows.len(), Variable::Multiplier);
-        let row = |graph: &mut Graph, axis: usize| {
+        let rows = [0, 1, 2].map(|axis| {
             let number = spin.number + axis;
-            let accelerations = (0..mass.len()).map(Variable::Acceleration);
-            let terms: Vec<Id> = accelerations
-                .zip(&mass[number])
-                .map(|(variable, &entry)| {
-                    let variable = graph.symbol(variable.symbol());
-                    graph.mul(entry, variable)
-                })
-                .collect();
-            let left = graph.total(terms);
-            let along = |graph: &mut Graph, values: &dyn Fn(usize) -> Id| {
-                let by_coordinates: Vec<Id> =
-                    (0..4).map(|a| graph.mul(spin.spread[a][axis], values(spin.first + a))).collect();
-                let by_coordinates = graph.total(by_coordinates);
-                graph.add(values(number), by_coordinates)
+            let column = spin.spread.map(|row| row[axis]);
+            let along = |graph: &mut Graph, values: &[Id]| {
+                let by_coordinates = graph.dot(&column, &values[spin.first..spin.first + 4]);
+                graph.add(values[number], by_coordinates)
             };
-            let force = along(graph, &|i| linear[i]);
-            let constraints = rows.iter().zip(&multipliers).map(|(row, &multiplier)| {
-                let entry = along(graph, &|i| row[i]);
-                graph.mul(entry, multiplier)
-            });
-            let constraints: Vec<Id> = constraints.collect();
-            let right = [force].into_iter().chain(constraints).map(|part| graph.replaced(part, new));
-            let right = right.filter(|&part| part != Id::ZERO).collect::<Vec<_>>();
-            (graph.replaced(left, new), right)
-        };
-        let rows = [0, 1, 2].map(|axis| row(graph, axis));
+            equations.row(graph, number, &along, new)
+        });
         let entry = |i: usize, j: usize| mass[spin.number + i][spin.number + j];
         let inertia = [0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.replaced(entry(i, j), new)));
         let euler = self.euler(graph, spin.number, &rows, inertia);
@@ -252,6 +241,30 @@ fn equal(graph: &Graph, entry: Id) -> Option<[Id; 2]> {
         },
         Node::Defined(inner) => equal(graph, *inner),
         _ => None,
+    }
+}
+
+impl OuterEquations {
+    /// Accelerations and the other terms of the equation of velocity `number`; `along` takes its part of the forces, and of
+    /// each row of F.
+    fn row(
+        &self,
+        graph: &mut Graph,
+        number: usize,
+        along: &dyn Fn(&mut Graph, &[Id]) -> Id,
+        new: &FxHashMap<Id, Id>,
+    ) -> (Id, Vec<Id>) {
+        let accelerations = nodes(graph, self.mass.len(), Variable::Acceleration);
+        let multipliers = nodes(graph, self.rows.len(), Variable::Multiplier);
+        let left = graph.dot(&self.mass[number], &accelerations);
+        let mut right = vec![along(graph, &self.linear)];
+        for (row, &multiplier) in self.rows.iter().zip(&multipliers) {
+            let entry = along(graph, row);
+            right.push(graph.mul(entry, multiplier));
+        }
+        let right = right.into_iter().map(|part| graph.replaced(part, new)).filter(|&part| part != Id::ZERO);
+        let right = right.collect();
+        (graph.replaced(left, new), right)
     }
 }
 
