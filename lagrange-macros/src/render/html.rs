@@ -14,6 +14,9 @@ const LEFT: f64 = 60.0;
 /// Widest formula that is kept on one line of a page, in points at a font size of 10 points.
 const LINE: f64 = 310.0;
 
+/// Widest formula that is kept on one line of a page too narrow for [`LINE`], such as that of a phone.
+const NARROW: f64 = 120.0;
+
 // Styles are inline, because the surrounding page provides no style sheet.
 const PAGE: &str = "overflow-x:auto";
 const ROWS: &str =
@@ -21,6 +24,8 @@ const ROWS: &str =
 const SHORT: &str = "text-align:right";
 const LONG: &str = "grid-column:1/-1;padding-left:2em;text-indent:-2em";
 const WRAPPED: &str = "padding-left:1em;text-indent:-1em";
+// A formula wider than `NARROW` has breaks of its own, which are taken only where the whole formula has no room on a line.
+const FOLDED: &str = "display:inline-flex;flex-wrap:wrap;align-items:baseline;text-indent:0";
 // A remark moves to its own line if it does not fit after the equation.
 const REMARK: &str = "display:inline-block;text-indent:0;opacity:.75;margin-left:1em";
 
@@ -79,8 +84,15 @@ impl HtmlRows<'_> {
     /// MathML formulas side by side, with optional line breaks between them.
     fn formulas(&self, pieces: Vec<String>) -> String {
         let pieces = pieces.into_iter().flat_map(|piece| self.notation.within(piece, LINE));
-        let formulas = pieces.map(|piece| format!("<math displaystyle=\"true\">{piece}</math>"));
-        formulas.collect::<Vec<_>>().join("<wbr/>")
+        pieces.map(|piece| self.formula(piece)).collect::<Vec<_>>().join("<wbr/>")
+    }
+
+    /// A formula that stands on a line, or on several where a line is short.
+    fn formula(&self, piece: String) -> String {
+        let parts = self.notation.within(piece, NARROW);
+        let formulas: String =
+            parts.iter().map(|part| format!("<math displaystyle=\"true\">{part}</math>")).collect();
+        if parts.len() == 1 { formulas } else { format!("<span style=\"{FOLDED}\">{formulas}</span>") }
     }
 
     /// Remark with the name and the kind of a constraint.

@@ -100,6 +100,11 @@ impl Xml {
         }
     }
 
+    /// The formulas of a formula that is folded where a line is short; any other element is itself.
+    fn unfolded(&self) -> &[Self] {
+        if self.has("inline-flex") { self.inside() } else { core::slice::from_ref(self) }
+    }
+
     /// All text inside.
     fn text(&self) -> String {
         match self {
@@ -258,7 +263,7 @@ fn rows(part: &Xml) -> Vec<Row> {
         left.push(cell);
         if !cell.has("text-align:right") {
             let cells = std::mem::take(&mut left);
-            let parts = || cells.iter().flat_map(|cell| cell.inside());
+            let parts = || cells.iter().flat_map(|cell| cell.inside()).flat_map(Xml::unfolded);
             let formulas = parts().filter(|part| part.is("math")).flat_map(Xml::inside);
             let symbols: String = parts().filter(|part| !part.is("span")).map(Xml::text).collect();
             // A formula too wide for a root sign is written as a power with exponent 1/2.
