@@ -6,6 +6,25 @@ const ROWS = 12;
 function showEquations(place, html) {
   place.innerHTML = html;
   place.querySelectorAll(".equations > div").forEach(fold);
+  const headings = [...place.querySelectorAll("h5")];
+  element("parts").replaceChildren(...headings.map(linkTo));
+  showMotion(headings.find(({ textContent }) => textContent === "Equations of motion"));
+}
+
+/// The Lagrangian at the top of the panel, unless the first equation of motion were out of sight then.
+function showMotion(heading) {
+  const panel = element("equations");
+  panel.scrollTop = 0;
+  const [bottom, rows] = [panel.getBoundingClientRect().bottom, heading?.nextElementSibling];
+  const first = rows?.querySelector("math") ?? rows;
+  if (first && first.getBoundingClientRect().bottom + 16 > bottom) panel.scrollBy(0, heading.offsetTop - element("parts").offsetHeight);
+}
+
+/// A button that brings a heading to the top of its panel, or of the page where that does not scroll.
+function linkTo(heading) {
+  const button = Object.assign(document.createElement("button"), { textContent: heading.textContent });
+  button.addEventListener("click", () => heading.scrollIntoView({ block: "start" }));
+  return button;
 }
 
 /// A left side and a right side are a row, and so is what takes the whole width.

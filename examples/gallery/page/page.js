@@ -6,7 +6,7 @@ const SPEEDS = [0.125, 0.25, 0.5, 1, 2, 4];
 const WINDOW = 12;
 const PLOTS = [
   { kind: "energy", title: "Energy", paints: ["ink", "body", "other"] },
-  { kind: "conserved", title: "Conserved: change since the start", paints: ["ink", "body", "other", "force", "momentum"] },
+  { kind: "conserved", title: "Conserved: change", paints: ["ink", "body", "other", "force", "momentum"] },
   { kind: "multiplier", title: "Multipliers λ", paints: ["constraint", "body", "other", "force", "momentum", "soft"] },
 ];
 
@@ -25,8 +25,8 @@ async function unpacked() {
 /// Plain objects: what the systems say of themselves does not change.
 function known(card) {
   const knobs = card.knobs().map(({ name, meaning, unit, low, high, value }) => ({ name, meaning, unit, low, high, value }));
-  const { key, title, about, pace, text, mathml, latex, coordinates } = card;
-  return { key, title, about, pace, text, mathml, latex, coordinates, conservesEnergy: card.conserves_energy, knobs, open: values => card.open(values) };
+  const { key, title, about, pace, text, mathml, latex, coordinates, has_units: hasUnits, conserves_energy: conservesEnergy } = card;
+  return { key, title, about, pace, text, mathml, latex, coordinates, hasUnits, conservesEnergy, knobs, open: values => card.open(values) };
 }
 
 function choose({ card, values, at, speed, forces }) {
@@ -52,13 +52,17 @@ function describe() {
   showEquations(element("formulas"), card.mathml);
   element("text").textContent = card.text;
   element("latex").textContent = card.latex;
-  for (const link of element("systems").children) {
-    const isIt = link.hash === `#${card.key}`;
-    link.toggleAttribute("aria-current", isIt);
-    if (isIt) link.scrollIntoView({ block: "nearest", inline: "center" });
-  }
+  for (const link of element("systems").children) link.toggleAttribute("aria-current", link.hash === `#${card.key}`);
+  showChosen();
   page.sliders = card.knobs.map((knob, k) => slider(knob, value => set(k, value)));
   element("knobs").replaceChildren(...page.sliders.map(({ label }) => label));
+}
+
+/// The system in the middle of the list, as far as that goes; the page stays where it is.
+function showChosen() {
+  const list = element("systems");
+  const [at, frame] = [list.querySelector("[aria-current]"), list].map(one => one?.getBoundingClientRect());
+  if (at) list.scrollBy(at.left + at.width / 2 - frame.left - frame.width / 2, at.top + at.height / 2 - frame.top - frame.height / 2);
 }
 
 /// From the start, as the sliders are.
@@ -80,16 +84,19 @@ function begin() {
 /// A figure for each kind of quantity that there is.
 function layPlots() {
   const quantities = (page.show?.quantities() ?? []).map((text, index) => {
-    const [kind, ...name] = text.split(" ");
-    return { kind, name: name.join(" "), index, first: page.show.series(index, 0, 0)[0] };
+    const [kind, name, ...unit] = text.split(" ");
+    return { kind, name, unit: unit.join(" "), index, first: page.show.series(index, 0, 0)[0] };
   });
   page.plots = PLOTS.map(plot => ({ ...plot, quantities: quantities.filter(({ kind }) => kind === plot.kind).slice(0, plot.paints.length) }))
     .filter(({ quantities }) => quantities.length);
   element("plots").replaceChildren(...page.plots.map(plot => {
     const figure = document.createElement("figure");
-    const keys = plot.quantities.map(({ name }, k) => `<span class="key" style="--paint: var(--${plot.paints[k]})">${pretty(name)}</span>`);
-    figure.innerHTML = `<figcaption><b>${plot.title}<span class="power"></span></b>${keys.join("")}</figcaption><canvas></canvas>`;
-    Object.assign(plot, { canvas: figure.querySelector("canvas"), power: figure.querySelector(".power") });
+    // A unit that all have stands in the title.
+    const units = new Set(plot.quantities.map(({ unit }) => unit));
+    const own = unit => (units.size > 1 && unit ? ` in ${unit}` : "");
+    const keys = plot.quantities.map(({ name, unit }, k) => `<span class="key" style="--paint: var(--${plot.paints[k]})">${pretty(name)}${own(unit)}</span>`);
+    figure.innerHTML = `<figcaption><b>${plot.title}<span class="scale"></span></b>${keys.join("")}</figcaption><canvas></canvas>`;
+    Object.assign(plot, { canvas: figure.querySelector("canvas"), scale: figure.querySelector(".scale"), unit: units.size > 1 ? "" : [...units][0] });
     return figure;
   }));
 }
@@ -141,10 +148,10 @@ function keepLink() {
 function draw() {
   const { show, t, card } = page;
   if (!show) return;
-  drawScene(element("scene"), show.scene(t, page.forces), show.view(t), page.turned, page.paints);
+  drawScene(element("scene"), show.scene(t, page.forces), show.view(t), page.turned, page.paints, card.hasUnits);
   const [first, last] = show.span();
   Object.assign(element("time"), { min: first, max: Math.max(last, first + 1e-9), value: t });
-  element("clock").textContent = `${fixed(t, 2)} s`;
+  element("clock").textContent = card.hasUnits ? `${fixed(t, 2)} s` : `t = ${fixed(t, 2)}`;
   const end = Math.max(t, first + WINDOW * card.pace);
   const window = [end - WINDOW * card.pace, end];
   const times = show.times(window[0], Math.min(end, last));
@@ -158,8 +165,10 @@ function drawFigure(plot, times, window) {
     return { values: isChange ? values.map(value => value - first) : values, paint: plot.paints[k] };
   }).reverse();
   const least = isChange ? 1e-15 : 1e-3 * Math.max(...plot.quantities.map(({ first }) => Math.abs(first) || 0), 1e-3);
-  const power = drawPlot(plot.canvas, { times, curves, now: page.t, window, least }, page.paints);
-  plot.power.textContent = power ? `, in 10${superscript(power)}` : "";
+  const axis = page.card.hasUnits ? "t in s" : "t";
+  const power = drawPlot(plot.canvas, { times, curves, now: page.t, window, least, axis }, page.paints);
+  const scale = [power ? `10${superscript(power)}` : "", plot.unit].filter(Boolean).join(" ");
+  plot.scale.textContent = scale && ` in ${scale}`;
 }
 
 let before = 0;
@@ -258,7 +267,10 @@ function listen() {
   });
   window.addEventListener("hashchange", () => choose(fromLink(location.hash, page.cards)));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
-  new ResizeObserver(() => (page.dirty = true)).observe(document.body);
+  new ResizeObserver(() => {
+    showChosen();
+    page.dirty = true;
+  }).observe(document.body);
   turnByDragging(element("scene"));
 }
 
@@ -284,6 +296,7 @@ async function start() {
     Object.assign(link, { href: `#${key}`, textContent: title });
     return link;
   }));
+  element("loading").remove();
   page.paints = colours();
   listen();
   choose(fromLink(location.hash, page.cards));
@@ -291,6 +304,7 @@ async function start() {
 }
 
 start().catch(error => {
+  element("loading")?.remove();
   say(`This browser cannot run it: ${error}`);
   throw error;
 });

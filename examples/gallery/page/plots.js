@@ -23,7 +23,7 @@ function bounds(curves, least) {
   return [middle - 1.12 * half, middle + 1.12 * half];
 }
 
-function drawPlot(canvas, { times, curves, now, window, least }, paints) {
+function drawPlot(canvas, { times, curves, now, window, least, axis }, paints) {
   const { pen, width, height } = fit(canvas);
   const [left, right, top, bottom] = [58, 10, 8, 22];
   const [low, high] = bounds(curves, least);
@@ -44,7 +44,11 @@ function drawPlot(canvas, { times, curves, now, window, least }, paints) {
   }
   pen.textAlign = "center";
   const columns = ticks(window[0], window[1], (width - left - right) / 45);
-  for (const t of columns.found) pen.fillText(fixed(t, columns.digits), x(t), height - 9);
+  // The name of the axis stands at its end, where no number does then.
+  const end = width - right - pen.measureText(axis).width - 16;
+  for (const t of columns.found) if (x(t) < end) pen.fillText(fixed(t, columns.digits), x(t), height - 9);
+  pen.textAlign = "right";
+  pen.fillText(axis, width - right, height - 9);
   pen.save();
   pen.beginPath();
   pen.rect(left, 0, width - left - right, height - bottom + 2);

@@ -84,7 +84,7 @@ function ordered(found, flat) {
   return found.sort(rank);
 }
 
-function drawScene(canvas, numbers, view, turned, paints) {
+function drawScene(canvas, numbers, view, turned, paints, hasUnits) {
   const { pen, width, height } = fit(canvas);
   const high = height - STRIP;
   const { scale, flat, see } = camera(view, turned, width, high);
@@ -108,7 +108,7 @@ function drawScene(canvas, numbers, view, turned, paints) {
     else if (kind === ARROW && drawArrow(pen, points, size * thick, rgba(colour))) arrows.add(paint);
   }
   pen.restore();
-  drawScales(pen, view, scale, [width, height], arrows, paints);
+  drawScales(pen, view, scale, [width, height], arrows, paints, hasUnits ? " N" : "");
 }
 
 function path(pen, points) {
@@ -203,16 +203,16 @@ function drawGrid(pen, [cx, cy], scale, width, height, paints) {
 }
 
 /// How long the arrow of a force is, below the scene.
-function drawScales(pen, [, , , radius, force], scale, [width, height], arrows, paints) {
+function drawScales(pen, [, , , radius, force], scale, [width, height], arrows, paints, unit) {
   const newton = (scale * radius) / force;
   const amount = nice((0.15 * width) / newton);
-  const names = { constraint: "of constraints", force: arrows.has("constraint") ? "of other forces" : "of forces" };
+  const names = { constraint: "constraint force", force: arrows.has("constraint") ? "other force" : "force" };
   let [x, y] = [14, height - STRIP / 2];
   pen.font = "13px system-ui, 'DejaVu Sans', sans-serif";
   [pen.textBaseline, pen.textAlign] = ["middle", "left"];
   for (const paint of ["constraint", "force"].filter(paint => arrows.has(paint))) {
     const length = amount * newton;
-    const text = `${+amount.toPrecision(2)} N ${names[paint]}`;
+    const text = `${names[paint]} ${+amount.toPrecision(2)}${unit}`;
     drawArrow(pen, [[x, y], [x + length, y]], 2.5, rgba(paints[paint]));
     pen.fillStyle = rgba(paints.ink);
     pen.fillText(text, x + length + 8, y);

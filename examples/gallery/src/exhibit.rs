@@ -31,6 +31,9 @@ pub const fn knob(
     Knob { name, meaning, unit, range, value }
 }
 
+/// Units of what is plotted, by the name of the constraint or of the conserved quantity; times are in s, energies in J.
+pub type Units = &'static [(&'static str, &'static str)];
+
 /// A moment of the motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment<L: Lagrangian> {
@@ -69,6 +72,8 @@ pub trait Exhibit<const K: usize>: Lagrangian<Scalar = f64> + Clone + 'static {
     const ABOUT: &'static str;
     /// What can be set.
     const KNOBS: &'static [Knob; K];
+    /// The units, of multipliers and conserved quantities too; nothing where numbers have none.
+    const UNITS: Option<Units>;
     /// How much of its time passes in a second of watching.
     const PACE: f64 = 1.0;
 

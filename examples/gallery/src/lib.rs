@@ -10,8 +10,8 @@ pub mod systems;
 #[cfg(test)]
 mod tests;
 
-pub use exhibit::{Exhibit, Knob, Moment, knob};
-use running::Running;
+pub use exhibit::{Exhibit, Knob, Moment, Units, knob};
+use running::{Quantity, Running};
 pub use scene::{Paint, Point, Scene, View, xy};
 pub use systems::Entry;
 use wasm_bindgen::prelude::*;
@@ -75,6 +75,12 @@ impl Card {
     #[wasm_bindgen(getter)]
     pub fn conserves_energy(&self) -> bool {
         self.0.conserves_energy
+    }
+
+    /// Whether its numbers have units: times in s, forces in N.
+    #[wasm_bindgen(getter)]
+    pub fn has_units(&self) -> bool {
+        self.0.has_units
     }
 
     /// The coordinates and then their velocities, as [`Show::state`] has them.
@@ -179,9 +185,10 @@ impl Show {
         self.0.state(t)
     }
 
-    /// The names of the quantities that are plotted, each with its kind: `energy E`.
+    /// The quantities that are plotted, each with its kind, its name and its unit, if it has one: `multiplier rod N/m`.
     pub fn quantities(&self) -> Vec<String> {
-        self.0.quantities().iter().map(|quantity| format!("{} {}", quantity.kind, quantity.name)).collect()
+        let quantities = self.0.quantities();
+        quantities.iter().map(|Quantity { kind, name, unit }| format!("{kind} {name} {unit}")).collect()
     }
 
     /// The times of the frames between two times.

@@ -6,7 +6,7 @@ use lagrange_core::facts::{Conserved, EnergyForm};
 use lagrange_core::generic::Array;
 use lagrange_core::{Method, StateOf, prelude::*};
 
-use crate::exhibit::{Exhibit, Moment, TOLERANCE};
+use crate::exhibit::{Exhibit, Moment, TOLERANCE, Units};
 use crate::scene::{Point, Scene, View};
 
 /// How many frames are kept: two minutes of watching.
@@ -23,6 +23,19 @@ const PLOTTED: usize = 6;
 pub(crate) struct Quantity {
     pub(crate) name: &'static str,
     pub(crate) kind: &'static str,
+    /// Its unit, or nothing.
+    pub(crate) unit: &'static str,
+}
+
+impl Quantity {
+    /// Finds the unit of a quantity; one of a family is named by the family.
+    fn new(kind: &'static str, name: &'static str, units: Option<Units>) -> Self {
+        let family = name.split('[').next();
+        let listed = units.unwrap_or_default().iter().find(|(known, _)| Some(*known) == family);
+        let is_energy = kind == "energy" || name == "energy";
+        let unit = if is_energy && units.is_some() { "J" } else { listed.map_or("", |(_, unit)| unit) };
+        Self { name, kind, unit }
+    }
 }
 
 /// Any exhibit that runs.
@@ -193,7 +206,7 @@ where
     }
 
     fn quantities(&self) -> Vec<Quantity> {
-        let named = |kind| move |name| Quantity { name, kind };
+        let named = |kind| move |name| Quantity::new(kind, name, E::UNITS);
         let mut quantities = vec![named("energy")("E")];
         if matches!(E::FACTS.energy_form, EnergyForm::Sum(_) | EnergyForm::Even(_)) {
             quantities.extend(["T", "U"].map(named("energy")));

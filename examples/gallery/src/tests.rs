@@ -78,6 +78,16 @@ fn what_is_between_frames_is_on_the_way() {
 }
 
 #[test]
+fn every_quantity_has_a_unit_or_none_has() {
+    for entry in all() {
+        for quantity in run(&entry, &values(&entry), 0.0).quantities() {
+            let has_unit = !quantity.unit.is_empty();
+            assert_eq!(has_unit, entry.has_units, "{}: {} {}", entry.key, quantity.kind, quantity.name);
+        }
+    }
+}
+
+#[test]
 fn links_name_one_system_each() {
     let mut keys: Vec<_> = all().iter().map(|entry| entry.key).collect();
     keys.sort_unstable();

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
@@ -23,6 +23,7 @@ impl Exhibit<3> for Bead {
         knob("b", "curvature of the wire", "1/m", [0.2, 3.0], 1.5),
         knob("m", "mass", "kg", [0.1, 3.0], 1.0),
     ];
+    const UNITS: Option<Units> = Some(&[("wire", "N")]);
 
     fn set([x, b, m]: [f64; 3]) -> (Self, State<f64, 2>) {
         (Self { m, g: 9.81, b }, State::at_rest([x, b * x * x / 2.0]))

@@ -4,7 +4,7 @@ use lagrange_core::contact::Contact;
 use lagrange_core::{Method, prelude::*};
 
 use crate::exhibit::across_contacts;
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y, phi)]
@@ -31,6 +31,7 @@ impl Exhibit<5> for BouncingBall {
         knob("mu", "friction", "", [0.01, 1.0], 0.15),
         knob("a", "radius", "m", [0.05, 0.2], 0.12),
     ];
+    const UNITS: Option<Units> = Some(&[("floor", "N"), ("floor_friction", "N")]);
 
     fn set([v, w, e, mu, a]: [f64; 5]) -> (Self, State<f64, 3>) {
         let ball = Self { m: 0.2, a, g: 9.81, e, mu, floor: Contact::Open };

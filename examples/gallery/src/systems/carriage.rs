@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 /// In the carriage, Milton (8.40): A is the acceleration of that.
 #[derive(Clone, Lagrangian)]
@@ -32,6 +32,7 @@ impl Exhibit<5> for Carriage {
         knob("l", "length", "m", [0.3, 1.2], 1.0),
         knob("theta_0", "angle from hanging", "rad", [-3.0, 3.0], 0.0),
     ];
+    const UNITS: Option<Units> = Some(&[("rod", "N/m")]);
 
     fn set([gain, reach, omega, l, theta]: [f64; 5]) -> (Self, State<f64, 2>) {
         (Self { m: 1.0, g: 9.81, l, gain, reach, omega }, State::at_rest([l * theta.sin(), -l * theta.cos()]))

@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::Vector4;
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 /// θ is measured from the upright; the cart is pushed by what holds it in this wind less the feedback.
 #[derive(Clone, Lagrangian)]
@@ -40,6 +40,7 @@ impl Exhibit<5> for CartPole {
         knob("strength", "of the feedback", "", [0.0, 2.0], 1.0),
         knob("m", "mass of the bob", "kg", [0.05, 0.6], 0.2),
     ];
+    const UNITS: Option<Units> = Some(&[]);
 
     fn set([theta, x, wind, strength, m]: [f64; 5]) -> (Self, State<f64, 2>) {
         let g = 9.81;

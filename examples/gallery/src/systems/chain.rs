@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 const RODS: usize = 50;
 
@@ -29,6 +29,7 @@ impl Exhibit<4> for Chain {
         knob("m", "mass of all", "kg", [0.1, 5.0], 1.0),
         knob("g", "gravity", "m/s²", [0.0, 20.0], 9.81),
     ];
+    const UNITS: Option<Units> = Some(&[("first", "N/m"), ("rod", "N/m")]);
 
     fn set([theta, bend, m, g]: [f64; 4]) -> (Self, State<f64, 100>) {
         let l = 1.0 / RODS as f64;

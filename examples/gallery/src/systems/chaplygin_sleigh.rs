@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 /// A sleigh on a blade at (x, y), with the centre of mass ahead of it.
 #[derive(Clone, Lagrangian)]
@@ -27,6 +27,7 @@ impl Exhibit<4> for ChaplyginSleigh {
         knob("d", "how far ahead the centre of mass is", "m", [0.05, 1.0], 0.35),
         knob("m", "mass", "kg", [0.2, 5.0], 1.0),
     ];
+    const UNITS: Option<Units> = Some(&[("blade", "N")]);
 
     fn set([speed, rate, d, m]: [f64; 4]) -> (Self, State<f64, 3>) {
         (Self { m, d, inertia: 0.2 * m }, State::new([0.0; 3], [speed, 0.0, rate]))

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(x: [2], y: [2])]
@@ -29,6 +29,7 @@ impl Exhibit<7> for DoublePendulum {
         knob("l_2", "length of the lower rod", "m", [0.2, 1.5], 1.0),
         knob("g", "gravity", "m/s²", [0.0, 20.0], 9.81),
     ];
+    const UNITS: Option<Units> = Some(&[("upper", "N/m"), ("lower", "N/m")]);
 
     fn set([first, second, m_1, m_2, l_1, l_2, g]: [f64; 7]) -> (Self, State<f64, 4>) {
         let joint = [l_1 * first.sin(), -l_1 * first.cos()];

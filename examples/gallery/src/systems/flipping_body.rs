@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::{Matrix3, Quaternion, UnitQuaternion};
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(r: [3], q: [4])]
@@ -33,6 +33,8 @@ impl Exhibit<5> for FlippingBody {
         knob("h", "height", "m", [0.02, 0.4], 0.2),
         knob("d", "depth", "m", [0.02, 0.4], 0.05),
     ];
+    const UNITS: Option<Units> =
+        Some(&[("p_r", "N s"), ("M_x", "J s"), ("M_y", "J s"), ("M_z", "J s"), ("q", "J")]);
 
     fn set([spin, off, w, h, d]: [f64; 5]) -> (Self, State<f64, 7>) {
         let m = 0.6;

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(r: [3])]
@@ -29,6 +29,7 @@ impl Exhibit<4> for FoucaultPendulum {
         knob("a", "how far it is held to the east", "m", [0.2, 5.0], 3.0),
         knob("l", "length", "m", [6.0, 67.0], 15.0),
     ];
+    const UNITS: Option<Units> = Some(&[("string", "N/m")]);
     const PACE: f64 = 3.0;
 
     fn set([latitude, rate, a, l]: [f64; 4]) -> (Self, State<f64, 3>) {

@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::{Matrix3, Quaternion, UnitQuaternion};
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob};
 
 /// Its centre of mass is at r; its tip, at the distance l below that, is held by three constraints.
 #[derive(Clone, Lagrangian)]
@@ -33,6 +33,7 @@ impl Exhibit<5> for HeavyTop {
         knob("l", "height of its centre", "m", [0.05, 0.3], 0.15),
         knob("m", "mass", "kg", [0.1, 2.0], 0.5),
     ];
+    const UNITS: Option<Units> = Some(&[("tip", "N"), ("q", "J")]);
     const PACE: f64 = 0.5;
 
     fn set([spin, theta, precession, l, m]: [f64; 5]) -> (Self, State<f64, 7>) {

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
@@ -19,6 +19,7 @@ impl Exhibit<3> for HenonHeiles {
         knob("y_0", "where it starts", "", [-0.45, 0.6], -0.1),
         knob("v_y", "velocity along y, as a part of what the energy allows", "", [-1.0, 1.0], 0.1),
     ];
+    const UNITS: Option<Units> = None;
     const PACE: f64 = 8.0;
 
     fn set([energy, y, part]: [f64; 3]) -> (Self, State<f64, 2>) {

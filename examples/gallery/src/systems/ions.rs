@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob};
 
 /// In the frame of the trap, which turns; k is the repulsion.
 #[derive(Clone, Lagrangian)]
@@ -33,6 +33,7 @@ impl Exhibit<4> for StirredIons {
         knob("stiffness", "across the trap, along it 1", "N/m", [1.0, 4.0], 1.6),
         knob("m", "mass", "kg", [0.2, 3.0], 1.0),
     ];
+    const UNITS: Option<Units> = Some(&[]);
     const PACE: f64 = 2.0;
 
     fn set([rate, k, stiffness, m]: [f64; 4]) -> (Self, State<f64, 15>) {

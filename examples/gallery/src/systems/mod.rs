@@ -45,6 +45,8 @@ pub struct Entry {
     pub pace: f64,
     /// What the derive writes of it.
     pub equations: Equations,
+    /// Whether its numbers have units.
+    pub has_units: bool,
     /// Whether the derive found that the energy is conserved, and no contact takes of it.
     pub conserves_energy: bool,
     /// The names of its coordinates.
@@ -65,6 +67,7 @@ where
         knobs: E::KNOBS,
         pace: E::PACE,
         equations: E::EQUATIONS,
+        has_units: E::UNITS.is_some(),
         conserves_energy: E::FACTS.energy_is_conserved.is_some() && !E::HAS_CONTACTS,
         coordinates: E::COORDINATES,
         open: running::open::<E, K>,

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob};
 
 /// θ is measured from hanging.
 #[derive(Clone, Lagrangian)]
@@ -26,6 +26,7 @@ impl Exhibit<5> for PolarPendulum {
         knob("l", "length", "m", [0.3, 2.0], 1.0),
         knob("g", "gravity", "m/s²", [1.0, 20.0], 9.81),
     ];
+    const UNITS: Option<Units> = Some(&[("p_phi", "J s")]);
 
     fn set([theta, rate, m, l, g]: [f64; 5]) -> (Self, State<f64, 2>) {
         (Self { m, g, l }, State::new([theta, 0.0], [0.0, rate]))

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 /// A sphere, a cylinder and a hoop; `shape` is I/ma².
 #[derive(Clone, Lagrangian)]
@@ -32,6 +32,7 @@ impl Exhibit<5> for Race {
         knob("a", "radius of each", "m", [0.2, 0.8], 0.5),
         knob("g", "gravity", "m/s²", [0.0, 20.0], 9.81),
     ];
+    const UNITS: Option<Units> = Some(&[("no_slip", "N")]);
 
     fn set([alpha, speed, m, a, g]: [f64; 5]) -> (Self, State<f64, 6>) {
         let spin = -speed / a;

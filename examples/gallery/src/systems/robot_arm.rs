@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::{Matrix3, Vector3};
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob};
 
 /// A link without the joint: in its frame, about its centre.
 #[derive(Clone, Copy)]
@@ -54,6 +54,7 @@ impl Exhibit<4> for RobotArm {
         knob("h", "height of its middle", "m", [0.3, 0.6], 0.45),
         knob("m", "load of the tool", "kg", [0.0, 5.0], 1.0),
     ];
+    const UNITS: Option<Units> = Some(&[("tool", "N"), ("points_down", "N m")]);
 
     fn set([round, radius, height, load]: [f64; 4]) -> (Self, State<f64, 6>) {
         let body = |m: f64, centre: [f64; 3], inertia: [f64; 3]| Body {

@@ -4,7 +4,7 @@ use lagrange_core::contact::Contact;
 use lagrange_core::{Method, prelude::*};
 
 use crate::exhibit::across_contacts;
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y, theta)]
@@ -40,6 +40,7 @@ impl Exhibit<4> for RockingBlock {
         knob("h", "half height", "m", [0.4, 0.8], 0.6),
         knob("g", "gravity", "m/s²", [1.0, 20.0], 9.81),
     ];
+    const UNITS: Option<Units> = Some(&[("floor", "N"), ("floor_friction", "N")]);
     const PACE: f64 = 0.5;
 
     fn set([tilt, b, h, g]: [f64; 4]) -> (Self, State<f64, 3>) {

@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::{Quaternion, UnitQuaternion, UnitVector3, Vector3};
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(r: [3], q: [4])]
@@ -32,6 +32,7 @@ impl Exhibit<5> for RollingBall {
         knob("s", "spin about the normal", "rad/s", [-20.0, 20.0], 2.0),
         knob("a", "radius", "m", [0.03, 0.2], 0.1),
     ];
+    const UNITS: Option<Units> = Some(&[("rolling", "N"), ("unit", "J")]);
 
     fn set([w, tilt, speed, spin, a]: [f64; 5]) -> (Self, State<f64, 7>) {
         let n = Point::new(tilt.sin(), 0.0, tilt.cos());

@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::{Matrix3, Rotation3};
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob};
 
 /// Its pose is where its centre is, its heading, how far it leans, and how far it has rolled.
 #[derive(Clone, Lagrangian)]
@@ -31,6 +31,7 @@ impl Exhibit<4> for RollingCoin {
         knob("w_h", "how fast it turns", "rad/s", [-4.0, 4.0], 0.3),
         knob("a", "radius", "m", [0.2, 0.6], 0.4),
     ];
+    const UNITS: Option<Units> = Some(&[("rolling", "N")]);
 
     fn set([lean, rolls, turns, a]: [f64; 4]) -> (Self, State<f64, 6>) {
         let (m, (sine, cosine)) = (1.0, lean.sin_cos());

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(X, phi)]
@@ -32,6 +32,7 @@ impl Exhibit<5> for RollingCylinder {
         knob("m", "mass", "kg", [0.1, 3.0], 1.0),
         knob("a", "radius", "m", [0.1, 0.5], 0.3),
     ];
+    const UNITS: Option<Units> = Some(&[("no_slip", "N")]);
 
     fn set([x, alpha, k, m, a]: [f64; 5]) -> (Self, State<f64, 2>) {
         (Self { m, a, g: 9.81, alpha, k }, State::at_rest([x, 0.0]))

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(r: [3])]
@@ -27,6 +27,7 @@ impl Exhibit<5> for SphericalPendulum {
         knob("l", "length", "m", [0.3, 2.0], 1.0),
         knob("g", "gravity", "m/s²", [0.0, 20.0], 9.81),
     ];
+    const UNITS: Option<Units> = Some(&[("L_z", "J s"), ("string", "N/m")]);
 
     fn set([theta, speed, m, l, g]: [f64; 5]) -> (Self, State<f64, 3>) {
         (Self { m, g, l }, State::new([l * theta.sin(), 0.0, -l * theta.cos()], [0.0, speed, 0.0]))

@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob};
 
 /// Each leg is a cylinder on a universal joint, a piston in it and a spring between them; the plate is at their ends.
 #[derive(Clone, Lagrangian)]
@@ -43,6 +43,7 @@ impl Exhibit<5> for StewartPlatform {
         knob("k", "stiffness of a leg", "N/m", [800.0, 8000.0], 2500.0),
         knob("m", "mass of the plate", "kg", [10.0, 80.0], 40.0),
     ];
+    const UNITS: Option<Units> = Some(&[("joint", "N")]);
     const PACE: f64 = 0.5;
 
     fn set([z, x, twist, k, m]: [f64; 5]) -> (Self, State<f64, 25>) {

@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(x: [3], y: [3])]
@@ -31,6 +31,7 @@ impl Exhibit<3> for ThreeBodies {
         knob("u", "push of the first along x", "", [-0.1, 0.1], 0.0),
         knob("v", "push of the first along y", "", [-0.1, 0.1], 0.0),
     ];
+    const UNITS: Option<Units> = None;
 
     fn set([m, u, v]: [f64; 3]) -> (Self, State<f64, 6>) {
         let [vx, vy] = MIDDLE.map(|v| -v / 2.0);

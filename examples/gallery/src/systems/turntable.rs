@@ -2,7 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 /// In the frame: v₀ = v + Ω×r.
 #[derive(Clone, Lagrangian)]
@@ -33,6 +33,7 @@ impl Exhibit<5> for Turntable {
         knob("u_0", "speed outwards, in the frame", "m/s", [-1.0, 1.0], 0.0),
         knob("v_0", "speed sideways, in the frame", "m/s", [-2.0, 2.0], 0.0),
     ];
+    const UNITS: Option<Units> = Some(&[]);
 
     fn set([rate, k, x, outwards, sideways]: [f64; 5]) -> (Self, State<f64, 3>) {
         (Self { m: 1.0, k, omega: rate }, State::new([x, 0.0, 0.0], [outwards, sideways, 0.0]))

@@ -4,7 +4,7 @@ use lagrange_core::contact::Contact;
 use lagrange_core::{Method, prelude::*};
 
 use crate::exhibit::across_contacts;
-use crate::{Exhibit, Knob, Moment, Paint, Scene, View, knob, xy};
+use crate::{Exhibit, Knob, Moment, Paint, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(y, sleeve, bird)]
@@ -52,6 +52,14 @@ impl Exhibit<3> for Woodpecker {
         knob("e", "restitution of the beak", "", [0.3, 0.6], 0.5),
         knob("g", "gravity", "m/s²", [9.0, 10.5], 9.81),
     ];
+    const UNITS: Option<Units> = Some(&[
+        ("beak", "N"),
+        ("beak_friction", "N"),
+        ("lower", "N"),
+        ("lower_friction", "N"),
+        ("upper", "N"),
+        ("upper_friction", "N"),
+    ]);
     const PACE: f64 = 0.1;
 
     fn set([mu, e, g]: [f64; 3]) -> (Self, State<f64, 3>) {
