@@ -7,6 +7,7 @@ use super::page::Page;
 use super::remark::{Fragment, Remark};
 use crate::mechanics::{ConservedKind, EnergyChange, EnergyForm, Evidence};
 use crate::symbolic::Id;
+use crate::variables::Variable;
 
 /// Longest potential energy, in symbols, that is repeated in the remark on the energy.
 const LONG: usize = 30;
@@ -88,11 +89,11 @@ impl Page<'_> {
         let t_plus_u = || sum([name("T"), name("U")]);
         match self.derived.facts.energy_form {
             EnergyForm::Sum(_) => vec![t_plus_u()],
-            EnergyForm::Even(_) => self.if_potential(t_plus_u()),
+            EnergyForm::Even(_) if !self.has_moving_masses() => self.if_potential(t_plus_u()),
             EnergyForm::Moving => {
                 vec![Fragment::words("not "), t_plus_u(), Fragment::words(", as positions move with time")]
             }
-            EnergyForm::Quadratic => {
+            EnergyForm::Even(_) | EnergyForm::Quadratic => {
                 let parts = sum([name("L_2"), name("L_0").negated()]);
                 vec![parts, Fragment::words(" by degree in the velocities")]
             }
@@ -101,6 +102,12 @@ impl Page<'_> {
                 vec![sum([Formula::Call("dot".to_owned(), product), name("L").negated()])]
             }
         }
+    }
+
+    /// True if the mass matrix contains the time: −L₀ is hardly a potential where coordinates move, as the length of a
+    /// pendulum that is pulled in.
+    fn has_moving_masses(&self) -> bool {
+        self.graph.symbols(&self.derived.inertia).any(|symbol| matches!(Variable::of(symbol), Variable::Time))
     }
 
     /// T + U on the condition that U is −L at rest, which L alone cannot decide.

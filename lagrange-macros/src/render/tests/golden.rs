@@ -651,6 +651,15 @@ fn the_energy_is_called_t_plus_u_where_that_is_certain() {
             "Conserved\n",
             "E = ½ m (r² ȧ² + ṙ²) + ½ k r²   (T + U)",
         ),
+        // −½ m v² is kinetic energy along the string, not a part of U.
+        (
+            "pendulum that is pulled in",
+            "#[coordinates(theta)] #[define(l = b - v*t)]
+             #[lagrangian(m/2*(v^2 + l^2*theta_dot^2) + m*g*l*cos(theta))]
+             struct S { m: f64, b: f64, v: f64, g: f64 }",
+            "Energy\n",
+            "E = ½ m l² θ̇² − ½ m v² − m g l cos θ   (L₂ − L₀ by degree in the velocities)",
+        ),
         // A gauge term does not change the motion.
         (
             "total derivative",
