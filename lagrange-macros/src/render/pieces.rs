@@ -33,7 +33,9 @@ impl Notation<'_> {
         let comma = self.spelling.sign(", ");
         let (comma, space) = comma.split_at(comma.trim_end().len());
         self.parted(text, depth, |before, rest| {
-            let is_after_comma = before.ends_with(comma) && rest.starts_with(space);
+            // A thin space of LaTeX, `\,`, is no comma.
+            let is_after_comma =
+                before.ends_with(comma) && !before.ends_with(r"\,") && rest.starts_with(space);
             is_after_comma || signs.iter().any(|sign| rest.starts_with(sign))
         })
     }

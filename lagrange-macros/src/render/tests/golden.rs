@@ -725,6 +725,19 @@ fn a_hamiltonian_that_is_not_written_says_why() {
     assert!(lines(relativistic, "Lagrangian\n").ends_with("γ = 1/√(1 − ẋ²/c²)"));
 }
 
+/// A line of LaTeX breaks at a thin space between two words only in a term that is wider than a line.
+#[test]
+fn lines_do_not_break_at_thin_spaces() {
+    let gyroscope = "#[coordinates(x, q: [4])] #[frame(gyro: translate([x, 0, h]), rotate(q))]
+         #[lagrangian(M/2*x_dot^2 + kinetic(gyro, m, [0, 0, l], inertia) - m*g*position(gyro, [0, 0, l])[2])]
+         struct S { M: f64, m: f64, g: f64, h: f64, l: f64, inertia: Matrix3<f64> }";
+    let [[_, latex, _], ..] = rendered(gyroscope).forms;
+    assert!(
+        latex.contains(r"\mathit{inertia}_{0, 1} \, \omega") && !latex.contains(r"\, \nonumber"),
+        "{latex}"
+    );
+}
+
 /// Goldstein, Poole and Safko, *Classical Mechanics*, (5.39): the equation of a top in its angular velocity.
 #[test]
 fn bodies_turn_by_their_angular_velocities() {
