@@ -24,6 +24,7 @@ impl Page<'_> {
         let mut first = 0;
         let lines = self.vectors().flat_map(|labels| {
             let turning = self.derived.turnings.all.iter().find(|turning| turning.first == first);
+            let own = first;
             first += labels.len();
             let others = rows.split_off(labels.len());
             let rows = std::mem::replace(&mut rows, others);
@@ -31,7 +32,7 @@ impl Page<'_> {
                 let label = Some(Notation::UNICODE.write(&Formula::labelled(text, 0)));
                 Line { label, ..Line::of(equation) }
             };
-            let whole = (labels.len() > 1).then(|| self.vector_row(&rows)).flatten();
+            let whole = (labels.len() > 1).then(|| self.vector_row(own, &rows)).flatten();
             if let Some(turning) = turning {
                 return self.turning(turning, labels);
             }
@@ -39,8 +40,9 @@ impl Page<'_> {
                 (Some([left, right]), Some(text)) => vec![line(text, Equation::Known(left, right))],
                 _ => labels
                     .iter()
+                    .zip(own..)
                     .zip(&rows)
-                    .map(|(label, row)| line(&label.text, self.row(row.0, &row.1)))
+                    .map(|((label, own), row)| line(&label.text, self.row(own, row.0, &row.1)))
                     .collect(),
             }
         });

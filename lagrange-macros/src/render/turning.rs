@@ -48,7 +48,7 @@ impl Page<'_> {
             None => (0..3)
                 .map(|axis| {
                     let (left, right) = &turning.rows[axis];
-                    line(&format!("{name}[{axis}]"), self.row(*left, right))
+                    line(&format!("{name}[{axis}]"), self.row(turning.rate + axis, *left, right))
                 })
                 .collect(),
         };

@@ -38,11 +38,11 @@ const TERMS: usize = 100;
 const SIZE: u64 = 2000;
 
 impl Page<'_> {
-    /// Equation Σ inertia = Σ forces.
-    pub(super) fn row(&self, inertia: Id, forces: &[Id]) -> Equation {
+    /// Equation Σ inertia = Σ forces of the velocity `own`.
+    pub(super) fn row(&self, own: usize, inertia: Id, forces: &[Id]) -> Equation {
         let sides = |reading: &Reading| {
             let all = self.polynomial(reading, &[(inertia, 1)], forces)?;
-            self.collected(reading, |collector| collector.row(&all))
+            self.collected(reading, |collector| collector.row(own, &all))
         };
         let computed = self.computed([&[inertia], forces]);
         let size = |[left, right]: &[Formula; 2]| length(left) + length(right);
@@ -70,13 +70,13 @@ impl Page<'_> {
         Ok(computed.filter(|computed| length(computed) < most).unwrap_or(read))
     }
 
-    /// Vector equation of several rows, if these are its components.
-    pub(super) fn vector_row(&self, rows: &[(Id, Vec<Id>)]) -> Option<[Formula; 2]> {
+    /// Vector equation of several rows, if these are its components; `own` is the velocity of the first.
+    pub(super) fn vector_row(&self, own: usize, rows: &[(Id, Vec<Id>)]) -> Option<[Formula; 2]> {
         let sides = |reading: &Reading| {
             let parts =
                 rows.iter().map(|(inertia, forces)| self.polynomial(reading, &[(*inertia, 1)], forces));
             let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?)?;
-            self.collected(reading, |collector| collector.row(&all))
+            self.collected(reading, |collector| collector.row(own, &all))
         };
         shortest(self.readings.iter().filter_map(sides), |[left, right]| length(left) + length(right))
     }

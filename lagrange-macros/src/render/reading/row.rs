@@ -16,9 +16,9 @@ use crate::variables::Variable;
 type Variables<C> = fn(&C, Atom) -> Option<usize>;
 
 impl Collector<'_, '_> {
-    /// Left and right side of the equation `all` = 0, which contains accelerations.
-    pub(super) fn row(&self, all: &Polynomial) -> Option<[Formula; 2]> {
-        let all = self.divided(all)?;
+    /// Left and right side of the equation `all` = 0 of the velocity `own`, which contains accelerations.
+    pub(super) fn row(&self, own: usize, all: &Polynomial) -> Option<[Formula; 2]> {
+        let all = self.divided(own, all)?;
         let (mut left, mut right) = (Polynomial::default(), Polynomial::default());
         for (monomial, &c) in all.terms() {
             let (side, c) = if self.is_inertia(monomial) { (&mut left, c) } else { (&mut right, -c) };
@@ -95,8 +95,9 @@ impl Collector<'_, '_> {
     }
 
     /// Divides by the common factor of all terms. In a row with accelerations the factor may contain coordinates: the
-    /// division loses only the identity 0 = 0 at the zeros of the factor.
-    fn divided(&self, all: &Polynomial) -> Option<Polynomial> {
+    /// division loses only the identity 0 = 0 at the zeros of the factor. The acceleration `own`, or the first one if that is
+    /// missing, gets a plus sign.
+    fn divided(&self, own: usize, all: &Polynomial) -> Option<Polynomial> {
         let coefficients = self.coefficients(all, Self::acceleration)?;
         let may_go = |atom| match self.variable(atom) {
             Some(
@@ -105,7 +106,9 @@ impl Collector<'_, '_> {
             _ => self.is_constant(atom) || !coefficients.is_empty(),
         };
         let (number, monomial) = shared(all, may_go);
-        let is_turned = coefficients.first().is_some_and(|(_, first)| {
+        let is_own = |(atom, _): &&(Atom, Polynomial)| self.acceleration(*atom) == Some(own);
+        let leading = coefficients.iter().find(is_own).or(coefficients.first());
+        let is_turned = leading.is_some_and(|(_, first)| {
             2 * first.terms().filter(|(_, c)| c.is_negative()).count() > first.len()
         });
         let number = if is_turned { -number } else { number };

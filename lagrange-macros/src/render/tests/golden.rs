@@ -725,6 +725,27 @@ fn a_hamiltonian_that_is_not_written_says_why() {
     assert!(lines(relativistic, "Lagrangian\n").ends_with("γ = 1/√(1 − ẋ²/c²)"));
 }
 
+/// The own acceleration of a row has a plus sign, also where that of another coordinate comes first.
+#[test]
+fn rows_are_positive_in_their_own_acceleration() {
+    let sleigh = "#[coordinates(x, y, phi)] #[define(c = [x + a*cos(phi), y + a*sin(phi)])]
+         #[lagrangian(m/2*dot(der(c), der(c)) + I/2*phi_dot^2)]
+         #[constraint(skate: y_dot*cos(phi) - x_dot*sin(phi) = 0)] #[force(phi: torque)]
+         struct Sleigh { m: f64, a: f64, I: f64, torque: f64 }";
+    expect![[r#"
+        x: m ẍ − m a φ̈ sin φ = m a φ̇² cos φ − λ_skate sin φ
+          y: m ÿ + m a φ̈ cos φ = m a φ̇² sin φ + λ_skate cos φ
+          φ: m a ÿ cos φ + (m a² + I) φ̈ − m a ẍ sin φ = torque"#]]
+    .assert_eq(&lines(sleigh, "Equations of motion\n"));
+    let particles =
+        "#[coordinates(r: [2], s: [2])] #[lagrangian(-m*dot(r_dot, s_dot) + m/2*dot(s_dot, s_dot))]
+         #[force(s: f)] struct Particles { m: f64, f: [f64; 2] }";
+    expect![[r#"
+        r: s̈ = 0
+          s: m s̈ − m r̈ = f"#]]
+    .assert_eq(&lines(particles, "Equations of motion\n"));
+}
+
 /// A line of LaTeX breaks at a thin space between two words only in a term that is wider than a line.
 #[test]
 fn lines_do_not_break_at_thin_spaces() {
