@@ -31,7 +31,8 @@ use slides::Slides;
 ///
 /// A frame turned by a quaternion q moves by its angular velocity ω, along the turned axes: q̇ = ½ q ω, a product of
 /// quaternions, and the equations of q are projected onto the three rotations. A rigid body alone turns by Euler's
-/// I ω̇ + ω×(I ω) = N (Goldstein, Poole and Safko, *Classical Mechanics*, (5.39)).
+/// I ω̇ + ω×(I ω) = N (Goldstein, Poole and Safko, *Classical Mechanics*, (5.39)). What is printed then holds where the
+/// constraint of q does: |q| = 1 and q·q̇ = 0.
 ///
 /// An expression longer than 250 characters is replaced by its length. Expressions of more than 100 expanded
 /// terms are printed in the form that is computed.

@@ -1,9 +1,10 @@
 //! Rewrites equations as a person would print them. Nothing is computed with this form.
 //!
 //! An expression is expanded into a [polynomial] in [atoms], whose like terms are collected and cancel exactly. Sines
-//! and cosines are [merged](angles), a [row] is divided by the common factor of its terms, and common factors are
-//! [taken out](collect) where that is shorter. This is done with definitions by name and with definitions written out.
-//! The [shortest](mod@super::length) form is taken; the form used in the computation is also a candidate.
+//! and cosines are [merged](angles), quaternions of bodies are put on the unit [sphere], a [row] is divided by the common
+//! factor of its terms, and common factors are [taken out](collect) where that is shorter. This is done with definitions
+//! by name and with definitions written out. The [shortest](mod@super::length) form is taken; the form used in the
+//! computation is also a candidate.
 
 mod angles;
 mod atoms;
@@ -12,6 +13,7 @@ mod dots;
 mod expand;
 mod polynomial;
 mod row;
+mod sphere;
 mod squares;
 mod vectors;
 
@@ -26,6 +28,7 @@ use super::lines::Equation;
 use super::page::Page;
 use super::roots::NamedRoot;
 use crate::symbolic::{Id, Rational};
+use atoms::LIMIT;
 use collect::Collector;
 pub(super) use expand::{Names, Reading, constants, readings};
 use polynomial::{Monomial, Polynomial};
@@ -176,6 +179,12 @@ impl Page<'_> {
         let mut sum = Polynomial::default();
         for (id, sign) in parts {
             sum.add(&expansion.of(id)?, Rational::from_integer(sign))?;
+        }
+        if sum.len() > LIMIT {
+            return None;
+        }
+        for turning in &self.derived.turnings.all {
+            sum = expansion.atoms.on_sphere(sum, turning.first)?;
         }
         if sum.len() > TERMS {
             return None;

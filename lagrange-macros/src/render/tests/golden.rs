@@ -759,6 +759,14 @@ fn lines_do_not_break_at_thin_spaces() {
     );
 }
 
+/// A ball's quaternion: q·q̇ = 0 and |q|² = 1.
+#[test]
+fn momenta_of_quaternions_are_those_on_the_sphere() {
+    let ball = "#[coordinates(q: [4])] #[frame(ball: rotate(q))]
+         #[lagrangian(kinetic(ball, 0, [0, 0, 0], j*identity(3)))] struct Ball { j: f64 }";
+    expect!["p_q = 4 j q̇"].assert_eq(&lines(ball, "Momenta\n"));
+}
+
 /// Goldstein, Poole and Safko, *Classical Mechanics*, (5.39): the equation of a top in its angular velocity.
 #[test]
 fn bodies_turn_by_their_angular_velocities() {
@@ -772,6 +780,19 @@ fn bodies_turn_by_their_angular_velocities() {
     .assert_eq(&lines(top, "Equations of motion\n"));
     expect!["E = ½ ω_q·(I_q ω_q) + m g l (1 − 2 q[1]² − 2 q[2]²)   (T + U)"]
         .assert_eq(&lines(top, "Conserved\n"));
+    // Where |q|² = 1 is needed to read −½ m A² ω² sin², the torque −¼ c ω of −c q̇ and the power of friction.
+    let shaken = "#[coordinates(q: [4])] #[frame(top: translate([0, 0, A*cos(w*t)]), rotate(q))]
+         #[define(spin = angular_velocity(top))]
+         #[lagrangian(kinetic(top, m, [0, 0, l], inertia))] #[dissipation(b/2*dot(spin, spin))]
+         #[force(q: -c*q_dot)]
+         struct Shaken { m: f64, l: f64, A: f64, w: f64, b: f64, c: f64, inertia: Matrix3<f64> }";
+    expect![[r#"
+        q:   q̇ = ½ q ω_q   (product of quaternions, ω_q along the turned axes)
+          ω_q: I_q ω̇_q + ω_q×(I_q ω_q) = [−(b + ¼ c) ω_q[0] − 2 m l A w² (q[0] q[1] + q[2] q[3]) cos(w t), 2 m l A w² (q[1] q[3] − q[0] q[2]) cos(w t) − (b + ¼ c) ω_q[1], −(b + ¼ c) ω_q[2]]
+          I_q = [[m l² + inertia[0][0], inertia[0][1], inertia[0][2]], [inertia[0][1], m l² + inertia[1][1], inertia[1][2]], [inertia[0][2], inertia[1][2], inertia[2][2]]]"#]].assert_eq(&lines(shaken, "Equations of motion\n"));
+    expect![[r#"
+        E = ½ ω_q·(I_q ω_q) − ½ m A² w² sin²(w t)   (not T + U, as positions move with time)
+          d/dt E = m A w² (2 l (q[1] q[3] − q[0] q[2]) ω_q[1] − 2 l (q[0] q[1] + q[2] q[3]) ω_q[0] − A w sin(w t)) cos(w t) − (b + ¼ c) ω_q·ω_q   (−∂L/∂t + Q·q̇)"#]].assert_eq(&lines(shaken, "Energy\n"));
     // With a diagonal matrix the components are shorter: Euler's equations.
     let free = "#[coordinates(r: [3], q: [4])] #[frame(body: translate(r), rotate(q))]
          #[lagrangian(kinetic(body, m, [0, 0, 0], [[a, 0, 0], [0, b, 0], [0, 0, c]]))]
