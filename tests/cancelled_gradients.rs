@@ -60,6 +60,10 @@ wheel!(Cosine, cos(d * x + pi / 2) * x_dot + cos(d * y + pi / 2) * y_dot = 0);
 wheel!(Angle, atan2(d * x, 1) * x_dot + atan2(d * y, 1) * y_dot = 0);
 wheel!(Logarithm, ln(1 + d * x) * x_dot + ln(1 + d * y) * y_dot = 0);
 wheel!(Exponential, exp(d * x) * x_dot + exp(d * y) * y_dot = 0);
+wheel!(Shifted, (sin(y + d * x) - sin(y)) * x_dot = 0);
+wheel!(Gear, sin(y + d * x) - sin(y) = 0);
+wheel!(Root, sqrt((a[0] + a[1]) ^ 2 * x ^ 2) - c * x = 0);
+wheel!(Power, (x ^ (a[0] + a[1]) * x ^ (-c) - 1) * x_dot = 0);
 
 /// 1,000, unless told.
 fn cases() -> u64 {
@@ -135,6 +139,29 @@ fn rows_whose_motion_the_parameters_cancel_are_refused() {
         let found = Exponential { a, c, g }.solve(&state);
         assert!(found.is_ok(), "case {case}: {found:?}");
     }
+}
+
+/// A coordinate beside those that vary, and factors that cancel each other's variation.
+#[test]
+fn rows_whose_terms_differ_by_round_off_are_refused() {
+    let mut refused = [0; 4];
+    for case in 0..cases() {
+        let random = &mut Random(case);
+        let (a, g) = ([random.positive(), random.positive()], 9.81);
+        let c = (a[0] + a[1]) * (1.0 + f64::EPSILON);
+        let state = State::at_rest([random.between(0.5, 2.0), random.between(0.5, 2.0)]);
+        let found = [
+            (Shifted { a, c, g }.solve(&state), Shifted { a, c, g }.constraint_jacobian(&state).amax()),
+            (Gear { a, c, g }.solve(&state), Gear { a, c, g }.constraint_jacobian(&state).amax()),
+            (Root { a, c, g }.solve(&state), Root { a, c, g }.constraint_jacobian(&state).amax()),
+            (Power { a, c, g }.solve(&state), Power { a, c, g }.constraint_jacobian(&state).amax()),
+        ];
+        for (refused, (found, largest)) in refused.iter_mut().zip(found) {
+            assert!(is_refused(&found) || largest == 0.0, "case {case}: {found:?}, {largest}");
+            *refused += u64::from(largest != 0.0);
+        }
+    }
+    assert!(refused.iter().all(|&count| count > cases() / 10), "{refused:?}");
 }
 
 /// Whatever uses the constraints says so.
