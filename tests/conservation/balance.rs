@@ -71,6 +71,19 @@ struct Thrown {
     floor: Contact,
 }
 
+/// Two links, with dry friction in the joint between them.
+#[derive(Clone, Lagrangian)]
+#[coordinates(a, b)]
+#[lagrangian(m/2*(a_dot^2 + b_dot^2 + a_dot*b_dot*cos(a - b)) + m*g*cos(a) + g*cos(b))]
+#[friction(joint: a_dot - b_dot, limit: hold, sliding: pull)]
+struct Arm {
+    m: f64,
+    g: f64,
+    hold: f64,
+    pull: f64,
+    joint: Friction,
+}
+
 /// Compares the rate with the difference of the energies shortly before and after, which the accelerations lead to.
 #[track_caller]
 fn check_rate<L: Lagrangian<Scalar = f64>>(system: &L, guess: impl Into<StateOf<L>>, most: f64) {
@@ -151,6 +164,29 @@ fn the_energy_is_balanced_across_contacts() {
     let path = motion.with_contacts().to(10.0).expect("a motion");
     let balance = *path.drift().get("energy - work").expect("a balance");
     assert!(balance.largest < 1e-9 && path.transitions().len() >= 3, "{balance:?}");
+}
+
+/// Dry friction in a joint has limits of its own; the energy is conserved while it sticks.
+#[test]
+fn the_energy_is_balanced_while_a_joint_slides() {
+    let joint = Friction::Slides([1.0, 0.0]);
+    let arm = Arm { m: 1.2, g: 9.0, hold: 0.5, pull: 0.3, joint };
+    let start = State::new([0.3, 0.0], [1.0, 0.3]);
+    let motion = arm.motion(start).by(Dop853::with_tolerance(1e-12));
+    let path = motion.with_contacts().to(4.0).expect("a motion");
+    let lost = arm.energy(&start) - arm.energy(path.end());
+    let balance = *path.drift().get("energy - work").expect("a balance");
+    assert!(balance.largest < 1e-9 && lost > 0.1 && path.transitions().len() >= 3, "{balance:?}, {lost}");
+}
+
+/// `Taylor` is accurate to round-off in long steps. Each adds a few roundings of the energy.
+#[test]
+fn long_steps_are_balanced_to_round_off() {
+    let driven = driven();
+    let path = driven.integrate(State::new([0.8], [1.3]), 5.0, Taylor::default()).expect("a motion");
+    let balance = *path.drift().get("energy - work").expect("a balance");
+    let roundings = 8.0 * path.statistics().accepted as f64;
+    assert!(balance.largest < roundings * f64::EPSILON * balance.start.abs(), "{balance:?}, {roundings}");
 }
 
 /// A motion with large steps has a balance that is as inaccurate.
