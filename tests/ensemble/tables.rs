@@ -180,6 +180,24 @@ fn tables_that_contradict_each_other_are_refused() {
     ));
 }
 
+/// An event ends a member at one time only.
+#[test]
+fn members_that_end_at_an_event_have_one_result() {
+    let run = |level: f64| {
+        let event = member(0).0.event("far", move |s| s.time() - level).terminal();
+        ensemble().event(event).tag("")
+    };
+    let [one, other] =
+        [0.5, 0.25].map(|level| run(level).integrate(END, Dop853::default()).unwrap().csv().to_string());
+    let both = run(0.5).resume(&one).unwrap().resume(&other).unwrap().integrate(END, Dop853::default());
+    let error = both.unwrap_err();
+    assert!(matches!(error, Error::Ensemble(EnsembleError::OtherRun { member: 0, .. })), "{error}");
+    assert!(matches!(
+        run(0.5).resume(&(one + &other)),
+        Err(Error::Ensemble(EnsembleError::Resume { column: 1, .. }))
+    ));
+}
+
 /// Columns of one name could not be told apart.
 #[test]
 fn quantities_need_names_of_their_own() {

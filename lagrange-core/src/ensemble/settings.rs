@@ -194,7 +194,7 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
     ///
     /// # Errors
     /// [`EnsembleError::Resume`] if a line is no row of this system, if the rows are of different runs, or if two rows of a
-    /// member that reached the end have different numbers.
+    /// member that reached the end or an event have different numbers.
     /// [`integrate`](Self::integrate) returns [`EnsembleError::OtherRun`] for members of another run, end or start. It
     /// returns [`EnsembleError::Untagged`] if code that no fingerprint sees can change the members and there is no
     /// [tag](Self::tag).

@@ -113,7 +113,7 @@ impl<T: Real, N: Length> MemberTable<T, N> {
     ///
     /// # Errors
     /// [`EnsembleError::Resume`] if a line is no row of this system with these equations, if the rows are of different
-    /// runs, or if two rows of a member that reached the end have different numbers.
+    /// runs, or if two rows of a member that reached the end or an event have different numbers.
     pub fn read<L>(table: &str) -> Result<Self, Error>
     where
         L: Lagrangian<N = N, Scalar = T>,

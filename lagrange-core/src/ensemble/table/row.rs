@@ -161,10 +161,12 @@ impl<T: Real, N: Length> MemberRow<T, N> {
         Ok(Member { index, fingerprint, names: names.clone(), result })
     }
 
-    /// True if both rows reached the end, but not with the same bits. An observer may end a member at another time.
+    /// True if both rows reached the end or an event, but not with the same bits. An observer may end a member at another
+    /// time.
     pub(crate) fn contradicts(&self, other: &Self) -> bool {
-        let are_complete = [self, other].iter().all(|row| row.ending == MemberEnding::Complete);
-        are_complete && self.csv().to_string() != other.csv().to_string()
+        let is_repeatable = |ending: &_| matches!(ending, MemberEnding::Complete | MemberEnding::Event(_));
+        let are_repeatable = [self, other].iter().all(|row| is_repeatable(&row.ending));
+        are_repeatable && self.csv().to_string() != other.csv().to_string()
     }
 
     /// The row as a line of the table.
