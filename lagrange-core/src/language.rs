@@ -3,7 +3,8 @@
 //! # A system
 //!
 //! The fields of a struct are the parameters. `coordinates` and `lagrangian` are given once, `dissipation` at most
-//! once, all other attributes as often as needed. The order of attributes matters among definitions only.
+//! once, all other attributes as often as needed, or once with several statements separated by `;`. The order of
+//! attributes matters among definitions only.
 //!
 //! ```
 //! use lagrange_core::prelude::*;
@@ -17,6 +18,27 @@
 //! let state = pendulum.state_from(&[("theta", 0.3)])?;
 //! let solution = pendulum.solve(&state)?;
 //! assert!((solution.accelerations[0] + 9.81 / 2.0 * 0.3_f64.sin()).abs() < 1e-14);
+//! # Ok::<(), lagrange_core::Error>(())
+//! ```
+//!
+//! Several statements in one attribute:
+//!
+//! ```
+//! # use lagrange_core::prelude::*;
+//! #[derive(Lagrangian)]
+//! #[coordinates(x, y)]
+//! #[lagrangian(m/2*(x_dot^2 + y_dot^2))]
+//! #[force(x: wind - drag*x_dot; y: -drag*y_dot - m*g)]
+//! #[observable(
+//!     speed = sqrt(x_dot^2 + y_dot^2);
+//!     height = y
+//! )]
+//! struct Kite { m: f64, g: f64, drag: f64, wind: f64 }
+//!
+//! let kite = Kite { m: 0.5, g: 9.81, drag: 0.2, wind: 3.0 };
+//! let solution = kite.solve(&State::at_rest([0.0, 4.0]))?;
+//! assert_eq!((solution.accelerations[0], solution.accelerations[1]), (6.0, -9.81));
+//! assert_eq!(Kite::OBSERVABLES, ["speed", "height"]);
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!

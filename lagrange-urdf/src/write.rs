@@ -8,15 +8,10 @@ use crate::names::Labels;
 use crate::options::Options;
 use crate::tree::Tree;
 
-/// Beyond this many attributes of one struct rustc needs a higher `recursion_limit` than its own, 128.
-const ATTRIBUTES: usize = 120;
-
-/// Returns the text, and whether its attributes are more than rustc takes without being asked to.
-pub(crate) fn write(name: &str, tree: &Tree, labels: &Labels, options: &Options) -> (String, bool) {
-    let attributes = attributes::attributes(tree, labels, options);
-    let is_long = attributes.iter().filter(|line| line.starts_with("#[")).count() > ATTRIBUTES;
+/// Returns the text.
+pub(crate) fn write(name: &str, tree: &Tree, labels: &Labels, options: &Options) -> String {
     let rubs = options.friction && tree.links.iter().any(|moving| moving.friction() > 0.0);
-    let mut lines = head(name, options, is_long, rubs);
+    let mut lines = head(name, options, rubs);
     lines.push(format!(
         "/// The robot `{}`: a frame for each link that moves, a coordinate for each joint.",
         one_line(name)
@@ -25,10 +20,10 @@ pub(crate) fn write(name: &str, tree: &Tree, labels: &Labels, options: &Options)
     if labels.have_capitals() {
         lines.push("#[allow(non_snake_case)]".to_owned());
     }
-    lines.extend(attributes);
+    lines.extend(attributes::attributes(tree, labels, options));
     lines.extend(fields::fields(tree, labels, options));
     lines.extend(limits::limits(tree, labels));
-    (lines.join("\n") + "\n", is_long)
+    lines.join("\n") + "\n"
 }
 
 /// A name as it stands in a comment.
@@ -36,7 +31,7 @@ fn one_line(name: &str) -> String {
     name.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-fn head(name: &str, options: &Options, is_long: bool, rubs: bool) -> Vec<String> {
+fn head(name: &str, options: &Options, rubs: bool) -> Vec<String> {
     let mut lines = vec![
         format!(
             "// The robot `{}`, written by lagrange-urdf from its description, to be read and edited.",
@@ -44,11 +39,6 @@ fn head(name: &str, options: &Options, is_long: bool, rubs: bool) -> Vec<String>
         ),
         "// SI units, angles in rad; gravity is along −z.".to_owned(),
     ];
-    if is_long {
-        lines.push(
-            "// So many attributes need `#![recursion_limit = \"512\"]` at the top of the crate.".to_owned(),
-        );
-    }
     lines.push(String::new());
     if rubs {
         lines.push("use lagrange_core::contact::Friction;".to_owned());

@@ -277,18 +277,16 @@ fn a_flywheel_without_a_mass() {
     );
 }
 
+/// rustc takes 127 attributes unless the crate asks for more.
 #[test]
-fn many_attributes_are_noted() {
-    let names: Vec<String> = (0..45).map(|k| format!("l{k}")).collect();
+fn robots_of_many_links_have_few_attributes() {
+    let names: Vec<String> = (0..60).map(|k| format!("l{k}")).collect();
     let links: String = names.iter().map(|name| link(name)).collect();
     let joints: String =
         names.windows(2).map(|pair| turns(&pair[1].replace('l', "j"), [&pair[0], &pair[1]])).collect();
     let import = imported(&[&links, &joints], &Options::default());
-    assert!(
-        import.rust.contains("`#![recursion_limit = \"512\"]`") && import.notes.len() == 1,
-        "{:?}",
-        import.notes
-    );
+    let attributes = import.rust.lines().filter(|line| line.starts_with("#[")).count();
+    assert!(attributes < 20 && import.notes.is_empty(), "{attributes} attributes, {:?}", import.notes);
 }
 
 fn run(arguments: &[&str]) -> Output {

@@ -40,9 +40,11 @@ pub(crate) fn declaration(input: DeriveInput, diagnostics: &mut Diagnostics) -> 
     let mut seen = Vec::new();
     for attribute in &input.attrs {
         if let Some(word) = own(attribute) {
-            let result =
-                once(word, attribute, &mut seen).and_then(|()| read(&mut declaration, word, attribute));
-            diagnostics.note(result);
+            let statements = once(word, attribute, &mut seen).and_then(|()| statements(word, attribute));
+            for mut statement in diagnostics.note(statements).unwrap_or_default() {
+                let result = read(&mut declaration, word, &mut statement);
+                diagnostics.note(result);
+            }
         }
     }
     for (word, example) in
@@ -97,21 +99,38 @@ fn once(word: &'static str, attribute: &Attribute, seen: &mut Vec<(&'static str,
     let place = Place::of(&attribute.meta);
     let earlier = seen.iter().find(|(found, _)| *found == word).map(|(_, place)| *place);
     seen.push((word, place));
-    let advice = match word {
-        "coordinates" => "list all coordinates in one: `#[coordinates(x, y)]`",
-        "lagrangian" => "a system has one Lagrangian: write it as one sum",
-        "dissipation" => "a system has one dissipation function: write it as one sum",
-        "lagrange" => "put all options into one",
-        _ => return Ok(()),
-    };
-    let Some(earlier) = earlier else { return Ok(()) };
+    let (Some(advice), Some(earlier)) = (advice_on_several(word), earlier) else { return Ok(()) };
     let message = format!("`#[{word}(…)]` is given twice: {advice}");
     Err(place.error_beside(message, earlier, "the first one is here"))
 }
 
-fn read(declaration: &mut Declaration, word: &str, attribute: &Attribute) -> Result<()> {
-    let mut cursor = content(word, attribute)?;
-    let cursor = &mut cursor;
+/// Advice in place of several statements of this kind; `None` where a system may have several.
+fn advice_on_several(word: &str) -> Option<&'static str> {
+    match word {
+        "coordinates" => Some("list all coordinates in one: `#[coordinates(x, y)]`"),
+        "lagrangian" => Some("a system has one Lagrangian: write it as one sum"),
+        "dissipation" => Some("a system has one dissipation function: write it as one sum"),
+        "lagrange" => Some("put all options into one"),
+        _ => None,
+    }
+}
+
+/// Returns the statements in the parentheses of the attribute: those of a kind that a system may have several of are
+/// separated by `;`.
+fn statements(word: &str, attribute: &Attribute) -> Result<Vec<Cursor>> {
+    let mut rest = content(word, attribute)?;
+    if advice_on_several(word).is_some() {
+        return Ok(vec![rest]);
+    }
+    let mut statements = Vec::new();
+    while !rest.is_empty() {
+        statements.push(rest.until(|cursor| cursor.is_punct(';')));
+        rest.take_punct(';');
+    }
+    Ok(statements)
+}
+
+fn read(declaration: &mut Declaration, word: &str, cursor: &mut Cursor) -> Result<()> {
     match word {
         "coordinates" => {
             coordinates(cursor, &mut declaration.coordinates)?;

@@ -52,7 +52,10 @@ pub(super) fn finish(cursor: &mut Cursor, word: &str) -> Result<()> {
     if cursor.is_empty() {
         return Ok(());
     }
-    Err(cursor.error(format!("expected the end of the attribute: write `{}`, once for each", form(word))))
+    Err(cursor.error(format!(
+        "expected the end of the attribute: write `{}`, once for each or with `;` between several",
+        form(word)
+    )))
 }
 
 /// Reads an expression with `read`. After an error, returns a guess from the tokens, so that later stages still find

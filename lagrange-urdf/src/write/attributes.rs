@@ -16,34 +16,60 @@ const WIDTH: usize = 110;
 
 pub(super) fn attributes(tree: &Tree, labels: &Labels, options: &Options) -> Vec<String> {
     let links = || tree.links.iter().zip(&labels.links);
-    let mut lines = vec![coordinates(tree, labels)];
-    lines.extend(mimics(tree, labels));
-    lines.extend(links().flat_map(|(moving, label)| frame(moving, label, labels)));
-    lines
-        .extend(tree.tools.iter().zip(&labels.tools).flat_map(|(tool, name)| tool_frame(tool, name, labels)));
-    if !options.numbers {
-        lines.extend(links().filter(|(moving, _)| !moving.body.is_nothing()).map(|(_, label)| {
-            format!("#[parameter({}: {{m, centre: [3], inertia: symmetric}})]", label.body)
-        }));
+    let tools = || tree.tools.iter().zip(&labels.tools);
+    let frames = links().map(|(moving, label)| frame(moving, label, labels));
+    let frames = frames.chain(tools().filter_map(|(tool, name)| tool_frame(tool, name, labels)));
+    let bodies = links().filter(|(moving, _)| !options.numbers && !moving.body.is_nothing());
+    let bodies = bodies.map(|(_, label)| format!("{}: {{m, centre: [3], inertia: symmetric}}", label.body));
+    let driven = links().filter(|(moving, _)| moving.is_driven());
+    let rubbing = links().filter(|(moving, _)| options.friction && moving.friction() > 0.0);
+    [
+        vec![coordinates(tree, labels)],
+        attribute("define", mimics(tree, labels).map(Statement::from)),
+        attribute("frame", frames),
+        attribute("parameter", bodies.map(Statement::from)),
+        lagrangian(tree, labels, options),
+        attribute("force", driven.map(|(_, label)| format!("{}: {}", label.q, label.tau).into())),
+        dissipation(tree, labels, options),
+        attribute("friction", rubbing.map(|(moving, label)| friction(moving, label, options).into())),
+        attribute(
+            "observable",
+            tools().flat_map(|(tool, name)| observables(tool, name, labels)).map(Statement::from),
+        ),
+    ]
+    .concat()
+}
+
+/// One statement of an attribute, with a comment above it.
+struct Statement {
+    comment: Option<String>,
+    lines: Vec<String>,
+}
+
+impl From<String> for Statement {
+    fn from(line: String) -> Self {
+        Self { comment: None, lines: vec![line] }
     }
-    lines.extend(lagrangian(tree, labels, options));
-    lines.extend(
-        links()
-            .filter(|(moving, _)| moving.is_driven())
-            .map(|(_, label)| format!("#[force({}: {})]", label.q, label.tau)),
-    );
-    lines.extend(dissipation(tree, labels, options));
-    if options.friction {
-        lines.extend(links().filter(|(moving, _)| moving.friction() > 0.0).map(|(moving, label)| {
-            let bound = if options.numbers { expression(moving.friction()) } else { label.coulomb.clone() };
-            let rate = rate(moving, label);
-            format!("#[friction({}: {rate}, limit: {bound}, sliding: {bound})]", label.friction)
-        }));
-    }
-    lines.extend(
-        tree.tools.iter().zip(&labels.tools).flat_map(|(tool, name)| observables(tool, name, labels)),
-    );
-    lines
+}
+
+/// All statements of a kind in one attribute: rustc takes only 127 attributes unless it is asked to take more.
+fn attribute(kind: &str, statements: impl Iterator<Item = Statement>) -> Vec<String> {
+    let statements: Vec<Statement> = statements.collect();
+    let Some(last) = statements.len().checked_sub(1) else { return Vec::new() };
+    let lines = statements.iter().enumerate().flat_map(|(k, Statement { comment, lines })| {
+        let mut lines: Vec<String> = comment.iter().chain(lines).map(|line| format!("    {line}")).collect();
+        if let Some(line) = lines.last_mut().filter(|_| k < last) {
+            line.push(';');
+        }
+        lines
+    });
+    let lines = [format!("#[{kind}(")].into_iter().chain(lines).chain([")]".to_owned()]).collect();
+    if statements.iter().any(|statement| statement.comment.is_some()) { lines } else { folded(lines) }
+}
+
+fn friction(moving: &Moving, label: &Label, options: &Options) -> String {
+    let bound = if options.numbers { expression(moving.friction()) } else { label.coulomb.clone() };
+    format!("{}: {}, limit: {bound}, sliding: {bound}", label.friction, rate(moving, label))
 }
 
 fn coordinates(tree: &Tree, labels: &Labels) -> String {
@@ -58,7 +84,7 @@ fn coordinates(tree: &Tree, labels: &Labels) -> String {
 }
 
 /// Definitions in place of the coordinates of mimic joints, each after the one that it needs.
-fn mimics(tree: &Tree, labels: &Labels) -> Vec<String> {
+fn mimics(tree: &Tree, labels: &Labels) -> impl Iterator<Item = String> {
     let mut found = Vec::new();
     for (moving, label) in tree.links.iter().zip(&labels.links) {
         let Some(mimic) = moving.mimic() else { continue };
@@ -68,19 +94,17 @@ fn mimics(tree: &Tree, labels: &Labels) -> Vec<String> {
             mimic.multiplier.unwrap_or(1.0),
             mimic.offset.unwrap_or(0.0),
         );
-        found.push((tree.depth(moving), format!("#[define({} = {value})]", label.q)));
+        found.push((tree.depth(moving), format!("{} = {value}", label.q)));
     }
     found.sort_by_key(|(depth, _)| *depth);
-    found.into_iter().map(|(_, line)| line).collect()
+    found.into_iter().map(|(_, line)| line)
 }
 
-fn frame(moving: &Moving, label: &Label, labels: &Labels) -> Vec<String> {
+fn frame(moving: &Moving, label: &Label, labels: &Labels) -> Statement {
     let mut steps = steps::place(&moving.origin);
     steps.extend(steps::motion(moving.kind(), &moving.axis(), &label.q, &label.turn));
     let within = moving.parent.map_or(String::new(), |parent| format!(" in {}", labels.links[parent].frame));
-    let mut lines = vec![comment(moving)];
-    lines.extend(placed(&label.frame, &within, &steps));
-    lines
+    Statement { comment: Some(comment(moving)), lines: placed(&label.frame, &within, &steps) }
 }
 
 fn comment(moving: &Moving) -> String {
@@ -107,12 +131,10 @@ fn kind(kind: &JointType) -> &'static str {
 }
 
 /// Frame of a tool that is not itself the frame of a moving link.
-fn tool_frame(tool: &Tool, name: &str, labels: &Labels) -> Vec<String> {
+fn tool_frame(tool: &Tool, name: &str, labels: &Labels) -> Option<Statement> {
     let steps = steps::place(&tool.place);
-    if steps.is_empty() {
-        return Vec::new();
-    }
-    placed(name, &format!(" in {}", labels.links[tool.host].frame), &steps)
+    let lines = || placed(name, &format!(" in {}", labels.links[tool.host].frame), &steps);
+    (!steps.is_empty()).then(|| Statement { comment: None, lines: lines() })
 }
 
 fn observables(tool: &Tool, name: &str, labels: &Labels) -> [String; 3] {
@@ -120,9 +142,9 @@ fn observables(tool: &Tool, name: &str, labels: &Labels) -> [String; 3] {
     let frame = if is_host { &labels.links[tool.host].frame } else { name };
     let velocity = format!("express(velocity({frame}), fixed)");
     [
-        format!("#[observable({name}_position = position({frame}))]"),
-        format!("#[observable({name}_velocity = {velocity})]"),
-        format!("#[observable({name}_jacobian = jacobian({velocity}))]"),
+        format!("{name}_position = position({frame})"),
+        format!("{name}_velocity = {velocity}"),
+        format!("{name}_jacobian = jacobian({velocity})"),
     ]
 }
 
@@ -188,15 +210,16 @@ fn dissipation(tree: &Tree, labels: &Labels, options: &Options) -> Vec<String> {
     folded(lines)
 }
 
-/// A frame by its steps.
+/// A frame by its steps, on one line if it fits there.
 fn placed(name: &str, carrier: &str, steps: &[String]) -> Vec<String> {
+    let line = format!("{name}{carrier}: {}", steps.join(", "));
+    if line.chars().count() <= WIDTH - "    ;".len() {
+        return vec![line];
+    }
     let last = steps.len().saturating_sub(1);
-    let mut lines = vec![format!("#[frame({name}{carrier}:")];
-    lines.extend(
-        steps.iter().enumerate().map(|(k, step)| format!("    {step}{}", if k == last { "" } else { "," })),
-    );
-    lines.push(")]".to_owned());
-    folded(lines)
+    let steps =
+        steps.iter().enumerate().map(|(k, step)| format!("    {step}{}", if k == last { "" } else { "," }));
+    [format!("{name}{carrier}:")].into_iter().chain(steps).collect()
 }
 
 /// An attribute on one line if it fits there.

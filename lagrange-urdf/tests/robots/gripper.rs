@@ -7,33 +7,35 @@ use lagrange_core::prelude::*;
 /// The robot `cart-and gripper`: a frame for each link that moves, a coordinate for each joint.
 #[derive(Clone, Debug, Lagrangian)]
 #[coordinates(cart, t_joint, left_finger, sliding: [3])]
-#[define(right_finger = -2*left_finger + 0.02)]
-#[define(tilt = 0.5*right_finger)]
-// `cart`, by the prismatic joint `cart`
-#[frame(cart_link: translate([-cart, 0, 0]))]
-// `mast`, by the continuous joint `t`
-#[frame(mast in cart_link: translate([0, 0, 0.2]), rotate_x(0.3), rotate_y(-t_joint))]
-// `left`, by the prismatic joint `left-finger`
-#[frame(left in mast: translate([0.01, 0, 0.6]), rotate_z(0.4), translate(left_finger*[0.6, 0.8, 0]))]
-// `right`, by the revolute joint `tilt`
-#[frame(right in mast: translate([-0.01, 0, 0.6]), rotate_x(tilt))]
-// `pad`, by the prismatic joint `right_finger`
-#[frame(pad in right: translate([0, 0, -right_finger]))]
-// `puck`, by the planar joint `sliding`
-#[frame(puck:
-    translate([0, 2, 0]),
-    rotate_z(0.3),
-    rotate_y(0.2),
-    rotate_x(0.1),
-    translate(sliding[0]*[-0.23570226039551584, 0.9428090415820634, -0.23570226039551584] + sliding[1]*[-0.7071067811865475, 0, 0.7071067811865475]),
-    rotate([0.6666666666666666, 0.3333333333333333, 0.6666666666666666], sliding[2])
+#[define(right_finger = -2*left_finger + 0.02; tilt = 0.5*right_finger)]
+#[frame(
+    // `cart`, by the prismatic joint `cart`
+    cart_link: translate([-cart, 0, 0]);
+    // `mast`, by the continuous joint `t`
+    mast in cart_link: translate([0, 0, 0.2]), rotate_x(0.3), rotate_y(-t_joint);
+    // `left`, by the prismatic joint `left-finger`
+    left in mast: translate([0.01, 0, 0.6]), rotate_z(0.4), translate(left_finger*[0.6, 0.8, 0]);
+    // `right`, by the revolute joint `tilt`
+    right in mast: translate([-0.01, 0, 0.6]), rotate_x(tilt);
+    // `pad`, by the prismatic joint `right_finger`
+    pad in right: translate([0, 0, -right_finger]);
+    // `puck`, by the planar joint `sliding`
+    puck:
+        translate([0, 2, 0]),
+        rotate_z(0.3),
+        rotate_y(0.2),
+        rotate_x(0.1),
+        translate(sliding[0]*[-0.23570226039551584, 0.9428090415820634, -0.23570226039551584] + sliding[1]*[-0.7071067811865475, 0, 0.7071067811865475]),
+        rotate([0.6666666666666666, 0.3333333333333333, 0.6666666666666666], sliding[2])
 )]
-#[parameter(cart_link_body: {m, centre: [3], inertia: symmetric})]
-#[parameter(mast_body: {m, centre: [3], inertia: symmetric})]
-#[parameter(left_body: {m, centre: [3], inertia: symmetric})]
-#[parameter(right_body: {m, centre: [3], inertia: symmetric})]
-#[parameter(pad_body: {m, centre: [3], inertia: symmetric})]
-#[parameter(puck_body: {m, centre: [3], inertia: symmetric})]
+#[parameter(
+    cart_link_body: {m, centre: [3], inertia: symmetric};
+    mast_body: {m, centre: [3], inertia: symmetric};
+    left_body: {m, centre: [3], inertia: symmetric};
+    right_body: {m, centre: [3], inertia: symmetric};
+    pad_body: {m, centre: [3], inertia: symmetric};
+    puck_body: {m, centre: [3], inertia: symmetric}
+)]
 #[lagrangian(
     kinetic(cart_link, cart_link_body.m, cart_link_body.centre, cart_link_body.inertia)
     + kinetic(mast, mast_body.m, mast_body.centre, mast_body.inertia)
@@ -50,9 +52,7 @@ use lagrange_core::prelude::*;
         + puck_body.m*position(puck, puck_body.centre)[2]
     )
 )]
-#[force(cart: tau_cart)]
-#[force(t_joint: tau_t_joint)]
-#[force(left_finger: tau_left_finger)]
+#[force(cart: tau_cart; t_joint: tau_t_joint; left_finger: tau_left_finger)]
 #[dissipation(
     cart_damping/2*cart_dot^2
     + left_finger_damping/2*left_finger_dot^2

@@ -7,25 +7,25 @@ use lagrange_core::prelude::*;
 #[derive(Clone, Debug, Lagrangian)]
 #[allow(non_snake_case)]
 #[coordinates(place: [3], turn: [4], HIP, KNEE, ball: [4])]
-// `base_footprint`, free in space, with `trunk` fixed to it
-#[frame(base_footprint: translate(place), rotate(turn))]
-// `THIGH`, by the revolute joint `HIP`
-#[frame(THIGH in base_footprint:
-    translate([-0.015364674647749002, 0.10984944839838585, 0.012267306780543982]),
-    rotate_z(-2.8415926535897933),
-    rotate_y(0.2),
-    rotate_x(-0.1),
-    rotate_y(HIP)
-)]
-// `shank`, by the prismatic joint `KNEE`
-#[frame(shank in THIGH: translate([0, 0, -0.2]), translate([0, 0, KNEE]))]
-// `tail`, by the spherical joint `ball`
-#[frame(tail in base_footprint:
-    translate([-0.18725867271683985, -0.05792589552510311, 0.06026613384098776]),
-    rotate_z(0.4201405028452248),
-    rotate_y(0.7941042492909617),
-    rotate_x(0.14004940014784178),
-    rotate(ball)
+#[frame(
+    // `base_footprint`, free in space, with `trunk` fixed to it
+    base_footprint: translate(place), rotate(turn);
+    // `THIGH`, by the revolute joint `HIP`
+    THIGH in base_footprint:
+        translate([-0.015364674647749002, 0.10984944839838585, 0.012267306780543982]),
+        rotate_z(-2.8415926535897933),
+        rotate_y(0.2),
+        rotate_x(-0.1),
+        rotate_y(HIP);
+    // `shank`, by the prismatic joint `KNEE`
+    shank in THIGH: translate([0, 0, -0.2]), translate([0, 0, KNEE]);
+    // `tail`, by the spherical joint `ball`
+    tail in base_footprint:
+        translate([-0.18725867271683985, -0.05792589552510311, 0.06026613384098776]),
+        rotate_z(0.4201405028452248),
+        rotate_y(0.7941042492909617),
+        rotate_x(0.14004940014784178),
+        rotate(ball)
 )]
 #[lagrangian(
     kinetic(base_footprint, 8, [0.010842417772312015, -0.020611514883311657, 0.12928493522385998], [[0.09208056926493466, -0.007635005910314363, -0.002554530915544328], [-0.007635005910314363, 0.11603423354892252, 0.005338263575473512], [-0.002554530915544328, 0.005338263575473512, 0.1018851971861428]])
@@ -39,8 +39,7 @@ use lagrange_core::prelude::*;
         + 0.5*position(tail, [0, 0, 0.2])[2]
     )
 )]
-#[force(HIP: tau_HIP)]
-#[force(KNEE: tau_KNEE)]
+#[force(HIP: tau_HIP; KNEE: tau_KNEE)]
 #[dissipation(0.7/2*KNEE_dot^2)]
 pub struct Hopper {
     /// Acceleration of gravity along −z, in m/s².

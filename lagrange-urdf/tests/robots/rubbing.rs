@@ -7,14 +7,15 @@ use lagrange_core::prelude::*;
 /// The robot `two_link`: a frame for each link that moves, a coordinate for each joint.
 #[derive(Clone, Debug, Lagrangian)]
 #[coordinates(shoulder, elbow)]
-// `upper_arm`, by the revolute joint `shoulder`
-#[frame(upper_arm: translate([0.1, 0, 0.4]), rotate_z(pi/2), rotate_y(0.2), rotate_z(shoulder))]
-// `forearm`, by the revolute joint `elbow`, with `tool` fixed to it
-#[frame(forearm in upper_arm:
-    translate([0, 0.05, 0.3]),
-    rotate_z(0.5),
-    rotate_x(-1.2),
-    rotate([0.3333333333333333, 0.6666666666666666, -0.6666666666666666], elbow)
+#[frame(
+    // `upper_arm`, by the revolute joint `shoulder`
+    upper_arm: translate([0.1, 0, 0.4]), rotate_z(pi/2), rotate_y(0.2), rotate_z(shoulder);
+    // `forearm`, by the revolute joint `elbow`, with `tool` fixed to it
+    forearm in upper_arm:
+        translate([0, 0.05, 0.3]),
+        rotate_z(0.5),
+        rotate_x(-1.2),
+        rotate([0.3333333333333333, 0.6666666666666666, -0.6666666666666666], elbow)
 )]
 #[lagrangian(
     kinetic(upper_arm, 3.5, [0.02, 0, 0.15], [[0.029175588250450506, 0.00017640110846235668, 0.002779638277606308], [0.00017640110846235668, 0.024176477154204474, 0.009107400257341726], [0.002779638277606308, 0.009107400257341726, 0.010647934595345018]])
@@ -24,8 +25,7 @@ use lagrange_core::prelude::*;
         + 1.65*position(forearm, [-0.0007164126222093081, 0.0023159672463651058, 0.12666666666666668])[2]
     )
 )]
-#[force(shoulder: tau_shoulder)]
-#[force(elbow: tau_elbow)]
+#[force(shoulder: tau_shoulder; elbow: tau_elbow)]
 #[dissipation(0.3/2*shoulder_dot^2 + 0.1/2*elbow_dot^2)]
 #[friction(shoulder_friction: shoulder_dot, limit: 0.5, sliding: 0.5)]
 pub struct Rubbing {

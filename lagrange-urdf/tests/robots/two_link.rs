@@ -7,18 +7,21 @@ use lagrange_core::prelude::*;
 /// The robot `two_link`: a frame for each link that moves, a coordinate for each joint.
 #[derive(Clone, Debug, Lagrangian)]
 #[coordinates(shoulder, elbow)]
-// `upper_arm`, by the revolute joint `shoulder`
-#[frame(upper_arm: translate([0.1, 0, 0.4]), rotate_z(pi/2), rotate_y(0.2), rotate_z(shoulder))]
-// `forearm`, by the revolute joint `elbow`, with `tool` fixed to it
-#[frame(forearm in upper_arm:
-    translate([0, 0.05, 0.3]),
-    rotate_z(0.5),
-    rotate_x(-1.2),
-    rotate([0.3333333333333333, 0.6666666666666666, -0.6666666666666666], elbow)
+#[frame(
+    // `upper_arm`, by the revolute joint `shoulder`
+    upper_arm: translate([0.1, 0, 0.4]), rotate_z(pi/2), rotate_y(0.2), rotate_z(shoulder);
+    // `forearm`, by the revolute joint `elbow`, with `tool` fixed to it
+    forearm in upper_arm:
+        translate([0, 0.05, 0.3]),
+        rotate_z(0.5),
+        rotate_x(-1.2),
+        rotate([0.3333333333333333, 0.6666666666666666, -0.6666666666666666], elbow);
+    tip in forearm: translate([0, 0, 0.15]), rotate_y(pi/2), rotate_x(0.3999999999999999)
 )]
-#[frame(tip in forearm: translate([0, 0, 0.15]), rotate_y(pi/2), rotate_x(0.3999999999999999))]
-#[parameter(upper_arm_body: {m, centre: [3], inertia: symmetric})]
-#[parameter(forearm_body: {m, centre: [3], inertia: symmetric})]
+#[parameter(
+    upper_arm_body: {m, centre: [3], inertia: symmetric};
+    forearm_body: {m, centre: [3], inertia: symmetric}
+)]
 #[lagrangian(
     kinetic(upper_arm, upper_arm_body.m, upper_arm_body.centre, upper_arm_body.inertia)
     + kinetic(forearm, forearm_body.m, forearm_body.centre, forearm_body.inertia)
@@ -27,12 +30,13 @@ use lagrange_core::prelude::*;
         + forearm_body.m*position(forearm, forearm_body.centre)[2]
     )
 )]
-#[force(shoulder: tau_shoulder)]
-#[force(elbow: tau_elbow)]
+#[force(shoulder: tau_shoulder; elbow: tau_elbow)]
 #[dissipation(shoulder_damping/2*shoulder_dot^2 + elbow_damping/2*elbow_dot^2)]
-#[observable(tip_position = position(tip))]
-#[observable(tip_velocity = express(velocity(tip), fixed))]
-#[observable(tip_jacobian = jacobian(express(velocity(tip), fixed)))]
+#[observable(
+    tip_position = position(tip);
+    tip_velocity = express(velocity(tip), fixed);
+    tip_jacobian = jacobian(express(velocity(tip), fixed))
+)]
 pub struct TwoLink {
     /// Acceleration of gravity along −z, in m/s².
     pub g: f64,
