@@ -31,7 +31,7 @@ const SYNONYMS: [&str; 8] = [
 ];
 
 /// Names of functions in other tools, separated by spaces, and the advice for each group.
-const CALLS: [(&str, &str); 29] = [
+const CALLS: [(&str, &str); 31] = [
     (
         "Min minimum Max maximum saturate sat",
         "the smaller and the larger of two are `min(x, y)` and `max(x, y)`, a limit on both sides `clamp(x, low, high)`",
@@ -42,7 +42,15 @@ const CALLS: [(&str, &str); 29] = [
     ("fabs magnitude", "the absolute value is `abs(x)`, the length of a vector `norm(v)`"),
     ("arcsin arccos arctan ArcSin ArcCos ArcTan", "inverse functions are `asin`, `acos`, `atan`"),
     (
-        "floor ceil round mod sign sgn signum heaviside Heaviside step Piecewise",
+        "sign sgn signum Sign",
+        "the expression must be smooth (`tanh` may serve); dry friction is `#[friction(name: velocity, limit: …, sliding: …)]`, by a field `name: Friction`",
+    ),
+    (
+        "omega Omega",
+        "the angular velocity of a frame is `angular_velocity(frame)`, and a function of yours is supplied as a field named in `#[function(…)]`",
+    ),
+    (
+        "floor ceil round mod heaviside Heaviside step Piecewise",
         "the expression must be smooth (`abs`, `sqrt` and `tanh` may serve, and `min`, `max` and `clamp` in forces)",
     ),
     ("cot", "write `1/tan(x)`"),
