@@ -119,8 +119,8 @@ fn named(expression: &Expression) -> Option<&str> {
     }
 }
 
-/// Place of each node in a sum: those with momenta and velocities come first, then those with coordinates, with time, and
-/// with parameters alone. Among them, those of one variable come before those of several, in the order of the variables.
+/// Place of each node in a sum: those with momenta and velocities come first, then those with coordinates, with parameters
+/// alone, and with time, as in a + b t. Among them, those of one variable come before those of several, in the order of the variables.
 fn leads(graph: &Graph) -> Vec<(u8, u32, u32)> {
     let mut masks: Vec<[u128; 2]> = Vec::with_capacity(graph.len());
     let mut kinds: Vec<u8> = Vec::with_capacity(graph.len());
@@ -145,6 +145,11 @@ fn leads(graph: &Graph) -> Vec<(u8, u32, u32)> {
     }
     let place = |(kind, [velocities, coordinates]): (u8, [u128; 2])| {
         let mask = if kind == 0 { velocities } else { coordinates };
+        let kind = match kind {
+            2 => 3,
+            3 => 2,
+            kind => kind,
+        };
         (kind, mask.count_ones(), mask.trailing_zeros())
     };
     kinds.into_iter().zip(masks).map(place).collect()

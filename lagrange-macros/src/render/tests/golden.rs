@@ -746,6 +746,18 @@ fn rows_are_positive_in_their_own_acceleration() {
     .assert_eq(&lines(particles, "Equations of motion\n"));
 }
 
+/// A constant stands before what changes with time, as the positions of motions are written.
+#[test]
+fn constants_come_before_times() {
+    let lift = "#[coordinates(x, y)] #[lagrangian(m/2*(x_dot^2 + y_dot^2) - (U + V*cos(w*t))*x^2)]
+         #[constraint(floor: x^2 + y^2 = (a + b*t)^2)]
+         struct S { m: f64, U: f64, V: f64, w: f64, a: f64, b: f64 }";
+    expect![[r#"
+        E = ½ m (ẋ² + ẏ²) + x² (U + V cos(w t))   (T + U if U is x² (U + V cos(w t)))
+          d/dt E = 2 b λ_floor (a + b t) − V w x² sin(w t)   (−∂L/∂t − λ·b)"#]]
+    .assert_eq(&lines(lift, "Energy\n"));
+}
+
 /// A line of LaTeX breaks at a thin space between two words only in a term that is wider than a line.
 #[test]
 fn lines_do_not_break_at_thin_spaces() {
