@@ -126,7 +126,7 @@ fn is_one_at_rest(graph: &Graph, base: Id) -> bool {
     }) && terms.iter().any(|&(term, _)| term == Id::ONE)
 }
 
-/// Names r, or r₁₂ of two bodies, or r₁, r₂, …; `None` if one of them is not free. Beside a vector r, r₁ would be read as its
+/// Names r, or r₁₂ of two bodies and r₁ of one, or r₁, r₂, …; `None` if one of them is not free. Beside a vector r, r₁ would be read as its
 /// component.
 fn names(
     count: usize,
@@ -144,14 +144,14 @@ fn names(
     (is_clear && names.iter().all(is_free)).then_some(names)
 }
 
-/// The pair of bodies of each distance, if these are all different.
+/// The bodies of each distance, one or two, if these are all different.
 fn pairs(graph: &Graph, problem: &Problem, bases: &[Id]) -> Option<Vec<String>> {
     let pairs: Vec<String> = bases.iter().map(|&base| pair(graph, problem, base)).collect::<Option<_>>()?;
     let are_different = (1..pairs.len()).all(|place| !pairs[..place].contains(&pairs[place]));
     are_different.then_some(pairs)
 }
 
-/// What tells apart the two bodies whose coordinates a distance contains: numbers as in x1, x2, or letters as in a, b.
+/// What tells apart the one or two bodies whose coordinates a distance contains: numbers as in x1, x2, or letters as in a, b.
 fn pair(graph: &Graph, problem: &Problem, base: Id) -> Option<String> {
     let roots = [base];
     let coordinates = graph.symbols(&roots).filter_map(|symbol| match Variable::of(symbol) {
@@ -161,7 +161,7 @@ fn pair(graph: &Graph, problem: &Problem, base: Id) -> Option<String> {
     let mut bodies: Vec<String> = coordinates.map(body).collect::<Option<_>>()?;
     bodies.sort();
     bodies.dedup();
-    let is_pair = bodies.len() == 2 && bodies.iter().all(|body| body.chars().count() == 1);
+    let is_pair = bodies.len() <= 2 && bodies.iter().all(|body| body.chars().count() == 1);
     is_pair.then(|| bodies.concat())
 }
 

@@ -22,9 +22,9 @@ use slides::Slides;
 /// it.
 ///
 /// Some roots get a name, on a line of its own below the Lagrangian, unless a definition names them: distances √(x² + y²)
-/// are r, several of them r₁, r₂, … (r₁₂ between bodies with the coordinates x1 and x2), and 1/√(1 − v²/c²) is γ. If the
-/// names are taken, other letters replace them. Forces of different degrees in the velocities, such as Coriolis and
-/// centrifugal forces, stay apart. The Hamiltonian is printed in closed form if the velocities of each block of
+/// are r, several of them r₁, r₂, … (r₁₂ between bodies with the coordinates x1 and x2, r₁ of one alone), and
+/// 1/√(1 − v²/c²) is γ. If the names are taken, other letters replace them. Forces of different degrees in the velocities,
+/// such as Coriolis and centrifugal forces, stay apart. The Hamiltonian is printed in closed form if the velocities of each block of
 /// coordinates enter L by a quadratic form, by the root of one, or by one power of one; the signs of factors are those at
 /// random points, where parameters are in their [ranges](crate::language), positive by default:
 /// √(m²c⁴ + p²c²) takes m as positive.

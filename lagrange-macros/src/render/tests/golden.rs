@@ -758,6 +758,21 @@ fn constants_come_before_times() {
     .assert_eq(&lines(lift, "Energy\n"));
 }
 
+/// Distances of two bodies and of one are told apart by the numbers of their coordinates.
+#[test]
+fn distances_of_one_body_have_its_number() {
+    let planets = "#[coordinates(x1, y1, x2, y2)]
+         #[lagrangian(m/2*(x1_dot^2 + y1_dot^2 + x2_dot^2 + y2_dot^2) + k/sqrt((x1 - x2)^2 + (y1 - y2)^2)
+             + s/sqrt(x1^2 + y1^2) + s/sqrt(x2^2 + y2^2))]
+         struct S { m: f64, k: f64, s: f64 }";
+    expect![[r#"
+        L = ½ m (ẋ₁² + ẏ₁² + ẋ₂² + ẏ₂²) + k/√((x₁ − x₂)² + (y₁ − y₂)²) + s/√(x₁² + y₁²) + s/√(x₂² + y₂²)
+          r₁₂ = √((x₁ − x₂)² + (y₁ − y₂)²)
+          r₁ = √(x₁² + y₁²)
+          r₂ = √(x₂² + y₂²)"#]]
+    .assert_eq(&lines(planets, "Lagrangian\n"));
+}
+
 /// A line of LaTeX breaks at a thin space between two words only in a term that is wider than a line.
 #[test]
 fn lines_do_not_break_at_thin_spaces() {
