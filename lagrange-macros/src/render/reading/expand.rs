@@ -37,7 +37,7 @@ impl<'a> Expansion<'a> {
         let roots = FxHashMap::default();
         let mut expansion = Self { graph, names, atoms, roots, entries, done, work: WORK };
         // Registration order decides the sign taken out of a sum: φ₁ − φ₂ instead of φ₂ − φ₁.
-        let n = problem.coordinates.len();
+        let n = problem.coordinates.len() + 3 * derived.turnings.all.len();
         let parameters = problem.parameters.by_field().into_iter().map(Variable::Parameter);
         let kinds = [Variable::Coordinate, Variable::Velocity, Variable::Acceleration, Variable::Momentum];
         for variable in kinds.into_iter().flat_map(|kind| (0..n).map(kind)).chain(parameters) {

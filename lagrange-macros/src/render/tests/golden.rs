@@ -820,6 +820,12 @@ fn bodies_turn_by_their_angular_velocities() {
     expect![[r#"
         E = ½ ω_q·(I_q ω_q) − ½ m A² w² sin²(w t)   (not T + U, as positions move with time)
           d/dt E = m A w² (2 l (q[1] q[3] − q[0] q[2]) ω_q[1] − 2 l (q[0] q[1] + q[2] q[3]) ω_q[0] − A w sin(w t)) cos(w t) − (b + ¼ c) ω_q·ω_q   (−∂L/∂t + Q·q̇)"#]].assert_eq(&lines(shaken, "Energy\n"));
+    // The components of ω stand in their order.
+    let rolling = "#[coordinates(q: [4])] #[frame(top: rotate(q))] #[define(axis = express(vector(top, [0, 0, 1]), fixed))]
+         #[lagrangian(kinetic(top, 0, [0, 0, 0], [[A, 0, 0], [0, A, 0], [0, 0, C]]) - axis[2])]
+         struct Top { A: f64, C: f64 }";
+    expect!["E = ½ A (ω_q[0]² + ω_q[1]²) + ½ C ω_q[2]² + 1 − 2 q[1]² − 2 q[2]²   (T + U)"]
+        .assert_eq(&lines(rolling, "Conserved\n"));
     // With a diagonal matrix the components are shorter: Euler's equations.
     let free = "#[coordinates(r: [3], q: [4])] #[frame(body: translate(r), rotate(q))]
          #[lagrangian(kinetic(body, m, [0, 0, 0], [[a, 0, 0], [0, b, 0], [0, 0, c]]))]
