@@ -325,7 +325,7 @@ impl Lowering<'_> {
                 let name = &known.name;
                 let or = if known.frame == 0 { String::new() } else { format!("`vector({name}, …)` or ") };
                 return self.report(*place, format!(
-                    "along which axes this vector is has to be said, where it meets one in the axes of `{name}`: write {or}`vector(fixed, …)`"
+                    "this vector meets one in the axes of `{name}`, but its own axes are not stated: write {or}`vector(fixed, …)`"
                 ));
             }
         }
