@@ -566,11 +566,13 @@
 //! form it has ([`EnergyForm`](crate::facts::EnergyForm): T + U only if that is certain), and finds terms of L that are
 //! total time derivatives. It takes constraints and forces into account. The results are in
 //! [`FACTS`](crate::Lagrangian::FACTS), each with its evidence: proved from the form of the expressions, or observed at
-//! random states that satisfy the constraints.
+//! random states that satisfy the constraints. Such states may all lie on one side of a kink of `max`, `min`, `clamp`,
+//! `abs` or √(x²), so that expressions with kinks need a proof.
 //!
 //! `#[conserved(name = expression)]` is an observable that must be conserved. The macro evaluates its rate of change at
 //! such states, with random parameters and with random functions in place of supplied ones. A rate that is not zero
-//! within rounding is a compile error that shows the numbers. A [`Trajectory`](crate::Trajectory::drift) reports the
+//! within rounding is a compile error that shows the numbers; a force beyond a kink that no such state reaches is not seen.
+//! A [`Trajectory`](crate::Trajectory::drift) reports the
 //! drift of each conserved quantity, and balances an energy that changes with its work.
 //!
 #![cfg_attr(

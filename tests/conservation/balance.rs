@@ -84,6 +84,23 @@ struct Arm {
     joint: Friction,
 }
 
+/// A cart that a bumper slows down beyond x = 100, where no random state lies.
+macro_rules! cart {
+    ($name:ident, $along:literal, $($force:tt)*) => {
+        #[derive(Clone, Lagrangian)]
+        #[coordinates(x, y)]
+        #[lagrangian((x_dot^2 + y_dot^2)/2)]
+        #[constraint(rail: y = $along*x)]
+        #[force(x: $($force)*)]
+        struct $name;
+    };
+}
+cart!(Ramp, 0.5, -max(x - 100, 0) * x_dot);
+cart!(Level, 0, -max(x - 100, 0) * x_dot);
+cart!(Magnitude, 0.5, -(abs(x - 100) + x - 100) * x_dot / 2);
+cart!(Late, 0.5, -max(t - 100, 0) * x_dot);
+cart!(Root, 0.5, -(sqrt((x - 100) ^ 2) + x - 100) * x_dot / 2);
+
 /// Compares the rate with the difference of the energies shortly before and after, which the accelerations lead to.
 #[track_caller]
 fn check_rate<L: Lagrangian<Scalar = f64>>(system: &L, guess: impl Into<StateOf<L>>, most: f64) {
@@ -129,6 +146,20 @@ fn the_rate_is_that_of_the_energy() {
     let thrown = Thrown { m: 2.0, g: 10.0, mu: 0.3, floor: Contact::Closed };
     let sliding = Thrown { floor: Contact::Slides([1.0, 0.0]), ..thrown };
     check_rate(&sliding, State::new([0.0, 0.0], [2.0, 0.0]), 1e-8);
+}
+
+/// At all random states the force is zero.
+#[test]
+fn forces_with_kinks_are_not_taken_for_zero() {
+    let beyond = State::new([101.0, 50.5], [2.0, 1.0]).at_time(101.0);
+    check_rate(&Ramp, beyond, 1e-8);
+    check_rate(&Level, State::new([101.0, 0.0], [2.0, 0.0]), 1e-8);
+    check_rate(&Magnitude, beyond, 1e-8);
+    check_rate(&Late, beyond, 1e-8);
+    check_rate(&Root, beyond, 1e-8);
+    let conserved = [Ramp::FACTS, Level::FACTS, Magnitude::FACTS, Late::FACTS, Root::FACTS]
+        .map(|facts| facts.conserved.iter().any(|found| found.name != "p_y"));
+    assert_eq!(conserved, [false; 5]);
 }
 
 /// The energy changes a lot, and the balance does not.

@@ -58,10 +58,12 @@ enum Trial {
     Undecided,
 }
 
-/// Evidence that random motions conserve `quantity`. `None` if they do not, if the test is undecided, or if the system
-/// exceeds [`LARGE`].
+/// Evidence that random motions conserve `quantity`. `None` if they do not, if the test is undecided, if the system
+/// exceeds [`LARGE`], or if forces have kinks, beyond which no random state may lie.
 pub(super) fn found(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Option<Evidence> {
-    if moments.problem.coordinates.len() + moments.problem.constraints.len() > LARGE {
+    let Moments { problem, equations, .. } = moments;
+    let is_large = problem.coordinates.len() + problem.constraints.len() > LARGE;
+    if is_large || graph.is_piecewise(&equations.momentum_rate) || graph.is_piecewise(&equations.rate) {
         return None;
     }
     match trial(graph, moments, quantity) {

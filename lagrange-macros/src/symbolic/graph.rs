@@ -300,6 +300,27 @@ impl Graph {
         })
     }
 
+    /// True if one of `roots` has a kink: values at random points say nothing about the other side of it.
+    pub(crate) fn is_piecewise(&self, roots: &[Id]) -> bool {
+        self.reachable(roots).into_iter().any(|id| match self.node(id) {
+            Node::Function(Function::Abs | Function::Ramp | Function::Step, _) => true,
+            // √(x²) is |x|.
+            Node::Product(factors) => {
+                factors.iter().any(|(base, exponent)| exponent.denom() % 2 == 0 && self.is_square(*base))
+            }
+            _ => false,
+        })
+    }
+
+    /// True if the expression is a number times a square.
+    fn is_square(&self, id: Id) -> bool {
+        match self.node(id) {
+            Node::Sum(terms) => terms.len() == 1 && self.is_square(terms[0].0),
+            Node::Product(factors) => factors.iter().all(|(_, e)| e.is_integer() && e.numer() % 2 == 0),
+            _ => false,
+        }
+    }
+
     /// True if one of `roots` contains a user-supplied function.
     pub(crate) fn has_external(&self, roots: &[Id]) -> bool {
         self.reachable(roots).iter().any(|id| matches!(self.node(*id), Node::External(_)))

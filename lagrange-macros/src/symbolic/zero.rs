@@ -13,7 +13,7 @@ pub(crate) enum Verdict {
     Held(u32),
     /// Nonzero: the error bound of a value excludes zero.
     NonZero,
-    /// No point was found at which the expression has a finite value.
+    /// No point was found at which the expression has a finite value, or it has kinks.
     Undecided,
 }
 
@@ -44,7 +44,7 @@ impl Graph {
             }
             held += 1;
         }
-        if held > 0 { Verdict::Held(held) } else { Verdict::Undecided }
+        if held > 0 && !self.is_piecewise(&[root]) { Verdict::Held(held) } else { Verdict::Undecided }
     }
 
     /// Values at random points, one per draw.
