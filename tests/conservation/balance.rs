@@ -84,7 +84,7 @@ struct Arm {
     joint: Friction,
 }
 
-/// A cart that a bumper slows down beyond x = 100, where no random state lies.
+/// A cart that a bumper or a wall slows down beyond x = 100, where no random state lies.
 macro_rules! cart {
     ($name:ident, $along:literal, $($force:tt)*) => {
         #[derive(Clone, Lagrangian)]
@@ -99,6 +99,7 @@ cart!(Ramp, 0.5, -max(x - 100, 0) * x_dot);
 cart!(Level, 0, -max(x - 100, 0) * x_dot);
 cart!(Magnitude, 0.5, -(abs(x - 100) + x - 100) * x_dot / 2);
 cart!(Late, 0.5, -max(t - 100, 0) * x_dot);
+cart!(Wall, 0.5, -exp(1000 * (x - 101)) * x_dot);
 cart!(Root, 0.5, -(sqrt((x - 100) ^ 2) + x - 100) * x_dot / 2);
 
 /// Compares the rate with the difference of the energies shortly before and after, which the accelerations lead to.
@@ -148,18 +149,19 @@ fn the_rate_is_that_of_the_energy() {
     check_rate(&sliding, State::new([0.0, 0.0], [2.0, 0.0]), 1e-8);
 }
 
-/// At all random states the force is zero.
+/// At all random states the force is zero, or underflows to zero.
 #[test]
-fn forces_with_kinks_are_not_taken_for_zero() {
+fn forces_that_random_states_do_not_see_are_not_taken_for_zero() {
     let beyond = State::new([101.0, 50.5], [2.0, 1.0]).at_time(101.0);
     check_rate(&Ramp, beyond, 1e-8);
     check_rate(&Level, State::new([101.0, 0.0], [2.0, 0.0]), 1e-8);
     check_rate(&Magnitude, beyond, 1e-8);
     check_rate(&Late, beyond, 1e-8);
     check_rate(&Root, beyond, 1e-8);
-    let conserved = [Ramp::FACTS, Level::FACTS, Magnitude::FACTS, Late::FACTS, Root::FACTS]
+    check_rate(&Wall, beyond, 1e-8);
+    let conserved = [Ramp::FACTS, Level::FACTS, Magnitude::FACTS, Late::FACTS, Root::FACTS, Wall::FACTS]
         .map(|facts| facts.conserved.iter().any(|found| found.name != "p_y"));
-    assert_eq!(conserved, [false; 5]);
+    assert_eq!(conserved, [false; 6]);
 }
 
 /// The energy changes a lot, and the balance does not.

@@ -10,7 +10,7 @@ use super::evidence::{Evidence, vanishes};
 use super::moment::{Moment, Moments};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::symbolic::{Approximate, Forward, Graph, Id};
+use crate::symbolic::{Approximate, Forward, Graph, Id, Verdict};
 use crate::variables::{Variable, nodes};
 
 /// Number of random states at which a quantity must pass the test to count as conserved.
@@ -81,9 +81,9 @@ pub(super) fn of_energy(
     let &mut Moments { problem, equations, .. } = moments;
     let changes = energy_changes(graph, problem, equations);
     let rate = graph.total(changes.map(|(_, part)| part));
-    let evidence = match vanishes(graph, problem, rate) {
-        None if !problem.constraints.is_empty() => found(graph, moments, equations.energy),
-        symbolic => symbolic,
+    let evidence = match graph.is_zero(rate, |symbol, draw| problem.drawn(symbol, draw)) {
+        Verdict::NonZero if !problem.constraints.is_empty() => found(graph, moments, equations.energy),
+        verdict => Evidence::of(verdict),
     };
     let conserved =
         |evidence| Conserved { name: "energy".to_owned(), quantity: ConservedKind::Energy, evidence };

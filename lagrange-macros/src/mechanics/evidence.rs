@@ -13,6 +13,15 @@ pub(crate) enum Evidence {
 }
 
 impl Evidence {
+    /// Evidence of a zero; `None` if the expression is not zero or the test is undecided.
+    pub(super) fn of(verdict: Verdict) -> Option<Self> {
+        match verdict {
+            Verdict::Zero => Some(Self::Proved),
+            Verdict::Held(points) => Some(Self::Held(points)),
+            Verdict::NonZero | Verdict::Undecided => None,
+        }
+    }
+
     /// Evidence of a statement that follows from two others: the weaker one.
     pub(super) fn and(self, other: Self) -> Self {
         match (self, other) {
@@ -24,9 +33,5 @@ impl Evidence {
 
 /// Evidence that an expression is zero everywhere; `None` if it is not zero or cannot be decided.
 pub(super) fn vanishes(graph: &mut Graph, problem: &Problem, root: Id) -> Option<Evidence> {
-    match graph.is_zero(root, |symbol, draw| problem.drawn(symbol, draw)) {
-        Verdict::Zero => Some(Evidence::Proved),
-        Verdict::Held(points) => Some(Evidence::Held(points)),
-        Verdict::NonZero | Verdict::Undecided => None,
-    }
+    Evidence::of(graph.is_zero(root, |symbol, draw| problem.drawn(symbol, draw)))
 }

@@ -13,12 +13,14 @@ pub(crate) enum Verdict {
     Held(u32),
     /// Nonzero: the error bound of a value excludes zero.
     NonZero,
-    /// No point was found at which the expression has a finite value, or it has kinks.
+    /// No point was found at which the expression has a value that does not underflow, or it has kinks.
     Undecided,
 }
 
 const POINTS: usize = 8;
 const DRAWS: u64 = 64;
+/// Largest error bound of a zero that may be an underflow. Terms that cancel leave ε times their size.
+const UNDERFLOW: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 impl Graph {
     /// Tests whether `root` vanishes identically. `drawn` gives each symbol a value in each draw.
@@ -35,8 +37,10 @@ impl Graph {
         if root == Id::ZERO {
             return Verdict::Zero;
         }
-        // Outside its domain an expression has no finite value: use another draw.
-        let is_known = |value: &Approximate| value.value.is_finite() && value.error.is_finite();
+        // Outside its domain an expression has no finite value, and a product may underflow: use another draw.
+        let is_known = |value: &Approximate| {
+            value.value.is_finite() && value.error.is_finite() && value.error > UNDERFLOW
+        };
         let mut held = 0;
         for value in self.samples(root, drawn).filter(is_known).take(POINTS) {
             if value.excludes_zero() {

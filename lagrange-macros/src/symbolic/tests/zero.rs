@@ -132,14 +132,29 @@ fn verdicts_say_how_sure_they_are() {
 #[test]
 fn samples_come_from_the_range_of_each_symbol() {
     let (mut graph, [x, y, _]) = graph();
-    let difference = graph.function(Function::Abs, x);
-    let difference = graph.sub(difference, x);
-    let signed = |range: (f64, f64)| {
+    let sine = graph.function(Function::Sin, x);
+    let angle = graph.function(Function::Asin, sine);
+    let difference = graph.sub(angle, x);
+    let ranged = |range: (f64, f64)| {
         move |name, draw| within(if name == symbol(0) { range } else { (-1.0, 1.0) })(name, draw)
     };
-    assert_eq!(graph.is_zero(difference, signed((0.5, 2.0))), Verdict::Held(8));
-    assert_eq!(graph.is_zero(difference, signed((-2.0, -0.5))), Verdict::NonZero);
-    assert_eq!(graph.is_zero(y, signed((0.5, 2.0))), Verdict::NonZero);
+    assert_eq!(graph.is_zero(difference, ranged((0.5, 1.5))), Verdict::Held(8));
+    assert_eq!(graph.is_zero(difference, ranged((2.0, 3.0))), Verdict::NonZero);
+    assert_eq!(graph.is_zero(y, ranged((0.5, 1.5))), Verdict::NonZero);
+}
+
+/// |x| − x, max(x, 0) − x and √(x²) − x for positive x, and exp(−1000 x), which underflows.
+#[test]
+fn values_on_one_side_of_a_kink_and_underflows_prove_nothing() {
+    let (mut graph, [x, ..]) = graph();
+    let square = graph.square(x);
+    let far = graph.sum([(x, rational(-1000, 1))]);
+    let known = [graph.function(Function::Abs, x), graph.function(Function::Ramp, x), graph.sqrt(square)];
+    let mut unknown: Vec<Id> = known.into_iter().map(|value| graph.sub(value, x)).collect();
+    unknown.push(graph.function(Function::Exp, far));
+    for difference in unknown {
+        assert_eq!(graph.is_zero(difference, within((1.0, 2.0))), Verdict::Undecided);
+    }
 }
 
 /// 1 / (d − x·y), where d is defined as x·y: inlining causes a division by zero, and the result must not count as
