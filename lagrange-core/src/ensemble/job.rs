@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::fingerprint::Fingerprint;
-use super::names::Names;
+use super::names::ColumnNames;
 use super::outcome::{Member, Outcome};
 use super::plan::{EnsembleProgress, Make, MemberObserver, MemberPlan, Plan, Watch};
 use super::table::{MemberRow, TWO_RESULTS};
@@ -25,7 +25,7 @@ pub(super) struct Job<'a, L: Lagrangian<Scalar: Real>> {
     pub(super) make: Make<'a, L>,
     observer: Option<MemberObserver<'a, L>>,
     pub(super) member_plan: Arc<MemberPlan<'a, L>>,
-    pub(super) names: Arc<Names>,
+    pub(super) names: Arc<ColumnNames>,
     pub(super) end: L::Scalar,
     /// Fingerprint of the run, common to all members.
     pub(super) run: Fingerprint,

@@ -7,13 +7,13 @@ use crate::names::Entry;
 
 /// Names of coordinates and quantities, shared by all members of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Names {
+pub(crate) struct ColumnNames {
     pub(super) coordinates: &'static [&'static str],
     /// Names of the quantities, in the order in which their values are stored.
     pub(super) quantities: Vec<String>,
 }
 
-impl Names {
+impl ColumnNames {
     /// Names of the entries of a state: `t`, coordinates, velocities.
     pub(super) fn of_state(&self) -> impl Iterator<Item = String> {
         let velocities = self.coordinates.iter().map(|name| Entry::Velocity(name).to_string());

@@ -4,7 +4,7 @@ use core::fmt::{self, Display, Formatter};
 use std::sync::Arc;
 
 use super::fingerprint::Fingerprint;
-use super::names::Names;
+use super::names::ColumnNames;
 use crate::error::{EnsembleError, Error};
 use crate::motion::record::Arrival;
 use crate::number::Real;
@@ -21,7 +21,7 @@ pub struct Member<T: Element, N: Length> {
     /// Hashes of the member's run, start and parameters.
     pub fingerprint: Fingerprint,
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(super) names: Arc<Names>,
+    pub(super) names: Arc<ColumnNames>,
     /// End of the motion: its last state and the reason why it ended there; an error if the motion did not start.
     pub result: Result<Arrival<T, N>, Error>,
 }
@@ -58,7 +58,7 @@ impl<T: Real, N: Length> Display for Member<T, N> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome<T: Element, N: Length> {
     pub(super) members: Vec<Member<T, N>>,
-    pub(super) names: Arc<Names>,
+    pub(super) names: Arc<ColumnNames>,
     end: T,
     run: Fingerprint,
 }
@@ -66,7 +66,7 @@ pub struct Outcome<T: Element, N: Length> {
 impl<T: Real, N: Length> Outcome<T, N> {
     pub(super) fn new(
         mut members: Vec<Member<T, N>>,
-        names: Arc<Names>,
+        names: Arc<ColumnNames>,
         (end, run): (T, Fingerprint),
     ) -> Self {
         members.sort_by_key(|member| member.index);

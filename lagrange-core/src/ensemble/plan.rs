@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::fingerprint::{Fingerprint, Hash};
-use super::names::Names;
+use super::names::ColumnNames;
 use super::outcome::Member;
 use super::table::MemberRow;
 use crate::error::{EnsembleError, Error};
@@ -139,9 +139,9 @@ impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
     }
 
     /// Names of the coordinates and quantities.
-    pub(super) fn names(&self) -> Arc<Names> {
+    pub(super) fn names(&self) -> Arc<ColumnNames> {
         let quantities = self.samples.quantities().map(String::from).collect();
-        Arc::new(Names { coordinates: L::COORDINATES, quantities })
+        Arc::new(ColumnNames { coordinates: L::COORDINATES, quantities })
     }
 
     /// Checks the settings that are the same for all members.

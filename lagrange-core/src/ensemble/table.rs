@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::fingerprint::Fingerprint;
-use super::names::Names;
+use super::names::ColumnNames;
 use super::outcome::{Member, Outcome};
 use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::record::Arrival;
@@ -104,7 +104,7 @@ impl<T: Real, N: Length> Outcome<T, N> {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct MemberTable<T: Element, N: Length> {
-    names: Arc<Names>,
+    names: Arc<ColumnNames>,
     rows: Vec<MemberRow<T, N>>,
 }
 
@@ -146,7 +146,7 @@ impl<T: Real, N: Length> MemberTable<T, N> {
         wrong: impl Fn(X, usize, &'static str) -> Error,
     ) -> Result<Self, Error> {
         let mut kept: BTreeMap<usize, MemberRow<T, N>> = BTreeMap::new();
-        let (mut first, mut names): (Option<Fingerprint>, Option<Arc<Names>>) = (None, None);
+        let (mut first, mut names): (Option<Fingerprint>, Option<Arc<ColumnNames>>) = (None, None);
         for (place, row) in rows {
             let common = row.fingerprint.without_start();
             let known = kept.get_mut(&row.index);
@@ -167,7 +167,7 @@ impl<T: Real, N: Length> MemberTable<T, N> {
                 Some(_) => {}
             }
         }
-        let names = names.unwrap_or_else(|| Arc::new(Names { coordinates, quantities: Vec::new() }));
+        let names = names.unwrap_or_else(|| Arc::new(ColumnNames { coordinates, quantities: Vec::new() }));
         kept.values_mut().for_each(|row| row.names = names.clone());
         Ok(Self { names, rows: kept.into_values().collect() })
     }
@@ -197,7 +197,7 @@ pub(super) const TWO_RESULTS: &str = "an earlier row of the member has another r
 
 /// Prints the header, then one line per member.
 struct Lines<'o, X, F> {
-    names: &'o Names,
+    names: &'o ColumnNames,
     members: &'o [X],
     line: F,
 }

@@ -6,7 +6,7 @@ use num_traits::One;
 use super::equations::Equations;
 use super::euler_lagrange::generalized_forces;
 use super::evidence::vanishes;
-use super::legendre::Split;
+use super::legendre::PowerTerms;
 use crate::resolve::Problem;
 use crate::symbolic::{Approximate, Graph, Id, Rational, Sample, rank};
 use crate::variables::{Variable, has_velocity, nodes, symbols};
@@ -113,7 +113,7 @@ impl Parts {
         block: &[usize],
         lagrangian: Id,
     ) -> Result<Id, NoHamiltonian> {
-        let split = Split::of(graph, lagrangian, block).ok_or(NoHamiltonian::NotSolved)?;
+        let split = PowerTerms::of(graph, lagrangian, block).ok_or(NoHamiltonian::NotSolved)?;
         let velocities: Vec<_> = block.iter().map(|&i| Variable::Velocity(i).symbol()).collect();
         let slopes = graph.gradient(split.others, &velocities);
         let moving = moving(graph, block, &slopes);

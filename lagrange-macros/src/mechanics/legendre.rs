@@ -16,7 +16,7 @@ use crate::symbolic::{Function, Graph, Id, Node, Rational, Sample, Symbol, times
 use crate::variables::{Variable, has_velocity, nodes, symbols};
 
 /// L = Σ s X^ε + linear(q̇).
-pub(super) struct Split {
+pub(super) struct PowerTerms {
     pub(super) powers: Vec<PowerTerm>,
     /// Sum of the terms that are at most linear in the velocities of the powers.
     pub(super) others: Id,
@@ -29,7 +29,7 @@ pub(super) struct PowerTerm {
     exponent: Id,
 }
 
-impl Split {
+impl PowerTerms {
     /// Splits off the terms of L that are nonlinear in the velocities of the coordinates `block`; `None` if one of them
     /// is no power.
     pub(super) fn of(graph: &mut Graph, lagrangian: Id, block: &[usize]) -> Option<Self> {

@@ -18,7 +18,7 @@ use std::time::Instant;
 use self::file::{Column, FileFault, Sheet};
 use self::rows::{fingerprints, rows, sheet};
 use super::fingerprint::{Fingerprint, Hash, OTHER_START};
-use super::names::Names;
+use super::names::ColumnNames;
 use super::outcome::Member;
 use super::table::{MemberRow, MemberTable, entries};
 use crate::error::{EnsembleError, Error};
@@ -218,9 +218,9 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
         &self,
         path: &Path,
         is_wanted: impl Fn(&Column) -> bool,
-    ) -> Result<(Sheet, Fingerprint, Names), FileFault> {
+    ) -> Result<(Sheet, Fingerprint, ColumnNames), FileFault> {
         let file = File::open(path).map_err(|error| FileFault::Other(error.to_string()))?;
-        let mut names = Names { coordinates: L::COORDINATES, quantities: Vec::new() };
+        let mut names = ColumnNames { coordinates: L::COORDINATES, quantities: Vec::new() };
         let columns = |mut fields: Vec<String>| {
             names.quantities = fields.split_off(entries::<L::N>().min(fields.len()));
             sheet::<L>(&[], &[], &names).columns

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::file::{CROSSINGS, Column, END, FileFault, SAMPLES, Sheet, Values};
 use crate::ensemble::fingerprint::Fingerprint;
-use crate::ensemble::names::Names;
+use crate::ensemble::names::ColumnNames;
 use crate::ensemble::table::{CROSSING, MemberCrossing, MemberRow, entries, entry, state_of};
 use crate::linearized::Linearized;
 use crate::number::Real;
@@ -16,7 +16,7 @@ use crate::vector::{Element, Length};
 pub(super) fn sheet<L: Linearized<Scalar: Real>>(
     rows: &[MemberRow<L::Scalar, L::N>],
     made: &[(L, StateOf<L>)],
-    names: &Names,
+    names: &ColumnNames,
 ) -> Sheet {
     let counts = [
         rows.iter().map(|row| usize::from(row.state.is_some())).collect(),
@@ -80,7 +80,7 @@ fn statistics<T: Element, N: Length>(rows: &[MemberRow<T, N>]) -> [Column; 4] {
 /// Columns of times, coordinates and velocities.
 fn states<'s, T: Real, N: Length>(
     group: &'static str,
-    names: &Names,
+    names: &ColumnNames,
     states: impl Iterator<Item = &'s State<T, N>> + Clone,
 ) -> Vec<Column> {
     let numbers = |place: usize| states.clone().map(|state| entry(state, place).to_f64()).collect();
@@ -88,7 +88,7 @@ fn states<'s, T: Real, N: Length>(
     named.map(|(place, name)| column(group, name, Values::Numbers(numbers(place)))).collect()
 }
 
-fn quantities<T: Real, N: Length>(rows: &[MemberRow<T, N>], names: &Names) -> Vec<Column> {
+fn quantities<T: Real, N: Length>(rows: &[MemberRow<T, N>], names: &ColumnNames) -> Vec<Column> {
     let count = names.quantities.len();
     let numbers = |place: usize| {
         let of_row = |row: &'_ MemberRow<T, N>| {
@@ -115,7 +115,7 @@ fn crossings<T: Element, N: Length>(rows: &[MemberRow<T, N>]) -> Vec<Column> {
 pub(super) fn rows<T: Real, N: Length>(
     sheet: &Sheet,
     first: Fingerprint,
-    names: &Arc<Names>,
+    names: &Arc<ColumnNames>,
 ) -> Result<Vec<MemberRow<T, N>>, FileFault> {
     let [members, end, samples, crossings] = ["", END, SAMPLES, CROSSINGS].map(|name| sheet.group(name));
     let mut reader = Reader { members, end, samples, crossings, read: [0; 3], first, names };
@@ -148,7 +148,7 @@ struct Reader<'s> {
     /// Numbers of entries of the last three groups that were read.
     read: [usize; 3],
     first: Fingerprint,
-    names: &'s Arc<Names>,
+    names: &'s Arc<ColumnNames>,
 }
 
 impl Reader<'_> {

@@ -6,7 +6,7 @@ use mpi::topology::SimpleCommunicator;
 use mpi::traits::{Communicator, Destination, MatchedReceiveVec, Source};
 
 use crate::ensemble::fingerprint::Fingerprint;
-use crate::ensemble::names::Names;
+use crate::ensemble::names::ColumnNames;
 use crate::ensemble::outcome::Member;
 use crate::ensemble::table::{MemberCrossing, MemberRow, entries, entry, state_of};
 use crate::number::Real;
@@ -79,7 +79,7 @@ impl MemberMessage {
         &self,
         run: Fingerprint,
         events: &[&'static str],
-        names: &Arc<Names>,
+        names: &Arc<ColumnNames>,
     ) -> impl Iterator<Item = Member<T, N>> {
         let mut rest = Rest { numbers: self.numbers.iter(), words: &self.words };
         core::iter::from_fn(move || rest.member(run, events, names))
@@ -97,7 +97,7 @@ impl Rest<'_> {
         &mut self,
         run: Fingerprint,
         events: &[&'static str],
-        names: &Arc<Names>,
+        names: &Arc<ColumnNames>,
     ) -> Option<Member<T, N>> {
         let [index, start, length] = self.counts()?;
         let [accepted, rejected, evaluations, is_unique, has_motion] = self.counts()?;

@@ -8,7 +8,7 @@ use super::row::{
     CANCELLED, COMPLETE, CROSSING, MemberCrossing, MemberEnding, MemberRow, entries, header, state_of,
 };
 use crate::ensemble::fingerprint::Fingerprint;
-use crate::ensemble::names::Names;
+use crate::ensemble::names::ColumnNames;
 use crate::error::{EnsembleError, Error};
 use crate::number::Real;
 use crate::statistics::Statistics;
@@ -24,7 +24,7 @@ pub(crate) fn read<T: Real + FromStr, N: Length>(
     coordinates: &'static [&'static str],
     count: usize,
 ) -> Result<Vec<(usize, MemberRow<T, N>)>, Error> {
-    let mut names = Arc::new(Names { coordinates, quantities: Vec::new() });
+    let mut names = Arc::new(ColumnNames { coordinates, quantities: Vec::new() });
     let header = header(&names);
     let mut rows = Vec::new();
     // Spreadsheets write a byte-order mark before the first line.
@@ -59,7 +59,7 @@ fn check_header<N: Length>(text: &str, header: &str) -> Result<(), Wrong> {
 fn row<T: Real + FromStr, N: Length>(
     text: &str,
     count: usize,
-    names: &mut Arc<Names>,
+    names: &mut Arc<ColumnNames>,
 ) -> Result<Option<MemberRow<T, N>>, Wrong> {
     let (index, _) = text.split_once(',').unwrap_or((text, ""));
     if !index.chars().all(|digit| digit.is_ascii_digit()) || text.starts_with(',') {
@@ -99,7 +99,7 @@ fn lists(cells: &[&str], k: usize) -> Result<String, Wrong> {
 /// Samples and their quantities; `names` receives the names of the quantities.
 fn read_samples<T: Real + FromStr, N: Length>(
     object: &str,
-    names: &mut Arc<Names>,
+    names: &mut Arc<ColumnNames>,
 ) -> Option<(Vec<State<T, N>>, Vec<T>)> {
     if object.is_empty() {
         return Some((Vec::new(), Vec::new()));
@@ -108,7 +108,7 @@ fn read_samples<T: Real + FromStr, N: Length>(
     let (of_state, quantities) = lists.split_at_checked(entries::<N>())?;
     if !quantities.iter().map(|(name, _)| name).eq(&names.quantities) {
         let quantities = quantities.iter().map(|(name, _)| name.clone()).collect();
-        *names = Arc::new(Names { coordinates: names.coordinates, quantities });
+        *names = Arc::new(ColumnNames { coordinates: names.coordinates, quantities });
     }
     let samples = read_states(of_state, names)?;
     let is_even = quantities.iter().all(|(_, items)| items.len() == samples.len());
@@ -119,7 +119,7 @@ fn read_samples<T: Real + FromStr, N: Length>(
 
 fn read_crossings<T: Real + FromStr, N: Length>(
     object: &str,
-    names: &Names,
+    names: &ColumnNames,
 ) -> Option<Vec<MemberCrossing<T, N>>> {
     if object.is_empty() {
         return Some(Vec::new());
@@ -146,7 +146,7 @@ fn read_crossings<T: Real + FromStr, N: Length>(
 
 fn read_states<T: Real + FromStr, N: Length>(
     lists: &[(String, Vec<&str>)],
-    names: &Names,
+    names: &ColumnNames,
 ) -> Option<Vec<State<T, N>>> {
     let count = lists.first()?.1.len();
     let is_whole = lists.iter().all(|(_, items)| items.len() == count)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::cells::{Lists, Number, escaped, quoted, text};
 use crate::ensemble::fingerprint::Fingerprint;
-use crate::ensemble::names::Names;
+use crate::ensemble::names::ColumnNames;
 use crate::ensemble::outcome::Member;
 use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::record::Arrival;
@@ -35,7 +35,7 @@ pub struct MemberRow<T: Element, N: Length> {
     pub values: Vec<T>,
     /// Crossings of events, in the order of the motion.
     pub crossings: Vec<MemberCrossing<T, N>>,
-    pub(crate) names: Arc<Names>,
+    pub(crate) names: Arc<ColumnNames>,
 }
 
 /// A crossing of an event, as a table stores it.
@@ -134,7 +134,7 @@ impl<T: Real, N: Length> MemberRow<T, N> {
     pub(crate) fn into_member(
         self,
         events: &[&'static str],
-        names: &Arc<Names>,
+        names: &Arc<ColumnNames>,
     ) -> Result<Member<T, N>, Error> {
         let Self { index, fingerprint, state, statistics, ending, samples, values, crossings, names: found } =
             self;
@@ -179,7 +179,7 @@ pub(super) const COMPLETE: &str = "complete";
 pub(super) const CANCELLED: &str = "cancelled";
 pub(super) const EVENT: &str = "event: ";
 
-pub(super) fn header(names: &Names) -> String {
+pub(super) fn header(names: &ColumnNames) -> String {
     let first = ["member", "system", "run", "start"].map(String::from).into_iter().chain(names.of_state());
     let counts = ["accepted", "rejected", "evaluations", "multipliers_are_unique", "ending"];
     let lists = ["samples", "crossings", "member_again"];
@@ -274,7 +274,7 @@ impl<T: Real, N: Length> MemberRow<T, N> {
     }
 }
 
-fn push_states<T: Real, N: Length>(lists: &mut Lists, names: &Names, states: &[State<T, N>]) {
+fn push_states<T: Real, N: Length>(lists: &mut Lists, names: &ColumnNames, states: &[State<T, N>]) {
     for (place, name) in names.of_state().enumerate() {
         lists.push(&name, states.iter().map(|state| Number(entry(state, place))));
     }

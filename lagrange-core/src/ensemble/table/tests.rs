@@ -11,8 +11,8 @@ use crate::system::State;
 const NAMES: &[&str] = &["x"];
 const EVENTS: [&str; 2] = ["up, \"again\"\r\n", "down\\u000a"];
 
-fn names() -> Arc<Names> {
-    Arc::new(Names { coordinates: NAMES, quantities: vec!["a, \"b\"\n\\".into(), "c".into()] })
+fn names() -> Arc<ColumnNames> {
+    Arc::new(ColumnNames { coordinates: NAMES, quantities: vec!["a, \"b\"\n\\".into(), "c".into()] })
 }
 
 /// Samples and crossings of a member; numbers of every kind but NaN, which does not equal itself.
