@@ -26,6 +26,21 @@ fn the_parts_are_the_whole() {
     }
 }
 
+/// Other code, or a library with other roundings, may have made one of them.
+#[test]
+fn two_results_of_a_member_are_not_merged() {
+    let table = whole().csv().to_string();
+    let line = table.lines().nth(3).unwrap();
+    let number = line.split(',').nth(5).unwrap();
+    let digit = if number.ends_with('1') { "2" } else { "1" };
+    let edited = line.replacen(number, &format!("{}{digit}", &number[..number.len() - 1]), 1);
+    let other = ensemble().resume(&table.replace(line, &edited)).unwrap();
+    let other = other.integrate_on_lanes(END, Dop853::default()).unwrap();
+    assert!(other != whole() && whole().merge(whole()).is_ok());
+    let error = whole().merge(other).unwrap_err().to_string();
+    assert!(error.contains("two results"), "{error}");
+}
+
 #[test]
 fn a_table_reads_back_the_same() {
     let failing = || {

@@ -109,7 +109,7 @@ impl<T: Real, N: Length> Outcome<T, N> {
     ///
     /// # Errors
     /// [`EnsembleError::Merge`] if the parts differ in system, end time, method or settings, or if a member in both has
-    /// another start or other parameters.
+    /// another start, other parameters, or other numbers where it reached the end or an event.
     pub fn merge(mut self, other: Self) -> Result<Self, Error> {
         if self.names.coordinates != other.names.coordinates {
             return Err(Error::Ensemble(EnsembleError::Merge { reason: "their coordinates differ" }));
@@ -125,6 +125,13 @@ impl<T: Real, N: Length> Outcome<T, N> {
             .filter_map(|member| Some((member.fingerprint, other.get(member.index)?.fingerprint)));
         let mut differences = core::iter::once((self.run, other.run)).chain(differences);
         if let Some((_, reason)) = differences.find_map(|(one, other)| one.difference(&other)) {
+            return Err(Error::Ensemble(EnsembleError::Merge { reason }));
+        }
+        let contradicts = |member: &Member<T, N>| {
+            other.get(member.index).is_some_and(|again| member.row().contradicts(&again.row()))
+        };
+        if self.members.iter().any(contradicts) {
+            let reason = "a member in both has two results: other code, or a library with other roundings, was at work";
             return Err(Error::Ensemble(EnsembleError::Merge { reason }));
         }
         self.members.extend(other.members);
