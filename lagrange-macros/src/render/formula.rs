@@ -114,6 +114,11 @@ impl Formula {
         }
     }
 
+    /// Returns whether the velocity of a coordinate stands in the formula.
+    pub(super) fn has_velocity(&self) -> bool {
+        matches!(self, Self::Name { dots: 1, .. }) || self.parts().into_iter().any(Self::has_velocity)
+    }
+
     pub(super) fn contains(&self, formula: &Self) -> bool {
         self == formula || self.parts().into_iter().any(|part| part.contains(formula))
     }

@@ -3,7 +3,9 @@
 use rustc_hash::FxHashSet;
 
 use super::arrays::Arrays;
+use super::formula::Formula;
 use super::length::symbols;
+use super::motion::vector;
 use super::reading::{Names, Reading, constants, readings};
 use super::roots::{NamedRoot, named_roots};
 use crate::mechanics::Derived;
@@ -30,6 +32,10 @@ pub(super) struct Page<'a> {
     pub(super) readings: Vec<Reading<'a>>,
     pub(super) arrays: Arrays,
     pub(super) roots: Vec<NamedRoot>,
+    /// Definitions that are vectors, with the numbers of their components.
+    pub(super) vectors: Vec<(Formula, usize)>,
+    /// Definitions that depend on the velocities, and the vectors that they are components of.
+    pub(super) moving: Vec<Formula>,
 }
 
 impl<'a> Page<'a> {
@@ -42,21 +48,33 @@ impl<'a> Page<'a> {
     ) -> Self {
         let constants = constants(graph, problem);
         let roots = named_roots(graph, problem);
+        let leads = leads(graph);
         Self {
             declaration,
             graph,
             problem,
             derived,
             symbols: symbols(graph, problem),
-            leads: leads(graph),
+            moving: moving(problem, &leads),
+            leads,
             ranks: ranks(declaration, problem),
             names,
             readings: readings((graph, problem, derived), &constants, &roots, names),
             constants,
             arrays: Arrays::of(problem, &derived.turnings),
             roots,
+            vectors: problem.vectors.iter().map(|(name, n)| (Formula::labelled(name, 0), *n)).collect(),
         }
     }
+}
+
+/// Definitions that depend on the velocities, and the vectors that they are components of.
+fn moving(problem: &Problem, leads: &[(u8, u32, u32)]) -> Vec<Formula> {
+    let names = problem.names.iter().filter(|(id, _)| leads[id.index()].0 == 0).map(|(_, name)| name);
+    let mut all: Vec<&str> = names.flat_map(|name| [Some(name.as_str()), vector(name)]).flatten().collect();
+    all.sort_unstable();
+    all.dedup();
+    all.into_iter().map(|name| Formula::labelled(name, 0)).collect()
 }
 
 /// Rank of each parameter: in products, parameters stand in the order in which the Lagrangian and the definitions multiply

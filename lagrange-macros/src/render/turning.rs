@@ -123,7 +123,9 @@ impl Page<'_> {
         let parameters = &self.problem.parameters;
         let names: Vec<String> = (0..parameters.entries.len()).map(|k| parameters.name(k)).collect();
         let is_used = |i: usize, j: usize| names.contains(&format!("{whole}[{i}][{j}]"));
-        (0..3).all(|i| (0..3).all(|j| is_entry(i, j) && is_used(i, j))).then_some(whole)
+        let first = names.iter().position(|name| *name == format!("{whole}[0][0]"))?;
+        let is_symmetric = parameters.is_symmetric(parameters.entries[first]);
+        (0..3).all(|i| (0..3).all(|j| is_entry(i, j) && (is_symmetric || is_used(i, j)))).then_some(whole)
     }
 }
 

@@ -68,7 +68,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     lowering.parameters.check_states(lowering.diagnostics);
     let observables = lowering.observables(declaration);
     let conserved = lowering.conserved(declaration, &observables);
-    let names = lowering.names(declaration);
+    let (names, vectors) = (lowering.names(declaration), lowering.vectors(declaration));
     let frames_are_cheaper = lowering.frames_are_cheaper();
     let coordinates = labels(declaration);
     let quaternions = lowering.quaternions(coordinates.len());
@@ -108,6 +108,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         rates,
         frames_are_cheaper,
         names,
+        vectors,
     };
     problem.nest_sums(&mut graph);
     diagnostics.is_empty().then_some((graph, problem))

@@ -308,7 +308,11 @@ impl Parameters {
 
     /// Name of entry `k`, as written in an expression.
     pub(crate) fn name(&self, k: usize) -> String {
-        let entry = self.entries[k];
+        self.name_of(self.entries[k])
+    }
+
+    /// Name of an entry, as written in an expression.
+    pub(crate) fn name_of(&self, entry: Entry) -> String {
         self.element(entry.field, &self.indices(entry))
     }
 

@@ -48,6 +48,8 @@ pub(crate) struct Problem {
     pub(crate) frames_are_cheaper: bool,
     /// Names of nodes that are definitions.
     pub(crate) names: FxHashMap<Id, String>,
+    /// Names of the definitions that are vectors, with the numbers of their components.
+    pub(crate) vectors: Vec<(String, usize)>,
 }
 
 /// A contact: a constraint that holds while its gap is closed.

@@ -56,6 +56,11 @@ impl Parameters {
         Entry { field, number: (matrix * size + column) * size + row }
     }
 
+    /// Returns whether all matrices of the field of this entry are declared symmetric.
+    pub(crate) fn is_symmetric(&self, entry: Entry) -> bool {
+        matches!(self.property(entry.field), Some(Property::Symmetric))
+    }
+
     /// Entry whose symbol stands for this one: in a symmetric matrix, the one in the upper triangle.
     pub(super) fn representative(&self, entry: Entry) -> Entry {
         match self.property(entry.field) {

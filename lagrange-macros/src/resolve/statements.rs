@@ -256,20 +256,34 @@ impl Lowering<'_> {
     /// Names that definitions give to nodes; the first name wins.
     pub(super) fn names(&self, declaration: &Declaration) -> FxHashMap<Id, String> {
         let mut names = FxHashMap::default();
-        for (define, definition) in declaration.defines.iter().zip(&self.definitions) {
-            let name = &define.target.name.text;
-            let elements: Vec<(&[usize], &Value)> = match definition {
-                Definition::Value(value) => vec![(&[], value)],
-                Definition::Family(family) => family.iter().collect(),
-                _ => continue,
-            };
-            for (element, value) in elements {
-                let texts = entry_names(&element_name(name, element), &value.shape().lengths);
-                for (text, id) in texts.into_iter().zip(value.flat()) {
-                    names.entry(id).or_insert(text);
-                }
+        for (name, value) in self.defined(declaration) {
+            let texts = entry_names(&name, &value.shape().lengths);
+            for (text, id) in texts.into_iter().zip(value.flat()) {
+                names.entry(id).or_insert(text);
             }
         }
         names
+    }
+
+    /// Names of the definitions that are vectors, with the numbers of their components.
+    pub(super) fn vectors(&self, declaration: &Declaration) -> Vec<(String, usize)> {
+        let vector = |(name, value): (String, &Value)| match value.shape().lengths[..] {
+            [length] => Some((name, length)),
+            _ => None,
+        };
+        self.defined(declaration).filter_map(vector).collect()
+    }
+
+    /// Values of the definitions and of the elements of families, by name.
+    fn defined(&self, declaration: &Declaration) -> impl Iterator<Item = (String, &Value)> {
+        declaration.defines.iter().zip(&self.definitions).flat_map(|(define, definition)| {
+            let elements: Vec<(&[usize], &Value)> = match definition {
+                Definition::Value(value) => vec![(&[], value)],
+                Definition::Family(family) => family.iter().collect(),
+                _ => Vec::new(),
+            };
+            let name = |element| element_name(&define.target.name.text, element);
+            elements.into_iter().map(move |(element, value)| (name(element), value))
+        })
     }
 }

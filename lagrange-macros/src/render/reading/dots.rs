@@ -67,7 +67,8 @@ impl Collector<'_, '_> {
         let (sum, found) = match *vectors {
             [a, b] => {
                 let c = of(&[(a, 0), (b, 0)]);
-                (scaled(dotted(a, b, n), c)?, vec![(c, vec![dot(a, b)])])
+                let [first, then] = moving_last([a, b], known);
+                (scaled(dotted(a, b, n), c)?, vec![(c, vec![dot(first, then)])])
             }
             [a, b, c] if n == 3 && a != b && b != c => {
                 let [a, b, c] = moving_last([a, b, c], known);
@@ -97,7 +98,7 @@ impl Collector<'_, '_> {
     }
 }
 
-/// Orders vectors as texts do, with moving ones last: Ω·(r×p), Ω×r.
+/// Orders vectors as texts do, with moving ones last: Ω·(r×p), Ω×r, E·r.
 fn moving_last<const N: usize>(vectors: [usize; N], known: &[Vector]) -> [usize; N] {
     let mut sorted = vectors;
     sorted.sort_by_key(|&i| match known[i].of {

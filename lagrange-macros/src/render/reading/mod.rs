@@ -50,10 +50,12 @@ impl Page<'_> {
         let computed = self.computed([&[inertia], forces]);
         let size = |[left, right]: &[Formula; 2]| length(left) + length(right);
         let read = self.readings.iter().filter_map(sides).filter(|sides| size(sides) <= READABLE as usize);
-        let read: Vec<[Formula; 2]> = read.collect();
+        let read = preferred(read.collect(), size, |sides| !sides.iter().any(|side| self.hides(side)));
+        let hides = |sides: &[Formula; 2]| sides.iter().any(|side| self.hides(side));
         let is_apart = |[_, right]: &[Formula; 2]| !right.mixes_degrees();
+        let is_good = |sides: &_| is_apart(sides) && (!hides(sides) || read.iter().all(hides));
         let computed =
-            computed.and_then(|sides| if read.is_empty() || is_apart(&sides) { Ok(sides) } else { Err(0) });
+            computed.and_then(|sides| if read.is_empty() || is_good(&sides) { Ok(sides) } else { Err(0) });
         self.chosen(read.into_iter(), computed, size, false).into()
     }
 
@@ -78,25 +80,35 @@ impl Page<'_> {
         let sides = |reading: &Reading| {
             let parts =
                 rows.iter().map(|(inertia, forces)| self.polynomial(reading, &[(*inertia, 1)], forces));
-            let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?)?;
+            let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?, -Rational::one())?;
             self.collected(reading, |collector| collector.row(own, &all))
         };
-        shortest(self.readings.iter().filter_map(sides), |[left, right]| length(left) + length(right))
+        let size = |[left, right]: &[Formula; 2]| length(left) + length(right);
+        let read = self.readings.iter().filter_map(sides).collect();
+        let open = preferred(read, size, |sides| !sides.iter().any(|side| self.hides(side)));
+        shortest(open.into_iter(), size)
+    }
+
+    /// Returns whether a formula contains a definition that depends on the velocities. In an equation of motion it may hide
+    /// a force, such as Coriolis's.
+    fn hides(&self, formula: &Formula) -> bool {
+        self.moving.iter().any(|name| formula.contains(name))
     }
 
     /// Vector formula of several nodes, if these are its components.
     pub(super) fn vector_expression(&self, components: &[Id]) -> Option<Formula> {
         let formula = |reading: &Reading| {
             let parts = components.iter().map(|&id| self.polynomial(reading, &[(id, 1)], &[]));
-            let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?)?;
+            let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?, Rational::one())?;
             self.collected(reading, |collector| Some(collector.sum(&all)))
         };
         shortest(self.readings.iter().filter_map(formula), length)
     }
 
-    /// Combines rows into one polynomial whose terms each contain a vector.
-    fn vector(&self, reading: &Reading, rows: &[Polynomial]) -> Option<Polynomial> {
-        let terms = self.collected(reading, |collector| collector.vector_terms(rows))?;
+    /// Combines rows into one polynomial whose terms each contain a vector. Cross products have coefficients of this sign,
+    /// but for those with accelerations, which are positive.
+    fn vector(&self, reading: &Reading, rows: &[Polynomial], sign: Rational) -> Option<Polynomial> {
+        let terms = self.collected(reading, |collector| collector.vector_terms(rows, sign))?;
         Self::assembled(reading, terms)
     }
 
@@ -123,7 +135,11 @@ impl Page<'_> {
     /// print, the error is the number of symbols of the form used in the computation.
     pub(super) fn quantity(&self, id: Id) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
-        self.chosen(self.read(id), computed, length, true)
+        let is_mixed = |formula: &Formula| self.hides(formula) && formula.has_velocity();
+        let read = preferred(self.read(id).collect(), length, |formula| !is_mixed(formula));
+        let is_worse = |formula: &Formula| is_mixed(formula) && !read.iter().all(is_mixed);
+        let computed = computed.and_then(|formula| if is_worse(&formula) { Err(0) } else { Ok(formula) });
+        self.chosen(read.into_iter(), computed, length, true)
     }
 
     /// Readings of a node by components, and by products of vectors if it has any.
@@ -204,6 +220,14 @@ impl Page<'_> {
         let written = RefCell::new(FxHashMap::default());
         write(&Collector { page: self, expansion, constants: &self.constants, written })
     }
+}
+
+/// Good candidates, unless all of them are half as long again as the shortest one.
+fn preferred<T>(read: Vec<T>, length: impl Fn(&T) -> usize, is_good: impl Fn(&T) -> bool) -> Vec<T> {
+    let Some(least) = read.iter().map(&length).min() else { return read };
+    let (good, others): (Vec<T>, Vec<T>) =
+        read.into_iter().partition(|candidate| is_good(candidate) && 2 * length(candidate) <= 3 * least);
+    if good.is_empty() { others } else { good }
 }
 
 /// First of the shortest candidates.

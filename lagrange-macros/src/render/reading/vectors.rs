@@ -33,8 +33,9 @@ pub(super) struct VectorTerm {
 
 impl Collector<'_, '_> {
     /// Vector equation of these rows; `None` if scalars, dot products and cross products of vectors do not produce
-    /// them.
-    pub(super) fn vector_terms(&self, rows: &[Polynomial]) -> Option<Vec<VectorTerm>> {
+    /// them. The factors of a cross product stand in the order in which its coefficient has this sign, or is positive if
+    /// there are accelerations in it.
+    pub(super) fn vector_terms(&self, rows: &[Polynomial], sign: Rational) -> Option<Vec<VectorTerm>> {
         let mut known: Vec<Vector> = Vec::new();
         let mut groups = Groups::new();
         for (row, polynomial) in rows.iter().enumerate() {
@@ -47,7 +48,7 @@ impl Collector<'_, '_> {
             }
         }
         let terms = groups.into_iter().map(|((scalar, vectors), products)| {
-            let found = in_vectors(&vectors, &products, &known)?;
+            let found = in_vectors(&vectors, &products, &known, sign)?;
             Some(found.into_iter().map(move |(coefficient, factors)| VectorTerm {
                 coefficient,
                 scalar: scalar.clone(),
@@ -112,6 +113,9 @@ impl Collector<'_, '_> {
         match (vector.of, &vector.written) {
             (Some(Variable::Coordinate(i) | Variable::Velocity(i) | Variable::Momentum(i)), _) => {
                 self.length_from(i) == n
+            }
+            (None, Formula::Name { .. }) => {
+                self.page.vectors.iter().any(|(known, length)| *length == n && *known == vector.written)
             }
             (None, Formula::Call(name, _)) => {
                 let functions = &self.page.problem.functions;
@@ -187,6 +191,7 @@ fn in_vectors(
     vectors: &[usize],
     rows: &[BTreeMap<Components, Rational>],
     known: &[Vector],
+    sign: Rational,
 ) -> Option<Vec<(Rational, Vec<Meaning>)>> {
     let whole = |i: usize| Meaning::Vector(known[i].written.clone(), known[i].of.into_iter().collect());
     // A product is counted among the accelerations, but not among the velocities, that it contains.
@@ -205,7 +210,14 @@ fn in_vectors(
     let candidates: Vec<(Rational, Vec<Meaning>, Product)> = match *vectors {
         [v] => vec![(at(0, &[(v, 0)]), vec![whole(v)], Product::Along(v, vec![]))],
         [v, w] if rows.len() == 3 => {
-            vec![(at(0, &[(v, 1), (w, 2)]), vec![call("cross", name(v), name(w))], Product::Across(v, w))]
+            let sign = if accelerations.is_empty() { sign } else { Rational::one() };
+            let coefficient = at(0, &[(v, 1), (w, 2)]);
+            let (v, w, c) = if coefficient * sign < Rational::default() {
+                (w, v, -coefficient)
+            } else {
+                (v, w, coefficient)
+            };
+            vec![(c, vec![call("cross", name(v), name(w))], Product::Across(v, w))]
         }
         [u, v, w] if rows.len() > 1 => {
             let mut ways = vec![(u, v, w), (v, u, w), (w, u, v)];

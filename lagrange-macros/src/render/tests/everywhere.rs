@@ -15,7 +15,7 @@ use crate::render::arrays::Arrays;
 use crate::render::formula::Formula;
 use crate::render::notation::Notation;
 use crate::render::roots::named_roots;
-use crate::resolve::{self, Supplied};
+use crate::resolve::{self, Entry, Parameters, Supplied};
 use crate::symbolic::{Approximate, External, Function, Id, Sample, apply, superposition};
 use crate::variables::Variable;
 
@@ -114,8 +114,11 @@ impl<'a> State<'a> {
         for (a, (label, _)) in problem.constraints.iter().enumerate() {
             put(Formula::Multiplier(label.text.clone()), value(sample, Variable::Multiplier(a)));
         }
-        for k in 0..problem.parameters.entries.len() {
-            put(Formula::labelled(&problem.parameters.name(k), 0), value(sample, Variable::Parameter(k)));
+        for (entry, k) in all_entries(&problem.parameters) {
+            put(
+                Formula::labelled(&problem.parameters.name_of(entry), 0),
+                value(sample, Variable::Parameter(k)),
+            );
         }
         for turning in &system.derived.turnings.all {
             let quaternion = &problem.coordinates[turning.first].text;
@@ -197,6 +200,17 @@ impl<'a> State<'a> {
         assert!(!values.is_empty(), "no function {function}");
         values
     }
+}
+
+/// Entries in the order of the fields, with the index of the parameter that each is: the lower triangle of a symmetric matrix
+/// is that of the upper one.
+fn all_entries(parameters: &Parameters) -> Vec<(Entry, usize)> {
+    let mirrored = |&entry: &Entry| parameters.is_symmetric(entry).then(|| parameters.mirrored(entry));
+    let both = |(k, entry): (usize, &Entry)| [Some((*entry, k)), mirrored(entry).map(|entry| (entry, k))];
+    let mut all: Vec<_> = parameters.entries.iter().enumerate().flat_map(both).flatten().collect();
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
 fn value(sample: &Sample, variable: Variable) -> f64 {

@@ -8,6 +8,51 @@ use super::systems::System;
 /// Systems, and lines that their pages have.
 #[rustfmt::skip]
 const ENTRIES: &[(&str, &[&str])] = &[
+    // A vector that is a definition is one vector in H, and hides no force in the equations of motion.
+    (
+        "#[coordinates(r: [3])] #[define(A = cross(B, r)/2)]
+         #[lagrangian(m/2*dot(r_dot, r_dot) + q*dot(A, r_dot) + q*dot(E, r))]
+         struct ChargeInVectors { m: f64, q: f64, B: Vector3<f64>, E: Vector3<f64> }",
+        &[
+            "p_r = m ṙ + q A",
+            "H = (p_r − q A)²/(2 m) − q E·r",
+        ],
+    ),
+    (
+        "#[coordinates(r: [3])] #[define(A = cross(B, r)/2)]
+         #[lagrangian(-m*c^2*sqrt(1 - dot(r_dot, r_dot)/c^2) + q*dot(A, r_dot) + q*dot(E, r))]
+         struct RelativisticInVectors { m: f64, c: f64, q: f64, B: Vector3<f64>, E: Vector3<f64> }",
+        &[
+            "H = √(m² c⁴ + c² (p_r − q A)²) − q E·r",
+        ],
+    ),
+    (
+        "#[coordinates(r: [3])] #[define(v_0 = r_dot + cross(Omega, r))]
+         #[lagrangian(m/2*dot(v_0, v_0) - k/2*dot(r, r))]
+         struct RotatingByName { m: f64, k: f64, Omega: Vector3<f64> }",
+        &[
+            "p_r = m v₀",
+            "m r̈ = 2 m (ṙ×Ω) − m (Ω×(Ω×r)) − k r",
+        ],
+    ),
+    (
+        "#[coordinates(r: [3])]
+         #[lagrangian(m/2*dot(r_dot, r_dot) + m*dot(r_dot, cross(Omega, r)) + m/2*dot(cross(Omega, r), cross(Omega, r)) - k/2*dot(r, r))]
+         struct RotatingWrittenOut { m: f64, k: f64, Omega: Vector3<f64> }",
+        &[
+            "p_r = m ṙ + m (Ω×r)",
+            "m r̈ = 2 m (ṙ×Ω) − m (Ω×(Ω×r)) − k r",
+        ],
+    ),
+    (
+        "#[coordinates(q: [4])] #[frame(body: rotate(q))] #[parameter(I: symmetric)]
+         #[lagrangian(kinetic(body, 0, [0, 0, 0], I))]
+         struct FreeBody { I: Matrix3<f64> }",
+        &[
+            "I ω̇_q + ω_q×(I ω_q) = 0",
+            "E = ½ ω_q·(I ω_q)",
+        ],
+    ),
     (
         "#[coordinates(x)]
          #[lagrangian(-m*c^2*sqrt(1 - x_dot^2/c^2) - k*x^2/2)]

@@ -302,17 +302,17 @@ fn rotating_frame() {
               W = Ω(t)
 
             Equations of motion
-              r: m r̈ = m (r×Ω′(t) − W×(W×r) − 2 (W×ṙ) − A(t)) − ∂U/∂r
+              r: m r̈ = m (r×Ω′(t) + 2 (ṙ×W) − W×(W×r) − A(t)) − ∂U/∂r
 
             Energy
-              E = ½ m ṙ·ṙ + m r·A(t) + U(r) − ½ m (W×r)·(W×r)   (L₂ − L₀ by degree in the velocities)
-              d/dt E = m Ω[0]′(t) (W[1] r[0] r[1] + W[2] r[0] r[2] − W[0] (r[1]² + r[2]²)) + m Ω[1]′(t) (W[0] r[0] r[1] + W[2] r[1] r[2] − W[1] (r[0]² + r[2]²)) + m Ω[2]′(t) (W[0] r[0] r[2] + W[1] r[1] r[2] − W[2] (r[0]² + r[1]²)) + m r·A′(t) − m Ω′(t)·(r×ṙ)   (−∂L/∂t)
+              E = ½ m ṙ·ṙ + m A(t)·r + U(r) − ½ m (W×r)·(W×r)   (L₂ − L₀ by degree in the velocities)
+              d/dt E = m Ω[0]′(t) (W[1] r[0] r[1] + W[2] r[0] r[2] − W[0] (r[1]² + r[2]²)) + m Ω[1]′(t) (W[0] r[0] r[1] + W[2] r[1] r[2] − W[1] (r[0]² + r[2]²)) + m Ω[2]′(t) (W[0] r[0] r[2] + W[1] r[1] r[2] − W[2] (r[0]² + r[1]²)) + m A′(t)·r − m Ω′(t)·(r×ṙ)   (−∂L/∂t)
 
             Momenta
-              p_r = m ṙ − m (r×W)
+              p_r = m ṙ + m (W×r)
 
             Hamiltonian
-              H = (p_r·p_r)/(2 m) + m r·A(t) + U(r) − W·(r×p_r)
+              H = (p_r·p_r)/(2 m) + m A(t)·r + U(r) − W·(r×p_r)
 
             Hamilton's equations
               ṙ = p_r/m + r×W
@@ -329,25 +329,25 @@ fn rotating_frame() {
             \end{align}
             \par\medskip\noindent\textbf{Equations of motion}
             \begin{align}
-              m \ddot{\mathbf{r}} &= m (\mathbf{r} \times \boldsymbol{\Omega}'(t) - \mathbf{W} \times (\mathbf{W} \times \mathbf{r}) - 2 (\mathbf{W} \times \dot{\mathbf{r}}) - \mathbf{A}(t)) - \frac{\partial U}{\partial \mathbf{r}} \label{eq:RotatingFrame-r}
+              m \ddot{\mathbf{r}} &= m (\mathbf{r} \times \boldsymbol{\Omega}'(t) + 2 (\dot{\mathbf{r}} \times \mathbf{W}) - \mathbf{W} \times (\mathbf{W} \times \mathbf{r}) - \mathbf{A}(t)) - \frac{\partial U}{\partial \mathbf{r}} \label{eq:RotatingFrame-r}
             \end{align}
             \par\medskip\noindent\textbf{Energy}
             \begin{align}
-              E &= \tfrac{1}{2} m \dot{\mathbf{r}} \cdot \dot{\mathbf{r}} + m \mathbf{r} \cdot \mathbf{A}(t) + U(\mathbf{r}) \nonumber \\*
+              E &= \tfrac{1}{2} m \dot{\mathbf{r}} \cdot \dot{\mathbf{r}} + m \mathbf{A}(t) \cdot \mathbf{r} + U(\mathbf{r}) \nonumber \\*
                 &\quad - \tfrac{1}{2} m (\mathbf{W} \times \mathbf{r}) \cdot (\mathbf{W} \times \mathbf{r}) \nonumber \\*
                 &\quad \quad \text{(}L_2 - L_0\text{ by degree in the velocities)} \label{eq:RotatingFrame-E} \\
               \frac{d}{dt} E &= m \Omega_0'(t) (W_1 r_0 r_1 + W_2 r_0 r_2 - W_0 (r_1^2 + r_2^2)) \nonumber \\*
                 &\quad + m \Omega_1'(t) (W_0 r_0 r_1 + W_2 r_1 r_2 - W_1 (r_0^2 + r_2^2)) \nonumber \\*
                 &\quad + m \Omega_2'(t) (W_0 r_0 r_2 + W_1 r_1 r_2 - W_2 (r_0^2 + r_1^2)) \nonumber \\*
-                &\quad + m \mathbf{r} \cdot \mathbf{A}'(t) - m \boldsymbol{\Omega}'(t) \cdot (\mathbf{r} \times \dot{\mathbf{r}}) \quad \text{(}-\frac{\partial L}{\partial t}\text{)} \label{eq:RotatingFrame-d-dt-E}
+                &\quad + m \mathbf{A}'(t) \cdot \mathbf{r} - m \boldsymbol{\Omega}'(t) \cdot (\mathbf{r} \times \dot{\mathbf{r}}) \quad \text{(}-\frac{\partial L}{\partial t}\text{)} \label{eq:RotatingFrame-d-dt-E}
             \end{align}
             \par\medskip\noindent\textbf{Momenta}
             \begin{align}
-              \mathbf{p}_r &= m \dot{\mathbf{r}} - m (\mathbf{r} \times \mathbf{W}) \label{eq:RotatingFrame-p_r}
+              \mathbf{p}_r &= m \dot{\mathbf{r}} + m (\mathbf{W} \times \mathbf{r}) \label{eq:RotatingFrame-p_r}
             \end{align}
             \par\medskip\noindent\textbf{Hamiltonian}
             \begin{align}
-              H &= \frac{\mathbf{p}_r \cdot \mathbf{p}_r}{2 m} + m \mathbf{r} \cdot \mathbf{A}(t) + U(\mathbf{r}) - \mathbf{W} \cdot (\mathbf{r} \times \mathbf{p}_r) \label{eq:RotatingFrame-H}
+              H &= \frac{\mathbf{p}_r \cdot \mathbf{p}_r}{2 m} + m \mathbf{A}(t) \cdot \mathbf{r} + U(\mathbf{r}) - \mathbf{W} \cdot (\mathbf{r} \times \mathbf{p}_r) \label{eq:RotatingFrame-H}
             \end{align}
             \par\medskip\noindent\textbf{Hamilton's equations}
             \begin{align}
