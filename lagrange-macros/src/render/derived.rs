@@ -42,7 +42,7 @@ impl Page<'_> {
             }
             Node::Defined(inner) => match self.problem.names.get(&id) {
                 Some(name) => Formula::labelled(name, 0),
-                None => self.derived(*inner),
+                None => self.entries.get(&id).cloned().unwrap_or_else(|| self.derived(*inner)),
             },
         }
     }
@@ -71,7 +71,7 @@ impl Page<'_> {
         let graph = self.graph;
         let Node::Product(factors) = graph.node(term) else {
             let above = if term == Id::ONE { Vec::new() } else { vec![self.derived(term)] };
-            return Formula::product(coefficient.into(), above, Vec::new());
+            return Formula::flat_product(coefficient.into(), above, Vec::new());
         };
         let coefficient = Scaled { fraction: coefficient, exponent: graph.power_of_ten(factors) };
         let mut factors: Vec<_> = factors.to_vec();
@@ -83,7 +83,7 @@ impl Page<'_> {
             let side = if is_below { &mut below } else { &mut above };
             side.push(power);
         }
-        Formula::product(coefficient, above, below)
+        Formula::flat_product(coefficient, above, below)
     }
 
     /// Power of a node, without the sign of its exponent, and whether it is a divisor.

@@ -18,6 +18,7 @@ mod names;
 mod notation;
 mod page;
 mod pieces;
+mod product;
 mod reading;
 mod remark;
 mod roots;

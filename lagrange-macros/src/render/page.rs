@@ -1,6 +1,6 @@
 //! Shared state of the sections of a page: the system, its equations and their readings.
 
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::arrays::Arrays;
 use super::formula::Formula;
@@ -36,6 +36,8 @@ pub(super) struct Page<'a> {
     pub(super) vectors: Vec<(Formula, usize)>,
     /// Definitions that depend on the velocities, and the vectors that they are components of.
     pub(super) moving: Vec<Formula>,
+    /// Entries of the mass matrix, which have no names, where a reading is shorter than the computed form.
+    pub(super) entries: FxHashMap<Id, Formula>,
 }
 
 impl<'a> Page<'a> {
@@ -49,7 +51,7 @@ impl<'a> Page<'a> {
         let constants = constants(graph, problem);
         let roots = named_roots(graph, problem);
         let leads = leads(graph);
-        Self {
+        let mut page = Self {
             declaration,
             graph,
             problem,
@@ -64,7 +66,10 @@ impl<'a> Page<'a> {
             arrays: Arrays::of(problem, &derived.turnings),
             roots,
             vectors: problem.vectors.iter().map(|(name, n)| (Formula::labelled(name, 0), *n)).collect(),
-        }
+            entries: FxHashMap::default(),
+        };
+        page.entries = page.short_entries();
+        page
     }
 }
 

@@ -61,13 +61,18 @@ impl Collector<'_, '_> {
     /// Sum in which no product contains terms of different degrees in the velocities: Coriolis and centrifugal forces
     /// stay apart.
     pub(super) fn sum_by_degree(&self, polynomial: &Polynomial) -> Formula {
+        in_order(self.by_degree(polynomial).values().flat_map(|part| self.parts(part)).collect())
+    }
+
+    /// Terms of each degree in the velocities.
+    pub(super) fn by_degree(&self, polynomial: &Polynomial) -> BTreeMap<Option<Rational>, Polynomial> {
         let mut degrees: BTreeMap<Option<Rational>, Polynomial> = BTreeMap::new();
         for (monomial, &c) in polynomial.terms() {
             let part = degrees.entry(self.degree(monomial, is_velocity)).or_default();
             let added = part.push(monomial.clone(), c);
             debug_assert!(added.is_some(), "each monomial occurs once");
         }
-        in_order(degrees.values().flat_map(|part| self.parts(part)).collect())
+        degrees
     }
 
     /// Terms of a sum, some of them products of several terms, with their places.
@@ -144,24 +149,35 @@ impl Collector<'_, '_> {
 
     /// Returns whether an atom depends on neither time nor state.
     pub(super) fn is_constant(&self, atom: Atom) -> bool {
-        let all = |polynomial: &Polynomial| self.are_constant(polynomial);
+        self.depends_on(atom, |variable| matches!(variable, Variable::Parameter(_)))
+    }
+
+    /// Returns whether an atom depends on variables that `may_occur` accepts only.
+    fn depends_on(&self, atom: Atom, may_occur: fn(&Variable) -> bool) -> bool {
+        let all = |polynomial: &Polynomial| self.consists_of(polynomial, may_occur);
         match self.expansion.atoms.meaning(atom) {
-            Meaning::Variable(variable) => matches!(variable, Variable::Parameter(_)),
+            Meaning::Variable(variable) => may_occur(variable),
             Meaning::Pi | Meaning::Number(_) => true,
             Meaning::Definition(id) => self.constants.contains(id),
             Meaning::Function(_, x) | Meaning::Sum(x) => all(x),
             Meaning::Atan2(x, y) | Meaning::Power(x, y) => all(x) && all(y),
             Meaning::External(_, arguments) => arguments.iter().all(all),
-            Meaning::Vector(_, of) => {
-                !of.is_empty() && of.iter().all(|variable| matches!(variable, Variable::Parameter(_)))
-            }
+            Meaning::Vector(_, of) => !of.is_empty() && of.iter().all(may_occur),
         }
     }
 
+    fn consists_of(&self, polynomial: &Polynomial, may_occur: fn(&Variable) -> bool) -> bool {
+        let mut atoms = polynomial.terms().flat_map(|(monomial, _)| monomial.factors());
+        atoms.all(|&(atom, _)| self.depends_on(atom, may_occur))
+    }
+
     fn are_constant(&self, polynomial: &Polynomial) -> bool {
-        polynomial
-            .terms()
-            .all(|(monomial, _)| monomial.factors().iter().all(|(atom, _)| self.is_constant(*atom)))
+        self.consists_of(polynomial, |variable| matches!(variable, Variable::Parameter(_)))
+    }
+
+    /// Returns whether the polynomial depends on parameters and time only.
+    fn is_of_time(&self, polynomial: &Polynomial) -> bool {
+        self.consists_of(polynomial, |variable| matches!(variable, Variable::Parameter(_) | Variable::Time))
     }
 
     fn moving(&self, monomial: &Monomial) -> Monomial {
@@ -200,13 +216,20 @@ impl Collector<'_, '_> {
         let (number, monomial) = chosen.content();
         let is_negative = chosen.terms().all(|(_, c)| c.is_negative());
         let quotient = chosen.scaled(&monomial.power(-Rational::one())?, number.recip())?;
-        let is_turned = is_negative || self.is_turned(&quotient);
+        let has_plus =
+            polynomial.terms().any(|(monomial, c)| c.is_positive() && !members.contains(&monomial));
+        let is_turned = is_negative
+            || self.is_turned(&quotient)
+            || self.is_subtracted(&quotient)
+            || has_plus && self.leads_subtracted(&quotient);
         let (number, quotient) = if is_turned { (-number, quotient.negated()) } else { (number, quotient) };
         if self.are_unlike(&monomial, &quotient) {
             return None;
         }
-        let (monomial, quotient) = self.over_common(monomial, quotient)?;
-        let size = self.size(&monomial) + isize::from(!number.abs().is_one());
+        let (number, monomial, quotient) = self.over_common(number, monomial, quotient)?;
+        let is_fraction =
+            monomial.has_divisor() && self.moving(&monomial).is_divisor() && !quotient.has_fraction();
+        let size = self.size(&monomial) + isize::from(!number.abs().is_one()) + isize::from(is_fraction);
         let (parentheses, least) = self.parentheses(&monomial, &quotient);
         let saving = (members.len() as isize - 1) * size - parentheses;
         let members = members.into_iter().cloned().collect();
@@ -285,14 +308,41 @@ impl Collector<'_, '_> {
         matches!(coordinates[..], [(_, c)] if c.is_negative()) && are_constant && !others.is_empty()
     }
 
-    /// Combines constants over a common denominator: (a m + b)/m for a + b/m.
+    /// True for a γ² cos(γ t) − g: a constant with a minus sign, and terms that depend on time.
+    fn is_subtracted(&self, quotient: &Polynomial) -> bool {
+        let mut constants =
+            quotient.terms().filter(|(monomial, _)| self.moving(monomial).is_one()).peekable();
+        constants.peek().is_some()
+            && self.is_of_time(quotient)
+            && !self.are_constant(quotient)
+            && constants.all(|(_, c)| c.is_negative())
+    }
+
+    /// True for −p₁ + p₂ cos θ, whose first momentum has a minus sign.
+    fn leads_subtracted(&self, quotient: &Polynomial) -> bool {
+        let is_momentum = |variable| matches!(variable, Variable::Momentum(_));
+        let leading = quotient.terms().min_by_key(|(monomial, _)| self.place(monomial, Rational::one()));
+        leading.is_some_and(|(monomial, c)| {
+            c.is_negative() && self.degree(monomial, is_momentum).is_some_and(|degree| degree.is_positive())
+        })
+    }
+
+    /// Combines constants over a common denominator, (a m + b)/m for a + b/m, and the terms of a numerator over a sum,
+    /// (b x + a y)/(a b (l + m)) for (x/a + y/b)/(l + m).
     fn over_common(
         &self,
+        mut number: Rational,
         mut monomial: Monomial,
         mut quotient: Polynomial,
-    ) -> Option<(Monomial, Polynomial)> {
+    ) -> Option<(Rational, Monomial, Polynomial)> {
         if !self.are_constant(&quotient) {
-            return Some((monomial, quotient));
+            let has_sum = quotient.terms().any(|(monomial, _)| self.is_over_sum(monomial));
+            if !quotient.has_fraction() || has_sum || !self.is_over_sum(&monomial) {
+                return Some((number, monomial, quotient));
+            }
+            let denominators = quotient.denominators()?;
+            number = symbolic::times(number, denominators.recip())?;
+            quotient = quotient.scaled(&Monomial::default(), denominators)?;
         }
         let factors: Vec<(Atom, Rational)> =
             quotient.terms().flat_map(|(monomial, _)| monomial.factors().to_vec()).collect();
@@ -303,18 +353,27 @@ impl Collector<'_, '_> {
             monomial = monomial.times(&Monomial::of(atom, least))?;
             quotient = quotient.scaled(&Monomial::of(atom, -least), Rational::one())?;
         }
-        Some((monomial, quotient))
+        Some((number, monomial, quotient))
+    }
+
+    /// Returns whether a sum without a name divides.
+    fn is_over_sum(&self, monomial: &Monomial) -> bool {
+        let is_sum = |atom| matches!(self.expansion.atoms.meaning(atom), Meaning::Sum(_));
+        monomial.factors().iter().any(|&(atom, exponent)| {
+            exponent.is_negative() && is_sum(atom) && !self.expansion.roots.contains_key(&atom)
+        })
     }
 
     /// Cost of parentheses around a quotient, and minimum saving, both in symbols. Parentheses around constants and
     /// differences are easier to read than others, and nested fractions harder. Moving factors should stay visible.
     fn parentheses(&self, monomial: &Monomial, quotient: &Polynomial) -> (isize, isize) {
-        let has_fraction =
-            |(monomial, _): (&Monomial, _)| monomial.factors().iter().any(|(_, e)| e.is_negative());
         match (self.are_constant(quotient), self.moving(monomial).is_one()) {
             _ if monomial.is_one() => (2, 1),
             (true, _) => (1, 0),
-            _ if quotient.len() == 2 && quotient.terms().any(has_fraction) => (5, 0),
+            _ if self.is_of_time(quotient) => (1, 0),
+            _ if quotient.len() == 2 && quotient.has_fraction() => (5, 0),
+            // A fraction bar groups the terms.
+            _ if monomial.is_divisor() && !quotient.has_fraction() => (1, 1),
             (_, true) if self.are_differences(quotient) || self.is_elongation(quotient) => (1, 0),
             (_, true) if self.are_alike(quotient) => (2, 0),
             (_, true) => (4, 1),
@@ -401,7 +460,7 @@ impl Collector<'_, '_> {
             above.insert(at, power(self.sum(sum), exponent));
             place += 1;
         }
-        Formula::product(number, above, below)
+        Formula::flat_product(number, above, below)
     }
 
     fn is_ten(&self, atom: Atom) -> bool {

@@ -142,6 +142,17 @@ impl Page<'_> {
         self.chosen(read.into_iter(), computed, length, true)
     }
 
+    /// Entries of the mass matrix whose shortest reading is shorter than the computed form.
+    pub(super) fn short_entries(&self) -> FxHashMap<Id, Formula> {
+        let entries = self.derived.hamilton.iter().flat_map(|hamilton| &hamilton.entries);
+        let short = |&id: &Id| {
+            let [computed] = self.computed([&[id]]).ok()?;
+            let read = shortest(self.read(id), length).filter(|read| length(read) < length(&computed))?;
+            Some((id, read))
+        };
+        entries.filter(|id| !self.problem.names.contains_key(id)).filter_map(short).collect()
+    }
+
     /// Readings of a node by components, and by products of vectors if it has any.
     fn read(&self, id: Id) -> impl Iterator<Item = Formula> {
         let formulas = move |reading: &Reading| {
@@ -149,14 +160,22 @@ impl Page<'_> {
             let terms =
                 self.collected(reading, |collector| Some(collector.squared(collector.dotted_terms(&all)?)));
             let dotted = terms.and_then(|terms| Self::assembled(reading, terms));
+            let squares = self.unmerged_squares(reading, id);
             let sum = |all: Polynomial| self.collected(reading, |collector| Some(collector.sum(&all)));
-            Some([Some(all), dotted].into_iter().flatten().filter_map(sum).collect::<Vec<_>>())
+            Some([Some(all), dotted, squares].into_iter().flatten().filter_map(sum).collect::<Vec<_>>())
         };
         let formulas = self.readings.iter().filter_map(formulas).flatten();
         formulas.filter(|formula| length(formula) <= READABLE as usize)
     }
 
-    /// Formula of a momentum: with velocities collected, or the computed form if that is no longer.
+    /// Polynomial in which 1 − sin² φ is not replaced by cos² φ, if it has squares of sums: (p + a sin φ)² + b.
+    fn unmerged_squares(&self, reading: &Reading, id: Id) -> Option<Polynomial> {
+        let all = reading.0.borrow_mut().of(id).filter(|all| all.len() <= TERMS)?;
+        let has_square = self.collected(reading, |collector| collector.squares(&all).next().map(|_| ()));
+        has_square.map(|()| all)
+    }
+
+    /// Formula of a momentum: with velocities collected, or the computed form if that is shorter.
     pub(super) fn momentum(&self, id: Id) -> Result<Formula, u64> {
         let collected = |reading: &Reading| {
             let all = self.polynomial(reading, &[(id, 1)], &[])?;
@@ -165,7 +184,9 @@ impl Page<'_> {
         let collected = self.readings.iter().filter_map(collected);
         let read = collected.filter(|formula| length(formula) <= READABLE as usize).chain(self.read(id));
         let computed = self.computed([&[id]]).map(|[formula]| formula);
-        self.chosen(read, computed, length, true)
+        // Of equally long forms, a product reads better than a sum: I₃ (φ̇ cos θ + ψ̇).
+        let size = |formula: &Formula| 2 * length(formula) + usize::from(matches!(formula, Formula::Sum(_)));
+        self.chosen(read, computed, size, false)
     }
 
     /// Formula of a named root, √X or 1/√X.

@@ -50,6 +50,15 @@ impl Monomial {
         factors.collect::<Option<_>>().map(Self)
     }
 
+    pub(super) fn has_divisor(&self) -> bool {
+        self.0.iter().any(|(_, exponent)| exponent.is_negative())
+    }
+
+    /// Returns whether all exponents are negative.
+    pub(super) fn is_divisor(&self) -> bool {
+        self.0.iter().all(|(_, exponent)| exponent.is_negative())
+    }
+
     pub(super) fn over(&self, other: &Self) -> Option<Self> {
         self.times(&other.power(-Rational::one())?)
     }
@@ -166,6 +175,16 @@ impl Polynomial {
         let mut monomials = self.0.keys();
         let first = monomials.next().cloned().unwrap_or_default();
         (number, monomials.fold(first, |shared, monomial| shared.shared(monomial)))
+    }
+
+    pub(super) fn has_fraction(&self) -> bool {
+        self.0.keys().any(Monomial::has_divisor)
+    }
+
+    /// Least common denominator of all coefficients; `None` if it overflows.
+    pub(super) fn denominators(&self) -> Option<Rational> {
+        let common = |least: i128, c: &Rational| (least / divisor(least, *c.denom())).checked_mul(*c.denom());
+        self.0.values().try_fold(1, common).map(Rational::from_integer)
     }
 
     /// Term with the greatest monomial.

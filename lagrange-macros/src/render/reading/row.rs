@@ -3,13 +3,15 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, Zero};
 
+use super::super::digits::decimal;
 use super::super::formula::Formula;
 use super::super::length::length;
+use super::atoms::Meaning;
 use super::collect::{Collector, is_velocity, shared};
 use super::polynomial::{Atom, Monomial, Polynomial};
-use crate::symbolic::Rational;
+use crate::symbolic::{self, Rational};
 use crate::variables::Variable;
 
 /// Maps an atom to the index of its variable if the variable is of a certain kind, such as an acceleration.
@@ -28,7 +30,41 @@ impl Collector<'_, '_> {
         // Velocities beside accelerations, as of a relativistic particle, are read in products: ẋ (ẋ ẍ + ẏ ÿ).
         let has_velocity = left.terms().any(|(monomial, _)| self.moved(monomial, Self::velocity).is_some());
         let is_shorter = has_velocity && length(&grouped) < length(&by_acceleration);
-        Some([if is_shorter { grouped } else { by_acceleration }, self.sum_by_degree(&right)])
+        Some([if is_shorter { grouped } else { by_acceleration }, self.force(&right)])
+    }
+
+    /// Right side of a row: q (E + ṙ×B), or a sum whose products each contain terms of one degree in the velocities.
+    fn force(&self, right: &Polynomial) -> Formula {
+        self.lorentz_force(right).unwrap_or_else(|| self.sum_by_degree(right))
+    }
+
+    /// A vector of terms with and without a cross product that all contain one factor, such as a charge.
+    fn lorentz_force(&self, right: &Polynomial) -> Option<Formula> {
+        let (number, charge) = shared(right, |atom| self.is_constant(atom));
+        let rest = right.scaled(&charge.power(-Rational::one())?, number.recip())?;
+        let contains = |atom| !charge.exponent(atom).is_zero();
+        let is_free = rest.terms().all(|(monomial, _)| !self.any(monomial, contains));
+        let is_cross = |atom| match self.expansion.atoms.meaning(atom) {
+            Meaning::Vector(Formula::Call(name, _), _) => name == "cross",
+            _ => false,
+        };
+        let own = |(monomial, &c): (&Monomial, &Rational)| (monomial.clone(), c);
+        let (crossed, others): (Vec<_>, Vec<_>) =
+            rest.terms().map(own).partition(|(monomial, _)| self.any(monomial, is_cross));
+        if charge.is_one() || !is_free || crossed.is_empty() || others.is_empty() {
+            return None;
+        }
+        let sums = [others, crossed].map(|terms| self.sum(&terms.into_iter().collect()));
+        let charge = self.product(number, &charge, &[]);
+        Some(Formula::flat_product(
+            Rational::one().into(),
+            vec![charge, Formula::sum(sums.into())],
+            Vec::new(),
+        ))
+    }
+
+    fn any(&self, monomial: &Monomial, is_it: impl Fn(Atom) -> bool) -> bool {
+        monomial.factors().iter().any(|&(atom, _)| is_it(atom))
     }
 
     fn is_inertia(&self, monomial: &Monomial) -> bool {
@@ -112,11 +148,19 @@ impl Collector<'_, '_> {
             2 * first.terms().filter(|(_, c)| c.is_negative()).count() > first.len()
         });
         let number = if is_turned { -number } else { number };
+        let number = symbolic::times(number, Self::denominators(all, number)?.recip())?;
         let mut all = all.scaled(&monomial.power(-Rational::one())?, number.recip())?;
         while let Some(quotient) = self.divisor(&all).and_then(|divisor| all.divided(&divisor)) {
             all = quotient;
         }
         Some(all)
+    }
+
+    /// Least common denominator of a row in which each term has one, such as 6 for ⅓ l θ̈ = ½ g sin θ; 1 for any other.
+    fn denominators(all: &Polynomial, number: Rational) -> Option<Rational> {
+        let all = all.scaled(&Monomial::default(), number.recip())?;
+        let is_fraction = |c: Rational| !c.is_integer() && decimal(c).is_none();
+        if all.terms().all(|(_, &c)| is_fraction(c)) { all.denominators() } else { Some(Rational::one()) }
     }
 
     /// Candidate for a sum that divides all terms: the shortest sum of constants and coordinates among terms with equal

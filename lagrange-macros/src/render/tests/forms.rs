@@ -107,7 +107,9 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(m/2*(x_dot^2 + y_dot^2) + e*B/2*(x*y_dot - y*x_dot))]
          struct Landau { m: f64, e: f64, B: f64 }",
         &[
-            "H = (p_x + ½ e B y)²/(2 m) + (p_y − ½ e B x)²/(2 m)",
+            "H = ((p_x + ½ e B y)² + (p_y − ½ e B x)²)/(2 m)",
+            "ẏ = (p_y − ½ e B x)/m",
+            "ṗ_x = e B (p_y − ½ e B x)/(2 m)",
         ],
     ),
     (
@@ -256,11 +258,73 @@ const ENTRIES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "#[coordinates(x, theta)]
+         #[lagrangian(m/2*(x_dot^2 + (l + x)^2*theta_dot^2) + m*g*(l + x)*cos(theta) - k/2*x^2)]
+         struct ElasticPendulum { m: f64, l: f64, g: f64, k: f64 }",
+        &[
+            "ṗ_x = p_θ²/(m (x + l)³) + m g cos θ − k x",
+        ],
+    ),
+    (
+        "#[coordinates(phi)] #[define(x = l*sin(phi))] #[define(y = a*cos(gamma*t) - l*cos(phi))]
+         #[lagrangian(m/2*(der(x)^2 + der(y)^2) - m*g*y)]
+         struct VibratingSupport { m: f64, l: f64, a: f64, gamma: f64, g: f64 }",
+        &[
+            "l φ̈ = −(g − a γ² cos(γ t)) sin φ",
+            "H = (p_φ + l m a γ sin(γ t) sin φ)²/(2 m l²) + m g y − ½ m a² γ² sin²(γ t)",
+        ],
+    ),
+    (
+        "#[coordinates(phi)]
+         #[lagrangian(m/2*l^2*phi_dot^2 + m*l*(g - a*gamma^2*cos(gamma*t))*cos(phi))]
+         struct VibratingSupportReduced { m: f64, l: f64, a: f64, gamma: f64, g: f64 }",
+        &[
+            "H = p_φ²/(2 m l²) − m l (g − a γ² cos(γ t)) cos φ",
+        ],
+    ),
+    (
+        "#[coordinates(x, phi)]
+         #[lagrangian((M + m)/2*x_dot^2 + m/2*(l^2*phi_dot^2 + 2*l*x_dot*phi_dot*cos(phi)) + m*g*l*cos(phi))]
+         struct CartPendulum { M: f64, m: f64, l: f64, g: f64 }",
+        &[
+            "H = (m l² p_x² + (M + m) p_φ² − 2 m l p_x p_φ cos φ)/(2 m l² (M + m sin² φ)) − m g l cos φ",
+            "ẋ = (l p_x − p_φ cos φ)/(l (M + m sin² φ))",
+            "φ̇ = ((M + m) p_φ − m l p_x cos φ)/(m l² (M + m sin² φ))",
+        ],
+    ),
+    (
+        "#[coordinates(phi1, phi2)]
+         #[lagrangian((m1 + m2)/2*l1^2*phi1_dot^2 + m2/2*l2^2*phi2_dot^2 + m2*l1*l2*phi1_dot*phi2_dot*cos(phi1 - phi2) + (m1 + m2)*g*l1*cos(phi1) + m2*g*l2*cos(phi2))]
+         struct DoublePendulum { m1: f64, m2: f64, l1: f64, l2: f64, g: f64 }",
+        &[
+            "φ̇₁ = (l₂ p_φ₁ − l₁ p_φ₂ cos(φ₁ − φ₂))/(l₁² l₂ (m₁ + m₂ sin²(φ₁ − φ₂)))",
+        ],
+    ),
+    (
+        "#[coordinates(r: [3])] #[define(A = cross(B, r)/2)]
+         #[lagrangian(m/2*dot(r_dot, r_dot) + q*dot(A, r_dot) + q*dot(E, r))]
+         struct ChargeInUniformFields { m: f64, q: f64, B: Vector3<f64>, E: Vector3<f64> }",
+        &[
+            "m r̈ = q (E + ṙ×B)",
+            "ṙ = (p_r − q A)/m",
+        ],
+    ),
+    (
+        "#[coordinates(theta)]
+         #[lagrangian(m*l^2/6*theta_dot^2 - m*g*l/2*cos(theta))]
+         struct Ladder { m: f64, l: f64, g: f64 }",
+        &[
+            "2 l θ̈ = 3 g sin θ",
+        ],
+    ),
+    (
         "#[coordinates(theta, phi, psi)]
          #[lagrangian(I1/2*(theta_dot^2 + sin(theta)^2*phi_dot^2) + I3/2*(psi_dot + phi_dot*cos(theta))^2 - M*g*l*cos(theta))]
          struct Top { I1: f64, I3: f64, M: f64, g: f64, l: f64 }",
         &[
             "H = p_θ²/(2 I₁) + (p_φ − p_ψ cos θ)²/(2 I₁ sin² θ) + p_ψ²/(2 I₃) + M g l cos θ",
+            "φ̇ = (p_φ − p_ψ cos θ)/(I₁ sin² θ)",
+            "ψ̇ = p_ψ/I₃ − (p_φ − p_ψ cos θ) cos(θ)/(I₁ sin² θ)",
         ],
     ),
     (
@@ -304,7 +368,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(-m*c^2*sqrt(1 - (u_dot^2 + v_dot^2 + u_dot*v_dot)/c^2) - k*u*v)]
          struct Oblique { m: f64, c: f64, k: f64 }",
         &[
-            "p_v = m γ v̇ + ½ m γ u̇",
+            "p_v = ½ m γ u̇ + m γ v̇",
         ],
     ),
     (
