@@ -16,8 +16,9 @@ use slides::Slides;
 ///
 /// Expressions are expanded and collected, and sines and cosines are combined (sin² + cos², sums of angles).
 /// Each row is divided by the common factor of its terms, and components of vector equations are combined into
-/// vectors. In products, parameters stand in the order in which the Lagrangian multiplies them. Definitions appear by name or written out, whichever is shorter; [`named`](Self::named) and
-/// [`written_out`](Self::written_out) use one form throughout. A row divided by a coordinate is equivalent to
+/// vectors. Terms over one divisor share its fraction bar, and terms over a sum a common denominator. In products,
+/// parameters stand in the order in which the Lagrangian multiplies them. Definitions appear by name or written out,
+/// whichever is shorter; [`named`](Self::named) and [`written_out`](Self::written_out) use one form throughout. A row divided by a coordinate is equivalent to
 /// the equation except where that coordinate vanishes. This form is for reading only: computations do not use
 /// it.
 ///
