@@ -172,8 +172,8 @@ fn roots_and_powers_are_printed_in_closed_form() {
     }
     let printed = [Charged::equations().hamiltonian(), Quartic::equations().hamiltonian()];
     let hamiltonians = [
-        "H = e E x + √(c² ((p_x + ½ e B y)² + (p_y − ½ e B x)²) + m² c⁴)",
-        "H = w x p_x + k x² + ¾ a (|p_x|/a)^(4/3)",
+        "H = √(c² ((p_x + ½ e B y)² + (p_y − ½ e B x)²) + m² c⁴) + e E x",
+        "H = ¾ a (|p_x|/a)^(4/3) + w x p_x + k x²",
     ];
     assert_eq!(printed.map(|hamiltonian| hamiltonian.to_string()), hamiltonians);
 

@@ -46,13 +46,19 @@ pub(super) fn find(
     (form, even)
 }
 
-/// Returns −L at q̇ = 0 for an even L. It is the potential energy if E is T + U.
-pub(super) fn potential(graph: &mut Graph, problem: &Problem, form: EnergyForm) -> Option<Id> {
-    let EnergyForm::Even(_) = form else { return None };
+/// Returns the parts L₂ and −L₀ of E, of an L that is quadratic in the velocities or even. They are T and U if E is T + U.
+pub(super) fn parts(
+    graph: &mut Graph,
+    problem: &Problem,
+    equations: &Equations,
+    form: EnergyForm,
+) -> Option<[Id; 2]> {
+    (equations.momenta_are_linear || matches!(form, EnergyForm::Even(_))).then_some(())?;
     let velocities = nodes(graph, problem.coordinates.len(), Variable::Velocity);
     let at_rest = graph.without(problem.lagrangian, &velocities);
     let potential = graph.neg(at_rest);
-    graph.take_fault().is_none().then_some(potential)
+    let kinetic = graph.sub(equations.energy, potential);
+    graph.take_fault().is_none().then_some([kinetic, potential])
 }
 
 /// Tests that L has parts of degree zero and two only: D(E) = D(L) with D = Σ q̇ ∂/∂q̇.

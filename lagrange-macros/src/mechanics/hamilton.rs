@@ -15,6 +15,8 @@ use crate::variables::{Variable, has_velocity, nodes, symbols};
 #[derive(Debug)]
 pub(crate) struct Hamilton {
     pub(crate) hamiltonian: Id,
+    /// The part of H with momenta, T if H is T + U, and −L at q̇ = 0
+    pub(crate) energies: [Id; 2],
     /// q̇ = ∂H/∂p
     pub(crate) velocities: Vec<Id>,
     /// ṗ = −∂H/∂q + Q + Fᵀλ
@@ -66,14 +68,16 @@ impl Hamilton {
                 true => still = parts.power(graph, problem, &block, still)?,
             }
         }
-        let potential = graph.without(still, &at_rest);
-        parts.terms.push((potential, -Rational::from_integer(1)));
-        let hamiltonian = graph.sum(parts.terms);
+        let at_rest = graph.without(still, &at_rest);
+        let energies = [graph.sum(parts.terms), graph.neg(at_rest)];
+        let hamiltonian = graph.total(energies);
         let rates = rates(graph, problem, equations, hamiltonian, &parts.velocities);
         let entries = mass.concat();
         let is_exact = graph.take_fault().is_none();
         let velocities = parts.velocities;
-        is_exact.then_some(Self { hamiltonian, velocities, rates, entries }).ok_or(NoHamiltonian::Long)
+        is_exact
+            .then_some(Self { hamiltonian, energies, velocities, rates, entries })
+            .ok_or(NoHamiltonian::Long)
     }
 }
 

@@ -57,8 +57,8 @@ pub(crate) use twists::{Euler, Turning, Turnings};
 pub(crate) struct Derived {
     pub(crate) equations: Equations,
     pub(crate) facts: Facts,
-    /// U of an [`EnergyForm::Even`], if U is the potential energy; `None` if L cannot be written at q̇ = 0
-    pub(crate) potential: Option<Id>,
+    /// The parts L₂ and −L₀ of E, if L is quadratic or even; `None` if L cannot be written at q̇ = 0
+    pub(crate) energies: Option<[Id; 2]>,
     /// M q̈, for display
     pub(crate) inertia: Vec<Id>,
     /// Rotations by quaternions, with their equations of motion, for display
@@ -87,12 +87,12 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
     let turnings = Turnings::of(graph, problem, facts.energy_rate);
     graph.take_fault();
     let linearization = linearize(graph, problem, &equations);
-    let potential = energy_form::potential(graph, problem, facts.energy_form);
-    let of_frames = potential.filter(|_| problem.frames.len() > 1);
-    read.extend(of_frames.map(|id| (id, shorter(graph, id))));
+    let energies = energy_form::parts(graph, problem, &equations, facts.energy_form);
+    let of_frames = energies.filter(|_| problem.frames.len() > 1);
+    read.extend(of_frames.into_iter().flatten().map(|id| (id, shorter(graph, id))));
     let hamilton = Hamilton::derive(graph, problem, &equations);
     let markers = Marker::proved(graph, &equations);
-    Some(Derived { equations, facts, potential, inertia, turnings, read, hamilton, linearization, markers })
+    Some(Derived { equations, facts, energies, inertia, turnings, read, hamilton, linearization, markers })
 }
 
 /// Replaces the intermediate names of frames by their values, which shortens the printed equations.

@@ -30,7 +30,7 @@ impl Page<'_> {
             Node::Sum(terms) => {
                 let order = terms.iter().copied();
                 let mut order: Vec<(Id, Rational)> = order.collect();
-                order.sort_by_key(|(term, _)| self.leads[term.index()]);
+                order.sort_by_cached_key(|(term, _)| (self.leads[term.index()], self.first_rank(*term)));
                 self.derived_sum(&order)
             }
             Node::Product(_) => self.derived_term(id, Rational::one()),
@@ -81,7 +81,10 @@ impl Page<'_> {
         for (factor, exponent) in factors {
             let (power, is_below) = self.derived_power(factor, exponent);
             let side = if is_below { &mut below } else { &mut above };
-            side.push(power);
+            match power {
+                Formula::Product(factors, divisors) if divisors.is_empty() => side.extend(factors),
+                power => side.push(power),
+            }
         }
         Formula::flat_product(coefficient, above, below)
     }
@@ -96,7 +99,8 @@ impl Page<'_> {
             _ => {
                 let is_even = exponent.is_integer() && exponent.numer() % 2 == 0;
                 let base = if is_even { self.derived_square(base) } else { self.derived(base) };
-                (power(base, exponent.abs()), exponent.is_negative())
+                let base = if is_even { base.sign_and_magnitude().1 } else { base };
+                (power_of_product(base, exponent.abs()), exponent.is_negative())
             }
         }
     }
@@ -115,10 +119,24 @@ impl Page<'_> {
                 _ => (8, symbol.index),
             },
             Node::Pi => (0, 0),
+            Node::Sum(_) if self.is_of_parameters(factor) => (0, 0),
             Node::Defined(_) => (2, factor.index() as u32),
             Node::Function(function, _) => (9 + *function as u8, factor.index() as u32),
             _ => (6, factor.index() as u32),
         }
+    }
+
+    /// Least rank of the parameters in a node.
+    fn first_rank(&self, id: Id) -> Option<usize> {
+        let rank = |symbol| match Variable::of(symbol) {
+            Variable::Parameter(k) => Some(self.ranks[k]),
+            _ => None,
+        };
+        self.graph.symbols(&[id]).filter_map(rank).min()
+    }
+
+    fn is_of_parameters(&self, id: Id) -> bool {
+        self.graph.symbols(&[id]).all(|symbol| matches!(Variable::of(symbol), Variable::Parameter(_)))
     }
 
     pub(super) fn variable(&self, variable: Variable) -> Formula {
@@ -146,6 +164,19 @@ pub(super) fn function(function: Function, x: Formula) -> Formula {
     match function {
         Function::Ramp => Formula::Call("max".to_owned(), vec![x, Formula::sum(Vec::new())]),
         function => Formula::Call(function.name().to_owned(), vec![x]),
+    }
+}
+
+/// Power of each factor, if these are names of quantities and functions of them.
+fn power_of_product(base: Formula, exponent: Rational) -> Formula {
+    let is_number = |factor: &Formula| matches!(factor, Formula::Number(_) | Formula::Scaled(_));
+    match base {
+        Formula::Product(factors, below)
+            if below.is_empty() && exponent.is_integer() && !factors.iter().any(is_number) =>
+        {
+            Formula::Product(factors.into_iter().map(|factor| power(factor, exponent)).collect(), below)
+        }
+        base => power(base, exponent),
     }
 }
 

@@ -81,7 +81,10 @@ impl Page<'_> {
 
     fn energy_line(&self, remark: Vec<Fragment>) -> Line {
         let of_turnings = self.energy_of_turnings();
-        let energy = of_turnings.unwrap_or_else(|| self.quantity(self.derived.equations.energy));
+        let energy = of_turnings.unwrap_or_else(|| {
+            let apart = self.derived.energies.and_then(|energies| self.energy(energies));
+            apart.map_or_else(|| self.quantity(self.derived.equations.energy), Ok)
+        });
         Line { remark: Remark::of(remark), ..Line::known(name("E"), energy) }
     }
 
@@ -113,8 +116,8 @@ impl Page<'_> {
     /// T + U on the condition that U is −L at rest, which L alone cannot decide.
     fn if_potential(&self, t_plus_u: Fragment) -> Vec<Fragment> {
         let is = [Fragment::words(" if "), Fragment::Formula(name("U")), Fragment::words(" is ")];
-        let potential = self.derived.potential;
-        let written = potential.and_then(|potential| self.quantity(potential).ok());
+        let potential = self.derived.energies.map(|[_, potential]| potential);
+        let written = potential.and_then(|potential| self.part_of_energy(potential).ok());
         let (sum, potential) = match (potential, written) {
             (Some(Id::ZERO), _) => (Fragment::Formula(name("T")), vec![Fragment::words("0")]),
             (_, Some(written)) if length(&written) <= LONG => (t_plus_u, vec![Fragment::Formula(written)]),

@@ -173,6 +173,11 @@ impl Formula {
         }
     }
 
+    /// Number of terms.
+    pub(super) fn terms(&self) -> usize {
+        if let Self::Sum(terms) = self { terms.len() } else { 1 }
+    }
+
     /// Returns whether the formula begins with a minus sign.
     pub(super) fn is_negative(&self) -> bool {
         match self {

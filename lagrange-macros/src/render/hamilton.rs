@@ -6,7 +6,7 @@ use super::formula::Formula;
 use super::length::length;
 use super::lines::{Equation, Line};
 use super::page::Page;
-use crate::mechanics::{Conserved, ConservedKind, Hamilton, NoHamiltonian};
+use crate::mechanics::{Conserved, ConservedKind, EnergyForm, Hamilton, NoHamiltonian};
 
 /// Longest Hamiltonian, in symbols, that is written out. A longer one is illegible.
 const LONG: usize = 100;
@@ -44,11 +44,18 @@ impl Page<'_> {
 
     /// Line of the Hamiltonian H(t, q, p).
     pub(super) fn hamiltonian(&self) -> Vec<Line> {
-        let hamilton = self.legible().into_iter();
-        let line = |hamilton: &Hamilton| {
-            Line::known(Formula::labelled("H", 0), self.expression(hamilton.hamiltonian))
-        };
-        hamilton.map(line).collect()
+        let written = self.legible().ok().and_then(|hamilton| self.written_out(hamilton));
+        written.map(|written| Line::known(Formula::labelled("H", 0), Ok(written))).into_iter().collect()
+    }
+
+    /// H as T + U; by degree in the momenta if L has a part of degree one and the squares (p − b)² take no fewer terms.
+    fn written_out(&self, hamilton: &Hamilton) -> Option<Formula> {
+        let form = self.derived.facts.energy_form;
+        let is_mixed = matches!(form, EnergyForm::Quadratic | EnergyForm::Moving);
+        let by_degree = is_mixed.then(|| self.by_degree(hamilton.hamiltonian)).flatten();
+        let all = [by_degree, self.energy(hamilton.energies)];
+        let apart = all.into_iter().flatten().min_by_key(|formula| (formula.terms(), length(formula)));
+        apart.or_else(|| self.expression(hamilton.hamiltonian).ok())
     }
 
     /// Explains why H is not written out.
@@ -72,8 +79,8 @@ impl Page<'_> {
     /// Hamilton's equations, if H is short enough for a reader.
     fn legible(&self) -> Result<&Hamilton, NoHamiltonian> {
         let hamilton = self.derived.hamilton.as_ref().map_err(|why| *why)?;
-        match self.expression(hamilton.hamiltonian) {
-            Ok(read) if length(&read) <= LONG => Ok(hamilton),
+        match self.written_out(hamilton) {
+            Some(written) if length(&written) <= LONG => Ok(hamilton),
             _ => Err(NoHamiltonian::Long),
         }
     }

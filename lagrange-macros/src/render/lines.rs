@@ -40,6 +40,18 @@ impl Line {
         is_in_equation || self.remark.mentions(formula)
     }
 
+    /// Replaces the formulas of the equation and of the remark.
+    pub(super) fn map(&mut self, new: impl Fn(Formula) -> Formula) {
+        let formulas = match &mut self.equation {
+            Equation::Known(left, right) | Equation::Complementary(left, right) => vec![left, right],
+            Equation::Term(term) => vec![term],
+            Equation::TooLong(_) => Vec::new(),
+        };
+        for formula in formulas.into_iter().chain(self.remark.formulas()) {
+            *formula = new(formula.clone());
+        }
+    }
+
     /// The equation left = right; if the right side is too long, the left side becomes a label.
     pub(super) fn known(left: Formula, right: Result<Formula, u64>) -> Self {
         match right {

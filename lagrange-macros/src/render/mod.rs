@@ -16,6 +16,7 @@ mod lines;
 mod motion;
 mod names;
 mod notation;
+mod order;
 mod page;
 mod pieces;
 mod product;
@@ -99,7 +100,12 @@ impl Page<'_> {
                 self.total_derivatives().into_iter().map(term).collect(),
             ),
         ];
-        let roots = self.root_lines(sections[1..].iter().flat_map(|section| &section.lines));
+        // The Lagrangian and the constraints are as the user wrote them.
+        for section in &mut sections[2..] {
+            section.lines.iter_mut().for_each(|line| line.map(|formula| self.as_written(formula)));
+        }
+        let mut roots = self.root_lines(sections[1..].iter().flat_map(|section| &section.lines));
+        roots.iter_mut().for_each(|line| line.map(|formula| self.as_written(formula)));
         sections[0].lines.extend(roots);
         let name = self.declaration.ident.to_string();
         let [in_latex, in_mathml] =

@@ -1,5 +1,6 @@
 //! Shared state of the sections of a page: the system, its equations and their readings.
 
+use num_traits::Signed;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::arrays::Arrays;
@@ -10,7 +11,7 @@ use super::reading::{Names, Reading, constants, readings};
 use super::roots::{NamedRoot, named_roots};
 use crate::mechanics::Derived;
 use crate::resolve::Problem;
-use crate::symbolic::{Graph, Id, Node};
+use crate::symbolic::{Graph, Id, Node, Rational};
 use crate::syntax::{Declaration, Expression, Kind, Operator};
 use crate::variables::Variable;
 
@@ -23,7 +24,7 @@ pub(super) struct Page<'a> {
     /// Number of symbols of each node, written out.
     pub(super) symbols: Vec<u64>,
     /// Place of each node in a sum, by the variable in it that comes first.
-    pub(super) leads: Vec<(u8, u32, u32)>,
+    pub(super) leads: Vec<(u8, u32, u32, u32)>,
     /// Rank of each parameter in the order of the fields.
     pub(super) ranks: Vec<usize>,
     /// Definitions that depend on neither time nor state.
@@ -38,6 +39,8 @@ pub(super) struct Page<'a> {
     pub(super) moving: Vec<Formula>,
     /// Entries of the mass matrix, which have no names, where a reading is shorter than the computed form.
     pub(super) entries: FxHashMap<Id, Formula>,
+    /// Terms of the sums in the declaration.
+    pub(super) sums: Vec<Vec<Formula>>,
 }
 
 impl<'a> Page<'a> {
@@ -67,14 +70,16 @@ impl<'a> Page<'a> {
             roots,
             vectors: problem.vectors.iter().map(|(name, n)| (Formula::labelled(name, 0), *n)).collect(),
             entries: FxHashMap::default(),
+            sums: Vec::new(),
         };
+        page.sums = page.written_sums();
         page.entries = page.short_entries();
         page
     }
 }
 
 /// Definitions that depend on the velocities, and the vectors that they are components of.
-fn moving(problem: &Problem, leads: &[(u8, u32, u32)]) -> Vec<Formula> {
+fn moving(problem: &Problem, leads: &[(u8, u32, u32, u32)]) -> Vec<Formula> {
     let names = problem.names.iter().filter(|(id, _)| leads[id.index()].0 == 0).map(|(_, name)| name);
     let mut all: Vec<&str> = names.flat_map(|name| [Some(name.as_str()), vector(name)]).flatten().collect();
     all.sort_unstable();
@@ -121,61 +126,100 @@ fn products(declaration: &Declaration) -> Vec<[String; 2]> {
     while let Some(expression) = pending.pop() {
         if let Kind::Product(factors) = &expression.kind {
             let above = factors.iter().filter(|(operator, _)| *operator == Operator::Times);
-            let names: Vec<&str> = above.filter_map(|(_, factor)| named(factor)).collect();
-            let pair = |(i, one): (usize, &&str)| {
-                let one = (*one).to_owned();
-                names[i + 1..].iter().map(|other| [one.clone(), (*other).to_owned()]).collect::<Vec<_>>()
-            };
-            pairs.extend(names.iter().enumerate().flat_map(pair).filter(|[one, other]| one != other));
+            let factors: Vec<Vec<&str>> = above.map(|(_, factor)| named(factor)).collect();
+            for (i, factor) in factors.iter().enumerate() {
+                for one in factor {
+                    let behind = factors[i + 1..].iter().flatten().filter(|other| *other != one);
+                    pairs.extend(behind.map(|other| [one, other].map(|name| (*name).to_owned())));
+                }
+            }
         }
         pending.extend(expression.parts());
     }
     pairs
 }
 
-/// Name that an expression is, or is a power or an entry of.
-fn named(expression: &Expression) -> Option<&str> {
+/// Names that a factor is, or is a power or an entry of, or a sum of products of.
+fn named(expression: &Expression) -> Vec<&str> {
     match &expression.kind {
-        Kind::Name(name) => Some(&name.text),
+        Kind::Name(name) => vec![&name.text],
         Kind::Index(base, _) | Kind::Power(base, _) => named(base),
-        _ => None,
+        Kind::Sum(terms) => terms.iter().flat_map(|(_, term)| named(term)).collect(),
+        Kind::Product(factors) => factors.iter().flat_map(|(_, factor)| named(factor)).collect(),
+        _ => Vec::new(),
     }
 }
 
-/// Place of each node in a sum: those with momenta and velocities come first, then those with coordinates, with parameters
-/// alone, and with time, as in a + b t. Among them, those of one variable come before those of several, in the order of the variables.
-fn leads(graph: &Graph) -> Vec<(u8, u32, u32)> {
-    let mut masks: Vec<[u128; 2]> = Vec::with_capacity(graph.len());
-    let mut kinds: Vec<u8> = Vec::with_capacity(graph.len());
+/// Place of each node in a sum: those with momenta and velocities come first, then those with coordinates, with
+/// parameters alone, and with time, as in a + b t. Among them, those of one variable come before those of several, in the order of the variables.
+/// The place of a sum is that of its first term.
+fn leads(graph: &Graph) -> Vec<(u8, u32, u32, u32)> {
+    let mut places: Vec<Place> = Vec::with_capacity(graph.len());
     for id in graph.ids() {
-        let (mut kind, mut mask) = match graph.node(id) {
+        let mut place = match graph.node(id) {
             Node::Symbol(symbol) => match Variable::of(*symbol) {
-                Variable::Momentum(i) | Variable::Velocity(i) => (0, [bit(i), 0]),
-                Variable::Coordinate(i) => (1, [0, bit(i)]),
-                Variable::Time => (2, [0; 2]),
-                Variable::Parameter(_) => (3, [0; 2]),
-                _ => (4, [0; 2]),
+                Variable::Momentum(i) | Variable::Velocity(i) => Place::of(0, [bit(i), 0]),
+                Variable::Coordinate(i) => Place::of(1, [0, bit(i)]),
+                Variable::Time => Place::of(2, [0; 2]),
+                Variable::Parameter(_) => Place::of(3, [0; 2]),
+                _ => Place::of(4, [0; 2]),
             },
-            _ => (5, [0; 2]),
+            _ => Place::of(5, [0; 2]),
         };
+        let is_sum = matches!(graph.node(id), Node::Sum(_));
+        let is_natural = |exponent: Rational| exponent.is_integer() && exponent.is_positive();
         graph.operands(id, |operand| {
-            kind = kind.min(kinds[operand.index()]);
-            let inner = masks[operand.index()];
-            mask = [mask[0] | inner[0], mask[1] | inner[1]];
+            let is_whole = match graph.node(id) {
+                Node::Sum(_) | Node::Defined(_) => false,
+                Node::Product(factors) => {
+                    factors.iter().any(|&(factor, e)| factor == operand && !is_natural(e))
+                }
+                _ => true,
+            };
+            let inner = places[operand.index()];
+            place = place.with(if is_whole { Place::of(inner.kind, inner.all) } else { inner }, is_sum);
         });
-        kinds.push(kind);
-        masks.push(mask);
+        places.push(place);
     }
-    let place = |(kind, [velocities, coordinates]): (u8, [u128; 2])| {
-        let mask = if kind == 0 { velocities } else { coordinates };
-        let kind = match kind {
+    places.into_iter().map(Place::key).collect()
+}
+
+/// Kind of a term, and the velocities and coordinates in it: those of the first term if it is a sum, and all.
+#[derive(Clone, Copy)]
+struct Place {
+    kind: u8,
+    first: [u128; 2],
+    all: [u128; 2],
+}
+
+impl Place {
+    const fn of(kind: u8, variables: [u128; 2]) -> Self {
+        Self { kind, first: variables, all: variables }
+    }
+
+    /// Place of a node to which an operand is added.
+    fn with(self, operand: Self, is_sum: bool) -> Self {
+        let both = |one: [u128; 2], other: [u128; 2]| [one[0] | other[0], one[1] | other[1]];
+        let first = match is_sum {
+            true if self.key() <= operand.key() => self.first,
+            true => operand.first,
+            false => both(self.first, operand.first),
+        };
+        Self { kind: self.kind.min(operand.kind), first, all: both(self.all, operand.all) }
+    }
+
+    /// Kind, number and first of the velocities if there are any, else of the coordinates; number in the other terms of a sum.
+    fn key(self) -> (u8, u32, u32, u32) {
+        let of_kind =
+            |[velocities, coordinates]: [u128; 2]| if self.kind == 0 { velocities } else { coordinates };
+        let [first, all] = [self.first, self.all].map(of_kind);
+        let kind = match self.kind {
             2 => 3,
             3 => 2,
             kind => kind,
         };
-        (kind, mask.count_ones(), mask.trailing_zeros())
-    };
-    kinds.into_iter().zip(masks).map(place).collect()
+        (kind, first.count_ones(), first.trailing_zeros(), all.count_ones())
+    }
 }
 
 /// One bit for each of the first 127 coordinates, and one for all others.

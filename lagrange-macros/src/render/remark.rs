@@ -38,6 +38,13 @@ impl Remark {
         self.0.iter().flatten().any(is_in)
     }
 
+    pub(super) fn formulas(&mut self) -> impl Iterator<Item = &mut Formula> {
+        self.0.iter_mut().flatten().filter_map(|part| match part {
+            Fragment::Formula(formula) => Some(formula),
+            Fragment::Words(_) => None,
+        })
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -44,7 +44,7 @@ pub(super) struct Group {
 
 impl Group {
     /// Sort key: the saving, then the length of the common factor.
-    fn worth(&self) -> (isize, isize) {
+    pub(super) fn worth(&self) -> (isize, isize) {
         (self.saving, self.size)
     }
 }
@@ -55,31 +55,36 @@ pub(super) type TermOrder = (bool, bool, Option<Rational>, usize, Monomial, Mono
 
 impl Collector<'_, '_> {
     pub(super) fn sum(&self, polynomial: &Polynomial) -> Formula {
-        in_order(self.parts(polynomial))
+        in_order(self.parts(polynomial, |_| true))
     }
 
     /// Sum in which no product contains terms of different degrees in the velocities: Coriolis and centrifugal forces
     /// stay apart.
     pub(super) fn sum_by_degree(&self, polynomial: &Polynomial) -> Formula {
-        in_order(self.by_degree(polynomial).values().flat_map(|part| self.parts(part)).collect())
+        let degrees = self.by_degree(polynomial);
+        in_order(degrees.iter().flat_map(|part| self.parts(part, |_| true)).collect())
     }
 
-    /// Terms of each degree in the velocities.
-    pub(super) fn by_degree(&self, polynomial: &Polynomial) -> BTreeMap<Option<Rational>, Polynomial> {
+    /// Parts of equal degree in the velocities, from the lowest degree up.
+    pub(super) fn by_degree(&self, polynomial: &Polynomial) -> Vec<Polynomial> {
         let mut degrees: BTreeMap<Option<Rational>, Polynomial> = BTreeMap::new();
         for (monomial, &c) in polynomial.terms() {
             let part = degrees.entry(self.degree(monomial, is_velocity)).or_default();
             let added = part.push(monomial.clone(), c);
             debug_assert!(added.is_some(), "each monomial occurs once");
         }
-        degrees
+        degrees.into_values().collect()
     }
 
-    /// Terms of a sum, some of them products of several terms, with their places.
-    fn parts(&self, polynomial: &Polynomial) -> Vec<(TermOrder, Formula)> {
+    /// Terms of a sum, some of them products of several terms that `may_be` accepts, with their places.
+    pub(super) fn parts(
+        &self,
+        polynomial: &Polynomial,
+        may_be: impl Fn(&Group) -> bool,
+    ) -> Vec<(TermOrder, Formula)> {
         let mut parts: Vec<(TermOrder, Formula)> = Vec::new();
         let mut rest = polynomial.clone();
-        while let Some(group) = self.group(&rest) {
+        while let Some(group) = self.group(&rest, &may_be) {
             group.members.iter().for_each(|member| rest.remove(member));
             let places = group.members.iter().map(|member| self.place(member, group.number));
             parts.extend(places.min().map(|place| (place, self.grouped(&group))));
@@ -180,12 +185,12 @@ impl Collector<'_, '_> {
         self.consists_of(polynomial, |variable| matches!(variable, Variable::Parameter(_) | Variable::Time))
     }
 
-    fn moving(&self, monomial: &Monomial) -> Monomial {
+    pub(super) fn moving(&self, monomial: &Monomial) -> Monomial {
         monomial.filtered(|atom| !self.is_constant(atom))
     }
 
-    /// Terms that save the most symbols when written as one product.
-    fn group(&self, polynomial: &Polynomial) -> Option<Group> {
+    /// Terms that save the most symbols when written as one product that `may_be` accepts.
+    fn group(&self, polynomial: &Polynomial, may_be: impl Fn(&Group) -> bool) -> Option<Group> {
         let monomials: Vec<&Monomial> = polynomial.terms().map(|(monomial, _)| monomial).collect();
         if monomials.len() < 2 || monomials.len() > LONG {
             return None;
@@ -203,6 +208,7 @@ impl Collector<'_, '_> {
         let groups = with_equal.chain(with_shared).filter_map(|members| self.candidate(polynomial, members));
         groups
             .chain(self.squares(polynomial))
+            .filter(may_be)
             .reduce(|best, next| if next.worth() > best.worth() { next } else { best })
     }
 
@@ -294,8 +300,15 @@ impl Collector<'_, '_> {
         degrees.len() > 1 && quotient.terms().all(|(monomial, _)| !monomial.is_one())
     }
 
-    /// True for l − x: a coordinate with a minus sign, and constants beside it.
+    /// True for the negative of a sum that the user wrote, and for x − l in other cases: a coordinate with a minus sign, and
+    /// constants beside it.
     pub(super) fn is_turned(&self, quotient: &Polynomial) -> bool {
+        let is_known = self.page.sums.iter().any(|sum| sum.len() == quotient.len());
+        let terms =
+            || quotient.terms().map(|(monomial, &c)| self.product(c, monomial, &[])).collect::<Vec<_>>();
+        if let Some((is_turned, _)) = is_known.then(|| self.page.directed(&terms())).flatten() {
+            return is_turned;
+        }
         let is_coordinate = |monomial: &Monomial| match monomial.factors() {
             [(atom, exponent)] => {
                 exponent.is_one() && matches!(self.variable(*atom), Some(Variable::Coordinate(_)))
@@ -377,9 +390,9 @@ impl Collector<'_, '_> {
             (_, true) if self.are_differences(quotient) || self.is_elongation(quotient) => (1, 0),
             (_, true) if self.are_alike(quotient) => (2, 0),
             (_, true) => (4, 1),
+            (_, false) if !self.is_of_coordinates(quotient) => (2, 3),
             (_, false) if quotient.len() == 2 && self.are_differences(quotient) => (1, 0),
-            (_, false) if self.is_of_coordinates(quotient) => (2, 1),
-            (_, false) => (2, 3),
+            (_, false) => (2, 1),
         }
     }
 
@@ -409,13 +422,16 @@ impl Collector<'_, '_> {
             && self.is_of_coordinates(quotient)
     }
 
-    /// Returns whether all terms are products of coordinates of one degree with coefficients ±1, such as x₁ − x₂.
+    /// Returns whether all terms are products of coordinates of one degree with coefficients ±1, such as x₁ − x₂, or these
+    /// times a velocity or momentum each, such as x p_y − y p_x.
     fn are_differences(&self, quotient: &Polynomial) -> bool {
         let is_coordinate = |variable| matches!(variable, Variable::Coordinate(_));
+        let is_it = |variable| is_coordinate(variable) || is_velocity(variable);
         let mut degrees = quotient.terms().map(|(monomial, c)| {
-            let is_it = c.abs().is_one()
-                && monomial.factors().iter().all(|(atom, _)| self.variable(*atom).is_some_and(is_coordinate));
-            is_it.then(|| self.degree(monomial, is_coordinate)).flatten()
+            let are_it = c.abs().is_one()
+                && monomial.factors().iter().all(|(atom, _)| self.variable(*atom).is_some_and(is_it));
+            let degrees = [self.degree(monomial, is_coordinate)?, self.degree(monomial, is_velocity)?];
+            (are_it && degrees[0].is_positive() && degrees[1] <= Rational::one()).then_some(degrees)
         });
         let first = degrees.next().flatten();
         first.is_some() && degrees.all(|degree| degree == first)
@@ -446,21 +462,32 @@ impl Collector<'_, '_> {
         let exponent = tens.map_or(Rational::default(), |place| factors.remove(place).1);
         let number = Scaled { fraction: number, exponent: *exponent.numer() as i32 };
         factors.sort_by_key(|&(atom, _)| self.reading_order(atom));
-        let (mut above, mut below, mut place) = (Vec::new(), Vec::new(), 0);
+        let (mut above, mut below, mut place, mut orders) = (Vec::new(), Vec::new(), 0, Vec::new());
         for (atom, exponent) in factors {
             let (power, is_below) = self.power(atom, exponent);
             let side = if is_below { &mut below } else { &mut above };
             side.push(power);
+            orders.extend(Some(self.reading_order(atom)).filter(|_| !is_below));
             // The quotient goes before velocities, accelerations and functions.
             place = if self.reading_order(atom) < (MOVING, 0) { above.len() } else { place };
         }
         for &(sum, is_square) in sums {
-            let at = if self.are_constant(sum) { 0 } else { place };
+            // Constants go before the first of their parameters: (m₁ + m₂) g and m (ω₀² + Ω²).
+            let first = self.first_order(sum);
+            let of_constants = || orders.iter().filter(|&&order| Some(order) < first).count();
+            let at = if self.are_constant(sum) { of_constants() } else { place };
             let exponent = Rational::from_integer(if is_square { 2 } else { 1 });
             above.insert(at, power(self.sum(sum), exponent));
             place += 1;
         }
         Formula::flat_product(number, above, below)
+    }
+
+    /// Least sort key of the factors in a sum; `None` if a term is a number.
+    fn first_order(&self, sum: &Polynomial) -> Option<(u8, usize)> {
+        let first =
+            |monomial: &Monomial| monomial.factors().iter().map(|&(atom, _)| self.reading_order(atom)).min();
+        sum.terms().map(|(monomial, _)| first(monomial)).min().flatten()
     }
 
     fn is_ten(&self, atom: Atom) -> bool {

@@ -10,6 +10,7 @@ mod angles;
 mod atoms;
 mod collect;
 mod dots;
+mod energies;
 mod expand;
 mod polynomial;
 mod row;
@@ -128,15 +129,20 @@ impl Page<'_> {
     /// Shortest formula of a node.
     pub(super) fn expression(&self, id: Id) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
-        self.chosen(self.read(id), computed, length, false)
+        self.chosen(self.read(id, |collector, all| collector.sum(all)), computed, length, false)
     }
 
     /// Shortest formula of a node. In a tie, the form used in the computation wins. If no form is short enough to
     /// print, the error is the number of symbols of the form used in the computation.
     pub(super) fn quantity(&self, id: Id) -> Result<Formula, u64> {
+        self.unmixed(id, |collector, all| collector.sum(all))
+    }
+
+    /// Shortest formula of a node. One with velocities, and definitions of velocities beside them, gives way to one without.
+    fn unmixed(&self, id: Id, write: fn(&Collector, &Polynomial) -> Formula) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
         let is_mixed = |formula: &Formula| self.hides(formula) && formula.has_velocity();
-        let read = preferred(self.read(id).collect(), length, |formula| !is_mixed(formula));
+        let read = preferred(self.read(id, write).collect(), length, |formula| !is_mixed(formula));
         let is_worse = |formula: &Formula| is_mixed(formula) && !read.iter().all(is_mixed);
         let computed = computed.and_then(|formula| if is_worse(&formula) { Err(0) } else { Ok(formula) });
         self.chosen(read.into_iter(), computed, length, true)
@@ -147,21 +153,43 @@ impl Page<'_> {
         let entries = self.derived.hamilton.iter().flat_map(|hamilton| &hamilton.entries);
         let short = |&id: &Id| {
             let [computed] = self.computed([&[id]]).ok()?;
-            let read = shortest(self.read(id), length).filter(|read| length(read) < length(&computed))?;
+            let read = shortest(self.read(id, |collector, all| collector.sum(all)), length)
+                .filter(|read| length(read) < length(&computed))?;
             Some((id, read))
         };
         entries.filter(|id| !self.problem.names.contains_key(id)).filter_map(short).collect()
     }
 
+    /// Formula of an energy that is the sum of two: T and U stay apart. `None` if an energy is too long to print.
+    pub(super) fn energy(&self, [kinetic, potential]: [Id; 2]) -> Option<Formula> {
+        let parts = [kinetic, potential].into_iter().filter(|&part| part != Id::ZERO);
+        let parts: Option<Vec<Formula>> = parts.map(|part| self.part_of_energy(part).ok()).collect();
+        parts.map(Formula::sum)
+    }
+
+    /// Shortest formula of T or U. In a tie, the form used in the computation wins.
+    pub(super) fn part_of_energy(&self, id: Id) -> Result<Formula, u64> {
+        self.unmixed(id, |collector, all| collector.energy(all))
+    }
+
+    /// Shortest formula of a node by the degrees of its terms, if a reading is short enough to print.
+    pub(super) fn by_degree(&self, id: Id) -> Option<Formula> {
+        shortest(self.read(id, |collector, all| collector.energy_by_degree(all)), length)
+    }
+
     /// Readings of a node by components, and by products of vectors if it has any.
-    fn read(&self, id: Id) -> impl Iterator<Item = Formula> {
+    fn read<'s>(
+        &'s self,
+        id: Id,
+        write: fn(&Collector, &Polynomial) -> Formula,
+    ) -> impl Iterator<Item = Formula> + 's {
         let formulas = move |reading: &Reading| {
             let all = self.polynomial(reading, &[(id, 1)], &[])?;
             let terms =
                 self.collected(reading, |collector| Some(collector.squared(collector.dotted_terms(&all)?)));
             let dotted = terms.and_then(|terms| Self::assembled(reading, terms));
             let squares = self.unmerged_squares(reading, id);
-            let sum = |all: Polynomial| self.collected(reading, |collector| Some(collector.sum(&all)));
+            let sum = |all: Polynomial| self.collected(reading, |collector| Some(write(collector, &all)));
             Some([Some(all), dotted, squares].into_iter().flatten().filter_map(sum).collect::<Vec<_>>())
         };
         let formulas = self.readings.iter().filter_map(formulas).flatten();
@@ -182,7 +210,9 @@ impl Page<'_> {
             self.collected(reading, |collector| collector.momentum(&all))
         };
         let collected = self.readings.iter().filter_map(collected);
-        let read = collected.filter(|formula| length(formula) <= READABLE as usize).chain(self.read(id));
+        let read = collected
+            .filter(|formula| length(formula) <= READABLE as usize)
+            .chain(self.read(id, |collector, all| collector.sum(all)));
         let computed = self.computed([&[id]]).map(|[formula]| formula);
         // Of equally long forms, a product reads better than a sum: I₃ (φ̇ cos θ + ψ̇).
         let size = |formula: &Formula| 2 * length(formula) + usize::from(matches!(formula, Formula::Sum(_)));

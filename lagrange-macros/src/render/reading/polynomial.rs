@@ -1,7 +1,7 @@
 //! Polynomials with rational coefficients and rational exponents.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use num_traits::{One, Signed, Zero};
 
@@ -71,6 +71,13 @@ impl Monomial {
             (one.is_positive() == two.is_positive() && !two.is_zero()).then_some((atom, exponent))
         });
         Self(factors.collect())
+    }
+
+    /// Divisor of two monomials that leaves no negative exponents: for each atom, the smaller exponent of the two.
+    pub(super) fn divisor(&self, other: &Self) -> Self {
+        let atoms: BTreeSet<Atom> = self.0.iter().chain(&other.0).map(|&(atom, _)| atom).collect();
+        let smaller = atoms.into_iter().map(|atom| (atom, self.exponent(atom).min(other.exponent(atom))));
+        Self(smaller.filter(|(_, exponent)| !exponent.is_zero()).collect())
     }
 
     /// Lexicographic order of the exponents, which multiplication preserves.

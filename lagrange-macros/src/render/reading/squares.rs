@@ -27,7 +27,7 @@ impl Collector<'_, '_> {
         let between = all.coefficient(&middle)?;
         let twice = symbolic::times(between, Rational::new_raw(1, 2))?;
         (symbolic::times(twice, twice)? == symbolic::times(c, d)?).then_some(())?;
-        let monomial = one.shared(two);
+        let monomial = one.divisor(two);
         let content = common([c, d].into_iter());
         let root = |c: Rational, number: Rational| square_root(symbolic::times(c.abs(), number.recip())?);
         let number =

@@ -62,7 +62,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
             "p_x = m γ ẋ",
             "m γ³ ẍ = −k x",
             "E = m c² γ + ½ k x²",
-            "H = ½ k x² + √(c² p_x² + m² c⁴)",
+            "H = √(c² p_x² + m² c⁴) + ½ k x²",
         ],
     ),
     (
@@ -82,7 +82,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
         &[
             "γ = 1/√(1 − (ṙ·ṙ)/c²)",
             "p_r = m γ ṙ + e A(r)",
-            "H = e φ(r) + √(m² c⁴ + c² (p_r − e A(r))²)",
+            "H = √(m² c⁴ + c² (p_r − e A(r))²) + e φ(r)",
             "ṙ = c² (p_r − e A(r))/√(m² c⁴ + c² (p_r − e A(r))²)",
         ],
     ),
@@ -117,7 +117,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(a*abs(x_dot)^n/n - k*x^2/2)]
          struct PowerN { a: f64, n: f64, k: f64 }",
         &[
-            "H = ½ k x² + (n − 1) a (|p_x|/a)^(n/(n − 1))/n",
+            "H = (n − 1) a (|p_x|/a)^(n/(n − 1))/n + ½ k x²",
             "ẋ = (|p_x|/a)^(1/(n − 1)) p_x/|p_x|",
         ],
     ),
@@ -126,7 +126,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(a*x_dot^4/4 - k*x^2/2)]
          struct Quartic { a: f64, k: f64 }",
         &[
-            "H = ½ k x² + ¾ a (|p_x|/a)^(4/3)",
+            "H = ¾ a (|p_x|/a)^(4/3) + ½ k x²",
         ],
     ),
     (
@@ -153,8 +153,8 @@ const ENTRIES: &[(&str, &[&str])] = &[
          struct Restricted { mu: f64 }",
         &[
             "r₁ = √((x + μ)² + y²)",
-            "r₂ = √((x + μ − 1)² + y²)",
-            "ẍ = 2 ẏ + x − (1 − μ) (x + μ)/r₁³ − μ (x + μ − 1)/r₂³",
+            "r₂ = √((x − 1 + μ)² + y²)",
+            "ẍ = 2 ẏ + x − (1 − μ) (x + μ)/r₁³ − μ (x − 1 + μ)/r₂³",
         ],
     ),
     (
@@ -162,7 +162,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 + x*y_dot - y*x_dot + (x^2 + y^2)/2 + (1 - mu)/r1 + mu/r2)]
          struct RestrictedNamed { mu: f64 }",
         &[
-            "z̈ = (μ − 1) z/r₁³ − μ z/r₂³",
+            "z̈ = −(1 − μ) z/r₁³ − μ z/r₂³",
         ],
     ),
     (
@@ -342,7 +342,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          struct RelativisticRotating { m: f64, c: f64, w: f64 }",
         &[
             "p_x = m (ẋ − w y) γ",
-            "H = w y p_x + √(c² p_x² + c² p_y² + m² c⁴) − w x p_y",
+            "H = w (y p_x − x p_y) + √(c² p_x² + c² p_y² + m² c⁴)",
         ],
     ),
     (
@@ -352,7 +352,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
         &[
             "γ₂ = 1/√(1 − ẋ₂²/c²)",
             "m₁ γ₁³ ẍ₁ = k (x₂ − x₁)",
-            "H = ½ k (x₁ − x₂)² + √(c² p_x₂² + m₂² c⁴) + √(c² p_x₁² + m₁² c⁴)",
+            "H = √(c² p_x₁² + m₁² c⁴) + √(c² p_x₂² + m₂² c⁴) + ½ k (x₁ − x₂)²",
         ],
     ),
     (
@@ -360,7 +360,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(m/2*x_dot^2 - m*c^2*sqrt(1 - y_dot^2/c^2) - k*x*y)]
          struct Mixed { m: f64, c: f64, k: f64 }",
         &[
-            "H = p_x²/(2 m) + k x y + √(c² p_y² + m² c⁴)",
+            "H = p_x²/(2 m) + √(c² p_y² + m² c⁴) + k x y",
         ],
     ),
     (
@@ -376,7 +376,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(a/3*(x_dot^2 + 2*y_dot^2)^(3/2) + e*(x*y_dot - y*x_dot) - k*x)]
          struct PowerInField { a: f64, k: f64, e: f64 }",
         &[
-            "H = k x + ⅔ a (√((p_x + e y)² + ½ (p_y − e x)²)/a)^(3/2)",
+            "H = ⅔ a (√((p_x + e y)² + ½ (p_y − e x)²)/a)^(3/2) + k x",
         ],
     ),
     (
@@ -384,7 +384,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(a/4*(x_dot - w*x)^4 - k*x^2)]
          struct Shifted { a: f64, w: f64, k: f64 }",
         &[
-            "H = w x p_x + k x² + ¾ a (|p_x|/a)^(4/3)",
+            "H = ¾ a (|p_x|/a)^(4/3) + w x p_x + k x²",
         ],
     ),
     (
@@ -418,6 +418,128 @@ const ENTRIES: &[(&str, &[&str])] = &[
          struct ElasticPendulum2 { m: f64, k: f64, l: f64, g: f64 }",
         &[
             "m ẍ = k l x/r − k x",
+        ],
+    ),
+    (
+        "#[coordinates(x1, x2)]
+         #[lagrangian(m1/2*x1_dot^2 + m2/2*x2_dot^2 - k1/2*x1^2 - k2/2*(x2 - x1)^2 - k3/2*x2^2)]
+         struct Coupled { m1: f64, m2: f64, k1: f64, k2: f64, k3: f64 }",
+        &[
+            "E = ½ m₁ ẋ₁² + ½ m₂ ẋ₂² + ½ k₁ x₁² + ½ k₂ (x₂ − x₁)² + ½ k₃ x₂²",
+            "H = p_x₁²/(2 m₁) + p_x₂²/(2 m₂) + ½ k₁ x₁² + ½ k₂ (x₂ − x₁)² + ½ k₃ x₂²",
+        ],
+    ),
+    (
+        "#[coordinates(phi1, phi2)]
+         #[lagrangian((m1 + m2)/2*l1^2*phi1_dot^2 + m2/2*l2^2*phi2_dot^2 + m2*l1*l2*phi1_dot*phi2_dot*cos(phi1 - phi2) - (m1 + m2)*g*l1*(1 - cos(phi1)) - m2*g*l2*(1 - cos(phi2)))]
+         struct DoublePendulum { m1: f64, m2: f64, l1: f64, l2: f64, g: f64 }",
+        &[
+            "E = ½ (m₁ + m₂) l₁² φ̇₁² + ½ m₂ l₂² φ̇₂² + m₂ l₁ l₂ φ̇₁ φ̇₂ cos(φ₁ − φ₂) + (m₁ + m₂) g l₁ (1 − cos φ₁) + m₂ g l₂ (1 − cos φ₂)",
+            "p_φ₁ = (m₁ + m₂) l₁² φ̇₁ + m₂ l₁ l₂ φ̇₂ cos(φ₁ − φ₂)",
+        ],
+    ),
+    (
+        "#[coordinates(x)]
+         #[lagrangian((m1 + m2)/2*l^2*x_dot^2 + (m1 + m2)*g*l*cos(x))]
+         struct TwoMasses { m1: f64, m2: f64, l: f64, g: f64 }",
+        &[
+            "E = ½ (m₁ + m₂) l² ẋ² − (m₁ + m₂) g l cos x",
+            "H = p_x²/(2 (m₁ + m₂) l²) − (m₁ + m₂) g l cos x",
+        ],
+    ),
+    (
+        "#[coordinates(theta)]
+         #[lagrangian(m/2*R^2*(theta_dot^2 + omega^2*sin(theta)^2) + m*g*R*cos(theta))]
+         struct Hoop { m: f64, R: f64, omega: f64, g: f64 }",
+        &[
+            "R θ̈ = R ω² sin θ cos θ − g sin θ",
+            "E = ½ m R² θ̇² − m g R cos θ − ½ m R² ω² sin² θ",
+            "H = p_θ²/(2 m R²) − m g R cos θ − ½ m R² ω² sin² θ",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian(m/2*x_dot^2 + m/2*y_dot^2 - k/2*(a + x)^2 - k/2*(a - y)^2)]
+         struct Springs { m: f64, k: f64, a: f64 }",
+        &[
+            "m ẍ = −k (a + x)",
+            "E = ½ m (ẋ² + ẏ²) + ½ k (a + x)² + ½ k (a − y)²",
+            "H = (p_x² + p_y²)/(2 m) + ½ k (a + x)² + ½ k (a − y)²",
+        ],
+    ),
+    (
+        "#[coordinates(x, theta)]
+         #[lagrangian(m/2*(x_dot^2 + (l + x)^2*theta_dot^2) + m*g*(l + x)*cos(theta) - k/2*x^2)]
+         struct ElasticPendulum { m: f64, l: f64, g: f64, k: f64 }",
+        &[
+            "m ẍ = m (l + x) θ̇² + m g cos θ − k x",
+            "(l + x) θ̈ = −2 ẋ θ̇ − g sin θ",
+            "E = ½ m (ẋ² + (l + x)² θ̇²) + ½ k x² − m g (l + x) cos θ",
+            "H = p_x²/(2 m) + p_θ²/(2 m (l + x)²) + ½ k x² − m g (l + x) cos θ",
+        ],
+    ),
+    (
+        "#[coordinates(x, theta)]
+         #[lagrangian(M/2*x_dot^2 + M/2*r^2*theta_dot^2 - M*g*(l - x)*sin(phi))]
+         #[constraint(rolling: r*theta_dot = x_dot)]
+         struct RollingHoop { M: f64, r: f64, g: f64, l: f64, phi: f64 }",
+        &[
+            "E = ½ M (ẋ² + r² θ̇²) + M g (l − x) sin φ",
+            "H = p_x²/(2 M) + p_θ²/(2 M r²) + M g (l − x) sin φ",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)] #[define(r1 = sqrt((x + mu)^2 + y^2))] #[define(r2 = sqrt((x - 1 + mu)^2 + y^2))]
+         #[lagrangian((x_dot - y)^2/2 + (y_dot + x)^2/2 + (1 - mu)/r1 + mu/r2)]
+         struct RestrictedSquares { mu: f64 }",
+        &[
+            "ẍ = 2 ẏ + x − (1 − μ) (x + μ)/r₁³ − μ (x − 1 + μ)/r₂³",
+            "ÿ = y − 2 ẋ − (1 − μ) y/r₁³ − μ y/r₂³",
+            "E = ½ ẋ² + ½ ẏ² − ½ x² − ½ y² − (1 − μ)/r₁ − μ/r₂",
+            "H = ½ p_x² + ½ p_y² + y p_x − x p_y − (1 − μ)/r₁ − μ/r₂",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian(m/2*(x_dot^2 + y_dot^2) + m*w*(x*y_dot - y*x_dot) - m/2*w0^2*(x^2 + y^2))]
+         struct Foucault { m: f64, w: f64, w0: f64 }",
+        &[
+            "H = (p_x² + p_y²)/(2 m) − w (x p_y − y p_x) + ½ m (w² + w₀²) (x² + y²)",
+            "ṗ_x = w p_y − m (w² + w₀²) x",
+        ],
+    ),
+    (
+        "#[coordinates(theta1, theta2)]
+         #[lagrangian((alpha + 2*beta*cos(theta2))/2*theta1_dot^2 + (delta + beta*cos(theta2))*theta1_dot*theta2_dot + delta/2*theta2_dot^2)]
+         struct Arm { alpha: f64, beta: f64, delta: f64 }",
+        &[
+            "(α + 2 β cos θ₂) θ̈₁ + (δ + β cos θ₂) θ̈₂ = β θ̇₂² sin θ₂ + 2 β θ̇₁ θ̇₂ sin θ₂",
+            "E = ½ (α + 2 β cos θ₂) θ̇₁² + (δ + β cos θ₂) θ̇₁ θ̇₂ + ½ δ θ̇₂²",
+            "p_θ₁ = (α + 2 β cos θ₂) θ̇₁ + (δ + β cos θ₂) θ̇₂",
+        ],
+    ),
+    (
+        "#[coordinates(phi)] #[define(x = l*sin(phi))] #[define(y = a*cos(gamma*t) - l*cos(phi))]
+         #[lagrangian(m/2*(der(x)^2 + der(y)^2) - m*g*y)]
+         struct Kapitza { m: f64, l: f64, g: f64, a: f64, gamma: f64 }",
+        &[
+            "H = (p_φ + m l a γ sin φ sin(γ t))²/(2 m l²) + m g y − ½ m a² γ² sin²(γ t)",
+        ],
+    ),
+    (
+        "#[coordinates(x, y)]
+         #[lagrangian((x_dot^2 + y_dot^2)/2 - x^2/2 - y^2/2 - a*(x^2*y - y^3/3))]
+         struct HenonHeiles { a: f64 }",
+        &[
+            "H = ½ p_x² + ½ p_y² + ½ x² + ½ y² + a (x² y − ⅓ y³)",
+        ],
+    ),
+    (
+        "#[coordinates(q1, q2)]
+         #[lagrangian(L1/2*q1_dot^2 + L2/2*q2_dot^2 + M*q1_dot*q2_dot - (q1^2 + q2^2)/(2*C))]
+         struct Circuits { L1: f64, L2: f64, M: f64, C: f64 }",
+        &[
+            "H = (½ L₂ p_q₁² + ½ L₁ p_q₂² − M p_q₁ p_q₂)/(L₁ L₂ − M²) + (q₁² + q₂²)/(2 C)",
         ],
     ),
 ];

@@ -312,7 +312,7 @@ fn rotating_frame() {
               p_r = m ṙ + m (W×r)
 
             Hamiltonian
-              H = (p_r·p_r)/(2 m) + m A(t)·r + U(r) − W·(r×p_r)
+              H = (p_r·p_r)/(2 m) − W·(r×p_r) + m A(t)·r + U(r)
 
             Hamilton's equations
               ṙ = p_r/m + r×W
@@ -347,7 +347,7 @@ fn rotating_frame() {
             \end{align}
             \par\medskip\noindent\textbf{Hamiltonian}
             \begin{align}
-              H &= \frac{\mathbf{p}_r \cdot \mathbf{p}_r}{2 m} + m \mathbf{A}(t) \cdot \mathbf{r} + U(\mathbf{r}) - \mathbf{W} \cdot (\mathbf{r} \times \mathbf{p}_r) \label{eq:RotatingFrame-H}
+              H &= \frac{\mathbf{p}_r \cdot \mathbf{p}_r}{2 m} - \mathbf{W} \cdot (\mathbf{r} \times \mathbf{p}_r) + m \mathbf{A}(t) \cdot \mathbf{r} + U(\mathbf{r}) \label{eq:RotatingFrame-H}
             \end{align}
             \par\medskip\noindent\textbf{Hamilton's equations}
             \begin{align}
@@ -658,7 +658,7 @@ fn the_energy_is_called_t_plus_u_where_that_is_certain() {
              #[lagrangian(m/2*(v^2 + l^2*theta_dot^2) + m*g*l*cos(theta))]
              struct S { m: f64, b: f64, v: f64, g: f64 }",
             "Energy\n",
-            "E = ½ m l² θ̇² − ½ m v² − m g l cos θ   (L₂ − L₀ by degree in the velocities)",
+            "E = ½ m l² θ̇² − m g l cos θ − ½ m v²   (L₂ − L₀ by degree in the velocities)",
         ),
         // A gauge term does not change the motion.
         (

@@ -1,0 +1,125 @@
+//! Puts sums in the order, and differences in the direction, in which the user wrote them.
+
+use super::formula::Formula;
+use super::page::Page;
+use crate::syntax::{Declaration, Expression, Kind};
+
+impl Page<'_> {
+    /// Terms of the sums in the declaration, and of those with momenta in place of velocities: x p_y − y p_x for x ẏ − y ẋ.
+    pub(super) fn written_sums(&self) -> Vec<Vec<Formula>> {
+        let Declaration { lagrangian, defines, dissipation, forces, constraints, .. } = self.declaration;
+        let mut pending: Vec<&Expression> = lagrangian.iter().chain(dissipation).collect();
+        pending.extend(defines.iter().map(|define| &define.body));
+        pending.extend(forces.iter().map(|force| &force.value));
+        pending.extend(constraints.iter().flat_map(|constraint| [&constraint.left, &constraint.right]));
+        let mut sums = Vec::new();
+        while let Some(expression) = pending.pop() {
+            if let (Kind::Sum(_), Formula::Sum(terms)) = (&expression.kind, self.written(expression)) {
+                let with_momenta: Vec<Formula> = terms.iter().cloned().map(Formula::with_momenta).collect();
+                sums.extend(Some(with_momenta).filter(|with_momenta| *with_momenta != terms));
+                sums.push(terms);
+            }
+            pending.extend(expression.parts());
+        }
+        sums
+    }
+
+    /// Like [`found`](Self::found), but for a factor: the force k (x₁ − x₂) keeps its direction if x₂ − x₁ is written.
+    pub(super) fn directed(&self, terms: &[Formula]) -> Option<(bool, Vec<Formula>)> {
+        let is_coordinate = |term: &Formula| match term.sign_and_magnitude().1 {
+            Formula::Name { base, dots: 0, .. } => {
+                let names = self.problem.coordinates.iter().map(|label| label.text.split('[').next());
+                names.into_iter().any(|name| name == Some(&base))
+            }
+            _ => false,
+        };
+        self.found(terms).filter(|(is_turned, _)| !is_turned || !terms.iter().all(is_coordinate))
+    }
+
+    /// The terms of a sum as the user ordered them, with the signs of the user, and whether these are the opposite ones.
+    fn found(&self, terms: &[Formula]) -> Option<(bool, Vec<Formula>)> {
+        let known = || self.sums.iter().filter(|sum| sum.len() == terms.len());
+        [false, true].into_iter().find_map(|is_turned| {
+            let terms: Vec<Formula> = terms.iter().map(|term| term.clone().signed(is_turned)).collect();
+            let own = |written: &Formula| terms.iter().find(|term| term.is_product_like(written)).cloned();
+            let ordered = known().find_map(|sum| sum.iter().map(own).collect::<Option<Vec<Formula>>>())?;
+            Some((is_turned, ordered))
+        })
+    }
+
+    /// The formula with all sums in it that the user wrote.
+    pub(super) fn as_written(&self, formula: Formula) -> Formula {
+        let all = |parts: Vec<Formula>| parts.into_iter().map(|part| self.as_written(part)).collect();
+        match formula {
+            Formula::Sum(terms) => {
+                let terms: Vec<Formula> = all(terms);
+                let found = self.found(&terms).filter(|(is_turned, _)| !is_turned);
+                Formula::Sum(found.map_or(terms, |(_, ordered)| ordered))
+            }
+            Formula::Product(above, below) => {
+                let mut is_negative = false;
+                let mut factors = |factors: Vec<Formula>| {
+                    let factors = factors.into_iter().map(|factor| self.as_written(factor));
+                    let turned = factors.map(|factor| self.turned(factor, |terms| self.directed(terms)));
+                    turned.map(|(sign, factor)| (is_negative ^= sign, factor).1).collect()
+                };
+                let (above, below) = (factors(above), factors(below));
+                Formula::Product(above, below).signed(is_negative)
+            }
+            Formula::Power(base, exponent) => {
+                let is_even = matches!(*exponent, Formula::Number(n) if n.is_integer() && n.numer() % 2 == 0);
+                let base = self.as_written(*base);
+                let base = if is_even { self.turned(base, |terms| self.found(terms)).1 } else { base };
+                Formula::Power(Box::new(base), exponent)
+            }
+            Formula::Negative(inner) => self.as_written(*inner).negated(),
+            Formula::Root(inner) => Formula::Root(Box::new(self.as_written(*inner))),
+            Formula::Call(name, arguments) => Formula::Call(name, all(arguments)),
+            other => other,
+        }
+    }
+
+    /// Sign and magnitude of a factor, with a sum as `found` gives it.
+    fn turned(
+        &self,
+        factor: Formula,
+        found: impl Fn(&[Formula]) -> Option<(bool, Vec<Formula>)>,
+    ) -> (bool, Formula) {
+        match factor {
+            Formula::Sum(terms) => match found(&terms) {
+                Some((is_turned, ordered)) => (is_turned, Formula::Sum(ordered)),
+                None => (false, Formula::Sum(terms)),
+            },
+            factor => factor.sign_and_magnitude(),
+        }
+    }
+}
+
+impl Formula {
+    /// True for equal formulas, and for products of the same factors in any order.
+    fn is_product_like(&self, other: &Self) -> bool {
+        let same = |one: &[Self], other: &[Self]| {
+            one.len() == other.len() && one.iter().all(|factor| other.contains(factor))
+        };
+        match (self, other) {
+            (Self::Negative(one), Self::Negative(other)) => one.is_product_like(other),
+            (Self::Product(above, below), Self::Product(above_other, below_other)) => {
+                same(above, above_other) && same(below, below_other)
+            }
+            _ => self == other,
+        }
+    }
+
+    /// The formula with momenta in place of velocities.
+    fn with_momenta(self) -> Self {
+        let all = |parts: Vec<Self>| parts.into_iter().map(Self::with_momenta).collect();
+        match self {
+            Self::Name { base, dots: 1, indices } => {
+                Self::Name { base: format!("p_{base}"), dots: 0, indices }
+            }
+            Self::Negative(inner) => Self::Negative(Box::new(inner.with_momenta())),
+            Self::Product(above, below) => Self::Product(all(above), all(below)),
+            other => other,
+        }
+    }
+}
