@@ -107,7 +107,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(m/2*(x_dot^2 + y_dot^2) + e*B/2*(x*y_dot - y*x_dot))]
          struct Landau { m: f64, e: f64, B: f64 }",
         &[
-            "H = ((p_x + ½ e B y)² + (p_y − ½ e B x)²)/(2 m)",
+            "H = (p_x + ½ e B y)²/(2 m) + (p_y − ½ e B x)²/(2 m)",
             "ẏ = (p_y − ½ e B x)/m",
             "ṗ_x = e B (p_y − ½ e B x)/(2 m)",
         ],
@@ -262,7 +262,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(m/2*(x_dot^2 + (l + x)^2*theta_dot^2) + m*g*(l + x)*cos(theta) - k/2*x^2)]
          struct ElasticPendulum { m: f64, l: f64, g: f64, k: f64 }",
         &[
-            "ṗ_x = p_θ²/(m (x + l)³) + m g cos θ − k x",
+            "ṗ_x = p_θ²/(m (l + x)³) + m g cos θ − k x",
         ],
     ),
     (
@@ -523,7 +523,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(m/2*(der(x)^2 + der(y)^2) - m*g*y)]
          struct Kapitza { m: f64, l: f64, g: f64, a: f64, gamma: f64 }",
         &[
-            "H = (p_φ + m l a γ sin φ sin(γ t))²/(2 m l²) + m g y − ½ m a² γ² sin²(γ t)",
+            "H = (p_φ + l m a γ sin(γ t) sin φ)²/(2 m l²) + m g y − ½ m a² γ² sin²(γ t)",
         ],
     ),
     (
