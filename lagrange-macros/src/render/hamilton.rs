@@ -48,7 +48,8 @@ impl Page<'_> {
         written.map(|written| Line::known(Formula::labelled("H", 0), Ok(written))).into_iter().collect()
     }
 
-    /// H as T + U; by degree in the momenta if L has a part of degree one and the squares (p − b)² take no fewer terms.
+    /// Formula of H: T + U, with squares (p − b)² where L has terms linear in the velocities; its terms by their degree in
+    /// the momenta if these are no more than with squares.
     fn written_out(&self, hamilton: &Hamilton) -> Option<Formula> {
         let form = self.derived.facts.energy_form;
         let is_mixed = matches!(form, EnergyForm::Quadratic | EnergyForm::Moving);

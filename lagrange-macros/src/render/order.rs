@@ -110,7 +110,7 @@ impl Formula {
         }
     }
 
-    /// The formula with momenta in place of velocities.
+    /// Replaces each velocity by the momentum of its coordinate: the order of a sum in L then serves for H.
     fn with_momenta(self) -> Self {
         let all = |parts: Vec<Self>| parts.into_iter().map(Self::with_momenta).collect();
         match self {

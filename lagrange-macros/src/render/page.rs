@@ -152,19 +152,19 @@ fn named(expression: &Expression) -> Vec<&str> {
 
 /// Place of each node in a sum: those with momenta and velocities come first, then those with coordinates, with
 /// parameters alone, and with time, as in a + b t. Among them, those of one variable come before those of several, in the order of the variables.
-/// The place of a sum is that of its first term.
+/// A sum as a factor has the place of its first term.
 fn leads(graph: &Graph) -> Vec<(u8, u32, u32, u32)> {
-    let mut places: Vec<Place> = Vec::with_capacity(graph.len());
+    let mut places: Vec<TermPlace> = Vec::with_capacity(graph.len());
     for id in graph.ids() {
         let mut place = match graph.node(id) {
             Node::Symbol(symbol) => match Variable::of(*symbol) {
-                Variable::Momentum(i) | Variable::Velocity(i) => Place::of(0, [bit(i), 0]),
-                Variable::Coordinate(i) => Place::of(1, [0, bit(i)]),
-                Variable::Time => Place::of(2, [0; 2]),
-                Variable::Parameter(_) => Place::of(3, [0; 2]),
-                _ => Place::of(4, [0; 2]),
+                Variable::Momentum(i) | Variable::Velocity(i) => TermPlace::of(0, [bit(i), 0]),
+                Variable::Coordinate(i) => TermPlace::of(1, [0, bit(i)]),
+                Variable::Time => TermPlace::of(2, [0; 2]),
+                Variable::Parameter(_) => TermPlace::of(3, [0; 2]),
+                _ => TermPlace::of(4, [0; 2]),
             },
-            _ => Place::of(5, [0; 2]),
+            _ => TermPlace::of(5, [0; 2]),
         };
         let is_sum = matches!(graph.node(id), Node::Sum(_));
         let is_natural = |exponent: Rational| exponent.is_integer() && exponent.is_positive();
@@ -177,22 +177,22 @@ fn leads(graph: &Graph) -> Vec<(u8, u32, u32, u32)> {
                 _ => true,
             };
             let inner = places[operand.index()];
-            place = place.with(if is_whole { Place::of(inner.kind, inner.all) } else { inner }, is_sum);
+            place = place.with(if is_whole { TermPlace::of(inner.kind, inner.all) } else { inner }, is_sum);
         });
         places.push(place);
     }
-    places.into_iter().map(Place::key).collect()
+    places.into_iter().map(TermPlace::key).collect()
 }
 
 /// Kind of a term, and the velocities and coordinates in it: those of the first term if it is a sum, and all.
 #[derive(Clone, Copy)]
-struct Place {
+struct TermPlace {
     kind: u8,
     first: [u128; 2],
     all: [u128; 2],
 }
 
-impl Place {
+impl TermPlace {
     const fn of(kind: u8, variables: [u128; 2]) -> Self {
         Self { kind, first: variables, all: variables }
     }
