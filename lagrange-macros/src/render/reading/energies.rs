@@ -2,7 +2,9 @@
 
 use super::super::formula::Formula;
 use super::atoms::Meaning;
-use super::collect::{Collector, Group, TermOrder, is_velocity};
+use super::collect::{Collector, TermOrder};
+use super::dependence::is_velocity;
+use super::group::Group;
 use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::symbolic::Rational;
 

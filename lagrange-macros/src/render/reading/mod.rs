@@ -2,16 +2,18 @@
 //!
 //! An expression is expanded into a [polynomial] in [atoms], whose like terms are collected and cancel exactly. Sines
 //! and cosines are [merged](angles), quaternions of bodies are put on the unit [sphere], a [row] is divided by the common
-//! factor of its terms, and common factors are [taken out](collect) where that is shorter. This is done with definitions
+//! factor of its terms, and common factors are [taken out](group) where that is shorter. This is done with definitions
 //! by name and with definitions written out. The [shortest](mod@super::length) form is taken; the form used in the
 //! computation is also a candidate.
 
 mod angles;
 mod atoms;
 mod collect;
+mod dependence;
 mod dots;
 mod energies;
 mod expand;
+mod group;
 mod polynomial;
 mod row;
 mod sphere;

@@ -176,6 +176,20 @@ impl Polynomial {
         lead.is_some_and(|(_, c)| c.is_negative())
     }
 
+    /// The shortest sum, of two terms at least, that one product of factors that `is_kept` accepts is multiplied by; without
+    /// common factors, and with a positive first term.
+    pub(super) fn cofactor(&self, is_kept: impl Fn(Atom) -> bool) -> Option<Self> {
+        let mut cofactors: BTreeMap<Monomial, Self> = BTreeMap::new();
+        for (monomial, &c) in self.terms() {
+            let kept = monomial.filtered(&is_kept);
+            cofactors.entry(kept.clone()).or_default().push(monomial.over(&kept)?, c)?;
+        }
+        let shortest = cofactors.into_values().min_by_key(Self::len).filter(|shortest| shortest.len() > 1)?;
+        let (number, monomial) = shortest.content();
+        let number = if shortest.terms().next()?.1.is_negative() { -number } else { number };
+        shortest.scaled(&monomial.power(-Rational::one())?, number.recip())
+    }
+
     /// Positive common factor of all coefficients, and common factor of all monomials.
     pub(super) fn content(&self) -> (Rational, Monomial) {
         let number = common(self.0.values().copied());

@@ -1,16 +1,15 @@
 //! Arranges a row of the equations of motion: accelerations on the left, all other terms on the right, divided by the
 //! common factor.
 
-use std::collections::BTreeMap;
-
 use num_traits::{One, Signed, Zero};
 
 use super::super::digits::decimal;
 use super::super::formula::Formula;
 use super::super::length::length;
 use super::atoms::Meaning;
-use super::collect::{Collector, is_velocity, shared};
-use super::polynomial::{Atom, Monomial, Polynomial};
+use super::collect::Collector;
+use super::dependence::is_velocity;
+use super::polynomial::{Atom, Monomial, Polynomial, common};
 use crate::symbolic::{self, Rational};
 use crate::variables::Variable;
 
@@ -171,15 +170,13 @@ impl Collector<'_, '_> {
             Some(Variable::Coordinate(_)) => !has_inertia,
             _ => !self.is_constant(atom),
         };
-        let mut factors: BTreeMap<Monomial, Polynomial> = BTreeMap::new();
-        for (monomial, &c) in all.terms() {
-            let kept = monomial.filtered(is_kept);
-            factors.entry(kept.clone()).or_default().push(monomial.over(&kept)?, c)?;
-        }
-        let shortest =
-            factors.into_values().min_by_key(Polynomial::len).filter(|shortest| shortest.len() > 1)?;
-        let (number, monomial) = shortest.content();
-        let number = if shortest.leads_negative() { -number } else { number };
-        shortest.scaled(&monomial.power(-Rational::one())?, number.recip())
+        let divisor = all.cofactor(is_kept)?;
+        Some(if divisor.leads_negative() { divisor.negated() } else { divisor })
     }
+}
+
+/// Common factor of all terms, restricted to atoms that `may_go` accepts.
+fn shared(polynomial: &Polynomial, may_go: impl Fn(Atom) -> bool) -> (Rational, Monomial) {
+    let (_, monomial) = polynomial.content();
+    (common(polynomial.terms().map(|(_, &c)| c)), monomial.filtered(may_go))
 }
