@@ -1,8 +1,10 @@
 //! Length of a formula, as a measure of its legibility.
 
+use num_traits::One;
+
 use super::formula::Formula;
 use crate::resolve::Problem;
-use crate::symbolic::Graph;
+use crate::symbolic::{Graph, Rational};
 
 /// Longest formula, in symbols, that is legible.
 pub(super) const READABLE: u64 = 250;
@@ -37,6 +39,11 @@ pub(super) fn length(formula: &Formula) -> usize {
         Formula::Derivative { argument, .. } => 2 + length(argument),
         Formula::Partial { by, arguments, .. } => 1 + by.len() + all(arguments),
     }
+}
+
+/// Number of symbols of 1/(…).
+pub(super) fn divisor_length(formula: &Formula) -> usize {
+    length(&Formula::flat_product(Rational::one().into(), Vec::new(), vec![formula.clone()]))
 }
 
 /// Number of symbols of each node written out. Shared nodes count at each use.

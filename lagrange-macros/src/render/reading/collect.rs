@@ -3,12 +3,12 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use num_traits::Signed;
+use num_traits::{One, Signed};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::super::derived::{function, power};
 use super::super::formula::Formula;
-use super::super::length::{READABLE, length};
+use super::super::length::{READABLE, divisor_length, length};
 use super::super::page::Page;
 use super::super::roots::NamedRoot;
 use super::atoms::Meaning;
@@ -35,6 +35,17 @@ pub(super) type TermOrder = (bool, bool, Option<Rational>, usize, Monomial, Mono
 impl Collector<'_, '_> {
     pub(super) fn sum(&self, polynomial: &Polynomial) -> Formula {
         in_order(self.parts(polynomial, |_| true))
+    }
+
+    /// The sum, with its common factors before it.
+    pub(super) fn factored(&self, polynomial: &Polynomial) -> Formula {
+        let (number, monomial) = polynomial.content();
+        let rest =
+            monomial.power(-Rational::one()).and_then(|inverse| polynomial.scaled(&inverse, number.recip()));
+        match rest {
+            Some(rest) if rest.len() > 1 => self.product(number, &monomial, &[(&rest, false)]),
+            _ => self.sum(polynomial),
+        }
     }
 
     /// Sum in which no product contains terms of different degrees in the velocities: Coriolis and centrifugal forces
@@ -192,7 +203,15 @@ impl Collector<'_, '_> {
         {
             return power(norm, exponent);
         }
-        power(self.atom(atom), exponent)
+        let written = self.atom(atom);
+        match self.expansion.atoms.meaning(atom) {
+            Meaning::Sum(sum) if exponent.is_integer() => {
+                let factored = self.factored(sum);
+                let is_short = divisor_length(&factored) <= divisor_length(&written);
+                power(if is_short { factored } else { written }, exponent)
+            }
+            _ => power(written, exponent),
+        }
     }
 
     pub(super) fn atom(&self, atom: Atom) -> Formula {
@@ -220,12 +239,14 @@ impl Collector<'_, '_> {
             Meaning::Vector(written, _) => written.clone(),
             Meaning::Sum(terms) => {
                 let collected = self.sum(terms);
-                let dotted = self.dotted_sum(terms).filter(|dotted| length(dotted) <= length(&collected));
-                let collected = dotted.unwrap_or(collected);
+                let collected = match self.dotted_sum(terms) {
+                    Some(dotted) => shorter(dotted, collected),
+                    None => collected,
+                };
                 // Squares of differences are shorter as written.
                 let source = self.expansion.atoms.source(atom).filter(|&id| self.keeps_names_of(id));
                 let source = source.map(|id| page.derived(id));
-                source.filter(|source| length(source) < length(&collected)).unwrap_or(collected)
+                source.into_iter().fold(collected, shorter)
             }
         }
     }
@@ -253,3 +274,8 @@ fn in_order(mut parts: Vec<(TermOrder, Formula)>) -> Formula {
 
 /// Rank of velocities in [`Collector::reading_order`]; accelerations and functions follow.
 const MOVING: u8 = 7;
+
+/// The shorter formula; the first in a tie.
+fn shorter(one: Formula, other: Formula) -> Formula {
+    if length(&one) <= length(&other) { one } else { other }
+}

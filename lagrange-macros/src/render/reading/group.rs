@@ -159,7 +159,9 @@ impl Collector<'_, '_> {
             _ if monomial.is_one() => (2, 1),
             (true, _) => (1, 0),
             _ if self.is_of_time(quotient) => (1, 0),
-            _ if quotient.len() == 2 && quotient.has_fraction() => (5, 0),
+            _ if quotient.len() == 2 && quotient.has_fraction() => {
+                (4 + isize::from(monomial.has_divisor()), 0)
+            }
             // A fraction bar groups the terms.
             _ if monomial.is_divisor() && !quotient.has_fraction() => (1, 1),
             (_, true) if self.are_differences(quotient) || self.is_elongation(quotient) => (1, 0),

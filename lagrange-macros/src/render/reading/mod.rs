@@ -26,7 +26,7 @@ use num_traits::One;
 use rustc_hash::FxHashMap;
 
 use super::formula::Formula;
-use super::length::{READABLE, length};
+use super::length::{READABLE, divisor_length, length};
 use super::lines::Equation;
 use super::page::Page;
 use super::roots::NamedRoot;
@@ -150,14 +150,14 @@ impl Page<'_> {
         self.chosen(read.into_iter(), computed, length, true)
     }
 
-    /// Entries of the mass matrix whose shortest reading is shorter than the computed form.
+    /// Entries of the mass matrix whose shortest reading is, as a divisor, no longer than the computed form. Common factors
+    /// stand before a sum.
     pub(super) fn short_entries(&self) -> FxHashMap<Id, Formula> {
         let entries = self.derived.hamilton.iter().flat_map(|hamilton| &hamilton.entries);
         let short = |&id: &Id| {
             let [computed] = self.computed([&[id]]).ok()?;
-            let read = shortest(self.read(id, |collector, all| collector.sum(all)), length)
-                .filter(|read| length(read) < length(&computed))?;
-            Some((id, read))
+            let read = shortest(self.read(id, |collector, all| collector.factored(all)), divisor_length)?;
+            (divisor_length(&read) <= divisor_length(&computed)).then_some((id, read))
         };
         entries.filter(|id| !self.problem.names.contains_key(id)).filter_map(short).collect()
     }

@@ -542,6 +542,16 @@ const ENTRIES: &[(&str, &[&str])] = &[
             "H = (½ L₂ p_q₁² + ½ L₁ p_q₂² − M p_q₁ p_q₂)/(L₁ L₂ − M²) + (q₁² + q₂²)/(2 C)",
         ],
     ),
+    // Momenta are divided by entries of the mass matrix with their common factors in front.
+    (
+        "#[coordinates(x)] #[define(y = x^2/(2*a))]
+         #[lagrangian(m/2 * (x_dot^2 + der(y)^2) - m*g*y)]
+         struct Bead { m: f64, a: f64, g: f64 }",
+        &[
+            "E = ½ m (1 + x²/a²) ẋ² + m g y",
+            "H = p_x²/(2 m (1 + x²/a²)) + m g y",
+        ],
+    ),
 ];
 
 /// The lines are compared as far as their remarks. Each page is read at several states, where H must be the energy and
