@@ -112,6 +112,15 @@ fn friction_shows() {
     assert!((moved.matrix().determinant() - (-c * t).exp()).abs() < 1e-12);
 }
 
+/// A motion that takes no time has multipliers, all 1, and no exponents.
+#[test]
+fn no_time_has_no_exponents() {
+    let moved = Damped { c: 0.3 }.monodromy(&State::new([1.0], [0.0]), 0.0, method()).unwrap();
+    assert!(moved.multipliers().unwrap().iter().all(|x| x.re == 1.0 && x.im == 0.0));
+    let said = moved.exponents().unwrap_err().to_string();
+    assert_eq!(said, "the duration of the motion is 0: it must be positive and finite");
+}
+
 /// A saddle of rate k: multipliers exp(± k T), reciprocals to the last digit though their ratio is 10¹⁷.
 #[test]
 fn pairs_are_reciprocal() {

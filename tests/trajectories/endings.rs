@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Ending, Method, motion::Progress};
+use lagrange_core::{Ending, Method, Statistics, motion::Progress};
 
 /// A spring with friction: x'' = −k (x − sin t) − c x'. Where c or √k are large, x soon follows sin t slowly, and fast
 /// motions are there in the equations only.
@@ -32,6 +32,24 @@ const START: State<f64, 1> = State {
 
 fn limited(steps: usize) -> Dop853 {
     Dop853::default().max_steps(steps)
+}
+
+/// A summary has the counts of the statistics, the crossings and the ending.
+#[test]
+fn a_motion_prints_as_a_summary() {
+    let spring = Spring { k: 1.0, c: 0.0 };
+    let turning = spring.event("turning", |sample| sample.velocity("x"));
+    let path = spring.motion(START).event(turning).towards(3.0).unwrap();
+    let Statistics { accepted, rejected, evaluations, .. } = path.statistics();
+    let counts = format!("{accepted} steps, {rejected} rejected, {evaluations} evaluations");
+    let crossings = path.crossings().len();
+    assert_eq!(crossings, 1);
+    assert_eq!(
+        path.to_string(),
+        format!("Spring from t = 0 to t = 3: {counts}, 1 crossing\nreached the end at t = 3")
+    );
+    let plain = spring.motion(START).towards(1.0).unwrap().to_string();
+    assert!(plain.ends_with(" evaluations\nreached the end at t = 1"), "{plain}");
 }
 
 /// The end that was asked for, and nothing else.

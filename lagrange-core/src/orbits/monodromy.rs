@@ -155,8 +155,11 @@ impl<T: Real> Monodromy<T> {
     /// of 2π/T; these are the ones between −π/T and π/T.
     ///
     /// # Errors
-    /// Those of [`multipliers`](Self::multipliers).
+    /// [`Error::Setting`] if the stretch has no length, and those of [`multipliers`](Self::multipliers).
     pub fn exponents(&self) -> Result<Vec<Complex<T>>, Error> {
+        if self.duration == T::constant(0.0) {
+            return Err(Error::Setting { name: "duration of the motion", value: 0.0 });
+        }
         let per_time = |x| {
             let Complex { re, im } = logarithm(x);
             Complex::new(re / self.duration, im / self.duration)

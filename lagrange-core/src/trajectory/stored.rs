@@ -1,6 +1,6 @@
 //! Trajectories stored in memory.
 
-use core::fmt::{self, Debug, Formatter};
+use core::fmt::{self, Debug, Display, Formatter};
 use core::iter::once;
 use core::marker::PhantomData;
 
@@ -14,7 +14,7 @@ use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State, StateOf};
 use crate::vector::{Array, vector};
 
-/// Motion of a system from its start to the end of the integration.
+/// Motion of a system from its start to the end of the integration. It prints as a summary.
 ///
 /// Between the steps the trajectory is the dense output of the method, projected onto the constraints like the
 /// steps themselves. It is continuous and equals the computed states at their times.
@@ -197,6 +197,21 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
                 end: self.path.last.t.to_f64(),
             }),
         }
+    }
+}
+
+/// A summary: first and last time, numbers of steps, evaluations and crossings, and the ending.
+impl<S: Lagrangian<Scalar: Real>, F> Display for Trajectory<S, F> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Statistics { accepted, rejected, evaluations, .. } = self.statistics;
+        write!(f, "{} from t = {} to t = {}:", S::NAME, self.path.start.t, self.path.last.t)?;
+        write!(f, " {accepted} steps, {rejected} rejected, {evaluations} evaluations")?;
+        match self.path.crossings.len() {
+            0 => {}
+            1 => write!(f, ", 1 crossing")?,
+            count => write!(f, ", {count} crossings")?,
+        }
+        write!(f, "\n{}", self.ending)
     }
 }
 
