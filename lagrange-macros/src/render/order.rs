@@ -47,6 +47,43 @@ impl Page<'_> {
         })
     }
 
+    /// The terms of which the user wrote two or more in one sum, in the order of that sum whatever their signs, as those of U,
+    /// which L has with the other sign. A sum does not come to begin with a minus sign.
+    fn partly_ordered(&self, terms: Vec<Formula>) -> Vec<Formula> {
+        let place = |sum: &[Formula], term: &Formula| {
+            sum.iter().position(|written| term.magnitude().is_product_like(written.magnitude()))
+        };
+        let known = |sum: &Vec<Formula>| terms.iter().filter(|term| place(sum, term).is_some()).count();
+        let Some(sum) = self.sums.iter().rev().max_by_key(|sum| known(sum)).filter(|sum| known(sum) > 1)
+        else {
+            return terms;
+        };
+        let mut found: Vec<Formula> =
+            terms.iter().filter(|term| place(sum, term).is_some()).cloned().collect();
+        found.sort_by_key(|term| place(sum, term));
+        let mut found = found.into_iter();
+        let ordered = terms.iter().map(|term| match place(sum, term) {
+            Some(_) => found.next().unwrap_or_else(|| term.clone()),
+            None => term.clone(),
+        });
+        let ordered: Vec<Formula> = ordered.collect();
+        if ordered[0].is_negative() && !terms[0].is_negative() { terms } else { ordered }
+    }
+
+    /// The factors, with the parameters among them in the order of their ranks.
+    fn by_rank(&self, mut factors: Vec<Formula>) -> Vec<Formula> {
+        let rank = |factor: &Formula| match factor {
+            Formula::Power(base, _) => self.ranks_by_name.get(base.as_ref()),
+            other => self.ranks_by_name.get(other),
+        };
+        let places: Vec<usize> =
+            (0..factors.len()).filter(|&place| rank(&factors[place]).is_some()).collect();
+        let mut sorted: Vec<Formula> = places.iter().map(|&place| factors[place].clone()).collect();
+        sorted.sort_by_key(|factor| rank(factor).copied());
+        places.into_iter().zip(sorted).for_each(|(place, factor)| factors[place] = factor);
+        factors
+    }
+
     /// The formula with all sums in it that the user wrote.
     pub(super) fn as_written(&self, formula: Formula) -> Formula {
         let all = |parts: Vec<Formula>| parts.into_iter().map(|part| self.as_written(part)).collect();
@@ -54,7 +91,7 @@ impl Page<'_> {
             Formula::Sum(terms) => {
                 let terms: Vec<Formula> = all(terms);
                 let found = self.found(&terms).filter(|(is_turned, _)| !is_turned);
-                Formula::Sum(found.map_or(terms, |(_, ordered)| ordered))
+                Formula::Sum(found.map_or_else(|| self.partly_ordered(terms), |(_, ordered)| ordered))
             }
             Formula::Product(above, below) => {
                 let mut is_negative = false;
@@ -64,7 +101,7 @@ impl Page<'_> {
                     turned.map(|(sign, factor)| (is_negative ^= sign, factor).1).collect()
                 };
                 let (above, below) = (factors(above), factors(below));
-                Formula::Product(above, below).signed(is_negative)
+                Formula::Product(self.by_rank(above), self.by_rank(below)).signed(is_negative)
             }
             Formula::Power(base, exponent) => {
                 let is_even = matches!(*exponent, Formula::Number(n) if n.is_integer() && n.numer() % 2 == 0);
@@ -96,6 +133,10 @@ impl Page<'_> {
 }
 
 impl Formula {
+    fn magnitude(&self) -> &Self {
+        if let Self::Negative(inner) = self { inner } else { self }
+    }
+
     /// True for equal formulas, and for products of the same factors in any order.
     fn is_product_like(&self, other: &Self) -> bool {
         let same = |one: &[Self], other: &[Self]| {

@@ -25,8 +25,10 @@ pub(super) struct Page<'a> {
     pub(super) symbols: Vec<u64>,
     /// Place of each node in a sum, by the variable in it that comes first.
     pub(super) leads: Vec<(u8, u32, u32, u32)>,
-    /// Rank of each parameter in the order of the fields.
+    /// Rank of each parameter in products.
     pub(super) ranks: Vec<usize>,
+    /// The same by the names of the parameters.
+    pub(super) ranks_by_name: FxHashMap<Formula, usize>,
     /// Definitions that depend on neither time nor state.
     pub(super) constants: FxHashSet<Id>,
     pub(super) names: Names,
@@ -63,6 +65,7 @@ impl<'a> Page<'a> {
             moving: moving(problem, &leads),
             leads,
             ranks: ranks(declaration, problem),
+            ranks_by_name: FxHashMap::default(),
             names,
             readings: readings((graph, problem, derived), &constants, &roots, names),
             constants,
@@ -72,6 +75,9 @@ impl<'a> Page<'a> {
             entries: FxHashMap::default(),
             sums: Vec::new(),
         };
+        let by_name =
+            page.ranks.iter().enumerate().map(|(k, &rank)| (page.variable(Variable::Parameter(k)), rank));
+        page.ranks_by_name = by_name.collect();
         page.sums = page.written_sums();
         page.entries = page.short_entries();
         page
@@ -87,6 +93,9 @@ fn moving(problem: &Problem, leads: &[(u8, u32, u32, u32)]) -> Vec<Formula> {
     all.into_iter().map(|name| Formula::labelled(name, 0)).collect()
 }
 
+/// Most names in a definition that stand in its place where the order of factors is found.
+const FEW: usize = 4;
+
 /// Rank of each parameter: in products, parameters stand in the order in which the Lagrangian and the definitions multiply
 /// them, and else in that of the fields.
 fn ranks(declaration: &Declaration, problem: &Problem) -> Vec<usize> {
@@ -97,19 +106,7 @@ fn ranks(declaration: &Declaration, problem: &Problem) -> Vec<usize> {
     };
     let mut fields: Vec<String> = order.iter().map(|&k| field(k)).collect();
     fields.dedup();
-    let products = products(declaration);
-    let mut sorted: Vec<String> = Vec::new();
-    while !fields.is_empty() {
-        // Number of fields left that products have before this one more often than behind it.
-        let behind = |name: &String| {
-            let count = |one: &String, other: &String| {
-                products.iter().filter(|[a, b]| a == one && b == other).count()
-            };
-            fields.iter().filter(|other| count(other, name) > count(name, other)).count()
-        };
-        let first = (0..fields.len()).min_by_key(|&place| behind(&fields[place])).unwrap_or_default();
-        sorted.push(fields.remove(first));
-    }
+    let sorted = in_order_of(&fields, &products(declaration));
     let place = |k: usize| sorted.iter().position(|name| *name == field(k));
     let mut ranks = vec![0; order.len()];
     let mut order = order;
@@ -118,15 +115,36 @@ fn ranks(declaration: &Declaration, problem: &Problem) -> Vec<usize> {
     ranks
 }
 
+/// The fields, each right after those that the products demand to come before it; a cycle is cut where it is entered.
+fn in_order_of(fields: &[String], products: &[[String; 2]]) -> Vec<String> {
+    let is_before = |one: &str, other: &str| {
+        let count = |one, other| products.iter().filter(|[a, b]| a == one && b == other).count();
+        count(one, other) > count(other, one)
+    };
+    let (mut sorted, mut pending): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+    for field in fields {
+        pending.push(field.clone());
+        while let Some(next) = pending.last().cloned() {
+            let is_free = |other: &&String| !sorted.contains(other) && !pending.contains(other);
+            match fields.iter().find(|other| is_free(other) && is_before(other, &next)) {
+                Some(other) => pending.push(other.clone()),
+                None => sorted.extend(pending.pop().filter(|name| !sorted.contains(name))),
+            }
+        }
+    }
+    sorted
+}
+
 /// Pairs of names of which the first comes before the second in a product.
 fn products(declaration: &Declaration) -> Vec<[String; 2]> {
     let mut pending: Vec<&Expression> = declaration.lagrangian.iter().collect();
     pending.extend(declaration.defines.iter().map(|define| &define.body));
+    let definitions = definitions(declaration);
     let mut pairs = Vec::new();
     while let Some(expression) = pending.pop() {
         if let Kind::Product(factors) = &expression.kind {
             let above = factors.iter().filter(|(operator, _)| *operator == Operator::Times);
-            let factors: Vec<Vec<&str>> = above.map(|(_, factor)| named(factor)).collect();
+            let factors: Vec<Vec<&str>> = above.map(|(_, factor)| named(factor, &definitions)).collect();
             for (i, factor) in factors.iter().enumerate() {
                 for one in factor {
                     let behind = factors[i + 1..].iter().flatten().filter(|other| *other != one);
@@ -139,13 +157,32 @@ fn products(declaration: &Declaration) -> Vec<[String; 2]> {
     pairs
 }
 
-/// Names that a factor is, or is a power or an entry of, or a sum of products of.
-fn named(expression: &Expression) -> Vec<&str> {
+/// Names in each definition, for those with few.
+type Definitions<'d> = FxHashMap<&'d str, Vec<&'d str>>;
+
+fn definitions(declaration: &Declaration) -> Definitions<'_> {
+    let mut known = Definitions::default();
+    for define in declaration.defines.iter().filter(|define| define.formals.is_none()) {
+        let mut names = named(&define.body, &known);
+        names.dedup();
+        if names.len() <= FEW {
+            known.insert(&define.target.name.text, names);
+        }
+    }
+    known
+}
+
+/// Names that a factor is, or is a power or an entry of, or a sum of products of. In the place of a definition stand the names
+/// in it: m g y with y = l cos θ has them in the order m, g, l.
+fn named<'e>(expression: &'e Expression, definitions: &Definitions<'e>) -> Vec<&'e str> {
+    let all = |parts: &mut dyn Iterator<Item = &'e Expression>| {
+        parts.flat_map(|part| named(part, definitions)).collect()
+    };
     match &expression.kind {
-        Kind::Name(name) => vec![&name.text],
-        Kind::Index(base, _) | Kind::Power(base, _) => named(base),
-        Kind::Sum(terms) => terms.iter().flat_map(|(_, term)| named(term)).collect(),
-        Kind::Product(factors) => factors.iter().flat_map(|(_, factor)| named(factor)).collect(),
+        Kind::Name(name) => definitions.get(name.text.as_str()).cloned().unwrap_or_else(|| vec![&name.text]),
+        Kind::Index(base, _) | Kind::Power(base, _) => named(base, definitions),
+        Kind::Sum(terms) => all(&mut terms.iter().map(|(_, term)| term)),
+        Kind::Product(factors) => all(&mut factors.iter().map(|(_, factor)| factor)),
         _ => Vec::new(),
     }
 }

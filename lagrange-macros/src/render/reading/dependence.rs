@@ -84,6 +84,16 @@ impl Collector<'_, '_> {
         degrees.all(|degree| Some(degree) == first)
     }
 
+    /// Returns whether all terms are squares of variables, such as ẋ² + ẏ².
+    pub(super) fn are_squares(&self, quotient: &Polynomial) -> bool {
+        let two = Rational::from_integer(2);
+        quotient.terms().all(|(monomial, &c)| {
+            let is_square =
+                matches!(monomial.factors(), [(atom, e)] if *e == two && self.variable(*atom).is_some());
+            c.is_one() && is_square
+        })
+    }
+
     /// Returns whether the polynomial contains coordinates and constants only.
     pub(super) fn is_of_coordinates(&self, quotient: &Polynomial) -> bool {
         let is_it =

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use num_traits::{One, Signed};
 
+use super::super::formula::Formula;
 use super::atoms::Meaning;
 use super::collect::Collector;
 use super::dependence::is_velocity;
@@ -92,6 +93,7 @@ impl Collector<'_, '_> {
         let mut group =
             Group { members, number, monomial, quotient, is_square, constants: None, saving, size };
         self.factor(&mut group);
+        self.take_half(&mut group)?;
         (group.saving >= least).then_some(group)
     }
 
@@ -144,6 +146,17 @@ impl Collector<'_, '_> {
         Some((number, monomial, quotient))
     }
 
+    /// Takes ½ out of a sum that moves, ½ m (1 + 4 c² r²) for m (½ + 2 c² r²): books write it once, in front. Sums of terms of
+    /// different degrees in the momenta stay: p − ½ e B x.
+    fn take_half(&self, group: &mut Group) -> Option<()> {
+        let (two, quotient) = (Rational::from_integer(2), &group.quotient);
+        if !self.are_constant(quotient) && self.are_alike(quotient) && quotient.denominators()? == two {
+            group.quotient = quotient.scaled(&Monomial::default(), two)?;
+            group.number = symbolic::times(group.number, two.recip())?;
+        }
+        Some(())
+    }
+
     /// Returns whether a sum without a name divides.
     fn is_over_sum(&self, monomial: &Monomial) -> bool {
         let is_sum = |atom| matches!(self.expansion.atoms.meaning(atom), Meaning::Sum(_));
@@ -156,6 +169,8 @@ impl Collector<'_, '_> {
     /// differences are easier to read than others, and nested fractions harder. Moving factors should stay visible.
     fn parentheses(&self, monomial: &Monomial, quotient: &Polynomial) -> (isize, isize) {
         match (self.are_constant(quotient), self.moving(monomial).is_one()) {
+            _ if self.is_known(quotient) => (1, 0),
+            _ if monomial.is_one() && self.are_squares(quotient) => (1, 0),
             _ if monomial.is_one() => (2, 1),
             (true, _) => (1, 0),
             _ if self.is_of_time(quotient) => (1, 0),
@@ -193,13 +208,22 @@ impl Collector<'_, '_> {
         degrees.len() > 1 && quotient.terms().all(|(monomial, _)| !monomial.is_one())
     }
 
+    /// A sum that the user wrote, or the negative of one, and whether it is.
+    fn as_known(&self, quotient: &Polynomial) -> Option<(bool, Vec<Formula>)> {
+        let may_be = self.page.sums.iter().any(|sum| sum.len() == quotient.len());
+        let terms =
+            || quotient.terms().map(|(monomial, &c)| self.product(c, monomial, &[])).collect::<Vec<_>>();
+        may_be.then(|| self.page.directed(&terms())).flatten()
+    }
+
+    fn is_known(&self, quotient: &Polynomial) -> bool {
+        self.as_known(quotient).is_some()
+    }
+
     /// True for the negative of a sum that the user wrote, and for x − l in other cases: a coordinate with a minus sign, and
     /// constants beside it.
     pub(super) fn is_turned(&self, quotient: &Polynomial) -> bool {
-        let is_known = self.page.sums.iter().any(|sum| sum.len() == quotient.len());
-        let terms =
-            || quotient.terms().map(|(monomial, &c)| self.product(c, monomial, &[])).collect::<Vec<_>>();
-        if let Some((is_turned, _)) = is_known.then(|| self.page.directed(&terms())).flatten() {
+        if let Some((is_turned, _)) = self.as_known(quotient) {
             return is_turned;
         }
         let is_coordinate = |monomial: &Monomial| match monomial.factors() {

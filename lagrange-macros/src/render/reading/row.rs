@@ -147,32 +147,48 @@ impl Collector<'_, '_> {
             2 * first.terms().filter(|(_, c)| c.is_negative()).count() > first.len()
         });
         let number = if is_turned { -number } else { number };
-        let number = symbolic::times(number, Self::denominators(all, number)?.recip())?;
+        let number = symbolic::times(number, self.denominators(all, number)?.recip())?;
         let mut all = all.scaled(&monomial.power(-Rational::one())?, number.recip())?;
-        while let Some(quotient) = self.divisor(&all).and_then(|divisor| all.divided(&divisor)) {
+        while let Some(quotient) = self.without_sum(&all) {
             all = quotient;
         }
         Some(all)
     }
 
-    /// Least common denominator of a row in which each term has one, such as 6 for ⅓ l θ̈ = ½ g sin θ; 1 for any other.
-    fn denominators(all: &Polynomial, number: Rational) -> Option<Rational> {
+    /// Least common denominator of a row in which each term has one, such as 6 for ⅓ l θ̈ = ½ g sin θ, or in which those with
+    /// accelerations have it, such as 5 for 7/5 ẍ = g sin α; 1 for any other.
+    fn denominators(&self, all: &Polynomial, number: Rational) -> Option<Rational> {
         let all = all.scaled(&Monomial::default(), number.recip())?;
         let is_fraction = |c: Rational| !c.is_integer() && decimal(c).is_none();
-        if all.terms().all(|(_, &c)| is_fraction(c)) { all.denominators() } else { Some(Rational::one()) }
+        let inertia: Polynomial = all
+            .terms()
+            .filter(|(monomial, _)| self.is_inertia(monomial))
+            .map(|(m, &c)| (m.clone(), c))
+            .collect();
+        let (every, of_inertia) = (all.denominators()?, inertia.denominators()?);
+        let is_cleared = all.terms().all(|(_, &c)| is_fraction(c)) || every == of_inertia;
+        Some(if is_cleared { every } else { Rational::one() })
     }
 
-    /// Candidate for a sum that divides all terms: the shortest sum of constants and coordinates among terms with equal
-    /// other factors.
-    fn divisor(&self, all: &Polynomial) -> Option<Polynomial> {
+    /// Quotient of all terms by a sum that divides them: one of constants and coordinates, or one with functions of these.
+    fn without_sum(&self, all: &Polynomial) -> Option<Polynomial> {
         let has_inertia = all.terms().any(|(monomial, _)| self.is_inertia(monomial));
         let is_kept = |atom| match self.variable(atom) {
             Some(Variable::Coordinate(_)) => !has_inertia,
             _ => !self.is_constant(atom),
         };
-        let divisor = all.cofactor(is_kept)?;
-        Some(if divisor.leads_negative() { divisor.negated() } else { divisor })
+        let moves = |atom| !self.consists_of(&Polynomial::atom(atom), is_at_rest);
+        let quotient = |divisor: Polynomial| {
+            all.divided(&if divisor.leads_negative() { divisor.negated() } else { divisor })
+        };
+        let plain = all.cofactor(is_kept).and_then(quotient);
+        plain.or_else(|| all.cofactor(|atom| !has_inertia || moves(atom)).and_then(quotient))
     }
+}
+
+/// False for velocities, accelerations and multipliers.
+fn is_at_rest(variable: &Variable) -> bool {
+    matches!(variable, Variable::Parameter(_) | Variable::Time | Variable::Coordinate(_))
 }
 
 /// Common factor of all terms, restricted to atoms that `may_go` accepts.

@@ -271,7 +271,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          struct VibratingSupport { m: f64, l: f64, a: f64, gamma: f64, g: f64 }",
         &[
             "l φ̈ = −(g − a γ² cos(γ t)) sin φ",
-            "H = (p_φ + l m a γ sin(γ t) sin φ)²/(2 m l²) + m g y − ½ m a² γ² sin²(γ t)",
+            "H = (p_φ + m l a γ sin(γ t) sin φ)²/(2 m l²) + m g y − ½ m a² γ² sin²(γ t)",
         ],
     ),
     (
@@ -341,7 +341,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(-m*c^2*sqrt(1 - ((x_dot - w*y)^2 + (y_dot + w*x)^2)/c^2))]
          struct RelativisticRotating { m: f64, c: f64, w: f64 }",
         &[
-            "p_x = m (ẋ − w y) γ",
+            "p_x = m γ (ẋ − w y)",
             "H = w (y p_x − x p_y) + √(c² p_x² + c² p_y² + m² c⁴)",
         ],
     ),
@@ -474,8 +474,8 @@ const ENTRIES: &[(&str, &[&str])] = &[
         &[
             "m ẍ = m (l + x) θ̇² + m g cos θ − k x",
             "(l + x) θ̈ = −2 ẋ θ̇ − g sin θ",
-            "E = ½ m (ẋ² + (l + x)² θ̇²) + ½ k x² − m g (l + x) cos θ",
-            "H = p_x²/(2 m) + p_θ²/(2 m (l + x)²) + ½ k x² − m g (l + x) cos θ",
+            "E = ½ m (ẋ² + (l + x)² θ̇²) − m g (l + x) cos θ + ½ k x²",
+            "H = p_x²/(2 m) + p_θ²/(2 m (l + x)²) − m g (l + x) cos θ + ½ k x²",
         ],
     ),
     (
@@ -495,8 +495,8 @@ const ENTRIES: &[(&str, &[&str])] = &[
         &[
             "ẍ = 2 ẏ + x − (1 − μ) (x + μ)/r₁³ − μ (x − 1 + μ)/r₂³",
             "ÿ = y − 2 ẋ − (1 − μ) y/r₁³ − μ y/r₂³",
-            "E = ½ ẋ² + ½ ẏ² − ½ x² − ½ y² − (1 − μ)/r₁ − μ/r₂",
-            "H = ½ p_x² + ½ p_y² + y p_x − x p_y − (1 − μ)/r₁ − μ/r₂",
+            "E = ½ (ẋ² + ẏ²) − ½ x² − ½ y² − (1 − μ)/r₁ − μ/r₂",
+            "H = ½ (p_x² + p_y²) + y p_x − x p_y − (1 − μ)/r₁ − μ/r₂",
         ],
     ),
     (
@@ -523,7 +523,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(m/2*(der(x)^2 + der(y)^2) - m*g*y)]
          struct Kapitza { m: f64, l: f64, g: f64, a: f64, gamma: f64 }",
         &[
-            "H = (p_φ + l m a γ sin(γ t) sin φ)²/(2 m l²) + m g y − ½ m a² γ² sin²(γ t)",
+            "H = (p_φ + m l a γ sin(γ t) sin φ)²/(2 m l²) + m g y − ½ m a² γ² sin²(γ t)",
         ],
     ),
     (
@@ -539,7 +539,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
          #[lagrangian(L1/2*q1_dot^2 + L2/2*q2_dot^2 + M*q1_dot*q2_dot - (q1^2 + q2^2)/(2*C))]
          struct Circuits { L1: f64, L2: f64, M: f64, C: f64 }",
         &[
-            "H = (½ L₂ p_q₁² + ½ L₁ p_q₂² − M p_q₁ p_q₂)/(L₁ L₂ − M²) + (q₁² + q₂²)/(2 C)",
+            "H = (L₂ p_q₁² + L₁ p_q₂² − 2 M p_q₁ p_q₂)/(2 (L₁ L₂ − M²)) + (q₁² + q₂²)/(2 C)",
         ],
     ),
     // Momenta are divided by entries of the mass matrix with their common factors in front.
@@ -550,6 +550,47 @@ const ENTRIES: &[(&str, &[&str])] = &[
         &[
             "E = ½ m (1 + x²/a²) ẋ² + m g y",
             "H = p_x²/(2 m (1 + x²/a²)) + m g y",
+        ],
+    ),
+    // A sum of the Lagrangian is taken out of the motion, and cancels from all of it.
+    (
+        "#[coordinates(theta, phi)]
+         #[lagrangian(m/2*(b^2*theta_dot^2 + (a + b*cos(theta))^2*phi_dot^2) - m*g*b*sin(theta))]
+         struct Torus { m: f64, a: f64, b: f64, g: f64 }",
+        &[
+            "b θ̈ = −(a + b cos θ) φ̇² sin θ − g cos θ",
+            "(a + b cos θ) φ̈ = 2 b θ̇ φ̇ sin θ",
+        ],
+    ),
+    (
+        "#[coordinates(r, theta)]
+         #[lagrangian((M + m)/2*r_dot^2 + m/2*r^2*theta_dot^2 - g*r*(M - m*cos(theta)))]
+         struct SwingingAtwood { M: f64, m: f64, g: f64 }",
+        &[
+            "(M + m) r̈ = m r θ̇² − g (M − m cos θ)",
+        ],
+    ),
+    (
+        "#[coordinates(x)] #[lagrangian(m/2*x_dot^2 - k/4*(x^2 - b^2)^2)]
+         struct DoubleWell { m: f64, k: f64, b: f64 }",
+        &[
+            "m ẍ = −k x (x² − b²)",
+        ],
+    ),
+    // Fractions beside accelerations are cleared.
+    (
+        "#[coordinates(phi)] #[lagrangian(3*m/4*(R - a)^2*phi_dot^2 + m*g*(R - a)*cos(phi))]
+         struct CylinderInCylinder { m: f64, g: f64, R: f64, a: f64 }",
+        &[
+            "3 (R − a) φ̈ = −2 g sin φ",
+        ],
+    ),
+    // ½ stands once, in front, or under the bar.
+    (
+        "#[coordinates(r)] #[lagrangian(m/2*(1 + 4*c^2*r^2)*r_dot^2 + m/2*omega^2*r^2 - m*g*c*r^2)]
+         struct RotatingParabola { m: f64, c: f64, omega: f64, g: f64 }",
+        &[
+            "p_r = m (1 + 4 c² r²) ṙ",
         ],
     ),
 ];

@@ -305,7 +305,7 @@ fn rotating_frame() {
               r: m r̈ = m (r×Ω′(t) + 2 (ṙ×W) − W×(W×r) − A(t)) − ∂U/∂r
 
             Energy
-              E = ½ m ṙ·ṙ + m A(t)·r + U(r) − ½ m (W×r)·(W×r)   (L₂ − L₀ by degree in the velocities)
+              E = ½ m ṙ·ṙ + m A(t)·r − ½ m (W×r)·(W×r) + U(r)   (L₂ − L₀ by degree in the velocities)
               d/dt E = m Ω[0]′(t) (W[1] r[0] r[1] + W[2] r[0] r[2] − W[0] (r[1]² + r[2]²)) + m Ω[1]′(t) (W[0] r[0] r[1] + W[2] r[1] r[2] − W[1] (r[0]² + r[2]²)) + m Ω[2]′(t) (W[0] r[0] r[2] + W[1] r[1] r[2] − W[2] (r[0]² + r[1]²)) + m A′(t)·r − m Ω′(t)·(r×ṙ)   (−∂L/∂t)
 
             Momenta
@@ -333,9 +333,8 @@ fn rotating_frame() {
             \end{align}
             \par\medskip\noindent\textbf{Energy}
             \begin{align}
-              E &= \tfrac{1}{2} m \dot{\mathbf{r}} \cdot \dot{\mathbf{r}} + m \mathbf{A}(t) \cdot \mathbf{r} + U(\mathbf{r}) \nonumber \\*
-                &\quad - \tfrac{1}{2} m (\mathbf{W} \times \mathbf{r}) \cdot (\mathbf{W} \times \mathbf{r}) \nonumber \\*
-                &\quad \quad \text{(}L_2 - L_0\text{ by degree in the velocities)} \label{eq:RotatingFrame-E} \\
+              E &= \tfrac{1}{2} m \dot{\mathbf{r}} \cdot \dot{\mathbf{r}} + m \mathbf{A}(t) \cdot \mathbf{r} - \tfrac{1}{2} m (\mathbf{W} \times \mathbf{r}) \cdot (\mathbf{W} \times \mathbf{r}) \nonumber \\*
+                &\quad + U(\mathbf{r}) \quad \text{(}L_2 - L_0\text{ by degree in the velocities)} \label{eq:RotatingFrame-E} \\
               \frac{d}{dt} E &= m \Omega_0'(t) (W_1 r_0 r_1 + W_2 r_0 r_2 - W_0 (r_1^2 + r_2^2)) \nonumber \\*
                 &\quad + m \Omega_1'(t) (W_0 r_0 r_1 + W_2 r_1 r_2 - W_1 (r_0^2 + r_2^2)) \nonumber \\*
                 &\quad + m \Omega_2'(t) (W_0 r_0 r_2 + W_1 r_1 r_2 - W_2 (r_0^2 + r_1^2)) \nonumber \\*
@@ -397,7 +396,7 @@ fn functions_families_and_vectors() {
               R_b[1] = λ_meet a[0]
 
             Energy
-              E = ½ ȧ·ȧ + ½ ḃ·ḃ + ½ ṡ² + a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]   (T + U if U is a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0])
+              E = ½ ȧ·ȧ + ½ ḃ·ḃ + ½ ṡ² + a[0] + pair(|a − b|) + f(a, s) + f([s, 1], s) + p[2][0] + p[1][0]   (T + U if U is a[0] + pair(|a − b|) + f(a, s) + f([s, 1], s) + p[2][0] + p[1][0])
               d/dt E = −k ȧ·ȧ   (Q·q̇)
 
             Momenta
@@ -406,7 +405,7 @@ fn functions_families_and_vectors() {
               p_s = ṡ
 
             Hamiltonian
-              H = ½ p_a·p_a + ½ p_b·p_b + ½ p_s² + a[0] + f([s, 1], s) + f(a, s) + pair(|a − b|) + p[2][0] + p[1][0]
+              H = ½ p_a·p_a + ½ p_b·p_b + ½ p_s² + a[0] + pair(|a − b|) + f(a, s) + f([s, 1], s) + p[2][0] + p[1][0]
 
             Hamilton's equations
               ȧ = p_a
@@ -451,9 +450,9 @@ fn functions_families_and_vectors() {
             \end{align}
             \par\medskip\noindent\textbf{Energy}
             \begin{align}
-              E &= \tfrac{1}{2} \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} + \tfrac{1}{2} \dot{\mathbf{b}} \cdot \dot{\mathbf{b}} + \tfrac{1}{2} \dot s^2 + a_0 + f([s, 1], s) + f(\mathbf{a}, s) \nonumber \\*
-                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0} \quad \text{(}T + U\text{ if }U\text{ is }a_0 \nonumber \\*
-                &\quad + f([s, 1], s) + f(\mathbf{a}, s) + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0}\text{)} \label{eq:Everything-E} \\
+              E &= \tfrac{1}{2} \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} + \tfrac{1}{2} \dot{\mathbf{b}} \cdot \dot{\mathbf{b}} + \tfrac{1}{2} \dot s^2 + a_0 + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) \nonumber \\*
+                &\quad + f(\mathbf{a}, s) + f([s, 1], s) + p_{2, 0} + p_{1, 0} \quad \text{(}T + U\text{ if }U\text{ is }a_0 \nonumber \\*
+                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + f(\mathbf{a}, s) + f([s, 1], s) + p_{2, 0} + p_{1, 0}\text{)} \label{eq:Everything-E} \\
               \frac{d}{dt} E &= -k \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} \quad \text{(}Q \cdot \dot q\text{)} \label{eq:Everything-d-dt-E}
             \end{align}
             \par\medskip\noindent\textbf{Momenta}
@@ -464,8 +463,8 @@ fn functions_families_and_vectors() {
             \end{align}
             \par\medskip\noindent\textbf{Hamiltonian}
             \begin{align}
-              H &= \tfrac{1}{2} \mathbf{p}_a \cdot \mathbf{p}_a + \tfrac{1}{2} \mathbf{p}_b \cdot \mathbf{p}_b + \tfrac{1}{2} p_s^2 + a_0 + f([s, 1], s) + f(\mathbf{a}, s) \nonumber \\*
-                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + p_{2, 0} + p_{1, 0} \label{eq:Everything-H}
+              H &= \tfrac{1}{2} \mathbf{p}_a \cdot \mathbf{p}_a + \tfrac{1}{2} \mathbf{p}_b \cdot \mathbf{p}_b + \tfrac{1}{2} p_s^2 + a_0 + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) \nonumber \\*
+                &\quad + f(\mathbf{a}, s) + f([s, 1], s) + p_{2, 0} + p_{1, 0} \label{eq:Everything-H}
             \end{align}
             \par\medskip\noindent\textbf{Hamilton's equations}
             \begin{align}
