@@ -93,7 +93,7 @@ fn machines_cost_less_than_by_hand() {
         quadruped: 5442
         in angles: 5172
         four-bar: 850
-        Stewart platform: 4919
+        Stewart platform: 4907
     "#]]
     .assert_eq(&counts.concat());
 }

@@ -76,7 +76,8 @@ impl Twists<'_> {
                     if let Some(at) = slope(node) {
                         let part = graph.mul(weight, candidate);
                         let left = graph.sub(rest[at], part);
-                        rest[at] = graph.looked_through(left);
+                        // What is left keeps its definitions.
+                        rest[at] = if graph.looked_through(left) == Id::ZERO { Id::ZERO } else { left };
                     }
                 }
             }
