@@ -2,6 +2,7 @@
 
 use rustc_hash::FxHashSet;
 
+use super::axes::named_axes;
 use super::formula::Formula;
 use crate::mechanics::Turnings;
 use crate::resolve::Problem;
@@ -20,6 +21,7 @@ impl Arrays {
             let quaternion = problem.coordinates[turning.first].text.trim_end_matches("[0]");
             ["omega_", "I_"].iter().for_each(|of| arrays.add(&format!("{of}{quaternion}[0]")));
         }
+        named_axes(problem, turnings).iter().for_each(|axes| arrays.add(&format!("{}[0][0]", axes.text)));
         problem.names.values().for_each(|name| arrays.add(name));
         problem.functions.iter().flat_map(|function| &function.names).for_each(|name| arrays.add(name));
         problem.observables.iter().flat_map(|observed| observed.names()).for_each(|name| arrays.add(&name));

@@ -45,6 +45,8 @@ pub(super) enum Formula {
         body: Box<Self>,
     },
     Vector(Vec<Self>),
+    /// Transpose of a matrix.
+    Transpose(Box<Self>),
     /// Derivative of a function of one argument, evaluated at an argument.
     Derivative {
         function: Box<Self>,
@@ -103,7 +105,7 @@ impl Formula {
             Self::Name { indices, .. } => indices.iter().collect(),
             Self::Member(one, other) | Self::Entry(one, other) | Self::Power(one, other) => vec![one, other],
             Self::Running { from, to, .. } => vec![from, to],
-            Self::Negative(inner) | Self::Root(inner) => vec![inner],
+            Self::Negative(inner) | Self::Root(inner) | Self::Transpose(inner) => vec![inner],
             Self::Sum(all) | Self::Vector(all) | Self::Call(_, all) => all.iter().collect(),
             Self::Product(above, below) => above.iter().chain(below).collect(),
             Self::SumOver { from, to, body, .. } => vec![from, to, body],
@@ -121,6 +123,17 @@ impl Formula {
 
     pub(super) fn contains(&self, formula: &Self) -> bool {
         self == formula || self.parts().into_iter().any(|part| part.contains(formula))
+    }
+
+    /// Returns whether a name stands in the formula, by itself or with indices behind its own.
+    pub(super) fn has_name(&self, name: &Self) -> bool {
+        let is_it = match (self, name) {
+            (Self::Name { base, indices, .. }, Self::Name { base: own, indices: first, .. }) => {
+                base == own && indices.starts_with(first)
+            }
+            _ => false,
+        };
+        is_it || self.parts().into_iter().any(|part| part.has_name(name))
     }
 
     /// True if a term is a product with a sum whose terms differ in their degree in the velocities, as w (2 ẏ + w x).

@@ -15,7 +15,7 @@ pub(super) fn length(formula: &Formula) -> usize {
     match formula {
         Formula::Number(_) | Formula::Scaled(_) | Formula::Pi | Formula::Name { .. } => 1,
         Formula::Multiplier(_) | Formula::Running { .. } | Formula::Member(..) => 1,
-        Formula::Entry(whole, _) => length(whole),
+        Formula::Entry(whole, _) | Formula::Transpose(whole) => length(whole),
         Formula::Negative(inner) => 1 + length(inner),
         Formula::Sum(terms) => {
             let terms = terms.iter().enumerate();

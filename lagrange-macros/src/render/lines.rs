@@ -28,16 +28,16 @@ impl Line {
         Self { label: None, equation, remark: Remark::default() }
     }
 
-    /// True if a side of the equation, or the remark on it, contains this formula.
-    pub(super) fn mentions(&self, formula: &Formula) -> bool {
+    /// True if a name stands in the equation or in the remark on it.
+    pub(super) fn has_name(&self, name: &Formula) -> bool {
         let is_in_equation = match &self.equation {
             Equation::Known(left, right) | Equation::Complementary(left, right) => {
-                left.contains(formula) || right.contains(formula)
+                left.has_name(name) || right.has_name(name)
             }
-            Equation::Term(term) => term.contains(formula),
+            Equation::Term(term) => term.has_name(name),
             Equation::TooLong(_) => false,
         };
-        is_in_equation || self.remark.mentions(formula)
+        is_in_equation || self.remark.has_name(name)
     }
 
     /// Replaces the formulas of the equation and of the remark.

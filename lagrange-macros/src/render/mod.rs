@@ -1,6 +1,7 @@
 //! Renders a system and its equations as text, LaTeX and MathML.
 
 mod arrays;
+mod axes;
 mod binding;
 mod derived;
 mod digits;
@@ -105,6 +106,7 @@ impl Page<'_> {
             section.lines.iter_mut().for_each(|line| line.map(|formula| self.as_written(formula)));
         }
         let mut roots = self.root_lines(sections[1..].iter().flat_map(|section| &section.lines));
+        roots.extend(self.axes_lines(sections[1..].iter().flat_map(|section| &section.lines)));
         roots.iter_mut().for_each(|line| line.map(|formula| self.as_written(formula)));
         sections[0].lines.extend(roots);
         let name = self.declaration.ident.to_string();

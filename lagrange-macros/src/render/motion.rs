@@ -6,7 +6,7 @@ use super::formula::Formula;
 use super::lines::{Equation, Line};
 use super::notation::Notation;
 use super::page::Page;
-use crate::mechanics::Derived;
+use crate::mechanics::{Derived, Turning};
 use crate::resolve::Label;
 use crate::symbolic::Id;
 
@@ -60,7 +60,17 @@ impl Page<'_> {
     /// Constraint force Fᵀλ on each coordinate that a constraint acts on.
     pub(super) fn constraint_forces(&self) -> Vec<Line> {
         let forces = &self.derived.equations.printed_force;
-        let mut lines = self.by_coordinate(forces, |text| Formula::labelled(&format!("R_{text}"), 0));
+        let by_vector =
+            self.by_vector(forces, Self::expression, |text| Formula::labelled(&format!("R_{text}"), 0));
+        let lines = by_vector.into_iter().filter_map(|(rows, line)| {
+            let of = |turning: &&Turning| (turning.first..turning.first + 4).contains(&rows.start);
+            let turns = |turning: &&Turning| turning.constraint.0 != [Id::ZERO; 3];
+            match self.derived.turnings.all.iter().find(of).filter(|_| rows.len() == 1).filter(turns) {
+                Some(turning) => (turning.first == rows.start).then(|| self.force_on_quaternion(turning)),
+                None => Some(line),
+            }
+        });
+        let mut lines: Vec<Line> = lines.collect();
         let zero = Formula::sum(Vec::new());
         lines.retain(|line| !matches!(&line.equation, Equation::Known(_, right) if *right == zero));
         lines

@@ -58,6 +58,7 @@ impl<'a> Notation<'a> {
             Formula::Call(name, arguments) => self.call(name, arguments),
             Formula::SumOver { index, from, to, body } => self.sum_over(index, from, to, body),
             Formula::Vector(items) => self.vector(items),
+            Formula::Transpose(matrix) => spelling.transposed(&self.at_least(matrix, Binding::Atom)),
             Formula::Derivative { function, order, argument } => {
                 let function = spelling.primes(&self.write(function), *order);
                 spelling.applied(&function, &self.parentheses(&self.write(argument)), false)

@@ -4,8 +4,9 @@ use num_traits::Signed;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::arrays::Arrays;
+use super::axes::{NamedAxes, named_axes};
 use super::formula::Formula;
-use super::length::symbols;
+use super::length::{length, symbols};
 use super::motion::vector;
 use super::reading::{Names, Reading, constants, readings};
 use super::roots::{NamedRoot, named_roots};
@@ -35,11 +36,15 @@ pub(super) struct Page<'a> {
     pub(super) readings: Vec<Reading<'a>>,
     pub(super) arrays: Arrays,
     pub(super) roots: Vec<NamedRoot>,
+    pub(super) axes: Vec<NamedAxes>,
+    /// Length of the definition of each of these matrices.
+    pub(super) axes_lengths: Vec<usize>,
     /// Definitions that are vectors, with the numbers of their components.
     pub(super) vectors: Vec<(Formula, usize)>,
     /// Definitions that depend on the velocities, and the vectors that they are components of.
     pub(super) moving: Vec<Formula>,
-    /// Entries of the mass matrix, which have no names, where a reading is shorter than the computed form.
+    /// Nodes without names that are written as these formulas: entries of rotation matrices, and entries of the mass matrix where
+    /// a reading is shorter than the computed form.
     pub(super) entries: FxHashMap<Id, Formula>,
     /// Terms of the sums in the declaration.
     pub(super) sums: Vec<Vec<Formula>>,
@@ -55,6 +60,7 @@ impl<'a> Page<'a> {
     ) -> Self {
         let constants = constants(graph, problem);
         let roots = named_roots(graph, problem);
+        let axes = named_axes(problem, &derived.turnings);
         let leads = leads(graph);
         let mut page = Self {
             declaration,
@@ -67,21 +73,36 @@ impl<'a> Page<'a> {
             ranks: ranks(declaration, problem),
             ranks_by_name: FxHashMap::default(),
             names,
-            readings: readings((graph, problem, derived), &constants, &roots, names),
+            readings: readings((graph, problem, derived), &constants, (&roots, &axes), names),
             constants,
             arrays: Arrays::of(problem, &derived.turnings),
             roots,
+            entries: named_entries(&axes, problem, derived),
+            axes_lengths: Vec::new(),
+            axes,
             vectors: problem.vectors.iter().map(|(name, n)| (Formula::labelled(name, 0), *n)).collect(),
-            entries: FxHashMap::default(),
             sums: Vec::new(),
         };
         let by_name =
             page.ranks.iter().enumerate().map(|(k, &rank)| (page.variable(Variable::Parameter(k)), rank));
         page.ranks_by_name = by_name.collect();
         page.sums = page.written_sums();
-        page.entries = page.short_entries();
+        let lengths = |axes: &NamedAxes| page.definition(axes).map_or(usize::MAX, |formula| length(&formula));
+        page.axes_lengths = page.axes.iter().map(lengths).collect();
+        page.entries.extend(page.short_entries());
         page
     }
+}
+
+/// Entries of rotation matrices, and definitions as they stand in equations in angular velocities, by their nodes.
+fn named_entries(axes: &[NamedAxes], problem: &Problem, derived: &Derived) -> FxHashMap<Id, Formula> {
+    let of = |axes: &NamedAxes| {
+        let entries = axes.nodes.iter().map(|&(node, place)| (node, axes.entry(place)));
+        entries.collect::<Vec<_>>()
+    };
+    let renamed = derived.turnings.renamed.iter();
+    let renamed = renamed.map(|(node, definition)| (*node, Formula::labelled(&problem.names[definition], 0)));
+    axes.iter().flat_map(of).chain(renamed).collect()
 }
 
 /// Definitions that depend on the velocities, and the vectors that they are components of.

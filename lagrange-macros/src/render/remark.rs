@@ -33,8 +33,8 @@ impl Remark {
         }
     }
 
-    pub(super) fn mentions(&self, formula: &Formula) -> bool {
-        let is_in = |part: &Fragment| matches!(part, Fragment::Formula(inner) if inner.contains(formula));
+    pub(super) fn has_name(&self, name: &Formula) -> bool {
+        let is_in = |part: &Fragment| matches!(part, Fragment::Formula(inner) if inner.has_name(name));
         self.0.iter().flatten().any(is_in)
     }
 

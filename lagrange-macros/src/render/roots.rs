@@ -180,7 +180,7 @@ fn body(coordinate: &str) -> Option<String> {
 }
 
 /// All names of a system, as they are written.
-fn taken(problem: &Problem) -> FxHashSet<String> {
+pub(super) fn taken(problem: &Problem) -> FxHashSet<String> {
     let coordinates = problem.coordinates.iter().map(|label| label.text.clone());
     let parameters = (0..problem.parameters.entries.len()).map(|k| problem.parameters.name(k));
     let functions = problem.functions.iter().flat_map(|function| function.names.clone());
@@ -194,7 +194,7 @@ impl Page<'_> {
     /// Lines of the named roots that these lines mention.
     pub(super) fn root_lines<'l>(&self, lines: impl Iterator<Item = &'l Line> + Clone) -> Vec<Line> {
         let own = self.roots.iter().filter(|root| root.definition.is_none());
-        let mentioned = own.filter(|root| lines.clone().any(|line| line.mentions(&root.name)));
+        let mentioned = own.filter(|root| lines.clone().any(|line| line.has_name(&root.name)));
         let line = |root: &NamedRoot| {
             let right = self.root(root)?;
             Some(Line::of(Equation::Known(root.name.clone(), right)))

@@ -1,5 +1,6 @@
 //! Written formulas keep their value, and read as textbooks print them.
 
+mod bodies;
 mod everywhere;
 mod excerpts;
 mod forms;

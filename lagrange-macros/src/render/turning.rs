@@ -1,6 +1,9 @@
 //! Renders equations of motion in the angular velocity of a quaternion.
 
+use num_traits::One;
+
 use super::formula::Formula;
+use super::length::{READABLE, length};
 use super::lines::{Equation, Line};
 use super::motion::vector;
 use super::notation::Notation;
@@ -60,9 +63,15 @@ impl Page<'_> {
         let ([rate, acceleration], inertia) = (angular(quaternion), self.inertia(euler, quaternion));
         let times = |vector: Formula| Formula::Product(vec![inertia.clone(), vector], Vec::new());
         let gyroscopic = Formula::Call("cross".to_owned(), vec![rate.clone(), times(rate.clone())]);
-        let left = Formula::sum(vec![times(acceleration), gyroscopic]);
+        let mut terms = vec![times(acceleration), gyroscopic];
         let label = Some(Notation::UNICODE.write(&rate));
-        let equation = Line { label, ..Line::known(left, self.torque(&euler.torque)) };
+        let coupled = Some(&euler.coupled).filter(|coupled| **coupled != [Id::ZERO; 3]);
+        let coupled = coupled.map(|coupled| self.vector_of_components(coupled)).transpose();
+        let right = coupled.and_then(|coupled| {
+            terms.extend(coupled);
+            self.vector_of_components(&euler.torque)
+        });
+        let equation = Line { label, ..Line::known(Formula::sum(terms), right) };
         let rows = euler.inertia.iter().map(|row| self.vector_of(row));
         let entries = rows.collect::<Result<_, u64>>().map(Formula::Vector);
         let definition = self.matrix(&euler.inertia).is_none().then(|| Line::known(inertia, entries));
@@ -101,9 +110,31 @@ impl Page<'_> {
         Ok(Formula::Vector(components.collect::<Result<_, _>>()?))
     }
 
-    /// The torque as a vector, or by its components along the turned axes.
-    fn torque(&self, torque: &[Id; 3]) -> Result<Formula, u64> {
-        self.vector_expression(torque).map_or_else(|| self.vector_of(torque), Ok)
+    /// A vector, or its components along the turned axes.
+    fn vector_of_components(&self, components: &[Id; 3]) -> Result<Formula, u64> {
+        let by_components = || match self.vector_of(components)? {
+            formula if length(&formula) > READABLE as usize => Err(length(&formula) as u64),
+            formula => Ok(formula),
+        };
+        self.vector_expression(components).map_or_else(by_components, Ok)
+    }
+
+    /// Constraint force R = 2 q N + (R·q) q on a quaternion, where N is its torque along the turned axes: R·q̇ is N·ω for
+    /// q̇ = ½ q ω.
+    pub(super) fn force_on_quaternion(&self, turning: &Turning) -> Line {
+        let quaternion = vector(&self.problem.coordinates[turning.first].text).unwrap_or_default();
+        let (torque, along) = &turning.constraint;
+        let q = || Formula::labelled(quaternion, 0);
+        let force = self.vector_of_components(torque).and_then(|torque| {
+            let (is_negative, torque) = torque.sign_and_magnitude();
+            let two = Rational::from_integer(2).into();
+            let turning = Formula::product(two, vec![q(), torque], Vec::new()).signed(is_negative);
+            let along = vec![self.expression(*along)?, q()];
+            let along = Formula::flat_product(Rational::one().into(), along, Vec::new());
+            Ok(Formula::sum(vec![turning, along]))
+        });
+        let words = Remark::of(vec![Fragment::words("product of quaternions")]);
+        Line { remark: words, ..Line::known(Formula::labelled(&format!("R_{quaternion}"), 0), force) }
     }
 
     /// Name of the parameter whose entries these are.

@@ -34,6 +34,9 @@ use slides::Slides;
 /// quaternions, and the equations of q are projected onto the three rotations. A rigid body alone turns by Euler's
 /// I ω̇ + ω×(I ω) = N (Goldstein, Poole and Safko, *Classical Mechanics*, (5.39)). What is printed then holds where the
 /// constraint of q does: |q| = 1 and q·q̇ = 0.
+/// The matrix of the rotation is A_q, with a line of its own where it occurs: A_q c is a vector c of the body along the fixed axes, and
+/// A_qᵀ F a force F along the turned axes, so that N is c×(A_qᵀ F) if F acts at the point c (Shabana, *Dynamics of Multibody
+/// Systems*, 2.1). A constraint force on q is 2 q N + 2 λ q. If `A` is taken, `C` or `S` replaces it.
 ///
 /// An expression longer than 250 characters is replaced by its length. Expressions of more than 100 expanded
 /// terms are printed in the form that is computed.

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 use super::super::evidence::vanishes;
 use super::Twists;
-use crate::resolve::{Problem, cross};
+use crate::resolve::{Frame, Problem, Step, cross};
 use crate::symbolic::{Graph, Id, Node, Rational};
 use crate::variables::{Variable, drift, has_velocity, nodes};
 
@@ -25,17 +25,25 @@ pub(crate) struct Turning {
     pub(crate) first: usize,
     /// Index of the first component of ω among the velocities.
     pub(crate) rate: usize,
+    /// Rotation matrix from the turned axes to the fixed ones, by rows, as it stands in the equations of the coordinates, and
+    /// in `rows`; `None` if the frame is carried by one that turns.
+    pub(crate) axes: Option<[[[Id; 3]; 3]; 2]>,
     /// Terms with accelerations of each equation, and the others, on the other side.
     pub(crate) rows: [(Id, Vec<Id>); 3],
-    /// I and N of Euler's equations I ω̇ + ω × I ω = N, if the accelerations in the equations are I ω̇ with a constant I that
-    /// is not diagonal: if it is, the equations of the components are shorter.
+    /// I and N of Euler's equations I ω̇ + ω × I ω = N, if I is constant and not diagonal: if it is, the equations of the
+    /// components are shorter.
     pub(crate) euler: Option<Euler>,
+    /// Torque of the constraint forces along the turned axes, without the force that keeps |q| = 1, and the component of the
+    /// constraint force along q.
+    pub(crate) constraint: ([Id; 3], Id),
 }
 
 /// Moments of inertia, and the components of the torque.
 #[derive(Debug)]
 pub(crate) struct Euler {
     pub(crate) inertia: [[Id; 3]; 3],
+    /// Terms with accelerations of other coordinates, on the side of I ω̇.
+    pub(crate) coupled: [Id; 3],
     pub(crate) torque: [Id; 3],
 }
 
@@ -47,6 +55,8 @@ pub(crate) struct Turnings {
     pub(crate) coupled: Vec<(usize, (Id, Vec<Id>))>,
     /// E of an L that is quadratic in the velocities, without the ½ ω·I ω of each [`Euler`], and dE/dt.
     pub(crate) energy: Option<[Id; 2]>,
+    /// Definitions as they stand in the equations in ω, each with the definition itself.
+    pub(crate) renamed: Vec<(Id, Id)>,
 }
 
 impl Turnings {
@@ -84,7 +94,9 @@ impl Twists<'_> {
         let coupled = coupled.map(|i| (i, equations.row(graph, i, &|_, values| values[i], &new))).collect();
         let energy = [self.energy(graph, &equations.mass, &all, &new), graph.replaced(energy_rate, &new)];
         let is_quadratic = !has_velocity(graph, &equations.mass.concat());
-        Some(Turnings { all, coupled, energy: Some(energy).filter(|_| is_quadratic) })
+        let definitions: Vec<Id> = self.problem.names.keys().copied().collect();
+        let renamed = definitions.into_iter().map(|id| (graph.replaced(id, &new), id)).collect();
+        Some(Turnings { all, coupled, energy: Some(energy).filter(|_| is_quadratic), renamed })
     }
 
     /// ½ wᵀM w − L₀, where w are the outer velocities and L₀ is L at rest.
@@ -185,7 +197,21 @@ impl Twists<'_> {
         let entry = |i: usize, j: usize| mass[spin.number + i][spin.number + j];
         let inertia = [0, 1, 2].map(|i| [0, 1, 2].map(|j| graph.replaced(entry(i, j), new)));
         let euler = self.euler(graph, spin.number, &rows, inertia);
-        Some(Turning { first: spin.first, rate: spin.number, rows, euler })
+        let axes = self.axes(spin.number);
+        let axes = axes.map(|axes| [axes, axes.map(|row| row.map(|entry| graph.replaced(entry, new)))]);
+        let constraint = equations.constraint(graph, spin, new);
+        Some(Turning { first: spin.first, rate: spin.number, axes, rows, euler, constraint })
+    }
+
+    /// Axes of the frame that turns at this angular velocity, if the frame before does not turn.
+    fn axes(&self, number: usize) -> Option<[[Id; 3]; 3]> {
+        let rate = self.velocities.nodes[number];
+        let frames = &self.problem.frames;
+        let frame = frames.iter().find(|frame| match &frame.step {
+            Step::Turned(turned) => turned.rate[0] == rate,
+            _ => false,
+        })?;
+        (frames[frame.before].axes == Frame::fixed().axes).then_some(frame.axes)
     }
 }
 
@@ -203,16 +229,19 @@ impl Twists<'_> {
         (is_constant && !is_diagonal).then_some(())?;
         let [rate, acceleration] = [Variable::Velocity, Variable::Acceleration]
             .map(|variable| [0, 1, 2].map(|axis| graph.symbol(variable(number + axis).symbol())));
-        for (row, (left, _)) in inertia.iter().zip(rows) {
+        let mut coupled = [Id::ZERO; 3];
+        for ((others, row), (left, _)) in coupled.iter_mut().zip(&inertia).zip(rows) {
             let turned = graph.dot(row, &acceleration);
-            let others = graph.sub(*left, turned);
-            vanishes(graph, self.problem, others)?;
+            *others = graph.sub(*left, turned);
+            if vanishes(graph, self.problem, *others).is_some() {
+                *others = Id::ZERO;
+            }
         }
         let momentum = inertia.map(|row| graph.dot(&row, &rate));
         let gyroscopic = cross(rate, momentum, graph);
         let torque =
             [0, 1, 2].map(|axis| graph.total([rows[axis].1.as_slice(), &[gyroscopic[axis]]].concat()));
-        Some(Euler { inertia, torque })
+        Some(Euler { inertia, coupled, torque })
     }
 }
 
@@ -265,6 +294,31 @@ impl OuterEquations {
         let right = right.into_iter().map(|part| graph.replaced(part, new)).filter(|&part| part != Id::ZERO);
         let right = right.collect();
         (graph.replaced(left, new), right)
+    }
+}
+
+impl OuterEquations {
+    /// Constraint force on a quaternion: its torque along the turned axes, and its component along q.
+    fn constraint(&self, graph: &mut Graph, spin: &Spin, new: &FxHashMap<Id, Id>) -> ([Id; 3], Id) {
+        let &Spin { first, number, ref spread } = spin;
+        let multipliers = nodes(graph, self.rows.len(), Variable::Multiplier);
+        let q = nodes(graph, first + 4, Variable::Coordinate);
+        let (mut torque, mut along) = ([Id::ZERO; 3], Id::ZERO);
+        let add = |graph: &mut Graph, sum: &mut Id, entry: Id, multiplier: Id| {
+            let part = graph.mul(entry, multiplier);
+            *sum = graph.add(*sum, part);
+        };
+        for (row, &multiplier) in self.rows.iter().zip(&multipliers) {
+            let of_coordinates = &row[first..first + 4];
+            for (axis, sum) in torque.iter_mut().enumerate() {
+                let entry = graph.dot(&spread.map(|row| row[axis]), of_coordinates);
+                let entry = graph.add(entry, row[number + axis]);
+                add(graph, sum, entry, multiplier);
+            }
+            let entry = graph.dot(&q[first..], of_coordinates);
+            add(graph, &mut along, entry, multiplier);
+        }
+        (torque.map(|sum| graph.replaced(sum, new)), graph.replaced(along, new))
     }
 }
 

@@ -8,6 +8,7 @@ use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
 use super::super::formula::Formula;
 use super::polynomial::{Atom, Monomial, Polynomial};
+use super::turned::Tensors;
 use crate::symbolic::{External, Function, Id, Parity, Rational, power, square_root};
 use crate::variables::Variable;
 
@@ -42,6 +43,8 @@ pub(super) struct Atoms {
     sources: FxHashMap<Atom, Id>,
     /// Sums of which a definition is the root: powers of them are not multiplied out.
     pub(super) kept: FxHashSet<Atom>,
+    /// Matrices and vectors of which products are recognized.
+    pub(super) tensors: Tensors,
     /// Number of products computed so far.
     #[cfg(test)]
     products: usize,

@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use num_traits::One;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::super::axes::NamedAxes;
 use super::super::roots::NamedRoot;
 use super::atoms::{Atoms, Meaning};
 use super::polynomial::{Atom, Monomial, Polynomial};
@@ -18,7 +19,7 @@ const WORK: usize = 10_000;
 
 /// Polynomials of nodes, in which some definitions keep their names and the others are written out.
 pub(super) struct Expansion<'a> {
-    graph: &'a Graph,
+    pub(super) graph: &'a Graph,
     /// Definitions that keep their names.
     pub(super) names: FxHashSet<Id>,
     pub(super) atoms: Atoms,
@@ -26,6 +27,8 @@ pub(super) struct Expansion<'a> {
     pub(super) roots: FxHashMap<Atom, usize>,
     /// Entries of the mass matrix: unnamed definitions whose sines and cosines are merged by trigonometric identities.
     entries: FxHashSet<Id>,
+    /// Nodes equal to one that has a name, each with that one: entries of rotation matrices, and definitions.
+    pub(super) same: FxHashMap<Id, Id>,
     done: FxHashMap<Id, Option<Polynomial>>,
     work: usize,
 }
@@ -35,7 +38,8 @@ impl<'a> Expansion<'a> {
         let entries = derived.hamilton.iter().flat_map(|hamilton| &hamilton.entries).copied().collect();
         let (atoms, done) = (Atoms::default(), FxHashMap::default());
         let roots = FxHashMap::default();
-        let mut expansion = Self { graph, names, atoms, roots, entries, done, work: WORK };
+        let same = FxHashMap::default();
+        let mut expansion = Self { graph, names, atoms, roots, entries, same, done, work: WORK };
         // Registration order decides the sign taken out of a sum: φ₁ − φ₂ instead of φ₂ − φ₁.
         let n = problem.coordinates.len() + 3 * derived.turnings.all.len();
         let parameters = problem.parameters.by_field().into_iter().map(Variable::Parameter);
@@ -75,7 +79,7 @@ impl<'a> Expansion<'a> {
         let mut pending = vec![root];
         while let Some(&id) = pending.last() {
             let before = pending.len();
-            if !self.done.contains_key(&id) && !self.names.contains(&id) {
+            if !self.done.contains_key(&id) && !self.names.contains(&id) && !self.same.contains_key(&id) {
                 self.graph.operands(id, |operand| {
                     if !self.done.contains_key(&operand) {
                         pending.push(operand);
@@ -114,11 +118,12 @@ impl<'a> Expansion<'a> {
             Node::Sum(terms) => {
                 let mut sum = Polynomial::default();
                 terms.iter().try_for_each(|(term, c)| sum.add(&self.known(*term)?, *c))?;
-                return Some(sum);
+                return self.atoms.turned(sum);
             }
             Node::Product(factors) => return self.product(factors),
             Node::Function(function, x) => return Some(self.atoms.function(*function, &self.known(*x)?)),
             Node::Defined(_) if self.names.contains(&id) => Meaning::Definition(id),
+            Node::Defined(_) if self.same.contains_key(&id) => Meaning::Definition(self.same[&id]),
             Node::Defined(inner) if self.entries.contains(&id) => {
                 let inner = self.known(*inner)?;
                 return self.atoms.merged(inner);
@@ -157,7 +162,7 @@ pub(crate) struct Reading<'a>(pub(super) RefCell<Expansion<'a>>);
 pub(in crate::render) fn readings<'a>(
     (graph, problem, derived): (&'a Graph, &Problem, &Derived),
     constants: &FxHashSet<Id>,
-    roots: &[NamedRoot],
+    (roots, axes): (&[NamedRoot], &[NamedAxes]),
     names: Names,
 ) -> Vec<Reading<'a>> {
     let all: FxHashSet<Id> = problem.names.keys().copied().collect();
@@ -168,12 +173,17 @@ pub(in crate::render) fn readings<'a>(
         Names::WrittenOut => vec![none],
     };
     kept.dedup();
-    let reading = |kept| {
+    let reading = |kept: FxHashSet<Id>, axes: &[NamedAxes]| {
         let mut expansion = Expansion::new(graph, problem, derived, kept);
+        if !axes.is_empty() {
+            expansion.name_tensors(problem, derived, axes);
+        }
         expansion.name(roots);
         Reading(RefCell::new(expansion))
     };
-    kept.into_iter().map(reading).collect()
+    let turned = if axes.is_empty() { Vec::new() } else { kept.clone() };
+    let plain = kept.into_iter().map(|kept| reading(kept, &[]));
+    plain.chain(turned.into_iter().map(|kept| reading(kept, axes))).collect()
 }
 
 /// Form in which definitions appear: by name or written out.

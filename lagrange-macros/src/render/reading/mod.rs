@@ -7,6 +7,7 @@
 //! computation is also a candidate.
 
 mod angles;
+mod arms;
 mod atoms;
 mod collect;
 mod dependence;
@@ -15,9 +16,12 @@ mod energies;
 mod expand;
 mod group;
 mod polynomial;
+mod relation;
 mod row;
 mod sphere;
 mod squares;
+mod tensors;
+mod turned;
 mod vectors;
 
 use std::cell::RefCell;
@@ -51,8 +55,9 @@ impl Page<'_> {
             self.collected(reading, |collector| collector.row(own, &all))
         };
         let computed = self.computed([&[inertia], forces]);
-        let size = |[left, right]: &[Formula; 2]| length(left) + length(right);
-        let read = self.readings.iter().filter_map(sides).filter(|sides| size(sides) <= READABLE as usize);
+        let size = |[left, right]: &[Formula; 2]| self.length(left) + self.length(right);
+        let is_short = |[left, right]: &[Formula; 2]| length(left) + length(right) <= READABLE as usize;
+        let read = self.readings.iter().filter_map(sides).filter(is_short);
         let read = preferred(read.collect(), size, |sides| !sides.iter().any(|side| self.hides(side)));
         let hides = |sides: &[Formula; 2]| sides.iter().any(|side| self.hides(side));
         let is_apart = |[_, right]: &[Formula; 2]| !right.mixes_degrees();
@@ -86,7 +91,7 @@ impl Page<'_> {
             let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?, -Rational::one())?;
             self.collected(reading, |collector| collector.row(own, &all))
         };
-        let size = |[left, right]: &[Formula; 2]| length(left) + length(right);
+        let size = |[left, right]: &[Formula; 2]| self.length(left) + self.length(right);
         let read = self.readings.iter().filter_map(sides).collect();
         let open = preferred(read, size, |sides| !sides.iter().any(|side| self.hides(side)));
         shortest(open.into_iter(), size)
@@ -105,7 +110,7 @@ impl Page<'_> {
             let all = self.vector(reading, &parts.collect::<Option<Vec<_>>>()?, Rational::one())?;
             self.collected(reading, |collector| Some(collector.sum(&all)))
         };
-        shortest(self.readings.iter().filter_map(formula), length)
+        shortest(self.readings.iter().filter_map(formula), |formula| self.length(formula))
     }
 
     /// Combines rows into one polynomial whose terms each contain a vector. Cross products have coefficients of this sign,
@@ -131,7 +136,12 @@ impl Page<'_> {
     /// Shortest formula of a node.
     pub(super) fn expression(&self, id: Id) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
-        self.chosen(self.read(id, |collector, all| collector.sum(all)), computed, length, false)
+        self.chosen(
+            self.read(id, |collector, all| collector.sum(all)),
+            computed,
+            |formula| self.length(formula),
+            false,
+        )
     }
 
     /// Shortest formula of a node. In a tie, the form used in the computation wins. If no form is short enough to
@@ -144,10 +154,14 @@ impl Page<'_> {
     fn unmixed(&self, id: Id, write: fn(&Collector, &Polynomial) -> Formula) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
         let is_mixed = |formula: &Formula| self.hides(formula) && formula.has_velocity();
-        let read = preferred(self.read(id, write).collect(), length, |formula| !is_mixed(formula));
+        let read = preferred(
+            self.read(id, write).collect(),
+            |formula| self.length(formula),
+            |formula| !is_mixed(formula),
+        );
         let is_worse = |formula: &Formula| is_mixed(formula) && !read.iter().all(is_mixed);
         let computed = computed.and_then(|formula| if is_worse(&formula) { Err(0) } else { Ok(formula) });
-        self.chosen(read.into_iter(), computed, length, true)
+        self.chosen(read.into_iter(), computed, |formula| self.length(formula), true)
     }
 
     /// Entries of the mass matrix whose shortest reading is, as a divisor, no longer than the computed form. Common factors
@@ -176,7 +190,9 @@ impl Page<'_> {
 
     /// Shortest formula of a node by the degrees of its terms, if a reading is short enough to print.
     pub(super) fn by_degree(&self, id: Id) -> Option<Formula> {
-        shortest(self.read(id, |collector, all| collector.energy_by_degree(all)), length)
+        shortest(self.read(id, |collector, all| collector.energy_by_degree(all)), |formula| {
+            self.length(formula)
+        })
     }
 
     /// Readings of a node by components, and by products of vectors if it has any.
@@ -217,7 +233,8 @@ impl Page<'_> {
             .chain(self.read(id, |collector, all| collector.sum(all)));
         let computed = self.computed([&[id]]).map(|[formula]| formula);
         // Of equally long forms, a product reads better than a sum: I₃ (φ̇ cos θ + ψ̇).
-        let size = |formula: &Formula| 2 * length(formula) + usize::from(matches!(formula, Formula::Sum(_)));
+        let size =
+            |formula: &Formula| 2 * self.length(formula) + usize::from(matches!(formula, Formula::Sum(_)));
         self.chosen(read, computed, size, false)
     }
 

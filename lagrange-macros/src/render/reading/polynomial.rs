@@ -20,6 +20,12 @@ impl Monomial {
         Self(vec![(atom, exponent)])
     }
 
+    /// Product of two different atoms.
+    pub(super) fn product(one: Atom, other: Atom) -> Self {
+        let [first, second] = if one < other { [one, other] } else { [other, one] };
+        Self(vec![(first, Rational::one()), (second, Rational::one())])
+    }
+
     pub(super) fn factors(&self) -> &[(Atom, Rational)] {
         &self.0
     }

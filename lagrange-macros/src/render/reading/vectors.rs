@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::One;
+use num_traits::{One, Signed};
 
 use super::super::formula::Formula;
+use super::arms::joined;
 use super::atoms::Meaning;
 use super::collect::Collector;
 use super::polynomial::{Atom, Monomial, Polynomial};
@@ -47,6 +48,10 @@ impl Collector<'_, '_> {
                 group[row].insert(components, c);
             }
         }
+        let is_multiplier = |vector: &Vector| matches!(vector.written, Formula::Multiplier(_));
+        if rows.len() != 3 && known.iter().any(is_multiplier) {
+            return None;
+        }
         let terms = groups.into_iter().map(|((scalar, vectors), products)| {
             let found = in_vectors(&vectors, &products, &known, sign)?;
             Some(found.into_iter().map(move |(coefficient, factors)| VectorTerm {
@@ -55,7 +60,7 @@ impl Collector<'_, '_> {
                 factors,
             }))
         });
-        Some(terms.collect::<Option<Vec<_>>>()?.into_iter().flatten().collect())
+        Some(joined(terms.collect::<Option<Vec<_>>>()?.into_iter().flatten().collect()))
     }
 
     /// Splits a monomial into its scalar factors and the components of vectors.
@@ -79,11 +84,21 @@ impl Collector<'_, '_> {
     /// Vector that an atom is a component of, and index of the component.
     fn component(&self, atom: Atom) -> Option<(Vector, usize)> {
         let (written, place) = component(&self.atom(atom))?;
+        if let Formula::Multiplier(constraint) = &written {
+            self.is_of_space(constraint).then_some(())?;
+        }
         let of = self.variable(atom).map(|variable| first(variable, place));
         Some((Vector { written, of }, place))
     }
 
-    /// Norm |a| or |a − b| whose square this sum of squared components is, if there is one.
+    /// Returns whether a constraint has three components.
+    fn is_of_space(&self, constraint: &str) -> bool {
+        let labels = &self.page.problem.constraints;
+        let has = |k: usize| labels.iter().any(|(label, _)| label.text == format!("{constraint}[{k}]"));
+        has(0) && has(1) && has(2) && !has(3)
+    }
+
+    /// Norm |a|, |a − b| or |a + b − c| whose square this sum of squared components is, if there is one.
     pub(super) fn squared_norm(&self, sum: &Polynomial) -> Option<Formula> {
         let mut known: Vec<Vector> = Vec::new();
         let mut products: BTreeMap<Components, Rational> = BTreeMap::new();
@@ -93,17 +108,21 @@ impl Collector<'_, '_> {
             products.insert(components, c);
         }
         let n = products.keys().flatten().map(|&(_, place)| place + 1).max()?;
-        let is_it = known.iter().any(|vector| self.has_length(vector, n)) && known.len() <= 2;
+        let is_it = known.iter().any(|vector| self.has_length(vector, n));
         (n > 1 && is_it).then_some(())?;
-        let signs = [Rational::one(), -Rational::one()];
+        let is_turned = |i: usize| products.get(&vec![(0, 0), (i, 0)]).is_some_and(Signed::is_negative);
+        let signs: Vec<Rational> =
+            (0..known.len()).map(|i| if is_turned(i) { -Rational::one() } else { Rational::one() }).collect();
+        let (signs, count) = (&signs, known.len());
         let expected = (0..n).flat_map(|k| {
-            let pairs = (0..known.len()).flat_map(move |i| (i..2).map(move |j| (i, j)));
-            pairs.filter(|&(_, j)| j < known.len()).map(move |(i, j)| {
+            let pairs = (0..count).flat_map(move |i| (i..count).map(move |j| (i, j)));
+            pairs.map(move |(i, j)| {
                 let twice = if i == j { Rational::one() } else { Rational::from_integer(2) };
                 (vec![(i, k), (j, k)], twice * signs[i] * signs[j])
             })
         });
-        let difference = known.iter().enumerate().map(|(i, vector)| vector.written.clone().signed(i == 1));
+        let difference =
+            known.iter().enumerate().map(|(i, vector)| vector.written.clone().signed(is_turned(i)));
         let norm = Formula::Call("norm".to_owned(), vec![Formula::sum(difference.collect())]);
         (expected.collect::<BTreeMap<_, _>>() == products).then_some(norm)
     }
@@ -117,6 +136,8 @@ impl Collector<'_, '_> {
             (None, Formula::Name { .. }) => {
                 self.page.vectors.iter().any(|(known, length)| *length == n && *known == vector.written)
             }
+            // A matrix times a vector.
+            (None, Formula::Product(..)) => n == 3,
             (None, Formula::Call(name, _)) => {
                 let functions = &self.page.problem.functions;
                 functions.iter().any(|function| function.name == *name && function.outputs == n)
@@ -149,6 +170,14 @@ fn component(formula: &Formula) -> Option<(Formula, usize)> {
             let whole = Formula::Name { base: base.clone(), dots: *dots, indices: others.to_vec() };
             Some((whole, usize::try_from(place.to_integer()).ok()?))
         }
+        Formula::Entry(whole, index) => {
+            let Formula::Number(place) = **index else { return None };
+            Some(((**whole).clone(), usize::try_from(place.to_integer()).ok()?))
+        }
+        Formula::Multiplier(constraint) => {
+            let (constraint, place) = constraint.strip_suffix(']')?.rsplit_once('[')?;
+            Some((Formula::Multiplier(constraint.to_owned()), place.parse().ok()?))
+        }
         Formula::Member(of, member) => {
             let (member, place) = component(member)?;
             Some((Formula::Member(of.clone(), Box::new(member)), place))
@@ -179,6 +208,7 @@ fn first(variable: Variable, place: usize) -> Variable {
         Variable::Velocity(i) => Variable::Velocity(i - place),
         Variable::Acceleration(i) => Variable::Acceleration(i - place),
         Variable::Momentum(i) => Variable::Momentum(i - place),
+        Variable::Multiplier(i) => Variable::Multiplier(i - place),
         // For parameters, only the kind of the variable matters.
         Variable::Parameter(_) => Variable::Parameter(0),
         other => other,

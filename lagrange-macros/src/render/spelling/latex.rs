@@ -94,6 +94,10 @@ impl Spelling for Latex {
         format!("{base}^{}", braced(exponent))
     }
 
+    fn transposed(&self, matrix: &str) -> String {
+        self.power(matrix, r"\mathsf{T}")
+    }
+
     fn primes(&self, function: &str, order: usize) -> String {
         format!("{function}{}", "'".repeat(order))
     }

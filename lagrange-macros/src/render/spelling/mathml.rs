@@ -83,6 +83,10 @@ impl Spelling for MathMl {
         format!("<msup>{}{}</msup>", whole(base), whole(exponent))
     }
 
+    fn transposed(&self, matrix: &str) -> String {
+        self.power(matrix, "<mi mathvariant=\"normal\">T</mi>")
+    }
+
     fn primes(&self, function: &str, order: usize) -> String {
         let primes = "<mo>′</mo>".repeat(order);
         self.power(function, &primes)

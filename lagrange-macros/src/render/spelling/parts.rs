@@ -57,6 +57,9 @@ pub(crate) trait Spelling: Sync {
     /// Base and exponent. Both already have the parentheses that they need.
     fn power(&self, base: &str, exponent: &str) -> String;
 
+    /// Transpose of a matrix.
+    fn transposed(&self, matrix: &str) -> String;
+
     /// Derivative of a function by primes, such as f″, without its argument.
     fn primes(&self, function: &str, order: usize) -> String;
 

@@ -79,6 +79,10 @@ impl Spelling for Unicode {
         }
     }
 
+    fn transposed(&self, matrix: &str) -> String {
+        format!("{matrix}ᵀ")
+    }
+
     fn primes(&self, function: &str, order: usize) -> String {
         format!("{function}{}", "′".repeat(order))
     }

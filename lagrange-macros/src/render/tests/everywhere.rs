@@ -12,6 +12,7 @@ use super::reader::{Meanings, Value, read_with};
 use super::systems::{self, Forms, Library, System};
 use crate::mechanics::Derived;
 use crate::render::arrays::Arrays;
+use crate::render::axes::named_axes;
 use crate::render::formula::Formula;
 use crate::render::notation::Notation;
 use crate::render::roots::named_roots;
@@ -136,6 +137,14 @@ impl<'a> State<'a> {
                 }
             }
         }
+        let mut transposes = Vec::new();
+        for axes in named_axes(problem, &system.derived.turnings) {
+            let values = axes.entries.map(|row| row.map(|entry| sample.values(graph, &[entry])[0].value));
+            let places = (0..3).flat_map(|i| (0..3).map(move |j| [i, j]));
+            places.for_each(|place| put(axes.entry(place), values[place[0]][place[1]]));
+            let transpose = (0..9).map(|k| values[k % 3][k / 3]).collect();
+            transposes.push((Formula::Transpose(Box::new(axes.name())), transpose));
+        }
         for i in 0..n {
             let value = sample.values(graph, &[system.derived.equations.momentum[i]])[0].value;
             put(Formula::labelled(&momentum(system, i), 0), value);
@@ -148,6 +157,7 @@ impl<'a> State<'a> {
             put(Formula::labelled(name, 0), sample.values(graph, &[id])[0].value);
         }
         vectors.append(&mut names);
+        vectors.extend(transposes.into_iter().map(|(name, entries)| (system.written(&name), entries)));
         let mut state = Self { system, names: vectors, draw };
         state.read_roots();
         state
@@ -232,6 +242,10 @@ fn outer(formula: &Formula) -> Vec<Formula> {
         Formula::Member(of, member) => {
             outer(member).into_iter().map(|member| Formula::Member(of.clone(), Box::new(member))).collect()
         }
+        Formula::Multiplier(entry) => match entry.rsplit_once('[') {
+            Some((vector, _)) => vec![Formula::Multiplier(vector.to_owned())],
+            None => Vec::new(),
+        },
         _ => Vec::new(),
     }
 }
@@ -367,6 +381,19 @@ fn left_over(system: &Page, sample: &mut Sample, rows: std::ops::Range<usize>) -
     rows.map(row).collect()
 }
 
+/// Checks the rotation matrices against those of the quaternions.
+fn check_axes(system: &Page) {
+    for axes in named_axes(&system.problem, &system.derived.turnings) {
+        let name = system.written(&axes.name());
+        for line in system.lines("Lagrangian\n").iter().filter(|line| line.starts_with(&format!("{name} = ")))
+        {
+            check_line(system, line, |sample| {
+                sample.values(&system.graph, &axes.entries.concat()).iter().map(|entry| entry.value).collect()
+            });
+        }
+    }
+}
+
 /// Checks energies, momenta and constraint forces against the computed ones.
 fn check_quantities(system: &Page) {
     let equations = &system.derived.equations;
@@ -470,6 +497,7 @@ pub(super) fn check(system: &System) {
         let read = mathml::read(text, html);
         for (text, written) in [(text.clone(), systems::in_unicode as _), (read, mathml::written as _)] {
             let page = Page { system, text, written };
+            check_axes(&page);
             check_motion(&page);
             check_quantities(&page);
             check_hamilton(&page);

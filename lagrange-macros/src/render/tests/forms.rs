@@ -595,12 +595,11 @@ const ENTRIES: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// The lines are compared as far as their remarks. Each page is read at several states, where H must be the energy and
-/// Hamilton's equations must give the velocities whose momenta they contain.
-#[test]
-fn equations_have_the_forms_of_textbooks() {
+/// Checks that pages have these lines, as far as their remarks, and no line that is too long. Each page is read at several states,
+/// where H must be the energy and Hamilton's equations must give the velocities whose momenta they contain.
+pub(super) fn check_forms(entries: &[(&str, &[&str])]) {
     let mut missed = Vec::new();
-    for (source, lines) in ENTRIES {
+    for (source, lines) in entries {
         let system = System::new(source.parse().expect("tokens")).unwrap_or_else(|| panic!("{source}"));
         let printed =
             system.forms[0][0].lines().map(|line| line.split("   (").next().unwrap_or_default().trim());
@@ -612,4 +611,9 @@ fn equations_have_the_forms_of_textbooks() {
         assert!(!system.forms[0][0].contains(" symbols)"), "{}", system.forms[0][0]);
     }
     assert!(missed.is_empty(), "{}", missed.join("\n\n"));
+}
+
+#[test]
+fn equations_have_the_forms_of_textbooks() {
+    check_forms(ENTRIES);
 }

@@ -135,6 +135,9 @@ impl Xml {
             ("msubsup", [base, below, above]) if above.text().starts_with('′') => {
                 indexed(base, below) + &above.text()
             }
+            ("msubsup", [base, below, above]) if above.has("normal") && above.text() == "T" => {
+                indexed(base, below) + "ᵀ"
+            }
             ("msubsup", [base, below, above]) => format!("({})^({})", indexed(base, below), above.said()),
             ("msup", [base, above]) if above.text().starts_with('′') => base.said() + &above.text(),
             ("msup", [base, above]) if is_function(base) => base.said() + &superscript(&above.text()),

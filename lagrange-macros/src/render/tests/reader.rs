@@ -71,13 +71,17 @@ fn plus(x: &Value, y: &Value, sign: f64) -> Value {
     x.iter().zip(y).map(|(x, y)| x + sign * y).collect()
 }
 
-/// Product of two values: at least one of them a number, a matrix of 3 by 3 and a vector, or a quaternion and a vector.
+/// Product of two values: at least one of them a number, a matrix of 3 by 3 and a vector or a matrix, or a quaternion and a vector.
 fn times(x: &Value, y: &Value) -> Value {
     match (&x[..], &y[..]) {
         ([x], y) => y.iter().map(|y| x * y).collect(),
         (x, [y]) => x.iter().map(|x| x * y).collect(),
         (x, [_, _, _]) if x.len() == 9 => {
             x.chunks(3).map(|row| row.iter().zip(y).map(|(x, y)| x * y).sum()).collect()
+        }
+        (x, y) if x.len() == 9 && y.len() == 9 => {
+            let entry = |i: usize, j: usize| (0..3).map(|k| x[3 * i + k] * y[3 * k + j]).sum();
+            (0..9).map(|place| entry(place / 3, place % 3)).collect()
         }
         (&[w, x, y, z], &[a, b, c]) => {
             vec![-x * a - y * b - z * c, w * a + y * c - z * b, w * b + z * a - x * c, w * c + x * b - y * a]
@@ -225,7 +229,7 @@ impl Reader<'_> {
             }
             let value = self.sum();
             self.expect(")");
-            return value;
+            return self.component(value);
         }
         if self.take("√") {
             return vec![number(self.atom()).sqrt()];
@@ -256,6 +260,21 @@ impl Reader<'_> {
             }
             None => panic!("the text ends too early"),
         }
+    }
+
+    /// Reads the index of a component, as in `(A c)[0]`, or its subscript.
+    fn component(&mut self, vector: Value) -> Value {
+        let is_indexed = self.text.get(self.at + 1).is_some_and(char::is_ascii_digit);
+        if !(is_indexed && matches!(self.peek(), Some('[' | '_'))) {
+            return vector;
+        }
+        let has_brackets = self.peek() == Some('[');
+        self.at += 1;
+        let value = vec![vector[self.digits() as usize]];
+        if has_brackets {
+            self.expect("]");
+        }
+        value
     }
 
     /// Reads `∂²f/∂x∂y` without arguments: the function, and the variables of differentiation.
