@@ -76,6 +76,13 @@ PINOCCHIO_QUANTITIES = {
     "jacobian_joints": "Pinocchio, computeJointJacobians",
     "derivatives": "Pinocchio, computeABADerivatives",
 }
+CASADI_QUANTITIES = {
+    "inverse": "CasADi, Newton and Euler from link to link",
+    "mass": "CasADi, composite bodies",
+    "derivatives": "CasADi, Jacobian of inverse dynamics, LDLᵀ",
+}
+# Bytes of C in one function beyond which gcc takes more than ten minutes with -O3; half a minute with -O1.
+LONGEST = 4_000_000
 # What other tools read and write in these is declared in the harness.
 HARNESS = f"-I{HERE / 'harness'}"
 # Pinocchio's lists of joints and of arguments are longer than Boost's are by default.
@@ -100,6 +107,15 @@ def casadi_robots(system, n, label, flags, *options):
     generate("with_casadi_robots.py", system, n, source)
     library = place("".join([source.stem, *options]) + ".so", flags)
     return Implementation(label, "tool", compile_c([source], library, flags, HARNESS, *options))
+
+
+def casadi_quantity(system, n, function, flags):
+    source = place(f"casadi_{system}_{function}_{n}.c", flags)
+    generate("with_casadi_quantities.py", system, n, function, source)
+    is_long = source.with_name(f"generated_{source.name}").stat().st_size > LONGEST
+    options = ("-O1",) if is_long else ()
+    library = compile_c([source], source.with_suffix(".so"), flags, HARNESS, *options)
+    return Implementation(CASADI_QUANTITIES[function], "tool", library)
 
 
 def casadi_loops(system, form, order, flags):

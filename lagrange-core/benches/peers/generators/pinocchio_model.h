@@ -30,8 +30,11 @@ struct Simulation {
     Model model;
     Data data;
     Eigen::VectorXd q, v, tau;
+    // That are moved by forces; the others are those of a free base.
+    int joints;
 
-    explicit Simulation(const Robot &robot) : model(of(robot)), data(model), q(model.nq), v(model.nv), tau(model.nv) {
+    explicit Simulation(const Robot &robot) : model(of(robot)), data(model), q(model.nq), v(model.nv), tau(model.nv),
+          joints(robot.count - (robot.links[0].axis == 'F')) {
         tau.setZero();
         for (int k = 0; k < robot.count; k++) tau[model.nv - robot.count + k] = robot.links[k].tau;
     }

@@ -173,4 +173,5 @@ def main():
     report(function, start)
 
 
-main()
+if __name__ == "__main__":
+    main()

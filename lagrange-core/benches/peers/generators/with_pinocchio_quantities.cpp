@@ -1,4 +1,4 @@
-// Pinocchio: what else is asked of an arm than its accelerations.
+// Pinocchio: what else is asked of bodies in space than their accelerations.
 #include "pinocchio_model.h"
 #include <pinocchio/algorithm/aba-derivatives.hpp>
 #include <pinocchio/algorithm/crba.hpp>
@@ -8,6 +8,7 @@
 
 namespace {
 
+// Of the arm whose Jacobian is taken, and where its point stands in p.
 enum { JOINTS = 6, POINT = JOINTS * 25 + 7 };
 using Six = Eigen::Matrix<double, 6, JOINTS>;
 
@@ -23,33 +24,33 @@ FrameIndex point(Simulation &simulation, const double *p) {
     return added;
 }
 
-template <typename Matrix> void leave(const Matrix &matrix, double *a) {
-    Eigen::Map<Eigen::Matrix<double, Matrix::RowsAtCompileTime == 3 ? 3 : JOINTS, JOINTS>> result(a);
-    result = matrix;
+template <typename Matrix> double *leave(const Matrix &matrix, double *a) {
+    Eigen::Map<Eigen::MatrixXd>(a, matrix.rows(), matrix.cols()) = matrix;
+    return a + matrix.size();
 }
 
 } // namespace
 
 extern "C" void inverse(const double *q, const double *, const double *p, double *a, double *) {
     Simulation &s = simulation(p, q + OWN);
-    Eigen::Map<Eigen::VectorXd>(a, JOINTS) = rnea(s.model, s.data, s.q, s.v, Values(q + OWN + 2 * JOINTS, JOINTS));
+    leave(rnea(s.model, s.data, s.q, s.v, Values(q + OWN + s.model.nq + s.model.nv, s.model.nv)), a + OWN);
 }
 
 extern "C" void mass_local(const double *q, const double *, const double *p, double *a, double *) {
     Simulation &s = simulation(p, q + OWN);
-    leave(crba(s.model, s.data, s.q, Convention::LOCAL), a);
+    leave(crba(s.model, s.data, s.q, Convention::LOCAL), a + OWN);
 }
 
 extern "C" void mass_world(const double *q, const double *, const double *p, double *a, double *) {
     Simulation &s = simulation(p, q + OWN);
-    leave(crba(s.model, s.data, s.q, Convention::WORLD), a);
+    leave(crba(s.model, s.data, s.q, Convention::WORLD), a + OWN);
 }
 
 extern "C" void jacobian_frame(const double *q, const double *, const double *p, double *a, double *) {
     Simulation &s = simulation(p, q + OWN);
     Six jacobian = Six::Zero();
     computeFrameJacobian(s.model, s.data, s.q, point(s, p), LOCAL_WORLD_ALIGNED, jacobian);
-    leave(jacobian.topRows<3>(), a);
+    leave(jacobian.topRows<3>(), a + OWN);
 }
 
 extern "C" void jacobian_joints(const double *q, const double *, const double *p, double *a, double *) {
@@ -58,13 +59,13 @@ extern "C" void jacobian_joints(const double *q, const double *, const double *p
     Six jacobian = Six::Zero();
     computeJointJacobians(s.model, s.data, s.q);
     getFrameJacobian(s.model, s.data, frame, LOCAL_WORLD_ALIGNED, jacobian);
-    leave(jacobian.topRows<3>(), a);
+    leave(jacobian.topRows<3>(), a + OWN);
 }
 
 extern "C" void derivatives(const double *q, const double *, const double *p, double *a, double *) {
     Simulation &s = simulation(p, q + OWN);
     computeABADerivatives(s.model, s.data, s.q, s.v, s.tau);
-    leave(s.data.ddq_dq, a);
-    leave(s.data.ddq_dv, a + JOINTS * JOINTS);
-    leave(s.data.Minv, a + 2 * JOINTS * JOINTS);
+    a = leave(s.data.ddq_dq, a + OWN);
+    a = leave(s.data.ddq_dv, a);
+    leave(s.data.Minv.rightCols(s.joints), a);
 }

@@ -11,16 +11,16 @@ void random_quaternion(double *q) {
     for (int k = 0; k < 4; k++) q[k] /= sqrt(norm);
 }
 
-void rotation_matrix(const double *q, double *r) {
-    double w = q[0], x = q[1], y = q[2], z = q[3];
-    double columns[9] = {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y),
+void rotation_matrix(const Real *q, Real *r) {
+    Real w = q[0], x = q[1], y = q[2], z = q[3];
+    Real columns[9] = {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y),
                          2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x),
                          2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
     memcpy(r, columns, sizeof columns);
 }
 
 /* The angular velocity of a base in its own axes, from its orientation and the rate of that. */
-static void angular_velocity(int turns, const double *q, const double *v, double *omega) {
+static void angular_velocity(int turns, const Real *q, const Real *v, Real *omega) {
     if (turns == 4) {
         for (int k = 1; k < 4; k++) {
             int i = k % 3 + 1, j = i % 3 + 1;
@@ -28,31 +28,31 @@ static void angular_velocity(int turns, const double *q, const double *v, double
         }
         return;
     }
-    omega[0] = v[2] - sin(q[1]) * v[0];
-    omega[1] = cos(q[2]) * v[1] + sin(q[2]) * cos(q[1]) * v[0];
-    omega[2] = cos(q[2]) * cos(q[1]) * v[0] - sin(q[2]) * v[1];
+    omega[0] = v[2] - sinl(q[1]) * v[0];
+    omega[1] = cosl(q[2]) * v[1] + sinl(q[2]) * cosl(q[1]) * v[0];
+    omega[2] = cosl(q[2]) * cosl(q[1]) * v[0] - sinl(q[2]) * v[1];
 }
 
 /* Its derivative; it is linear in the rates, and the product of the rates of a quaternion has no vector part. */
-static void angular_acceleration(int turns, const double *q, const double *v, const double *a, double *alpha) {
+static void angular_acceleration(int turns, const Real *q, const Real *v, const Real *a, Real *alpha) {
     angular_velocity(turns, q, a, alpha);
     if (turns == 4) return;
-    alpha[0] -= cos(q[1]) * v[1] * v[0];
-    alpha[1] += cos(q[2]) * v[2] * cos(q[1]) * v[0] - sin(q[2]) * (v[2] * v[1] + sin(q[1]) * v[1] * v[0]);
-    alpha[2] -= sin(q[2]) * v[2] * cos(q[1]) * v[0] + cos(q[2]) * (v[2] * v[1] + sin(q[1]) * v[1] * v[0]);
+    alpha[0] -= cosl(q[1]) * v[1] * v[0];
+    alpha[1] += cosl(q[2]) * v[2] * cosl(q[1]) * v[0] - sinl(q[2]) * (v[2] * v[1] + sinl(q[1]) * v[1] * v[0]);
+    alpha[2] -= sinl(q[2]) * v[2] * cosl(q[1]) * v[0] + cosl(q[2]) * (v[2] * v[1] + sinl(q[1]) * v[1] * v[0]);
 }
 
 /* The quaternion (w, x, y, z) of a base. */
-static void orientation(int turns, const double *q, double *turn) {
+static void orientation(int turns, const Real *q, Real *turn) {
     static const int AXES[3] = {3, 2, 1};
     if (turns == 4) {
         memcpy(turn, q, 4 * sizeof *q);
         return;
     }
-    double product[4] = {1, 0, 0, 0};
+    Real product[4] = {1, 0, 0, 0};
     for (int angle = 0; angle < 3; angle++) {
         int k = AXES[angle], i = k % 3 + 1, j = i % 3 + 1;
-        double c = cos(q[angle] / 2), s = sin(q[angle] / 2), p[4];
+        Real c = cosl(q[angle] / 2), s = sinl(q[angle] / 2), p[4];
         memcpy(p, product, sizeof p);
         product[0] = c * p[0] - s * p[k];
         product[k] = c * p[k] + s * p[0];
@@ -63,14 +63,14 @@ static void orientation(int turns, const double *q, double *turn) {
 }
 
 /* x = R^T y */
-static void turned_back(const double *turn, const double *y, double *x) {
-    double r[9];
+static void turned_back(const Real *turn, const Real *y, Real *x) {
+    Real r[9];
     rotation_matrix(turn, r);
     for (int i = 0; i < 3; i++) x[i] = r[3 * i] * y[0] + r[3 * i + 1] * y[1] + r[3 * i + 2] * y[2];
 }
 
-void own_base(int turns, const double *q, const double *v, double *own_q, double *own_v) {
-    double turn[4];
+void own_base(int turns, const Real *q, const Real *v, Real *own_q, Real *own_v) {
+    Real turn[4];
     orientation(turns, q + 3, turn);
     memcpy(own_q, q, 3 * sizeof *q);
     for (int k = 0; k < 4; k++) own_q[3 + k] = turn[(k + 1) % 4];
@@ -78,9 +78,9 @@ void own_base(int turns, const double *q, const double *v, double *own_q, double
     angular_velocity(turns, q + 3, v + 3, own_v + 3);
 }
 
-void own_base_rate(int turns, const double *q, const double *v, const double *a, const double *own_v,
-                   double *own_a) {
-    double turn[4];
+void own_base_rate(int turns, const Real *q, const Real *v, const Real *a, const Real *own_v,
+                   Real *own_a) {
+    Real turn[4];
     orientation(turns, q + 3, turn);
     turned_back(turn, a, own_a);
     for (int k = 0; k < 3; k++) {
@@ -100,8 +100,8 @@ void random_base(int turns, double *q, double *v) {
     for (int k = 3; k < 7; k++) v[k] -= along * q[k];
 }
 
-double drift(const double *q, const double *v, const double *a) {
-    double sum = 0;
+Real drift(const Real *q, const Real *v, const Real *a) {
+    Real sum = 0;
     for (int k = 0; k < 4; k++) sum += q[k] * a[k] + v[k] * v[k];
-    return fabs(sum);
+    return fabsl(sum);
 }

@@ -25,7 +25,7 @@ typedef struct {
 } Implementation;
 
 static Inputs inputs;
-static double a[ENTRIES], lambda[ENTRIES];
+static double a[RESULTS], lambda[ENTRIES];
 static volatile double sink;
 
 double uniform(double low, double high) {
@@ -38,8 +38,12 @@ double uniform(double low, double high) {
 
 const System *find_system(const char *name) {
     static const System *const SYSTEMS[] = {
-        &PLANAR,   &LANES,    &CHAIN,   &SPHERICAL,   &BODIES,   &ARM,          &DENAVIT,         &QUADRUPED, &QUADRUPED_ANGLES,
-        &HUMANOID, &FOUR_BAR, &STEWART, &ARM_INVERSE, &ARM_MASS, &ARM_JACOBIAN, &ARM_DERIVATIVES,
+        &PLANAR,           &LANES,        &CHAIN,          &SPHERICAL,
+        &BODIES,           &ARM,          &DENAVIT,        &QUADRUPED,
+        &QUADRUPED_ANGLES, &HUMANOID,     &FOUR_BAR,       &STEWART,
+        &ARM_JACOBIAN,     &ARM_INVERSE,  &ARM_MASS,       &ARM_DERIVATIVES,
+        &QUADRUPED_INVERSE, &QUADRUPED_MASS, &QUADRUPED_DERIVATIVES,
+        &HUMANOID_INVERSE, &HUMANOID_MASS, &HUMANOID_DERIVATIVES,
     };
     for (size_t k = 0; k < sizeof SYSTEMS / sizeof *SYSTEMS; k++)
         if (!strcmp(SYSTEMS[k]->name, name)) return SYSTEMS[k];

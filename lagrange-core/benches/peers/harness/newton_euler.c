@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-typedef long double Real;
 typedef struct {
     Real turn[9], rate[3], angular[3], linear[3], force[3], torque[3];
 } Motion;
@@ -33,7 +32,7 @@ static void add_carried(Real *x, const Motion *motion, const Real *r) {
     add_cross(x, 1, motion->angular, r);
 }
 
-static void quaternion_matrix(const double *q, Real *turn) {
+static void quaternion_matrix(const Real *q, Real *turn) {
     Real x = q[0], y = q[1], z = q[2], w = q[3];
     Real columns[9] = {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y),
                        2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x),
@@ -57,14 +56,13 @@ static void copy(Real *to, const double *from) {
 }
 
 /* How the base moves: its acceleration is that of the derivatives of its speeds, which are in turning axes. */
-static void move_base(Motion *motion, const double *q, const double *v, const Real *a, Real g) {
-    Real velocity[3], up[3] = {0, 0, g};
+static void move_base(Motion *motion, const Real *q, const Real *v, const Real *a, Real g) {
+    Real up[3] = {0, 0, g};
     quaternion_matrix(q + 3, motion->turn);
-    copy(velocity, v);
-    copy(motion->rate, v + 3);
+    memcpy(motion->rate, v + 3, sizeof motion->rate);
     memcpy(motion->linear, a, sizeof motion->linear);
     memcpy(motion->angular, a + 3, sizeof motion->angular);
-    add_cross(motion->linear, 1, motion->rate, velocity);
+    add_cross(motion->linear, 1, motion->rate, v);
     add_turned(motion->linear, motion->turn, up, 1);
 }
 
@@ -97,7 +95,7 @@ static void load(Motion *motion, const Link *link) {
     add_cross(motion->torque, 1, motion->rate, spin);
 }
 
-void joint_forces(const Robot *robot, const double *q, const double *v, const Real *a, Real g, Real *result) {
+void joint_forces(const Robot *robot, const Real *q, const Real *v, const Real *a, Real g, Real *result) {
     static Motion motions[BODIES_AT_MOST + 1];
     memset(motions, 0, sizeof motions);
     /* The ground is the last of all; it accelerates upwards instead of weight. */
@@ -131,18 +129,24 @@ void joint_forces(const Robot *robot, const double *q, const double *v, const Re
 int positions(const Robot *robot) { return robot->count + 6 * (robot->links[0].axis == 'F'); }
 int speeds(const Robot *robot) { return robot->count + 5 * (robot->links[0].axis == 'F'); }
 
-void newton_euler(const Robot *robot, const double *q, const double *v, long double *a) {
-    static Real m[UNKNOWNS][UNKNOWNS + 1];
-    static const double rest[SPEEDS_AT_MOST];
+void joint_mass(const Robot *robot, const Real *q, Real m[][UNKNOWNS + 1]) {
+    static const Real REST[SPEEDS_AT_MOST];
     Real unit[SPEEDS_AT_MOST] = {0}, column[SPEEDS_AT_MOST];
-    int n = speeds(robot), more = n - robot->count;
-    joint_forces(robot, q, v, unit, robot->g, column);
-    for (int i = 0; i < n; i++) m[i][n] = (i < more ? 0 : robot->links[i - more].tau) - column[i];
+    int n = speeds(robot);
     for (int k = 0; k < n; k++) {
         unit[k] = 1;
-        joint_forces(robot, q, rest, unit, 0, column);
+        joint_forces(robot, q, REST, unit, 0, column);
         for (int i = 0; i < n; i++) m[i][k] = column[i];
         unit[k] = 0;
     }
+}
+
+void newton_euler(const Robot *robot, const Real *q, const Real *v, Real *a) {
+    static Real m[UNKNOWNS][UNKNOWNS + 1];
+    Real rest[SPEEDS_AT_MOST] = {0}, column[SPEEDS_AT_MOST];
+    int n = speeds(robot), more = n - robot->count;
+    joint_mass(robot, q, m);
+    joint_forces(robot, q, v, rest, robot->g, column);
+    for (int i = 0; i < n; i++) m[i][n] = (i < more ? 0 : robot->links[i - more].tau) - column[i];
     eliminate(n, m, a);
 }

@@ -19,10 +19,25 @@ static const struct {
 #undef TREE
 };
 
+void widen(const double *x, int count, Real *result) {
+    for (int k = 0; k < count; k++) result[k] = x[k];
+}
+
+static void narrow(const Real *x, int count, double *result) {
+    for (int k = 0; k < count; k++) result[k] = x[k];
+}
+
+static void narrow_rotation(const double *quaternion, double *r) {
+    Real wide[4], turn[9];
+    widen(quaternion, 4, wide);
+    rotation_matrix(wide, turn);
+    narrow(turn, 9, r);
+}
+
 void random_rotation(double *r) {
     double q[4];
     random_quaternion(q);
-    rotation_matrix(q, r);
+    narrow_rotation(q, r);
 }
 
 void random_inertia(double *inertia, double size) {
@@ -73,7 +88,7 @@ static double *place_by_rules(Robot *robot, double *p) {
         Link *link = &robot->links[k];
         double alpha = p[k] = uniform(-3, 3), a = p[n + k] = uniform(-0.3, 0.3), d = p[2 * n + k] = uniform(-0.3, 0.3);
         double turn[4] = {cos(alpha / 2), sin(alpha / 2), 0, 0}, at[3] = {a, -d * sin(alpha), d * cos(alpha)};
-        rotation_matrix(turn, link->place);
+        narrow_rotation(turn, link->place);
         memcpy(link->at, at, sizeof at);
     }
     return p + 3 * n;
@@ -98,47 +113,64 @@ static void fill(Inputs *in, const char *system) {
     for (Link *link = links; link < end; link++) p = put(p, link->inertia, 9);
     for (Link *link = links; link < end; link++) p = put(p, &link->m, 1);
     p = put(p, &robot->g, 1);
+    in->tau = p - in->p;
     for (Link *link = first; link < end; link++) p = put(p, &link->tau, 1);
 }
 
 static int is_free(const Robot *robot) { return robot->links[0].axis == 'F'; }
 
-/* The coordinates by which a base turns. */
-static int turning(const Inputs *in) { return is_free(&in->robot) ? in->coordinates - in->robot.count - 2 : 0; }
+int turning(const Inputs *in) { return is_free(&in->robot) ? in->coordinates - in->robot.count - 2 : 0; }
+
+/* The coordinates before those of the joints. */
+static int base(const Inputs *in) { return is_free(&in->robot) ? 3 + turning(in) : 0; }
+
+void own_state(const Inputs *in, const Real *q, const Real *v, Real *own_q, Real *own_v) {
+    int free = is_free(&in->robot), first = base(in), joints = in->robot.count - free;
+    if (free) own_base(turning(in), q, v, own_q, own_v);
+    memcpy(own_q + 7 * free, q + first, joints * sizeof *q);
+    memcpy(own_v + 6 * free, v + first, joints * sizeof *v);
+}
+
+void own_rate(const Inputs *in, const Real *q, const Real *v, const Real *a, const Real *own_v, Real *own_a) {
+    int free = is_free(&in->robot);
+    if (free) own_base_rate(turning(in), q, v, a, own_v, own_a);
+    memcpy(own_a + 6 * free, a + base(in), (in->robot.count - free) * sizeof *a);
+}
 
 static void prepare(Inputs *in, const char *system, int turns) {
     build(&in->robot, system, in->n);
     fill(in, system);
-    int free = is_free(&in->robot), base = free ? 3 + turns : 0, joints = in->robot.count - free;
-    in->coordinates = base + joints;
+    int free = is_free(&in->robot), first = free ? 3 + turns : 0, joints = in->robot.count - free;
+    in->coordinates = first + joints;
     for (int s = 0; s < STATES; s++) {
-        double *q = q_of(in, s), *v = v_of(in, s), *own_q = q + OWN, *own_v = own_q + positions(&in->robot);
-        if (free) {
-            random_base(turns, q, v);
-            own_base(turns, q, v, own_q, own_v);
-        }
+        double *q = q_of(in, s), *v = v_of(in, s), *own = q + OWN;
+        Real wide[2 * UNKNOWNS], own_q[UNKNOWNS], own_v[UNKNOWNS];
+        if (free) random_base(turns, q, v);
         for (int k = 0; k < joints; k++) {
-            own_q[7 * free + k] = q[base + k] = uniform(free ? -1.5 : -3, free ? 1.5 : 3);
-            own_v[6 * free + k] = v[base + k] = uniform(-2, 2);
+            q[first + k] = uniform(free ? -1.5 : -3, free ? 1.5 : 3);
+            v[first + k] = uniform(-2, 2);
         }
+        widen(q, 2 * in->coordinates, wide);
+        own_state(in, wide, wide + in->coordinates, own_q, own_v);
+        narrow(own_q, positions(&in->robot), own);
+        narrow(own_v, speeds(&in->robot), own + positions(&in->robot));
     }
 }
 
 static double error(Inputs *in, int s, const double *a, const double *lambda) {
     (void)lambda;
-    const Robot *robot = &in->robot;
-    const double *q = q_of(in, s), *v = v_of(in, s), *own_q = q + OWN, *own_v = own_q + positions(robot);
-    double own[UNKNOWNS];
-    int free = is_free(robot), base = free ? 3 + turning(in) : 0, count = speeds(robot);
-    int is_own = isnan(a[0]);
-    if (is_own) memcpy(own, a + OWN, count * sizeof *a);
+    int n = in->coordinates, count = speeds(&in->robot), is_own = isnan(a[0]);
+    Real state[2 * UNKNOWNS], found[UNKNOWNS], own_q[UNKNOWNS], own_v[UNKNOWNS], own[UNKNOWNS], exact[UNKNOWNS];
+    Real scale = 0, largest = 0;
+    widen(q_of(in, s), 2 * n, state);
+    own_state(in, state, state + n, own_q, own_v);
+    newton_euler(&in->robot, own_q, own_v, exact);
+    if (is_own) widen(a + OWN, count, own);
     else {
-        if (free) own_base_rate(turning(in), q, v, a, own_v, own);
-        memcpy(own + 6 * free, a + base, (count - 6 * free) * sizeof *a);
+        widen(a, n, found);
+        own_rate(in, state, state + n, found, own_v, own);
+        if (turning(in) == 4) largest = drift(state + 3, state + n + 3, found + 3);
     }
-    long double exact[UNKNOWNS], scale = 0, largest = 0;
-    newton_euler(robot, own_q, own_v, exact);
-    if (!is_own && turning(in) == 4) largest = drift(q + 3, v + 3, a + 3);
     for (int k = 0; k < count; k++) {
         scale = fmaxl(scale, fabsl(exact[k]));
         largest = fmaxl(largest, isfinite(own[k]) ? fabsl(own[k] - exact[k]) : INFINITY);

@@ -2,7 +2,8 @@
 #ifndef ROBOTS_H
 #define ROBOTS_H
 
-enum { BODIES_AT_MOST = 31, SPEEDS_AT_MOST = BODIES_AT_MOST + 5 };
+enum { BODIES_AT_MOST = 31, SPEEDS_AT_MOST = BODIES_AT_MOST + 5, UNKNOWNS = 44 };
+typedef long double Real;
 
 /* A link whose joint stands at `at` in the axes of the link before, turned by `place` (columns one after another). */
 typedef struct {
@@ -23,11 +24,13 @@ int positions(const Robot *robot);
 int speeds(const Robot *robot);
 
 /* The forces and torques at the joints that accelerations take, g being the constant of gravity. */
-void joint_forces(const Robot *robot, const double *q, const double *v, const long double *a, long double g,
-                  long double *result);
-/* The derivatives of the speeds, by Newton's and Euler's equations in long double. */
-void newton_euler(const Robot *robot, const double *q, const double *v, long double *a);
+void joint_forces(const Robot *robot, const Real *q, const Real *v, const Real *a, Real g, Real *result);
+/* The matrix by which the derivatives of the speeds give them, by columns. */
+void joint_mass(const Robot *robot, const Real *q, Real m[][UNKNOWNS + 1]);
+/* The derivatives of the speeds, by Newton's and Euler's equations. */
+void newton_euler(const Robot *robot, const Real *q, const Real *v, Real *a);
 
+void widen(const double *x, int count, Real *result);
 /* By columns. */
 void random_rotation(double *r);
 /* Principal moments of about `size`, in any axes. */

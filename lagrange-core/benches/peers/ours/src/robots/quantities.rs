@@ -1,11 +1,16 @@
-//! What else is asked of an arm than its accelerations, behind the same signature: matrices are left in `a` by columns.
+//! What else is asked of bodies in space than their accelerations, behind the same signature: matrices are left in `a` by
+//! columns, one after another.
+
+use core::{array::from_fn, ops::Range};
 
 use lagrange_core::{
     Direction, StateDerivatives,
-    nalgebra::{Matrix3, Rotation3, SMatrix, SVector, Vector3},
-    number::FourLanes,
+    nalgebra::{Const, Matrix3, Rotation3, SMatrix, SVector, Vector3},
+    number::FourLanes as Block,
     prelude::*,
 };
+
+use super::{Arm6, Humanoid, Quadruped};
 
 /// The arm, a point of its last link held at a place: what that takes is the Jacobian of the point.
 #[derive(Lagrangian)]
@@ -29,41 +34,8 @@ pub struct Held6 {
     target: Vector3<f64>,
 }
 
-type Columns = SMatrix<f64, 6, 6>;
-
-/// The forces at the joints for the accelerations that stand after q̇.
-///
 /// # Safety
 /// `q`, `v`, `p` and `a` are as the harness has them for this system, and so for the others.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn arm_inverse_6(
-    q: *const [f64; 6],
-    v: *const [f64; 6],
-    p: *const super::Arm6,
-    a: *mut SVector<f64, 6>,
-    _: *mut f64,
-) {
-    unsafe {
-        let (state, accelerations) = (State::new(*q, *v), *q.add(2));
-        *a = (*p).inverse_dynamics(&state, &accelerations.into(), &SVector::zeros());
-    }
-}
-
-/// # Safety
-/// See `arm_inverse_6`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn arm_mass_6(
-    q: *const [f64; 6],
-    v: *const [f64; 6],
-    p: *const super::Arm6,
-    a: *mut Columns,
-    _: *mut f64,
-) {
-    unsafe { *a = (*p).mass_matrix(&State::new(*q, *v)) }
-}
-
-/// # Safety
-/// See `arm_inverse_6`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn arm_jacobian_6(
     q: *const [f64; 6],
@@ -75,59 +47,149 @@ pub unsafe extern "C" fn arm_jacobian_6(
     unsafe { *a = (*p).constraint_jacobian(&State::new(*q, *v)) }
 }
 
-/// The derivatives of the accelerations by q, q̇ and the forces at the joints.
+/// The forces for the accelerations that stand after q̇.
 ///
 /// # Safety
-/// See `arm_inverse_6`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn arm_derivatives_6(
-    q: *const [f64; 6],
-    v: *const [f64; 6],
-    p: *const super::Arm6,
-    a: *mut [Columns; 3],
-    _: *mut f64,
-) {
+/// See `arm_jacobian_6`.
+#[inline(always)]
+unsafe fn inverse<L, const N: usize, const M: usize>(q: *const f64, v: *const f64, p: *const f64, a: *mut f64)
+where
+    L: Lagrangian<N = Const<N>, M = Const<M>, Scalar = f64>,
+{
     unsafe {
-        let (state, arm) = (State::new(*q, *v), &*p);
-        let solution = arm.accelerations_unchecked(&state);
-        let (factor, slopes) = (arm.factor(&state), arm.residual_slopes(&state, &solution));
-        for block in (0..18).step_by(FourLanes::COUNT) {
-            let lanes = block..(block + FourLanes::COUNT).min(18);
-            let one_at = |k: usize| -> FourLanes {
-                FourLanes::from(core::array::from_fn(|lane| f64::from(u8::from(block + lane == k))))
-            };
-            let unit = |first: usize| SVector::<FourLanes, 6>::from_fn(|i, _| one_at(first + i));
-            let direction = Direction { t: FourLanes::constant(0.0), q: unit(0), v: unit(6) };
-            let change = arm.residual_change_with(&slopes, &direction);
-            let forces = unit(12).zip_map(&change.motion, |force, motion| force - motion);
-            let response = arm.solve_with(&factor, &forces, &change.acceleration).accelerations;
-            for (lane, k) in lanes.enumerate() {
-                (&mut *a)[k / 6].set_column(k % 6, &response.map(|x| x.to_array()[lane]));
-            }
+        let state = State::new(*q.cast::<[f64; N]>(), *v.cast::<[f64; N]>());
+        let accelerations = SVector::from(*v.cast::<[f64; N]>().add(1));
+        *a.cast() = (*p.cast::<L>()).inverse_dynamics(&state, &accelerations, &SVector::zeros());
+    }
+}
+
+/// # Safety
+/// See `arm_jacobian_6`.
+#[inline(always)]
+unsafe fn mass<L, const N: usize, const M: usize>(q: *const f64, v: *const f64, p: *const f64, a: *mut f64)
+where
+    L: Lagrangian<N = Const<N>, M = Const<M>, Scalar = f64>,
+{
+    unsafe {
+        let state = State::new(*q.cast::<[f64; N]>(), *v.cast::<[f64; N]>());
+        *a.cast() = (*p.cast::<L>()).mass_matrix(&state);
+    }
+}
+
+/// The derivatives of the accelerations by q, q̇ and the forces at the last J coordinates, then the accelerations.
+///
+/// # Safety
+/// See `arm_jacobian_6`.
+#[inline(always)]
+unsafe fn derivatives<L, const N: usize, const M: usize, const J: usize>(
+    q: *const f64,
+    v: *const f64,
+    p: *const f64,
+    a: *mut f64,
+) where
+    L: StateDerivatives<N = Const<N>, M = Const<M>, Scalar = f64>,
+{
+    unsafe {
+        let (state, system) = (State::new(*q.cast::<[f64; N]>(), *v.cast::<[f64; N]>()), &*p.cast::<L>());
+        let columns = a.cast::<SVector<f64, N>>();
+        let solution = system.accelerations_unchecked(&state);
+        let (factor, slopes) = (system.factor(&state), system.residual_slopes(&state, &solution));
+        for block in blocks(2 * N) {
+            let direction = Direction { t: Block::constant(0.0), q: units(&block, 0), v: units(&block, N) };
+            let change = system.residual_change_with(&slopes, &direction);
+            let response = system.solve_with(&factor, &-change.motion, &change.acceleration);
+            leave(&response.accelerations, block, columns);
         }
+        for block in blocks(J) {
+            let forces = units(&(block.start + N - J..block.end + N - J), 0);
+            let response = system.solve_with(&factor, &forces, &SVector::from_element(Block::constant(0.0)));
+            leave(&response.accelerations, block, columns.add(2 * N));
+        }
+        *columns.add(2 * N + J) = solution.accelerations;
+    }
+}
+
+/// As many columns at once as there are lanes.
+fn blocks(count: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..count).step_by(Block::COUNT).map(move |first| first..count.min(first + Block::COUNT))
+}
+
+/// In each lane the unit vector of a number of the block; the first entry is `first`.
+#[inline(always)]
+fn units<const N: usize>(block: &Range<usize>, first: usize) -> SVector<Block, N> {
+    SVector::from_fn(|i, _| Block::from(from_fn(|lane| f64::from(u8::from(block.start + lane == first + i)))))
+}
+
+/// # Safety
+/// There is room for the columns of the block.
+#[inline(always)]
+unsafe fn leave<const N: usize>(
+    response: &SVector<Block, N>,
+    block: Range<usize>,
+    columns: *mut SVector<f64, N>,
+) {
+    for (lane, k) in block.enumerate() {
+        unsafe { *columns.add(k) = response.map(|x| x.to_array()[lane]) }
     }
 }
 
 /// The same by the function that checks what it gives; it differentiates by the time, too.
 ///
 /// # Safety
-/// See `arm_inverse_6`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn arm_derivatives_checked_6(
-    q: *const [f64; 6],
-    v: *const [f64; 6],
-    p: *const super::Arm6,
-    a: *mut [Columns; 3],
-    _: *mut f64,
-) {
+/// See `arm_jacobian_6`.
+#[inline(always)]
+unsafe fn checked<L, const N: usize, const M: usize, const J: usize>(
+    q: *const f64,
+    v: *const f64,
+    p: *const f64,
+    a: *mut f64,
+) where
+    L: StateDerivatives<N = Const<N>, M = Const<M>, Scalar = f64>,
+{
     unsafe {
-        let (state, arm, a) = (State::new(*q, *v), &*p, &mut *a);
-        let Ok(jacobian) = arm.state_jacobian(&state) else { return };
-        (a[0], a[1]) = (jacobian.accelerations.q, jacobian.accelerations.v);
-        let factor = arm.factor(&state);
-        for k in 0..6 {
-            let unit = SVector::from_fn(|i, _| f64::from(u8::from(i == k)));
-            a[2].set_column(k, &arm.solve_with(&factor, &unit, &SVector::zeros()).accelerations);
+        let (state, system) = (State::new(*q.cast::<[f64; N]>(), *v.cast::<[f64; N]>()), &*p.cast::<L>());
+        let columns = a.cast::<SVector<f64, N>>();
+        let Ok(jacobian) = system.state_jacobian(&state) else { return };
+        *columns.cast() = [jacobian.accelerations.q, jacobian.accelerations.v];
+        let factor = system.factor(&state);
+        for k in 0..J {
+            let unit = SVector::from_fn(|i, _| f64::from(u8::from(i == N - J + k)));
+            *columns.add(2 * N + k) = system.solve_with(&factor, &unit, &SVector::zeros()).accelerations;
         }
+        *columns.add(2 * N + J) = jacobian.solution.accelerations;
     }
+}
+
+macro_rules! export {
+    ($($name:ident = $function:ident<$($of:tt),*>;)*) => {
+        $(
+            /// # Safety
+            /// See `arm_jacobian_6`.
+            #[unsafe(no_mangle)]
+            pub unsafe extern "C" fn $name(
+                q: *const f64,
+                v: *const f64,
+                p: *const f64,
+                a: *mut f64,
+                _: *mut f64,
+            ) {
+                unsafe { $function::<$($of),*>(q, v, p, a) }
+            }
+        )*
+    };
+}
+
+export! {
+    arm_inverse_6 = inverse<Arm6, 6, 0>;
+    arm_mass_6 = mass<Arm6, 6, 0>;
+    arm_derivatives_6 = derivatives<Arm6, 6, 0, 6>;
+    arm_derivatives_checked_6 = checked<Arm6, 6, 0, 6>;
+    quadruped_inverse_0 = inverse<Quadruped, 19, 1>;
+    quadruped_mass_0 = mass<Quadruped, 19, 1>;
+    quadruped_derivatives_0 = derivatives<Quadruped, 19, 1, 12>;
+    quadruped_derivatives_checked_0 = checked<Quadruped, 19, 1, 12>;
+    humanoid_inverse_0 = inverse<Humanoid, 37, 1>;
+    humanoid_mass_0 = mass<Humanoid, 37, 1>;
+    humanoid_derivatives_0 = derivatives<Humanoid, 37, 1, 30>;
+    humanoid_derivatives_checked_0 = checked<Humanoid, 37, 1, 30>;
 }
