@@ -105,6 +105,23 @@ const BODIES: &[(&str, &[&str])] = &[
             "I₂ ω̇_q₂ + ω_q₂×(I₂ ω_q₂) = (A_q₂ᵀ λ_joint)×c₂",
         ],
     ),
+    (
+        "#[coordinates(r: [3], q: [4])] #[frame(body: translate(r), rotate(q))] #[define(s = position(body, c))]
+         #[lagrangian(kinetic(body, m, [0, 0, 0], inertia) - k/2*dot(s, s))]
+         struct Hanging { m: f64, k: f64, c: Vector3<f64>, inertia: Matrix3<f64> }",
+        &[
+            "m r̈ = −k s",
+            "inertia ω̇_q + ω_q×(inertia ω_q) = k ((A_qᵀ s)×c)",
+        ],
+    ),
+    // A turned vector is turned again.
+    (
+        "#[coordinates(q: [4])] #[frame(body: rotate(q))]
+         #[define(u = position(body, c))] #[define(w = position(body, [u[0], u[1], u[2]]))]
+         #[lagrangian(kinetic(body, 0, [0, 0, 0], I) - k*dot(e, w))]
+         struct TurnedTwice { k: f64, c: Vector3<f64>, e: Vector3<f64>, I: Matrix3<f64> }",
+        &[],
+    ),
 ];
 
 #[test]
