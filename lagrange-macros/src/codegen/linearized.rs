@@ -23,7 +23,8 @@ pub(super) struct Changing {
 
 impl Changing {
     pub(super) fn new(graph: &Graph, linearization: &Linearization) -> Self {
-        let programs = |changes: &Changes| Program::of_changes(graph, &changes.roots());
+        let programs =
+            |changes: &Changes| Program::of_changes(graph, &changes.roots(), &linearization.residual);
         Self {
             by_state: programs(&linearization.by_state),
             by_parameters: programs(&linearization.by_parameters),

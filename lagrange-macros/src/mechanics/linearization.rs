@@ -16,6 +16,8 @@ pub(crate) struct Linearization {
     pub(crate) by_state: Changes,
     /// Derivatives along a direction in the parameters.
     pub(crate) by_parameters: Changes,
+    /// What is differentiated: the residual.
+    pub(crate) residual: Vec<Id>,
 }
 
 /// Directional derivatives of the residuals.
@@ -31,7 +33,7 @@ pub(crate) struct Changes {
 }
 
 impl Linearization {
-    /// All expressions, as roots in the graph.
+    /// All derivatives, as roots in the graph.
     pub(crate) fn roots(&self) -> Vec<Id> {
         [self.by_state.roots(), self.by_parameters.roots()].concat()
     }
@@ -82,6 +84,12 @@ pub(super) fn linearize(
     };
     let all = changes(problem);
     let (state, parameters) = all.split_at(1 + 2 * problem.coordinates.len());
-    let linearization = Linearization { by_state: along(state), by_parameters: along(parameters) };
+    let residual =
+        [&equations.balance, &equations.constraint_acceleration, &equations.rate, &equations.residual];
+    let linearization = Linearization {
+        by_state: along(state),
+        by_parameters: along(parameters),
+        residual: residual.into_iter().flatten().copied().collect(),
+    };
     graph.take_fault().is_none().then_some(linearization)
 }

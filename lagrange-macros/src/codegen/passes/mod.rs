@@ -39,10 +39,12 @@ impl Program {
     }
 
     /// Compiles directional derivatives to two programs. The first computes the numbers that do not depend on the
-    /// direction, the second applies them to a direction. A derivative that does not exist does not spoil the others.
-    pub(super) fn of_changes(graph: &Graph, roots: &[Id]) -> [Self; 2] {
-        let (schedule, results) = scheduled(graph, roots);
-        let (schedule, results) = guard::guarded(&schedule, &results);
+    /// direction, the second applies them to a direction. A derivative that does not exist does not spoil the others,
+    /// where `residual`, which is differentiated, is finite.
+    pub(super) fn of_changes(graph: &Graph, roots: &[Id], residual: &[Id]) -> [Self; 2] {
+        let (schedule, registers) = scheduled(graph, &[roots, residual].concat());
+        let (results, residual) = registers.split_at(roots.len());
+        let (schedule, results) = guard::guarded(&schedule, results, residual);
         let whole = Self::new(schedule, results);
         let split::TwoParts { slopes, changes } = split::split(&whole.schedule, &whole.results);
         [slopes, changes].map(|(schedule, results)| Self::unchanged(schedule, results))

@@ -195,7 +195,7 @@ fn a_slope_that_does_not_exist_counts_only_where_something_changes() {
     let root = schedule.push(Operation::SquareRoot(x));
     let rate = schedule.push(Operation::Divide(changes[0], root));
     let sum = schedule.push(Operation::Add(rate, changes[1]));
-    let (new, results) = guard::guarded(&schedule, &[sum]);
+    let (new, results) = guard::guarded(&schedule, &[sum], &[root]);
     let value = |schedule: &Schedule, results: &[Register], x: f64, changes: [f64; 2]| {
         schedule.values(results, |symbol| match Variable::of(symbol) {
             Variable::Change(i) => changes[i],
@@ -206,6 +206,48 @@ fn a_slope_that_does_not_exist_counts_only_where_something_changes() {
     assert_eq!(value(&new, &results, 0.0, [0.0, 2.0]), 2.0);
     assert_eq!(value(&new, &results, 4.0, [3.0, 2.0]), 3.5);
     assert_eq!(value(&new, &results, 0.0, [1.0, 2.0]), f64::INFINITY);
+}
+
+/// dx/x²: at x = 0, 1/x is infinite, so nothing is lost; the residuals 1/(1/x) and atan(1/x) stay finite.
+#[test]
+fn a_slope_is_guarded_unless_the_residual_is_infinite_with_it() {
+    let guards = |residual: fn(&mut Schedule, Register, Register) -> Register| {
+        let mut schedule = Schedule::default();
+        let x = input(&mut schedule, 0);
+        let one = schedule.push(Operation::Constant(1.0_f64.to_bits()));
+        let residual = residual(&mut schedule, x, one);
+        let square = schedule.push(Operation::Multiply(x, x));
+        let change = schedule.push(Operation::Input(Variable::Change(0).symbol()));
+        let rate = schedule.push(Operation::Divide(change, square));
+        let (new, _) = guard::guarded(&schedule, &[rate], &[residual]);
+        new.operations.iter().filter(|operation| matches!(operation, Operation::Where(..))).count()
+    };
+    let inverse = |schedule: &mut Schedule, x, one| schedule.push(Operation::Divide(one, x));
+    assert_eq!(guards(inverse), 0);
+    assert_eq!(
+        guards(|schedule, x, one| {
+            let inverse = schedule.push(Operation::Divide(one, x));
+            let product = schedule.push(Operation::Multiply(inverse, x));
+            let negative = schedule.push(Operation::Negate(product));
+            schedule.push(Operation::Subtract(one, negative))
+        }),
+        0
+    );
+    assert_eq!(guards(|_, x, _| x), 1);
+    assert_eq!(
+        guards(|schedule, x, one| {
+            let inverse = schedule.push(Operation::Divide(one, x));
+            schedule.push(Operation::Divide(one, inverse))
+        }),
+        1
+    );
+    assert_eq!(
+        guards(|schedule, x, one| {
+            let inverse = schedule.push(Operation::Divide(one, x));
+            schedule.push(Operation::Function(Function::Atan, inverse))
+        }),
+        1
+    );
 }
 
 /// a b dx − (a b dy)/c + sin(a) (b dx): the coefficients are formed first, and each multiplies a rate once.
