@@ -47,7 +47,7 @@ impl Program {
         let (schedule, results) = guard::guarded(&schedule, results, residual);
         let whole = Self::new(schedule, results);
         let split::TwoParts { slopes, changes } = split::split(&whole.schedule, &whole.results);
-        [slopes, changes].map(|(schedule, results)| Self::unchanged(schedule, results))
+        [slopes, changes].map(|(schedule, results)| Self::unchanged(schedule, results).fused())
     }
 
     /// Compiles functions that are linear in Taylor coefficients. The first program computes the numbers that do not

@@ -462,7 +462,7 @@ const _: () = {
             let r5 = __lagrange::Scalar::sin(theta);
             [(m * 2.0), l, g, m, theta_ddot, r5, (r5 * (m * g))]
         }
-        ///12 operations (+ − × ÷ √), 0 elementary functions.
+        ///12 operations (+ − × ÷ √), 0 elementary functions. 4 products fused with sums.
         #[inline]
         #[allow(unused_variables)]
         fn residual_change_by_parameters_with<__S: __lagrange::Broadcast<f64>>(
@@ -480,12 +480,19 @@ const _: () = {
             let s4 = __S::of(slopes[4]);
             let s5 = __S::of(slopes[5]);
             let s6 = __S::of(slopes[6]);
-            let r21 = (d_l * s6)
-                + (s1
-                    * ((((d_l * s0) + (d_m * s1)) * s4)
-                        + (((d_m * s2) + (d_g * s3)) * s5)));
             __lagrange::ResidualChange {
-                motion: __lagrange::generated::vector([r21]),
+                motion: __lagrange::generated::vector([
+                    (__lagrange::Scalar::multiply_add(
+                        s1,
+                        (__lagrange::Scalar::multiply_add(
+                            (__lagrange::Scalar::multiply_add(d_g, s3, (d_m * s2))),
+                            s5,
+                            ((__lagrange::Scalar::multiply_add(d_m, s1, (d_l * s0)))
+                                * s4),
+                        )),
+                        (d_l * s6),
+                    )),
+                ]),
                 acceleration: __lagrange::generated::vector([]),
                 rate: __lagrange::generated::vector([]),
                 position: __lagrange::generated::vector([]),
