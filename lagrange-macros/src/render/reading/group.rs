@@ -146,11 +146,18 @@ impl Collector<'_, '_> {
         Some((number, monomial, quotient))
     }
 
-    /// Takes ½ out of a sum that moves, ½ m (1 + 4 c² r²) for m (½ + 2 c² r²): books write it once, in front. Sums of terms of
-    /// different degrees in the momenta stay: p − ½ e B x.
+    /// Takes ½ out of a sum that moves if half of its terms have it, ½ m (1 + 4 c² r²) for m (½ + 2 c² r²), and puts it under the
+    /// bar of a sum: books write it once. Sums of terms of different degrees in the momenta stay: p − ½ e B x.
     fn take_half(&self, group: &mut Group) -> Option<()> {
         let (two, quotient) = (Rational::from_integer(2), &group.quotient);
-        if !self.are_constant(quotient) && self.are_alike(quotient) && quotient.denominators()? == two {
+        if self.are_constant(quotient) || !self.are_alike(quotient) || quotient.denominators()? != two {
+            return Some(());
+        }
+        let is_sum = |atom| matches!(self.expansion.atoms.meaning(atom), Meaning::Sum(_));
+        let mut factors = group.monomial.factors().iter();
+        let has_bar = factors.any(|&(atom, e)| is_sum(atom) && e.is_negative() && e.is_integer());
+        let halves = quotient.terms().filter(|(_, c)| !c.is_integer()).count();
+        if has_bar || 2 * halves >= quotient.len() {
             group.quotient = quotient.scaled(&Monomial::default(), two)?;
             group.number = symbolic::times(group.number, two.recip())?;
         }
