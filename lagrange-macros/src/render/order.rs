@@ -70,7 +70,7 @@ impl Page<'_> {
         if ordered[0].is_negative() && !terms[0].is_negative() { terms } else { ordered }
     }
 
-    /// The factors, with the parameters among them in the order of their ranks.
+    /// The factors, with the parameters among them in the order in which the user multiplies them, as m g l.
     fn by_rank(&self, mut factors: Vec<Formula>) -> Vec<Formula> {
         let rank = |factor: &Formula| match factor {
             Formula::Power(base, _) => self.ranks_by_name.get(base.as_ref()),

@@ -26,7 +26,7 @@ pub(super) struct Page<'a> {
     pub(super) symbols: Vec<u64>,
     /// Place of each node in a sum, by the variable in it that comes first.
     pub(super) leads: Vec<(u8, u32, u32, u32)>,
-    /// Rank of each parameter in products.
+    /// Rank of each parameter: in a product, that of the lower rank comes first, as in m g l.
     pub(super) ranks: Vec<usize>,
     /// The same by the names of the parameters.
     pub(super) ranks_by_name: FxHashMap<Formula, usize>,
@@ -208,8 +208,9 @@ fn named<'e>(expression: &'e Expression, definitions: &Definitions<'e>) -> Vec<&
     }
 }
 
-/// Place of each node in a sum: those with momenta and velocities come first, then those with coordinates, with
-/// parameters alone, and with time, as in a + b t. Among them, those of one variable come before those of several, in the order of the variables.
+/// Place of each node in a sum: nodes with momenta and velocities come first, then those with coordinates, with
+/// parameters alone, and with time, as in a + b t. Of one kind, nodes of one variable come before those of several, in the
+/// order of the variables.
 /// A sum as a factor has the place of its first term.
 fn leads(graph: &Graph) -> Vec<(u8, u32, u32, u32)> {
     let mut places: Vec<TermPlace> = Vec::with_capacity(graph.len());

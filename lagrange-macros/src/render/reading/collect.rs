@@ -66,7 +66,8 @@ impl Collector<'_, '_> {
         degrees.into_values().collect()
     }
 
-    /// Terms of a sum, some of them products of several terms that `may_be` accepts, with their places.
+    /// Formulas of the terms of a sum, with their places in it. Terms that share factors become one product if `may_be` accepts
+    /// their group.
     pub(super) fn parts(
         &self,
         polynomial: &Polynomial,

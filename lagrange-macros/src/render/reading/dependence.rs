@@ -1,4 +1,4 @@
-//! What factors, terms and sums depend on.
+//! Tells which variables the factors, terms and sums of a polynomial depend on.
 
 use num_traits::{One, Signed};
 
@@ -9,7 +9,7 @@ use crate::symbolic::{self, Rational};
 use crate::variables::Variable;
 
 impl Collector<'_, '_> {
-    /// Variable of an atom, or all variables in a product of vectors.
+    /// The variable that an atom is, or all variables of the factors if it is a product of vectors.
     pub(super) fn variables(&self, atom: Atom) -> &[Variable] {
         match self.expansion.atoms.meaning(atom) {
             Meaning::Variable(variable) => std::slice::from_ref(variable),
@@ -45,7 +45,7 @@ impl Collector<'_, '_> {
         self.depends_on(atom, |variable| matches!(variable, Variable::Parameter(_)))
     }
 
-    /// Returns whether an atom depends on variables that `may_occur` accepts only.
+    /// True if an atom depends on no other variables than those that `may_occur` accepts.
     fn depends_on(&self, atom: Atom, may_occur: fn(&Variable) -> bool) -> bool {
         let all = |polynomial: &Polynomial| self.consists_of(polynomial, may_occur);
         match self.expansion.atoms.meaning(atom) {

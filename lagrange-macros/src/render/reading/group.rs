@@ -29,7 +29,7 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// Sort key: the saving, then the length of the common factor.
+    /// Key by which the best group is found: the symbols saved, then those of the common factor.
     pub(super) fn worth(&self) -> (isize, isize) {
         (self.saving, self.size)
     }

@@ -150,7 +150,8 @@ impl Page<'_> {
         self.unmixed(id, |collector, all| collector.sum(all))
     }
 
-    /// Shortest formula of a node. One with velocities, and definitions of velocities beside them, gives way to one without.
+    /// Shortest formula of a node. A formula that has velocities both by themselves and inside definitions is taken only if there
+    /// is no other.
     fn unmixed(&self, id: Id, write: fn(&Collector, &Polynomial) -> Formula) -> Result<Formula, u64> {
         let computed = self.computed([&[id]]).map(|[formula]| formula);
         let is_mixed = |formula: &Formula| self.hides(formula) && formula.has_velocity();

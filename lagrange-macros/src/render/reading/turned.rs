@@ -16,41 +16,41 @@ use crate::variables::Variable;
 /// Matrices, the vectors of three that they may multiply, and the products found so far.
 #[derive(Default)]
 pub(super) struct Tensors {
-    matrices: Vec<Matrix>,
-    vectors: Vec<Vector>,
+    matrices: Vec<NamedMatrix>,
+    vectors: Vec<NamedVector>,
     /// Matrix, row and column of each entry.
     entries: FxHashMap<Atom, Vec<[usize; 3]>>,
     /// Vector and index of each component.
     components: FxHashMap<Atom, [usize; 2]>,
-    products: FxHashMap<Factors, usize>,
+    products: FxHashMap<TensorProduct, usize>,
 }
 
-struct Matrix {
+struct NamedMatrix {
     written: Formula,
     entries: [[Atom; 3]; 3],
     is_rotation: bool,
 }
 
-struct Vector {
+struct NamedVector {
     written: Formula,
     components: [Atom; 3],
     /// True if the components are velocities, accelerations or multipliers.
     is_moving: bool,
     /// The product that the vector is, if it is one.
-    product: Option<Factors>,
+    product: Option<TensorProduct>,
 }
 
-/// Factors of a product of a matrix and a vector.
+/// TensorProduct of a product of a matrix and a vector.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-struct Factors {
+struct TensorProduct {
     matrix: usize,
     is_transposed: bool,
-    vector: Operand,
+    vector: TurnedVector,
 }
 
 /// A vector that a matrix multiplies.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-enum Operand {
+enum TurnedVector {
     Vector(usize),
     /// v × w
     Cross(usize, usize),
@@ -61,7 +61,7 @@ enum Operand {
 /// A sum of products that is known: a component of a product, or an entry of A Aᵀ or AᵀA.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Known {
-    Component(Factors, usize),
+    Component(TensorProduct, usize),
     Unit { matrix: usize, is_transposed: bool, of: [usize; 2] },
 }
 
@@ -73,28 +73,28 @@ impl Tensors {
                 self.entries.entry(entry).or_default().push([matrix, i, j]);
             }
         }
-        self.matrices.push(Matrix { written, entries, is_rotation });
+        self.matrices.push(NamedMatrix { written, entries, is_rotation });
     }
 
-    fn add(&mut self, vector: Vector) {
+    fn add(&mut self, vector: NamedVector) {
         let number = self.vectors.len();
         self.components.extend(vector.components.into_iter().zip(0..).map(|(atom, k)| (atom, [number, k])));
         self.vectors.push(vector);
     }
 
     /// Component of a vector as a sum of products.
-    fn component(&self, vector: Operand, of: usize) -> Option<Vec<(Monomial, Rational)>> {
+    fn component(&self, vector: TurnedVector, of: usize) -> Option<Vec<(Monomial, Rational)>> {
         let one = Rational::one();
         let [b, c] = [(of + 1) % 3, (of + 2) % 3];
         let product = |x: Atom, y: Atom, z: Atom| Monomial::product(x, y).times(&Monomial::of(z, one));
         match vector {
-            Operand::Vector(v) => Some(vec![(Monomial::of(self.vectors[v].components[of], one), one)]),
-            Operand::Cross(v, w) => {
+            TurnedVector::Vector(v) => Some(vec![(Monomial::of(self.vectors[v].components[of], one), one)]),
+            TurnedVector::Cross(v, w) => {
                 let [v, w] = [v, w].map(|vector| self.vectors[vector].components);
                 Some(vec![(Monomial::product(v[b], w[c]), one), (Monomial::product(v[c], w[b]), -one)])
             }
             // v (v·w) − w (v·v)
-            Operand::DoubleCross(v, w) => {
+            TurnedVector::DoubleCross(v, w) => {
                 let [v, w] = [v, w].map(|vector| self.vectors[vector].components);
                 let both = |l: usize| {
                     let square = Monomial::of(v[l], one + one);
@@ -106,18 +106,18 @@ impl Tensors {
         }
     }
 
-    fn written(&self, Factors { matrix, is_transposed, vector }: Factors) -> Formula {
+    fn written(&self, TensorProduct { matrix, is_transposed, vector }: TensorProduct) -> Formula {
         let matrix = self.matrices[matrix].written.clone();
         let matrix = if is_transposed { Formula::Transpose(Box::new(matrix)) } else { matrix };
         let name = |vector: usize| self.vectors[vector].written.clone();
         let cross = |v: Formula, w: Formula| Formula::Call("cross".to_owned(), vec![v, w]);
         let vector = match vector {
-            Operand::Vector(v) => match name(v) {
+            TurnedVector::Vector(v) => match name(v) {
                 Formula::Product(factors, _) => factors,
                 vector => vec![vector],
             },
-            Operand::Cross(v, w) => vec![cross(name(v), name(w))],
-            Operand::DoubleCross(v, w) => vec![cross(name(v), cross(name(v), name(w)))],
+            TurnedVector::Cross(v, w) => vec![cross(name(v), name(w))],
+            TurnedVector::DoubleCross(v, w) => vec![cross(name(v), cross(name(v), name(w)))],
         };
         Formula::Product([matrix].into_iter().chain(vector).collect(), Vec::new())
     }
@@ -157,24 +157,24 @@ impl Tensors {
             let ways = &ways[..if self.is_symmetric(matrix) { 1 } else { 2 }];
             for &(is_transposed, of, along) in ways {
                 let operands = self.operands(monomial, &components, along);
-                let factors = |vector| Factors { matrix, is_transposed, vector };
+                let factors = |vector| TensorProduct { matrix, is_transposed, vector };
                 known.extend(operands.into_iter().map(|vector| Known::Component(factors(vector), of)));
             }
         }
     }
 
     /// Vectors whose component `along` the components in a monomial may belong to.
-    fn operands(&self, monomial: &Monomial, components: &[[usize; 2]], along: usize) -> Vec<Operand> {
+    fn operands(&self, monomial: &Monomial, components: &[[usize; 2]], along: usize) -> Vec<TurnedVector> {
         let mut operands = Vec::new();
         for &[v, k] in components {
             if k == along {
-                operands.push(Operand::Vector(v));
+                operands.push(TurnedVector::Vector(v));
             }
             let is_square = monomial.exponent(self.vectors[v].components[k]) > Rational::one();
             for &[w, l] in components {
                 if v != w && self.leads(v, w) && k != along {
-                    operands.extend((l == 3 - along - k).then_some(Operand::Cross(v, w)));
-                    operands.extend((l == along && is_square).then_some(Operand::DoubleCross(v, w)));
+                    operands.extend((l == 3 - along - k).then_some(TurnedVector::Cross(v, w)));
+                    operands.extend((l == along && is_square).then_some(TurnedVector::DoubleCross(v, w)));
                 }
             }
         }
@@ -233,10 +233,14 @@ impl Atoms {
     }
 
     /// Component of matrix · vector: of the inner vector for Aᵀ (A c), else one that is an atom of its own.
-    fn component_of_product(&mut self, factors: Factors, of: usize) -> Option<Vec<(Monomial, Rational)>> {
-        let Factors { matrix, is_transposed, vector } = factors;
+    fn component_of_product(
+        &mut self,
+        factors: TensorProduct,
+        of: usize,
+    ) -> Option<Vec<(Monomial, Rational)>> {
+        let TensorProduct { matrix, is_transposed, vector } = factors;
         let inner = match vector {
-            Operand::Vector(v) => self.tensors.vectors[v].product,
+            TurnedVector::Vector(v) => self.tensors.vectors[v].product,
             _ => None,
         };
         let inner = inner.filter(|inner| {
@@ -248,15 +252,15 @@ impl Atoms {
         }
         let known = self.tensors.products.get(&factors).copied();
         let vector = known.unwrap_or_else(|| self.add_product(factors));
-        self.tensors.component(Operand::Vector(vector), of)
+        self.tensors.component(TurnedVector::Vector(vector), of)
     }
 
-    fn add_product(&mut self, factors: Factors) -> usize {
+    fn add_product(&mut self, factors: TensorProduct) -> usize {
         let tensors = &self.tensors;
         let written = tensors.written(factors);
         let of = match factors.vector {
-            Operand::Vector(v) => vec![v],
-            Operand::Cross(v, w) | Operand::DoubleCross(v, w) => vec![v, w],
+            TurnedVector::Vector(v) => vec![v],
+            TurnedVector::Cross(v, w) | TurnedVector::DoubleCross(v, w) => vec![v, w],
         };
         let of: Vec<[Atom; 3]> = of.into_iter().map(|vector| tensors.vectors[vector].components).collect();
         let components = [0, 1, 2].map(|k| {
@@ -267,7 +271,7 @@ impl Atoms {
         });
         let is_moving = of.iter().any(|components| !self.moving_variables(components[0]).is_empty());
         let number = self.tensors.vectors.len();
-        self.tensors.add(Vector { written, components, is_moving, product: Some(factors) });
+        self.tensors.add(NamedVector { written, components, is_moving, product: Some(factors) });
         self.tensors.products.insert(factors, number);
         number
     }
@@ -286,7 +290,7 @@ impl Atoms {
 
     pub(super) fn add_vector(&mut self, written: Formula, components: [Atom; 3]) {
         let is_moving = !self.moving_variables(components[0]).is_empty();
-        self.tensors.add(Vector { written, components, is_moving, product: None });
+        self.tensors.add(NamedVector { written, components, is_moving, product: None });
     }
 
     /// Writes a vector by this name if it is a product of a matrix and a vector, as n = Aᵀ e.
