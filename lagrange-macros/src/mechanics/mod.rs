@@ -51,7 +51,7 @@ pub(crate) use integrability::{Classification, Integrability, Integrals};
 use linearization::linearize;
 pub(crate) use linearization::{Changes, Linearization, changes};
 pub(crate) use marker::Marker;
-pub(crate) use twists::{Euler, Turning, Turnings};
+pub(crate) use twists::{ChainRule, Dependence, Euler, Link, Resultants, RigidBody, Turning, Turnings};
 
 /// Results derived from a problem. Their expressions are nodes of the graph of the problem.
 pub(crate) struct Derived {
@@ -63,6 +63,8 @@ pub(crate) struct Derived {
     pub(crate) inertia: Vec<Id>,
     /// Rotations by quaternions, with their equations of motion, for display
     pub(crate) turnings: Turnings,
+    /// Rigid bodies by the forces and torques on them, for display
+    pub(crate) resultants: Option<Resultants>,
     /// Shorter expression to display in place of each key, found by inlining definitions that frames introduce.
     pub(crate) read: FxHashMap<Id, Id>,
     /// Hamilton's equations in symbols, or the reason why they are missing
@@ -92,7 +94,20 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
     read.extend(of_frames.into_iter().flatten().map(|id| (id, shorter(graph, id))));
     let hamilton = Hamilton::derive(graph, problem, &equations);
     let markers = Marker::proved(graph, &equations);
-    Some(Derived { equations, facts, energies, inertia, turnings, read, hamilton, linearization, markers })
+    let resultants = Resultants::of(graph, problem, &turnings);
+    graph.take_fault();
+    Some(Derived {
+        equations,
+        facts,
+        energies,
+        inertia,
+        turnings,
+        resultants,
+        read,
+        hamilton,
+        linearization,
+        markers,
+    })
 }
 
 /// Replaces the intermediate names of frames by their values, which shortens the printed equations.

@@ -4,14 +4,17 @@ use rustc_hash::FxHashSet;
 
 use super::axes::named_axes;
 use super::formula::Formula;
-use crate::mechanics::Turnings;
+use super::links::BodyNames;
+use super::roots::{is_taken, taken};
+use crate::mechanics::Derived;
 use crate::resolve::Problem;
 
 /// Set of array names, with empty brackets for each index: `r`, `p[]`, `link[].c`.
 pub(super) struct Arrays(FxHashSet<String>);
 
 impl Arrays {
-    pub(super) fn of(problem: &Problem, turnings: &Turnings) -> Self {
+    pub(super) fn of(problem: &Problem, derived: &Derived) -> Self {
+        let turnings = &derived.turnings;
         let mut arrays = Self(FxHashSet::default());
         for label in &problem.coordinates {
             ["", "p_", "R_", "Q_"].iter().for_each(|of| arrays.add(&format!("{of}{}", label.text)));
@@ -22,6 +25,11 @@ impl Arrays {
             ["omega_", "I_"].iter().for_each(|of| arrays.add(&format!("{of}{quaternion}[0]")));
         }
         named_axes(problem, turnings).iter().for_each(|axes| arrays.add(&format!("{}[0][0]", axes.text)));
+        BodyNames::of(problem, derived).iter().for_each(|names| arrays.add_bodies(names));
+        let taken = taken(problem);
+        let is_free = |name: &&str| !is_taken(&taken, name);
+        let constraints = problem.constraints.iter().map(|(label, _)| &*label.text);
+        constraints.filter(is_free).for_each(|name| arrays.add(name));
         problem.names.values().for_each(|name| arrays.add(name));
         problem.functions.iter().flat_map(|function| &function.names).for_each(|name| arrays.add(name));
         problem.observables.iter().flat_map(|observed| observed.names()).for_each(|name| arrays.add(&name));
@@ -35,6 +43,15 @@ impl Arrays {
             key.truncate(key.len() - 2);
             self.0.insert(key.clone());
         }
+    }
+
+    fn add_bodies(&mut self, BodyNames { links, bodies }: &BodyNames) {
+        let matrices =
+            links.iter().flat_map(|link| &link.axes).chain(bodies.iter().map(|body| &body.inertia));
+        matrices.for_each(|matrix| self.add(&format!("{matrix}[0][0]")));
+        let of_bodies = bodies.iter().flat_map(|body| [&body.position, &body.force, &body.torque]);
+        let vectors = links.iter().map(|link| &link.rate).chain(of_bodies);
+        vectors.for_each(|vector| self.add(&format!("{vector}[0]")));
     }
 
     pub(super) fn contains(&self, formula: &Formula) -> bool {

@@ -80,8 +80,8 @@ impl Page<'_> {
     }
 
     fn energy_line(&self, remark: Vec<Fragment>) -> Line {
-        let of_turnings = self.energy_of_turnings();
-        let energy = of_turnings.unwrap_or_else(|| {
+        let of_turnings = || self.energy_of_turnings().filter(|_| self.bodies.is_none());
+        let energy = self.energy_by_bodies().map(Ok).or_else(of_turnings).unwrap_or_else(|| {
             let apart = self.derived.energies.and_then(|energies| self.energy(energies));
             apart.map_or_else(|| self.quantity(self.derived.equations.energy), Ok)
         });

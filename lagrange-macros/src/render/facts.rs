@@ -43,10 +43,11 @@ impl Page<'_> {
     fn conserved_momentum(&self, name: &str, a: usize) -> Option<Line> {
         let (rows, line) = self.all_momenta().into_iter().find(|(rows, _)| rows.contains(&a))?;
         if self.are_conserved(&rows) {
+            let line = if rows.len() == 1 { self.shorter_momentum(line, a) } else { line };
             return (rows.start == a).then_some(line);
         }
         let momentum = self.momentum(self.derived.equations.momentum[a]);
-        Some(Line::known(Formula::labelled(name, 0), momentum))
+        Some(self.shorter_momentum(Line::known(Formula::labelled(name, 0), momentum), a))
     }
 
     /// Terms of the Lagrangian that are total time derivatives.

@@ -4,6 +4,9 @@ use super::formula::Formula;
 use super::notation::Notation;
 use super::remark::Remark;
 
+/// Longest equation, in symbols, that fits on a line.
+pub(super) const LINE: usize = 60;
+
 /// A heading, the lines below it, and a note on all of the lines. Each line has a label, an equation and a remark.
 pub(super) struct Section {
     pub(super) heading: &'static str,
@@ -28,6 +31,10 @@ impl Line {
         Self { label: None, equation, remark: Remark::default() }
     }
 
+    pub(super) fn labelled(label: &Formula, equation: Equation) -> Self {
+        Self { label: Some(Notation::UNICODE.write(label)), ..Self::of(equation) }
+    }
+
     /// True if a name stands in the equation or in the remark on it.
     pub(super) fn has_name(&self, name: &Formula) -> bool {
         let is_in_equation = match &self.equation {
@@ -38,6 +45,10 @@ impl Line {
             Equation::TooLong(_) => false,
         };
         is_in_equation || self.remark.has_name(name)
+    }
+
+    pub(super) fn is_too_long(&self) -> bool {
+        matches!(self.equation, Equation::TooLong(_))
     }
 
     /// Replaces the formulas of the equation and of the remark.

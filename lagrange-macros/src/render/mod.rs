@@ -3,6 +3,7 @@
 mod arrays;
 mod axes;
 mod binding;
+mod chain_rule;
 mod derived;
 mod digits;
 mod energy;
@@ -14,6 +15,7 @@ mod kinds;
 mod latex;
 mod length;
 mod lines;
+mod links;
 mod motion;
 mod names;
 mod notation;
@@ -23,6 +25,7 @@ mod pieces;
 mod product;
 mod reading;
 mod remark;
+mod resultants;
 mod roots;
 mod spelling;
 mod supplied;
@@ -63,7 +66,7 @@ pub(crate) fn render(
     derived: &Derived,
 ) -> Rendered {
     let page = |names| Page::new(declaration, graph, problem, derived, names);
-    let shortest = page(Names::Shortest);
+    let mut shortest = page(Names::Shortest);
     let totals = shortest.total_derivatives();
     let total_derivatives = totals.iter().map(|formula| Notation::UNICODE.write(formula)).collect();
     let shortest = shortest.forms();
@@ -76,8 +79,9 @@ pub(crate) fn render(
 
 impl Page<'_> {
     /// Renders the page as text, as LaTeX and as HTML.
-    fn forms(&self) -> [String; 3] {
-        let Self { problem, derived, .. } = self;
+    fn forms(&mut self) -> [String; 3] {
+        let motion = self.motion();
+        let Self { problem, derived, .. } = *self;
         let term = |formula| Line::of(Equation::Term(formula));
         let section = |heading, lines| Section { heading, lines, note: None };
         let mut sections = [
@@ -88,7 +92,7 @@ impl Page<'_> {
             },
             Section {
                 note: problem.frames_are_cheaper.then(|| IN_FRAMES.to_owned()),
-                ..section("Equations of motion", self.motion())
+                ..section("Equations of motion", motion)
             },
             section("Constraint forces", self.constraint_forces()),
             section("Conserved", self.conserved()),
@@ -106,7 +110,10 @@ impl Page<'_> {
             section.lines.iter_mut().for_each(|line| line.map(|formula| self.as_written(formula)));
         }
         let mut roots = self.root_lines(sections[1..].iter().flat_map(|section| &section.lines));
-        roots.extend(self.axes_lines(sections[1..].iter().flat_map(|section| &section.lines)));
+        let bodies = self.mentioned_of_bodies(&sections[1..]);
+        let lines = sections[1..].iter().flat_map(|section| &section.lines).chain(&bodies);
+        roots.extend(self.axes_lines(lines));
+        roots.extend(bodies);
         roots.iter_mut().for_each(|line| line.map(|formula| self.as_written(formula)));
         sections[0].lines.extend(roots);
         let name = self.declaration.ident.to_string();

@@ -3,16 +3,39 @@
 use std::ops::Range;
 
 use super::formula::Formula;
-use super::lines::{Equation, Line};
-use super::notation::Notation;
+use super::length::length;
+use super::lines::{Equation, LINE, Line};
 use super::page::Page;
+use super::resultants::Speed;
 use crate::mechanics::{Derived, Turning};
 use crate::resolve::Label;
 use crate::symbolic::Id;
 
+/// Lines of an equation of motion and of the names in it, and the velocities whose equations these are.
+pub(super) struct Row {
+    pub(super) speeds: Vec<Speed>,
+    pub(super) lines: Vec<Line>,
+}
+
 impl Page<'_> {
+    /// Equations of motion. If one is too long to be read, it and all others that take more than a line are given by the
+    /// forces and torques on bodies.
+    pub(super) fn motion(&mut self) -> Vec<Line> {
+        let rows = self.rows();
+        if rows.iter().flat_map(|row| &row.lines).any(Line::is_too_long) {
+            self.name_bodies();
+        }
+        let lines = rows.into_iter().flat_map(|row| match self.by_bodies(&row) {
+            Some(lines) => lines,
+            None => row.lines,
+        });
+        let mut lines: Vec<Line> = lines.collect();
+        lines.extend(self.resultant_lines(&lines));
+        lines
+    }
+
     /// Rows Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, one for each coordinate or vector of coordinates.
-    pub(super) fn motion(&self) -> Vec<Line> {
+    fn rows(&self) -> Vec<Row> {
         let Derived { equations, inertia, .. } = self.derived;
         let right = |i: usize| {
             let right = [Some(&equations.printed_forcing[i]), equations.printed_force.get(i)];
@@ -23,30 +46,44 @@ impl Page<'_> {
         self.derived.turnings.coupled.iter().for_each(|(i, row)| rows[*i] = row.clone());
         let mut first = 0;
         let lines = self.vectors().flat_map(|labels| {
-            let turning = self.derived.turnings.all.iter().find(|turning| turning.first == first);
+            let turning = self.derived.turnings.all.iter().position(|turning| turning.first == first);
             let own = first;
             first += labels.len();
             let others = rows.split_off(labels.len());
             let rows = std::mem::replace(&mut rows, others);
-            let line = |text: &str, equation| {
-                let label = Some(Notation::UNICODE.write(&Formula::labelled(text, 0)));
-                Line { label, ..Line::of(equation) }
+            let row = |text: &str, own: Range<usize>, equation| {
+                let line = Line::labelled(&Formula::labelled(text, 0), equation);
+                Row { speeds: own.map(Speed::Coordinate).collect(), lines: vec![line] }
             };
             let whole = (labels.len() > 1).then(|| self.vector_row(own, &rows)).flatten();
             if let Some(turning) = turning {
                 return self.turning(turning, labels);
             }
             match (whole, vector(&labels[0].text)) {
-                (Some([left, right]), Some(text)) => vec![line(text, Equation::Known(left, right))],
+                (Some([left, right]), Some(text)) => {
+                    vec![row(text, own..first, Equation::Known(left, right))]
+                }
                 _ => labels
                     .iter()
                     .zip(own..)
                     .zip(&rows)
-                    .map(|((label, own), row)| line(&label.text, self.row(own, row.0, &row.1)))
+                    .map(|((label, own), sides)| {
+                        row(&label.text, own..own + 1, self.row(own, sides.0, &sides.1))
+                    })
                     .collect(),
             }
         });
         lines.collect()
+    }
+
+    /// The equations of a row by forces and torques on bodies; `None` if the row fits on a line, or if they are too long, too.
+    fn by_bodies(&self, row: &Row) -> Option<Vec<Line>> {
+        let is_short = row.lines.first().is_some_and(|line| match &line.equation {
+            Equation::Known(left, right) => length(left) + length(right) <= LINE,
+            _ => false,
+        });
+        (!is_short && !row.speeds.is_empty()).then_some(())?;
+        row.speeds.iter().map(|&speed| self.row_by_bodies(speed)).collect()
     }
 
     /// Coordinates in groups: the components of each vector together, all others alone.
@@ -62,7 +99,14 @@ impl Page<'_> {
         let forces = &self.derived.equations.printed_force;
         let by_vector =
             self.by_vector(forces, Self::expression, |text| Formula::labelled(&format!("R_{text}"), 0));
-        let lines = by_vector.into_iter().filter_map(|(rows, line)| {
+        let lines = by_vector.into_iter().map(|(rows, line)| {
+            let by_names =
+                (self.bodies.is_some() && rows.len() == 1).then(|| self.constraint_force(rows.start));
+            let left = |i: usize| Formula::labelled(&format!("R_{}", self.problem.coordinates[i].text), 0);
+            let line = by_names.map(|force| Line::known(left(rows.start), force)).unwrap_or(line);
+            (rows, line)
+        });
+        let lines = lines.filter_map(|(rows, line)| {
             let of = |turning: &&Turning| (turning.first..turning.first + 4).contains(&rows.start);
             let turns = |turning: &&Turning| turning.constraint.0 != [Id::ZERO; 3];
             match self.derived.turnings.all.iter().find(of).filter(|_| rows.len() == 1).filter(turns) {

@@ -7,6 +7,7 @@ use super::arrays::Arrays;
 use super::axes::{NamedAxes, named_axes};
 use super::formula::Formula;
 use super::length::{length, symbols};
+use super::links::NamedBodies;
 use super::motion::vector;
 use super::reading::{Names, Reading, constants, readings};
 use super::roots::{NamedRoot, named_roots};
@@ -37,6 +38,8 @@ pub(super) struct Page<'a> {
     pub(super) arrays: Arrays,
     pub(super) roots: Vec<NamedRoot>,
     pub(super) axes: Vec<NamedAxes>,
+    /// Names of bodies, once an equation of motion by coordinates is too long to be read.
+    pub(super) bodies: Option<NamedBodies>,
     /// Length of the definition of each of these matrices.
     pub(super) axes_lengths: Vec<usize>,
     /// Definitions that are vectors, with the numbers of their components.
@@ -75,9 +78,10 @@ impl<'a> Page<'a> {
             names,
             readings: readings((graph, problem, derived), &constants, (&roots, &axes), names),
             constants,
-            arrays: Arrays::of(problem, &derived.turnings),
+            arrays: Arrays::of(problem, derived),
             roots,
             entries: named_entries(&axes, problem, derived),
+            bodies: None,
             axes_lengths: Vec::new(),
             axes,
             vectors: problem.vectors.iter().map(|(name, n)| (Formula::labelled(name, 0), *n)).collect(),

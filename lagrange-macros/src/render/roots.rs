@@ -186,8 +186,17 @@ pub(super) fn taken(problem: &Problem) -> FxHashSet<String> {
     let functions = problem.functions.iter().flat_map(|function| function.names.clone());
     let names = coordinates.chain(parameters).chain(functions).chain(problem.names.values().cloned());
     let names = names.chain(problem.observables.iter().map(|observed| observed.label.text.clone()));
-    let base = |name: String| name.split(['[', '.']).next().unwrap_or_default().to_owned();
-    names.map(|name| Notation::UNICODE.write(&Formula::labelled(&base(name), 0))).collect()
+    names.map(|name| written_base(&name)).collect()
+}
+
+/// True if a name, without its indices, is one of those that are [`taken`].
+pub(super) fn is_taken(taken: &FxHashSet<String>, name: &str) -> bool {
+    taken.contains(&written_base(name))
+}
+
+fn written_base(name: &str) -> String {
+    let base = name.split(['[', '.']).next().unwrap_or_default();
+    Notation::UNICODE.write(&Formula::labelled(base, 0))
 }
 
 impl Page<'_> {

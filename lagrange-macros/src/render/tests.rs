@@ -4,6 +4,7 @@ mod bodies;
 mod everywhere;
 mod excerpts;
 mod forms;
+mod frames;
 mod golden;
 mod golden_contacts;
 mod mathml;

@@ -5,10 +5,11 @@ use num_traits::One;
 use super::formula::Formula;
 use super::length::{READABLE, length};
 use super::lines::{Equation, Line};
-use super::motion::vector;
+use super::motion::{Row, vector};
 use super::notation::Notation;
 use super::page::Page;
 use super::remark::{Fragment, Remark};
+use super::resultants::Speed;
 use crate::mechanics::{EnergyForm, Euler, Turning, Turnings};
 use crate::resolve::Label;
 use crate::symbolic::{Id, Node, Rational};
@@ -26,13 +27,11 @@ impl Page<'_> {
     }
 
     /// q̇ = ½ q ω, and the equation of ω: as a vector, or one line for each component.
-    pub(super) fn turning(&self, turning: &Turning, labels: &[Label]) -> Vec<Line> {
+    pub(super) fn turning(&self, number: usize, labels: &[Label]) -> Vec<Row> {
+        let turning = &self.derived.turnings.all[number];
         let quaternion = vector(&labels[0].text).unwrap_or_default();
         let name = format!("omega_{quaternion}");
-        let line = |text: &str, equation| {
-            let label = Some(Notation::UNICODE.write(&Formula::labelled(text, 0)));
-            Line { label, ..Line::of(equation) }
-        };
+        let line = |text: &str, equation| Line::labelled(&Formula::labelled(text, 0), equation);
         let [omega, _] = angular(quaternion);
         let half = Formula::product(
             Rational::new(1, 2).into(),
@@ -46,16 +45,20 @@ impl Page<'_> {
             Fragment::words(" along the turned axes"),
         ];
         let relation = Line { remark: Remark::of(remark), ..line(quaternion, relation) };
-        let rows = match &turning.euler {
-            Some(euler) => self.euler(euler, quaternion),
-            None => (0..3)
-                .map(|axis| {
-                    let (left, right) = &turning.rows[axis];
-                    line(&format!("{name}[{axis}]"), self.row(turning.rate + axis, *left, right))
-                })
-                .collect(),
+        let row = |axis: usize| {
+            let (left, right) = &turning.rows[axis];
+            let equation = self.row(turning.rate + axis, *left, right);
+            let speeds = vec![Speed::Turning(number, axis)];
+            Row { speeds, lines: vec![line(&format!("{name}[{axis}]"), equation)] }
         };
-        [relation].into_iter().chain(rows).collect()
+        let rows = match &turning.euler {
+            Some(euler) => {
+                let speeds = [0, 1, 2].map(|axis| Speed::Turning(number, axis)).to_vec();
+                vec![Row { speeds, lines: self.euler(euler, quaternion) }]
+            }
+            None => (0..3).map(row).collect(),
+        };
+        [Row { speeds: Vec::new(), lines: vec![relation] }].into_iter().chain(rows).collect()
     }
 
     /// I ω̇ + ω × I ω = N, and I if it is no parameter.
@@ -72,9 +75,8 @@ impl Page<'_> {
             self.vector_of_components(&euler.torque)
         });
         let equation = Line { label, ..Line::known(Formula::sum(terms), right) };
-        let rows = euler.inertia.iter().map(|row| self.vector_of(row));
-        let entries = rows.collect::<Result<_, u64>>().map(Formula::Vector);
-        let definition = self.matrix(&euler.inertia).is_none().then(|| Line::known(inertia, entries));
+        let is_parameter = self.matrix(&euler.inertia).is_some();
+        let definition = (!is_parameter).then(|| Line::known(inertia, self.matrix_of(&euler.inertia)));
         [equation].into_iter().chain(definition).collect()
     }
 
@@ -105,13 +107,17 @@ impl Page<'_> {
         }))
     }
 
-    fn vector_of(&self, components: &[Id; 3]) -> Result<Formula, u64> {
+    pub(super) fn vector_of(&self, components: &[Id; 3]) -> Result<Formula, u64> {
         let components = components.iter().map(|&component| self.expression(component));
         Ok(Formula::Vector(components.collect::<Result<_, _>>()?))
     }
 
+    pub(super) fn matrix_of(&self, rows: &[[Id; 3]; 3]) -> Result<Formula, u64> {
+        rows.iter().map(|row| self.vector_of(row)).collect::<Result<_, u64>>().map(Formula::Vector)
+    }
+
     /// A vector, or its components along the turned axes.
-    fn vector_of_components(&self, components: &[Id; 3]) -> Result<Formula, u64> {
+    pub(super) fn vector_of_components(&self, components: &[Id; 3]) -> Result<Formula, u64> {
         let by_components = || match self.vector_of(components)? {
             formula if length(&formula) > READABLE as usize => Err(length(&formula) as u64),
             formula => Ok(formula),
@@ -138,7 +144,7 @@ impl Page<'_> {
     }
 
     /// Name of the parameter whose entries these are.
-    fn matrix(&self, entries: &[[Id; 3]; 3]) -> Option<String> {
+    pub(super) fn matrix(&self, entries: &[[Id; 3]; 3]) -> Option<String> {
         let name = |id: Id| match self.graph.node(id) {
             Node::Symbol(symbol) => match Variable::of(*symbol) {
                 Variable::Parameter(k) => Some(self.problem.parameters.name(k)),

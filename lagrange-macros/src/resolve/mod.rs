@@ -102,6 +102,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         conserved,
         parameters,
         functions,
+        frame_names: frames.names(),
         frames: frames.all,
         bodies: frames.bodies,
         quaternions,

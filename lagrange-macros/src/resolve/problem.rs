@@ -39,6 +39,8 @@ pub(crate) struct Problem {
     pub(crate) functions: Vec<Supplied>,
     /// Frames, each after the one that it lies in; the first is the fixed frame.
     pub(crate) frames: Vec<Frame>,
+    /// Names of frames, each with the index of its frame.
+    pub(crate) frame_names: Vec<(usize, String)>,
     pub(crate) bodies: Vec<Body>,
     /// First of the four coordinates of each quaternion that turns a frame.
     pub(crate) quaternions: Vec<usize>,

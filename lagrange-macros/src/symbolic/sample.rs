@@ -8,6 +8,7 @@ use super::wave::superposition;
 
 /// A point in the space of symbols, with random functions in place of user-supplied ones. The values of all visited
 /// nodes are cached, so that common subexpressions are evaluated once.
+#[derive(Clone)]
 pub(crate) struct Sample {
     draw: u64,
     symbols: FxHashMap<Symbol, Approximate>,

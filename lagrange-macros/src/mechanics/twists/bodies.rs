@@ -56,15 +56,28 @@ impl Twists<'_> {
 
     /// Removes uniform gravity from `slopes`, the partial derivatives with respect to `places` of L without kinetic
     /// energies of bodies. Returns the equivalent acceleration of the fixed frame. Only contributions
-    /// proportional to masses and first moments are removed.
-    pub(super) fn without_gravity(&self, graph: &mut Graph, places: &[Id], slopes: &mut [Id]) -> Triple {
+    /// proportional to masses and first moments are removed. With `by_moments`, gravity is also found where no origin
+    /// of a frame with a body moves.
+    pub(super) fn without_gravity(
+        &self,
+        graph: &mut Graph,
+        places: &[Id],
+        slopes: &mut [Id],
+        by_moments: bool,
+    ) -> Triple {
         let slope = |node: Id| places.iter().position(|place| *place == node);
         let mut fixed = [Id::ZERO; 3];
         for axis in 0..3 {
             let candidate = self.bodies.iter().find_map(|body| {
-                let at = slope(self.problem.frames[body.frame].origin[axis])?;
-                let candidate = (slopes[at] != Id::ZERO).then(|| graph.div(slopes[at], body.mass))?;
-                is_uniform(graph, candidate, body.mass).then_some(candidate)
+                let Frame { axes, origin, .. } = &self.problem.frames[body.frame];
+                let moments = body.moment.map(|moment| graph.looked_through(moment));
+                let moments = axes[axis].into_iter().zip(moments).filter(|_| by_moments);
+                let weights = [(origin[axis], body.mass)].into_iter().chain(moments);
+                weights.filter(|(_, weight)| *weight != Id::ZERO).find_map(|(node, weight)| {
+                    let at = slope(node)?;
+                    let candidate = (slopes[at] != Id::ZERO).then(|| graph.div(slopes[at], weight))?;
+                    is_uniform(graph, candidate, body.mass).then_some(candidate)
+                })
             });
             let Some(candidate) = candidate else { continue };
             let mut rest = slopes.to_vec();

@@ -11,6 +11,7 @@ mod composite;
 mod parts;
 mod places;
 mod poincare;
+mod resultants;
 mod turning;
 
 use super::euler_lagrange::forces_along;
@@ -21,6 +22,7 @@ use crate::variables::{drift, has_velocity, total_time_derivative};
 use accelerations::InTime;
 pub(super) use components::Twists;
 use parts::TwistParts;
+pub(crate) use resultants::{ChainRule, Dependence, Link, Resultants, RigidBody};
 pub(crate) use turning::{Euler, Turning, Turnings};
 
 impl Formulation for Twists<'_> {
@@ -91,12 +93,17 @@ impl Twists<'_> {
     fn parts(&self, graph: &mut Graph, in_time: InTime) -> TwistParts {
         let mut parts = self.nothing();
         let places = self.places(graph);
-        let gravity = self.others_of(graph, in_time, &places, &mut parts);
+        let gravity = self.others_of(graph, in_time, &places, &mut parts, false);
         self.of_bodies(graph, in_time, gravity, &mut parts);
+        self.given_forces(graph, &mut parts);
+        parts
+    }
+
+    /// Adds the forces that are no terms of L.
+    fn given_forces(&self, graph: &mut Graph, parts: &mut TwistParts) {
         for (i, force) in forces_along(graph, self.problem, &self.velocities.nodes).into_iter().enumerate() {
             parts.add(i, force, 1);
         }
-        parts
     }
 
     /// Generalized forces conjugate to the first `first` velocities. The other velocities depend on these, so

@@ -22,18 +22,19 @@ use crate::variables::{Variable, nodes};
 
 impl Twists<'_> {
     /// Adds the generalized forces of all terms of L that are not bodies. Returns uniform gravity as an acceleration,
-    /// which the equations of the bodies include.
+    /// which the equations of the bodies include; `by_moments` as in [`without_gravity`](Self::without_gravity).
     pub(super) fn others_of(
         &self,
         graph: &mut Graph,
         in_time: InTime,
         places: &IndexMap<Id, RowOrOrigin>,
         parts: &mut TwistParts,
+        by_moments: bool,
     ) -> Triple {
         let (momenta, mut slopes) = self.slopes(graph, self.others, places);
         let coordinates = nodes(graph, self.problem.coordinates.len(), Variable::Coordinate);
         let placed: Vec<Id> = coordinates.iter().chain(places.keys()).copied().collect();
-        let gravity = self.without_gravity(graph, &placed, &mut slopes);
+        let gravity = self.without_gravity(graph, &placed, &mut slopes, by_moments);
         self.at_rest(graph, places, &slopes, parts);
         self.in_motion(graph, in_time, &momenta, parts);
         gravity

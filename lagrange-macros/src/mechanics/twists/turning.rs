@@ -25,6 +25,8 @@ pub(crate) struct Turning {
     pub(crate) first: usize,
     /// Index of the first component of ω among the velocities.
     pub(crate) rate: usize,
+    /// ∂q̇/∂ω, by rows.
+    pub(super) spread: [[Id; 3]; 4],
     /// Rotation matrix from the turned axes to the fixed ones, by rows, as it stands in the equations of the coordinates, and
     /// in `rows`; `None` if the frame is carried by one that turns.
     pub(crate) axes: Option<[[[Id; 3]; 3]; 2]>,
@@ -57,6 +59,8 @@ pub(crate) struct Turnings {
     pub(crate) energy: Option<[Id; 2]>,
     /// Definitions as they stand in the equations in ω, each with the definition itself.
     pub(crate) renamed: Vec<(Id, Id)>,
+    /// Nodes as they stand in the equations in ω, by what they stand for.
+    pub(super) new: FxHashMap<Id, Id>,
 }
 
 impl Turnings {
@@ -96,7 +100,7 @@ impl Twists<'_> {
         let is_quadratic = !has_velocity(graph, &equations.mass.concat());
         let definitions: Vec<Id> = self.problem.names.keys().copied().collect();
         let renamed = definitions.into_iter().map(|id| (graph.replaced(id, &new), id)).collect();
-        Some(Turnings { all, coupled, energy: Some(energy).filter(|_| is_quadratic), renamed })
+        Some(Turnings { all, coupled, energy: Some(energy).filter(|_| is_quadratic), renamed, new })
     }
 
     /// ½ wᵀM w − L₀, where w are the outer velocities and L₀ is L at rest.
@@ -200,7 +204,8 @@ impl Twists<'_> {
         let axes = self.axes(spin.number);
         let axes = axes.map(|axes| [axes, axes.map(|row| row.map(|entry| graph.replaced(entry, new)))]);
         let constraint = equations.constraint(graph, spin, new);
-        Some(Turning { first: spin.first, rate: spin.number, axes, rows, euler, constraint })
+        let &Spin { first, number: rate, spread } = spin;
+        Some(Turning { first, rate, spread, axes, rows, euler, constraint })
     }
 
     /// Axes of the frame that turns at this angular velocity, if the frame before does not turn.

@@ -34,7 +34,7 @@ use super::length::{READABLE, divisor_length, length};
 use super::lines::Equation;
 use super::page::Page;
 use super::roots::NamedRoot;
-use crate::symbolic::{Id, Rational};
+use crate::symbolic::{Id, Node, Rational};
 use atoms::LIMIT;
 use collect::Collector;
 pub(super) use expand::{Names, Reading, constants, readings};
@@ -48,6 +48,17 @@ const TERMS: usize = 100;
 const SIZE: u64 = 2000;
 
 impl Page<'_> {
+    /// Begins new readings in place of those whose work is done.
+    pub(super) fn begin_readings(&mut self) {
+        let Self { graph, problem, derived, .. } = *self;
+        self.readings =
+            readings((graph, problem, derived), &self.constants, (&self.roots, &self.axes), self.names);
+        // Functions stand in products in the order in which they are read: that of the coordinates.
+        for id in graph.ids().filter(|&id| matches!(graph.node(id), Node::Function(..))) {
+            self.readings.iter().for_each(|Reading(expansion)| drop(expansion.borrow_mut().of(id)));
+        }
+    }
+
     /// Equation Σ inertia = Σ forces of the velocity `own`.
     pub(super) fn row(&self, own: usize, inertia: Id, forces: &[Id]) -> Equation {
         let sides = |reading: &Reading| {

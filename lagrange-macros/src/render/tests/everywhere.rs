@@ -1,6 +1,7 @@
 //! Printed equations agree with the computed ones. For every system that any test, example or page of documentation
 //! derives, the equations are read from the text and compared with the graph at random states.
 
+mod links;
 mod turns;
 
 use std::collections::BTreeMap;
@@ -90,6 +91,7 @@ impl Page<'_> {
 struct State<'a> {
     system: &'a Page<'a>,
     names: BTreeMap<String, Value>,
+    sample: Sample,
     draw: u64,
 }
 
@@ -158,8 +160,13 @@ impl<'a> State<'a> {
         }
         vectors.append(&mut names);
         vectors.extend(transposes.into_iter().map(|(name, entries)| (system.written(&name), entries)));
-        let mut state = Self { system, names: vectors, draw };
+        for (name, value) in links::values(system, sample) {
+            let all = links::with_entries(&name, value).into_iter();
+            vectors.extend(all.map(|(name, value)| (system.written(&name), value)));
+        }
+        let mut state = Self { system, names: vectors, sample: sample.clone(), draw };
         state.read_roots();
+        state.read_resultants();
         state
     }
 
@@ -172,6 +179,19 @@ impl<'a> State<'a> {
             let text = lines.iter().find_map(|line| line.strip_prefix(&format!("{name} = ")));
             if let Some(value) = text.map(|text| self.read(text)) {
                 assert!(self.names.insert(name, value).is_none(), "{} stands for two", self.system.text);
+            }
+        }
+    }
+
+    /// Reads the values of I, F and N of bodies from the lines that state them.
+    fn read_resultants(&mut self) {
+        let lines = self.system.lines("Equations of motion\n");
+        for name in links::resultants(self.system) {
+            let start = self.system.written(&name) + " = ";
+            let text = lines.iter().find_map(|line| line.strip_prefix(&start));
+            if let Some(value) = text.map(|text| self.read(text.split("   (").next().expect("a formula"))) {
+                let all = links::with_entries(&name, value).into_iter();
+                self.names.extend(all.map(|(name, value)| (self.system.written(&name), value)));
             }
         }
     }
@@ -267,6 +287,11 @@ impl Meanings for State<'_> {
     }
 
     fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> Value {
+        if let ([by], None) = (by, arguments)
+            && let Some(value) = links::partial(self.system, &self.sample, function, by)
+        {
+            return value;
+        }
         let mut functions = self.system.problem.functions.iter();
         let is_it = |supplied: &&Supplied| supplied.names.iter().any(|name| self.is_in(function, name));
         let supplied = functions.find(is_it).expect("a function");
@@ -315,6 +340,9 @@ fn check_motion(system: &Page) {
         }
         let row = *row;
         lines.next();
+        if links::is_resultant(system, row) {
+            continue;
+        }
         let (label, equation) = row.split_once(": ").expect("a label");
         let labels = system.problem.coordinates[first..].iter();
         let labels = labels.map(|label| Notation::UNICODE.write(&Formula::labelled(&label.text, 0)));
@@ -498,6 +526,7 @@ pub(super) fn check(system: &System) {
         for (text, written) in [(text.clone(), systems::in_unicode as _), (read, mathml::written as _)] {
             let page = Page { system, text, written };
             check_axes(&page);
+            links::check(&page);
             check_motion(&page);
             check_quantities(&page);
             check_hamilton(&page);

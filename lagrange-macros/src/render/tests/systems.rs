@@ -41,7 +41,7 @@ impl System {
         let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics)?;
         let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics)?;
         let Rendered { forms, .. } = render(&declaration, &graph, &problem, &derived);
-        let arrays = Arrays::of(&problem, &derived.turnings);
+        let arrays = Arrays::of(&problem, &derived);
         Some(Self { graph, problem, derived, forms, arrays })
     }
 }

@@ -28,7 +28,7 @@ pub(crate) struct Frames {
     pub(super) early: FxHashSet<Rc<str>>,
 }
 
-/// A rigid body. First moment and inertia matrix are about the origin of its frame, with components along the
+/// A rigid body. First moment and `inertia` are about the origin of its frame, with components along the
 /// axes of the frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
@@ -37,6 +37,9 @@ pub(crate) struct Body {
     /// Mass times the position of the centre of mass.
     pub(crate) moment: Triple,
     pub(crate) inertia: [Triple; 3],
+    /// Centre of mass, along the axes of the frame, and inertia about it, as written.
+    pub(crate) centre: Triple,
+    pub(crate) central: [Triple; 3],
     /// Graph node of the kinetic energy.
     pub(crate) energy: Id,
 }
@@ -58,5 +61,11 @@ impl Default for Frames {
 impl Frames {
     pub(super) fn get(&self, name: &str) -> Option<&Option<Axes>> {
         self.named.iter().find(|(known, _)| **known == *name).map(|(_, axes)| axes)
+    }
+
+    /// Names of the frames, each with the index of its frame.
+    pub(crate) fn names(&self) -> Vec<(usize, String)> {
+        let axes = self.named.iter().filter_map(|(_, axes)| axes.as_ref());
+        axes.map(|axes| (axes.frame, axes.name.to_string())).collect()
     }
 }

@@ -154,9 +154,9 @@ impl Lowering<'_> {
             let entry = graph.add(own, shift);
             graph.defined(entry)
         };
-        let inertia = symmetric(entry);
+        let (central, inertia) = (inertia, symmetric(entry));
         let energy = self.energy(frame, mass, moment, inertia);
-        Body { frame, mass, moment, inertia, energy }
+        Body { frame, mass, moment, inertia, centre, central, energy }
     }
 
     fn energy(&mut self, frame: usize, mass: Id, moment: Triple, inertia: [Triple; 3]) -> Id {

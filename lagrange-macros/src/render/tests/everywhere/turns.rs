@@ -2,12 +2,12 @@
 
 use std::iter::Peekable;
 
-use super::{Page, check_line, check_sides, left_over, value};
+use super::{Page, check_line, check_sides, left_over, links, value};
 use crate::mechanics::Turning;
 use crate::render::formula::Formula;
 use crate::render::notation::Notation;
 use crate::render::tests::systems::System;
-use crate::symbolic::{Approximate, Sample};
+use crate::symbolic::{Approximate, Sample, Symbol};
 use crate::variables::Variable;
 
 /// Gives quaternions that turn bodies the length 1, makes their rates keep it, and moments of inertia symmetric.
@@ -28,16 +28,19 @@ pub(super) fn make_consistent(system: &System, sample: &mut Sample) {
             sample.set(entries.map(|(k, x)| (kind(turning.first + k).symbol(), Approximate::exact(x))));
         }
     }
-    if !system.derived.turnings.all.is_empty() {
+    if !system.derived.turnings.all.is_empty() || links::is_by_bodies(system) {
         make_symmetric(system, sample);
     }
 }
 
 fn make_symmetric(system: &System, sample: &mut Sample) {
     let parameters = &system.problem.parameters;
+    let inertias = system.problem.bodies.iter().flat_map(|body| body.central.concat()).collect::<Vec<_>>();
+    let moments: Vec<Symbol> = system.graph.symbols(&inertias).collect();
     let names: Vec<String> = (0..parameters.entries.len()).map(|k| parameters.name(k)).collect();
     let pairs = [(0, 1), (0, 2), (1, 2)];
-    for (k, name) in names.iter().enumerate() {
+    let is_moment = |k: &usize| moments.contains(&Variable::Parameter(*k).symbol());
+    for (k, name) in names.iter().enumerate().filter(|(k, _)| is_moment(k)) {
         let transposed = pairs.iter().find_map(|(i, j)| {
             name.strip_suffix(&format!("[{i}][{j}]")).map(|whole| format!("{whole}[{j}][{i}]"))
         });
@@ -63,7 +66,7 @@ pub(super) fn angular(sample: &Sample, turning: &Turning) -> [[f64; 3]; 2] {
 }
 
 /// q i, q j and q k for the unit quaternions i, j and k.
-fn spread([w, x, y, z]: [f64; 4]) -> [[f64; 4]; 3] {
+pub(super) fn spread([w, x, y, z]: [f64; 4]) -> [[f64; 4]; 3] {
     [[-x, w, z, -y], [-y, -z, w, x], [-z, y, -x, w]]
 }
 
@@ -76,13 +79,13 @@ pub(super) fn check<'l>(
     let name = &system.problem.coordinates[turning.first].text;
     let name = name.strip_suffix("[0]").expect("a vector");
     let label = |name: &str| Notation::UNICODE.write(&Formula::labelled(name, 0));
-    let mut line = |of: &str| {
-        let line = lines.next().unwrap_or_else(|| panic!("no line of {of} in {}", system.text));
+    let line = |lines: &mut Peekable<_>, of: &str| {
+        let line: &str = lines.next().unwrap_or_else(|| panic!("no line of {of} in {}", system.text));
         let (label, equation) = line.split_once(": ").expect("a label");
         assert_eq!(label, of, "{line} in {}", system.text);
         equation.trim().to_owned()
     };
-    let relation = line(&label(name));
+    let relation = line(lines, &label(name));
     check_line(system, &relation, |sample| state(sample, turning)[1].to_vec());
     let omega = format!("omega_{name}");
     let torques = |sample: &mut Sample| {
@@ -90,13 +93,16 @@ pub(super) fn check<'l>(
         let forces = left_over(system, sample, turning.first..turning.first + 4);
         along.map(|column| column.iter().zip(&forces).map(|(x, y)| x * y / 2.0).sum::<f64>())
     };
+    let is_by_component = lines.peek().is_some_and(|line| line.starts_with(&label(&format!("{omega}[0]"))));
     match turning.euler {
-        Some(_) => {
-            let equation = line(&label(&omega));
+        Some(_) if !is_by_component => {
+            let equation = line(lines, &label(&omega));
             if let Some((left, right)) = equation.split_once(" = ") {
                 check_sides(system, 3, [left, right], |sample| torques(sample).to_vec());
             }
-            if let Some(inertia) = lines.next_if(|line| !line.contains(": ")) {
+            if let Some(inertia) =
+                lines.next_if(|line| !line.contains(": ") && !links::is_resultant(system, line))
+            {
                 let entries =
                     turning.euler.iter().flat_map(|euler| euler.inertia).flatten().collect::<Vec<_>>();
                 check_line(system, inertia, |sample| {
@@ -104,9 +110,9 @@ pub(super) fn check<'l>(
                 });
             }
         }
-        None => {
+        _ => {
             for axis in 0..3 {
-                let equation = line(&label(&format!("{omega}[{axis}]")));
+                let equation = line(lines, &label(&format!("{omega}[{axis}]")));
                 if let Some((left, right)) = equation.split_once(" = ") {
                     check_sides(system, 1, [left, right], |sample| vec![torques(sample)[axis]]);
                 }

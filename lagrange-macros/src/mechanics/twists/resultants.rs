@@ -1,0 +1,273 @@
+//! Rigid bodies by the resultant forces and torques on them, to be read.
+//!
+//! With F = m (r̈ − g) at the centre of mass and N = I ω̇ + ω × I ω about it, the equation of each velocity u is Jourdain's
+//! principle, Σ F·∂ṙ/∂u + N·∂ω/∂u = Q, where Q has neither inertia nor weight (Kane and Levinson, *Dynamics: Theory and
+//! Applications*, 6.1; their generalized speeds are the velocities u). It holds for trees of any number of bodies, at every
+//! state, with formulas that do not grow with the angles that turn a body.
+
+use std::iter::successors;
+
+use num_traits::One;
+use rustc_hash::FxHashMap;
+
+use super::Twists;
+use super::turning::{Turning, Turnings};
+use crate::resolve::{Frame, Problem, Step, Triple, columns, sum};
+use crate::symbolic::{Graph, Id, Node};
+use crate::variables::{Variable, has_velocity, nodes, total_time_derivative};
+
+/// Largest number of bodies for which the resultants are derived: beyond it the page is too long to be read.
+const MOST: usize = 8;
+
+/// Rigid bodies, and the generalized forces beside their inertia and their weight.
+#[derive(Debug)]
+pub(crate) struct Resultants {
+    /// Frames with names that carry bodies, each after the one that carries it.
+    pub(crate) links: Vec<Link>,
+    pub(crate) bodies: Vec<RigidBody>,
+    /// −g for uniform gravity g, along the fixed axes.
+    pub(crate) lift: Triple,
+    /// True if L without the bodies has no velocities.
+    pub(crate) has_all_velocities: bool,
+    /// −L at rest, without weights.
+    pub(crate) potential: Id,
+    /// Generalized force on each coordinate, without constraint forces.
+    pub(crate) rest: Vec<Id>,
+    /// The same by the chain rule, if L without the bodies has no velocities.
+    pub(crate) by_definitions: Option<ChainRule>,
+    /// Torque along the axes of each [`Turning`], without constraint forces.
+    pub(crate) torques: Vec<Triple>,
+}
+
+/// Generalized forces Q_i − ∂U/∂q_i − Σ ∂U/∂d·∂d/∂q_i, with U a function of coordinates and definitions d.
+#[derive(Debug)]
+pub(crate) struct ChainRule {
+    /// Q_i − ∂U/∂q_i, with the definitions held.
+    pub(crate) direct: Vec<Id>,
+    /// Definitions d, each with −∂U/∂d.
+    pub(crate) slopes: Vec<(Id, Id)>,
+}
+
+/// A frame, and how it lies in the next link that carries it, or in the fixed frame.
+#[derive(Debug)]
+pub(crate) struct Link {
+    pub(crate) frame: usize,
+    /// Index of the link that carries this one.
+    pub(crate) before: Option<usize>,
+    /// Rotation matrix from the axes of this link to those of the link before, by rows.
+    pub(crate) turned: [Triple; 3],
+    /// Displacements between the origins, along the axes of the link before.
+    pub(crate) moved: Vec<Triple>,
+    /// Angular velocity relative to the link before, along the axes of this link.
+    pub(crate) rate: Triple,
+}
+
+/// A rigid body by mass, centre of mass and inertia about it, along the axes of its link.
+#[derive(Debug)]
+pub(crate) struct RigidBody {
+    pub(crate) link: usize,
+    pub(crate) mass: Id,
+    pub(crate) centre: Triple,
+    pub(crate) inertia: [Triple; 3],
+    /// Position of the centre of mass, along the fixed axes.
+    pub(crate) position: Triple,
+}
+
+impl RigidBody {
+    /// False for a particle.
+    pub(crate) fn has_inertia(&self) -> bool {
+        self.inertia != [[Id::ZERO; 3]; 3]
+    }
+}
+
+impl Resultants {
+    /// `None` without rigid bodies or with too many, and if fields switch constraints or friction on and off.
+    pub(in super::super) fn of(graph: &mut Graph, problem: &Problem, turnings: &Turnings) -> Option<Self> {
+        let is_smooth = problem.parameters.switches.is_empty() && problem.frictions.is_empty();
+        let twists = Some(()).filter(|()| is_smooth).and_then(|()| Twists::of(graph, problem))?;
+        (1..=MOST).contains(&twists.bodies.len()).then(|| twists.resultants(graph, turnings))
+    }
+}
+
+impl Twists<'_> {
+    fn resultants(&self, graph: &mut Graph, turnings: &Turnings) -> Resultants {
+        let frames = self.named_carriers();
+        let new = &turnings.new;
+        let links =
+            frames.iter().map(|&frame| self.link(graph, frame, &frames).replaced(graph, new)).collect();
+        let bodies = self.bodies.iter().filter_map(|body| {
+            let frame = &self.problem.frames[body.frame];
+            let shift = frame.axes.map(|row| graph.dot(&row, &body.centre));
+            Some(RigidBody {
+                link: frames.iter().position(|&link| link == body.frame)?,
+                mass: body.mass,
+                centre: body.centre,
+                inertia: body.central,
+                position: sum([frame.origin, shift], graph),
+            })
+        });
+        let bodies: Vec<RigidBody> = bodies.collect();
+        let mut parts = self.nothing();
+        let places = self.places(graph);
+        let lift = self.others_of(graph, total_time_derivative, &places, &mut parts, true);
+        self.given_forces(graph, &mut parts);
+        let n = self.problem.coordinates.len();
+        let rest = self.hand_back(graph, parts, if turnings.all.is_empty() { n } else { self.outer });
+        let torques = turnings.all.iter().map(|turning| turning.torque(graph, &rest, new)).collect();
+        let rest = rest.into_iter().map(|force| graph.replaced(force, new)).collect();
+        let has_all_velocities = !has_velocity(graph, &[self.others]);
+        let potential = self.potential_beside_weights(graph, &bodies, lift);
+        let by_definitions = has_all_velocities.then(|| self.chain_rule(graph, potential));
+        Resultants { links, bodies, lift, has_all_velocities, potential, rest, by_definitions, torques }
+    }
+
+    fn chain_rule(&self, graph: &mut Graph, potential: Id) -> ChainRule {
+        let n = self.problem.coordinates.len();
+        let mut held = nodes(graph, n, Variable::Coordinate);
+        let mut definitions: Vec<Id> = self.problem.names.keys().copied().collect();
+        definitions.sort_unstable();
+        held.extend(&definitions);
+        let mut slopes = graph.gradient_to(potential, &held);
+        let of_definitions = slopes.split_off(n);
+        let mut parts = self.nothing();
+        self.given_forces(graph, &mut parts);
+        let given = self.hand_back(graph, parts, n);
+        let direct = given.into_iter().zip(slopes).map(|(given, slope)| graph.sub(given, slope)).collect();
+        let slopes = definitions.into_iter().zip(of_definitions).filter(|(_, slope)| *slope != Id::ZERO);
+        let slopes = slopes.map(|(definition, slope)| (definition, graph.neg(slope))).collect();
+        ChainRule { direct, slopes }
+    }
+
+    /// −L₀ − Σ m (−g)·r
+    fn potential_beside_weights(&self, graph: &mut Graph, bodies: &[RigidBody], lift: Triple) -> Id {
+        let velocities = nodes(graph, self.problem.coordinates.len(), Variable::Velocity);
+        let mut at_rest = graph.without(self.others, &velocities);
+        for body in bodies {
+            for (height, lift) in body.position.into_iter().zip(lift) {
+                let weight = graph.mul(body.mass, lift);
+                let part = graph.mul(weight, height);
+                at_rest = graph.add(at_rest, part);
+            }
+        }
+        graph.neg(at_rest)
+    }
+
+    /// Named frames with bodies, and those that carry them.
+    fn named_carriers(&self) -> Vec<usize> {
+        let is_named = |frame: &usize| self.problem.frame_names.iter().any(|(named, _)| named == frame);
+        let mut frames = Vec::new();
+        for body in &self.bodies {
+            let before = |&frame: &usize| (frame != 0).then(|| self.problem.frames[frame].before);
+            frames.extend(successors(Some(body.frame), before).filter(is_named));
+        }
+        frames.sort_unstable();
+        frames.dedup();
+        frames
+    }
+
+    /// The link of one of these frames.
+    fn link(&self, graph: &mut Graph, frame: usize, frames: &[usize]) -> Link {
+        let (mut steps, mut at) = (Vec::new(), frame);
+        while at != 0 && (at == frame || !frames.contains(&at)) {
+            steps.push(&self.problem.frames[at].step);
+            at = self.problem.frames[at].before;
+        }
+        let before = frames.iter().position(|&link| link == at && at != frame);
+        let (mut turned, mut moved, mut rate) = (Frame::fixed().axes, Vec::new(), [Id::ZERO; 3]);
+        for step in steps.into_iter().rev() {
+            match step {
+                Step::Moved(step) => moved.push(turned.map(|row| graph.dot(&row, &step.by))),
+                Step::Turned(turn) => {
+                    let axes = columns(turn.by);
+                    turned = turned.map(|row| axes.map(|axis| graph.dot(&row, &axis)));
+                    rate = sum([step.forth(rate, graph), turn.rate], graph);
+                }
+                Step::None => {}
+            }
+        }
+        Link { frame, before, turned, moved, rate }
+    }
+}
+
+impl Link {
+    /// The link in angular velocities in the place of the rates of quaternions.
+    fn replaced(self, graph: &mut Graph, new: &FxHashMap<Id, Id>) -> Self {
+        let mut all = |vector: Triple| vector.map(|component| graph.replaced(component, new));
+        let (turned, rate) = (self.turned.map(&mut all), all(self.rate));
+        Self { turned, moved: self.moved.into_iter().map(all).collect(), rate, ..self }
+    }
+}
+
+impl Turning {
+    /// Torque along the turned axes, from generalized forces on the coordinates and along ω.
+    fn torque(&self, graph: &mut Graph, forces: &[Id], new: &FxHashMap<Id, Id>) -> Triple {
+        [0, 1, 2].map(|axis| {
+            let column = self.spread.map(|row| row[axis]);
+            let of_coordinates = graph.dot(&column, &forces[self.first..self.first + 4]);
+            let torque = graph.add(forces[self.rate + axis], of_coordinates);
+            graph.replaced(torque, new)
+        })
+    }
+}
+
+impl Resultants {
+    /// True if a centre of mass does not rest.
+    pub(crate) fn is_moving(&self, graph: &Graph, body: &RigidBody) -> bool {
+        graph.symbols(&body.position).any(|symbol| !matches!(Variable::of(symbol), Variable::Parameter(_)))
+    }
+
+    /// True if the angular velocity of a link is not zero.
+    pub(crate) fn is_turning(&self, link: usize) -> bool {
+        let Link { before, rate, .. } = &self.links[link];
+        *rate != [Id::ZERO; 3] || before.is_some_and(|before| self.is_turning(before))
+    }
+
+    /// How the angular velocity of a link depends on a velocity, given by its index.
+    pub(crate) fn turns_with(&self, graph: &Graph, link: usize, i: usize) -> Dependence {
+        let Link { before, rate, .. } = &self.links[link];
+        let carried = before.map_or(Dependence::None, |before| self.turns_with(graph, before, i));
+        match (carried, Dependence::of(graph, rate, Variable::Velocity(i))) {
+            (Dependence::None, own) => own,
+            _ => Dependence::Any,
+        }
+    }
+
+    /// How the position of a body depends on a coordinate.
+    pub(crate) fn moves_with(&self, graph: &Graph, body: &RigidBody, i: usize) -> Dependence {
+        Dependence::of(graph, &body.position, Variable::Coordinate(i))
+    }
+}
+
+/// How a vector depends on a variable.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Dependence {
+    None,
+    /// The variable is a term of this component, and stands nowhere else.
+    Component(usize),
+    Any,
+}
+
+impl Dependence {
+    fn of(graph: &Graph, vector: &Triple, variable: Variable) -> Self {
+        let has = |id: Id| graph.symbols(&[id]).any(|symbol| symbol == variable.symbol());
+        let found: Vec<usize> = (0..3).filter(|&k| has(vector[k])).collect();
+        match found[..] {
+            [] => Self::None,
+            [k] if is_term(graph, vector[k], &has) => Self::Component(k),
+            _ => Self::Any,
+        }
+    }
+}
+
+/// True if, of the terms of a sum, the only one that `has` a variable is the variable itself.
+fn is_term(graph: &Graph, id: Id, has: &dyn Fn(Id) -> bool) -> bool {
+    match graph.node(id) {
+        Node::Symbol(_) => has(id),
+        Node::Defined(inner) => is_term(graph, *inner, has),
+        Node::Sum(terms) => {
+            let mut with = terms.iter().filter(|(term, _)| has(*term));
+            matches!((with.next(), with.next()), (Some((term, c)), None) if c.is_one() && is_term(graph, *term, has))
+        }
+        _ => false,
+    }
+}

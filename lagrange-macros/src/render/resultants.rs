@@ -1,0 +1,289 @@
+//! Equations of motion by the forces and torques on rigid bodies, in the place of those that are too long to be read.
+//!
+//! F = m (r̈ − g), N = I ω̇ + ω × I ω, and for each velocity u Jourdain's principle, Σ F·∂ṙ/∂u + N·∂ω/∂u = Q.
+
+use num_traits::One;
+
+use super::formula::Formula;
+use super::length::{READABLE, length};
+use super::lines::{Equation, Line};
+use super::links::{BodyNames, NamedBodies, RigidBodyNames};
+use super::page::Page;
+use super::remark::{Fragment, Remark};
+use crate::mechanics::{Dependence, EnergyForm, Resultants, RigidBody, Turning};
+use crate::symbolic::{Id, Rational};
+
+/// Velocity whose equation a line states.
+#[derive(Clone, Copy)]
+pub(super) enum Speed {
+    /// Of this coordinate.
+    Coordinate(usize),
+    /// Component of the angular velocity of a quaternion: the index of its turning, and the axis.
+    Turning(usize, usize),
+}
+
+/// A rigid body with its names.
+#[derive(Clone, Copy)]
+struct Named<'a> {
+    body: &'a RigidBody,
+    own: &'a RigidBodyNames,
+    frame: &'a str,
+    rate: &'a str,
+}
+
+fn name(text: &str, dots: usize) -> Formula {
+    Formula::labelled(text, dots)
+}
+
+fn product(factors: Vec<Formula>) -> Formula {
+    Formula::flat_product(Rational::one().into(), factors, Vec::new())
+}
+
+fn dot(one: Formula, other: Formula) -> Formula {
+    Formula::Call("dot".to_owned(), vec![one, other])
+}
+
+fn component(vector: Formula, k: usize) -> Formula {
+    vector.indexed(Formula::Number(Rational::from_integer(k as i128)))
+}
+
+/// vector·∂(function)/∂u, a component of the vector if this is a unit vector; `None` if it is zero.
+fn along(vector: Formula, function: Formula, u: &Formula, dependence: Dependence) -> Option<Formula> {
+    match dependence {
+        Dependence::None => None,
+        Dependence::Component(k) => Some(component(vector, k)),
+        Dependence::Any => {
+            let (function, by) = (Box::new(function), vec![u.clone()]);
+            Some(dot(vector, Formula::Partial { function, by, arguments: Vec::new() }))
+        }
+    }
+}
+
+impl Page<'_> {
+    /// Gives bodies names, for equations that are too long without them.
+    pub(super) fn name_bodies(&mut self) {
+        let names = BodyNames::of(self.problem, self.derived);
+        self.begin_readings();
+        let lines = names.zip(self.derived.resultants.as_ref()).map(|(names, resultants)| {
+            let lines = self.body_lines(&names, resultants);
+            NamedBodies { names, lines }
+        });
+        self.bodies = lines.filter(|bodies| bodies.lines.iter().all(|(_, line)| !line.is_too_long()));
+        self.begin_readings();
+    }
+
+    fn named_bodies(&self) -> Option<(&Resultants, Vec<Named<'_>>)> {
+        let (NamedBodies { names, .. }, resultants) =
+            self.bodies.as_ref().zip(self.derived.resultants.as_ref())?;
+        let named = names.bodies.iter().zip(&resultants.bodies).map(|(own, body)| {
+            let link = &names.links[body.link];
+            Named { body, own, frame: &link.frame, rate: &link.rate }
+        });
+        Some((resultants, named.collect()))
+    }
+
+    /// The equation of a velocity; `None` if no body moves with it, or if it is too long, too.
+    pub(super) fn row_by_bodies(&self, speed: Speed) -> Option<Line> {
+        let (resultants, bodies) = self.named_bodies()?;
+        let terms = bodies.iter().flat_map(|named| {
+            let [force, torque] = [&named.own.force, &named.own.torque].map(|text| name(text, 0));
+            self.projected(resultants, *named, speed, [force, torque])
+        });
+        let left = Formula::sum(terms.flatten().collect());
+        let right = match speed {
+            Speed::Coordinate(i) => [self.given_force(resultants, i), self.constraint_force(i)],
+            Speed::Turning(k, axis) => {
+                let torques = [resultants.torques[k], self.derived.turnings.all[k].constraint.0];
+                torques.map(|torque| self.expression(torque[axis]))
+            }
+        };
+        let zero = Formula::sum(Vec::new());
+        let right = right.into_iter().collect::<Result<Vec<_>, u64>>().ok()?;
+        let right = Formula::sum(right.into_iter().filter(|part| *part != zero).collect());
+        let is_short = length(&left) + length(&right) <= READABLE as usize;
+        (is_short && left != zero).then_some(())?;
+        Some(Line::labelled(&self.speed(speed, 0), Equation::Known(left, right)))
+    }
+
+    /// A coordinate with dots, or a component of an angular velocity.
+    fn speed(&self, speed: Speed, dots: usize) -> Formula {
+        match speed {
+            Speed::Coordinate(i) => name(&self.problem.coordinates[i].text, dots),
+            Speed::Turning(k, axis) => {
+                name(&self.angular_velocity(self.derived.turnings.all[k].rate + axis), 0)
+            }
+        }
+    }
+
+    /// F·∂ṙ/∂u and N·∂ω/∂u of a body, for vectors F and N.
+    fn projected(
+        &self,
+        resultants: &Resultants,
+        Named { body, own, rate, .. }: Named,
+        speed: Speed,
+        [force, torque]: [Formula; 2],
+    ) -> [Option<Formula>; 2] {
+        let u = self.speed(speed, 1);
+        let moves = Some(self.moves_with(resultants, body, speed)).filter(|_| body.mass != Id::ZERO);
+        let turns = Some(self.turns_with(resultants, body, speed)).filter(|_| body.has_inertia());
+        [
+            moves.and_then(|moves| along(force, name(&own.position, 1), &u, moves)),
+            turns.and_then(|turns| along(torque, name(rate, 0), &u, turns)),
+        ]
+    }
+
+    fn moves_with(&self, resultants: &Resultants, body: &RigidBody, speed: Speed) -> Dependence {
+        let moves = |i: usize| resultants.moves_with(self.graph, body, i);
+        match speed {
+            Speed::Coordinate(i) => moves(i),
+            Speed::Turning(k, _) => {
+                let first = self.derived.turnings.all[k].first;
+                let rests = (first..first + 4).all(|i| moves(i) == Dependence::None);
+                if rests { Dependence::None } else { Dependence::Any }
+            }
+        }
+    }
+
+    fn turns_with(&self, resultants: &Resultants, body: &RigidBody, speed: Speed) -> Dependence {
+        let velocity = match speed {
+            Speed::Coordinate(i) => i,
+            Speed::Turning(k, axis) => self.derived.turnings.all[k].rate + axis,
+        };
+        resultants.turns_with(self.graph, body.link, velocity)
+    }
+
+    /// Lines of F, N and I that these lines mention.
+    pub(super) fn resultant_lines(&self, lines: &[Line]) -> Vec<Line> {
+        let Some((resultants, bodies)) = self.named_bodies() else { return Vec::new() };
+        let is_mentioned =
+            |text: &str, lines: &[Line]| lines.iter().any(|line| line.has_name(&name(text, 0)));
+        let mut found = Vec::new();
+        for named in &bodies {
+            let (force, torque) = (self.force_line(resultants, *named), self.torque_line(*named));
+            let both = [(&named.own.force, force), (&named.own.torque, torque)];
+            let both = both.into_iter().filter(|(text, _)| is_mentioned(text, lines));
+            found.extend(both.map(|(_, line)| line));
+        }
+        for Named { body, own, .. } in bodies {
+            if self.matrix(&body.inertia).is_none() && is_mentioned(&own.inertia, &found) {
+                found.push(Line::known(name(&own.inertia, 0), self.matrix_of(&body.inertia)));
+            }
+        }
+        found
+    }
+
+    /// F = m (r̈ − g)
+    fn force_line(&self, resultants: &Resultants, Named { body, own, frame, .. }: Named) -> Line {
+        let acceleration = name(&own.position, 2);
+        let is_weightless = resultants.lift == [Id::ZERO; 3];
+        let acceleration = match is_weightless {
+            true => Ok(acceleration),
+            false => {
+                self.vector_of_components(&resultants.lift).map(|lift| Formula::sum(vec![acceleration, lift]))
+            }
+        };
+        let force = acceleration
+            .and_then(|acceleration| Ok(product(vec![self.expression(body.mass)?, acceleration])));
+        let mut remark = vec![Fragment::words("force on "), Fragment::Formula(name(frame, 0))];
+        remark.push(Fragment::words(if is_weightless { "" } else { " without its weight" }));
+        remark.push(Fragment::words(", along the fixed axes"));
+        Line { remark: Remark::of(remark), ..Line::known(name(&own.force, 0), force) }
+    }
+
+    /// N = I ω̇ + ω × I ω
+    fn torque_line(&self, named: Named) -> Line {
+        let [omega, change] = [0, 1].map(|dots| name(named.rate, dots));
+        let spin = |rate| self.spin(named, rate);
+        let gyroscopic = Formula::Call("cross".to_owned(), vec![omega.clone(), spin(omega)]);
+        let torque = Formula::sum(vec![spin(change), gyroscopic]);
+        let remark = vec![
+            Fragment::words("torque on "),
+            Fragment::Formula(name(named.frame, 0)),
+            Fragment::words(" about its centre of mass, along its axes"),
+        ];
+        Line { remark: Remark::of(remark), ..Line::known(name(&named.own.torque, 0), Ok(torque)) }
+    }
+
+    /// I ω, or I ω̇
+    fn spin(&self, Named { body, own, .. }: Named, rate: Formula) -> Formula {
+        let inertia = self.matrix(&body.inertia).unwrap_or_else(|| own.inertia.clone());
+        Formula::Product(vec![name(&inertia, 0), rate], Vec::new())
+    }
+
+    /// The energy by the velocities of bodies, if it is T + U.
+    pub(super) fn energy_by_bodies(&self) -> Option<Formula> {
+        let (resultants, bodies) = self.named_bodies()?;
+        let [_, potential] = self.derived.energies?;
+        matches!(self.derived.facts.energy_form, EnergyForm::Sum(_)).then_some(())?;
+        let half =
+            |factors: Vec<Formula>| Formula::flat_product(Rational::new(1, 2).into(), factors, Vec::new());
+        let mut terms = Vec::new();
+        for &named in &bodies {
+            let (velocity, rate) = (name(&named.own.position, 1), name(named.rate, 0));
+            if named.body.mass != Id::ZERO && resultants.is_moving(self.graph, named.body) {
+                let mass = self.expression(named.body.mass).ok()?;
+                terms.push(half(vec![mass, dot(velocity.clone(), velocity)]));
+            }
+            if named.body.has_inertia() && resultants.is_turning(named.body.link) {
+                terms.push(half(vec![dot(rate.clone(), self.spin(named, rate))]));
+            }
+        }
+        terms.extend(self.potential_by_bodies(resultants, &bodies, potential)?);
+        Some(Formula::sum(terms)).filter(|energy| length(energy) <= READABLE as usize)
+    }
+
+    /// U with weights m g r[2], or as it is if that is shorter.
+    fn potential_by_bodies(
+        &self,
+        resultants: &Resultants,
+        bodies: &[Named],
+        potential: Id,
+    ) -> Option<Vec<Formula>> {
+        let written = |potential: Id| match potential {
+            Id::ZERO => Some(Vec::new()),
+            potential => Some(vec![self.part_of_energy(potential).ok()?]),
+        };
+        let size = |terms: &Vec<Formula>| terms.iter().map(length).sum::<usize>();
+        let by_weights = || {
+            let mut terms = Vec::new();
+            for &Named { body, own, .. } in bodies.iter().filter(|named| named.body.mass != Id::ZERO) {
+                for (k, &lift) in resultants.lift.iter().enumerate().filter(|(_, lift)| **lift != Id::ZERO) {
+                    let [mass, lift] = [body.mass, lift].map(|factor| self.expression(factor).ok());
+                    terms.push(product(vec![mass?, lift?, component(name(&own.position, 0), k)]));
+                }
+            }
+            terms.extend(written(resultants.potential)?);
+            Some(terms)
+        };
+        [written(potential), by_weights()].into_iter().flatten().min_by_key(size)
+    }
+
+    /// The line of a momentum, with Σ m ṙ·∂ṙ/∂q̇ + (I ω)·∂ω/∂q̇ if that is shorter.
+    pub(super) fn shorter_momentum(&self, line: Line, i: usize) -> Line {
+        let Some(momentum) = self.momentum_by_bodies(i) else { return line };
+        match &line.equation {
+            Equation::Known(_, right) if length(right) <= length(&momentum) => line,
+            _ => {
+                let left = Formula::momentum(&self.problem.coordinates[i].text, 0);
+                Line { label: None, equation: Equation::Known(left, momentum), ..line }
+            }
+        }
+    }
+
+    /// `None` if terms of L beside the bodies have velocities.
+    fn momentum_by_bodies(&self, i: usize) -> Option<Formula> {
+        let (resultants, bodies) = self.named_bodies()?;
+        let is_of = |turning: &Turning| (turning.first..turning.first + 4).contains(&i);
+        let is_of_quaternion = self.derived.turnings.all.iter().any(is_of);
+        (resultants.has_all_velocities && !is_of_quaternion).then_some(())?;
+        let mut terms = Vec::new();
+        for named in bodies {
+            let vectors = [name(&named.own.position, 1), self.spin(named, name(named.rate, 0))];
+            let [moving, turning] = self.projected(resultants, named, Speed::Coordinate(i), vectors);
+            let mass = self.expression(named.body.mass).ok()?;
+            terms.extend(moving.map(|moving| product(vec![mass, moving])));
+            terms.extend(turning);
+        }
+        Some(Formula::sum(terms))
+    }
+}

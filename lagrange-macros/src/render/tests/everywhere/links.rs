@@ -1,0 +1,216 @@
+//! Angular velocities, positions and their partial derivatives, by differences of the orientations and positions of frames.
+
+use super::turns::spread;
+use super::{Page, Value, outer, value};
+use crate::mechanics::Turning;
+use crate::render::formula::Formula;
+use crate::render::links::BodyNames;
+use crate::render::tests::systems::System;
+use crate::symbolic::{Approximate, Id, Rational, Sample};
+use crate::variables::Variable;
+
+/// Coefficients of f(h k) − f(−h k) in h f′(0), for k = 1 … 4, with an error in h⁸.
+const FIRST: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+/// Coefficients of f(h k) − 2 f(0) + f(−h k) in h² f″(0).
+const SECOND: [f64; 4] = [8.0 / 5.0, -1.0 / 5.0, 8.0 / 315.0, -1.0 / 560.0];
+const STEP: f64 = 0.01;
+
+/// Time, coordinates, and their first and second derivatives along a curve.
+struct Curve {
+    start: Vec<f64>,
+    rates: [Vec<f64>; 2],
+}
+
+impl Curve {
+    /// The motion of a sample, or the displacement of its coordinates at these rates.
+    fn of(system: &System, sample: &Sample, rates: Option<&[f64]>) -> Self {
+        let n = system.problem.coordinates.len();
+        let all = |kind: fn(usize) -> Variable| (0..n).map(move |i| value(sample, kind(i)));
+        let start = all(Variable::Coordinate).chain([value(sample, Variable::Time)]).collect();
+        let rates = match rates {
+            Some(rates) => [[rates, &[0.0]].concat(), vec![0.0; n + 1]],
+            None => [
+                all(Variable::Velocity).chain([1.0]).collect(),
+                all(Variable::Acceleration).chain([0.0]).collect(),
+            ],
+        };
+        Self { start, rates }
+    }
+
+    /// Values of nodes at a time after the start, without the accelerations and velocities.
+    fn at(&self, system: &System, sample: &Sample, nodes: &[Id], time: f64) -> Vec<f64> {
+        let mut sample = sample.clone();
+        let place = |i: usize| {
+            let last = self.start.len() - 1;
+            if i == last { Variable::Time } else { Variable::Coordinate(i) }
+        };
+        let moved = self.start.iter().enumerate().map(|(i, &x)| {
+            let x = x + time * self.rates[0][i] + 0.5 * time * time * self.rates[1][i];
+            (place(i).symbol(), Approximate::exact(x))
+        });
+        sample.set(moved.collect::<Vec<_>>());
+        sample.values(&system.graph, nodes).iter().map(|entry| entry.value).collect()
+    }
+
+    /// Values of nodes with their first and second derivatives along the curve.
+    fn derivatives(&self, system: &System, sample: &Sample, nodes: &[Id]) -> [Vec<f64>; 3] {
+        let at = |k: f64| self.at(system, sample, nodes, k * STEP);
+        let start = at(0.0);
+        let mut found = [start.clone(), vec![0.0; nodes.len()], vec![0.0; nodes.len()]];
+        for k in 0..4 {
+            let [after, before] = [1.0, -1.0].map(|sign| at(sign * (k + 1) as f64));
+            for i in 0..nodes.len() {
+                found[1][i] += FIRST[k] * (after[i] - before[i]) / STEP;
+                found[2][i] += SECOND[k] * (after[i] - 2.0 * start[i] + before[i]) / (STEP * STEP);
+            }
+        }
+        found
+    }
+
+    /// Angular velocity and its rate, along the axes with this matrix: the antisymmetric parts of AᵀȦ and AᵀÄ.
+    fn turning(&self, system: &System, sample: &Sample, axes: &[[Id; 3]; 3]) -> [Value; 2] {
+        let [a, first, second] = self.derivatives(system, sample, &axes.concat());
+        [first, second].map(|rate| {
+            let entry = |i: usize, j: usize| (0..3).map(|k| a[3 * k + i] * rate[3 * k + j]).sum::<f64>();
+            [(2, 1), (0, 2), (1, 0)].map(|(i, j)| 0.5 * (entry(i, j) - entry(j, i))).to_vec()
+        })
+    }
+}
+
+/// Values of A, ω, ω̇, r, ṙ and r̈ of the bodies of a page, by name, and those of Aᵀ.
+pub(super) fn values(system: &Page, sample: &Sample) -> Vec<(Formula, Value)> {
+    let mut all = Vec::new();
+    let Some((names, resultants)) = named(system) else { return all };
+    let curve = Curve::of(system, sample, None);
+    let name = Formula::labelled;
+    for (own, link) in names.links.iter().zip(&resultants.links) {
+        let axes = &system.problem.frames[link.frame].axes;
+        let [rate, change] = curve.turning(system, sample, axes);
+        all.extend([(name(&own.rate, 0), rate), (name(&own.rate, 1), change)]);
+        if let Some(matrix) = &own.axes {
+            let entries = curve.at(system, sample, &axes.concat(), 0.0);
+            let transpose = (0..9).map(|k| entries[3 * (k % 3) + k / 3]).collect();
+            all.push((name(matrix, 0), entries));
+            all.push((Formula::Transpose(Box::new(name(matrix, 0))), transpose));
+        }
+    }
+    for (own, body) in names.bodies.iter().zip(&resultants.bodies) {
+        let derivatives = curve.derivatives(system, sample, &body.position);
+        all.extend(
+            derivatives.into_iter().enumerate().map(|(dots, value)| (name(&own.position, dots), value)),
+        );
+    }
+    all
+}
+
+fn named<'s>(system: &'s Page) -> Option<(BodyNames, &'s crate::mechanics::Resultants)> {
+    let names = is_by_bodies(system).then(|| BodyNames::of(&system.problem, &system.derived)).flatten();
+    names.zip(system.derived.resultants.as_ref())
+}
+
+/// Value of ∂ω/∂u, of ∂ṙ/∂u, or of a derivative of a definition or a constraint; `None` of another function.
+pub(super) fn partial(system: &Page, sample: &Sample, function: &str, by: &str) -> Option<Value> {
+    let (names, resultants) = named(system)?;
+    let written = |text: &str, dots| system.written(&Formula::labelled(text, dots));
+    let n = system.problem.coordinates.len();
+    let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
+    let coordinate = |dots| (0..n).find(|&i| written(&system.problem.coordinates[i].text, dots) == by);
+    let along = |i: usize| Curve::of(system, sample, Some(&unit(i)));
+    let nodes = nodes_of(system, function);
+    if !nodes.is_empty() {
+        let by_coordinate = coordinate(0).map(|i| along(i).derivatives(system, sample, &nodes)[1].clone());
+        return by_coordinate.or_else(|| Some(by_velocity(system, sample, &nodes, coordinate(1)?)));
+    }
+    let of_turning = |turning: &Turning| {
+        let text = system.problem.coordinates[turning.first].text.strip_suffix("[0]")?;
+        let axis = (0..3).find(|axis| written(&format!("omega_{text}[{axis}]"), 0) == by)?;
+        let q = [0, 1, 2, 3].map(|k| value(sample, Variable::Coordinate(turning.first + k)));
+        let mut rates = vec![0.0; n];
+        (0..4).for_each(|k| rates[turning.first + k] = 0.5 * spread(q)[axis][k]);
+        Some(Curve::of(system, sample, Some(&rates)))
+    };
+    let turnings = &system.derived.turnings.all;
+    let curve = coordinate(1).map(along).or_else(|| turnings.iter().find_map(of_turning))?;
+    let link = names.links.iter().position(|own| written(&own.rate, 0) == function);
+    let body = names.bodies.iter().position(|own| written(&own.position, 1) == function);
+    let axes = |link: usize| &system.problem.frames[resultants.links[link].frame].axes;
+    let rate = link.map(|link| curve.turning(system, sample, axes(link))[0].clone());
+    let position = |body: usize| &resultants.bodies[body].position;
+    rate.or_else(|| Some(curve.derivatives(system, sample, position(body?))[1].clone()))
+}
+
+/// Nodes of the definitions or the constraints of this name.
+fn nodes_of(system: &Page, function: &str) -> Vec<Id> {
+    let constraints = system.problem.constraints.iter().map(|(label, node)| (&label.text, *node));
+    let mut definitions: Vec<_> = system.problem.names.iter().map(|(node, name)| (name, *node)).collect();
+    definitions.sort();
+    let all = constraints.chain(definitions).filter(|(name, _)| is_in(system, function, name));
+    all.map(|(_, node)| node).collect()
+}
+
+fn is_in(system: &Page, function: &str, name: &str) -> bool {
+    let entry = Formula::labelled(name, 0);
+    outer(&entry).into_iter().chain([entry]).any(|formula| system.written(&formula) == function)
+}
+
+/// Derivatives by a velocity of nodes in which it is linear.
+fn by_velocity(system: &Page, sample: &Sample, nodes: &[Id], i: usize) -> Value {
+    let at = |more: f64| {
+        let mut sample = sample.clone();
+        let velocity = Variable::Velocity(i);
+        sample.set([(velocity.symbol(), Approximate::exact(value(&sample, velocity) + more))]);
+        sample.values(&system.graph, nodes)
+    };
+    at(1.0).iter().zip(at(0.0)).map(|(after, before)| after.value - before.value).collect()
+}
+
+/// Checks the lines of A, ω and r.
+pub(super) fn check(system: &Page) {
+    let Some((names, _)) = named(system) else { return };
+    let lines = system.lines("Lagrangian\n");
+    let of_links = names.links.iter().flat_map(|own| [own.axes.as_ref(), Some(&own.rate)]).flatten();
+    for text in of_links.chain(names.bodies.iter().map(|own| &own.position)) {
+        let formula = Formula::labelled(text, 0);
+        let start = system.written(&formula) + " = ";
+        for line in lines.iter().filter(|line| line.starts_with(&start)) {
+            super::check_line(system, line, |sample| {
+                values(system, sample).into_iter().find(|(name, _)| *name == formula).expect("a value").1
+            });
+        }
+    }
+}
+
+/// A vector or a matrix of three by three, and its entries.
+pub(super) fn with_entries(name: &Formula, value: Value) -> Vec<(Formula, Value)> {
+    let index = |name: Formula, k: usize| name.indexed(Formula::Number(Rational::from_integer(k as i128)));
+    let entry = |k: usize| match value.len() {
+        3 => index(name.clone(), k),
+        _ => index(index(name.clone(), k / 3), k % 3),
+    };
+    let mut all: Vec<_> = value.iter().enumerate().map(|(k, &x)| (entry(k), vec![x])).collect();
+    all.push((name.clone(), value));
+    all
+}
+
+/// True for a line of F, N or I of a body.
+pub(super) fn is_resultant(system: &Page, line: &str) -> bool {
+    resultants(system).iter().any(|name| line.starts_with(&format!("{} = ", system.written(name))))
+}
+
+/// F, N and I, each after those in its definition.
+pub(super) fn resultants(system: &Page) -> Vec<Formula> {
+    let Some((names, _)) = named(system) else { return Vec::new() };
+    let inertias = names.bodies.iter().map(|own| &own.inertia);
+    let others = names.bodies.iter().flat_map(|own| [&own.force, &own.torque]);
+    inertias.chain(others).map(|text| Formula::labelled(text, 0)).collect()
+}
+
+/// True if a page states equations by the forces and torques on bodies.
+pub(super) fn is_by_bodies(system: &System) -> bool {
+    let names = BodyNames::of(&system.problem, &system.derived);
+    let forces = names.iter().flat_map(|names| &names.bodies).flat_map(|own| [&own.force, &own.torque]);
+    let written =
+        |text: &String| crate::render::notation::Notation::UNICODE.write(&Formula::labelled(text, 0));
+    let mut written = forces.map(written);
+    written.any(|name| system.forms.iter().any(|form| form[0].contains(&format!("\n  {name} = "))))
+}
