@@ -1,5 +1,5 @@
-//! Names of the matrices of rotations by quaternions: A_q turns the components of a vector along the turned axes into those
-//! along the fixed ones (Shabana, *Dynamics of Multibody Systems*, 2.1).
+//! Names of the matrices of rotations by quaternions: A_q turns the components c of a vector along the turned axes into those
+//! along the fixed ones, the vector part of q (0, c) q*.
 
 use super::formula::Formula;
 use super::length::length;

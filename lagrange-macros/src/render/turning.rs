@@ -122,7 +122,8 @@ impl Page<'_> {
             formula if length(&formula) > READABLE as usize => Err(length(&formula) as u64),
             formula => Ok(formula),
         };
-        self.vector_expression(components).map_or_else(by_components, Ok)
+        let vector = self.vector_expression(components).map(without_sign);
+        vector.map_or_else(by_components, Ok)
     }
 
     /// Constraint force R = 2 q N + (R·q) q on a quaternion, where N is its torque along the turned axes: R·q̇ is N·ω for
@@ -164,6 +165,22 @@ impl Page<'_> {
         let is_symmetric = parameters.is_symmetric(parameters.entries[first]);
         (0..3).all(|i| (0..3).all(|j| is_entry(i, j) && (is_symmetric || is_used(i, j)))).then_some(whole)
     }
+}
+
+/// A vector whose minus sign turns the factors of a cross product around, as −(λ×p) = p×λ.
+fn without_sign(vector: Formula) -> Formula {
+    let is_cross = |formula: &Formula| matches!(formula, Formula::Call(name, _) if name == "cross");
+    let (is_negative, mut vector) = vector.sign_and_magnitude();
+    if let Formula::Product(above, _) = &mut vector
+        && let Some(Formula::Call(name, sides)) = above.last_mut()
+        && is_negative
+        && name == "cross"
+        && !sides.iter().any(is_cross)
+    {
+        sides.reverse();
+        return vector;
+    }
+    vector.signed(is_negative)
 }
 
 /// ω and ω̇ of a quaternion.

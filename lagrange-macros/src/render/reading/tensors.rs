@@ -17,12 +17,17 @@ impl Expansion<'_> {
     pub(super) fn name_tensors(&mut self, problem: &Problem, derived: &Derived, axes: &[NamedAxes]) {
         for axes in axes {
             self.same.extend(axes.nodes.iter().map(|&(node, [i, j])| (node, axes.entries[i][j])));
-            let entries = axes.entries.map(|row| row.map(|id| self.atoms.atom(Meaning::Definition(id))));
-            self.atoms.tensors.add_matrix(axes.name(), entries, true);
         }
         let renamed =
             derived.turnings.renamed.iter().filter(|(_, definition)| self.names.contains(definition));
         self.same.extend(renamed.copied());
+        for axes in axes {
+            // A column with a name, as an axis of the body, stands in the matrix by its name.
+            let known = |id: Id| self.same.get(&id).copied().unwrap_or(id);
+            let entries = axes.entries.map(|row| row.map(known));
+            let entries = entries.map(|row| row.map(|id| self.atoms.atom(Meaning::Definition(id))));
+            self.atoms.tensors.add_matrix(axes.name(), entries, true);
+        }
         let matrices = matrices(self.graph, problem, derived);
         for (written, components) in vectors(problem, derived, &self.names) {
             if matrices.iter().any(|(matrix, _)| written.has_name(matrix)) {

@@ -7,7 +7,7 @@ use super::forms::check_forms;
 /// Systems, and lines that their pages have.
 #[rustfmt::skip]
 const BODIES: &[(&str, &[&str])] = &[
-    // The gradient of gravity turns a satellite: Wertz, *Spacecraft Attitude Determination and Control*, 17.2.
+    // The gradient of gravity turns a satellite by 3 μ r×(I r)/|r|⁵, as the crate `orts` has it (`GravityGradientTorque`).
     (
         "#[coordinates(r: [3], q: [4])] #[frame(body: translate(r), rotate(q))]
          #[define(n = express(vector(fixed, r), body))] #[parameter(I: symmetric)]
@@ -112,6 +112,18 @@ const BODIES: &[(&str, &[&str])] = &[
         &[
             "m r̈ = −k s",
             "inertia ω̇_q + ω_q×(inertia ω_q) = k ((A_qᵀ s)×c)",
+        ],
+    ),
+    // The force of a constraint with a turned vector: a disc that rolls, with its axle k and the point of contact p.
+    (
+        "#[coordinates(r: [3], q: [4])] #[frame(disc: translate(r), rotate(q))] #[parameter(I: symmetric)]
+         #[define(k = express(vector(disc, [0, 1, 0]), fixed))] #[define(p = a*(k[2]*k - [0, 0, 1])/sqrt(1 - k[2]^2))]
+         #[lagrangian(kinetic(disc, m, [0, 0, 0], I) - m*g*r[2])]
+         #[constraint(rolls: express(velocity(disc), fixed) + cross(express(angular_velocity(disc), fixed), p) = 0)]
+         struct RollingDisc { m: f64, g: f64, a: f64, I: Matrix3<f64> }",
+        &[
+            "I ω̇_q + ω_q×(I ω_q) = A_qᵀ (p×λ_rolls)",
+            "R_q = 2 q (A_qᵀ (p×λ_rolls)) + 2 λ_q q",
         ],
     ),
     // A turned vector is turned again.
