@@ -11,6 +11,7 @@ use super::links::{BodyNames, NamedBodies, RigidBodyNames};
 use super::page::Page;
 use super::remark::{Fragment, Remark};
 use crate::mechanics::{Dependence, EnergyForm, Resultants, RigidBody, Turning};
+use crate::resolve::Triple;
 use crate::symbolic::{Id, Rational};
 
 /// Velocity whose equation a line states.
@@ -43,8 +44,17 @@ fn dot(one: Formula, other: Formula) -> Formula {
     Formula::Call("dot".to_owned(), vec![one, other])
 }
 
+/// Component of a vector; the scalar factors of a product stay in front.
 fn component(vector: Formula, k: usize) -> Formula {
-    vector.indexed(Formula::Number(Rational::from_integer(k as i128)))
+    let index = Formula::Number(Rational::from_integer(k as i128));
+    match vector {
+        Formula::Product(mut above, below) if matches!(above.last(), Some(Formula::Call(name, _)) if name == "cross") =>
+        {
+            let last = above.pop().map(|last| last.indexed(index));
+            Formula::Product(above.into_iter().chain(last).collect(), below)
+        }
+        vector => vector.indexed(index),
+    }
 }
 
 /// vector·∂(function)/∂u, a component of the vector if this is a unit vector; `None` if it is zero.
@@ -94,7 +104,7 @@ impl Page<'_> {
             Speed::Coordinate(i) => [self.given_force(resultants, i), self.constraint_force(i)],
             Speed::Turning(k, axis) => {
                 let torques = [resultants.torques[k], self.derived.turnings.all[k].constraint.0];
-                torques.map(|torque| self.expression(torque[axis]))
+                torques.map(|torque| self.component_of(&torque, axis))
             }
         };
         let zero = Formula::sum(Vec::new());
@@ -103,6 +113,18 @@ impl Page<'_> {
         let is_short = length(&left) + length(&right) <= READABLE as usize;
         (is_short && left != zero).then_some(())?;
         Some(Line::labelled(&self.speed(speed, 0), Equation::Known(left, right)))
+    }
+
+    /// Component of a vector, by the vector or in coordinates, whichever is shorter.
+    fn component_of(&self, vector: &Triple, axis: usize) -> Result<Formula, u64> {
+        let whole = self.vector_expression(vector).map(|whole| {
+            let (is_negative, whole) = whole.sign_and_magnitude();
+            component(whole, axis).signed(is_negative)
+        });
+        match (whole, self.expression(vector[axis])) {
+            (Some(whole), Ok(other)) if length(&other) <= length(&whole) => Ok(other),
+            (whole, other) => whole.map_or(other, Ok),
+        }
     }
 
     /// A coordinate with dots, or a component of an angular velocity.

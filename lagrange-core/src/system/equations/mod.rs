@@ -35,8 +35,14 @@ use slides::Slides;
 /// I ω̇ + ω×(I ω) = N (Goldstein, Poole and Safko, *Classical Mechanics*, (5.39)). What is printed then holds where the
 /// constraint of q does: |q| = 1 and q·q̇ = 0.
 /// The matrix of the rotation is A_q, with a line of its own where it occurs: A_q c is a vector c of the body along the fixed axes, and
-/// A_qᵀ F a force F along the turned axes, so that N is c×(A_qᵀ F) if F acts at the point c (Shabana, *Dynamics of Multibody
-/// Systems*, 2.1). A constraint force on q is 2 q N + 2 λ q. If `A` is taken, `C` or `S` replaces it.
+/// A_qᵀ F a force F along the turned axes, so that N is c×(A_qᵀ F) if F acts at the point c. A constraint force on q is 2 q N + 2 λ q. If `A` is taken, `C` or `S` replaces it.
+///
+/// If an equation of a system of up to eight rigid bodies is longer than that, the equations are stated by vectors: A is the matrix of the
+/// axes of a frame, ω its angular velocity along these axes, r the position of a centre of mass along the fixed axes, F = m (r̈ − g) and
+/// N = I ω̇ + ω×(I ω) the force and the torque on a body, and Σ F·(∂ṙ/∂q̇) + N·(∂ω/∂q̇) is the generalized force beside inertia and uniform
+/// gravity g (Kane and Levinson, *Dynamics: Theory and Applications*, pages 106 and 124). With a quaternion, a component of its ω takes the place of
+/// q̇. Long generalized forces are products with derivatives of definitions and constraints: λ_c·(∂c/∂q), where the constraint c
+/// is left − right. Equations of at most 60 symbols stay in coordinates.
 ///
 /// An expression longer than 250 characters is replaced by its length. Expressions of more than 100 expanded
 /// terms are printed in the form that is computed.

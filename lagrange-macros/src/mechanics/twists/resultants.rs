@@ -2,8 +2,8 @@
 //!
 //! With F = m (r̈ − g) at the centre of mass and N = I ω̇ + ω × I ω about it, the equation of each velocity u is Jourdain's
 //! principle, Σ F·∂ṙ/∂u + N·∂ω/∂u = Q, where Q has neither inertia nor weight (Kane and Levinson, *Dynamics: Theory and
-//! Applications*, 6.1; their generalized speeds are the velocities u). It holds for trees of any number of bodies, at every
-//! state, with formulas that do not grow with the angles that turn a body.
+//! Applications*, pages 106 and 124, with the generalized speeds u; Moore, *Learn Multibody Dynamics*, Generalized Forces). It
+//! holds for trees of bodies, at every state, with formulas that do not grow with the angles that turn a body.
 
 use std::iter::successors;
 

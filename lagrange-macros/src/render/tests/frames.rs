@@ -70,15 +70,26 @@ const FRAMES: &[(&str, &[&str])] = &[
     (
         "#[coordinates(r: [3], q: [4], s)]
          #[frame(body: translate(r), rotate(q))] #[frame(wheel in body: translate(p), rotate_z(s))]
-         #[lagrangian(kinetic(body, m, [0, 0, 0], I) + kinetic(wheel, M, [0, 0, 0], J))]
-         struct SatelliteWithWheel { m: f64, M: f64, p: Vector3<f64>, I: Matrix3<f64>, J: Matrix3<f64> }",
+         #[lagrangian(kinetic(body, m, [0, 0, 0], I) + kinetic(wheel, M, [0, 0, 0], J) - k*q[0]^2)]
+         struct SatelliteWithWheel { k: f64, m: f64, M: f64, p: Vector3<f64>, I: Matrix3<f64>, J: Matrix3<f64> }",
         &[
             "ω_wheel = A_wheelᵀ A_q ω_q + [0, 0, ṡ]",
             "r_wheel = r + A_q p",
-            "N_body[0] + F_wheel·(∂ṙ_wheel/∂ω_q[0]) + N_wheel·(∂ω_wheel/∂ω_q[0]) = 0",
+            "N_body[0] + F_wheel·(∂ṙ_wheel/∂ω_q[0]) + N_wheel·(∂ω_wheel/∂ω_q[0]) = k q[0] q[1]",
             "N_body = I ω̇_q + ω_q×(I ω_q)",
             "N_wheel[2] = 0",
             "p_r[0] = m ṙ_body[0] + M ṙ_wheel[0]",
+        ],
+    ),
+    // A spring at the point c of the body.
+    (
+        "#[coordinates(r: [3], q: [4], s)] #[frame(body: translate(r), rotate(q))] #[frame(wheel in body: rotate_z(s))]
+         #[define(d = position(body, c) - p)]
+         #[lagrangian(kinetic(body, m, [0, 0, 0], I) + kinetic(wheel, 0, [0, 0, 0], J) - k/2*dot(d, d))]
+         struct WheelOnSpring { k: f64, m: f64, c: Vector3<f64>, p: Vector3<f64>, I: Matrix3<f64>, J: Matrix3<f64> }",
+        &[
+            "m r̈ = −k d",
+            "N_body[0] + N_wheel·(∂ω_wheel/∂ω_q[0]) = k ((A_qᵀ d)×c)[0]",
         ],
     ),
     // A spring by the definition of its length, a motor, friction, and a frame without a body between two bodies.
@@ -116,8 +127,8 @@ const FRAMES: &[(&str, &[&str])] = &[
          #[lagrangian(kinetic(rod, m1, c1, I1) + kinetic(rod, m2, c2) + kinetic(end, F_end, c3, I3))]
          struct TwoOnOneFrame { m1: f64, m2: f64, F_end: f64, h: Vector3<f64>, c1: Vector3<f64>, c2: Vector3<f64>, c3: Vector3<f64>, I1: Matrix3<f64>, I3: Matrix3<f64> }",
         &[
-            "r_rod₂ = A_rod c₂",
-            "K_rod₂ = m₂ r̈_rod₂",
+            "r_rod2 = A_rod c₂",
+            "K_rod2 = m₂ r̈_rod2",
             "K_end = F_end r̈_end",
         ],
     ),
