@@ -254,7 +254,7 @@ impl Page<'_> {
         Some(Formula::sum(terms)).filter(|energy| length(energy) <= READABLE as usize)
     }
 
-    /// U with weights m g r[2], or as it is if that is shorter.
+    /// U with the heights of the bodies in their weights, or as it is if that is shorter.
     fn potential_by_bodies(
         &self,
         resultants: &Resultants,
