@@ -258,7 +258,8 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// Associated constants of these traits.
-const CONSTANTS: [&str; 21] = [
+const CONSTANTS: [&str; 22] = [
+    "STATE_ARGUMENTS",
     "DEPENDS_ON_TIME",
     "QUATERNIONS",
     "HAS_CONTACTS",

@@ -76,18 +76,10 @@ impl<T: Real, N: Length, M: Length, P: Length> Jacobian<T, N, M, P> {
         &mut self,
         tangent: &Tangent<'_, L>,
     ) -> Result<(), Error> {
-        // Equations without the time do not change along the first direction; the others often fill the lanes then.
-        let first = usize::from(!L::DEPENDS_ON_TIME);
-        let put = |k, directions: &mut _, lane| put_argument(first + k, directions, lane);
-        tangent.along_each(
-            1 + 2 * N::COUNT - first,
-            put,
-            |k| name_of::<L>(first + k),
-            |k, change| {
-                self.accelerations.set(first + k, &change.accelerations);
-                self.multipliers.set(first + k, &change.multipliers);
-            },
-        )
+        tangent.by_arguments(0..1 + 2 * N::COUNT, |k, change| {
+            self.accelerations.set(k, &change.accelerations);
+            self.multipliers.set(k, &change.multipliers);
+        })
     }
 }
 

@@ -5,7 +5,6 @@ use alloc::{string::String, vec::Vec};
 use nalgebra::{DMatrix, DVector};
 
 use super::argument::check_parameters;
-use super::jacobian::{name_of, put_argument};
 use super::tangent::{Matrices, Tangent, WideOf};
 use super::{Linearized, StateDerivatives};
 use crate::error::Error;
@@ -90,15 +89,9 @@ impl<L: StateDerivatives<Scalar: Real>> Tangent<'_, L> {
     fn change(&self) -> Result<DMatrix<L::Scalar>, Error> {
         let mut change = DMatrix::zeros(2 * <L::N>::COUNT, 2 * <L::N>::COUNT);
         change.view_mut((0, <L::N>::COUNT), (<L::N>::COUNT, <L::N>::COUNT)).fill_with_identity();
-        let put = |j: usize, directions: &mut _, lane: usize| put_argument(j + 1, directions, lane);
-        self.along_each(
-            2 * <L::N>::COUNT,
-            put,
-            |j| name_of::<L>(j + 1),
-            |j, solution| {
-                change.view_mut((<L::N>::COUNT, j), (<L::N>::COUNT, 1)).copy_from(&solution.accelerations);
-            },
-        )?;
+        self.by_arguments(1..1 + 2 * <L::N>::COUNT, |k, solution| {
+            change.view_mut((<L::N>::COUNT, k - 1), (<L::N>::COUNT, 1)).copy_from(&solution.accelerations);
+        })?;
         Ok(change)
     }
 

@@ -27,6 +27,22 @@ pub trait StateDerivatives: Lagrangian {
     /// Plain numbers from which the derivatives of the residual along all directions are computed.
     type Slopes: Copy + Debug;
 
+    /// What the equations of motion depend on, in ascending order: 0 is the time, 1 … N are coordinates, N + 1 … 2N
+    /// velocities. Derivatives by the others, as by the place of a free body, are zero. `None` if it is not known.
+    ///
+    /// ```
+    /// use lagrange_core::{StateDerivatives, prelude::*};
+    ///
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(theta, phi)]
+    /// #[lagrangian((theta_dot^2 + sin(theta)^2 * phi_dot^2)/2 + g*cos(theta))]
+    /// struct Pendulum { g: f64 }
+    ///
+    /// // θ, θ̇ and φ̇, not φ.
+    /// assert_eq!(Pendulum::STATE_ARGUMENTS, Some(&[1, 3, 4][..]));
+    /// ```
+    const STATE_ARGUMENTS: Option<&'static [usize]> = None;
+
     /// Computes the numbers from which the derivatives of the residual along all directions in time and state follow.
     /// Accelerations and multipliers are held at those of `solution`.
     fn residual_slopes(&self, state: &StateOf<Self>, solution: &SolutionOf<Self>) -> Self::Slopes;
@@ -85,6 +101,7 @@ macro_rules! derivatives_behind {
         #[diagnostic::do_not_recommend]
         impl<L: StateDerivatives> StateDerivatives for $pointer {
             type Slopes = L::Slopes;
+            const STATE_ARGUMENTS: Option<&'static [usize]> = L::STATE_ARGUMENTS;
 
             forward! { @methods
                 fn residual_slopes(

@@ -6,6 +6,7 @@ use core::ops::Range;
 
 use nalgebra::ComplexField;
 
+use super::jacobian::{name_of, put_argument};
 use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
@@ -115,6 +116,25 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
             self.respond(first..count.min(first + lanes), &changes, &entry, &mut give)?;
         }
         Ok(())
+    }
+
+    /// Passes δq̈ and δλ by each of these arguments to `give`, but for those by which they are zero: 0 is the time, then
+    /// coordinates, then velocities.
+    pub(super) fn by_arguments(
+        &self,
+        arguments: Range<usize>,
+        mut give: impl FnMut(usize, &SolutionOf<L>),
+    ) -> Result<(), Error> {
+        let known = L::STATE_ARGUMENTS;
+        let place = |end| known.map_or(end, |all| all.partition_point(|&argument| argument < end));
+        let (first, last) = (place(arguments.start), place(arguments.end));
+        let argument = |k: usize| known.map_or(first + k, |all| all[first + k]);
+        self.along_each(
+            last - first,
+            |k, directions, lane| put_argument(argument(k), directions, lane),
+            |k| name_of::<L>(argument(k)),
+            |k, change| give(argument(k), change),
+        )
     }
 
     /// Passes δq̈ and δλ by each of these parameters to `give`.

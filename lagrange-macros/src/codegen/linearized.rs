@@ -1,11 +1,14 @@
 //! Emits the Jacobians: derivatives of the residual with respect to state and parameters, and access to parameters by
 //! index.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::bounds::FUNCTION_ORDER;
 use super::emitter::{Emitter, Written, runtime};
+use super::operation::Operation;
 use super::passes::Program;
 use super::shape::ResultShape;
 use super::signature::wide;
@@ -13,6 +16,7 @@ use crate::contract::{LINEARIZED, Method, Quantity, STATE_DERIVATIVES};
 use crate::mechanics::{Changes, Linearization};
 use crate::symbolic::Graph;
 use crate::syntax::Property;
+use crate::variables::Variable;
 
 /// Directional derivatives of the residual, each as two programs: one computes slopes at a state, the other applies
 /// them to a direction.
@@ -29,6 +33,20 @@ impl Changing {
             by_state: programs(&linearization.by_state),
             by_parameters: programs(&linearization.by_parameters),
         }
+    }
+
+    /// Indices of the rates of time, coordinates and velocities with which the residual changes.
+    fn state_arguments(&self) -> BTreeSet<usize> {
+        let [_, Program { schedule, results, .. }] = &self.by_state;
+        let used = schedule.operations.iter().zip(schedule.uses(results)).filter(|(_, uses)| *uses > 0);
+        let arguments = used.filter_map(|(operation, _)| match operation {
+            Operation::Input(symbol) => match Variable::of(*symbol) {
+                Variable::Change(index) => Some(index),
+                _ => None,
+            },
+            _ => None,
+        });
+        arguments.collect()
     }
 
     /// Number of slopes: the larger of the numbers for states and for parameters.
@@ -70,6 +88,8 @@ impl Emitter<'_> {
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let (runtime, ident) = (runtime(self.declaration), &self.declaration.ident);
         let p = self.style.types.parameters;
+        let arguments = changing.state_arguments();
+        let arguments = arguments.iter();
         let scalar = self.style.types.scalar;
         let [of_state_slopes, of_parameter_slopes] =
             [&changing.by_state, &changing.by_parameters].map(|[slopes, _]| slopes.results.len());
@@ -84,6 +104,7 @@ impl Emitter<'_> {
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
                 impl #impl_generics __lagrange::StateDerivatives for #ident #type_generics #where_clause {
                     type Slopes = [#scalar; #of_state_slopes];
+                    const STATE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(&[#(#arguments),*]);
                     #of_state
                 }
 

@@ -380,6 +380,9 @@ const _: () = {
     #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
     impl __lagrange::StateDerivatives for Pendulum {
         type Slopes = [f64; 1usize];
+        const STATE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(
+            &[1usize],
+        );
         ///3 operations (+ − × ÷ √), 1 elementary function.
         #[inline]
         #[allow(unused_variables)]

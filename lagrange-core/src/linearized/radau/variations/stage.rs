@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use super::super::chart::Chart;
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::jacobian::{name_of, put_argument};
+use crate::linearized::jacobian::put_argument;
 use crate::linearized::tangent::{Tangent, WideOf};
 use crate::linearized::variation::Variations;
 use crate::number::{Real, Wide};
@@ -93,10 +93,8 @@ impl<T: Real> StageDerivatives<T> {
     ) -> Result<Option<Self>, Error> {
         let n = <L::N>::COUNT;
         let mut accelerations = [DMatrix::zeros(n, n), DMatrix::zeros(n, n)];
-        let put = |k, directions: &mut _, lane| put_argument::<T, WideOf<L>, L::N>(1 + k, directions, lane);
-        let name = |k| name_of::<L>(1 + k);
-        tangent.along_each(2 * n, put, name, |k, change| {
-            accelerations[k / n].set_column(k % n, &change.accelerations);
+        tangent.by_arguments(1..1 + 2 * n, |k, change| {
+            accelerations[(k - 1) / n].set_column((k - 1) % n, &change.accelerations);
         })?;
         let ParameterChanges { forced, residuals } = ParameterChanges::at(tangent, variations)?;
         if const { <L::M>::COUNT == 0 } {

@@ -6,7 +6,7 @@ use core::{array::from_fn, ops::Range};
 use lagrange_core::{
     Direction, StateDerivatives,
     nalgebra::{Const, Matrix3, Rotation3, SMatrix, SVector, Vector3},
-    number::FourLanes as Block,
+    number::{FourLanes as Block, Wide},
     prelude::*,
 };
 
@@ -94,11 +94,26 @@ unsafe fn derivatives<L, const N: usize, const M: usize, const J: usize>(
         let columns = a.cast::<SVector<f64, N>>();
         let solution = system.accelerations_unchecked(&state);
         let (factor, slopes) = (system.factor(&state), system.residual_slopes(&state, &solution));
-        for block in blocks(2 * N) {
-            let direction = Direction { t: Block::constant(0.0), q: units(&block, 0), v: units(&block, N) };
+        // The place of a free base changes nothing.
+        let arguments = L::STATE_ARGUMENTS.expect("the derive knows them");
+        let mut left = arguments.iter().peekable();
+        for k in 1..=2 * N {
+            if left.next_if_eq(&&k).is_none() {
+                *columns.add(k - 1) = SVector::zeros();
+            }
+        }
+        for block in arguments.chunks(Block::COUNT) {
+            let mut direction = Direction::zero();
+            for (lane, &k) in block.iter().enumerate() {
+                let entry: &mut Block =
+                    if k > N { &mut direction.v[k - 1 - N] } else { &mut direction.q[k - 1] };
+                entry.put(lane, 1.0);
+            }
             let change = system.residual_change_with(&slopes, &direction);
             let response = system.solve_with(&factor, &-change.motion, &change.acceleration);
-            leave(&response.accelerations, block, columns);
+            for (lane, k) in block.iter().enumerate() {
+                *columns.add(k - 1) = response.accelerations.map(|x| x.to_array()[lane]);
+            }
         }
         for block in blocks(J) {
             let forces = units(&(block.start + N - J..block.end + N - J), 0);
@@ -133,7 +148,7 @@ unsafe fn leave<const N: usize>(
     }
 }
 
-/// The same by the function that checks what it gives; it differentiates by the time, too.
+/// The same by the function that checks what it gives.
 ///
 /// # Safety
 /// See `arm_jacobian_6`.
