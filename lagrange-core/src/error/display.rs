@@ -5,7 +5,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 use super::Error;
 use crate::names::Row;
 #[cfg(feature = "alloc")]
-use crate::system::lookup::listed;
+use crate::names::similar::listed;
 
 impl Display for Error {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {

@@ -12,10 +12,8 @@ use alloc::{
 use super::lagrangian::{Lagrangian, check_names};
 use crate::error::Error;
 use crate::names::Entry;
+use crate::names::similar::{listed, nearest};
 use crate::vector::Length;
-
-/// Number of names listed in a message that counts the others; a single other one is listed too.
-const LISTED: usize = 3;
 
 /// Returns the names of the coordinates, followed by those of the velocities.
 pub(crate) fn entries<L: Lagrangian>() -> Vec<String> {
@@ -120,50 +118,4 @@ fn meaning<L: Lagrangian>(name: &str) -> Option<String> {
         "E" | "H" | "energy" => Some("it is the energy, which a sample's `energy()` gives".into()),
         _ => None,
     })
-}
-
-/// Lists names for a message: up to four; of more, the three most similar to `name`, and the number of the others.
-pub(crate) fn listed(name: &str, known: &[String]) -> String {
-    let quoted = |names: &[&String]| {
-        let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-        names.join(", ")
-    };
-    let mut names: Vec<&String> = known.iter().collect();
-    if names.len() <= LISTED + 1 {
-        return quoted(&names);
-    }
-    names.sort_by_key(|known| apart(name, known));
-    format!("{} and {} more", quoted(&names[..LISTED]), names.len() - LISTED)
-}
-
-/// Returns the most similar name, if it is similar enough.
-fn nearest<'a>(name: &str, known: &'a [String]) -> Option<&'a String> {
-    let allowed = match name.chars().count() {
-        0 | 1 => return None,
-        2..=4 => 1,
-        5..=8 => 2,
-        _ => 3,
-    };
-    known.iter().filter(|known| apart(name, known) <= allowed).min_by_key(|known| apart(name, known))
-}
-
-/// Distance of two names. Differences of case alone count as zero.
-fn apart(name: &str, known: &str) -> usize {
-    if known.eq_ignore_ascii_case(name) { 0 } else { distance(name, known) }
-}
-
-/// Damerau–Levenshtein distance (Damerau 1964): number of letters changed, deleted, inserted or swapped with
-/// the next.
-fn distance(from: &str, to: &str) -> usize {
-    let (from, to): (Vec<char>, Vec<char>) = (from.chars().collect(), to.chars().collect());
-    let mut rows: Vec<Vec<usize>> = (0..=from.len()).map(|i| (i..=i + to.len()).collect()).collect();
-    for i in 1..=from.len() {
-        for j in 1..=to.len() {
-            let changed = rows[i - 1][j - 1] + usize::from(from[i - 1] != to[j - 1]);
-            let least = changed.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
-            let swaps = i > 1 && j > 1 && from[i - 2] == to[j - 1] && from[i - 1] == to[j - 2];
-            rows[i][j] = if swaps { least.min(rows[i - 2][j - 2] + 1) } else { least };
-        }
-    }
-    rows[from.len()][to.len()]
 }

@@ -1,7 +1,53 @@
 //! Fields that keep the state of a constraint: whether it holds, and whether friction sticks or slides.
 
-use crate::contact::{Contact, Friction};
 use crate::number::Scalar;
+
+/// Whether a contact is open or closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Contact {
+    /// The bodies may part: no force acts.
+    #[default]
+    Open,
+    /// The bodies touch and stay together: the gap is a constraint, and so is the velocity of its friction, if it has any.
+    Closed,
+    /// The bodies touch, and slide along one another. The friction of one velocity acts against the sign of the first number;
+    /// that of two acts against the velocity, which has a positive part along this direction.
+    Slides([f64; 2]),
+    /// The bodies touch and stay together, along with others that share the force of friction. The force along each velocity
+    /// is the one that keeps it zero, or this part of the force of sliding: the others then keep that velocity zero.
+    Shares([Option<f64>; 2]),
+}
+
+/// Whether friction keeps bodies together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Friction {
+    /// The velocity is zero, as a constraint.
+    #[default]
+    Sticks,
+    /// The bodies slide, with a force as for [`Contact::Slides`].
+    Slides([f64; 2]),
+    /// The bodies stay together, with a force as for [`Contact::Shares`].
+    Shares([Option<f64>; 2]),
+}
+
+impl Friction {
+    /// Whether its force keeps this component of the velocity at zero.
+    pub(crate) fn keeps(&self, component: usize) -> bool {
+        match self {
+            Self::Sticks => true,
+            Self::Shares(parts) => parts[component].is_none(),
+            Self::Slides(_) => false,
+        }
+    }
+
+    /// Whether the bodies stay together.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn is_at_rest(&self) -> bool {
+        !matches!(self, Self::Slides(_))
+    }
+}
 
 /// A field that says whether a constraint holds.
 pub trait Switch {
