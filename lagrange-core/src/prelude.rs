@@ -6,9 +6,11 @@ pub use crate::ensemble::Ensemble;
 pub use crate::error::Error;
 pub use crate::function::Function;
 pub use crate::hamiltonian::Hamiltonian;
+pub use crate::linearized::Linearized;
 #[cfg(feature = "alloc")]
 pub use crate::linearized::MotionDerivatives;
-pub use crate::linearized::{Linearized, Radau};
+#[cfg(any(feature = "std", feature = "libm"))]
+pub use crate::linearized::Radau;
 pub use crate::motion::Simulate;
 #[cfg(feature = "alloc")]
 pub use crate::motion::Taylor;

@@ -30,6 +30,7 @@ mod linearization;
 mod local;
 #[cfg(feature = "alloc")]
 mod lyapunov;
+#[cfg(any(feature = "std", feature = "libm"))]
 mod radau;
 #[cfg(feature = "alloc")]
 mod regressor;
@@ -73,6 +74,7 @@ pub use linearization::Linearization;
 pub use local::LocalCoordinates;
 #[cfg(feature = "alloc")]
 pub use lyapunov::LyapunovSpectrum;
+#[cfg(any(feature = "std", feature = "libm"))]
 pub use radau::{Collocation, Radau, RadauMemory, RadauStages};
 #[cfg(feature = "alloc")]
 pub use regressor::{BaseParameters, Regressor};

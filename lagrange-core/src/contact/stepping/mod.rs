@@ -6,8 +6,6 @@ mod trajectory;
 
 use alloc::vec::Vec;
 
-use nalgebra::ComplexField;
-
 use super::bodies::Bodies;
 use super::builder::{CrossesContacts, check_times};
 use super::{Contact, Contacts, ImpactLaw};
@@ -254,5 +252,7 @@ fn begin<L: Contacts<Scalar: Real> + Clone>(
 
 /// Number of steps over a span of time, the last of which may be shorter.
 fn count(scheme: &MoreauJean, span: f64) -> usize {
-    ComplexField::ceil(Scalar::max(span / scheme.step - LONGER, 0.0)) as usize
+    let steps = f64::max(span / scheme.step - LONGER, 0.0);
+    // Rounded up; `ceil` needs the standard library.
+    (steps as usize).saturating_add(usize::from(steps > steps as usize as f64))
 }
