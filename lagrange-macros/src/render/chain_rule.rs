@@ -25,15 +25,15 @@ impl Page<'_> {
             let mut rest = &slopes[..];
             while let [(id, slope), ..] = rest {
                 let count = self.components_from(rest);
-                let (vector, others) = rest.split_at(count);
+                let (components, others) = rest.split_at(count);
                 rest = others;
-                if vector.iter().any(|(id, _)| depends(*id)) {
-                    let slope = match vector {
-                        [_, _, _] => self.vector_of_components(&[0, 1, 2].map(|k| vector[k].1)),
+                if components.iter().any(|(id, _)| depends(*id)) {
+                    let slope = match components {
+                        [_, _, _] => self.vector_of_components(&[0, 1, 2].map(|k| components[k].1)),
                         _ => self.expression(*slope),
                     };
                     let name = self.problem.names.get(id)?;
-                    let name = if count == 3 { super::motion::vector(name)? } else { name };
+                    let name = if count == 3 { vector(name)? } else { name };
                     terms.push(self.times_partial(slope.ok()?, count, name, (i, 0)));
                 }
             }

@@ -12,7 +12,7 @@ use crate::resolve::Label;
 use crate::symbolic::Id;
 
 /// Lines of an equation of motion and of the names in it, and the velocities whose equations these are.
-pub(super) struct Row {
+pub(super) struct MotionRow {
     pub(super) speeds: Vec<Speed>,
     pub(super) lines: Vec<Line>,
 }
@@ -35,7 +35,7 @@ impl Page<'_> {
     }
 
     /// Rows Σ_j M_ij q̈_j = h_i + Σ_α λ_α F_αi, one for each coordinate or vector of coordinates.
-    fn rows(&self) -> Vec<Row> {
+    fn rows(&self) -> Vec<MotionRow> {
         let Derived { equations, inertia, .. } = self.derived;
         let right = |i: usize| {
             let right = [Some(&equations.printed_forcing[i]), equations.printed_force.get(i)];
@@ -53,7 +53,7 @@ impl Page<'_> {
             let rows = std::mem::replace(&mut rows, others);
             let row = |text: &str, own: Range<usize>, equation| {
                 let line = Line::labelled(&Formula::labelled(text, 0), equation);
-                Row { speeds: own.map(Speed::Coordinate).collect(), lines: vec![line] }
+                MotionRow { speeds: own.map(Speed::Coordinate).collect(), lines: vec![line] }
             };
             let whole = (labels.len() > 1).then(|| self.vector_row(own, &rows)).flatten();
             if let Some(turning) = turning {
@@ -77,7 +77,7 @@ impl Page<'_> {
     }
 
     /// The equations of a row by forces and torques on bodies; `None` if the row fits on a line, or if they are too long, too.
-    fn by_bodies(&self, row: &Row) -> Option<Vec<Line>> {
+    fn by_bodies(&self, row: &MotionRow) -> Option<Vec<Line>> {
         let is_short = row.lines.first().is_some_and(|line| match &line.equation {
             Equation::Known(left, right) => length(left) + length(right) <= LINE,
             _ => false,

@@ -25,7 +25,7 @@ pub(super) enum Speed {
 
 /// A rigid body with its names.
 #[derive(Clone, Copy)]
-struct Named<'a> {
+struct BodyWithNames<'a> {
     body: &'a RigidBody,
     own: &'a RigidBodyNames,
     frame: &'a str,
@@ -44,7 +44,7 @@ fn dot(one: Formula, other: Formula) -> Formula {
     Formula::Call("dot".to_owned(), vec![one, other])
 }
 
-/// Component of a vector; the scalar factors of a product stay in front.
+/// Component of a vector; of a product, the component of the cross product at its end, times the other factors.
 fn component(vector: Formula, k: usize) -> Formula {
     let index = Formula::Number(Rational::from_integer(k as i128));
     match vector {
@@ -82,12 +82,12 @@ impl Page<'_> {
         self.begin_readings();
     }
 
-    fn named_bodies(&self) -> Option<(&Resultants, Vec<Named<'_>>)> {
+    fn named_bodies(&self) -> Option<(&Resultants, Vec<BodyWithNames<'_>>)> {
         let (NamedBodies { names, .. }, resultants) =
             self.bodies.as_ref().zip(self.derived.resultants.as_ref())?;
         let named = names.bodies.iter().zip(&resultants.bodies).map(|(own, body)| {
             let link = &names.links[body.link];
-            Named { body, own, frame: &link.frame, rate: &link.rate }
+            BodyWithNames { body, own, frame: &link.frame, rate: &link.rate }
         });
         Some((resultants, named.collect()))
     }
@@ -141,7 +141,7 @@ impl Page<'_> {
     fn projected(
         &self,
         resultants: &Resultants,
-        Named { body, own, rate, .. }: Named,
+        BodyWithNames { body, own, rate, .. }: BodyWithNames,
         speed: Speed,
         [force, torque]: [Formula; 2],
     ) -> [Option<Formula>; 2] {
@@ -186,7 +186,7 @@ impl Page<'_> {
             let both = both.into_iter().filter(|(text, _)| is_mentioned(text, lines));
             found.extend(both.map(|(_, line)| line));
         }
-        for Named { body, own, .. } in bodies {
+        for BodyWithNames { body, own, .. } in bodies {
             if self.matrix(&body.inertia).is_none() && is_mentioned(&own.inertia, &found) {
                 found.push(Line::known(name(&own.inertia, 0), self.matrix_of(&body.inertia)));
             }
@@ -195,7 +195,11 @@ impl Page<'_> {
     }
 
     /// F = m (r̈ − g)
-    fn force_line(&self, resultants: &Resultants, Named { body, own, frame, .. }: Named) -> Line {
+    fn force_line(
+        &self,
+        resultants: &Resultants,
+        BodyWithNames { body, own, frame, .. }: BodyWithNames,
+    ) -> Line {
         let acceleration = name(&own.position, 2);
         let is_weightless = resultants.lift == [Id::ZERO; 3];
         let acceleration = match is_weightless {
@@ -213,7 +217,7 @@ impl Page<'_> {
     }
 
     /// N = I ω̇ + ω × I ω
-    fn torque_line(&self, named: Named) -> Line {
+    fn torque_line(&self, named: BodyWithNames) -> Line {
         let [omega, change] = [0, 1].map(|dots| name(named.rate, dots));
         let spin = |rate| self.spin(named, rate);
         let gyroscopic = Formula::Call("cross".to_owned(), vec![omega.clone(), spin(omega)]);
@@ -227,7 +231,7 @@ impl Page<'_> {
     }
 
     /// I ω, or I ω̇
-    fn spin(&self, Named { body, own, .. }: Named, rate: Formula) -> Formula {
+    fn spin(&self, BodyWithNames { body, own, .. }: BodyWithNames, rate: Formula) -> Formula {
         let inertia = self.matrix(&body.inertia).unwrap_or_else(|| own.inertia.clone());
         Formula::Product(vec![name(&inertia, 0), rate], Vec::new())
     }
@@ -258,7 +262,7 @@ impl Page<'_> {
     fn potential_by_bodies(
         &self,
         resultants: &Resultants,
-        bodies: &[Named],
+        bodies: &[BodyWithNames],
         potential: Id,
     ) -> Option<Vec<Formula>> {
         let written = |potential: Id| match potential {
@@ -268,7 +272,8 @@ impl Page<'_> {
         let size = |terms: &Vec<Formula>| terms.iter().map(length).sum::<usize>();
         let by_weights = || {
             let mut terms = Vec::new();
-            for &Named { body, own, .. } in bodies.iter().filter(|named| named.body.mass != Id::ZERO) {
+            for &BodyWithNames { body, own, .. } in bodies.iter().filter(|named| named.body.mass != Id::ZERO)
+            {
                 for (k, &lift) in resultants.lift.iter().enumerate().filter(|(_, lift)| **lift != Id::ZERO) {
                     let [mass, lift] = [body.mass, lift].map(|factor| self.expression(factor).ok());
                     terms.push(product(vec![mass?, lift?, component(name(&own.position, 0), k)]));

@@ -5,7 +5,7 @@ use num_traits::One;
 use super::formula::Formula;
 use super::length::{READABLE, length};
 use super::lines::{Equation, Line};
-use super::motion::{Row, vector};
+use super::motion::{MotionRow, vector};
 use super::notation::Notation;
 use super::page::Page;
 use super::remark::{Fragment, Remark};
@@ -27,7 +27,7 @@ impl Page<'_> {
     }
 
     /// q̇ = ½ q ω, and the equation of ω: as a vector, or one line for each component.
-    pub(super) fn turning(&self, number: usize, labels: &[Label]) -> Vec<Row> {
+    pub(super) fn turning(&self, number: usize, labels: &[Label]) -> Vec<MotionRow> {
         let turning = &self.derived.turnings.all[number];
         let quaternion = vector(&labels[0].text).unwrap_or_default();
         let name = format!("omega_{quaternion}");
@@ -49,16 +49,16 @@ impl Page<'_> {
             let (left, right) = &turning.rows[axis];
             let equation = self.row(turning.rate + axis, *left, right);
             let speeds = vec![Speed::Turning(number, axis)];
-            Row { speeds, lines: vec![line(&format!("{name}[{axis}]"), equation)] }
+            MotionRow { speeds, lines: vec![line(&format!("{name}[{axis}]"), equation)] }
         };
         let rows = match &turning.euler {
             Some(euler) => {
                 let speeds = [0, 1, 2].map(|axis| Speed::Turning(number, axis)).to_vec();
-                vec![Row { speeds, lines: self.euler(euler, quaternion) }]
+                vec![MotionRow { speeds, lines: self.euler(euler, quaternion) }]
             }
             None => (0..3).map(row).collect(),
         };
-        [Row { speeds: Vec::new(), lines: vec![relation] }].into_iter().chain(rows).collect()
+        [MotionRow { speeds: Vec::new(), lines: vec![relation] }].into_iter().chain(rows).collect()
     }
 
     /// I ω̇ + ω × I ω = N, and I if it is no parameter.

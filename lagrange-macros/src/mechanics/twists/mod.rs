@@ -99,7 +99,7 @@ impl Twists<'_> {
         parts
     }
 
-    /// Adds the forces that are no terms of L.
+    /// Adds the generalized forces that do not follow from L.
     fn given_forces(&self, graph: &mut Graph, parts: &mut TwistParts) {
         for (i, force) in forces_along(graph, self.problem, &self.velocities.nodes).into_iter().enumerate() {
             parts.add(i, force, 1);

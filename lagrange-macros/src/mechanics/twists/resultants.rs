@@ -211,7 +211,7 @@ impl Turning {
 }
 
 impl Resultants {
-    /// True if a centre of mass does not rest.
+    /// True if the centre of mass of a body can move.
     pub(crate) fn is_moving(&self, graph: &Graph, body: &RigidBody) -> bool {
         graph.symbols(&body.position).any(|symbol| !matches!(Variable::of(symbol), Variable::Parameter(_)))
     }

@@ -45,7 +45,7 @@ impl Collector<'_, '_> {
         self.depends_on(atom, |variable| matches!(variable, Variable::Parameter(_)))
     }
 
-    /// True if an atom depends on no other variables than those that `may_occur` accepts.
+    /// True if an atom depends on variables alone that `may_occur` accepts.
     fn depends_on(&self, atom: Atom, may_occur: fn(&Variable) -> bool) -> bool {
         let all = |polynomial: &Polynomial| self.consists_of(polynomial, may_occur);
         match self.expansion.atoms.meaning(atom) {

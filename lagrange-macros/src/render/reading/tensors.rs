@@ -22,7 +22,7 @@ impl Expansion<'_> {
             derived.turnings.renamed.iter().filter(|(_, definition)| self.names.contains(definition));
         self.same.extend(renamed.copied());
         for axes in axes {
-            // A column with a name, as an axis of the body, stands in the matrix by its name.
+            // A matrix contains its named columns, such as the axis of a body, by their names.
             let known = |id: Id| self.same.get(&id).copied().unwrap_or(id);
             let entries = axes.entries.map(|row| row.map(known));
             let entries = entries.map(|row| row.map(|id| self.atoms.atom(Meaning::Definition(id))));
