@@ -250,6 +250,23 @@ fn a_slope_is_guarded_unless_the_residual_is_infinite_with_it() {
     );
 }
 
+/// xʸ dx: xʸ is finite where a residual x + xʸ is, and may be infinite where atan(xʸ) is finite.
+#[test]
+fn a_factor_is_guarded_unless_the_residual_is_infinite_with_it() {
+    let guards = |residual: fn(&mut Schedule, Register, Register) -> Register| {
+        let mut schedule = Schedule::default();
+        let [x, y] = [0, 1].map(|index| input(&mut schedule, index));
+        let power = schedule.push(Operation::Power(x, y));
+        let residual = residual(&mut schedule, x, power);
+        let change = schedule.push(Operation::Input(Variable::Change(0).symbol()));
+        let rate = schedule.push(Operation::Multiply(power, change));
+        let (new, _) = guard::guarded(&schedule, &[rate], &[residual]);
+        new.operations.iter().filter(|operation| matches!(operation, Operation::Where(..))).count()
+    };
+    assert_eq!(guards(|schedule, x, power| schedule.push(Operation::Add(x, power))), 0);
+    assert_eq!(guards(|schedule, _, power| schedule.push(Operation::Function(Function::Atan, power))), 1);
+}
+
 /// a b dx − (a b dy)/c + sin(a) (b dx): the coefficients are formed first, and each multiplies a rate once.
 #[test]
 fn what_does_not_depend_on_a_direction_is_computed_apart() {
