@@ -4,6 +4,7 @@
 //! formulas follow each other like words: the equation takes as many lines as the width of the page requires. Short
 //! left sides are aligned in a column; long ones begin their own line.
 
+use super::formula::Formula;
 use super::lines::{Equation, Line, Section};
 use super::notation::Notation;
 use super::remark::{Fragment, Remark};
@@ -57,7 +58,7 @@ impl HtmlRows<'_> {
         let remark = self.remark(line.label.as_deref(), &line.remark);
         let (left, right) = match &line.equation {
             Equation::Known(left, right) => {
-                let mut right = notation.pieces(right);
+                let mut right = self.by_columns(right).unwrap_or_else(|| notation.pieces(right));
                 right[0].insert_str(0, &notation.spelling.sign(" = "));
                 (notation.pieces(left), right)
             }
@@ -79,6 +80,25 @@ impl HtmlRows<'_> {
         }
         let [left, right] = [left, right].map(|pieces| self.formulas(pieces));
         format!("<div style=\"{SHORT}\">{left}</div><div style=\"{WRAPPED}\">{right}{remark}</div>\n")
+    }
+
+    /// A matrix whose rows are wider than a line, as a list of its columns, which may stand on several lines.
+    fn by_columns(&self, matrix: &Formula) -> Option<Vec<String>> {
+        let Formula::Vector(rows) = matrix else { return None };
+        let entries = |row: &Formula| if let Formula::Vector(row) = row { Some(row.clone()) } else { None };
+        let rows: Vec<Vec<Formula>> = rows.iter().map(entries).collect::<Option<_>>()?;
+        let (notation, spelling) = (self.notation, self.notation.spelling);
+        // The width of a matrix is that of all its entries side by side.
+        (spelling.width(&notation.write(matrix)) > LINE * rows.len() as f64).then_some(())?;
+        let count = rows.iter().map(Vec::len).min()?;
+        let entry = |row: &Vec<Formula>, k: usize| Formula::Vector(vec![row[k].clone()]);
+        let column = |k: usize| Formula::Vector(rows.iter().map(|row| entry(row, k)).collect());
+        let piece = |k: usize| {
+            let begin = if k == 0 { spelling.sign("[") } else { String::new() };
+            let end = spelling.sign(if k + 1 == count { "]" } else { "," });
+            begin + &notation.write(&column(k)) + &end
+        };
+        (count > 0).then(|| (0..count).map(piece).collect())
     }
 
     /// MathML formulas side by side, with optional line breaks between them.

@@ -3,6 +3,7 @@
 //! Each system is also read back at random states: `everywhere` finds the systems in this file.
 
 use super::forms::check_forms;
+use super::golden::rendered;
 
 /// Systems, and lines that their pages have.
 #[rustfmt::skip]
@@ -139,4 +140,23 @@ const BODIES: &[(&str, &[&str])] = &[
 #[test]
 fn bodies_are_turned_by_vectors() {
     check_forms(BODIES);
+}
+
+/// The matrix of a rotation stands as such, or as a list of its columns if it is wider than a page.
+#[test]
+fn a_wide_matrix_is_a_list_of_columns() {
+    for (quaternion, columns) in [("q", [3].as_slice()), ("attitude", &[1, 1, 1])] {
+        let source = format!(
+            "#[coordinates({quaternion}: [4])] #[frame(body: rotate({quaternion}))] #[define(s = position(body, c) - p)]
+             #[lagrangian(kinetic(body, m, [0, 0, 0], I) - k/2*dot(s, s))]
+             struct Held {{ m: f64, k: f64, c: Vector3<f64>, p: Vector3<f64>, I: Matrix3<f64> }}"
+        );
+        let [[_, _, html], ..] = rendered(&source).forms;
+        let tables = html.split("<mtable>").skip(1).map(|table| {
+            let row = table.split("</mtr>").next().unwrap_or_default();
+            assert_eq!(table.matches("<mtr>").count(), 3, "{html}");
+            row.matches("<mtd>").count()
+        });
+        assert_eq!(tables.collect::<Vec<_>>(), columns, "{html}");
+    }
 }

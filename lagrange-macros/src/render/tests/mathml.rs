@@ -271,10 +271,32 @@ fn rows(part: &Xml) -> Vec<Row> {
             let symbols: String = parts().filter(|part| !part.is("span")).map(Xml::text).collect();
             // A formula too wide for a root sign is written as a power with exponent 1/2.
             let symbols = symbols.replace("1/2", "");
-            rows.push(Row { equation: line(formulas), symbols });
+            rows.push(Row { equation: by_rows(line(formulas)), symbols });
         }
     }
     rows
+}
+
+/// A matrix that is a list of columns, each a matrix itself, by its rows.
+fn by_rows(equation: String) -> String {
+    let columns = equation.split_once(" = ").filter(|(_, matrix)| matrix.starts_with("[[["));
+    let Some((name, matrix)) = columns else { return equation };
+    let columns: Vec<Vec<&str>> = items(matrix).into_iter().map(items).collect();
+    let entry = |column: &Vec<&str>, k: usize| items(column[k]).concat();
+    let row = |k| columns.iter().map(|column| entry(column, k)).collect::<Vec<_>>().join(", ");
+    let rows = (0..columns[0].len()).map(|k| format!("[{}]", row(k)));
+    format!("{name} = [{}]", rows.collect::<Vec<_>>().join(", "))
+}
+
+/// Items of a list in brackets.
+fn items(list: &str) -> Vec<&str> {
+    let inside = list.strip_prefix('[').and_then(|list| list.strip_suffix(']')).expect("a list");
+    let mut depth = 0;
+    let items = inside.split(|sign: char| {
+        depth += i32::from("[(".contains(sign)) - i32::from("])".contains(sign));
+        sign == ',' && depth == 0
+    });
+    items.map(str::trim).collect()
 }
 
 impl Row {
