@@ -226,12 +226,15 @@ class Robot:
 
 
     def derivatives(self, q, v, efforts):
-        """Derivatives of the accelerations by the tangent of the place and by the velocities, with damping."""
+        """Derivatives of the accelerations by the tangent of the place and by the velocities, with damping: −M⁻¹ times those of the
+        inverse dynamics. Pinocchio's own function for them, `computeABADerivatives`, is off by up to 2e-10 for Tiago and G1, by
+        differences with 60 digits."""
         there, speeds, rates = self.state(q, v)
-        efforts = rates @ efforts - self.damping * speeds
-        by = pinocchio.computeABADerivatives(self.model, self.data, there, speeds, efforts)
-        inverse = numpy.triu(by[2]) + numpy.triu(by[2], 1).T
-        return numpy.hstack([by[0], by[1] - inverse * self.damping])
+        upper = numpy.triu(pinocchio.crba(self.model, self.data, there))
+        accelerations = pinocchio.aba(self.model, self.data, there, speeds, rates @ efforts - self.damping * speeds)
+        by_q, by_v, _ = pinocchio.computeRNEADerivatives(self.model, self.data, there, speeds, accelerations)
+        forces = numpy.hstack([by_q, by_v + numpy.diag(self.damping)])
+        return -numpy.linalg.solve(upper + numpy.triu(upper, 1).T, forces)
 
     def converted(self, q, v, a, below):
         """Ours, in local coordinates, in the tangent of Pinocchio: there places and velocities of the base are along its axes."""
@@ -321,9 +324,10 @@ def main():
                 continue
             seconds = time.monotonic() - start
             worst, count = compare(target / "debug" / name, file, "--floating" in options)
-            agree += worst[:3].max() < TOLERANCE and worst[3] < 10 * TOLERANCE
-            print(f"{name:<20}{count:>12}{seconds:>8.1f} s" + "".join(f"{x:>10.1e}" for x in worst), flush=True)
-    print(f"{agree} of {len(chosen)} robots agree to {TOLERANCE}, derivatives to {10 * TOLERANCE}")
+            agree += worst.max() < TOLERANCE
+            row = "".join(f"{x:>10.1e}" if x else f"{'–':>10}" for x in worst)
+            print(f"{name:<20}{count:>12}{seconds:>8.1f} s{row}", flush=True)
+    print(f"{agree} of {len(chosen)} robots agree to {TOLERANCE}")
     return 0 if agree == len(chosen) else 1
 
 
