@@ -20,6 +20,7 @@ use nalgebra::ComplexField;
 use crate::error::Error;
 use crate::names::name;
 use crate::number::{Real, Scalar, largest};
+use crate::room::Room;
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::near::{self, Corrections};
@@ -209,8 +210,8 @@ impl<L: Lagrangian<Scalar: Real>> Projection<'_, L> {
         (state, residual): &Trial<L::Scalar, L::N, L::M>,
         rank: Rank<L::Scalar>,
     ) -> Option<Vector<L::Scalar, L::N>> {
-        let mut m: Array<Array<L::Scalar, L::N>, L::N> = self.system.mass_matrix(state).into();
-        let mut f = residual.jacobian;
+        let mut m = mass_matrix(self.system, state);
+        let mut f = residual.jacobian.clone();
         hold(self.held, &mut m, &mut f);
         // For small constraints beside large ones the elimination is more accurate than the general solver.
         fast_correction(&m, &f, &residual.value)
@@ -319,9 +320,19 @@ fn hold<T: Real, N: Length>(held: &Array<bool, N>, m: &mut [Array<T, N>], f: &mu
     }
 }
 
+/// Mass matrix, in a function of its own: on the stack it takes more than its result.
+#[inline(never)]
+fn mass_matrix<L: Lagrangian<Scalar: Real>>(
+    system: &L,
+    state: &StateOf<L>,
+) -> Room<Array<Array<L::Scalar, L::N>, L::N>> {
+    Room::of(system.mass_matrix(state).into())
+}
+
 /// Diagonal part of the mass matrix, with 1 in place of zero masses.
-fn diagonal<T: Real, N: Length>(m: &Array<Array<T, N>, N>) -> Array<Array<T, N>, N> {
+#[inline(never)]
+fn diagonal<T: Real, N: Length>(m: &Array<Array<T, N>, N>) -> Room<Array<Array<T, N>, N>> {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let mass = |i: usize| if m[i][i] == zero { one } else { Scalar::abs(m[i][i]) };
-    from_fn(|i| entries(|j| if i == j { mass(i) } else { zero }))
+    Room::of(from_fn(|i| entries(|j| if i == j { mass(i) } else { zero })))
 }

@@ -7,7 +7,7 @@
 //! curvature, so neither is mistaken for the nearest point.
 //!
 //! Functions that factorize a matrix are not inlined, and stored matrices lie on the heap. The stack thus holds
-//! few matrices at a time: 0.75 MiB for 100 coordinates and 50 constraints.
+//! few matrices at a time: 0.83 MiB for 100 coordinates and 50 constraints.
 
 #[cfg(test)]
 mod tests;
@@ -16,8 +16,8 @@ use core::iter::successors;
 
 use nalgebra::Const;
 
-use super::level::Level;
-use super::{diagonal, hold, project_holding};
+use super::level::{Level, gradients};
+use super::{diagonal, hold, mass_matrix, project_holding};
 use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon};
 use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
@@ -59,13 +59,13 @@ fn metric<L: Lagrangian<Scalar: Real>>(
     held: &Array<bool, L::N>,
     state: &StateOf<L>,
 ) -> Room<Array<Array<L::Scalar, L::N>, L::N>> {
-    let mut f = Level::Position.jacobian(system, state);
-    let mut m: Array<Array<L::Scalar, L::N>, L::N> = system.mass_matrix(given).into();
+    let mut m = mass_matrix(system, given);
+    let mut f = gradients(system, Level::Position, state);
     if m.iter().enumerate().all(|(i, row)| row[i] <= L::Scalar::constant(0.0)) {
         m.iter_mut().flatten().for_each(|x| *x = -*x);
     }
     hold(held, &mut m, &mut f);
-    Room::of(if is_semidefinite(&m) && is_regular(&m, &f) { m } else { diagonal(&m) })
+    if is_semidefinite(&m) && is_regular(&m, &f) { m } else { diagonal(&m) }
 }
 
 /// True if no direction has negative mass.
@@ -107,7 +107,7 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
     #[inline(never)]
     fn place(&self, state: StateOf<L>) -> Option<ConstrainedPoint<L::Scalar, L::N, L::M>> {
         let (Self { system, given, metric, .. }, zero) = (self, L::Scalar::constant(0.0));
-        let mut f = Level::Position.jacobian(*system, &state);
+        let mut f = gradients(*system, Level::Position, &state);
         hold(self.held, &mut [], &mut f);
         let way = given.q.minus(&state.q);
         let pull = entries(|i| dot(&metric[i], way.as_slice()));
@@ -122,7 +122,7 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         };
         Some(ConstrainedPoint {
             state,
-            f: Room::of(f),
+            f,
             pull,
             square,
             slip: found.accelerations,
