@@ -1,23 +1,15 @@
 //! Derivatives along steps of Radau: those of the map of the steps, and of stiff motions in closed form.
 
-use lagrange_core::nalgebra::{Const, DVector};
+use lagrange_core::nalgebra::{Const, DMatrix, DVector};
 use lagrange_core::{linearized::DifferentiableMethod, linearized::StateSensitivity, prelude::*};
 use num_dual::Dual64;
 
 use crate::differences::difference;
+use crate::random::Random;
 use crate::{ChaplyginSleigh, DAMPED, SliderCrank, Twice};
 
-/// States of all steps, and the number of attempts.
-fn steps<S, const N: usize>(path: &Trajectory<&S>) -> (Vec<State<f64, N>>, usize)
-where
-    S: Linearized<N = Const<N>, Scalar = f64>,
-{
-    let statistics = path.statistics();
-    (path.steps().map(|sample| *sample.state()).collect(), statistics.accepted + statistics.rejected)
-}
-
-/// Asserts that the states of a motion are the same bits with derivatives and without.
-fn is_unchanged<S, P, const N: usize>(system: &S, start: State<f64, N>, method: P)
+/// Asserts that a motion with derivatives ends where it does without, and takes few more steps.
+fn is_as_alone<S, P, const N: usize>(system: &S, start: State<f64, N>, method: P)
 where
     S: Linearized<N = Const<N>, Scalar = f64>,
     P: DifferentiableMethod<S> + Copy,
@@ -26,19 +18,23 @@ where
     let names: Vec<&str> = S::COORDINATES.iter().chain(S::PARAMETERS).copied().collect();
     let with = system.integrate_sensitivities(start, 2.0, method, &names).unwrap();
     let alone = system.integrate(start, 2.0, method).unwrap();
-    assert_eq!(steps(with.trajectory()), steps(&alone), "{}", S::NAME);
+    let off = with.trajectory().end().state().q - alone.end().state().q;
+    assert!(off.amax() < 1e-7, "{}: off by {:e}", S::NAME, off.amax());
+    let [more, steps] =
+        [with.trajectory(), &alone].map(|path| path.statistics().accepted + path.statistics().rejected);
+    assert!(more <= steps + steps / 4, "{}: {more} steps, and {steps} without derivatives", S::NAME);
 }
 
 #[test]
-fn derivatives_leave_the_motion_as_it_is() {
+fn derivatives_take_few_more_steps() {
     let method = Radau::with_tolerance(1e-8);
-    is_unchanged(&DAMPED, State::new([1.0], [0.5]), method);
-    is_unchanged(&DAMPED, State::new([1.0], [0.5]), method.stages::<7>());
+    is_as_alone(&DAMPED, State::new([1.0], [0.5]), method);
+    is_as_alone(&DAMPED, State::new([1.0], [0.5]), method.stages::<7>());
     let crank = SliderCrank { r: 0.3, l: 1.0, crank: 0.2, rod: 1.5, slider: 2.0, k: 1.0, c: 0.4 };
-    is_unchanged(&crank, State::new([1.0, -0.25, 1.13], [0.5, 0.0, 0.0]), method.stages::<5>());
-    is_unchanged(&Twice { l: 1.3, a: 1.0, b: 1.0 }, State::new([0.5, -1.2], [1.2, 0.5]), method);
+    is_as_alone(&crank, State::new([1.0, -0.25, 1.13], [0.5, 0.0, 0.0]), method.stages::<5>());
+    is_as_alone(&Twice { l: 1.3, a: 1.0, b: 1.0 }, State::new([0.5, -1.2], [1.2, 0.5]), method);
     let sleigh = ChaplyginSleigh { m: 1.1, a: 0.4, inertia: 0.3 };
-    is_unchanged(&sleigh, State::new([0.0, 0.0, 0.5], [0.8, 0.4, 1.5]), method);
+    is_as_alone(&sleigh, State::new([0.0, 0.0, 0.5], [0.8, 0.4, 1.5]), method);
 }
 
 /// Two masses on springs, one of them pushed.
@@ -98,6 +94,69 @@ fn are_of_the_steps(masses: &Masses<f64>, method: impl DifferentiableMethod<Mass
     }
 }
 
+/// Masses that rest, so that their motion allows any step, or that have little left of a swing, with dampings from none to strong
+/// ones. Their derivatives by coordinates are the motions from one coordinate of 1, and their errors, which count by
+/// the largest entry, are those of these motions with the tenfold tolerance. `LAGRANGE_SWINGS` is the number of systems.
+#[test]
+fn derivatives_keep_the_tolerance() {
+    let count = std::env::var("LAGRANGE_SWINGS").map_or(60, |count| count.parse().expect("a number"));
+    let (mut random, mut worst) = (Random(7), [[0.0_f64; 3]; 2]);
+    for number in 0..count {
+        let mut one = |from: f64, to: f64| random.size(from, to);
+        let (m, k, c) = (one(0.1, 10.0), one(0.1, 10.0), one(1e-3, 100.0));
+        let masses = Masses { m, k, c, a: 0.0, w: 1.0 };
+        let (tolerance, end) = (one(1e-11, 1e-5), one(0.1, 30.0));
+        let start = if number % 2 == 0 { [0.0, 0.0] } else { [one(1e-6, 1e-2), -one(1e-6, 1e-2)] };
+        let (method, tenfold) = (Radau::with_tolerance(tolerance), Radau::with_tolerance(10.0 * tolerance));
+        let found = [
+            [derivatives(&masses, start, end, method), motions(&masses, end, tenfold)],
+            [
+                derivatives(&masses, start, end, method.stages::<5>()),
+                motions(&masses, end, tenfold.stages::<5>()),
+            ],
+            [
+                derivatives(&masses, start, end, method.stages::<7>()),
+                motions(&masses, end, tenfold.stages::<7>()),
+            ],
+        ];
+        let exact = motions(&masses, end, Taylor::default());
+        for (method, found) in found.iter().enumerate() {
+            for (worst, found) in worst.iter_mut().zip(found) {
+                worst[method] = worst[method].max((found - &exact).amax() / tolerance);
+            }
+        }
+    }
+    println!(
+        "errors of derivatives and of motions, in units of the tolerance, by 3, 5 and 7 stages: {worst:.0?}"
+    );
+    assert!((0..3).all(|method| worst[0][method] < 4.0 * worst[1][method]), "{worst:?}");
+}
+
+/// Derivatives of the state at the end by the coordinates at the start.
+fn derivatives(
+    masses: &Masses<f64>,
+    q: [f64; 2],
+    end: f64,
+    method: impl DifferentiableMethod<Masses<f64>>,
+) -> DMatrix<f64> {
+    let found = masses.integrate_sensitivities(State::at_rest(q), end, method, &["x", "y"]).unwrap();
+    let at = found.end().unwrap();
+    DMatrix::from_fn(4, 2, |i, j| if i < 2 { at.q[(i, j)] } else { at.v[(i - 2, j)] })
+}
+
+/// States at the end of the motions from one coordinate of 1.
+fn motions(
+    masses: &Masses<f64>,
+    end: f64,
+    method: impl lagrange_core::motion::Method<Masses<f64>> + Copy,
+) -> DMatrix<f64> {
+    let ends = [[1.0, 0.0], [0.0, 1.0]].map(|q| {
+        let path = masses.integrate(State::at_rest(q), end, method).unwrap();
+        *path.end().state()
+    });
+    DMatrix::from_fn(4, 2, |i, j| if i < 2 { ends[j].q[i] } else { ends[j].v[i - 2] })
+}
+
 /// A spring in honey.
 #[derive(Clone, Lagrangian)]
 #[coordinates(x)]
@@ -130,16 +189,18 @@ fn check_slow<P: DifferentiableMethod<Slow>>(spring: &Slow, start: State<f64, 1>
     let names = ["x", "x_dot", "k", "c"];
     let motion = spring.integrate_sensitivities(start, 1e6, method, &names).unwrap();
     let dense = tolerance.powf(0.75);
-    for (t, allowed) in [(3.0, dense), (1e4, dense), (4e5, dense), (1e6, tolerance)] {
+    for (t, allowed) in
+        [(1e-6, dense), (1e-4, dense), (3.0, dense), (1e4, dense), (4e5, dense), (1e6, tolerance)]
+    {
         let at = motion.at(t).unwrap();
         for j in 0..4 {
             let mut given = [1.0, 0.3, 1.0, 1e6, t].map(Dual64::from_re);
             given[j] = given[j].derivative();
-            let exact = slow(given)[0].eps;
+            let exact = slow(given).map(|x| x.eps);
             let size = if j == 3 { 1e6 } else { 1.0 };
-            let off = (at.q[(0, j)] - exact).abs() * size;
+            let off = ((at.q[(0, j)] - exact[0]).abs() + (at.v[(0, j)] - exact[1]).abs()) * size;
             println!("by {} at {t}: {off:.1e}, tolerance {tolerance:e}", names[j]);
-            assert!(off < 30.0 * allowed, "by {} at {t}: {} for {exact}", names[j], at.q[(0, j)]);
+            assert!(off < 30.0 * allowed, "by {} at {t}: {} for {}", names[j], at.q[(0, j)], exact[0]);
         }
     }
 }

@@ -52,9 +52,8 @@ pub use tableau::RadauStages;
 /// tolerance.
 ///
 /// Derivatives of a motion ([`integrate_sensitivities`](crate::Linearized::integrate_sensitivities)) are those of its steps at
-/// fixed step lengths, by the implicit function theorem at the stages: the motion is the same with them and without. Their own
-/// error is not estimated, and does not limit a step. Where a motion rests its steps are long, and derivatives that would swing
-/// on are damped out; set [`max_step`](Self::max_step) to a part of their period.
+/// fixed step lengths, by the implicit function theorem at the stages. Their errors are estimated as that of the motion, and limit
+/// the steps as for other methods: where a motion rests, or a damping stops what a velocity starts, derivatives need the shorter ones.
 ///
 /// ```
 /// use lagrange_core::prelude::*;
@@ -167,12 +166,16 @@ impl<const STAGES: usize> Radau<STAGES> {
         ])
     }
 
-    /// Tolerances of the error estimate. It is of the order of the stages, and overestimates the error of the method: as in
-    /// Hairer and Wanner's program, the tolerance is its power that makes the steps those of the order of the method, times a
-    /// tenth.
+    /// Tolerances of the error estimate.
     fn tolerance<T: Real>(&self) -> Tolerance {
         let wanted = self.relative.max(16.0 * T::EPSILON);
-        let relative = 0.1 * iteration::power::<T>(wanted, (STAGES + 1) as f64 / (2 * STAGES) as f64);
+        let relative = 0.1 * of_estimate::<T, STAGES>(wanted);
         Tolerance { relative, absolute: relative * (self.absolute / wanted) }
     }
+}
+
+/// Error of the estimate for an error of the method. The estimate is of the order of the stages, and overestimates the error of the
+/// method: as in Hairer and Wanner's program, the power of this error that makes the steps those of the order of the method.
+fn of_estimate<T: Real, const STAGES: usize>(error: f64) -> f64 {
+    iteration::power::<T>(error, (STAGES + 1) as f64 / (2 * STAGES) as f64)
 }

@@ -233,6 +233,18 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
         self.blocks[index].projected(tangent, &self.parameter_slopes(tangent), y, &names)
     }
 
+    /// Rates δ(q̇, q̈) at a state where a block has the variations `y`.
+    #[cfg(any(feature = "std", feature = "libm"))]
+    pub(super) fn slope(
+        &self,
+        index: usize,
+        tangent: &Tangent<'_, L>,
+        y: &PhaseVector<WideOf<L>, L::N>,
+    ) -> Result<PhaseVector<WideOf<L>, L::N>, Error> {
+        let names = lane_names::<L>(&self.arguments, index);
+        self.blocks[index].slope_at(tangent, &self.parameter_slopes(tangent), y, &names)
+    }
+
     /// Coefficients of the derivatives by parameters; `None` if no variation changes a parameter.
     fn parameter_slopes(&self, tangent: &Tangent<'_, L>) -> Option<L::ParameterSlopes> {
         self.blocks.iter().any(|block| block.rates.is_some()).then(|| tangent.parameter_slopes())

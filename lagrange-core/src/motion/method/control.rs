@@ -7,7 +7,6 @@ use super::pair::error_needs_last;
 use super::pair::{Pair, Slopes, combine};
 
 #[cfg(feature = "alloc")]
-#[cfg(feature = "alloc")]
 use crate::number::Broadcast;
 use crate::number::{Real, Scalar, exceeds, larger, smaller, sum};
 use crate::vector::{Length, PhaseVector, entries, from_fn};
@@ -68,6 +67,15 @@ fn reduction<P: Pair, T: Real>(error: T) -> T {
 /// Index of an entry of the state: half 0 for coordinates, 1 for velocities, then the index of the coordinate.
 pub(crate) type StateEntry = (usize, usize);
 
+/// Variations at both ends of a step, the states there, and the factor that converts changes of the state to the unit of the
+/// variations.
+#[cfg(feature = "alloc")]
+pub(crate) struct VariedStep<'a, T: Scalar, W: Scalar, N: Length> {
+    pub(crate) variations: [&'a PhaseVector<W, N>; 2],
+    pub(crate) places: [&'a PhaseVector<T, N>; 2],
+    pub(crate) unit: W,
+}
+
 /// Tolerances: the error allowed in entry x is `absolute + relative · |x|`.
 #[derive(Clone, Copy)]
 pub(crate) struct Tolerance {
@@ -88,29 +96,46 @@ impl Tolerance {
         estimate::<P, T, N>(slopes, h, &self.scale(before, after))
     }
 
-    /// Error of variations over a step from the state `places[0]` to `places[1]`. Its unit, for the coordinates and for
-    /// the velocities of the variations, is [`SLACK`] times a sum: the relative tolerance of the largest entry of that
-    /// half, plus the error allowed in the state itself, converted by `unit` to the unit of the variations.
+    /// Error of variations over a step of a pair.
     #[cfg(feature = "alloc")]
     pub(crate) fn error_of_variations<P: Pair, T: Scalar, W: Broadcast<T>, N: Length>(
         self,
         slopes: &Slopes<W, N>,
         h: T,
-        [before, after]: [&PhaseVector<W, N>; 2],
-        places: [&PhaseVector<T, N>; 2],
-        unit: W,
+        step: &VariedStep<'_, T, W, N>,
     ) -> W {
+        estimate::<P, W, N>(slopes, W::of(h), &self.scale_of_variations(SLACK, step))
+    }
+
+    /// Size of the `errors` of variations over a step, in units of the allowed ones.
+    #[cfg(all(feature = "alloc", any(feature = "std", feature = "libm")))]
+    pub(crate) fn part_of_variations<T: Scalar, W: Broadcast<T>, N: Length>(
+        self,
+        slack: f64,
+        errors: &PhaseVector<W, N>,
+        step: &VariedStep<'_, T, W, N>,
+    ) -> W {
+        norm(W::constant(1.0), errors, &self.scale_of_variations(slack, step))
+    }
+
+    /// Error allowed in variations, for their coordinates and for their velocities: `slack` times the relative tolerance of the
+    /// largest entry of that half, plus the error allowed in the state itself in the unit of the variations.
+    #[cfg(feature = "alloc")]
+    fn scale_of_variations<T: Scalar, W: Broadcast<T>, N: Length>(
+        self,
+        slack: f64,
+        VariedStep { variations: [before, after], places, unit }: &VariedStep<'_, T, W, N>,
+    ) -> PhaseVector<W, N> {
         let largest = |half: usize| {
             let sizes = (0..N::COUNT).map(|i| before[half][i].abs().max(after[half][i].abs()));
             sizes.fold(W::constant(0.0), |most, size| size.max(most))
         };
         let own = self.scale(places[0], places[1]);
-        let [relative, slack] = [self.relative, SLACK].map(W::constant);
-        let scale: PhaseVector<W, N> = from_fn(|half| {
+        let [relative, slack] = [self.relative, slack].map(W::constant);
+        from_fn(|half| {
             let largest = relative * largest(half);
-            entries(|i| slack * (largest + W::of(own[half][i]) * unit))
-        });
-        estimate::<P, W, N>(slopes, W::of(h), &scale)
+            entries(|i| slack * (largest + W::of(own[half][i]) * *unit))
+        })
     }
 
     /// Change that `rates` make over a step of length `h`, in units of the error allowed at the state `place`.

@@ -4,6 +4,7 @@
 //! variations differ by as little from those of the map with the chart of each start.
 
 mod equations;
+mod estimate;
 mod stage;
 
 use alloc::vec::Vec;
@@ -55,6 +56,12 @@ where
         let Some(stages) = stages else {
             return Err(Ending::MethodFailed { time, reason: "a step has no derivatives" });
         };
+        let found = self.error_of(system, &run.memory, variations, &stages);
+        let (error, worst) = found.map_err(|error| Ending::of(error, time))?;
+        if error > 1.0 {
+            return Err(Ending::StepTooSmall { time, entry: variations.arguments()[worst] });
+        }
+        run.memory.shorten(self, error);
         companion.steps.clear();
         for (k, block) in variations.blocks.iter_mut().enumerate() {
             let start = block.y;

@@ -1,0 +1,87 @@
+//! Errors of the variations over a step: the derivative of the error estimate of the motion.
+
+use nalgebra::Const;
+
+use super::super::estimate::StartSlopes;
+use super::super::iteration::combination;
+use super::super::memory::RadauMemory;
+use super::super::tableau::RadauStages;
+use super::super::{Radau, of_estimate};
+use super::equations::StageVariations;
+use crate::error::Error;
+use crate::linearized::Linearized;
+use crate::linearized::tangent::{Tangent, WideOf};
+use crate::linearized::variation::Variations;
+use crate::motion::method::control::{SLACK, VariedStep};
+use crate::number::{Real, Wide};
+use crate::solution::solve::solve_near;
+use crate::vector::{PhaseVector, entries, from_fn};
+
+impl<const S: usize> Radau<S>
+where
+    Const<S>: RadauStages,
+{
+    /// Largest error of a variation over the last step relative to its tolerance, and the index of that variation.
+    pub(super) fn error_of<L: Linearized<Scalar: Real>>(
+        &self,
+        system: &L,
+        memory: &RadauMemory<L, S>,
+        variations: &Variations<L>,
+        stages: &StageVariations<L::Scalar>,
+    ) -> Result<(f64, usize), Error> {
+        let Some((from, _)) = &memory.taken else { return Ok((0.0, 0)) };
+        let state = from.state();
+        let solution = solve_near(system, &state, Some(&from.active), |solution, _| *solution)?;
+        let tangent = Tangent::of(system, &state, solution);
+        let (mut worst, lanes) = ((0.0, 0), <WideOf<L> as Wide<L::Scalar>>::COUNT);
+        for (k, block) in variations.blocks.iter().enumerate() {
+            let rates = variations.slope(k, &tangent, &block.y)?;
+            for lane in 0..block.lanes {
+                let error =
+                    self.error_of_lane(memory, (variations, stages), (k, lane), (&tangent, &rates))?;
+                // NaN counts as infinite.
+                let error = if error.is_nan() { f64::INFINITY } else { error };
+                if error > worst.0 {
+                    worst = (error, k * lanes + lane);
+                }
+            }
+        }
+        Ok(worst)
+    }
+
+    /// Error of the variation in a lane of block `k`, which has these rates at the start of the step.
+    fn error_of_lane<L: Linearized<Scalar: Real>>(
+        &self,
+        memory: &RadauMemory<L, S>,
+        (variations, stages): (&Variations<L>, &StageVariations<L::Scalar>),
+        (k, lane): (usize, usize),
+        (tangent, rates): (&Tangent<'_, L>, &PhaseVector<WideOf<L>, L::N>),
+    ) -> Result<f64, Error> {
+        let (system, time, block) = (tangent.system, tangent.state.t, &variations.blocks[k]);
+        let in_plane = |y: &_| memory.chart.tangents(system, y, time);
+        let [start, end, rates] = [&block.y, &stages.at(S - 1, k), rates].map(|y| lane_of::<L>(y, lane));
+        let changes = from_fn(|stage| lane_of::<L>(&stages.change(stage, k, &block.y), lane));
+        let all = combination(&memory.transformation.start, &changes);
+        let slopes = StartSlopes { tangent: in_plane(&all)?, all };
+        let places = [&PhaseVector::of(tangent.state.q, tangent.state.v), &memory.at.y];
+        let step = VariedStep { variations: [&start, &end], places, unit: block.unit.lane(lane) };
+        let tolerance = self.tolerance::<L::Scalar>();
+        let slack = of_estimate::<L::Scalar, S>(SLACK);
+        let part = |errors: &_| tolerance.part_of_variations(slack, errors, &step).to_f64();
+        let estimate = memory.estimate_of([&rates, &in_plane(&rates)?], &slopes, part, |errors| {
+            let mut y = block.y;
+            y.flat_mut().iter_mut().zip(errors.flat()).for_each(|(y, x)| y.put(lane, y.lane(lane) + *x));
+            let y = variations.projected(k, tangent, y)?;
+            in_plane(&lane_of::<L>(&variations.slope(k, tangent, &y)?, lane))
+        });
+        Ok(estimate?.size)
+    }
+}
+
+/// One lane of the variations of a block.
+fn lane_of<L: Linearized<Scalar: Real>>(
+    y: &PhaseVector<WideOf<L>, L::N>,
+    lane: usize,
+) -> PhaseVector<L::Scalar, L::N> {
+    from_fn(|half| entries(|i| y[half][i].lane(lane)))
+}
