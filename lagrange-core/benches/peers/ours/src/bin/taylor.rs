@@ -42,12 +42,7 @@ impl Task {
         }
     }
 
-    fn timed<L, P, const N: usize>(
-        &self,
-        system: &L,
-        start: State<f64, N>,
-        method: P,
-    ) -> Outcome<()>
+    fn timed<L, P, const N: usize>(&self, system: &L, start: State<f64, N>, method: P) -> Outcome<()>
     where
         L: Lagrangian<N = Const<N>, Scalar = f64>,
         P: for<'l> Method<&'l L> + Copy,
