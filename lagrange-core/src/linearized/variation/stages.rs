@@ -9,7 +9,7 @@ use nalgebra::ComplexField;
 use super::{Block, DifferentiableMethod, Linearized, StateDerivatives, Variations};
 use crate::error::{Ending, Error};
 use crate::linearized::tangent::{Tangent, WideOf};
-use crate::motion::method::control::VariedStep;
+use crate::motion::method::control::VariedEnds;
 use crate::motion::method::pair::{Slopes, advance, last};
 use crate::motion::method::pair_memory::PairMemory;
 use crate::motion::run::Run;
@@ -139,7 +139,7 @@ impl<Q: Pair> Adaptive<Q> {
         let (lanes, tolerance) = (<WideOf<L> as Wide<L::Scalar>>::COUNT, self.tolerance::<L::Scalar>());
         let places = [&from.y, &memory.y];
         let error = |(block, stages): (&Block<_, L::N, L::P>, &Stages<_, L::N>)| {
-            let step = VariedStep { variations: [&stages.start, &block.y], places, unit: block.unit };
+            let step = VariedEnds { variations: [&stages.start, &block.y], places, unit: block.unit };
             tolerance.error_of_variations::<Q, _, _, L::N>(&stages.slopes, h, &step)
         };
         let errors: Vec<_> = variations.blocks.iter().zip(all).map(error).collect();

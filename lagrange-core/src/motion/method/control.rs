@@ -70,7 +70,7 @@ pub(crate) type StateEntry = (usize, usize);
 /// Variations at both ends of a step, the states there, and the factor that converts changes of the state to the unit of the
 /// variations.
 #[cfg(feature = "alloc")]
-pub(crate) struct VariedStep<'a, T: Scalar, W: Scalar, N: Length> {
+pub(crate) struct VariedEnds<'a, T: Scalar, W: Scalar, N: Length> {
     pub(crate) variations: [&'a PhaseVector<W, N>; 2],
     pub(crate) places: [&'a PhaseVector<T, N>; 2],
     pub(crate) unit: W,
@@ -102,7 +102,7 @@ impl Tolerance {
         self,
         slopes: &Slopes<W, N>,
         h: T,
-        step: &VariedStep<'_, T, W, N>,
+        step: &VariedEnds<'_, T, W, N>,
     ) -> W {
         estimate::<P, W, N>(slopes, W::of(h), &self.scale_of_variations(SLACK, step))
     }
@@ -113,7 +113,7 @@ impl Tolerance {
         self,
         slack: f64,
         errors: &PhaseVector<W, N>,
-        step: &VariedStep<'_, T, W, N>,
+        step: &VariedEnds<'_, T, W, N>,
     ) -> W {
         norm(W::constant(1.0), errors, &self.scale_of_variations(slack, step))
     }
@@ -124,7 +124,7 @@ impl Tolerance {
     fn scale_of_variations<T: Scalar, W: Broadcast<T>, N: Length>(
         self,
         slack: f64,
-        VariedStep { variations: [before, after], places, unit }: &VariedStep<'_, T, W, N>,
+        VariedEnds { variations: [before, after], places, unit }: &VariedEnds<'_, T, W, N>,
     ) -> PhaseVector<W, N> {
         let largest = |half: usize| {
             let sizes = (0..N::COUNT).map(|i| before[half][i].abs().max(after[half][i].abs()));

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::tangent::{Tangent, WideOf};
 use crate::linearized::variation::Variations;
-use crate::motion::method::control::{SLACK, VariedStep};
+use crate::motion::method::control::{SLACK, VariedEnds};
 use crate::number::{Real, Wide};
 use crate::solution::solve::solve_near;
 use crate::vector::{PhaseVector, entries, from_fn};
@@ -64,7 +64,7 @@ where
         let all = combination(&memory.transformation.start, &changes);
         let slopes = StartSlopes { tangent: in_plane(&all)?, all };
         let places = [&PhaseVector::of(tangent.state.q, tangent.state.v), &memory.at.y];
-        let step = VariedStep { variations: [&start, &end], places, unit: block.unit.lane(lane) };
+        let step = VariedEnds { variations: [&start, &end], places, unit: block.unit.lane(lane) };
         let tolerance = self.tolerance::<L::Scalar>();
         let slack = of_estimate::<L::Scalar, S>(SLACK);
         let part = |errors: &_| tolerance.part_of_variations(slack, errors, &step).to_f64();
