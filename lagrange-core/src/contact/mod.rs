@@ -148,10 +148,13 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both.
 //! - The direction in which bodies slide along two velocities is renewed where the velocity has turned by 60°; at 90° the
 //!   force of the old direction would change its sign.
-//! - A force of contact that begins within 64 ε of the largest force is watched for falling below zero by as much.
+//! - A force of contact that begins within 64 ε of the largest force is watched for falling below zero by as much, and one that begins
+//!   within its round-off by that, but by no more than 5·10⁻⁷ of the largest force. The last state of a leg is the last one before a
+//!   force leaves its law, to round-off of the state: where bodies begin to slide, forces turn within the round-off of the time.
 //! - Friction that has stuck up to the end of a leg is at rest there, unless an impact follows.
-//! - Frictions along two velocities that share their load begin to slide where the first of them, as they share it, is within 10⁻¹⁰
-//!   of its limit; each that is within 5·10⁻⁵ of its own slides with it.
+//! - Frictions along two velocities that share their load begin to slide where the first of them, as they share it, is within 5·10⁻¹¹
+//!   of its limit; each that is within 5·10⁻⁵ of its own slides with it. They hold a load up to 1 − 10⁻⁷ of its limit at least.
+//! - Forces at the stored states keep Coulomb's law to 10⁻⁶ of the largest of them.
 //! - Friction that needs no force sticks if what the other contacts leave of its row is a pivot that the elimination trusts.
 //! - A step is not searched for forces that leave their limits where the 16 stages of `Dop853`, or those of `Dopri5` and one more
 //!   evaluation, bound the multipliers away from them: no force leaves its limit there unless it is off every cubic polynomial of
@@ -229,7 +232,7 @@ for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) 
 //! Coulomb's law, by the sweeps of time stepping for friction along two velocities. Then only velocities that do not depend on
 //! one another stick, those with most of their limit left; the others act with the part of the limit that was found, as
 //! [`Contact::Shares`] says, until a force that sticks reaches its limit. Where no share is found, or a force
-//! pulls by more than 10⁻⁶ of the largest force at the start of what follows, the motion ends with
+//! pulls by more than 5·10⁻⁷ of the largest force at the start of what follows, the motion ends with
 //! [`Error::FrictionUndecided`](crate::Error::FrictionUndecided).
 //!
 //! # Which methods

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::motion::event::noise;
 use crate::motion::{DynEvent, Simulate};
 use crate::names::name;
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, smaller};
 use crate::solution::Sample;
 use crate::system::{Lagrangian, SolutionOf, StateOf};
 use crate::vector::{Length, Vector};
@@ -63,33 +63,36 @@ pub(super) fn of_contacts<'w, L>(
 where
     L: Contacts<Scalar: Real> + Clone + 'w,
 {
-    let watches = |(k, &row): (usize, &usize)| {
-        let (name, is_resting) = (name(L::CONSTRAINTS, row), decided.is_resting[k]);
+    let zero = L::Scalar::constant(0.0);
+    let watches = |(k, &row): (usize, &usize)| -> Result<ConditionEvent<'w, L>, Error> {
+        let name = name(L::CONSTRAINTS, row);
         if decided.states.is_closed[k] {
             let force = move |sample: &Sample<&L>| Ok(shared.solution(sample)?.multipliers[row]);
             check_push(system, state, name, force)?;
-            // One that begins at zero has no sign before, and may have no round-off of its own.
-            let rest = if is_resting { Some(round_off::<L>(&system.solve(state)?)) } else { None };
-            return Ok((watched(system, state, name, rest, force)?, LegCondition::Pushes { row }));
+            // One that begins at zero may have no round-off of its own.
+            let solution = system.solve(state)?;
+            let sizes = [round_off::<L>(&solution), largest::<L>(&solution)];
+            let margin = margin(system, state, sizes, force)?;
+            let event = system.event(name, move |sample| Ok(force(sample)? + margin));
+            return Ok((Box::new(event.condition().terminal()), LegCondition::Pushes { row }));
         }
         let gap = move |sample: &Sample<&L>| shared.gap(row, sample);
-        let event = match is_resting {
-            false => watched(system, state, name, None, gap)?,
-            true => {
-                let parts = move |sample: &Sample<&L>| shared.acceleration(row, sample);
-                let noise = noise(&system.event(name, parts), system, state)?;
-                let gap = move |sample: &Sample<&L>| {
-                    let gap = gap(sample)?;
-                    if !lifting.is_at_rest(k) {
-                        return Ok(gap);
-                    }
-                    let rises = lifting.rises(k, sample.state().t, (parts(sample)?, noise));
-                    Ok(if rises { larger(gap, L::Scalar::constant(0.0)) } else { gap })
-                };
-                watched(system, state, name, Some(bodies.touching(k, state) + least_speed()), gap)?
+        if !decided.is_resting[k] {
+            return Ok((Box::new(system.event(name, gap).falling().terminal()), LegCondition::Motion));
+        }
+        let parts = move |sample: &Sample<&L>| shared.acceleration(row, sample);
+        let noise = noise(&system.event(name, parts), system, state)?;
+        let gap = move |sample: &Sample<&L>| {
+            let gap = gap(sample)?;
+            if !lifting.is_at_rest(k) {
+                return Ok(gap);
             }
+            let rises = lifting.rises(k, sample.state().t, (parts(sample)?, noise));
+            Ok(if rises { larger(gap, L::Scalar::constant(0.0)) } else { gap })
         };
-        Ok((event, LegCondition::Motion))
+        let margin = margin(system, state, [bodies.touching(k, state) + least_speed(), zero], gap)?;
+        let event = system.event(name, move |sample| Ok(gap(sample)? + margin));
+        Ok((Box::new(event.falling().terminal()), LegCondition::Motion))
     };
     let contacts = L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]);
     contacts.map(watches).collect()
@@ -105,15 +108,13 @@ fn check_push<L: Contacts<Scalar: Real>>(
 ) -> Result<(), Error> {
     let sample = system.sample(*state);
     let push = force(&sample)?;
-    let zero = L::Scalar::constant(0.0);
-    if push >= zero {
+    if push >= L::Scalar::constant(0.0) {
         return Ok(());
     }
-    let multipliers = sample.solution()?.multipliers;
-    let largest = L::CONTACTS.iter().fold(zero, |size, &row| larger(size, Scalar::abs(multipliers[row])));
+    let size = largest::<L>(&sample.solution()?);
     let noise = noise(&system.event(name, force), system, state)?;
-    let allowed = L::Scalar::constant(BEYOND) * largest + L::Scalar::constant(AT_LIMIT) * noise;
-    if push < -allowed {
+    let beyond = L::Scalar::constant(BEYOND) * size;
+    if push < -larger(beyond, within_law(L::Scalar::constant(AT_LIMIT) * noise, size)) {
         return Err(Error::FrictionUndecided { friction: name, time: state.t.to_f64() });
     }
     Ok(())
@@ -122,9 +123,10 @@ fn check_push<L: Contacts<Scalar: Real>>(
 /// Distance of a force from its limit, in units of round-off of both, within which it is watched for leaving it.
 const AT_LIMIT: f64 = 64.0;
 
-/// Part of its terms by which a force may exceed the limit of friction that is to stick, or pull. The solver of dependent
-/// contacts shares forces by their least norm, which need not be within the limits.
-pub(super) const BEYOND: f64 = 1e-6;
+/// Part of the largest force by which a force may exceed the limit of friction that is to stick, or pull, at the start of a leg, and
+/// by as much more before the leg ends: it is off its law by 10⁻⁶ at most. The solver of dependent contacts shares forces by their
+/// least norm, which need not be within the limits.
+pub(super) const BEYOND: f64 = 5e-7;
 
 /// The events that friction reaches its limit, or stops the bodies, with the conditions that they watch.
 pub(super) fn of_friction<'w, L>(
@@ -136,31 +138,38 @@ pub(super) fn of_friction<'w, L>(
 where
     L: Contacts<Scalar: Real> + Clone + 'w,
 {
-    let (closed, mut events) = (shared.closed, Vec::new());
+    let (closed, zero, mut events) = (shared.closed, L::Scalar::constant(0.0), Vec::new());
     for (f, &FrictionRows { row, contact, .. }) in L::FRICTIONS.iter().enumerate() {
-        if contact.is_some_and(|k| !decided.states.is_closed[k]) || decided.slip_is_implied[f] {
+        if contact.is_some_and(|k| !decided.states.is_closed[k]) {
+            continue;
+        }
+        let (friction, is_implied) = (decided.states.frictions[f], decided.slip_is_implied[f]);
+        let [limit, force] =
+            if friction.is_at_rest() { check_held(system, (closed, f), state)? } else { [zero; 2] };
+        // A force that is a part of that of sliding, and of a velocity that others keep zero, stays where it is.
+        if is_implied {
             continue;
         }
         let name = name(L::CONSTRAINTS, row);
-        let event = match decided.states.frictions[f] {
+        let event: Box<DynEvent<'w, L>> = match friction {
             Friction::Sticks | Friction::Shares(_) => {
                 let left = move |sample: &Sample<&L>| {
                     let [limit, force] = held(closed, f, sample.state(), &shared.solution(sample)?)?;
                     Ok(limit - force)
                 };
                 // A force that begins at its limit has no sign before, and may have no round-off.
-                let solution = system.solve(state)?;
-                let [limit, force] = held(closed, f, state, &solution)?;
                 let least = L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * (limit + force);
-                if force - limit > L::Scalar::constant(BEYOND) * (limit + force) + round_off::<L>(&solution) {
-                    return Err(Error::FrictionUndecided { friction: name, time: state.t.to_f64() });
-                }
-                watched(system, state, name, Some(least + least_speed::<L::Scalar>()), left)?
+                let margin =
+                    margin(system, state, [least + least_speed::<L::Scalar>(), limit + force], left)?;
+                let event = system.event(name, move |sample| Ok(left(sample)? + margin));
+                Box::new(event.condition().terminal())
             }
             Friction::Slides(direction) => {
                 let along = move |sample: &Sample<&L>| slid(closed, f, direction, sample);
                 // One that begins within the round-off of zero may turn at once.
-                watched(system, state, name, Some(least_speed()), along)?
+                let margin = margin(system, state, [least_speed(), zero], along)?;
+                let event = system.event(name, move |sample| Ok(along(sample)? + margin));
+                Box::new(event.falling().terminal())
             }
         };
         events.push((event, LegCondition::of_friction((closed, f), &decided.states, state)?));
@@ -169,19 +178,36 @@ where
 }
 
 /// What round-off leaves of a force of contact or friction beside the largest of them.
-pub(super) fn round_off<L: Contacts<Scalar: Real>>(
-    SolutionOf::<L> { multipliers, .. }: &SolutionOf<L>,
-) -> L::Scalar {
+pub(super) fn round_off<L: Contacts<Scalar: Real>>(solution: &SolutionOf<L>) -> L::Scalar {
+    L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * largest::<L>(solution)
+}
+
+/// The largest force of contact or friction.
+fn largest<L: Contacts<Scalar: Real>>(SolutionOf::<L> { multipliers, .. }: &SolutionOf<L>) -> L::Scalar {
     let frictions = L::FRICTIONS.iter().flat_map(|friction| friction.row..friction.row + friction.count);
     let rows = L::CONTACTS.iter().copied().chain(frictions);
-    let largest =
-        rows.fold(L::Scalar::constant(0.0), |size, row| larger(size, Scalar::abs(multipliers[row])));
-    L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * largest
+    rows.fold(L::Scalar::constant(0.0), |size, row| larger(size, Scalar::abs(multipliers[row])))
 }
 
 /// A number whose square is the least one: it gives a sign to what begins at zero and has no size.
 fn least_speed<T: Real>() -> T {
     Scalar::sqrt(T::constant(T::SMALLEST)) * T::constant(AT_LIMIT)
+}
+
+/// Limit of friction at rest and its force at the start of a leg. Fails if the force exceeds it by more than what the decision leaves
+/// of the largest force.
+fn check_held<L: Contacts<Scalar: Real> + Clone>(
+    system: &L,
+    (closed, f): (&L, usize),
+    state: &StateOf<L>,
+) -> Result<[L::Scalar; 2], Error> {
+    let solution = system.solve(state)?;
+    let [limit, force] = held(closed, f, state, &solution)?;
+    if force - limit > L::Scalar::constant(BEYOND) * largest::<L>(&solution) {
+        let friction = name(L::CONSTRAINTS, L::FRICTIONS[f].row);
+        return Err(Error::FrictionUndecided { friction, time: state.t.to_f64() });
+    }
+    Ok([limit, force])
 }
 
 /// Limit of friction that sticks, and its force.
@@ -223,28 +249,22 @@ fn slid<L: Contacts<Scalar: Real> + Clone>(
     Ok(if count == 1 { along } else { along - half * Scalar::sqrt(square) })
 }
 
-/// The event that a gap or a multiplier becomes negative. If it rests at zero, it may do so at once, without a sign before: it
-/// is then watched for exceeding four times its round-off, and the least that `rest` gives.
-fn watched<'w, L>(
+/// What a quantity that begins at zero is watched for exceeding below zero, as it has no sign there: four times its round-off, and
+/// at least `least`. A force may be off its law by no more than a part [`BEYOND`] of the largest force, `size`, however ill its
+/// round-off makes it known, unless all of that is round-off.
+fn margin<L: Lagrangian<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
-    name: &'static str,
-    rest: Option<L::Scalar>,
-    function: impl Fn(&Sample<&L>) -> Result<L::Scalar, Error> + Copy + 'w,
-) -> Result<Box<DynEvent<'w, L>>, Error>
-where
-    L: Lagrangian<Scalar: Real> + 'w,
-{
-    let zero = L::Scalar::constant(0.0);
-    let mut margin = zero;
-    if let Some(least) = rest {
-        let noise = noise(&system.event(name, function), system, state)?;
-        let allowed = larger(L::Scalar::constant(4.0) * noise, least);
-        let value = function(&system.sample(*state))?;
-        if value <= allowed {
-            margin = allowed + larger(-value, zero);
-        }
-    }
-    let event = system.event(name, move |sample| Ok(function(sample)? + margin));
-    Ok(Box::new(event.falling().terminal()))
+    [least, size]: [L::Scalar; 2],
+    function: impl Fn(&Sample<&L>) -> Result<L::Scalar, Error> + Copy,
+) -> Result<L::Scalar, Error> {
+    let noise = noise(&system.event("", function), system, state)?;
+    let allowed = within_law(larger(L::Scalar::constant(4.0) * noise, least), size);
+    let (value, zero) = (function(&system.sample(*state))?, L::Scalar::constant(0.0));
+    Ok(if value <= allowed { allowed + larger(-value, zero) } else { zero })
+}
+
+/// What round-off may leave of a force beside the largest one: at most a part [`BEYOND`] of that, unless it is round-off as well.
+fn within_law<T: Real>(round_off: T, size: T) -> T {
+    if round_off < size { smaller(round_off, T::constant(BEYOND) * size) } else { round_off }
 }

@@ -103,6 +103,14 @@ impl<L: Lagrangian<Scalar: Real>, G> Event<L, G> {
         self
     }
 
+    /// Makes g ≥ 0 a condition: it holds at the start of a run, and crossings are the last states at which it does.
+    #[cfg(feature = "alloc")]
+    #[must_use]
+    pub(crate) fn condition(mut self) -> Self {
+        (self.memory.is_condition, self.memory.direction) = (true, CrossingDirection::Falling);
+        self
+    }
+
     /// Divides every step into this number of equal parts before the search, for dips that are narrower than a step and
     /// not visible elsewhere. With several events, the largest number applies. Each part costs four evaluations of the
     /// dense output and, with constraints, as many projections.

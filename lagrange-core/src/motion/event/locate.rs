@@ -10,13 +10,13 @@ use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, State, StateOf};
 use crate::vector::{Entrywise, Length};
 
-/// Finds the state between the two given ones at which an event crosses zero. Its function there is zero, or has the
-/// sign of the second state.
+/// Finds the state between the two given ones at which an event crosses zero. Its function there is zero; or it has the sign of
+/// the second state, or of the first one if it is a condition.
 pub(super) fn locate<L, F, I>(
     stride: &DenseStep<'_, L, F, I>,
     event: &impl AnyEvent<L>,
     between: [&StateOf<L>; 2],
-    values: [L::Scalar; 2],
+    (values, is_condition): ([L::Scalar; 2], bool),
 ) -> Result<StateOf<L>, Error>
 where
     L: Lagrangian<Scalar: Real>,
@@ -36,12 +36,13 @@ where
         v: low.what.v.each_with(&high.what.v, |low, high| low + (high - low) * x),
     };
     let finest = constant(L::Scalar::EPSILON);
-    let [_, high] =
+    let [low, high] =
         narrow(ends([&low.what, &high.what], [low.value, high.value]), finest, |x| -> Result<_, Error> {
             let state = between(x);
             Ok((state, event.value(stride.system, &state)?))
         })?;
-    Ok(high.what)
+    let ends_low = is_condition && high.value != constant(0.0);
+    Ok(if ends_low { low.what } else { high.what })
 }
 
 /// Two states and the function's values there, as the points x = 0 and x = 1.

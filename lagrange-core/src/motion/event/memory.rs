@@ -24,6 +24,9 @@ pub struct EventState<T> {
     pub(super) subdivisions: usize,
     /// Number of the crossing that ends a run.
     pub(super) terminal: Option<usize>,
+    /// True if the function is that of a condition, positive at the start of a run, and a crossing the last state at which it is not
+    /// negative.
+    pub(super) is_condition: bool,
     /// Number of crossings in this run; in a steered motion, since its start.
     pub(super) count: usize,
     /// Crossings of earlier legs, from which the next run counts on, and its `round_off`.
@@ -117,6 +120,7 @@ impl<T: Real> EventState<T> {
             direction: CrossingDirection::Both,
             subdivisions: 1,
             terminal: None,
+            is_condition: false,
             count: 0,
             #[cfg(feature = "alloc")]
             earlier: None,
@@ -145,8 +149,8 @@ impl<T: Real> EventState<T> {
 
     /// Copy of the settings, without the history.
     pub(super) fn anew(&self) -> Self {
-        let Self { name, direction, subdivisions, terminal, .. } = *self;
-        Self { direction, subdivisions, terminal, ..Self::new(name) }
+        let Self { name, direction, subdivisions, terminal, is_condition, .. } = *self;
+        Self { direction, subdivisions, terminal, is_condition, ..Self::new(name) }
     }
 
     /// Restarts the count of crossings for a new run.
@@ -197,9 +201,12 @@ impl<T: Real> EventState<T> {
             // value below it is no zero.
             let left = smaller(self.left + self.left, noise * T::constant(16.0));
             let left = if self.last == Some(t) { left } else { T::constant(0.0) };
-            let is_at_zero = start.is_some() && Scalar::abs(value) <= noise + left;
+            let is_at_zero = start.is_some() && !self.is_condition && Scalar::abs(value) <= noise + left;
             self.start = is_at_zero.then_some(left);
             self.value = if is_at_zero { T::constant(0.0) } else { value };
+            if start.is_some() && self.is_condition {
+                self.value = larger(value, T::constant(T::SMALLEST));
+            }
         }
     }
 

@@ -345,7 +345,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     }
 
     /// Moves `from` to the first crossing. Its function is zero there or has the opposite sign; others may cross there
-    /// too.
+    /// too. No condition is violated there.
     #[cold]
     #[inline(never)]
     fn go_to_first<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
@@ -358,17 +358,46 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
         for (index, event) in awake::<_, L>(self.events) {
             let memory = event.memory();
             if memory.crosses() {
-                let values = [memory.value, memory.next];
-                let place = locate(step, event, [from, to], values)?;
+                let (values, is_condition) = ([memory.value, memory.next], memory.is_condition);
+                let mut place = locate(step, event, [from, to], (values, is_condition))?;
+                // Where a condition fails at once, the motion has to go on all the same.
+                if place.t == from.t {
+                    place = locate(step, event, [from, to], (values, false))?;
+                }
                 if first.0 == usize::MAX || step.is_ahead(place.t, first.1.t) {
                     first = (index, place);
                 }
             }
         }
+        self.hold(step, from, &mut first)?;
         *from = first.1;
         for (index, event) in awake::<_, L>(self.events) {
             let value = event.value(step.system, from)?;
             event.memory().arrive(value, from.t, index == first.0);
+        }
+        Ok(())
+    }
+
+    /// Moves the first crossing to before all violations of conditions: they may be between the same two adjacent times, or end
+    /// with the interval. Where one of them is mended, another one may be violated.
+    fn hold<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+        &mut self,
+        step: &DenseStep<'_, L, F, I>,
+        from: &StateOf<L>,
+        (first, place): &mut (usize, StateOf<L>),
+    ) -> Result<(), Error> {
+        for _ in 0..self.events.len() {
+            let before = *place;
+            for (index, event) in awake::<_, L>(self.events) {
+                let (value, next) = (event.memory().value, event.value(step.system, place)?);
+                if index != *first && event.memory().is_condition && next < L::Scalar::constant(0.0) {
+                    *place = locate(step, event, [from, place], ([value, next], true))?;
+                    *first = index;
+                }
+            }
+            if *place == before {
+                break;
+            }
         }
         Ok(())
     }
