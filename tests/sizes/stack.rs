@@ -125,7 +125,7 @@ fn the_derivatives_of_a_motion_of_a_hundred_coordinates_on_fifty_constraints() {
     sensitivities(Taylor::default());
 }
 
-/// The nearest state is sought off the constraints, where they curve. Optimised that takes 850 KiB, so that it fits into the 1 MiB of a
+/// The nearest state is sought off the constraints, where they curve. Optimised that takes 1000 KiB, so that it fits into the 1 MiB of a
 /// program in a browser; unoptimised, where what is moved is copied, 2.7 MiB. `LAGRANGE_STACK` is the size of the stack in KiB.
 #[test]
 fn a_start_of_a_hundred_coordinates_comes_to_fifty_constraints() {

@@ -3,7 +3,6 @@
 use crate::error::Error;
 use crate::names::name;
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, smaller, sum};
-use crate::room::Room;
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
 use crate::vector::{Array, Element, Length, Vector, entries, from_fn};
 
@@ -69,21 +68,11 @@ pub(super) const NEGLIGIBLE: f64 = 16.0;
 /// Residual of a level, with its Jacobian and the magnitude of its terms.
 pub(super) struct Residual<T: Element, N: Length, M: Length> {
     pub(super) value: Array<T, M>,
-    pub(super) jacobian: Room<Array<Array<T, N>, M>>,
+    pub(super) jacobian: Array<Array<T, N>, M>,
     /// Σ |F_αa| |x_a|, the magnitude of the terms; ε times it is their round-off.
     pub(super) terms: Array<T, M>,
     /// Σ |F_αa|, the magnitude of the terms for unknowns of size 1.
     pub(super) sensitivity: Array<T, M>,
-}
-
-/// Constraint Jacobian of a level, in a function of its own: on the stack it takes more than its result.
-#[inline(never)]
-pub(super) fn gradients<L: Lagrangian<Scalar: Real>>(
-    system: &L,
-    level: Level,
-    state: &StateOf<L>,
-) -> Room<Array<Array<L::Scalar, L::N>, L::M>> {
-    Room::of(level.jacobian(system, state))
 }
 
 impl<T: Real, N: Length, M: Length> Residual<T, N, M> {
@@ -94,7 +83,7 @@ impl<T: Real, N: Length, M: Length> Residual<T, N, M> {
     ) -> Self {
         let zero = T::constant(0.0);
         let active = |a: usize| level.is_active(L::CONSTRAINT_KINDS[a]);
-        let jacobian = gradients(system, level, state);
+        let jacobian = level.jacobian(system, state);
         let value = level.residual(system, state);
         let x = *level.unknowns(&mut { *state });
         Self {

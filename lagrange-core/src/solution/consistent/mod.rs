@@ -198,6 +198,7 @@ struct Projection<'a, L: Lagrangian> {
 type Trial<T, N, M> = (State<T, N>, Residual<T, N, M>);
 
 impl<L: Lagrangian<Scalar: Real>> Projection<'_, L> {
+    #[inline(never)]
     fn trial(&self, state: StateOf<L>) -> Trial<L::Scalar, L::N, L::M> {
         (state, Residual::of(self.system, self.level, &state))
     }
@@ -211,7 +212,7 @@ impl<L: Lagrangian<Scalar: Real>> Projection<'_, L> {
         rank: Rank<L::Scalar>,
     ) -> Option<Vector<L::Scalar, L::N>> {
         let mut m = mass_matrix(self.system, state);
-        let mut f = residual.jacobian.clone();
+        let mut f = residual.jacobian;
         hold(self.held, &mut m, &mut f);
         // For small constraints beside large ones the elimination is more accurate than the general solver.
         fast_correction(&m, &f, &residual.value)
@@ -320,13 +321,13 @@ fn hold<T: Real, N: Length>(held: &Array<bool, N>, m: &mut [Array<T, N>], f: &mu
     }
 }
 
-/// Mass matrix, in a function of its own: on the stack it takes more than its result.
+/// Mass matrix, in a function of its own: while it is made it takes more of the stack than its result.
 #[inline(never)]
 fn mass_matrix<L: Lagrangian<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
-) -> Room<Array<Array<L::Scalar, L::N>, L::N>> {
-    Room::of(system.mass_matrix(state).into())
+) -> Array<Array<L::Scalar, L::N>, L::N> {
+    system.mass_matrix(state).into()
 }
 
 /// Diagonal part of the mass matrix, with 1 in place of zero masses.

@@ -2,7 +2,6 @@ use nalgebra::Const;
 
 use crate::fixtures::{Mechanism, dependent_on_the_manifold, identity, rolling_sphere, spherical_pendulum};
 use crate::prelude::*;
-use crate::room::Room;
 use crate::solution::Adjustment;
 
 #[test]
@@ -129,7 +128,7 @@ fn an_inconsistent_start_is_refused_with_its_constraint() {
 fn a_residual_that_is_no_number_is_the_farthest() {
     let residual = super::Residual::<f64, Const<1>, Const<3>> {
         value: [1.0, f64::NAN, 5.0].into(),
-        jacobian: Room::of([[1.0]; 3].into()),
+        jacobian: [[1.0]; 3].into(),
         terms: [1.0; 3].into(),
         sensitivity: [1.0; 3].into(),
     };
