@@ -214,6 +214,7 @@ fn curvature<T: Real>(parts: &[SharedFriction<T>], velocities: &[[T; 2]]) -> Vec
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fixtures::Random;
 
     const POINTS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.3], [-0.4, 0.8]];
 
@@ -267,12 +268,6 @@ mod tests {
         assert!(forces[2] == [0.0; 2] && !slides, "{forces:?}");
     }
 
-    /// A number from 0 to 1, by a linear congruence.
-    fn random(seed: &mut u64) -> f64 {
-        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (*seed >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
     /// The least value of a convex function, by golden sections.
     fn least(of: impl Fn(f64) -> f64) -> f64 {
         let (mut low, mut high, part) = (-50.0, 50.0, (5.0_f64.sqrt() - 1.0) / 2.0);
@@ -283,18 +278,17 @@ mod tests {
         of((low + high) / 2.0)
     }
 
-    /// Friction holds a load up to the least power of friction in a motion in which the load has the power 1 (limit analysis). The
-    /// least is found by golden sections. Of loads near the limit, few are left undecided. `LAGRANGE_SHARES` says how many cases.
+    /// Limit analysis: the largest load that friction holds is the least power of friction among all motions in which a load of 1 has
+    /// the power 1. The least is found by golden sections. Of loads near the limit, few are left undecided. `LAGRANGE_SHARES` says how many cases.
     #[test]
     fn random_loads_are_held_up_to_their_limit() {
         let cases = std::env::var("LAGRANGE_SHARES").map_or(200, |text| text.parse().expect("a number"));
         let mut undecided = 0;
         for case in 0..cases {
-            let mut seed = 7919 * case + 13;
-            (0..5).for_each(|_| _ = random(&mut seed));
-            let points = [0, 1, 2].map(|_| [random(&mut seed) - 0.5, random(&mut seed) - 0.5]);
-            let limits = [0, 1, 2].map(|_| 0.1 + random(&mut seed));
-            let turn = 0.4 * random(&mut seed) - 0.2;
+            let mut random = Random(case);
+            let points = [0, 1, 2].map(|_| [random.next() / 2.0, random.next() / 2.0]);
+            let limits = [0, 1, 2].map(|_| 0.6 + random.next() / 2.0);
+            let turn = 0.2 * random.next();
             let power = |v: f64, w: f64| {
                 let of = |[px, py]: [f64; 2]| f64::hypot(1.0 - turn * w - py * w, v + px * w);
                 points.iter().zip(limits).map(|(&point, limit)| limit * of(point)).sum::<f64>()

@@ -123,9 +123,9 @@ fn check_push<L: Contacts<Scalar: Real>>(
 /// Distance of a force from its limit, in units of round-off of both, within which it is watched for leaving it.
 const AT_LIMIT: f64 = 64.0;
 
-/// Part of the largest force by which a force may exceed the limit of friction that is to stick, or pull, at the start of a leg, and
-/// by as much more before the leg ends: it is off its law by 10⁻⁶ at most. The solver of dependent contacts shares forces by their
-/// least norm, which need not be within the limits.
+/// Part of the largest force by which friction at rest may exceed its limit, or a contact may pull, at the start of a leg. It may be off
+/// by as much more before the leg ends, so that forces are off their law by 10⁻⁶. The solver of dependent contacts shares forces by
+/// their least norm, which need not be within the limits.
 pub(super) const BEYOND: f64 = 5e-7;
 
 /// The events that friction reaches its limit, or stops the bodies, with the conditions that they watch.
@@ -249,9 +249,9 @@ fn slid<L: Contacts<Scalar: Real> + Clone>(
     Ok(if count == 1 { along } else { along - half * Scalar::sqrt(square) })
 }
 
-/// What a quantity that begins at zero is watched for exceeding below zero, as it has no sign there: four times its round-off, and
-/// at least `least`. A force may be off its law by no more than a part [`BEYOND`] of the largest force, `size`, however ill its
-/// round-off makes it known, unless all of that is round-off.
+/// How far below zero a gap, a force or a velocity that begins at zero must fall to be an event, since it has no sign at the start:
+/// four times its round-off, and at least `least`. For a force this is at most a part [`BEYOND`] of the largest force, `size`, unless
+/// all of that is round-off. Zero for what begins above.
 fn margin<L: Lagrangian<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,

@@ -378,8 +378,8 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
         Ok(())
     }
 
-    /// Moves the first crossing to before all violations of conditions: they may be between the same two adjacent times, or end
-    /// with the interval. Where one of them is mended, another one may be violated.
+    /// Moves the first crossing back to a state at which all conditions hold. One may be violated there though its own crossing was
+    /// not found before: it may lie between the same two floating-point times. At the new place another one may be violated.
     fn hold<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
