@@ -210,6 +210,11 @@ impl<T: Real> EventState<T> {
         }
     }
 
+    /// True if the search began at this time.
+    pub(super) fn begins_at(&self, t: T) -> bool {
+        self.begun == Some(t)
+    }
+
     /// Passes the next step, of this width, without a search, if the function has one sign there, as `is_away` tells; if a
     /// search would be content with its lowest degree; and if the step is at most twice as wide as the last one searched: where
     /// no acceleration tells of a force, steps grow until they pass over all of it.

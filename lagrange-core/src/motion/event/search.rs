@@ -360,8 +360,8 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
             if memory.crosses() {
                 let (values, is_condition) = ([memory.value, memory.next], memory.is_condition);
                 let mut place = locate(step, event, [from, to], (values, is_condition))?;
-                // Where a condition fails at once, the motion has to go on all the same.
-                if place.t == from.t {
+                // Where a condition fails with the first change of the state, the motion has to go on all the same.
+                if place == *from && event.memory().begins_at(from.t) {
                     place = locate(step, event, [from, to], (values, false))?;
                 }
                 if first.0 == usize::MAX || step.is_ahead(place.t, first.1.t) {
