@@ -18,11 +18,16 @@ const HALVINGS: usize = 40;
 /// slides at 1 − 10⁻⁶ of its limit, and none is held at 1 + 10⁻⁸.
 const AT_LIMIT: f64 = 1e10;
 
+/// |u|²/g from which forces are at their limit though no balance is found. Below, the search goes on beyond [`AT_LIMIT`], since a step
+/// may lead there on the way to a balance with less.
+const LOST: f64 = 1e13;
+
 /// |u|²/g from which friction slides where others have reached their limits: its force is within 5·10⁻⁵ of its own.
 const MOVES: f64 = 1e4;
 
-/// Imbalance of forces, relative to the sum of their limits, below which they are found.
-const FOUND: f64 = 1e-14;
+/// Imbalance of forces, relative to the sum of their limits, below which they are found; Newton steps go on to round-off
+/// while they halve it. Near the limit round-off leaves more than 10⁻¹⁵ of one in six loads.
+const FOUND: f64 = 1e-12;
 
 /// Friction at rest whose force is shared out anew.
 #[derive(Clone, Copy, Debug)]
@@ -110,22 +115,35 @@ pub(super) fn reserve<T: Real>(
     let mut left = imbalance(&x);
     for _ in 0..STEPS {
         let velocities: Vec<[T; 2]> = parts.iter().map(|part| part.velocity(&x)).collect();
-        let far = |k: usize| parts[k].far(velocities[k]);
-        let is_at_limit = (0..parts.len()).any(|k| far(k) > T::constant(AT_LIMIT));
-        let is_found = left.iter().all(|part| Scalar::abs(*part) <= T::constant(FOUND) * scale);
-        if is_at_limit || is_found {
-            let moves = |k: usize| is_at_limit && far(k) > T::constant(MOVES);
-            let slip = |k: usize| moves(k).then(|| velocities[k].map(|u| -(u / length(velocities[k]))));
-            let force = |(part, &u): (&SharedFriction<T>, &[T; 2])| part.force(u);
-            return Some(Reserve {
-                forces: parts.iter().zip(&velocities).map(force).collect(),
-                slips: (0..parts.len()).map(slip).collect(),
-                velocities: velocities.iter().map(|velocity| velocity.map(|u| -u)).collect(),
-            });
+        let most = parts.iter().zip(&velocities).map(|(part, &u)| part.far(u)).fold(T::constant(0.0), larger);
+        let is_at_limit = most > T::constant(AT_LIMIT);
+        let largest =
+            |left: &[T]| left.iter().fold(T::constant(0.0), |most, &part| larger(most, Scalar::abs(part)));
+        let off = largest(&left);
+        let [is_exact, is_found] = [T::EPSILON, FOUND].map(|part| off <= T::constant(part) * scale);
+        let next = match is_exact || most > T::constant(LOST) {
+            true => None,
+            false => descent(&x, &left, curvature(&parts, &velocities), imbalance),
+        };
+        match next.filter(|(_, after)| !is_found || largest(after) <= T::constant(0.5) * off) {
+            Some(next) => (x, left) = next,
+            None if is_found || is_at_limit => return Some(outcome(&parts, &velocities, is_at_limit)),
+            None => return None,
         }
-        (x, left) = descent(&x, &left, curvature(&parts, &velocities), imbalance)?;
     }
     None
+}
+
+/// Forces of friction with these velocities; at the limit it slides, but for what moves slowly beside the fastest.
+fn outcome<T: Real>(parts: &[SharedFriction<T>], velocities: &[[T; 2]], is_at_limit: bool) -> Reserve<T> {
+    let both = || parts.iter().zip(velocities);
+    let moves = |(part, &u): (&SharedFriction<T>, &[T; 2])| is_at_limit && part.far(u) > T::constant(MOVES);
+    let slip = |of: (&SharedFriction<T>, &[T; 2])| moves(of).then(|| of.1.map(|u| -(u / length(*of.1))));
+    Reserve {
+        forces: both().map(|(part, &u)| part.force(u)).collect(),
+        slips: both().map(slip).collect(),
+        velocities: velocities.iter().map(|velocity| velocity.map(|u| -u)).collect(),
+    }
 }
 
 /// The next x: a Newton step, halved until the slope along it does not rise to more than it fell.
@@ -279,11 +297,11 @@ mod tests {
     }
 
     /// Limit analysis: the largest load that friction holds is the least power of friction among all motions in which a load of 1 has
-    /// the power 1. The least is found by golden sections. Of loads near the limit, few are left undecided. `LAGRANGE_SHARES` says how many cases.
+    /// the power 1. The least is found by golden sections. `LAGRANGE_SHARES` says how many
+    /// cases.
     #[test]
     fn random_loads_are_held_up_to_their_limit() {
         let cases = std::env::var("LAGRANGE_SHARES").map_or(200, |text| text.parse().expect("a number"));
-        let mut undecided = 0;
         for case in 0..cases {
             let mut random = Random(case);
             let points = [0, 1, 2].map(|_| [random.next() / 2.0, random.next() / 2.0]);
@@ -297,13 +315,9 @@ mod tests {
             for (part, slides) in
                 [(0.5, false), (1.0 - 1e-6, false), (1.0 + 1e-8, true), (1.1, true), (3.0, true)]
             {
-                match held([part * load, part * load * turn], points, limits) {
-                    Some((_, found)) => assert_eq!(found, slides, "case {case}: {part} of the limit {load}"),
-                    None => undecided += 1,
-                }
+                let (_, found) = held([part * load, part * load * turn], points, limits).expect("forces");
+                assert_eq!(found, slides, "case {case}: {part} of the limit {load}");
             }
         }
-        println!("{undecided} of {} loads undecided", 5 * cases);
-        assert!(undecided * 50 < 5 * cases, "{undecided}");
     }
 }
