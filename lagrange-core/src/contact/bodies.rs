@@ -64,6 +64,20 @@ pub(super) struct Measured<T> {
     pub(super) noise: [T; 2],
 }
 
+/// Sum Σ |Gₖⱼ Λⱼ| of what impulses Λⱼ of constraints j change the rate of constraint k by, with the responses G = W K⁻¹ Wᵀ: what is
+/// left of it may be round-off.
+pub(crate) fn impulse_changes<L: Contacts<Scalar: Real> + Clone>(
+    system: &L,
+    k: usize,
+    impulses: &[(usize, L::Scalar)],
+    state: &StateOf<L>,
+) -> Result<L::Scalar, Error> {
+    let rows: Vec<usize> = core::iter::once(k).chain(impulses.iter().map(|&(row, _)| row)).collect();
+    let (responses, _) = Bodies::new(system).delassus(&rows, state)?;
+    let changes = responses[0][1..].iter().zip(impulses).map(|(&g, &(_, impulse))| Scalar::abs(g * impulse));
+    Ok(changes.fold(L::Scalar::constant(0.0), |sum, change| sum + change))
+}
+
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     pub(super) fn new(system: &L) -> Self {
         let all = |contact, friction| {

@@ -300,6 +300,8 @@ mod watched;
 
 pub use crate::system::switch::{Contact, Friction};
 use crate::system::{Lagrangian, StateOf};
+#[cfg(feature = "alloc")]
+pub(crate) use bodies::impulse_changes;
 #[cfg(feature = "std")]
 pub(crate) use builder::arrive;
 #[cfg(feature = "alloc")]

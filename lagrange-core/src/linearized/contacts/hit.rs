@@ -6,7 +6,7 @@ use super::boundary::Boundary;
 use super::change::is_at_rest;
 use super::fails;
 use super::law::{NamedLaw, largest};
-use crate::contact::{Contact, Contacts, Friction, FrictionRows, ImpactLaw};
+use crate::contact::{Contact, Contacts, Friction, FrictionRows, ImpactLaw, impulse_changes};
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::sensitivity::{StateSensitivity, impact_sensitivity};
@@ -89,7 +89,10 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         let is_at_limit = size(both(&of)) >= limit * (one - power_of_epsilon::<L::Scalar>(0.5));
         let fails = |reason| fails(L::CONSTRAINTS[row], after.t, reason);
         let rate = self.pushing.constraint_rate(after)[row];
-        match (is_at_limit, is_at_rest(&self.pushing, f, [before, after])) {
+        let is_round_off = |a| self.is_still(a, impulses, [before, after]);
+        let is_still = (row..row + count).map(is_round_off).collect::<Result<Vec<_>, _>>()?;
+        let rests = is_at_rest(&self.pushing, f, [before, after]) || is_still.into_iter().all(|still| still);
+        match (is_at_limit, rests) {
             (false, _) => Ok(Friction::Sticks),
             (true, true) => {
                 fails("its impulse is at the limit, and the arguments decide whether the bodies slide")
@@ -157,9 +160,8 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
             let pushes = self.pushing.contact(k) != Some(Contact::Open);
             other.set_contact(k, Contact::Closed);
             let [before, now] = [&at.state, &after.state];
-            let size = [before, now].map(|state| row_size(&other, L::CONTACTS[k], state));
-            let rate = Scalar::abs(other.constraint_rate(now)[L::CONTACTS[k]]);
-            if impulse > unit * largest(&all) || rate > unit * (size[0] + size[1]) {
+            let closed = Self { contact: self.contact, pushing: other.clone() };
+            if impulse > unit * largest(&all) || !closed.is_still(L::CONTACTS[k], impulses, [before, now])? {
                 continue;
             }
             other.set_contact(k, if pushes { Contact::Open } else { Contact::Closed });
@@ -171,6 +173,23 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
             }
         }
         Ok(())
+    }
+
+    /// Whether the rate of a constraint is zero after the impact: below √ε of its terms before and after, and of what the impulses
+    /// change it by.
+    fn is_still(
+        &self,
+        row: usize,
+        impulses: &Impulses<L>,
+        [before, after]: [&StateOf<L>; 2],
+    ) -> Result<bool, Error> {
+        let of_rows = impulses.iter().filter_map(|&(name, impulse)| {
+            Some((L::CONSTRAINTS.iter().position(|&constraint| constraint == name)?, impulse))
+        });
+        let changes = impulse_changes(&self.pushing, row, &of_rows.collect::<Vec<_>>(), before)?;
+        let [one, other] = [before, after].map(|state| row_size(&self.pushing, row, state));
+        let rate = Scalar::abs(self.pushing.constraint_rate(after)[row]);
+        Ok(rate <= power_of_epsilon::<L::Scalar>(0.5) * (one + other + changes))
     }
 
     /// Fails if the velocities after the impact are not those of the motion.
