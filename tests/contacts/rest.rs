@@ -65,7 +65,8 @@ fn tables_stand_at_the_origin() {
         let path = table.motion(start).with_contacts().max_transitions(100).to(10.0).unwrap();
         assert!(path.end().q.amax() < 1e-20 && path.end().v.amax() < 1e-20, "{}", path.end());
         let forces = path.system().solve(path.end()).unwrap().multipliers;
-        assert!((forces.sum() - 2.0 * 9.81).abs() < 1e-12 && forces.min() >= 0.0, "{forces}");
+        // A leg that takes no load has round-off of the others'.
+        assert!((forces.sum() - 2.0 * 9.81).abs() < 1e-12 && forces.min() > -1e-13, "{forces}");
     }
 }
 

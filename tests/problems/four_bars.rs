@@ -288,19 +288,17 @@ fn forty_windows_cross_level_poses() {
 }
 
 /// With any tolerance `Taylor` either ends before a level pose, and says so, or goes on along the right branch. Below 10⁻¹⁰ it is up to
-/// rounding which of the two; more than half of the motions get to the end.
+/// rounding which of the two; from there on all motions get to the end.
 #[test]
 fn no_tolerance_leads_along_another_branch() {
     let one = windows("A02, 1 window", OneWindow { g: G }, 1, 10.0);
     let two = windows("A02, 2 windows", TwoWindows { g: G }, 2, 10.0);
     let tolerances = [f64::EPSILON, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8];
-    let mut through = 0;
     for tolerance in tolerances {
         let (method, label) = (Taylor::with_tolerance(tolerance), format!("Taylor {tolerance:.0e}"));
         for row in [one.run(&label, method), two.run(&label, method)] {
-            assert!(row.outcome.is_err() || row.is_within_bar(), "{row}");
-            through += usize::from(row.outcome.is_ok());
+            let may_end = tolerance < 1e-10;
+            assert!(may_end && row.outcome.is_err() || row.is_within_bar(), "{row}");
         }
     }
-    assert!(through > tolerances.len(), "{through} of {}", 2 * tolerances.len());
 }
