@@ -285,7 +285,10 @@ const CONSTANTS: [&str; 22] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian`, `MotionDerivatives` and `PeriodicMotion`.
-const PROVIDED: [&str; 50] = [
+const PROVIDED: [&str; 53] = [
+    "motion_gradients",
+    "residual_change_beside_gradients",
+    "residual_change_by",
     "inertial_parameters",
     "regressor",
     "complete_accelerations",

@@ -6,10 +6,10 @@ use nalgebra::DMatrix;
 
 use super::Linearized;
 use super::argument::Argument;
-use super::tangent::{Tangent, WideOf};
+use super::tangent::Tangent;
 use crate::error::Error;
-use crate::number::{Real, Scalar, Wide};
-use crate::system::{Direction, Solution, SolutionOf, StateOf};
+use crate::number::Real;
+use crate::system::{Solution, SolutionOf, StateOf};
 use crate::vector::{Element, Length};
 
 /// Accelerations and multipliers at a state, with their partial derivatives by selected arguments.
@@ -48,14 +48,12 @@ pub(super) fn jacobian_by<L: Linearized<Scalar: Real>>(
     };
     let (of_state, parameters): (Vec<_>, Vec<_>) =
         arguments.iter().enumerate().partition(|(_, argument)| !matches!(argument, Argument::Parameter(_)));
-    let one = L::Scalar::constant(1.0);
-    let put = |j: usize, directions: &mut Direction<WideOf<L>, L::N>, lane: usize| match *of_state[j].1 {
-        Argument::Coordinate(i) => directions.q[i].put(lane, one),
-        Argument::Velocity(i) => directions.v[i].put(lane, one),
-        Argument::Parameter(_) => {}
+    let argument = |j: usize| match *of_state[j].1 {
+        Argument::Coordinate(i) => 1 + i,
+        Argument::Velocity(i) => 1 + <L::N>::COUNT + i,
+        Argument::Parameter(_) => 0,
     };
-    let entry = |j: usize| of_state[j].1.entry::<L>();
-    tangent.along_each(of_state.len(), put, entry, |j, change| set(of_state[j].0, change))?;
+    tangent.by_each(of_state.len(), argument, |j, change| set(of_state[j].0, change))?;
     let parameter = |j: usize| match *parameters[j].1 {
         Argument::Parameter(k) => k,
         _ => 0,

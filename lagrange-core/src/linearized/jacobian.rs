@@ -6,8 +6,8 @@ use super::tangent::Tangent;
 use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Real, Wide};
-use crate::system::{Direction, Lagrangian, Solution, StateOf};
+use crate::number::Real;
+use crate::system::{Lagrangian, Solution, StateOf};
 use crate::vector::{Array, Element, Length, Matrix, Vector, matrix, vector};
 
 /// Partial derivatives of `R` quantities by the time, `N` coordinates, `N` velocities and `P` parameters.
@@ -80,20 +80,6 @@ impl<T: Real, N: Length, M: Length, P: Length> Jacobian<T, N, M, P> {
             self.accelerations.set(k, &change.accelerations);
             self.multipliers.set(k, &change.multipliers);
         })
-    }
-}
-
-/// Sets the direction in a lane to the unit vector of argument `k`: 0 is the time, then coordinates, then velocities.
-pub(super) fn put_argument<T: Real, W: Wide<T>, N: Length>(
-    k: usize,
-    directions: &mut Direction<W, N>,
-    lane: usize,
-) {
-    let one = T::constant(1.0);
-    match k.checked_sub(1) {
-        None => directions.t.put(lane, one),
-        Some(i) if i < N::COUNT => directions.q[i].put(lane, one),
-        Some(i) => directions.v[i - N::COUNT].put(lane, one),
     }
 }
 

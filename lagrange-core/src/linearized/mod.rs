@@ -5,6 +5,7 @@
 mod across;
 #[cfg(feature = "alloc")]
 mod argument;
+pub(crate) mod bodies;
 #[cfg(feature = "alloc")]
 mod columns;
 #[cfg(feature = "alloc")]
@@ -57,6 +58,7 @@ use core::fmt::Debug;
 pub use across::MotionDerivatives;
 #[cfg(feature = "parquet")]
 pub(crate) use argument::check_parameters;
+pub use bodies::MotionGradients;
 #[cfg(feature = "alloc")]
 pub use columns::SelectedJacobian;
 #[cfg(feature = "alloc")]

@@ -4,11 +4,12 @@ use core::fmt::Debug;
 
 use nalgebra::Const;
 
+use super::MotionGradients;
 use super::jacobian::{self, Jacobian};
 #[cfg(doc)]
 use super::{Linearized, Radau};
 use crate::error::Error;
-use crate::number::{Broadcast, Real};
+use crate::number::{Broadcast, Real, Wide};
 use crate::system::pointers::forward;
 use crate::system::{Direction, Lagrangian, ResidualChange, Solution, SolutionOf, State, StateOf};
 
@@ -54,6 +55,37 @@ pub trait StateDerivatives: Lagrangian {
         slopes: &Self::Slopes,
         direction: &Direction<S, Self::N>,
     ) -> ResidualChange<S, Self::N, Self::M>;
+
+    /// Derivatives of the inertial forces and the weights of trees of rigid bodies, as part of the slopes; `None` if there
+    /// are none apart from the rest.
+    fn motion_gradients(slopes: &Self::Slopes) -> Option<&MotionGradients<Self::Scalar, Self::N>> {
+        let _ = slopes;
+        None
+    }
+
+    /// [`residual_change_with`](Self::residual_change_with) without [`motion_gradients`](Self::motion_gradients).
+    fn residual_change_beside_gradients<S: Broadcast<Self::Scalar>>(
+        &self,
+        slopes: &Self::Slopes,
+        direction: &Direction<S, Self::N>,
+    ) -> ResidualChange<S, Self::N, Self::M> {
+        self.residual_change_with(slopes, direction)
+    }
+
+    /// Derivatives of the residual by arguments, one in each component: 0 is the time, 1 … N are coordinates, N + 1 … 2N
+    /// velocities. Components without an argument are zero.
+    fn residual_change_by<W: Wide<Self::Scalar>>(
+        &self,
+        slopes: &Self::Slopes,
+        arguments: impl Iterator<Item = usize> + Clone,
+    ) -> ResidualChange<W, Self::N, Self::M> {
+        let direction = Direction::of_arguments::<Self::Scalar>(arguments.clone());
+        let mut change = self.residual_change_beside_gradients(slopes, &direction);
+        if let Some(gradients) = Self::motion_gradients(slopes) {
+            gradients.add_columns(arguments, &mut change.motion);
+        }
+        change
+    }
 
     /// Derivative of the residual along one direction in time and state. Accelerations and multipliers are held at
     /// those of `solution`.
@@ -103,12 +135,22 @@ macro_rules! derivatives_behind {
             type Slopes = L::Slopes;
             const STATE_ARGUMENTS: Option<&'static [usize]> = L::STATE_ARGUMENTS;
 
+            fn motion_gradients(
+                slopes: &Self::Slopes,
+            ) -> Option<&MotionGradients<Self::Scalar, L::N>> {
+                L::motion_gradients(slopes)
+            }
+
             forward! { @methods
                 fn residual_slopes(
                     state: &State<Self::Scalar, L::N>,
                     solution: &Solution<Self::Scalar, L::N, L::M>
                 ) -> Self::Slopes;
                 fn residual_change_with<S>(
+                    slopes: &Self::Slopes,
+                    direction: &Direction<S, L::N>
+                ) -> ResidualChange<S, L::N, L::M>;
+                fn residual_change_beside_gradients<S>(
                     slopes: &Self::Slopes,
                     direction: &Direction<S, L::N>
                 ) -> ResidualChange<S, L::N, L::M>;

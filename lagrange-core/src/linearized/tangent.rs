@@ -6,7 +6,7 @@ use core::ops::Range;
 
 use nalgebra::ComplexField;
 
-use super::jacobian::{name_of, put_argument};
+use super::jacobian::name_of;
 use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
@@ -15,9 +15,11 @@ use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::pivot::{is_trustworthy, least_pivot};
 use crate::solution::solve::{fault, first_row, solve};
+#[cfg(any(feature = "alloc", feature = "libm"))]
+use crate::system::Direction;
 #[cfg(feature = "alloc")]
 use crate::system::{ConstraintKind, unit};
-use crate::system::{Direction, Lagrangian, ResidualChange, Solution, SolutionOf, State, StateOf};
+use crate::system::{Lagrangian, ResidualChange, Solution, SolutionOf, State, StateOf};
 #[cfg(feature = "alloc")]
 use crate::vector::from_fn;
 use crate::vector::{Array, Element, Entrywise, Length, Vector, rows, vector};
@@ -28,7 +30,7 @@ pub(crate) struct Tangent<'a, L: StateDerivatives> {
     pub(super) state: &'a StateOf<L>,
     pub(super) solution: SolutionOf<L>,
     factor: L::Factor,
-    slopes: L::Slopes,
+    slopes: OnceCell<L::Slopes>,
     matrices: OnceCell<Matrices<L::Scalar, L::N, L::M>>,
 }
 
@@ -80,8 +82,13 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     /// Builds the tangent from a known solution of the equations.
     #[inline]
     pub(crate) fn of(system: &'a L, state: &'a StateOf<L>, solution: SolutionOf<L>) -> Self {
-        let (factor, slopes) = (system.factor(state), system.residual_slopes(state, &solution));
-        Self { system, state, solution, factor, slopes, matrices: OnceCell::new() }
+        let factor = system.factor(state);
+        Self { system, state, solution, factor, slopes: OnceCell::new(), matrices: OnceCell::new() }
+    }
+
+    /// Returns the slopes of the residual, computed at first use and in place: they may be large.
+    fn slopes(&self) -> &L::Slopes {
+        self.slopes.get_or_init(|| self.system.residual_slopes(self.state, &self.solution))
     }
 
     /// Returns the matrices and the factors of the general solver, computed at first use.
@@ -101,6 +108,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Passes δq̈ and δλ along each of `count` directions to `give`. Directions are processed one per lane: `put`
     /// writes direction `k` into a zero lane, `entry` names it for errors.
+    #[cfg(any(feature = "alloc", feature = "libm"))]
     pub(super) fn along_each(
         &self,
         count: usize,
@@ -108,14 +116,45 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
         entry: impl Fn(usize) -> Entry,
         mut give: impl FnMut(usize, &SolutionOf<L>),
     ) -> Result<(), Error> {
+        let changes = |block: Range<usize>| {
+            let mut directions = Direction::<WideOf<L>, L::N>::zero();
+            block.clone().for_each(|k| put(k, &mut directions, k - block.start));
+            self.changes(&directions)
+        };
+        self.respond_to_each(count, changes, entry, &mut give)
+    }
+
+    /// Passes the δq̈ and δλ that compensate each of `count` changes of the residual to `give`. `changes` computes those
+    /// of a range, one per lane.
+    fn respond_to_each(
+        &self,
+        count: usize,
+        changes: impl Fn(Range<usize>) -> ResidualChange<WideOf<L>, L::N, L::M>,
+        entry: impl Fn(usize) -> Entry,
+        give: &mut impl FnMut(usize, &SolutionOf<L>),
+    ) -> Result<(), Error> {
         let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
         for first in (0..count).step_by(lanes) {
-            let mut directions = Direction::<WideOf<L>, L::N>::zero();
-            (first..count.min(first + lanes)).for_each(|k| put(k, &mut directions, k - first));
-            let changes = self.changes(&directions);
-            self.respond(first..count.min(first + lanes), &changes, &entry, &mut give)?;
+            let block = first..count.min(first + lanes);
+            self.respond(block.clone(), &changes(block), &entry, give)?;
         }
         Ok(())
+    }
+
+    /// Passes δq̈ and δλ by each of `count` arguments to `give`, with the number of the argument: 0 is the time, then
+    /// coordinates, then velocities.
+    pub(super) fn by_each(
+        &self,
+        count: usize,
+        argument: impl Fn(usize) -> usize,
+        mut give: impl FnMut(usize, &SolutionOf<L>),
+    ) -> Result<(), Error> {
+        self.respond_to_each(
+            count,
+            |block| self.changes_by(block.map(&argument)),
+            |k| name_of::<L>(argument(k)),
+            &mut give,
+        )
     }
 
     /// Passes δq̈ and δλ by each of these arguments to `give`, but for those by which they are zero: 0 is the time, then
@@ -129,12 +168,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
         let place = |end| known.map_or(end, |all| all.partition_point(|&argument| argument < end));
         let (first, last) = (place(arguments.start), place(arguments.end));
         let argument = |k: usize| known.map_or(first + k, |all| all[first + k]);
-        self.along_each(
-            last - first,
-            |k, directions, lane| put_argument(argument(k), directions, lane),
-            |k| name_of::<L>(argument(k)),
-            |k, change| give(argument(k), change),
-        )
+        self.by_each(last - first, argument, |k, change| give(argument(k), change))
     }
 
     /// Passes δq̈ and δλ by each of these parameters to `give`.
@@ -165,11 +199,20 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Derivatives of the residual along these directions.
     #[inline]
+    #[cfg(any(feature = "alloc", feature = "libm"))]
     pub(super) fn changes(
         &self,
         directions: &Direction<WideOf<L>, L::N>,
     ) -> ResidualChange<WideOf<L>, L::N, L::M> {
-        self.system.residual_change_with(&self.slopes, directions)
+        self.system.residual_change_with(self.slopes(), directions)
+    }
+
+    /// Derivatives of the residual by these arguments, one per lane.
+    pub(super) fn changes_by(
+        &self,
+        arguments: impl Iterator<Item = usize> + Clone,
+    ) -> ResidualChange<WideOf<L>, L::N, L::M> {
+        self.system.residual_change_by(self.slopes(), arguments)
     }
 
     /// Numbers from which the derivatives of the residual by parameters are computed.

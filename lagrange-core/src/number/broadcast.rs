@@ -24,6 +24,9 @@ pub trait Wide<T>: Broadcast<T> {
     /// Number of components.
     const COUNT: usize;
 
+    /// Returns the number with these components.
+    fn from_lanes(of: impl FnMut(usize) -> T) -> Self;
+
     /// Sets one component.
     fn put(&mut self, lane: usize, x: T);
 
@@ -36,6 +39,11 @@ macro_rules! alone {
     ($($scalar:ty),*) => {$(
         impl Wide<$scalar> for $scalar {
             const COUNT: usize = 1;
+
+            #[inline(always)]
+            fn from_lanes(mut of: impl FnMut(usize) -> $scalar) -> Self {
+                of(0)
+            }
 
             #[inline(always)]
             fn put(&mut self, _: usize, x: $scalar) {

@@ -170,6 +170,11 @@ impl Wide<f64> for FourLanes {
     const COUNT: usize = Self::COUNT;
 
     #[inline(always)]
+    fn from_lanes(mut of: impl FnMut(usize) -> f64) -> Self {
+        [of(0), of(1), of(2), of(3)].into()
+    }
+
+    #[inline(always)]
     fn put(&mut self, lane: usize, x: f64) {
         let mut all = self.to_array();
         all[lane] = x;

@@ -35,6 +35,25 @@ impl<T: Scalar, N: Length> Direction<T, N> {
     pub fn of_velocity(i: usize) -> Self {
         Self { v: unit(i), ..Self::zero() }
     }
+
+    /// Directions along which one argument changes at rate 1, one in each component: argument 0 is the time, then
+    /// coordinates, then velocities.
+    #[inline]
+    pub(crate) fn of_arguments<X: Scalar>(arguments: impl Iterator<Item = usize>) -> Self
+    where
+        T: Wide<X>,
+    {
+        let mut directions = Self::zero();
+        for (lane, k) in arguments.enumerate() {
+            let rate = match k.checked_sub(1) {
+                None => &mut directions.t,
+                Some(i) if i < N::COUNT => &mut directions.q[i],
+                Some(i) => &mut directions.v[i - N::COUNT],
+            };
+            rate.put(lane, X::constant(1.0));
+        }
+        directions
+    }
 }
 
 /// Returns unit vector `i`, or zero for `i` ≥ `K`.

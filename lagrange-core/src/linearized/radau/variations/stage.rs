@@ -10,12 +10,10 @@ use nalgebra::DMatrix;
 use super::super::chart::Chart;
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::jacobian::put_argument;
 use crate::linearized::tangent::{Tangent, WideOf};
 use crate::linearized::variation::Variations;
 use crate::number::{Real, Wide};
 use crate::solution::consistent::level::Level;
-use crate::system::Direction;
 use crate::vector::{Array, Entrywise, Length};
 
 /// Directions along which the chart moves states onto the constraints of a level, one for each that determines them.
@@ -128,9 +126,8 @@ fn rates_by_coordinates<L: Linearized<Scalar: Real>>(tangent: &Tangent<'_, L>) -
     let (n, lanes) = (<L::N>::COUNT, <WideOf<L> as Wide<L::Scalar>>::COUNT);
     let mut rates = DMatrix::zeros(<L::M>::COUNT, n);
     for first in (0..n).step_by(lanes) {
-        let (mut directions, block) = (Direction::zero(), first..n.min(first + lanes));
-        block.clone().for_each(|k| put_argument(1 + k, &mut directions, k - first));
-        let changes = tangent.changes(&directions);
+        let block = first..n.min(first + lanes);
+        let changes = tangent.changes_by(block.clone().map(|k| 1 + k));
         block.for_each(|k| rates.set_column(k, &changes.rate.each(|x| x.lane(k - first))));
     }
     rates

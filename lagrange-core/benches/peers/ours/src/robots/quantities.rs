@@ -4,9 +4,9 @@
 use core::{array::from_fn, ops::Range};
 
 use lagrange_core::{
-    Direction, StateDerivatives,
+    StateDerivatives,
     nalgebra::{Const, Matrix3, Rotation3, SMatrix, SVector, Vector3},
-    number::{FourLanes as Block, Wide},
+    number::FourLanes as Block,
     prelude::*,
 };
 
@@ -103,13 +103,7 @@ unsafe fn derivatives<L, const N: usize, const M: usize, const J: usize>(
             }
         }
         for block in arguments.chunks(Block::COUNT) {
-            let mut direction = Direction::zero();
-            for (lane, &k) in block.iter().enumerate() {
-                let entry: &mut Block =
-                    if k > N { &mut direction.v[k - 1 - N] } else { &mut direction.q[k - 1] };
-                entry.put(lane, 1.0);
-            }
-            let change = system.residual_change_with(&slopes, &direction);
+            let change = system.residual_change_by::<Block>(&slopes, block.iter().copied());
             let response = system.solve_with(&factor, &-change.motion, &change.acceleration);
             for (lane, k) in block.iter().enumerate() {
                 *columns.add(k - 1) = response.accelerations.map(|x| x.to_array()[lane]);
