@@ -214,6 +214,14 @@ pub(crate) const STATE_DERIVATIVES: [Method; 2] = [
     ),
 ];
 
+/// Method of `StateDerivatives` that is emitted where bodies are differentiated by their tree.
+pub(crate) const CHANGE_BESIDE_GRADIENTS: Method = wide(
+    Quantity::ResidualChange,
+    "residual_change_beside_gradients",
+    &[System, Argument::Slopes, Direction],
+    Gives::ResidualChange,
+);
+
 /// Required methods of `Linearized`.
 pub(crate) const LINEARIZED: [Method; 4] = [
     method(Quantity::Parameters, "parameters", &[System], Vector(Parameters)),

@@ -17,3 +17,4 @@ mod pendulums;
 mod quaternions;
 #[path = "../random/mod.rs"]
 mod random;
+mod trees;

@@ -8,45 +8,40 @@ use quote::{format_ident, quote};
 
 use super::bounds::FUNCTION_ORDER;
 use super::emitter::{Emitter, Written, runtime};
-use super::operation::Operation;
 use super::passes::Program;
 use super::shape::ResultShape;
 use super::signature::wide;
 use crate::contract::{LINEARIZED, Method, Quantity, STATE_DERIVATIVES};
 use crate::mechanics::{Changes, Linearization};
-use crate::symbolic::Graph;
+use crate::symbolic::{Graph, Id};
 use crate::syntax::Property;
 use crate::variables::Variable;
 
 /// Directional derivatives of the residual, each as two programs: one computes slopes at a state, the other applies
 /// them to a direction.
 pub(super) struct Changing {
+    /// Without the part of a tree of bodies.
     by_state: [Program; 2],
     by_parameters: [Program; 2],
+    /// Indices of the rates of time, coordinates and velocities with which the residual changes.
+    state_arguments: BTreeSet<usize>,
 }
 
 impl Changing {
     pub(super) fn new(graph: &Graph, linearization: &Linearization) -> Self {
+        let Linearization { by_state, by_parameters, residual, split } = linearization;
         let programs =
-            |changes: &Changes| Program::of_changes(graph, &changes.roots(), &linearization.residual);
-        Self {
-            by_state: programs(&linearization.by_state),
-            by_parameters: programs(&linearization.by_parameters),
-        }
-    }
-
-    /// Indices of the rates of time, coordinates and velocities with which the residual changes.
-    fn state_arguments(&self) -> BTreeSet<usize> {
-        let [_, Program { schedule, results, .. }] = &self.by_state;
-        let used = schedule.operations.iter().zip(schedule.uses(results)).filter(|(_, uses)| *uses > 0);
-        let arguments = used.filter_map(|(operation, _)| match operation {
-            Operation::Input(symbol) => match Variable::of(*symbol) {
-                Variable::Change(index) => Some(index),
-                _ => None,
-            },
+            |changes: &Changes, residual: &[Id]| Program::of_changes(graph, &changes.roots(), residual);
+        let argument = |symbol| match Variable::of(symbol) {
+            Variable::Change(index) => Some(index),
             _ => None,
-        });
-        arguments.collect()
+        };
+        let state_arguments = graph.symbols(&by_state.roots()).filter_map(argument).collect();
+        let by_state = match split {
+            Some(split) => programs(&split.by_state, &split.residual),
+            None => programs(by_state, residual),
+        };
+        Self { by_state, by_parameters: programs(by_parameters, residual), state_arguments }
     }
 
     /// Number of slopes: the larger of the numbers for states and for parameters.
@@ -69,13 +64,20 @@ impl Emitter<'_> {
     ) -> Option<TokenStream> {
         let orders = self.orders(&linearization.roots());
         orders.values().all(|&order| order <= FUNCTION_ORDER).then_some(())?;
+        let tree = linearization.split.as_ref().map(|split| &split.tree);
         let write = |method: &Method| match method.quantity {
             Quantity::Parameters => self.parameters(method),
             Quantity::SetParameter => self.set_parameter(method),
-            Quantity::Slopes => self.slopes(method, &changing.by_state[0]),
+            Quantity::Slopes => match tree {
+                Some(tree) => self.slopes_with_bodies(method, &changing.by_state[0], tree),
+                None => self.slopes(method, &changing.by_state[0]),
+            },
             Quantity::ParameterSlopes => self.slopes(method, &changing.by_parameters[0]),
-            Quantity::ResidualChange => self.residual_change(method, &changing.by_state),
-            _ => self.residual_change(method, &changing.by_parameters),
+            Quantity::ResidualChange => match tree {
+                Some(_) => self.residual_change_with_bodies(method, &changing.by_state),
+                None => self.residual_change(method, &changing.by_state, None),
+            },
+            _ => self.residual_change(method, &changing.by_parameters, None),
         };
         let Written { tokens: of_state, mut kernels } = STATE_DERIVATIVES.iter().map(write).collect();
         let Written { tokens: methods, kernels: of_parameters } = LINEARIZED.iter().map(write).collect();
@@ -88,11 +90,15 @@ impl Emitter<'_> {
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let (runtime, ident) = (runtime(self.declaration), &self.declaration.ident);
         let p = self.style.types.parameters;
-        let arguments = changing.state_arguments();
-        let arguments = arguments.iter();
+        let arguments = changing.state_arguments.iter();
         let scalar = self.style.types.scalar;
         let [of_state_slopes, of_parameter_slopes] =
             [&changing.by_state, &changing.by_parameters].map(|[slopes, _]| slopes.results.len());
+        let slopes = quote!([#scalar; #of_state_slopes]);
+        let slopes = match tree {
+            Some(_) => quote!((#slopes, __lagrange::linearized::MotionGradients<#scalar, Self::N>)),
+            None => slopes,
+        };
         let parts = self.parts_of(&kernels, &generics);
         let by_field = self.problem.parameters.by_field();
         let names = by_field.iter().map(|&k| self.problem.parameters.name(k));
@@ -103,7 +109,7 @@ impl Emitter<'_> {
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
                 impl #impl_generics __lagrange::StateDerivatives for #ident #type_generics #where_clause {
-                    type Slopes = [#scalar; #of_state_slopes];
+                    type Slopes = #slopes;
                     const STATE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(&[#(#arguments),*]);
                     #of_state
                 }
@@ -178,7 +184,13 @@ impl Emitter<'_> {
         Written { tokens, kernels: vec![kernel] }
     }
 
-    fn residual_change(&self, method: &Method, [slopes, changes]: &[Program; 2]) -> Written {
+    /// Emits the method that applies the slopes, prepared by these statements, to a direction.
+    pub(super) fn residual_change(
+        &self,
+        method: &Method,
+        [slopes, changes]: &[Program; 2],
+        prepared: Option<TokenStream>,
+    ) -> Written {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let wide = wide();
         let style = self.style.over(&wide, slopes.results.len());
@@ -191,6 +203,7 @@ impl Emitter<'_> {
             #[inline]
             #[allow(unused_variables)]
             #signature {
+                #prepared
                 #statements
                 __lagrange::ResidualChange { #(#names: __lagrange::generated::vector(#results)),* }
             }

@@ -31,6 +31,7 @@ mod style;
 #[cfg(test)]
 mod tests;
 mod time;
+mod tree;
 mod writer;
 
 use proc_macro2::TokenStream;
@@ -51,7 +52,7 @@ use solving::Solving;
 pub(crate) use stub::stub;
 use style::FunctionContext;
 #[cfg(test)]
-pub(crate) use tests::{operations, solutions, solutions_by, solving, value};
+pub(crate) use tests::{operations, solutions, solutions_by, solving, value, values};
 
 /// Emits the trait implementations and a method for each observable. Reports functions that are too long and returns
 /// `None`.

@@ -55,6 +55,7 @@ impl<'a> FunctionContext<'a> {
                 "accelerations",
                 "multipliers",
                 "direction",
+                "gradients",
                 "rates",
                 "factor",
                 "slopes",
@@ -70,7 +71,7 @@ impl<'a> FunctionContext<'a> {
             ]
             .map(String::from),
         );
-        taken.extend((0..4).map(|k| format!("entries{k}")));
+        taken.extend((0..6).map(|k| format!("entries{k}")));
         let mut unique = |text: String| identifier(&text, &mut taken);
         let mut names = FxHashMap::default();
         names.insert(Variable::Time.symbol(), unique("t".to_owned()));

@@ -6,6 +6,7 @@
 //! derivatives of M.
 
 use super::equations::Equations;
+use super::twists::{BodyTree, Twists};
 use crate::resolve::Problem;
 use crate::symbolic::{Forward, Graph, Id, Symbol};
 use crate::variables::{Variable, symbols};
@@ -18,7 +19,22 @@ pub(crate) struct Linearization {
     pub(crate) by_parameters: Changes,
     /// What is differentiated: the residual.
     pub(crate) residual: Vec<Id>,
+    /// The derivatives by the state in two parts, for systems with many joints.
+    pub(crate) split: Option<Split>,
 }
+
+/// The residual in two parts: inertial forces and weights of a tree of bodies, and the rest.
+pub(crate) struct Split {
+    pub(crate) tree: BodyTree,
+    /// Derivatives of the rest along a direction in time and state.
+    pub(crate) by_state: Changes,
+    /// The rest.
+    pub(crate) residual: Vec<Id>,
+}
+
+/// Least number of columns of a tree that is differentiated apart: that of the quadruped of `benches/peers`, whose
+/// `state_jacobian` gains a tenth. Arms along the axes of their frames lose a third with 6 columns and are even with 12.
+const LEAST_COLUMNS: usize = 19;
 
 /// Directional derivatives of the residuals.
 pub(crate) struct Changes {
@@ -70,26 +86,55 @@ pub(super) fn linearize(
     problem: &Problem,
     equations: &Equations,
 ) -> Option<Linearization> {
-    let mut along = |pairs: &[(Symbol, Symbol)]| {
+    let all = changes(problem);
+    let (state, parameters) = all.split_at(1 + 2 * problem.coordinates.len());
+    let linearization = Linearization {
+        by_state: Changes::along(graph, &equations.balance, equations, state),
+        by_parameters: Changes::along(graph, &equations.balance, equations, parameters),
+        residual: residual(&equations.balance, equations),
+        split: Split::of(graph, problem, equations, LEAST_COLUMNS),
+    };
+    graph.take_fault().is_none().then_some(linearization)
+}
+
+fn residual(balance: &[Id], equations: &Equations) -> Vec<Id> {
+    let Equations { constraint_acceleration, rate, residual, .. } = equations;
+    [balance, constraint_acceleration, rate, residual].concat()
+}
+
+impl Changes {
+    /// Derivatives along the direction whose components are the second of these pairs of symbols. `balance` is the residual
+    /// of the equations of motion.
+    fn along(graph: &mut Graph, balance: &[Id], equations: &Equations, pairs: &[(Symbol, Symbol)]) -> Self {
         let seeds: Vec<_> =
             pairs.iter().map(|&(argument, change)| (argument, graph.symbol(change))).collect();
         let mut along = Forward::along(seeds);
         let mut of = |roots: &[Id]| roots.iter().map(|&root| along.of(graph, root)).collect::<Vec<Id>>();
-        Changes {
-            motion: of(&equations.balance),
+        Self {
+            motion: of(balance),
             acceleration: of(&equations.constraint_acceleration),
             rate: of(&equations.rate),
             position: of(&equations.residual),
         }
-    };
-    let all = changes(problem);
-    let (state, parameters) = all.split_at(1 + 2 * problem.coordinates.len());
-    let residual =
-        [&equations.balance, &equations.constraint_acceleration, &equations.rate, &equations.residual];
-    let linearization = Linearization {
-        by_state: along(state),
-        by_parameters: along(parameters),
-        residual: residual.into_iter().flatten().copied().collect(),
-    };
-    graph.take_fault().is_none().then_some(linearization)
+    }
+}
+
+impl Split {
+    /// `None` if the tree has fewer columns than `least`.
+    pub(crate) fn of(
+        graph: &mut Graph,
+        problem: &Problem,
+        equations: &Equations,
+        least: usize,
+    ) -> Option<Self> {
+        let twists = Twists::of(graph, problem)?;
+        let tree = BodyTree::of(graph, &twists, least)?;
+        let mut rest = tree.rest.clone();
+        // Without constraints there is no list of constraint forces.
+        let forces = rest.iter_mut().zip(&equations.constraint_force);
+        forces.for_each(|(rest, &force)| *rest = graph.sub(*rest, force));
+        let all = changes(problem);
+        let by_state = Changes::along(graph, &rest, equations, &all[..=2 * problem.coordinates.len()]);
+        Some(Self { by_state, residual: residual(&rest, equations), tree })
+    }
 }

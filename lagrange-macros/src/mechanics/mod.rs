@@ -48,10 +48,17 @@ pub(crate) use hamilton::{Hamilton, NoHamiltonian};
 #[cfg(test)]
 pub(crate) use integrability::Kinds;
 pub(crate) use integrability::{Classification, Integrability, Integrals};
+#[cfg(test)]
+pub(crate) use linearization::Split;
 use linearization::linearize;
 pub(crate) use linearization::{Changes, Linearization, changes};
 pub(crate) use marker::Marker;
-pub(crate) use twists::{ChainRule, Dependence, Euler, Link, Resultants, RigidBody, Turning, Turnings};
+#[cfg(test)]
+pub(crate) use twists::TreeColumn;
+pub(crate) use twists::{
+    BodyTree, ChainRule, Dependence, Euler, Link, Resultants, RigidBody, TreeBody, TreeJoint, Turning,
+    Turnings,
+};
 
 /// Results derived from a problem. Their expressions are nodes of the graph of the problem.
 pub(crate) struct Derived {

@@ -9,6 +9,7 @@ mod loads;
 mod long;
 mod model;
 mod oracle;
+mod split;
 
 use std::collections::BTreeMap;
 

@@ -17,8 +17,13 @@ pub(crate) fn operations(graph: &Graph, roots: &[Id]) -> Count {
 
 /// Value of a constant after compilation.
 pub(crate) fn value(graph: &Graph, root: Id) -> f64 {
-    let program = Program::of(graph, &[root]);
-    program.schedule.values(&program.results, |_| f64::NAN)[0]
+    values(graph, &[root], |_| f64::NAN)[0]
+}
+
+/// Values of expressions after compilation.
+pub(crate) fn values(graph: &Graph, roots: &[Id], input: impl Fn(Symbol) -> f64) -> Vec<f64> {
+    let program = Program::of(graph, roots);
+    program.schedule.values(&program.results, input)
 }
 
 /// Operation counts of the accelerations as derived and after each pass, for each form of the equations. `None` for a

@@ -12,6 +12,7 @@ mod parts;
 mod places;
 mod poincare;
 mod resultants;
+mod tree;
 mod turning;
 
 use super::euler_lagrange::forces_along;
@@ -23,6 +24,9 @@ use accelerations::InTime;
 pub(super) use components::Twists;
 use parts::TwistParts;
 pub(crate) use resultants::{ChainRule, Dependence, Link, Resultants, RigidBody};
+#[cfg(test)]
+pub(crate) use tree::TreeColumn;
+pub(crate) use tree::{BodyTree, TreeBody, TreeJoint};
 pub(crate) use turning::{Euler, Turning, Turnings};
 
 impl Formulation for Twists<'_> {
