@@ -122,7 +122,7 @@ fn structure(tree: &BodyTree) -> TokenStream {
     let columns = tree.columns.iter().map(|column| {
         let (coordinate, own) = (column.coordinate, column.rates.and_then(|_| changing.next()));
         let own = option(own);
-        quote!(__lagrange::generated::Column { coordinate: #coordinate, changing: #own })
+        quote!(__lagrange::generated::JointColumn { coordinate: #coordinate, changing: #own })
     });
     let bends = tree.bends.iter().map(|([a, b], _)| quote!([#a, #b]));
     let bodies = tree.bodies.iter().map(|body| literal(body.joint));

@@ -20,11 +20,11 @@ pub(crate) struct Linearization {
     /// What is differentiated: the residual.
     pub(crate) residual: Vec<Id>,
     /// The derivatives by the state in two parts, for systems with many joints.
-    pub(crate) split: Option<Split>,
+    pub(crate) split: Option<SplitResidual>,
 }
 
 /// The residual in two parts: inertial forces and weights of a tree of bodies, and the rest.
-pub(crate) struct Split {
+pub(crate) struct SplitResidual {
     pub(crate) tree: BodyTree,
     /// Derivatives of the rest along a direction in time and state.
     pub(crate) by_state: Changes,
@@ -92,7 +92,7 @@ pub(super) fn linearize(
         by_state: Changes::along(graph, &equations.balance, equations, state),
         by_parameters: Changes::along(graph, &equations.balance, equations, parameters),
         residual: residual(&equations.balance, equations),
-        split: Split::of(graph, problem, equations, LEAST_COLUMNS),
+        split: SplitResidual::of(graph, problem, equations, LEAST_COLUMNS),
     };
     graph.take_fault().is_none().then_some(linearization)
 }
@@ -119,7 +119,7 @@ impl Changes {
     }
 }
 
-impl Split {
+impl SplitResidual {
     /// `None` if the tree has fewer columns than `least`.
     pub(crate) fn of(
         graph: &mut Graph,

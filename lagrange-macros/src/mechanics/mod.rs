@@ -49,7 +49,7 @@ pub(crate) use hamilton::{Hamilton, NoHamiltonian};
 pub(crate) use integrability::Kinds;
 pub(crate) use integrability::{Classification, Integrability, Integrals};
 #[cfg(test)]
-pub(crate) use linearization::Split;
+pub(crate) use linearization::SplitResidual;
 use linearization::linearize;
 pub(crate) use linearization::{Changes, Linearization, changes};
 pub(crate) use marker::Marker;

@@ -22,7 +22,7 @@ mod path;
 mod spatial;
 
 use composite::{Composite, Pose};
-use path::{LANES, Path, Weights};
+use path::{Carriers, LANES, Weights};
 use spatial::{Spatial, cross, dot, plus, product};
 
 use crate::number::{Broadcast, Scalar, Wide};
@@ -35,7 +35,7 @@ pub struct Tree {
     /// Frames that move relative to those that carry them, or have bodies; each after the one that carries it.
     pub joints: &'static [Joint],
     /// What a coordinate moves in a joint, joint by joint.
-    pub columns: &'static [Column],
+    pub columns: &'static [JointColumn],
     /// Joint of each body.
     pub bodies: &'static [usize],
     /// Pairs of columns of one joint, the first of which has an axis that depends on the coordinate of the second.
@@ -57,7 +57,7 @@ pub struct Joint {
 
 /// A coordinate of a joint.
 #[derive(Clone, Copy, Debug)]
-pub struct Column {
+pub struct JointColumn {
     /// Index of the coordinate.
     pub coordinate: usize,
     /// Index among the axes that change along the axes of the joint.
@@ -134,13 +134,13 @@ impl<T: Scalar, N: Length> MotionGradients<T, N> {
         v: &Vector<T, N>,
         accelerations: &Vector<T, N>,
     ) {
-        let moving = Moving::of(tree, numbers, v, accelerations);
+        let moving = TreeMotion::of(tree, numbers, v, accelerations);
         let mut carried = [Composite::nothing(); J];
         for (body, &joint) in numbers.bodies.iter().zip(tree.bodies) {
             let pose = Pose::of(&numbers.poses[joint]);
             carried[joint].add(&Composite::of(body, &pose, moving.twists[joint], moving.rates[joint]));
         }
-        let mut path = Path::<T, P, C>::new();
+        let mut path = Carriers::<T, P, C>::new();
         for (number, joint) in tree.joints.iter().enumerate().rev() {
             let own = carried[number];
             path.lead_to(tree, number, &moving.columns);
@@ -171,7 +171,7 @@ impl<T: Scalar, N: Length> MotionGradients<T, N> {
         joint: &Joint,
         own: &Composite<T>,
         &[s, first, second]: &[Spatial<T>; 3],
-        path: &Path<T, P, C>,
+        path: &Carriers<T, P, C>,
     ) {
         let momentum = own.momentum_of(s);
         let weights = Weights {
@@ -208,7 +208,7 @@ impl<T: Scalar, N: Length> MotionGradients<T, N> {
 }
 
 /// Twists along the motion, with the common axes and point.
-struct Moving<T, const J: usize, const C: usize> {
+struct TreeMotion<T, const J: usize, const C: usize> {
     /// Twist of each joint, and its rate of change.
     twists: [Spatial<T>; J],
     rates: [Spatial<T>; J],
@@ -218,7 +218,7 @@ struct Moving<T, const J: usize, const C: usize> {
     joints: [usize; C],
 }
 
-impl<T: Scalar, const J: usize, const C: usize> Moving<T, J, C> {
+impl<T: Scalar, const J: usize, const C: usize> TreeMotion<T, J, C> {
     fn of<N: Length>(
         tree: &Tree,
         numbers: &Bodies<T, J, C>,

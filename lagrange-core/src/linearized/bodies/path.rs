@@ -11,14 +11,14 @@ pub(super) const LANES: usize = 4;
 type Block<T> = [[T; LANES]; 18];
 
 /// Columns of the joints that carry a joint and of itself, from the fixed frame on, in at most `P` blocks.
-pub(super) struct Path<T, const P: usize, const C: usize> {
+pub(super) struct Carriers<T, const P: usize, const C: usize> {
     pub(super) blocks: [Block<T>; P],
     pub(super) coordinates: [usize; C],
     /// Column in each place; `None` if there is none yet.
     columns: [Option<usize>; C],
 }
 
-impl<T: Scalar, const P: usize, const C: usize> Path<T, P, C> {
+impl<T: Scalar, const P: usize, const C: usize> Carriers<T, P, C> {
     pub(super) fn new() -> Self {
         Self { blocks: [[[T::constant(0.0); LANES]; 18]; P], coordinates: [0; C], columns: [None; C] }
     }

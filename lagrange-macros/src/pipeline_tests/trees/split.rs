@@ -1,13 +1,13 @@
 //! Derivatives of the residual by composite bodies, against those along every coordinate and velocity by the chain rule.
 
-use lagrange_core::generated::{Bodies, Column, Joint, Tree};
+use lagrange_core::generated::{Bodies, Joint, JointColumn, Tree};
 use lagrange_core::linearized::MotionGradients;
 use lagrange_core::nalgebra::{Const, SVector};
 
 use super::super::derived;
 use super::{forest, input};
 use crate::codegen::values;
-use crate::mechanics::{BodyTree, Split, TreeColumn, TreeJoint};
+use crate::mechanics::{BodyTree, SplitResidual, TreeColumn, TreeJoint};
 use crate::rounds::Random;
 use crate::symbolic::{Id, Symbol};
 use crate::variables::Variable;
@@ -41,7 +41,7 @@ fn linked(shaft: &str, body: &str, more: &str) -> String {
         "#[coordinates(q: [3])] #[frame(bracket: translate([q[0], 0, 0]))]
         #[frame(shaft in bracket: translate([a, 0, 0]), {shaft})] #[frame(link in shaft: rotate_x(q[2]))]
         #[lagrangian(kinetic(bracket, m, [0, 0, 0]) + {body} - m*g*position(link, [a, 0, 0])[2])] {more}
-        struct Linked {{ m: f64, a: f64, g: f64, f: F, floor: Contact }}"
+        struct Linked {{ m: f64, a: f64, g: f64, f: F, floor: Contact, hinge: Friction }}"
     )
 }
 
@@ -50,7 +50,7 @@ fn what_a_tree_cannot_state_is_left_to_the_chain_rule() {
     let (shaft, body) = ("rotate_y(q[1])", "kinetic(link, m, [a, 0, 0], [[m, 0, 0], [0, m, 0], [0, 0, m]])");
     let bodies = |source: &str| {
         let (mut graph, problem, derived) = derived(source);
-        Split::of(&mut graph, &problem, &derived.equations, 0).map(|split| split.tree.bodies.len())
+        SplitResidual::of(&mut graph, &problem, &derived.equations, 0).map(|split| split.tree.bodies.len())
     };
     let others = format!("{body} + sin(t)*q[1]*q_dot[2]");
     let alone = linked(shaft, body, "").replace("kinetic(bracket, m, [0, 0, 0]) + ", "");
@@ -72,6 +72,7 @@ fn what_a_tree_cannot_state_is_left_to_the_chain_rule() {
         ("a displacement by one", None, linked("translate([0, f(q[1]), 0])", body, "#[function(f(x))]")),
         ("a weight that changes", Some(2), linked(shaft, body, "").replace("m*g*", "m*g*cos(t)*")),
         ("gravity that changes", None, falling.replace("m*g*", "m*g*cos(t)*")),
+        ("friction", None, linked(shaft, body, "#[friction(hinge: q_dot[1], sliding: a)]")),
         ("a contact", None, linked(shaft, body, "#[contact(floor: q[0] >= 0)]")),
     ];
     for (what, expected, source) in cases {
@@ -83,7 +84,7 @@ fn what_a_tree_cannot_state_is_left_to_the_chain_rule() {
 fn error(number: u64) -> Option<f64> {
     let draft = forest::tree(number);
     let (mut graph, problem, derived) = derived(&draft.source());
-    let split = Split::of(&mut graph, &problem, &derived.equations, 0)?;
+    let split = SplitResidual::of(&mut graph, &problem, &derived.equations, 0)?;
     let n = problem.coordinates.len();
     let mut random = Random(number);
     let solved: Vec<f64> = (0..n + problem.constraints.len()).map(|_| random.between(-1.0, 1.0)).collect();
@@ -156,9 +157,9 @@ fn joint(&TreeJoint { before, turns, columns, depth, .. }: &TreeJoint) -> Joint 
     Joint { before, turns, columns, depth }
 }
 
-fn columns(tree: &BodyTree) -> Vec<Column> {
+fn columns(tree: &BodyTree) -> Vec<JointColumn> {
     let mut changing = 0..;
-    let column = |column: &TreeColumn| Column {
+    let column = |column: &TreeColumn| JointColumn {
         coordinate: column.coordinate,
         changing: column.rates.and_then(|_| changing.next()),
     };
