@@ -5,7 +5,7 @@ use nalgebra::{ArrayStorage, Const, SMatrix, SVector};
 use crate::number::Scalar;
 use crate::solution::eliminate;
 
-pub use crate::linearized::bodies::{Bodies, Joint, JointColumn, Tree};
+pub use crate::linearized::bodies::{Joint, JointColumn, Tree, TreeNumbers};
 pub use crate::number::numeric::{only_where, sin_cos_of_small};
 pub use crate::solution::eliminate::nan_if_ill_conditioned;
 pub use crate::system::defect::{Defect, asymmetry, distortion};

@@ -296,9 +296,9 @@ mod tests {
         of((low + high) / 2.0)
     }
 
-    /// Limit analysis: the largest load that friction holds is the least power of friction among all motions in which a load of 1 has
-    /// the power 1. The least is found by golden sections. `LAGRANGE_SHARES` says how many
-    /// cases.
+    /// Friction holds a load until some motion takes no more power from friction than the load gives (limit analysis). For motions
+    /// in which a load of 1 gives the power 1, the limit is thus the least power of friction; golden sections find it.
+    /// `LAGRANGE_SHARES` says how many cases are drawn.
     #[test]
     fn random_loads_are_held_up_to_their_limit() {
         let cases = std::env::var("LAGRANGE_SHARES").map_or(200, |text| text.parse().expect("a number"));

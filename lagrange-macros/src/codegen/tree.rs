@@ -61,7 +61,7 @@ impl Emitter<'_> {
                 let mut gradients = __lagrange::linearized::MotionGradients::zero();
                 {
                     #placed
-                    let bodies = __lagrange::generated::Bodies { #(#names: &#numbers),* };
+                    let bodies = __lagrange::generated::TreeNumbers { #(#names: &#numbers),* };
                     gradients.add_bodies::<_, _, #blocks>(&TREE, &bodies, &state.v, accelerations);
                 }
                 #statements

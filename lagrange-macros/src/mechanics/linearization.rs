@@ -23,12 +23,12 @@ pub(crate) struct Linearization {
     pub(crate) split: Option<SplitResidual>,
 }
 
-/// The residual in two parts: inertial forces and weights of a tree of bodies, and the rest.
+/// The residual in two parts: inertial forces and weights of a tree of bodies, and all other terms.
 pub(crate) struct SplitResidual {
     pub(crate) tree: BodyTree,
-    /// Derivatives of the rest along a direction in time and state.
+    /// Derivatives of the other terms along a direction in time and state.
     pub(crate) by_state: Changes,
-    /// The rest.
+    /// The other terms.
     pub(crate) residual: Vec<Id>,
 }
 

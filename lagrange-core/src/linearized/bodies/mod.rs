@@ -17,12 +17,12 @@
 //! point: the origin of the first frame that carries bodies or several frames. At a distance of d from it, what depends on
 //! the inertia of a body with the radius of gyration k alone has the relative error (d/k)² 2⁻⁵³.
 
+mod carriers;
 mod composite;
-mod path;
 mod spatial;
 
+use carriers::{Carriers, LANES, Weights};
 use composite::{Composite, Pose};
-use path::{Carriers, LANES, Weights};
 use spatial::{Spatial, cross, dot, plus, product};
 
 use crate::number::{Broadcast, Scalar, Wide};
@@ -66,7 +66,7 @@ pub struct JointColumn {
 
 /// Numbers of a [`Tree`] with `J` joints and `C` columns at a state.
 #[derive(Clone, Copy, Debug)]
-pub struct Bodies<'a, T, const J: usize, const C: usize> {
+pub struct TreeNumbers<'a, T, const J: usize, const C: usize> {
     /// Rotation matrix of each joint to the common axes, by rows, and its origin.
     pub poses: &'a [[T; 12]; J],
     /// Angular velocity or velocity of each column for the unit rate of its coordinate, along the axes of its joint.
@@ -125,12 +125,12 @@ impl<T: Scalar, N: Length> MotionGradients<T, N> {
         }
     }
 
-    /// Adds the derivatives of the inertial forces of a tree of bodies with `J` joints and `C` columns, at most 4 `P` of them
-    /// from a body to the fixed frame.
+    /// Adds the derivatives of the inertial forces of a tree of bodies with `J` joints and `C` columns. No body may have more
+    /// than 4 `P` columns between it and the fixed frame.
     pub fn add_bodies<const J: usize, const C: usize, const P: usize>(
         &mut self,
         tree: &Tree,
-        numbers: &Bodies<T, J, C>,
+        numbers: &TreeNumbers<T, J, C>,
         v: &Vector<T, N>,
         accelerations: &Vector<T, N>,
     ) {
@@ -207,7 +207,7 @@ impl<T: Scalar, N: Length> MotionGradients<T, N> {
     }
 }
 
-/// Twists along the motion, with the common axes and point.
+/// Twists of the joints in the motion, along the common axes and about the common point.
 struct TreeMotion<T, const J: usize, const C: usize> {
     /// Twist of each joint, and its rate of change.
     twists: [Spatial<T>; J],
@@ -221,7 +221,7 @@ struct TreeMotion<T, const J: usize, const C: usize> {
 impl<T: Scalar, const J: usize, const C: usize> TreeMotion<T, J, C> {
     fn of<N: Length>(
         tree: &Tree,
-        numbers: &Bodies<T, J, C>,
+        numbers: &TreeNumbers<T, J, C>,
         v: &Vector<T, N>,
         accelerations: &Vector<T, N>,
     ) -> Self {
@@ -240,7 +240,7 @@ impl<T: Scalar, const J: usize, const C: usize> TreeMotion<T, J, C> {
     fn joint(
         &mut self,
         tree: &Tree,
-        numbers: &Bodies<T, J, C>,
+        numbers: &TreeNumbers<T, J, C>,
         number: usize,
         before: [Spatial<T>; 2],
         motion: impl Fn(usize) -> (T, T),

@@ -9,7 +9,7 @@ use crate::variables::{Variable, nodes, symbols, total_time_derivative};
 
 /// Rigid bodies in a tree of joints, and the generalized forces beside their inertia and their weight.
 pub(crate) struct BodyTree {
-    /// Each after the one that carries it, those beyond a joint at once after it.
+    /// Depth first: a joint comes after the one that carries it, and all that it carries come next.
     pub(crate) joints: Vec<TreeJoint>,
     /// Joint by joint.
     pub(crate) columns: Vec<TreeColumn>,

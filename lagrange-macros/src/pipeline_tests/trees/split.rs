@@ -1,6 +1,6 @@
 //! Derivatives of the residual by composite bodies, against those along every coordinate and velocity by the chain rule.
 
-use lagrange_core::generated::{Bodies, Joint, JointColumn, Tree};
+use lagrange_core::generated::{Joint, JointColumn, Tree, TreeNumbers};
 use lagrange_core::linearized::MotionGradients;
 use lagrange_core::nalgebra::{Const, SVector};
 
@@ -12,8 +12,9 @@ use crate::rounds::Random;
 use crate::symbolic::{Id, Symbol};
 use crate::variables::Variable;
 
-/// Room for the coordinates, joints and columns of a tree, and blocks of four columns on a path.
+/// Length of the arrays that hold the coordinates, the joints and the columns of any tree of these tests.
 const ROOM: usize = 64;
+/// Number of blocks of four columns in such an array.
 const BLOCKS: usize = ROOM / 4;
 
 /// Number of trees that are compared.
@@ -133,7 +134,7 @@ fn gradients(
         bodies: tree.bodies.iter().map(|body| body.joint).collect::<Vec<_>>().leak(),
         bends: tree.bends.iter().map(|(pair, _)| *pair).collect::<Vec<_>>().leak(),
     };
-    let numbers = Bodies {
+    let numbers = TreeNumbers {
         poses: &in_room(&rows(&poses, &values)),
         axes: &in_room(&rows(&axes, &values)),
         rates: &rows(&rates, &values),

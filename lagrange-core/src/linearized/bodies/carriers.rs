@@ -1,4 +1,4 @@
-//! Columns of the joints between a body and the fixed frame, in blocks of four for vector instructions.
+//! Columns of the joints that carry a joint, in blocks of four for vector instructions.
 
 use super::Tree;
 use super::spatial::Spatial;
@@ -8,11 +8,11 @@ use crate::number::Scalar;
 pub(super) const LANES: usize = 4;
 
 /// S, Ṡ and S̈ of the columns in a block, by components.
-type Block<T> = [[T; LANES]; 18];
+type ColumnBlock<T> = [[T; LANES]; 18];
 
 /// Columns of the joints that carry a joint and of itself, from the fixed frame on, in at most `P` blocks.
 pub(super) struct Carriers<T, const P: usize, const C: usize> {
-    pub(super) blocks: [Block<T>; P],
+    pub(super) blocks: [ColumnBlock<T>; P],
     pub(super) coordinates: [usize; C],
     /// Column in each place; `None` if there is none yet.
     columns: [Option<usize>; C],
@@ -23,8 +23,8 @@ impl<T: Scalar, const P: usize, const C: usize> Carriers<T, P, C> {
         Self { blocks: [[[T::constant(0.0); LANES]; 18]; P], coordinates: [0; C], columns: [None; C] }
     }
 
-    /// Puts the columns that lead to a joint in place of those that lead to the joint before. Where the joints are sorted
-    /// depth first, each column is put once.
+    /// Replaces the columns of the joints that carry the last joint by those for another one. From joint to joint in depth-first
+    /// order, each column is written once.
     pub(super) fn lead_to(&mut self, tree: &Tree, joint: usize, columns: &[[Spatial<T>; 3]; C]) {
         let mut at = Some(joint);
         while let Some(number) = at {
@@ -51,7 +51,7 @@ impl<T: Scalar, const P: usize, const C: usize> Carriers<T, P, C> {
     }
 }
 
-/// Factors of S, Ṡ and S̈ in the derivatives that couple a column with those on the path to it.
+/// Factors of S, Ṡ and S̈ of the columns that carry a column, in the derivatives that couple it with them.
 pub(super) struct Weights<T> {
     pub(super) momentum: Spatial<T>,
     pub(super) twice: Spatial<T>,
@@ -64,7 +64,7 @@ impl<T: Scalar> Weights<T> {
     /// Derivatives of the force along the column by the coordinates and velocities of a block, and of the forces along the
     /// columns of the block by the coordinate and velocity of the column.
     #[inline(always)]
-    pub(super) fn entries(&self, block: &Block<T>) -> [[T; LANES]; 4] {
+    pub(super) fn entries(&self, block: &ColumnBlock<T>) -> [[T; LANES]; 4] {
         let [s, first, second] = [0, 6, 12];
         let q = self.momentum.along(block, second, [T::constant(0.0); LANES]);
         let v = self.twice.along(block, first, [T::constant(0.0); LANES]);
@@ -79,14 +79,19 @@ impl<T: Scalar> Weights<T> {
 
 impl<T: Scalar> Spatial<T> {
     #[inline(always)]
-    fn along(self, block: &Block<T>, first: usize, sum: [T; LANES]) -> [T; LANES] {
+    fn along(self, block: &ColumnBlock<T>, first: usize, sum: [T; LANES]) -> [T; LANES] {
         along(self.moving, block, first + 3, along(self.turning, block, first, sum))
     }
 }
 
 /// Adds the products of a vector with the components of a block from `first` on.
 #[inline(always)]
-fn along<T: Scalar>(weights: [T; 3], block: &Block<T>, first: usize, mut sum: [T; LANES]) -> [T; LANES] {
+fn along<T: Scalar>(
+    weights: [T; 3],
+    block: &ColumnBlock<T>,
+    first: usize,
+    mut sum: [T; LANES],
+) -> [T; LANES] {
     for (weight, lanes) in weights.into_iter().zip(&block[first..first + 3]) {
         for lane in 0..LANES {
             sum[lane] = weight.multiply_add(lanes[lane], sum[lane]);
