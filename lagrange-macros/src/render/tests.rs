@@ -7,6 +7,7 @@ mod forms;
 mod frames;
 mod golden;
 mod golden_contacts;
+mod golden_lines;
 mod mathml;
 mod reader;
 mod systems;

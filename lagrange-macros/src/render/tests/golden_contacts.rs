@@ -2,7 +2,8 @@
 
 use expect_test::expect;
 
-use super::golden::{check, lines, rendered};
+use super::golden::{check, rendered};
+use super::golden_lines::lines;
 
 /// Gaps and the multipliers of contacts are complementary; impacts take energy, but no momentum along the floor.
 #[test]

@@ -173,7 +173,7 @@ pub(super) fn check(system: &Page) {
         let formula = Formula::labelled(text, 0);
         let start = system.written(&formula) + " = ";
         for line in lines.iter().filter(|line| line.starts_with(&start)) {
-            super::check_line(system, line, |sample| {
+            super::checks::check_line(system, line, |sample| {
                 values(system, sample).into_iter().find(|(name, _)| *name == formula).expect("a value").1
             });
         }

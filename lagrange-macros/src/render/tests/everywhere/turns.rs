@@ -2,7 +2,8 @@
 
 use std::iter::Peekable;
 
-use super::{Page, check_line, check_sides, left_over, links, value};
+use super::checks::{check_line, check_sides, left_over};
+use super::{Page, links, value};
 use crate::mechanics::Turning;
 use crate::render::formula::Formula;
 use crate::render::notation::Notation;

@@ -1,0 +1,219 @@
+//! Printed lines against computed values, at states of their own.
+
+use std::ops::Range;
+use std::sync::LazyLock;
+
+use super::state::State;
+use super::{Page, links, momentum, outer, turns, value};
+use crate::mechanics::Derived;
+use crate::render::axes::named_axes;
+use crate::render::formula::Formula;
+use crate::render::notation::Notation;
+use crate::render::tests::reader::Value;
+use crate::symbolic::{Id, Sample};
+use crate::variables::Variable;
+
+const STATES: u64 = 40;
+/// Tolerance relative to the greatest of the compared values.
+const CLOSE: f64 = 1e-8;
+
+/// Number of states to compare at. One distinguishes two formulas; more reach more branches. The environment variable
+/// `LAGRANGE_STATES` overrides it.
+fn wanted() -> usize {
+    static WANTED: LazyLock<usize> =
+        LazyLock::new(|| std::env::var("LAGRANGE_STATES").ok().and_then(|n| n.parse().ok()).unwrap_or(1));
+    *WANTED
+}
+
+/// Checks that each row, or vector of rows, is proportional to the computed one in accelerations and multipliers: the
+/// printed row may be divided by a factor.
+pub(super) fn check_motion(system: &Page) {
+    let mut first = 0;
+    let mut lines = system.lines("Equations of motion\n").into_iter().peekable();
+    while let Some(row) = lines.peek() {
+        if let Some(turning) = system.derived.turnings.all.iter().find(|turning| turning.first == first) {
+            turns::check(system, turning, &mut lines);
+            first += 4;
+            continue;
+        }
+        let row = *row;
+        lines.next();
+        if links::is_resultant(system, row) {
+            continue;
+        }
+        let (label, equation) = row.split_once(": ").expect("a label");
+        let labels = system.problem.coordinates[first..].iter();
+        let labels = labels.map(|label| Notation::UNICODE.write(&Formula::labelled(&label.text, 0)));
+        let is_it = |known: &String| {
+            let index = known.strip_prefix(label).and_then(|rest| rest.strip_prefix('['));
+            *known == label || index.is_some_and(|index| index.matches(']').count() == 1)
+        };
+        let count = labels.take_while(is_it).count();
+        assert!(count > 0, "{row} has no coordinate in {}", system.text);
+        if let Some((left, right)) = equation.trim().split_once(" = ") {
+            check_rows(system, first..first + count, [left, right]);
+        }
+        first += count;
+    }
+    assert_eq!(first, system.derived.inertia.len(), "{}", system.text);
+}
+
+fn check_rows(system: &Page, rows: Range<usize>, sides: [&str; 2]) {
+    check_sides(system, rows.len(), sides, |sample| left_over(system, sample, rows.clone()));
+}
+
+pub(super) fn check_sides(
+    system: &Page,
+    count: usize,
+    sides: [&str; 2],
+    computed: impl Fn(&mut Sample) -> Vec<f64>,
+) {
+    let mut states = 0;
+    for draw in 0..STATES {
+        let mut sample = system.sample(draw);
+        let moved = (0..3).flat_map(|other| {
+            system.moved(&mut sample, 1000 * (other + 1) + draw);
+            let left_over = computed(&mut sample);
+            let state = State::new(system, &mut sample, draw);
+            let [left, right] = sides.map(|side| state.read(side));
+            assert!(right.len() == left.len() || right == [0.0], "{sides:?}");
+            let right = right.into_iter().chain(std::iter::repeat(0.0));
+            let read: Vec<f64> = left.into_iter().zip(right).map(|(left, right)| left - right).collect();
+            assert_eq!(read.len(), count, "{sides:?} in {}", system.text);
+            read.into_iter().zip(left_over).map(|(read, computed)| [read, computed]).collect::<Vec<_>>()
+        });
+        let pairs: Vec<[f64; 2]> = moved.collect();
+        if !pairs.iter().flatten().all(|x| x.is_finite()) {
+            continue;
+        }
+        let greatest = |k: usize| pairs.iter().map(|pair| pair[k].abs()).fold(0.0, f64::max);
+        assert!((greatest(0) > 0.0) == (greatest(1) > 0.0), "{sides:?} in {}", system.text);
+        for pair in &pairs[1..] {
+            let difference = pairs[0][0] * pair[1] - pairs[0][1] * pair[0];
+            let close = difference.abs() <= CLOSE * greatest(0) * greatest(1);
+            assert!(close, "{sides:?}: {pairs:?} in {}", system.text);
+        }
+        states += 1;
+        if states == wanted() {
+            return;
+        }
+    }
+    assert!(states > 0, "no state for {sides:?} in {}", system.text);
+}
+
+/// Residual M q̈ − h − Fᵀλ.
+pub(super) fn left_over(system: &Page, sample: &mut Sample, rows: Range<usize>) -> Vec<f64> {
+    let Derived { equations, inertia, .. } = &system.derived;
+    let row = |i: usize| {
+        let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
+        let parts = sample.values(&system.graph, &[inertia[i], equations.forcing[i], force]);
+        parts[0].value - parts[1].value - parts[2].value
+    };
+    rows.map(row).collect()
+}
+
+/// Checks the rotation matrices against those of the quaternions.
+pub(super) fn check_axes(system: &Page) {
+    for axes in named_axes(&system.problem, &system.derived.turnings) {
+        let name = system.written(&axes.name());
+        for line in system.lines("Lagrangian\n").iter().filter(|line| line.starts_with(&format!("{name} = ")))
+        {
+            check_line(system, line, |sample| {
+                sample.values(&system.graph, &axes.entries.concat()).iter().map(|entry| entry.value).collect()
+            });
+        }
+    }
+}
+
+/// Checks energies, momenta and constraint forces against the computed ones.
+pub(super) fn check_quantities(system: &Page) {
+    let equations = &system.derived.equations;
+    let conserved = system.lines("Conserved\n");
+    let energy = system.lines("Energy\n");
+    for line in conserved.iter().chain(&energy).filter(|line| line.starts_with("E = ")) {
+        check_line(system, line, |sample| vec![sample.values(&system.graph, &[equations.energy])[0].value]);
+    }
+    for line in energy.iter().filter(|line| line.starts_with("d/dt E = ")) {
+        check_line(system, line, |sample| {
+            vec![sample.values(&system.graph, &[system.derived.facts.energy_rate])[0].value]
+        });
+    }
+    let value = |sample: &mut Sample, root: Option<&Id>| {
+        root.map_or(0.0, |&root| sample.values(&system.graph, &[root])[0].value)
+    };
+    check_by_coordinate(system, &system.lines("Constraint forces\n"), ("R_", 0), |sample, i| {
+        value(sample, equations.constraint_force.get(i))
+    });
+    for lines in [conserved, system.lines("Momenta\n")] {
+        check_by_coordinate(system, &lines, ("p_", 0), |sample, i| value(sample, equations.momentum.get(i)));
+    }
+}
+
+/// Checks that at p = ∂L/∂q̇ of a state, H is the energy, ∂H/∂p the velocity and ṗ the forces.
+pub(super) fn check_hamilton(system: &Page) {
+    let equations = &system.derived.equations;
+    let n = system.problem.coordinates.len();
+    let names = (0..n).map(|i| momentum(system, i));
+    if names.into_iter().any(|name| system.problem.names.values().any(|known| *known == name)) {
+        return;
+    }
+    for line in system.lines("Hamiltonian\n") {
+        check_line(system, line, |sample| vec![sample.values(&system.graph, &[equations.energy])[0].value]);
+    }
+    let lines = system.lines("Hamilton's equations\n");
+    check_by_coordinate(system, &lines, ("", 1), |sample, i| value(sample, Variable::Velocity(i)));
+    check_by_coordinate(system, &lines, ("p_", 1), |sample, i| {
+        let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
+        let parts = sample.values(&system.graph, &[equations.momentum_rate[i], force]);
+        parts[0].value + parts[1].value
+    });
+}
+
+/// Checks the lines whose left side is a name formed from a coordinate or a vector of coordinates; skips others.
+fn check_by_coordinate(
+    system: &Page,
+    lines: &[&str],
+    (prefix, dots): (&str, usize),
+    computed: impl Fn(&mut Sample, usize) -> f64,
+) {
+    let coordinates = system.problem.coordinates.iter();
+    let names = coordinates.map(|label| Formula::labelled(&format!("{prefix}{}", label.text), dots));
+    let names: Vec<Formula> = names.collect();
+    for line in lines {
+        let left = line.split(" = ").next().expect("a side");
+        let is_it = |name: &Formula| {
+            let written = |formula: &Formula| system.written(formula) == left;
+            written(name) || outer(name).last().is_some_and(written)
+        };
+        let rows: Vec<usize> = (0..names.len()).filter(|&i| is_it(&names[i])).collect();
+        if !rows.is_empty() {
+            check_line(system, line, |sample| rows.iter().map(|&i| computed(sample, i)).collect());
+        }
+    }
+}
+
+/// Checks that the right side of a line has the computed value, within the rounding errors of both.
+pub(super) fn check_line(system: &Page, line: &str, computed: impl Fn(&mut Sample) -> Value) {
+    let Some((_, text)) = line.split_once(" = ") else { return };
+    let text = text.split("   (").next().expect("a formula");
+    let mut states = 0;
+    for draw in 0..STATES {
+        let mut sample = system.sample(draw);
+        let computed = computed(&mut sample);
+        let read = State::new(system, &mut sample, draw).read(text);
+        if !computed.iter().chain(&read).all(|x| x.is_finite()) {
+            continue;
+        }
+        assert!(read.len() == computed.len() || read == [0.0], "{line} in {}", system.text);
+        let read = read.into_iter().chain(std::iter::repeat(0.0));
+        for (read, computed) in read.zip(computed) {
+            let close = (read - computed).abs() <= CLOSE * (1.0 + computed.abs());
+            assert!(close, "{line}: {read} is not {computed} in {}", system.text);
+        }
+        states += 1;
+        if states == wanted() {
+            return;
+        }
+    }
+    assert!(states > 0, "no state for {text} in {}", system.text);
+}
