@@ -7,7 +7,7 @@ mod faults;
 mod order;
 mod stiff;
 
-use lagrange_core::{Ending, StateDerivatives, prelude::*};
+use lagrange_core::{Ending, Method, StateDerivatives, prelude::*};
 
 fn off<const N: usize>(state: &State<f64, N>, exact: &State<f64, N>) -> f64 {
     (state.q - exact.q).amax().max((state.v - exact.v).amax())
