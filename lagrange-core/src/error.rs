@@ -257,6 +257,13 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
+    /// A change of a state has another number of entries than there are local coordinates.
+    LocalChange {
+        /// Number of entries.
+        found: usize,
+        /// Number of local coordinates: of places, and as many of velocities.
+        expected: usize,
+    },
     /// Regressors that are put together are of different bodies.
     OtherBodies,
     /// Some states do not tell whether an inertial parameter can be found beside those before it.

@@ -293,7 +293,7 @@ const CONSTANTS: [&str; 22] = [
 
 /// Methods with a default implementation in `Lagrangian`, `StateDerivatives`, `Linearized` or `TaylorSeries`, and all
 /// methods of `Simulate`, `Hamiltonian`, `MotionDerivatives` and `PeriodicMotion`.
-const PROVIDED: [&str; 53] = [
+const PROVIDED: [&str; 55] = [
     "motion_gradients",
     "residual_change_beside_gradients",
     "residual_change_by",
@@ -302,6 +302,8 @@ const PROVIDED: [&str; 53] = [
     "complete_accelerations",
     "linearize_locally",
     "local_coordinates",
+    "local_change",
+    "locally_changed",
     "jacobian_round_off",
     "compliance",
     "slides",

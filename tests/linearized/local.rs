@@ -198,6 +198,48 @@ fn basis_and_inverse_belong_together() {
     assert_eq!(local, plain);
 }
 
+/// Rotations of any size, against the exponential of nalgebra.
+#[test]
+fn changes_are_rotations_of_any_size() {
+    let half_turn = std::f64::consts::PI;
+    for size in [0.0, 1e-200, 1e-160, 1e-12, 1e-3, 1.0, 3.0, half_turn - 1e-9] {
+        let mut there = pose();
+        let change = Vector3::new(0.6, -0.64, 0.48) * size;
+        there.turn *= UnitQuaternion::from_scaled_axis(change);
+        there.rates[3] += size;
+        there.q[1] -= 2.0 * size;
+        let (from, mut to) = (pose().state(), there.state());
+        for sign in [1.0, -1.0] {
+            // Q and −Q are one orientation.
+            for k in 3..7 {
+                (to.q[k], to.v[k]) = (sign * to.q[k], sign * to.v[k]);
+            }
+            let z = WALKER.local_change(&from, &to).unwrap();
+            let mut expected = DVector::zeros(22);
+            expected.rows_mut(3, 3).copy_from(&change);
+            (expected[7], expected[14]) = (-2.0 * size, size);
+            assert!((&z - expected).amax() < 3e-15, "{size:e}: {z}");
+            let back = WALKER.locally_changed(&from, z.as_slice()).unwrap();
+            assert!((back.q - there.state().q).amax() < 3e-15 && (back.v - there.state().v).amax() < 3e-15);
+        }
+    }
+    // Rotations down to the smallest are found to their last digits.
+    let state = pose().state();
+    let mut tiny = [0.0; 22];
+    tiny[3] = 1e-9;
+    let near = WALKER.locally_changed(&state, &tiny).unwrap();
+    let basis = WALKER.local_coordinates(&state).unwrap().basis().clone();
+    let change = near.q - state.q;
+    assert!((0..13).all(|i| (change[i] - 1e-9 * basis[(i, 3)]).abs() < 2e-16));
+    let error = WALKER.locally_changed(&state, &[0.0; 26]).unwrap_err().to_string();
+    assert!(error.contains("26") && error.contains("22"), "{error}");
+    tiny[5] = f64::NAN;
+    assert!(matches!(WALKER.locally_changed(&state, &tiny), Err(Error::StateNotFinite { .. })));
+    let mut long = state;
+    long.q[3] += 1e-3;
+    assert!(WALKER.local_change(&state, &long).is_err() && WALKER.local_change(&long, &state).is_err());
+}
+
 #[derive(Lagrangian)]
 #[coordinates(x)]
 #[lagrangian(x_dot^2/2 - k*x^4)]

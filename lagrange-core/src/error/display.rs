@@ -133,6 +133,10 @@ impl Display for Error {
                 f,
                 "the generalized forces are not linear in the masses, first moments and inertias of these bodies at t = {time}: the row of {row} differs by {residual:e}; name bodies whose members `m`, `centre` and `inertia` enter by `kinetic` and by their weight alone"
             ),
+            Self::LocalChange { found, expected } => write!(
+                f,
+                "the change has {found} entries, and the state {expected} local coordinates: `local_coordinates` has their names"
+            ),
             Self::OtherBodies => {
                 write!(f, "these regressors are of different bodies: ask for all with the same names")
             }

@@ -563,6 +563,85 @@ pub trait Linearized: StateDerivatives {
         LocalCoordinates::at(self, state)
     }
 
+    /// Change from one state to another in [local coordinates](Self::local_coordinates), of any size: places and velocities by
+    /// their differences, each quaternion by the rotation vector δφ along the axes of its frame that turns one orientation into the other, |δφ|
+    /// ≤ π, and δω, the difference of the angular velocities, each along the axes of its own frame. Feedback u = −K z of a
+    /// [linearized](Self::linearize_locally) system takes z from here.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// /// A satellite with three wheels.
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(q: [4])]
+    /// #[frame(body: rotate(q))]
+    /// #[lagrangian(kinetic(body, 1, [0, 0, 0], [[2, 0, 0], [0, 3, 0], [0, 0, 4]]))]
+    /// #[power(torque, angular_velocity(body))]
+    /// struct Satellite { torque: [f64; 3] }
+    ///
+    /// let wanted = State::at_rest([1.0, 0.0, 0.0, 0.0]);
+    /// // It points the other way.
+    /// let start = State::at_rest([0.0, 0.0, 1.0, 0.0]);
+    /// let mut motion = Motion::new(Satellite { torque: [0.0; 3] }, start, Dop853::default())?;
+    /// for tick in 1..=300 {
+    ///     let z = motion.system().local_change(&wanted, motion.state())?;
+    ///     motion.system_mut().torque = [0, 1, 2].map(|k| -2.0 * z[k] - 4.0 * z[3 + k]);
+    ///     motion.advance_to(f64::from(tick) / 10.0)?;
+    /// }
+    /// let z = motion.system().local_change(&wanted, motion.state())?;
+    /// assert!(z.amax() < 1e-4);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// J. Solà, J. Deray and D. Atchuthan (2018), (26): x ⊖ y, on the right. Pinocchio's `difference`, but for the place of a free body.
+    ///
+    /// # Errors
+    /// Those of [`local_coordinates`](Self::local_coordinates), of each state.
+    #[cfg(feature = "alloc")]
+    fn local_change(
+        &self,
+        from: &StateOf<Self>,
+        to: &StateOf<Self>,
+    ) -> Result<nalgebra::DVector<Self::Scalar>, Error>
+    where
+        Self: Lagrangian<Scalar: Real> + Sized,
+    {
+        local::change(self, [from, to])
+    }
+
+    /// A state changed by these [local coordinates](Self::local_coordinates), of any size: the inverse of
+    /// [`local_change`](Self::local_change). The time stays. Constraints beyond the lengths of quaternions are not enforced: see
+    /// [`make_consistent`](Lagrangian::make_consistent).
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(q: [4])]
+    /// #[frame(body: rotate(q))]
+    /// #[lagrangian(kinetic(body, 1, [0, 0, 0], [[2, 0, 0], [0, 3, 0], [0, 0, 4]]))]
+    /// struct Body;
+    ///
+    /// let state = State::at_rest([1.0, 0.0, 0.0, 0.0]);
+    /// // A turn by 90° about the first axis, and a spin of 4 about the same.
+    /// let turned = Body.locally_changed(&state, &[std::f64::consts::FRAC_PI_2, 0.0, 0.0, 4.0, 0.0, 0.0])?;
+    /// let half = 0.5_f64.sqrt();
+    /// let expected = State::new([half, half, 0.0, 0.0], [-2.0 * half, 2.0 * half, 0.0, 0.0]);
+    /// assert!((turned.q - expected.q).amax() < 1e-15 && (turned.v - expected.v).amax() < 1e-15);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::LocalChange`] for another number of local coordinates; those of [`local_coordinates`](Self::local_coordinates);
+    /// [`Error::StateNotFinite`] if a number is not finite.
+    #[cfg(feature = "alloc")]
+    fn locally_changed(&self, state: &StateOf<Self>, change: &[Self::Scalar]) -> Result<StateOf<Self>, Error>
+    where
+        Self: Lagrangian<Scalar: Real> + Sized,
+    {
+        local::changed(self, state, change)
+    }
+
     /// Linearizes the system near a state in [local coordinates](Self::local_coordinates): ż = A z + B u, where z is the change
     /// of the state, with three numbers for each quaternion. For a free body with 12 joints A is 36 × 36; its lower half
     /// holds the derivatives of the accelerations by 18 changes of place and 18 changes of velocity.
