@@ -330,3 +330,28 @@ fn columns_by_name_are_those_of_the_jacobian() {
     assert_eq!(some.accelerations.column(1), whole.v.column(16));
     assert_eq!(some.accelerations.column(2), whole.q.column(0));
 }
+
+/// A chain on a car that runs along y = x^2.5, whose third derivative is infinite at x = 0.
+#[derive(Lagrangian)]
+#[coordinates(x, q: [19])]
+#[frame(car: translate([x, x^2.5, 0]))]
+#[frame(link[0] in car: rotate_z(q[0]))]
+#[frame(link[i in 1..19] in link[i-1]: translate([1, 0, 0]), rotate_z(q[i]))]
+#[lagrangian(kinetic(car, 1, [0, 0, 0]) + sum(i in 0..19, kinetic(link[i], 1, [1/2, 0, 0])))]
+struct Train;
+
+/// No number is given where a derivative has none, in the columns beside it either.
+#[test]
+fn derivatives_that_are_infinite_are_not_given() {
+    let mut state = state::<20>(1);
+    let slopes = Train.residual_slopes(&state, &irregular_solution(1));
+    assert!(Train::motion_gradients(&slopes).is_some(), "no tree");
+    state.q[0] = 0.25;
+    assert!(Train.state_jacobian(&state).is_ok());
+    for v in [0.0, 0.5] {
+        (state.q[0], state.v[0]) = (0.0, v);
+        assert!(Train.solve(&state).is_ok());
+        let error = Train.state_jacobian(&state).unwrap_err();
+        assert!(matches!(error, Error::DerivativeNotFinite { .. }), "{v}: {error}");
+    }
+}
