@@ -155,8 +155,9 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! - Frictions along two velocities that share their load begin to slide where the first of them, as they share it, is within 5·10⁻¹¹
 //!   of its limit; each that is within 5·10⁻⁵ of its own slides with it. Of 100,000 random loads on three contacts
 //!   none slid at 1 − 10⁻⁶ of its limit, and none was held at 1 + 10⁻⁸.
-//! - Forces at the stored states keep Coulomb's law to 10⁻⁶ of the largest of them, on random tables on four legs, pushed until
-//!   they slide: 1,440 by `Radau` and 180 by `Dop853`.
+//! - Forces at the stored states keep Coulomb's law to 10⁻⁶ of the largest of them, on 1,440 random tables on four legs, pushed
+//!   until they slide. Of these motions 61 end before their time by `Radau` and 773 by `Dop853`, all with a name, most after 200
+//!   transitions.
 //! - Friction that needs no force sticks if what the other contacts leave of its row is a pivot that the elimination trusts.
 //! - A step is not searched for forces that leave their limits where the 16 stages of `Dop853`, or those of `Dopri5` and one more
 //!   evaluation, bound the multipliers away from them: no force leaves its limit there unless it is off every cubic polynomial of
