@@ -14,13 +14,9 @@ const STEPS: usize = 200;
 /// Halvings of one Newton step.
 const HALVINGS: usize = 40;
 
-/// |u|²/g at which friction has reached its limit: its force is within 5·10⁻¹¹ of it. Of 100,000 random loads on three contacts, none
+/// |u|²/g at which friction has reached its limit: its force is within 5·10⁻¹¹ of it. Of 500,000 random loads on three contacts, none
 /// slides at 1 − 10⁻⁶ of its limit, and none is held at 1 + 10⁻⁸.
 const AT_LIMIT: f64 = 1e10;
-
-/// |u|²/g from which forces are at their limit though no balance is found. Below, the search goes on beyond [`AT_LIMIT`], since a step
-/// may lead there on the way to a balance with less.
-const LOST: f64 = 1e13;
 
 /// |u|²/g from which friction slides where others have reached their limits: its force is within 5·10⁻⁵ of its own.
 const MOVES: f64 = 1e4;
@@ -121,10 +117,8 @@ pub(super) fn reserve<T: Real>(
             |left: &[T]| left.iter().fold(T::constant(0.0), |most, &part| larger(most, Scalar::abs(part)));
         let off = largest(&left);
         let [is_exact, is_found] = [T::EPSILON, FOUND].map(|part| off <= T::constant(part) * scale);
-        let next = match is_exact || most > T::constant(LOST) {
-            true => None,
-            false => descent(&x, &left, curvature(&parts, &velocities), imbalance),
-        };
+        let goes_on = !is_exact && !is_at_limit;
+        let next = goes_on.then(|| descent(&x, &left, curvature(&parts, &velocities), imbalance)).flatten();
         match next.filter(|(_, after)| !is_found || largest(after) <= T::constant(0.5) * off) {
             Some(next) => (x, left) = next,
             None if is_found || is_at_limit => return Some(outcome(&parts, &velocities, is_at_limit)),
@@ -259,7 +253,9 @@ mod tests {
         let sum = |c: usize| shared.iter().map(|force| force[c]).sum::<f64>();
         let off = [sum(0) + x, sum(1), moment(&shared) + turn].map(f64::abs);
         let slides = found.slips.iter().any(Option::is_some);
-        assert!(slides || off.iter().all(|off| *off < 1e-12), "{off:?}");
+        // Three rows that are independent, with entries up to 1, and combinations of them are each off by up to `FOUND`.
+        let bound = 3.0 * FOUND * limits.iter().sum::<f64>();
+        assert!(slides || off.iter().all(|off| *off < bound), "{off:?}");
         Some((shared, slides))
     }
 

@@ -259,8 +259,8 @@ pub trait Linearized: StateDerivatives {
     /// state is. [`MotionDerivatives`] continues across events.
     ///
     /// Supported methods: [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded
-    /// [`Pair`](crate::motion::Pair)s, on Lagrange's equations; [`Radau`] and [`RungeKutta4`](crate::RungeKutta4), along
-    /// whose steps the derivatives do not limit the length. If the number type of the system is a type parameter, also
+    /// [`Pair`](crate::motion::Pair)s, on Lagrange's equations; [`Radau`]; [`RungeKutta4`](crate::RungeKutta4), whose steps
+    /// have one length. If the number type of the system is a type parameter, also
     /// [`Taylor`](crate::Taylor) and the methods of type [`FixedStep`](crate::motion::FixedStep): the derivatives along
     /// these are those of the discrete map, so they are a symplectic matrix along a symplectic method, to round-off.
     /// Motions by other methods, and in momenta, are not differentiated.
