@@ -156,7 +156,7 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //!   of its limit; each that is within 5·10⁻⁵ of its own slides with it. Of 500,000 random loads on three contacts
 //!   none slid at 1 − 10⁻⁶ of its limit, and none was held at 1 + 10⁻⁸.
 //! - Forces at the stored states keep Coulomb's law to 10⁻⁶ of the largest of them, on 1,440 random tables on four legs, pushed
-//!   until they slide. Of these motions 58 end before their time by `Radau` and 773 by `Dop853`, all with a name, most after 200
+//!   until they slide. Of these motions 58 end before their time by `Radau` and 777 by `Dop853`, all with a name, most after 200
 //!   transitions.
 //! - Friction that needs no force sticks if what the other contacts leave of its row is a pivot that the elimination trusts.
 //! - A step is not searched for forces that leave their limits where the 16 stages of `Dop853`, or those of `Dopri5` and one more
