@@ -18,8 +18,8 @@ pub(crate) struct Facts {
     pub(crate) cyclic: Vec<usize>,
     pub(crate) conserved: Vec<Conserved>,
     pub(crate) energy_form: EnergyForm,
-    /// Terms that dE/dt may have, if E is not known to be conserved.
-    pub(crate) energy_changes: Vec<EnergyChange>,
+    /// Terms that dE/dt may have, if E is not known to be conserved, with their values.
+    pub(crate) energy_changes: Vec<(EnergyChange, Id)>,
     /// dE/dt along the motion, with multipliers as symbols; zero if E is conserved, whatever slides.
     pub(crate) energy_rate: Id,
     pub(crate) total_derivatives: Vec<TotalDerivative>,
@@ -40,8 +40,7 @@ impl Facts {
         let may_change = energy.is_none() || !problem.frictions.is_empty();
         let rates = changes.iter().filter(|_| may_change).map(|(_, part)| *part).collect::<Vec<_>>();
         let energy_rate = graph.total(rates);
-        let changes = changes.into_iter().filter(|_| energy.is_none());
-        let energy_changes = changes.map(|(change, _)| change).collect();
+        let energy_changes = changes.into_iter().filter(|_| energy.is_none()).collect();
         conserved.extend(energy);
         let said = conservation::of_observables(graph, &mut moments, diagnostics);
         conserved.retain(|found| said.iter().all(|said| said.name != found.name));

@@ -101,7 +101,10 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
     read.extend(of_frames.into_iter().flatten().map(|id| (id, shorter(graph, id))));
     let hamilton = Hamilton::derive(graph, problem, &equations);
     let markers = Marker::proved(graph, &equations);
-    let resultants = Resultants::of(graph, problem, &turnings);
+    let is_of_power = |(change, _): &&(EnergyChange, Id)| *change != EnergyChange::Time;
+    let power = facts.energy_changes.iter().filter(is_of_power).map(|(_, part)| *part).collect::<Vec<_>>();
+    let power = graph.total(power);
+    let resultants = Resultants::of(graph, problem, &turnings, power);
     graph.take_fault();
     Some(Derived {
         equations,

@@ -17,29 +17,43 @@ impl Page<'_> {
     /// Force on a coordinate by L, without bodies and their weights, and by forces of its own.
     pub(super) fn given_force(&self, resultants: &Resultants, i: usize) -> Result<Formula, u64> {
         let by_definitions = || {
-            let ChainRule { direct, slopes } = resultants.by_definitions.as_ref()?;
-            let mut terms = vec![self.expression(direct[i]).ok()?];
-            let depends = |id: Id| {
-                self.graph.symbols(&[id]).any(|symbol| Variable::of(symbol) == Variable::Coordinate(i))
-            };
-            let mut rest = &slopes[..];
-            while let [(id, slope), ..] = rest {
-                let count = self.components_from(rest);
-                let (components, others) = rest.split_at(count);
-                rest = others;
-                if components.iter().any(|(id, _)| depends(*id)) {
-                    let slope = match components {
-                        [_, _, _] => self.vector_of_components(&[0, 1, 2].map(|k| components[k].1)),
-                        _ => self.expression(*slope),
-                    };
-                    let name = self.problem.names.get(id)?;
-                    let name = if count == 3 { vector(name)? } else { name };
-                    terms.push(self.times_partial(slope.ok()?, count, name, (i, 0)));
-                }
-            }
-            Some(terms)
+            let chain = resultants.by_definitions.as_ref()?;
+            let by = Formula::labelled(&self.problem.coordinates[i].text, 0);
+            let direct = self.expression(chain.direct[i]).ok()?;
+            Some([vec![direct], self.by_definitions(chain, Variable::Coordinate(i), &by)?].concat())
         };
         self.or_shorter(self.expression(resultants.rest[i]), by_definitions)
+    }
+
+    /// ∂U/∂t of U without weights.
+    pub(super) fn rate_by_definitions(&self, resultants: &Resultants) -> Option<Vec<Formula>> {
+        let chain = resultants.by_definitions.as_ref()?;
+        let slopes = self.by_definitions(chain, Variable::Time, &Formula::labelled("t", 0))?;
+        let direct = (chain.by_time != Id::ZERO).then(|| self.expression(chain.by_time).ok());
+        let direct = direct.into_iter().collect::<Option<Vec<_>>>()?;
+        Some(direct.into_iter().chain(slopes.into_iter().map(Formula::negated)).collect())
+    }
+
+    /// −∂U/∂d·∂d/∂(variable) of the definitions d.
+    fn by_definitions(&self, chain: &ChainRule, variable: Variable, by: &Formula) -> Option<Vec<Formula>> {
+        let depends = |id: Id| self.graph.symbols(&[id]).any(|symbol| Variable::of(symbol) == variable);
+        let mut terms = Vec::new();
+        let mut rest = &chain.slopes[..];
+        while let [(id, slope), ..] = rest {
+            let count = self.components_from(rest);
+            let (components, others) = rest.split_at(count);
+            rest = others;
+            if components.iter().any(|(id, _)| depends(*id)) {
+                let slope = match components {
+                    [_, _, _] => self.vector_of_components(&[0, 1, 2].map(|k| components[k].1)),
+                    _ => self.expression(*slope),
+                };
+                let name = self.problem.names.get(id)?;
+                let name = if count == 3 { vector(name)? } else { name };
+                terms.push(times_partial(slope.ok()?, count, name, by.clone()));
+            }
+        }
+        Some(terms)
     }
 
     /// 3 if a vector of three definitions begins here, else 1.
@@ -69,11 +83,12 @@ impl Page<'_> {
                 let names = if is_whole { vec![vector(group[0])?] } else { group.to_vec() };
                 let dots = usize::from(equations.kinds[first] != ConstraintKind::Holonomic);
                 let term = |name: &str| {
-                    self.times_partial(
+                    let by = Formula::labelled(&self.problem.coordinates[i].text, dots);
+                    times_partial(
                         Formula::Multiplier(name.to_owned()),
                         if is_whole { 3 } else { 1 },
                         name,
-                        (i, dots),
+                        by,
                     )
                 };
                 (!names.iter().any(|name| is_taken(&taken, name))).then_some(())?;
@@ -82,19 +97,6 @@ impl Page<'_> {
             Some(terms)
         };
         self.or_shorter(self.expression(force), by_constraints)
-    }
-
-    /// slope·∂(name)/∂q, or by the velocity.
-    fn times_partial(&self, slope: Formula, count: usize, name: &str, (i, dots): (usize, usize)) -> Formula {
-        let by = vec![Formula::labelled(&self.problem.coordinates[i].text, dots)];
-        let function = Box::new(Formula::labelled(name, 0));
-        let partial = Formula::Partial { function, by, arguments: Vec::new() };
-        let (is_negative, slope) = slope.sign_and_magnitude();
-        let term = match count {
-            3 => Formula::Call("dot".to_owned(), vec![slope, partial]),
-            _ => Formula::Product(vec![slope, partial], Vec::new()),
-        };
-        term.signed(is_negative)
     }
 
     /// The written force if it is short, else that by names if it is shorter.
@@ -114,4 +116,16 @@ impl Page<'_> {
             (written, by_names) => by_names.map_or(written, Ok),
         }
     }
+}
+
+/// slope·∂(name)/∂(by), of a number or of three components.
+fn times_partial(slope: Formula, count: usize, name: &str, by: Formula) -> Formula {
+    let function = Box::new(Formula::labelled(name, 0));
+    let partial = Formula::Partial { function, by: vec![by], arguments: Vec::new() };
+    let (is_negative, slope) = slope.sign_and_magnitude();
+    let term = match count {
+        3 => Formula::Call("dot".to_owned(), vec![slope, partial]),
+        _ => Formula::Product(vec![slope, partial], Vec::new()),
+    };
+    term.signed(is_negative)
 }

@@ -53,7 +53,7 @@ impl Page<'_> {
             return Vec::new();
         }
         let mut remark = self.energy_form();
-        let changes: Vec<Formula> = facts.energy_changes.iter().copied().map(change).collect();
+        let changes: Vec<Formula> = facts.energy_changes.iter().map(|(part, _)| change(*part)).collect();
         if changes.is_empty() {
             return vec![self.energy_line(remark)];
         }
@@ -62,7 +62,8 @@ impl Page<'_> {
         let of_turnings = self.derived.turnings.energy.map(|[_, rate]| rate);
         let known = Some(of_turnings.unwrap_or(facts.energy_rate))
             .filter(|_| self.problem.parameters.switches.is_empty());
-        match known.and_then(|rate| self.expression(rate).ok()) {
+        let known = known.and_then(|rate| self.expression(rate).ok());
+        match [known, self.energy_rate_by_bodies()].into_iter().flatten().min_by_key(length) {
             Some(written) => {
                 let line = Line::of(Equation::Known(rate, written));
                 vec![self.energy_line(remark), Line { remark: Remark::of(vec![changes]), ..line }]
@@ -79,7 +80,7 @@ impl Page<'_> {
         }
     }
 
-    fn energy_line(&self, remark: Vec<Fragment>) -> Line {
+    pub(super) fn energy_line(&self, remark: Vec<Fragment>) -> Line {
         let of_turnings = || self.energy_of_turnings().filter(|_| self.bodies.is_none());
         let energy = self.energy_by_bodies().map(Ok).or_else(of_turnings).unwrap_or_else(|| {
             let apart = self.derived.energies.and_then(|energies| self.energy(energies));

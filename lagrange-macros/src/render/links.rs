@@ -1,4 +1,5 @@
-//! Frames that carry bodies, by name: the matrix A of the axes, the angular velocity ω, and the position r of a centre of mass.
+//! Frames that carry bodies, by name: the matrix A of the axes, the angular velocity ω, its value Ω at rest of the coordinates, and
+//! the position r of a centre of mass.
 
 use super::axes::named_axes;
 use super::formula::Formula;
@@ -12,9 +13,9 @@ use crate::resolve::{Frame, Problem, Triple};
 use crate::symbolic::{Id, Node};
 use crate::variables::Variable;
 
-/// Letters for A, ω, r, F, N and I: of each, the first that is free.
-const LETTERS: [[&str; 2]; 6] =
-    [["A", "C"], ["omega", "Omega"], ["r", "x"], ["F", "K"], ["N", "M"], ["I", "Theta"]];
+/// Letters for A, ω, r, F, N, I and Ω: of each, the first that is free.
+const LETTERS: [[&str; 2]; 7] =
+    [["A", "C"], ["omega", "Omega"], ["r", "x"], ["F", "K"], ["N", "M"], ["I", "Theta"], ["Omega", "W"]];
 
 /// Names of the links and bodies of [`Resultants`], in their order.
 pub(super) struct BodyNames {
@@ -34,6 +35,8 @@ pub(super) struct LinkNames {
     /// Name of the rotation matrix from the axes of the frame to the fixed ones; `None` if these are the same.
     pub(super) axes: Option<String>,
     pub(super) rate: String,
+    /// Name of the angular velocity at rest of the coordinates; `None` if it is zero.
+    pub(super) imposed: Option<String>,
     /// True if the names are those of another link, or of a quaternion: the page has lines for them already.
     pub(super) is_known: bool,
 }
@@ -49,15 +52,18 @@ pub(super) struct RigidBodyNames {
 impl BodyNames {
     /// `None` without rigid bodies, or if too many names are taken.
     pub(super) fn of(problem: &Problem, derived: &Derived) -> Option<Self> {
-        let Resultants { links, bodies, .. } = derived.resultants.as_ref()?;
+        let resultants = derived.resultants.as_ref()?;
+        let Resultants { links, bodies, .. } = resultants;
         let frame = |link: &Link| problem.frame_names.iter().find(|(frame, _)| *frame == link.frame);
         let frames: Vec<&str> =
             links.iter().map(|link| frame(link).map(|(_, name)| &**name)).collect::<Option<_>>()?;
-        let [axes, rate, position, force, torque, inertia] = letters(problem, &frames)?;
+        let [axes, rate, position, force, torque, inertia, imposed] = letters(problem, &frames)?;
         let mut named = Vec::new();
         for (link, frame) in links.iter().zip(&frames) {
-            let own = [axes, rate].map(|letter| format!("{letter}_{frame}"));
-            named.push(LinkNames::of((problem, derived), &named, (link, frame), own));
+            let [axes, rate, imposed] = [axes, rate, imposed].map(|letter| format!("{letter}_{frame}"));
+            let own = LinkNames::of((problem, derived), &named, (link, frame), [axes, rate]);
+            let imposed = own.imposed((link, resultants), &named, imposed);
+            named.push(LinkNames { imposed, ..own });
         }
         let on_link = |bodies: &[RigidBody], link| bodies.iter().filter(|body| body.link == link).count();
         let bodies = bodies.iter().enumerate().map(|(k, body)| {
@@ -79,11 +85,14 @@ fn apart(name: &str) -> (&str, &str) {
 }
 
 /// One free letter for each quantity.
-fn letters(problem: &Problem, frames: &[&str]) -> Option<[&'static str; 6]> {
+fn letters(problem: &Problem, frames: &[&str]) -> Option<[&'static str; 7]> {
     let taken = taken(problem);
-    let is_free = |letter: &&&str| frames.iter().all(|frame| !is_taken(&taken, &format!("{letter}_{frame}")));
-    let letters = LETTERS.iter().map(|letters| letters.iter().find(is_free).copied());
-    letters.collect::<Option<Vec<_>>>()?.try_into().ok()
+    let is_free = |letter: &str| frames.iter().all(|frame| !is_taken(&taken, &format!("{letter}_{frame}")));
+    let mut chosen: Vec<&str> = Vec::new();
+    for letters in LETTERS {
+        chosen.push(letters.into_iter().find(|letter| is_free(letter) && !chosen.contains(letter))?);
+    }
+    chosen.try_into().ok()
 }
 
 impl LinkNames {
@@ -108,7 +117,18 @@ impl LinkNames {
         let known = known.or_else(|| before.map(|before| (before.axes.clone(), before.rate.clone())));
         let is_known = known.is_some();
         let (axes, rate) = known.unwrap_or((Some(axes).filter(|_| is_turned), rate));
-        Self { frame: frame.to_owned(), axes, rate, is_known }
+        Self { frame: frame.to_owned(), axes, rate, imposed: None, is_known }
+    }
+
+    /// Name of the angular velocity at rest of the coordinates: that of ω if all of it is, of the link before if the link does
+    /// not turn in it, or else `own`.
+    fn imposed(&self, (link, all): (&Link, &Resultants), named: &[Self], own: String) -> Option<String> {
+        let before = link.before.filter(|&before| all.is_turning(before)).map(|before| &named[before]);
+        let carried = before.and_then(|before| before.imposed.as_ref());
+        let is_whole = before.is_none_or(|before| carried == Some(&before.rate)) && link.imposed == link.rate;
+        let name = if is_whole { &self.rate } else { carried.filter(|_| self.is_known).unwrap_or(&own) };
+        let is_turning = carried.is_some() || link.imposed != [Id::ZERO; 3];
+        is_turning.then(|| name.clone())
     }
 }
 
@@ -124,16 +144,26 @@ fn turned(axes: Option<&str>, vector: Formula) -> Formula {
 }
 
 impl Page<'_> {
-    /// Lines of A, ω and r, each after those that it mentions, with the names that they define.
+    /// Lines of A, ω, Ω, r and I, each after those that it mentions, with the names that they define.
     pub(super) fn body_lines(&self, names: &BodyNames, resultants: &Resultants) -> Vec<(Formula, Line)> {
         let own = (0..names.links.len()).filter(|&k| !names.links[k].is_known);
-        let of_links =
-            own.flat_map(|k| [self.axes_line(resultants, names, k), self.rate_line(resultants, names, k)]);
+        let of_links = own.flat_map(|k| {
+            [
+                self.axes_line(resultants, names, k),
+                self.rate_line(resultants, names, k),
+                self.imposed_line(resultants, names, k),
+            ]
+        });
         let positions = (0..names.bodies.len()).map(|k| Some(self.position_line(resultants, names, k)));
-        of_links.chain(positions).flatten().collect()
+        let inertias = names.bodies.iter().zip(&resultants.bodies).map(|(own, body)| {
+            let left = name(&own.inertia);
+            let is_named = !body.has_inertia() || self.matrix(&body.inertia).is_some();
+            (!is_named).then(|| (left.clone(), Line::known(left, self.matrix_of(&body.inertia))))
+        });
+        of_links.chain(positions).chain(inertias).flatten().collect()
     }
 
-    /// The lines of A, ω and r that these lines mention.
+    /// The lines of A, ω, Ω, r and I that these lines mention.
     pub(super) fn mentioned_of_bodies(&mut self, sections: &[Section]) -> Vec<Line> {
         let mut mentioned: Vec<Line> = Vec::new();
         let all = self.bodies.take().map_or_else(Vec::new, |bodies| bodies.lines);
@@ -164,22 +194,47 @@ impl Page<'_> {
 
     /// ω = Aᵀ A_before ω_before + ω relative to the link before.
     fn rate_line(&self, resultants: &Resultants, names: &BodyNames, k: usize) -> Option<(Formula, Line)> {
-        let (own, link) = (&names.links[k], &resultants.links[k]);
-        let left = name(&own.rate);
-        let before = link.before.filter(|&before| resultants.is_turning(before)).map(|before| {
-            let other = &names.links[before];
-            let back = own.axes.iter().map(|axes| Formula::Transpose(Box::new(name(axes))));
-            let forth = other.axes.iter().chain([&other.rate]).map(|text| name(text));
-            Formula::Product(back.chain(forth).collect(), Vec::new())
-        });
-        let rate = (link.rate != [Id::ZERO; 3]).then(|| self.vector_or_name(&link.rate)).transpose();
-        let right = rate.map(|rate| Formula::sum(before.into_iter().chain(rate).collect()));
+        let own = &names.links[k];
+        let before = resultants.links[k].before.filter(|&before| resultants.is_turning(before));
+        let before = before.map(|before| &*names.links[before].rate);
         let remark = vec![
             Fragment::words("angular velocity of "),
             Fragment::Formula(name(&own.frame)),
             Fragment::words(" along its axes"),
         ];
+        let right = self.carried_on((resultants, names, k), before, &resultants.links[k].rate);
+        let left = name(&own.rate);
         Some((left.clone(), Line { remark: Remark::of(remark), ..Line::known(left, right) }))
+    }
+
+    /// Ω = Aᵀ A_before Ω_before + ω relative to the link before, for q̇ = 0; `None` if it is zero or all of ω.
+    fn imposed_line(&self, resultants: &Resultants, names: &BodyNames, k: usize) -> Option<(Formula, Line)> {
+        let (own, link) = (&names.links[k], &resultants.links[k]);
+        let left = own.imposed.as_ref().filter(|imposed| **imposed != own.rate).map(|text| name(text))?;
+        let before = link.before.and_then(|before| names.links[before].imposed.as_deref());
+        let right = self.carried_on((resultants, names, k), before, &link.imposed);
+        let remark = vec![Fragment::Formula(name(&own.rate)), Fragment::words(" while the coordinates rest")];
+        Some((left.clone(), Line { remark: Remark::of(remark), ..Line::known(left, right) }))
+    }
+
+    /// Aᵀ A_before ω_before + ω relative to the link before.
+    fn carried_on(
+        &self,
+        (resultants, names, k): (&Resultants, &BodyNames, usize),
+        before: Option<&str>,
+        relative: &Triple,
+    ) -> Result<Formula, u64> {
+        let axes = |k: usize| names.links[k].axes.as_deref();
+        let forth = resultants.links[k].before.and_then(axes);
+        let back = axes(k).map(|axes| Formula::Transpose(Box::new(name(axes))));
+        let carried = before.map(|rate| {
+            Formula::Product(
+                back.into_iter().chain(forth.into_iter().chain([rate]).map(name)).collect(),
+                Vec::new(),
+            )
+        });
+        let relative = (*relative != [Id::ZERO; 3]).then(|| self.vector_or_name(relative)).transpose()?;
+        Ok(Formula::sum(carried.into_iter().chain(relative).collect()))
     }
 
     /// r = Σ A_before s + A c, with the displacements s that lead to the link and the centre of mass c in its axes.

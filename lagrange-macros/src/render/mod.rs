@@ -7,6 +7,7 @@ mod chain_rule;
 mod derived;
 mod digits;
 mod energy;
+mod energy_of_bodies;
 mod facts;
 mod formula;
 mod hamilton;

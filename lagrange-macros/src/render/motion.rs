@@ -18,11 +18,12 @@ pub(super) struct MotionRow {
 }
 
 impl Page<'_> {
-    /// Equations of motion. If one is too long to be read, it and all others that take more than a line are given by the
-    /// forces and torques on bodies.
+    /// Equations of motion. If one of them or the energy is too long to be read, all that take more than a line are given by
+    /// the forces and torques on bodies.
     pub(super) fn motion(&mut self) -> Vec<Line> {
         let rows = self.rows();
-        if rows.iter().flat_map(|row| &row.lines).any(Line::is_too_long) {
+        let has_energy = || !self.energy_line(Vec::new()).is_too_long();
+        if rows.iter().flat_map(|row| &row.lines).any(Line::is_too_long) || !has_energy() {
             self.name_bodies();
         }
         let lines = rows.into_iter().flat_map(|row| match self.by_bodies(&row) {

@@ -10,7 +10,7 @@ use super::lines::{Equation, Line};
 use super::links::{BodyNames, NamedBodies, RigidBodyNames};
 use super::page::Page;
 use super::remark::{Fragment, Remark};
-use crate::mechanics::{Dependence, EnergyForm, Resultants, RigidBody, Turning};
+use crate::mechanics::{Dependence, Resultants, RigidBody};
 use crate::resolve::Triple;
 use crate::symbolic::{Id, Rational};
 
@@ -25,27 +25,28 @@ pub(super) enum Speed {
 
 /// A rigid body with its names.
 #[derive(Clone, Copy)]
-struct BodyWithNames<'a> {
-    body: &'a RigidBody,
-    own: &'a RigidBodyNames,
+pub(super) struct BodyWithNames<'a> {
+    pub(super) body: &'a RigidBody,
+    pub(super) own: &'a RigidBodyNames,
     frame: &'a str,
-    rate: &'a str,
+    pub(super) rate: &'a str,
+    pub(super) imposed: Option<&'a str>,
 }
 
-fn name(text: &str, dots: usize) -> Formula {
+pub(super) fn name(text: &str, dots: usize) -> Formula {
     Formula::labelled(text, dots)
 }
 
-fn product(factors: Vec<Formula>) -> Formula {
+pub(super) fn product(factors: Vec<Formula>) -> Formula {
     Formula::flat_product(Rational::one().into(), factors, Vec::new())
 }
 
-fn dot(one: Formula, other: Formula) -> Formula {
+pub(super) fn dot(one: Formula, other: Formula) -> Formula {
     Formula::Call("dot".to_owned(), vec![one, other])
 }
 
 /// Component of a vector; of a product, the component of the cross product at its end, times the other factors.
-fn component(vector: Formula, k: usize) -> Formula {
+pub(super) fn component(vector: Formula, k: usize) -> Formula {
     let index = Formula::Number(Rational::from_integer(k as i128));
     match vector {
         Formula::Product(mut above, below) if matches!(above.last(), Some(Formula::Call(name, _)) if name == "cross") =>
@@ -82,12 +83,13 @@ impl Page<'_> {
         self.begin_readings();
     }
 
-    fn named_bodies(&self) -> Option<(&Resultants, Vec<BodyWithNames<'_>>)> {
+    pub(super) fn named_bodies(&self) -> Option<(&Resultants, Vec<BodyWithNames<'_>>)> {
         let (NamedBodies { names, .. }, resultants) =
             self.bodies.as_ref().zip(self.derived.resultants.as_ref())?;
         let named = names.bodies.iter().zip(&resultants.bodies).map(|(own, body)| {
             let link = &names.links[body.link];
-            BodyWithNames { body, own, frame: &link.frame, rate: &link.rate }
+            let imposed = link.imposed.as_deref();
+            BodyWithNames { body, own, frame: &link.frame, rate: &link.rate, imposed }
         });
         Some((resultants, named.collect()))
     }
@@ -138,7 +140,7 @@ impl Page<'_> {
     }
 
     /// F·∂ṙ/∂u and N·∂ω/∂u of a body, for vectors F and N.
-    fn projected(
+    pub(super) fn projected(
         &self,
         resultants: &Resultants,
         BodyWithNames { body, own, rate, .. }: BodyWithNames,
@@ -174,24 +176,15 @@ impl Page<'_> {
         resultants.turns_with(self.graph, body.link, velocity)
     }
 
-    /// Lines of F, N and I that these lines mention.
+    /// Lines of F and N that these lines mention.
     pub(super) fn resultant_lines(&self, lines: &[Line]) -> Vec<Line> {
         let Some((resultants, bodies)) = self.named_bodies() else { return Vec::new() };
-        let is_mentioned =
-            |text: &str, lines: &[Line]| lines.iter().any(|line| line.has_name(&name(text, 0)));
-        let mut found = Vec::new();
-        for named in &bodies {
+        let is_mentioned = |text: &str| lines.iter().any(|line| line.has_name(&name(text, 0)));
+        let both = bodies.iter().flat_map(|named| {
             let (force, torque) = (self.force_line(resultants, *named), self.torque_line(*named));
-            let both = [(&named.own.force, force), (&named.own.torque, torque)];
-            let both = both.into_iter().filter(|(text, _)| is_mentioned(text, lines));
-            found.extend(both.map(|(_, line)| line));
-        }
-        for BodyWithNames { body, own, .. } in bodies {
-            if self.matrix(&body.inertia).is_none() && is_mentioned(&own.inertia, &found) {
-                found.push(Line::known(name(&own.inertia, 0), self.matrix_of(&body.inertia)));
-            }
-        }
-        found
+            [(&named.own.force, force), (&named.own.torque, torque)]
+        });
+        both.filter(|(text, _)| is_mentioned(text)).map(|(_, line)| line).collect()
     }
 
     /// F = m (r̈ − g)
@@ -231,86 +224,8 @@ impl Page<'_> {
     }
 
     /// I ω, or I ω̇
-    fn spin(&self, BodyWithNames { body, own, .. }: BodyWithNames, rate: Formula) -> Formula {
+    pub(super) fn spin(&self, BodyWithNames { body, own, .. }: BodyWithNames, rate: Formula) -> Formula {
         let inertia = self.matrix(&body.inertia).unwrap_or_else(|| own.inertia.clone());
         Formula::Product(vec![name(&inertia, 0), rate], Vec::new())
-    }
-
-    /// The energy by the velocities of bodies, if it is T + U.
-    pub(super) fn energy_by_bodies(&self) -> Option<Formula> {
-        let (resultants, bodies) = self.named_bodies()?;
-        let [_, potential] = self.derived.energies?;
-        matches!(self.derived.facts.energy_form, EnergyForm::Sum(_)).then_some(())?;
-        let half =
-            |factors: Vec<Formula>| Formula::flat_product(Rational::new(1, 2).into(), factors, Vec::new());
-        let mut terms = Vec::new();
-        for &named in &bodies {
-            let (velocity, rate) = (name(&named.own.position, 1), name(named.rate, 0));
-            if named.body.mass != Id::ZERO && resultants.is_moving(self.graph, named.body) {
-                let mass = self.expression(named.body.mass).ok()?;
-                terms.push(half(vec![mass, dot(velocity.clone(), velocity)]));
-            }
-            if named.body.has_inertia() && resultants.is_turning(named.body.link) {
-                terms.push(half(vec![dot(rate.clone(), self.spin(named, rate))]));
-            }
-        }
-        terms.extend(self.potential_by_bodies(resultants, &bodies, potential)?);
-        Some(Formula::sum(terms)).filter(|energy| length(energy) <= READABLE as usize)
-    }
-
-    /// U with the heights of the bodies in their weights, or as it is if that is shorter.
-    fn potential_by_bodies(
-        &self,
-        resultants: &Resultants,
-        bodies: &[BodyWithNames],
-        potential: Id,
-    ) -> Option<Vec<Formula>> {
-        let written = |potential: Id| match potential {
-            Id::ZERO => Some(Vec::new()),
-            potential => Some(vec![self.part_of_energy(potential).ok()?]),
-        };
-        let size = |terms: &Vec<Formula>| terms.iter().map(length).sum::<usize>();
-        let by_weights = || {
-            let mut terms = Vec::new();
-            for &BodyWithNames { body, own, .. } in bodies.iter().filter(|named| named.body.mass != Id::ZERO)
-            {
-                for (k, &lift) in resultants.lift.iter().enumerate().filter(|(_, lift)| **lift != Id::ZERO) {
-                    let [mass, lift] = [body.mass, lift].map(|factor| self.expression(factor).ok());
-                    terms.push(product(vec![mass?, lift?, component(name(&own.position, 0), k)]));
-                }
-            }
-            terms.extend(written(resultants.potential)?);
-            Some(terms)
-        };
-        [written(potential), by_weights()].into_iter().flatten().min_by_key(size)
-    }
-
-    /// The line of a momentum, with Σ m ṙ·∂ṙ/∂q̇ + (I ω)·∂ω/∂q̇ if that is shorter.
-    pub(super) fn shorter_momentum(&self, line: Line, i: usize) -> Line {
-        let Some(momentum) = self.momentum_by_bodies(i) else { return line };
-        match &line.equation {
-            Equation::Known(_, right) if length(right) <= length(&momentum) => line,
-            _ => {
-                let left = Formula::momentum(&self.problem.coordinates[i].text, 0);
-                Line { label: None, equation: Equation::Known(left, momentum), ..line }
-            }
-        }
-    }
-
-    /// `None` if terms of L beside the bodies have velocities.
-    fn momentum_by_bodies(&self, i: usize) -> Option<Formula> {
-        let (resultants, bodies) = self.named_bodies()?;
-        let is_of = |turning: &Turning| (turning.first..turning.first + 4).contains(&i);
-        let is_of_quaternion = self.derived.turnings.all.iter().any(is_of);
-        (resultants.has_all_velocities && !is_of_quaternion).then_some(())?;
-        let mut terms = Vec::new();
-        for named in bodies {
-            let vectors = [name(&named.own.position, 1), self.spin(named, name(named.rate, 0))];
-            let [moving, turning] = self.projected(resultants, named, Speed::Coordinate(i), vectors);
-            let mass = self.expression(named.body.mass).ok()?;
-            terms.extend(moving.map(|moving| product(vec![mass, moving])));
-            terms.extend(turning);
-        }
-        Some(Formula::sum(terms))
     }
 }

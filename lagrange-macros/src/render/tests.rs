@@ -1,6 +1,7 @@
 //! Written formulas keep their value, and read as textbooks print them.
 
 mod bodies;
+mod driven;
 mod everywhere;
 mod excerpts;
 mod forms;

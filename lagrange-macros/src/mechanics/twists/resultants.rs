@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use super::Twists;
 use super::turning::{Turning, Turnings};
 use crate::resolve::{Frame, Problem, Step, Triple, columns, sum};
-use crate::symbolic::{Graph, Id, Node};
+use crate::symbolic::{Forward, Graph, Id, Node};
 use crate::variables::{Variable, has_velocity, nodes, total_time_derivative};
 
 /// Largest number of bodies for which the resultants are derived: beyond it the page is too long to be read.
@@ -25,12 +25,10 @@ pub(crate) struct Resultants {
     /// Frames with names that carry bodies, each after the one that carries it.
     pub(crate) links: Vec<Link>,
     pub(crate) bodies: Vec<RigidBody>,
-    /// −g for uniform gravity g, along the fixed axes.
+    /// −g for uniform gravity g, along the fixed axes, and its rate of change.
     pub(crate) lift: Triple,
-    /// True if L without the bodies has no velocities.
-    pub(crate) has_all_velocities: bool,
-    /// −L at rest, without weights.
-    pub(crate) potential: Id,
+    pub(crate) lift_rate: Triple,
+    pub(crate) beside: Beside,
     /// Generalized force on each coordinate, without constraint forces.
     pub(crate) rest: Vec<Id>,
     /// The same by the chain rule, if L without the bodies has no velocities.
@@ -39,11 +37,26 @@ pub(crate) struct Resultants {
     pub(crate) torques: Vec<Triple>,
 }
 
+/// The terms of L beside the bodies, and what changes the energy E = p·q̇ − L beside them.
+#[derive(Debug)]
+pub(crate) struct Beside {
+    /// ∂/∂q̇ of these terms.
+    pub(crate) momenta: Vec<Id>,
+    /// E of these terms, with the weights and without them.
+    pub(crate) energies: [Id; 2],
+    /// −∂/∂t of these terms, with the weights and without them.
+    pub(crate) rates: [Id; 2],
+    /// Q·q̇ − λ·b
+    pub(crate) power: Id,
+}
+
 /// Generalized forces Q_i − ∂U/∂q_i − Σ ∂U/∂d·∂d/∂q_i, with U a function of coordinates and definitions d.
 #[derive(Debug)]
 pub(crate) struct ChainRule {
     /// Q_i − ∂U/∂q_i, with the definitions held.
     pub(crate) direct: Vec<Id>,
+    /// ∂U/∂t, with the definitions held.
+    pub(crate) by_time: Id,
     /// Definitions d, each with −∂U/∂d.
     pub(crate) slopes: Vec<(Id, Id)>,
 }
@@ -60,6 +73,8 @@ pub(crate) struct Link {
     pub(crate) moved: Vec<Triple>,
     /// Angular velocity relative to the link before, along the axes of this link.
     pub(crate) rate: Triple,
+    /// The same for q̇ = 0, which frames that turn with time leave.
+    pub(crate) imposed: Triple,
 }
 
 /// A rigid body by mass, centre of mass and inertia about it, along the axes of its link.
@@ -82,15 +97,21 @@ impl RigidBody {
 
 impl Resultants {
     /// `None` without rigid bodies or with too many, and if fields switch constraints or friction on and off.
-    pub(in super::super) fn of(graph: &mut Graph, problem: &Problem, turnings: &Turnings) -> Option<Self> {
+    /// `power` is Q·q̇ − λ·b.
+    pub(in super::super) fn of(
+        graph: &mut Graph,
+        problem: &Problem,
+        turnings: &Turnings,
+        power: Id,
+    ) -> Option<Self> {
         let is_smooth = problem.parameters.switches.is_empty() && problem.frictions.is_empty();
         let twists = Some(()).filter(|()| is_smooth).and_then(|()| Twists::of(graph, problem))?;
-        (1..=MOST).contains(&twists.bodies.len()).then(|| twists.resultants(graph, turnings))
+        (1..=MOST).contains(&twists.bodies.len()).then(|| twists.resultants(graph, turnings, power))
     }
 }
 
 impl Twists<'_> {
-    fn resultants(&self, graph: &mut Graph, turnings: &Turnings) -> Resultants {
+    fn resultants(&self, graph: &mut Graph, turnings: &Turnings, power: Id) -> Resultants {
         let frames = self.named_carriers();
         let new = &turnings.new;
         let links =
@@ -115,41 +136,51 @@ impl Twists<'_> {
         let rest = self.hand_back(graph, parts, if turnings.all.is_empty() { n } else { self.outer });
         let torques = turnings.all.iter().map(|turning| turning.torque(graph, &rest, new)).collect();
         let rest = rest.into_iter().map(|force| graph.replaced(force, new)).collect();
-        let has_all_velocities = !has_velocity(graph, &[self.others]);
-        let potential = self.potential_beside_weights(graph, &bodies, lift);
-        let by_definitions = has_all_velocities.then(|| self.chain_rule(graph, potential));
-        Resultants { links, bodies, lift, has_all_velocities, potential, rest, by_definitions, torques }
+        let beside = self.beside(graph, &bodies, lift);
+        let has_velocities = has_velocity(graph, &[self.others]);
+        let by_definitions = (!has_velocities).then(|| self.chain_rule(graph, beside.energies[1]));
+        let beside = Beside { power, ..beside }.replaced(graph, new);
+        let mut along_time = Forward::along([(Variable::Time.symbol(), Id::ONE)]);
+        let lift_rate = lift.map(|lift| along_time.of(graph, lift));
+        Resultants { links, bodies, lift, lift_rate, beside, rest, by_definitions, torques }
     }
 
     fn chain_rule(&self, graph: &mut Graph, potential: Id) -> ChainRule {
         let n = self.problem.coordinates.len();
         let mut held = nodes(graph, n, Variable::Coordinate);
+        held.push(graph.symbol(Variable::Time.symbol()));
         let mut definitions: Vec<Id> = self.problem.names.keys().copied().collect();
         definitions.sort_unstable();
         held.extend(&definitions);
         let mut slopes = graph.gradient_to(potential, &held);
-        let of_definitions = slopes.split_off(n);
+        let of_definitions = slopes.split_off(n + 1);
+        let by_time = slopes.pop().unwrap_or(Id::ZERO);
         let mut parts = self.nothing();
         self.given_forces(graph, &mut parts);
         let given = self.hand_back(graph, parts, n);
         let direct = given.into_iter().zip(slopes).map(|(given, slope)| graph.sub(given, slope)).collect();
         let slopes = definitions.into_iter().zip(of_definitions).filter(|(_, slope)| *slope != Id::ZERO);
         let slopes = slopes.map(|(definition, slope)| (definition, graph.neg(slope))).collect();
-        ChainRule { direct, slopes }
+        ChainRule { direct, by_time, slopes }
     }
 
-    /// −L₀ − Σ m (−g)·r
-    fn potential_beside_weights(&self, graph: &mut Graph, bodies: &[RigidBody], lift: Triple) -> Id {
+    fn beside(&self, graph: &mut Graph, bodies: &[RigidBody], lift: Triple) -> Beside {
         let velocities = nodes(graph, self.problem.coordinates.len(), Variable::Velocity);
-        let mut at_rest = graph.without(self.others, &velocities);
-        for body in bodies {
-            for (height, lift) in body.position.into_iter().zip(lift) {
-                let weight = graph.mul(body.mass, lift);
-                let part = graph.mul(weight, height);
-                at_rest = graph.add(at_rest, part);
-            }
-        }
-        graph.neg(at_rest)
+        let momenta = graph.gradient_to(self.others, &velocities);
+        // Terms that are linear in the velocities are no part of E.
+        let is_affine = !has_velocity(graph, &momenta);
+        let others = if is_affine { graph.without(self.others, &velocities) } else { self.others };
+        let vis_viva = if is_affine { Id::ZERO } else { graph.dot(&momenta, &velocities) };
+        let weights = weights(graph, bodies, lift);
+        let mut along_time = Forward::along([(Variable::Time.symbol(), Id::ONE)]);
+        let [with, without] = [Id::ZERO, weights].map(|weights| {
+            let part = graph.add(others, weights);
+            let energy = graph.sub(vis_viva, part);
+            let part = graph.add(self.others, weights);
+            let rate = along_time.of(graph, part);
+            (energy, graph.neg(rate))
+        });
+        Beside { momenta, energies: [with.0, without.0], rates: [with.1, without.1], power: Id::ZERO }
     }
 
     /// Named frames with bodies, and those that carry them.
@@ -185,7 +216,9 @@ impl Twists<'_> {
                 Step::None => {}
             }
         }
-        Link { frame, before, turned, moved, rate }
+        let velocities = nodes(graph, self.problem.coordinates.len(), Variable::Velocity);
+        let imposed = rate.map(|component| graph.without(component, &velocities));
+        Link { frame, before, turned, moved, rate, imposed }
     }
 }
 
@@ -193,9 +226,29 @@ impl Link {
     /// The link in angular velocities in the place of the rates of quaternions.
     fn replaced(self, graph: &mut Graph, new: &FxHashMap<Id, Id>) -> Self {
         let mut all = |vector: Triple| vector.map(|component| graph.replaced(component, new));
-        let (turned, rate) = (self.turned.map(&mut all), all(self.rate));
-        Self { turned, moved: self.moved.into_iter().map(all).collect(), rate, ..self }
+        let (turned, rate, imposed) = (self.turned.map(&mut all), all(self.rate), all(self.imposed));
+        Self { turned, moved: self.moved.into_iter().map(all).collect(), rate, imposed, ..self }
     }
+}
+
+impl Beside {
+    /// The same in angular velocities in the place of the rates of quaternions.
+    fn replaced(self, graph: &mut Graph, new: &FxHashMap<Id, Id>) -> Self {
+        let mut written = |part: Id| graph.replaced(part, new);
+        let (energies, rates) = (self.energies.map(&mut written), self.rates.map(&mut written));
+        Self { energies, rates, power: written(self.power), ..self }
+    }
+}
+
+/// Σ m (−g)·r
+fn weights(graph: &mut Graph, bodies: &[RigidBody], lift: Triple) -> Id {
+    let mut sum = Id::ZERO;
+    for body in bodies {
+        let height = graph.dot(&body.position, &lift);
+        let weight = graph.mul(body.mass, height);
+        sum = graph.add(sum, weight);
+    }
+    sum
 }
 
 impl Turning {
@@ -222,6 +275,16 @@ impl Resultants {
         *rate != [Id::ZERO; 3] || before.is_some_and(|before| self.is_turning(before))
     }
 
+    /// True if the angular velocity of a link at given coordinates and velocities changes with time.
+    pub(crate) fn turns_with_time(&self, graph: &Graph, link: usize) -> bool {
+        let Link { before, turned, rate, .. } = &self.links[link];
+        let turning = before.filter(|&before| self.is_turning(before));
+        has_time(graph, rate)
+            || turning.is_some_and(|before| {
+                has_time(graph, &turned.concat()) || self.turns_with_time(graph, before)
+            })
+    }
+
     /// How the angular velocity of a link depends on a velocity, given by its index.
     pub(crate) fn turns_with(&self, graph: &Graph, link: usize, i: usize) -> Dependence {
         let Link { before, rate, .. } = &self.links[link];
@@ -236,6 +299,10 @@ impl Resultants {
     pub(crate) fn moves_with(&self, graph: &Graph, body: &RigidBody, i: usize) -> Dependence {
         Dependence::of(graph, &body.position, Variable::Coordinate(i))
     }
+}
+
+fn has_time(graph: &Graph, parts: &[Id]) -> bool {
+    graph.symbols(parts).any(|symbol| Variable::of(symbol) == Variable::Time)
 }
 
 /// How a vector depends on a variable.

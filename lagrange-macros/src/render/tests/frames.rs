@@ -3,7 +3,6 @@
 //! Each system is also read back at random states: `everywhere` finds the systems in this file. It compares the printed
 //! equations with the computed ones, and takes A, ω, r and their derivatives from differences of positions and orientations.
 
-use super::everywhere::check;
 use super::forms::check_forms;
 use super::systems::System;
 
@@ -133,30 +132,6 @@ const FRAMES: &[(&str, &[&str])] = &[
         ],
     ),
 ];
-
-/// Frames that move with time, joints that slide, and inertias that are no parameters. E is not T + U, and is too long.
-#[rustfmt::skip]
-const MOVING: &str =
-    "#[coordinates(x, a, b)]
-     #[frame(table: rotate_z(w*t))] #[frame(cart in table: translate([x, 0, h]), rotate_x(a))] #[frame(arm in cart: translate(l), rotate_y(b))]
-     #[lagrangian(kinetic(cart, m, [0, 0, h], [[A, 0, D], [0, B, 0], [D, 0, C]]) + kinetic(arm, M, centre, inertia) + M*g*position(arm, centre)[0])]
-     struct ArmOnTurntable { m: f64, M: f64, w: f64, h: f64, g: f64, A: f64, B: f64, C: f64, D: f64, l: Vector3<f64>, centre: Vector3<f64>, inertia: Matrix3<f64> }";
-
-#[test]
-fn bodies_in_frames_that_move_are_printed_by_forces_and_torques() {
-    let system = System::new(MOVING.parse().expect("tokens")).expect("a system");
-    let [text, ..] = &system.forms[0];
-    let lines = [
-        "I_cart = [[A, 0, D], [0, B, 0], [D, 0, C]]",
-        "A_table = [[cos(w t), −sin(w t), 0], [sin(w t), cos(w t), 0], [0, 0, 1]]",
-        "ω_cart = A_cartᵀ A_table ω_table + [ȧ, 0, 0]",
-        "r_arm = A_table [x, 0, h] + A_cart l + A_arm centre",
-    ];
-    lines.iter().for_each(|line| assert!(text.contains(line), "{line} is not in {text}"));
-    let rows = text.split("\n\n").find(|section| section.starts_with("Equations of motion")).expect("rows");
-    assert!(!rows.contains("symbols)"), "{text}");
-    check(&system);
-}
 
 #[test]
 fn bodies_in_frames_are_printed_by_forces_and_torques() {

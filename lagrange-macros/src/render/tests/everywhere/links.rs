@@ -4,7 +4,7 @@ use super::turns::spread;
 use super::{Page, Value, outer, value};
 use crate::mechanics::Turning;
 use crate::render::formula::Formula;
-use crate::render::links::BodyNames;
+use crate::render::links::{BodyNames, LinkNames};
 use crate::render::tests::systems::System;
 use crate::symbolic::{Approximate, Id, Rational, Sample};
 use crate::variables::Variable;
@@ -22,6 +22,14 @@ struct Curve {
 }
 
 impl Curve {
+    /// What time moves while the coordinates rest.
+    fn of_time(system: &System, sample: &Sample) -> Self {
+        let at_rest = vec![0.0; system.problem.coordinates.len()];
+        let mut curve = Self::of(system, sample, Some(&at_rest));
+        curve.rates[0][at_rest.len()] = 1.0;
+        curve
+    }
+
     /// The motion of a sample, or the displacement of its coordinates at these rates.
     fn of(system: &System, sample: &Sample, rates: Option<&[f64]>) -> Self {
         let n = system.problem.coordinates.len();
@@ -77,7 +85,7 @@ impl Curve {
     }
 }
 
-/// Values of A, ω, ω̇, r, ṙ and r̈ of the bodies of a page, by name, and those of Aᵀ.
+/// Values of A, ω, ω̇, Ω, r, ṙ and r̈ of the bodies of a page, by name, and those of Aᵀ.
 pub(super) fn values(system: &Page, sample: &Sample) -> Vec<(Formula, Value)> {
     let mut all = Vec::new();
     let Some((names, resultants)) = named(system) else { return all };
@@ -87,6 +95,10 @@ pub(super) fn values(system: &Page, sample: &Sample) -> Vec<(Formula, Value)> {
         let axes = &system.problem.frames[link.frame].axes;
         let [rate, change] = curve.turning(system, sample, axes);
         all.extend([(name(&own.rate, 0), rate), (name(&own.rate, 1), change)]);
+        if let Some(imposed) = own.imposed.as_ref().filter(|imposed| **imposed != own.rate) {
+            let [imposed_rate, _] = Curve::of_time(system, sample).turning(system, sample, axes);
+            all.push((name(imposed, 0), imposed_rate));
+        }
         if let Some(matrix) = &own.axes {
             let entries = curve.at(system, sample, &axes.concat(), 0.0);
             let transpose = (0..9).map(|k| entries[3 * (k % 3) + k / 3]).collect();
@@ -112,6 +124,9 @@ fn named<'s>(system: &'s Page) -> Option<(BodyNames, &'s crate::mechanics::Resul
 pub(super) fn partial(system: &Page, sample: &Sample, function: &str, by: &str) -> Option<Value> {
     let (names, resultants) = named(system)?;
     let written = |text: &str, dots| system.written(&Formula::labelled(text, dots));
+    if by == "t" {
+        return by_time(system, sample, function);
+    }
     let n = system.problem.coordinates.len();
     let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
     let coordinate = |dots| (0..n).find(|&i| written(&system.problem.coordinates[i].text, dots) == by);
@@ -139,6 +154,52 @@ pub(super) fn partial(system: &Page, sample: &Sample, function: &str, by: &str) 
     rate.or_else(|| Some(curve.derivatives(system, sample, position(body?))[1].clone()))
 }
 
+/// Value of ∂r/∂t with the coordinates held, of a definition likewise, or of ∂ṙ/∂t or ∂ω/∂t with the velocities held, too, or of a component.
+fn by_time(system: &Page, sample: &Sample, function: &str) -> Option<Value> {
+    let (names, resultants) = named(system)?;
+    let nodes = nodes_of(system, function);
+    if !nodes.is_empty() {
+        return Some(Curve::of_time(system, sample).derivatives(system, sample, &nodes)[1].clone());
+    }
+    let entries = |text: &str, dots: usize, value: Value| {
+        let all = with_entries(&Formula::labelled(text, dots), value);
+        all.into_iter().find(|(name, _)| system.written(name) == function).map(|(_, value)| value)
+    };
+    // All of it later, and at the same coordinates and velocities.
+    let rate = |at: &dyn Fn(&Sample) -> Value| {
+        let later = |time: f64| {
+            let mut sample = sample.clone();
+            let start = value(&sample, Variable::Time);
+            sample.set([(Variable::Time.symbol(), Approximate::exact(start + time))]);
+            at(&sample)
+        };
+        let change = |k: usize| {
+            let [after, before] = [1.0, -1.0].map(|sign| later(sign * (k + 1) as f64 * STEP));
+            after
+                .iter()
+                .zip(before)
+                .map(|(after, before)| FIRST[k] * (after - before) / STEP)
+                .collect::<Value>()
+        };
+        (0..4).map(change).fold(vec![0.0; 3], |sum, part| sum.iter().zip(part).map(|(x, y)| x + y).collect())
+    };
+    let motion = |sample: &Sample| Curve::of(system, sample, None);
+    let of_bodies = names.bodies.iter().zip(&resultants.bodies).find_map(|(own, body)| {
+        let moved =
+            |time: &Sample| Curve::of_time(system, time).derivatives(system, time, &body.position)[1].clone();
+        let velocity = |time: &Sample| motion(time).derivatives(system, time, &body.position)[1].clone();
+        entries(&own.position, 0, moved(sample)).or_else(|| entries(&own.position, 1, rate(&velocity)))
+    });
+    let of_links = || {
+        names.links.iter().zip(&resultants.links).find_map(|(own, link)| {
+            let axes = &system.problem.frames[link.frame].axes;
+            let turning = |time: &Sample| motion(time).turning(system, time, axes)[0].clone();
+            entries(&own.rate, 0, rate(&turning))
+        })
+    };
+    of_bodies.or_else(of_links)
+}
+
 /// Nodes of the definitions or the constraints of this name.
 fn nodes_of(system: &Page, function: &str) -> Vec<Id> {
     let constraints = system.problem.constraints.iter().map(|(label, node)| (&label.text, *node));
@@ -164,13 +225,14 @@ fn by_velocity(system: &Page, sample: &Sample, nodes: &[Id], i: usize) -> Value 
     at(1.0).iter().zip(at(0.0)).map(|(after, before)| after.value - before.value).collect()
 }
 
-/// Checks the lines of A, ω and r.
+/// Checks the lines of A, ω, Ω and r.
 pub(super) fn check(system: &Page) {
     let Some((names, _)) = named(system) else { return };
     let lines = system.lines("Lagrangian\n");
-    let of_links = names.links.iter().flat_map(|own| [own.axes.as_ref(), Some(&own.rate)]).flatten();
-    for text in of_links.chain(names.bodies.iter().map(|own| &own.position)) {
-        let formula = Formula::labelled(text, 0);
+    let of_link = |own: &'_ LinkNames| [own.axes.clone(), Some(own.rate.clone()), own.imposed.clone()];
+    let of_links = names.links.iter().flat_map(of_link).flatten();
+    for text in of_links.chain(names.bodies.iter().map(|own| own.position.clone())) {
+        let formula = Formula::labelled(&text, 0);
         let start = system.written(&formula) + " = ";
         for line in lines.iter().filter(|line| line.starts_with(&start)) {
             super::checks::check_line(system, line, |sample| {
@@ -205,12 +267,14 @@ pub(super) fn resultants(system: &Page) -> Vec<Formula> {
     inertias.chain(others).map(|text| Formula::labelled(text, 0)).collect()
 }
 
-/// True if a page states equations by the forces and torques on bodies.
+/// True if a page defines the names of bodies.
 pub(super) fn is_by_bodies(system: &System) -> bool {
-    let names = BodyNames::of(&system.problem, &system.derived);
-    let forces = names.iter().flat_map(|names| &names.bodies).flat_map(|own| [&own.force, &own.torque]);
+    let Some(names) = BodyNames::of(&system.problem, &system.derived) else { return false };
+    let links = names.links.iter().filter(|own| !own.is_known);
+    let links = links.flat_map(|own| own.axes.iter().chain([&own.rate]));
+    let bodies = names.bodies.iter().flat_map(|own| [&own.position, &own.force, &own.torque]);
     let written =
         |text: &String| crate::render::notation::Notation::UNICODE.write(&Formula::labelled(text, 0));
-    let mut written = forces.map(written);
+    let mut written = links.chain(bodies).map(written);
     written.any(|name| system.forms.iter().any(|form| form[0].contains(&format!("\n  {name} = "))))
 }

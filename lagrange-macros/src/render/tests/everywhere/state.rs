@@ -110,7 +110,8 @@ impl<'a> State<'a> {
 
     /// Reads the values of I, F and N of bodies from the lines that state them.
     fn read_resultants(&mut self) {
-        let lines = self.system.lines("Equations of motion\n");
+        let mut lines = self.system.lines("Lagrangian\n");
+        lines.extend(self.system.lines("Equations of motion\n"));
         for name in links::resultants(self.system) {
             let start = self.system.written(&name) + " = ";
             let text = lines.iter().find_map(|line| line.strip_prefix(&start));
