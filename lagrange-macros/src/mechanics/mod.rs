@@ -105,6 +105,8 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
     let power = facts.energy_changes.iter().filter(is_of_power).map(|(_, part)| *part).collect::<Vec<_>>();
     let power = graph.total(power);
     let resultants = Resultants::of(graph, problem, &turnings, power);
+    let beside = resultants.iter().flat_map(|resultants| resultants.beside.nodes());
+    read.extend(beside.map(|id| (id, shorter(graph, id))));
     graph.take_fault();
     Some(Derived {
         equations,

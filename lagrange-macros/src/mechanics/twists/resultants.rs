@@ -73,7 +73,7 @@ pub(crate) struct Link {
     pub(crate) moved: Vec<Triple>,
     /// Angular velocity relative to the link before, along the axes of this link.
     pub(crate) rate: Triple,
-    /// The same for q̇ = 0, which frames that turn with time leave.
+    /// The same for q̇ = 0: zero unless a frame turns with time.
     pub(crate) imposed: Triple,
 }
 
@@ -232,6 +232,10 @@ impl Link {
 }
 
 impl Beside {
+    pub(in super::super) fn nodes(&self) -> Vec<Id> {
+        [&self.momenta[..], &self.energies, &self.rates, &[self.power]].concat()
+    }
+
     /// The same in angular velocities in the place of the rates of quaternions.
     fn replaced(self, graph: &mut Graph, new: &FxHashMap<Id, Id>) -> Self {
         let mut written = |part: Id| graph.replaced(part, new);

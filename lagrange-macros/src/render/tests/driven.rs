@@ -122,6 +122,16 @@ const DRIVEN: &[(&str, &[&str])] = &[
             "E = ½ m₁ ṙ_one·ṙ_one + ½ ω_one·(I₁ ω_one) + ½ m₂ ṙ_two·ṙ_two + ½ ω_two·(I₂ ω_two) + m₁ (g + h Ω_two cos(w t)) r_one[2] + m₂ (g + h Ω_two cos(w t)) r_two[2] − ½ M ṙ_hook·ṙ_hook − m₁ ṙ_one·(∂r_one/∂t) − m₂ ṙ_two·(∂r_two/∂t) − (I₂ ω_two)·W_two",
         ],
     ),
+    // Equations that can be read, of an energy that cannot: both are by vectors.
+    (
+        "#[coordinates(a: [3], b: [3])] #[frame(hook: translate([0, 0, h*cos(w*t)]))] #[frame(rod[i in 0..3] in hook: rotate_x(a[i]), rotate_y(b[i]))]
+         #[lagrangian(sum(i in 0..3, kinetic(rod[i], m[i], c[i], I[i]) - m[i]*g*position(rod[i], c[i])[2]) - k*a[0]*a[1])]
+         struct ThreeOnShaker { k: f64, m: [f64; 3], g: f64, h: f64, w: f64, c: [Vector3<f64>; 3], I: [Matrix3<f64>; 3] }",
+        &[
+            "F_rod[0]·(∂ṙ_rod[0]/∂ȧ[0]) + N_rod[0]·(∂ω_rod[0]/∂ȧ[0]) = −k a[1]",
+            "E = ½ m[0] ṙ_rod[0]·ṙ_rod[0] + ½ ω_rod[0]·(I[0] ω_rod[0]) + ½ m[1] ṙ_rod[1]·ṙ_rod[1] + ½ ω_rod[1]·(I[1] ω_rod[1]) + ½ m[2] ṙ_rod[2]·ṙ_rod[2] + ½ ω_rod[2]·(I[2] ω_rod[2]) + m[0] g r_rod[0][2] + m[1] g r_rod[1][2] + m[2] g r_rod[2][2] + k a[0] a[1] − m[0] ṙ_rod[0]·(∂r_rod[0]/∂t) − m[1] ṙ_rod[1]·(∂r_rod[1]/∂t) − m[2] ṙ_rod[2]·(∂r_rod[2]/∂t)",
+        ],
+    ),
 ];
 
 #[test]
