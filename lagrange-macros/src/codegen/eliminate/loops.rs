@@ -5,8 +5,8 @@
 //!
 //! M is positive definite and remains so when a multiplier is eliminated, which has a negative pivot (Vanderbei,
 //! "Symmetric quasidefinite matrices", *SIAM Journal on Optimization* 5, 1995). The exception is a loop whose own
-//! coordinates cannot move the constrained point. Then pivots cancel, or those of shared coordinates grow;
-//! `Solution::pivot` detects this before digits are lost.
+//! coordinates hardly move the constrained point. Then pivots cancel, or those of shared coordinates grow, and errors with them, up to
+//! a third of the digits: then `Solution::pivot` leaves the solution to the general elimination.
 
 use super::order::{Pattern, reduction_order};
 
