@@ -264,6 +264,12 @@ pub enum Error {
         /// Number of local coordinates: of places, and as many of velocities.
         expected: usize,
     },
+    /// An entry of a change of a state is infinite or NaN.
+    #[cfg(feature = "alloc")]
+    LocalChangeNotFinite {
+        /// Name of the local coordinate.
+        coordinate: String,
+    },
     /// Regressors that are put together are of different bodies.
     OtherBodies,
     /// Some states do not tell whether an inertial parameter can be found beside those before it.

@@ -234,7 +234,12 @@ fn changes_are_rotations_of_any_size() {
     let error = WALKER.locally_changed(&state, &[0.0; 26]).unwrap_err().to_string();
     assert!(error.contains("26") && error.contains("22"), "{error}");
     tiny[5] = f64::NAN;
-    assert!(matches!(WALKER.locally_changed(&state, &tiny), Err(Error::StateNotFinite { .. })));
+    let error = WALKER.locally_changed(&state, &tiny).unwrap_err().to_string();
+    assert!(error.contains("rotation(turn)[2]"), "{error}");
+    // Many turns are a turn.
+    tiny[5] = 1e300;
+    let far = WALKER.locally_changed(&state, &tiny).unwrap();
+    assert!((far.q.rows(3, 4).norm() - 1.0).abs() < 1e-15);
     let mut long = state;
     long.q[3] += 1e-3;
     assert!(WALKER.local_change(&state, &long).is_err() && WALKER.local_change(&long, &state).is_err());

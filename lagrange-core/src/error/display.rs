@@ -137,6 +137,10 @@ impl Display for Error {
                 f,
                 "the change has {found} entries, and the state {expected} local coordinates: `local_coordinates` has their names"
             ),
+            #[cfg(feature = "alloc")]
+            Self::LocalChangeNotFinite { coordinate } => {
+                write!(f, "the change of {coordinate} is infinite or NaN: every entry must be finite")
+            }
             Self::OtherBodies => {
                 write!(f, "these regressors are of different bodies: ask for all with the same names")
             }

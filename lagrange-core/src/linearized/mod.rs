@@ -611,7 +611,7 @@ pub trait Linearized: StateDerivatives {
 
     /// A state changed by these [local coordinates](Self::local_coordinates), of any size: the inverse of
     /// [`local_change`](Self::local_change). The time stays. Constraints beyond the lengths of quaternions are not enforced: see
-    /// [`make_consistent`](Lagrangian::make_consistent).
+    /// [`make_consistent`](crate::Simulate::make_consistent).
     ///
     /// ```
     /// use lagrange_core::prelude::*;
@@ -632,8 +632,8 @@ pub trait Linearized: StateDerivatives {
     /// ```
     ///
     /// # Errors
-    /// [`Error::LocalChange`] for another number of local coordinates; those of [`local_coordinates`](Self::local_coordinates);
-    /// [`Error::StateNotFinite`] if a number is not finite.
+    /// [`Error::LocalChange`] for another number of local coordinates; [`Error::LocalChangeNotFinite`]; those of
+    /// [`local_coordinates`](Self::local_coordinates); [`Error::StateNotFinite`] if the sum overflows.
     #[cfg(feature = "alloc")]
     fn locally_changed(&self, state: &StateOf<Self>, change: &[Self::Scalar]) -> Result<StateOf<Self>, Error>
     where

@@ -36,6 +36,10 @@ pub(crate) struct SplitResidual {
 /// `state_jacobian` gains a tenth. Arms along the axes of their frames lose a third with 6 columns and are even with 12.
 const LEAST_COLUMNS: usize = 19;
 
+/// Largest number N of coordinates for which a tree is differentiated apart. That takes 2N² numbers, and several times as many on the
+/// stack: without optimization 1 MB for 60 coordinates, half of what a thread has, and 3 MB for 102.
+const MOST_COORDINATES: usize = 64;
+
 /// Directional derivatives of the residuals.
 pub(crate) struct Changes {
     /// Derivatives of M q̈ − h − Fᵀλ.
@@ -87,12 +91,15 @@ pub(super) fn linearize(
     equations: &Equations,
 ) -> Option<Linearization> {
     let all = changes(problem);
-    let (state, parameters) = all.split_at(1 + 2 * problem.coordinates.len());
+    let n = problem.coordinates.len();
+    let (state, parameters) = all.split_at(1 + 2 * n);
+    let is_small = n <= MOST_COORDINATES;
+    let split = is_small.then(|| SplitResidual::of(graph, problem, equations, LEAST_COLUMNS)).flatten();
     let linearization = Linearization {
         by_state: Changes::along(graph, &equations.balance, equations, state),
         by_parameters: Changes::along(graph, &equations.balance, equations, parameters),
         residual: residual(&equations.balance, equations),
-        split: SplitResidual::of(graph, problem, equations, LEAST_COLUMNS),
+        split,
     };
     graph.take_fault().is_none().then_some(linearization)
 }

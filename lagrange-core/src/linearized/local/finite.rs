@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::blocks::{Blocks, Four, four, times, turned_back};
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, larger};
 use crate::solution::consistent;
 use crate::system::StateOf;
 use crate::system::finite::check_finite;
@@ -50,6 +50,9 @@ pub(in crate::linearized) fn changed<L: StateDerivatives<Scalar: Real>>(
     let count = blocks.counts[1];
     if change.len() != 2 * count {
         return Err(Error::LocalChange { found: change.len(), expected: 2 * count });
+    }
+    if let Some(k) = change.iter().position(|x| !x.to_f64().is_finite()) {
+        return Err(Error::LocalChangeNotFinite { coordinate: blocks.names(L::COORDINATES).swap_remove(k) });
     }
     let mut changed = *state;
     for &[i, local] in &blocks.others {
@@ -99,7 +102,12 @@ fn turned<T: Real>(q: Four<T>, rotation: [T; 3]) -> Four<T> {
     [0, 1, 2, 3].map(|k| q[k] * cos + along[k])
 }
 
-/// The length of a vector. Squares may underflow: then it is taken as zero, with an error far below round-off.
+/// The length of a vector. Its squares neither overflow nor vanish.
 fn length<T: Real>(x: [T; 3]) -> T {
-    Scalar::sqrt(x.iter().fold(T::constant(0.0), |sum, x| sum + *x * *x))
+    let zero = T::constant(0.0);
+    let most = x.iter().fold(zero, |most, x| larger(most, Scalar::abs(*x)));
+    if most == zero {
+        return zero;
+    }
+    most * Scalar::sqrt(x.iter().fold(zero, |sum, x| sum + (*x / most) * (*x / most)))
 }

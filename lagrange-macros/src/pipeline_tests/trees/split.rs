@@ -81,6 +81,21 @@ fn what_a_tree_cannot_state_is_left_to_the_chain_rule() {
     }
 }
 
+/// The derivatives of a tree are there from 19 columns on, and up to 64 coordinates.
+#[test]
+fn trees_are_differentiated_where_they_are_neither_small_nor_large() {
+    let has_tree = |bodies: usize| {
+        let source = format!(
+            "#[coordinates(r: [{bodies}, 2], a: [{bodies}])]
+            #[frame(body[i in 0..{bodies}]: translate([r[i][0], r[i][1], 0]), rotate_z(a[i]))]
+            #[lagrangian(sum(i in 0..{bodies}, kinetic(body[i], m, [l, 0, 0], [[0, 0, 0], [0, 0, 0], [0, 0, m]])))]
+            struct Bodies {{ m: f64, l: f64 }}"
+        );
+        derived(&source).2.linearization.expect("derivatives").split.is_some()
+    };
+    assert_eq!([6, 7, 21, 22].map(has_tree), [false, true, true, false]);
+}
+
 /// Largest error for a tree, relative to the largest entry; `None` if its bodies are not differentiated by the tree.
 fn error(number: u64) -> Option<f64> {
     let draft = forest::tree(number);
