@@ -146,3 +146,49 @@ fn a_contact_stated_as_closed_above_its_floor_is_named() {
     let error = ball.motion(State::new([0.0], [1.0])).with_contacts().to(1.0).unwrap_err().to_string();
     assert!(error.contains("but its gap changes: its rate is 1e0 at t = 0: set the field"), "{error}");
 }
+
+/// A ball between a floor and a press that comes down.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(y_dot^2/2 - y)]
+#[contact(floor: y >= 0, restitution: e)]
+#[contact(press: 1 - t - y >= 0)]
+struct Pressed {
+    e: f64,
+    floor: Contact,
+    press: Contact,
+}
+
+#[test]
+fn contacts_that_close_in_on_one_another_are_named() {
+    for (e, start) in [(0.0, 0.0), (0.5, 0.3)] {
+        let ball = Pressed { e, floor: Contact::Open, press: Contact::Open };
+        let path = ball.motion(State::at_rest([start])).with_contacts().towards(2.0).unwrap();
+        let said = path.ending().to_string();
+        assert!(said.contains("no forces keep the gaps of `floor`, `press` open at t = "), "{said}");
+        // What was computed so far is kept.
+        assert!((path.ending().time() - 1.0).abs() < 1e-12 && path.at(0.5).unwrap().state().q[0] >= 0.0);
+    }
+}
+
+/// A ball in a slot as wide as itself.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(y_dot^2/2)]
+#[contact(floor: y >= 0, restitution: e)]
+#[contact(ceiling: -y >= 0, restitution: e)]
+struct Slot {
+    e: f64,
+    floor: Contact,
+    ceiling: Contact,
+}
+
+#[test]
+fn impacts_without_end_are_told() {
+    let motion = |e| Slot { e, floor: Contact::Open, ceiling: Contact::Open };
+    let start = State::new([0.0], [1.0]);
+    let error = motion(1.0).motion(start).with_contacts().to(1.0).unwrap_err().to_string();
+    assert!(error.starts_with("impacts follow one another without end at t = 0"), "{error}");
+    let path = motion(0.0).motion(start).with_contacts().to(1.0).unwrap();
+    assert_eq!(path.end().v[0], 0.0);
+}
