@@ -72,8 +72,8 @@ pub trait StateDerivatives: Lagrangian {
         self.residual_change_with(slopes, direction)
     }
 
-    /// Derivatives of the residual by arguments, one in each component: 0 is the time, 1 … N are coordinates, N + 1 … 2N
-    /// velocities. Components without an argument are zero.
+    /// Derivatives of the residual by several arguments at once, one argument for each component of `W`: 0 is the time, 1 … N are
+    /// the coordinates, N + 1 … 2N the velocities. Components beyond the last argument are zero.
     fn residual_change_by<W: Wide<Self::Scalar>>(
         &self,
         slopes: &Self::Slopes,

@@ -71,7 +71,7 @@ impl Emitter<'_> {
         Written { tokens, kernels: vec![rest, bodies] }
     }
 
-    /// Emits the methods that apply slopes to a direction, with and without the derivatives of a tree.
+    /// Emits the methods for the change of the residual along a direction: all of it, and without that of the bodies of the tree.
     pub(super) fn residual_change_with_bodies(&self, method: &Method, programs: &[Program; 2]) -> Written {
         let beside = self.residual_change(
             &CHANGE_BESIDE_GRADIENTS,

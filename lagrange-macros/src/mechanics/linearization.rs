@@ -32,8 +32,8 @@ pub(crate) struct SplitResidual {
     pub(crate) residual: Vec<Id>,
 }
 
-/// Least number of columns of a tree that is differentiated apart: that of the quadruped of `benches/peers`, whose
-/// `state_jacobian` gains a tenth. Arms along the axes of their frames lose a third with 6 columns and are even with 12.
+/// Least number of columns of the joints with which a tree of bodies is differentiated apart. The quadruped of `benches/peers`
+/// has 19, and its `state_jacobian` gains a tenth; arms along the axes of their frames lose a third with 6 and are even with 12.
 const LEAST_COLUMNS: usize = 19;
 
 /// Largest number N of coordinates for which a tree is differentiated apart. That takes 2N² numbers, and several times as many on the

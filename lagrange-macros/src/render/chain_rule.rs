@@ -118,7 +118,7 @@ impl Page<'_> {
     }
 }
 
-/// slope·∂(name)/∂(by), of a number or of three components.
+/// The term slope·∂(name)/∂(by) of a chain rule, where the definition `name` has one component or three.
 fn times_partial(slope: Formula, count: usize, name: &str, by: Formula) -> Formula {
     let function = Box::new(Formula::labelled(name, 0));
     let partial = Formula::Partial { function, by: vec![by], arguments: Vec::new() };

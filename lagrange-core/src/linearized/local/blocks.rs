@@ -110,7 +110,7 @@ fn unit<T: Real, const K: usize>(k: usize) -> [T; K] {
     from_fn(|j| T::constant(if j == k { 1.0 } else { 0.0 }))
 }
 
-/// Writes a column from this entry on.
+/// Writes entries into a column of the matrix, from this row on.
 fn put<T: Real>(matrix: &mut DMatrix<T>, [row, column]: [usize; 2], entries: &[T]) {
     entries.iter().enumerate().for_each(|(k, x)| matrix[(row + k, column)] = *x);
 }

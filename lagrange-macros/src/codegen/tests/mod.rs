@@ -20,7 +20,7 @@ pub(crate) fn value(graph: &Graph, root: Id) -> f64 {
     values(graph, &[root], |_| f64::NAN)[0]
 }
 
-/// Values of expressions after compilation.
+/// Values of expressions, as the program emitted for them computes them.
 pub(crate) fn values(graph: &Graph, roots: &[Id], input: impl Fn(Symbol) -> f64) -> Vec<f64> {
     let program = Program::of(graph, roots);
     program.schedule.values(&program.results, input)

@@ -37,7 +37,7 @@ pub(crate) struct Resultants {
     pub(crate) torques: Vec<Triple>,
 }
 
-/// The terms of L beside the bodies, and what changes the energy E = p·q̇ − L beside them.
+/// What the terms of L that belong to no rigid body add to the momenta and to the energy E = p·q̇ − L, and the power that changes E.
 #[derive(Debug)]
 pub(crate) struct Beside {
     /// ∂/∂q̇ of these terms.

@@ -305,7 +305,7 @@ fn lines_do_not_break_at_thin_spaces() {
     );
 }
 
-/// A ball's quaternion: q·q̇ = 0 and |q|² = 1.
+/// The momentum of a ball by its quaternion is short because q·q̇ = 0 and |q|² = 1.
 #[test]
 fn momenta_of_quaternions_are_those_on_the_sphere() {
     let ball = "#[coordinates(q: [4])] #[frame(ball: rotate(q))]
