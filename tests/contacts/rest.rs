@@ -166,3 +166,28 @@ fn a_ball_rests_on_a_moving_floor_at_late_times() {
         assert!(gap.abs() < 1e-15 * (1.0 + start), "from {start}: {gap:e}");
     }
 }
+
+/// A ball in a slot that leaves it no room, without weight.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(y_dot^2/2)]
+#[contact(floor: y >= 0, restitution: e)]
+#[contact(ceiling: room - y >= 0, restitution: e)]
+struct Slot {
+    e: f64,
+    room: f64,
+    floor: Contact,
+    ceiling: Contact,
+}
+
+/// Impacts follow one another at one time until the rate is its round-off, which is then taken.
+#[test]
+fn a_ball_in_a_slot_without_room_comes_to_rest() {
+    for (e, room) in [(0.0, 0.0), (0.3, 0.0), (0.5, 0.0), (0.5, 1e-17), (0.9, 0.0)] {
+        for v in [1.0, -7.7] {
+            let slot = Slot { e, room, floor: Contact::Open, ceiling: Contact::Open };
+            let path = slot.motion(State::new([0.0], [v])).with_contacts().to(1.0).unwrap();
+            assert!(path.end().q[0].abs() <= room && path.end().v[0] == 0.0, "{e}, {v}: {}", path.end());
+        }
+    }
+}

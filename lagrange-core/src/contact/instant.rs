@@ -195,7 +195,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let measured: Vec<Measured<L::Scalar>> =
                 places.iter().map(|&place| self.measured(touching[place], state)).collect();
             problem.constant = measured.iter().map(|measured| measured.rate).collect();
-            let is_wrong = |k: &usize| !is_active[*k] && measured[*k].rate < -measured[*k].noise[1];
+            // Round-off too: it would close in, on a wall in a slot without room, at once and again.
+            let is_wrong = |k: &usize| !is_active[*k] && measured[*k].rate < L::Scalar::constant(0.0);
             // One that depends on others stops along with them.
             let mut together = active.clone();
             for k in (0..places.len()).filter(is_wrong) {

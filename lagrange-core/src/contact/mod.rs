@@ -160,7 +160,7 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //!   one another, or nearly do, or belong to masses from 10⁻⁴ to 10⁴, none is off. Of 10,000 with independent, dependent and nearly
 //!   dependent rows and with unlike masses 3, 2, 16 and 252 are not decided, which ends the motion by name.
 //! - Forces at the stored states keep Coulomb's law to 10⁻⁶ of the largest of them, on 1,440 random tables on four legs, pushed
-//!   until they slide. Of these motions 61 end before their time by `Radau` and 777 by `Dop853`, all with a name, most after 200
+//!   until they slide. Of these motions 61 end before their time by `Radau` and 780 by `Dop853`, all with a name, most after 200
 //!   transitions.
 //! - Friction that needs no force sticks if what the other contacts leave of its row is a pivot that the elimination trusts.
 //! - A step is not searched for forces that leave their limits where the 16 stages of `Dop853`, or those of `Dopri5` and one more
