@@ -13,10 +13,10 @@ use nalgebra::Const;
 
 use super::Radau;
 use super::tableau::{RadauStages, Transformation, basis, inverse};
-use crate::error::Ending;
+use crate::error::{Ending, Error};
+use crate::linearized::Linearized;
 use crate::linearized::tangent::WideOf;
 use crate::linearized::variation::{DifferentiableMethod, Variations};
-use crate::linearized::{Error, Linearized};
 use crate::motion::run::Run;
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::system::StateOf;

@@ -3,12 +3,12 @@
 use alloc::{boxed::Box, string::String, string::ToString, vec::Vec};
 use core::fmt::{self, Debug, Formatter};
 
-use super::Linearized;
-use super::dual_sample::DifferentiableEvent;
-use super::sensitivity::{StateSensitivity, at_event};
-use super::tangent::{Tangent, WideOf};
-use super::variation::{DifferentiableMethod, Variations};
+use super::events::DifferentiableEvent;
+use super::state::{StateSensitivity, at_event};
 use crate::error::{Ending, Error};
+use crate::linearized::Linearized;
+use crate::linearized::tangent::{Tangent, WideOf};
+use crate::linearized::variation::{DifferentiableMethod, Variations};
 use crate::motion::builder::EventList;
 use crate::motion::progress::OnProgress;
 use crate::motion::run::{Observer, Run, Watchdog, check_end};

@@ -13,25 +13,25 @@ use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::argument::check_parameters;
-use super::linearization::Linearization;
-use super::tangent::Tangent;
-use super::{Linearized, StateDerivatives};
+use super::Linearization;
 use crate::error::Error;
+use crate::linearized::argument::check_parameters;
+use crate::linearized::tangent::Tangent;
+use crate::linearized::{Linearized, StateDerivatives};
 use crate::number::Real;
 use crate::solution::consistent;
 use crate::system::finite::check_finite;
 use crate::system::{StateOf, lookup};
 use crate::vector::Length;
 use blocks::Blocks;
-pub(super) use finite::{change, changed};
+pub(in crate::linearized) use finite::{change, changed};
 
 /// Local coordinates z of the changes of a state: δ(q, q̇) = Z z.
 ///
 /// Where a quaternion `q` turns a frame, its change is δφ, a rotation about the axes of the frame, and the change of its
 /// velocity is δω, the change of the angular velocity along these axes. All other coordinates are their own local
 /// coordinates. With [`basis`](Self::basis) and [`inverse`](Self::inverse) other derivatives are converted, such as those
-/// of a [`DiscreteTime`](super::DiscreteTime) step from x to x⁺: A in local coordinates is Z⁻(x⁺) A Z(x), and B is Z⁻(x⁺)
+/// of a [`DiscreteTime`](crate::linearized::DiscreteTime) step from x to x⁺: A in local coordinates is Z⁻(x⁺) A Z(x), and B is Z⁻(x⁺)
 /// B. [`local_change`](Linearized::local_change) and [`locally_changed`](Linearized::locally_changed) are for changes that are not
 /// small.
 ///
@@ -82,7 +82,7 @@ impl<T> LocalCoordinates<T> {
 }
 
 /// See [`Linearized::linearize_locally`].
-pub(super) fn linearize<L: Linearized<Scalar: Real>>(
+pub(in crate::linearized) fn linearize_locally<L: Linearized<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     names: &[&str],
@@ -113,7 +113,10 @@ pub(super) fn linearize<L: Linearized<Scalar: Real>>(
 
 impl<T: Real> LocalCoordinates<T> {
     /// See [`Linearized::local_coordinates`].
-    pub(super) fn at<L: StateDerivatives<Scalar = T>>(system: &L, state: &StateOf<L>) -> Result<Self, Error> {
+    pub(in crate::linearized) fn at<L: StateDerivatives<Scalar = T>>(
+        system: &L,
+        state: &StateOf<L>,
+    ) -> Result<Self, Error> {
         check_finite(system, state)?;
         consistent::check(system, state)?;
         let (blocks, point) = (Blocks::of::<L>(), [state.q.as_slice(), state.v.as_slice()]);

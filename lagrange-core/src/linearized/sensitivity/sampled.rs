@@ -3,11 +3,11 @@
 use alloc::{boxed::Box, vec::Vec};
 use core::marker::PhantomData;
 
-use super::Linearized;
-use super::sensitivities::{Course, DynDifferentiableEvent};
-use super::sensitivity::StateSensitivity;
-use super::variation::DifferentiableMethod;
+use super::state::StateSensitivity;
+use super::trajectory::{Course, DynDifferentiableEvent};
 use crate::error::{Ending, Error};
+use crate::linearized::Linearized;
+use crate::linearized::variation::DifferentiableMethod;
 use crate::motion::builder::EventList;
 use crate::motion::event::DenseStep;
 use crate::motion::progress::{OnProgress, report};
@@ -31,7 +31,7 @@ pub struct SampledSensitivity<T: Element, N: Length> {
 }
 
 impl<T: Real, N: Length> SampledSensitivity<T, N> {
-    /// Returns the last state and its derivatives, like [`TrajectorySensitivity::end`](super::TrajectorySensitivity::end).
+    /// Returns the last state and its derivatives, like [`TrajectorySensitivity::end`](crate::linearized::TrajectorySensitivity::end).
     ///
     /// # Errors
     /// The errors of `TrajectorySensitivity::end`.

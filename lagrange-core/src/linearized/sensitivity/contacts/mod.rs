@@ -23,12 +23,12 @@ use change::Change;
 use hit::Hit;
 use law::largest;
 
-use super::Linearized;
-use super::sensitivities::integrate;
-use super::sensitivity::{StateSensitivity, start};
-use super::variation::DifferentiableMethod;
+use super::state::{StateSensitivity, start};
+use super::trajectory::integrate;
 use crate::contact::{ContactTrajectory, Contacts, Transition};
 use crate::error::Error;
+use crate::linearized::Linearized;
+use crate::linearized::variation::DifferentiableMethod;
 use crate::number::{Real, power_of_epsilon};
 use crate::solution::solve::solve;
 use crate::system::StateOf;
@@ -68,7 +68,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> ContactTrajectory<L> {
     /// [`Error::Grazing`], with the name of the contact or friction, if a gap closes, or a force passes its limit with a jump of the
     /// accelerations, at a rate below √ε of its terms; [`Error::UnknownName`] and [`Error::RepeatedName`];
     /// [`Error::Unfinished`] if the motion failed; those of a
-    /// [motion with derivatives](super::MotionDerivatives::motion_with_derivatives). [`Error::NoDerivativeAcross`]:
+    /// [motion with derivatives](crate::linearized::MotionDerivatives::motion_with_derivatives). [`Error::NoDerivativeAcross`]:
     ///
     /// - if a contact comes to rest by accumulating impacts, if several contacts are hit at one time, and for an impact at the start;
     /// - if a contact at rest neither pushes nor parts in an impact that could make it do either;

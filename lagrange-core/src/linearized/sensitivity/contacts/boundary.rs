@@ -6,7 +6,7 @@ use crate::contact::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
 use crate::linearized::argument::parameter;
-use crate::linearized::sensitivity::{StateSensitivity, at_event};
+use crate::linearized::sensitivity::state::{StateSensitivity, at_event};
 use crate::linearized::tangent::Tangent;
 use crate::names::{Entry, name};
 use crate::number::{Real, Scalar, Wide};

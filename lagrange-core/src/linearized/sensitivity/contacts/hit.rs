@@ -9,7 +9,7 @@ use super::law::{NamedLaw, largest};
 use crate::contact::{Contact, Contacts, Friction, FrictionRows, ImpactLaw, impulse_changes};
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::sensitivity::{StateSensitivity, impact_sensitivity};
+use crate::linearized::sensitivity::state::{StateSensitivity, impact_sensitivity};
 use crate::names::name;
 use crate::number::{Real, Scalar, power_of_epsilon};
 use crate::system::{Lagrangian, StateOf};

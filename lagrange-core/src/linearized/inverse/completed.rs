@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::singular::Singular;
 use crate::error::Error;
+use crate::linearized::singular::Singular;
 use crate::names::Row;
 use crate::number::{Real, Scalar, exceeds, larger, power_of_epsilon};
 use crate::solution::consistent;
@@ -13,8 +13,8 @@ use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, StateOf, finite::check_finite, lookup};
 use crate::vector::{Length, Vector};
 
-/// See [`Linearized::complete_accelerations`](super::Linearized::complete_accelerations).
-pub(super) fn complete<L: Lagrangian<Scalar: Real>>(
+/// See [`Linearized::complete_accelerations`](crate::linearized::Linearized::complete_accelerations).
+pub(in crate::linearized) fn complete<L: Lagrangian<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     accelerations: &Vector<L::Scalar, L::N>,

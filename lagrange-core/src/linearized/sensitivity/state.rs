@@ -12,11 +12,11 @@ use alloc::vec::Vec;
 
 use nalgebra::{Const, DMatrix, DVector};
 
-use super::Linearized;
-use super::argument::{Argument, parameter};
-use super::dual_sample::DualSample;
-use super::tangent::Tangent;
+use super::events::DualSample;
 use crate::error::Error;
+use crate::linearized::Linearized;
+use crate::linearized::argument::{Argument, parameter};
+use crate::linearized::tangent::Tangent;
 use crate::names::Entry;
 use crate::number::{Broadcast, Dual, Real, Scalar, Wide, larger, power_of_epsilon};
 use crate::solution::impact::impact;
@@ -95,7 +95,7 @@ impl<T: Real, N: Length> StateSensitivity<T, N> {
     }
 }
 
-/// See [`MotionDerivatives::sensitivity`](super::MotionDerivatives::sensitivity).
+/// See [`MotionDerivatives::sensitivity`](crate::linearized::MotionDerivatives::sensitivity).
 pub(super) fn start<L: Linearized<Scalar: Real>>(
     state: &StateOf<L>,
     names: &[&str],
@@ -172,7 +172,7 @@ fn only<T: Real, N: Length>(i: usize, x: &Vector<T, N>) -> Vector<T, N> {
     vector(from_fn(|j| if i == j { x[j] } else { T::constant(0.0) }))
 }
 
-/// See [`MotionDerivatives::push_forward`](super::MotionDerivatives::push_forward).
+/// See [`MotionDerivatives::push_forward`](crate::linearized::MotionDerivatives::push_forward).
 pub(super) fn push_forward<L: Linearized<Scalar: Real>, const K: usize>(
     system: &L,
     at: &StateSensitivity<L::Scalar, L::N>,
@@ -190,7 +190,7 @@ pub(super) fn push_forward<L: Linearized<Scalar: Real>, const K: usize>(
     Ok(after)
 }
 
-/// See [`MotionDerivatives::impact_sensitivity`](super::MotionDerivatives::impact_sensitivity); `hit` is the index of the
+/// See [`MotionDerivatives::impact_sensitivity`](crate::linearized::MotionDerivatives::impact_sensitivity); `hit` is the index of the
 /// constraint. The coefficient of restitution is given with its derivatives by the arguments.
 ///
 /// The velocity jump J and the impulses Λ solve M J − FᵀΛ = 0, F J + ρ = 0 with ρ = F q̇⁻ + b, multiplied by 1 + e in

@@ -1,8 +1,18 @@
 //! Linear system near a state, on the constraints if there are any.
 
+mod display;
+mod francis;
+mod local;
+mod spectrum;
+
 use alloc::{string::String, vec::Vec};
 
 use nalgebra::{DMatrix, DVector};
+
+pub use local::LocalCoordinates;
+pub(super) use local::{change, changed, linearize_locally};
+pub use spectrum::Stability;
+pub(crate) use spectrum::eigenvalues;
 
 use super::argument::check_parameters;
 use super::tangent::{Matrices, Tangent, WideOf};

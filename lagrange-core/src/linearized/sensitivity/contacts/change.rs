@@ -5,7 +5,7 @@ use super::{IN_THE_PLANE, fails};
 use crate::contact::{Contact, Contacts, Friction, FrictionRows};
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::sensitivity::StateSensitivity;
+use crate::linearized::sensitivity::state::StateSensitivity;
 use crate::number::{Real, Scalar, Wide, power_of_epsilon};
 use crate::solution::solve::solve;
 use crate::system::StateOf;

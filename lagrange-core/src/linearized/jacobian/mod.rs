@@ -1,6 +1,14 @@
 //! Jacobian of the accelerations and multipliers.
 
+#[cfg(feature = "alloc")]
+mod selected;
+
 use nalgebra::Const;
+
+#[cfg(feature = "alloc")]
+pub use selected::SelectedJacobian;
+#[cfg(feature = "alloc")]
+pub(super) use selected::jacobian_by;
 
 use super::tangent::Tangent;
 use super::{Linearized, StateDerivatives};

@@ -4,10 +4,10 @@ use core::fmt::{self, Debug, Formatter};
 
 use nalgebra::ComplexField;
 
-use super::Linearized;
-use super::argument::{check_parameters, parameter};
-use super::tangent::{Tangent, WideOf};
 use crate::error::Error;
+use crate::linearized::Linearized;
+use crate::linearized::argument::{check_parameters, parameter};
+use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::{AnyEvent, Event, EventFunction, EventValue};
 use crate::names::Entry;
 use crate::number::{Dual, Real, Scalar, Wide};
@@ -215,7 +215,7 @@ where
 }
 
 /// An event of a system with a differentiable function, made by
-/// [`MotionDerivatives::differentiable_event`](super::MotionDerivatives::differentiable_event).
+/// [`MotionDerivatives::differentiable_event`](crate::linearized::MotionDerivatives::differentiable_event).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an event of `{L}` that can be differentiated",
     note = "make one by `system.differentiable_event(\"name\", |sample| …)`, of the same system"

@@ -2,10 +2,10 @@
 
 use nalgebra::Const;
 
-use super::Linearized;
-use super::dual_sample::{DualSample, OverDuals, slope};
-use super::sensitivity::{self, StateSensitivity};
+use super::events::{DualSample, OverDuals, slope};
+use super::state::{StateSensitivity, impact_sensitivity, push_forward, start};
 use crate::error::Error;
+use crate::linearized::Linearized;
 use crate::motion::{Event, EventValue, MotionBuilder};
 use crate::number::{Dual, Real};
 use crate::system::lookup::index;
@@ -68,7 +68,7 @@ pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
         state: &StateOf<Self>,
         arguments: &[&str],
     ) -> Result<StateSensitivity<Self::Scalar, Self::N>, Error> {
-        sensitivity::start::<Self>(state, arguments)
+        start::<Self>(state, arguments)
     }
 
     /// An event of this system, as by [`event`](crate::Simulate::event), with a differentiable function: it receives a
@@ -152,7 +152,7 @@ pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
         let hit = index::<Self>(Self::CONSTRAINTS, "constraint", constraint)?;
         let (name, restitution) = restitution;
         let slopes = |j: usize| slope(Some(at.arguments()[j]), name);
-        sensitivity::impact_sensitivity(self, at, hit, (restitution, &slopes))
+        impact_sensitivity(self, at, hit, (restitution, &slopes))
     }
 
     /// Returns the state with its derivatives after a reset. `map` computes the new coordinates and velocities from the
@@ -190,7 +190,7 @@ pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
         at: &StateSensitivity<Self::Scalar, Self::N>,
         map: impl Fn(&DualSample<'_, Self>) -> Result<[[Dual<Self::Scalar>; K]; 2], Error>,
     ) -> Result<StateSensitivity<Self::Scalar, Const<K>>, Error> {
-        sensitivity::push_forward(self, at, map)
+        push_forward(self, at, map)
     }
 }
 

@@ -1,8 +1,15 @@
 //! Inverse dynamics: inputs that produce given accelerations.
 
+mod completed;
+mod regressor;
+
 use alloc::{format, string::String, vec::Vec};
 
 use nalgebra::{ComplexField, DMatrix, DVector};
+
+pub(super) use completed::complete;
+pub use regressor::{BaseParameters, Regressor};
+pub(super) use regressor::{inertial_parameters, regressor};
 
 use super::Linearized;
 use super::argument::Argument;

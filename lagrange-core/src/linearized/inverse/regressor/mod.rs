@@ -10,10 +10,10 @@ use nalgebra::{ComplexField, DMatrix, DVector};
 
 pub use base::BaseParameters;
 
-use super::Linearized;
-use super::argument::check_parameters;
-use super::tangent::Tangent;
 use crate::error::Error;
+use crate::linearized::Linearized;
+use crate::linearized::argument::check_parameters;
+use crate::linearized::tangent::Tangent;
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, exceeds, larger, power_of_epsilon};
 use crate::solution::solve::first_row;
@@ -120,7 +120,7 @@ fn inertial<T: Real>(values: [T; 10]) -> [T; 10] {
 }
 
 /// See [`Linearized::inertial_parameters`].
-pub(super) fn inertial_parameters<L: Linearized<Scalar: Real>>(
+pub(in crate::linearized) fn inertial_parameters<L: Linearized<Scalar: Real>>(
     system: &L,
     bodies: &[&str],
 ) -> Result<DVector<L::Scalar>, Error> {
@@ -131,7 +131,7 @@ pub(super) fn inertial_parameters<L: Linearized<Scalar: Real>>(
 }
 
 /// See [`Linearized::regressor`].
-pub(super) fn regressor<L: Linearized<Scalar: Real> + Clone>(
+pub(in crate::linearized) fn regressor<L: Linearized<Scalar: Real> + Clone>(
     system: &L,
     state: &StateOf<L>,
     accelerations: &Vector<L::Scalar, L::N>,
