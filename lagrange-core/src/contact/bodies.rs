@@ -12,7 +12,7 @@ use crate::solution::kkt::Rank;
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::{solve_in_general, solve_near};
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Array, Length, Vector, vector};
+use crate::vector::{Array, Length, Vector, vector, zeros};
 
 /// Round-off of gaps and rates, in units of the round-off of the sums Σ |Wᵢ qᵢ| and Σ |Wᵢ q̇ᵢ| over the largest entries so
 /// far. A gap comes from a projection to 4 units and a location to one unit of time; a rate from a solve.
@@ -269,7 +269,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Responses W K⁻¹ Wᵀ of the rates of constraints to impulses, and K⁻¹ Wᵀ, the changes of the velocities.
     pub(super) fn delassus(&self, rows: &[usize], state: &StateOf<L>) -> Result<Delassus<L>, Error> {
         let rows: Vec<Vector<L::Scalar, L::N>> = rows.iter().map(|&a| self.row(a, state)).collect();
-        let none = vector(Array::filled(L::Scalar::constant(0.0)));
+        let none = zeros();
         let factor = self.open.factor(state);
         let respond = |row: &Vector<L::Scalar, L::N>| {
             let fast = self.open.solve_with(&factor, row, &none);

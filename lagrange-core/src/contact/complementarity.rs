@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, order};
 
 /// Largest number of changes of the active set, for each unknown. Without cycles 2ⁿ suffice, and a few are usual.
 const CHANGES: usize = 100;
@@ -92,7 +92,7 @@ impl<T: Real> Complementarity<T> {
             let blocks = active.iter().zip(&growth).enumerate().filter(|(_, (_, g))| **g < T::constant(0.0));
             let first = blocks
                 .map(|(place, (&k, &g))| (place, -(z[k] / g)))
-                .min_by(|one, other| one.1.partial_cmp(&other.1).unwrap_or(core::cmp::Ordering::Equal));
+                .min_by(|one, other| order(one.1, other.1));
             let step = match (whole, first) {
                 (Some(whole), Some((_, first))) if first < whole => first,
                 (Some(whole), _) => whole,
@@ -175,8 +175,7 @@ impl<T: Real> Complementarity<T> {
 /// The unknown at zero whose w is most negative.
 fn worst<T: Real>(w: &[T], noise: &[T], active: &[usize]) -> Option<usize> {
     let is_wrong = |&k: &usize| w[k] < -noise[k] && !active.contains(&k);
-    let order = |&j: &usize, &k: &usize| w[j].partial_cmp(&w[k]).unwrap_or(core::cmp::Ordering::Equal);
-    (0..w.len()).filter(is_wrong).min_by(order)
+    (0..w.len()).filter(is_wrong).min_by(|&j, &k| order(w[j], w[k]))
 }
 
 #[cfg(test)]

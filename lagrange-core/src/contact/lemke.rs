@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, order};
 
 /// Largest number of exchanges of unknowns, for each unknown. With the lexicographic rule no basis comes back.
 const EXCHANGES: usize = 1_000;
@@ -145,11 +145,7 @@ impl<T: Real> ExchangeTableau<T> {
         let compared = places.map(|place| {
             let (x, y) = (self.rows[one][place] / by, self.rows[other][place] / by_other);
             let round_off = T::constant(T::EPSILON * ZERO) * larger(Scalar::abs(x), Scalar::abs(y));
-            if Scalar::abs(x - y) <= round_off {
-                Ordering::Equal
-            } else {
-                x.partial_cmp(&y).unwrap_or(Ordering::Equal)
-            }
+            if Scalar::abs(x - y) <= round_off { Ordering::Equal } else { order(x, y) }
         });
         compared.into_iter().find(|&order| order != Ordering::Equal).unwrap_or(Ordering::Equal)
     }

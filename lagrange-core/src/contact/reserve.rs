@@ -2,11 +2,10 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use core::cmp::Ordering;
 
 use super::complementarity::Complementarity;
 use super::cones::length;
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, largest, order};
 
 /// Largest number of Newton steps. Those towards a limit multiply u by 1.5 each, and a few find it.
 const STEPS: usize = 200;
@@ -113,8 +112,6 @@ pub(super) fn reserve<T: Real>(
         let velocities: Vec<[T; 2]> = parts.iter().map(|part| part.velocity(&x)).collect();
         let most = parts.iter().zip(&velocities).map(|(part, &u)| part.far(u)).fold(T::constant(0.0), larger);
         let is_at_limit = most > T::constant(AT_LIMIT);
-        let largest =
-            |left: &[T]| left.iter().fold(T::constant(0.0), |most, &part| larger(most, Scalar::abs(part)));
         let off = largest(&left);
         let [is_exact, is_found] = [T::EPSILON, FOUND].map(|part| off <= T::constant(part) * scale);
         let goes_on = !is_exact && !is_at_limit;
@@ -200,9 +197,8 @@ fn independent<T: Real>(problem: &Complementarity<T>, rows: &[usize]) -> Vec<usi
     loop {
         let rest = rows.iter().filter(|row| !active.contains(*row));
         let part = |&row: &usize| Some((row, problem.response(row, &active)? / problem.matrix[row][row]));
-        let order =
-            |one: &(usize, T), other: &(usize, T)| one.1.partial_cmp(&other.1).unwrap_or(Ordering::Equal);
-        let Some((row, _)) = rest.filter_map(part).max_by(order) else { return active };
+        let most = rest.filter_map(part).max_by(|one, other| order(one.1, other.1));
+        let Some((row, _)) = most else { return active };
         active.push(row);
     }
 }

@@ -11,7 +11,7 @@ use super::instant::Decided;
 use super::law::{ContactForces, Grip, Law, NoForces, Rubbing, Touch};
 use super::reserve::{Reserve, Resting, reserve};
 use super::{Contacts, Friction};
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, order};
 use crate::solution::pivot::least_pivot;
 
 /// Largest number of sweeps.
@@ -150,9 +150,7 @@ impl<T: Real> Law<'_, T> {
             .filter_map(|k| Some((k, self.touches[k].gap?)))
             .collect();
         let force = |&(_, gap): &(usize, usize)| outcome.forces[gap];
-        pushing.sort_by(|one, other| {
-            force(one).partial_cmp(&force(other)).unwrap_or(core::cmp::Ordering::Equal)
-        });
+        pushing.sort_by(|one, other| order(force(one), force(other)));
         let is_spare = |&(_, gap): &(usize, usize)| {
             let mut active = Vec::new();
             for &(_, other) in pushing.iter().rev().filter(|&&(_, other)| other != gap) {
@@ -337,10 +335,7 @@ impl<T: Real> Gripped<T> {
         };
         let mut resting: Vec<_> = (0..self.names.len()).filter_map(of).collect();
         let slides = |one: &RestingFriction<T>| matches!(one.rubbing.grip, Grip::Slides(_));
-        resting.sort_by(|one, other| {
-            let slack = other.slack.partial_cmp(&one.slack).unwrap_or(core::cmp::Ordering::Equal);
-            slides(one).cmp(&slides(other)).then(slack)
-        });
+        resting.sort_by(|one, other| slides(one).cmp(&slides(other)).then(order(other.slack, one.slack)));
         resting
     }
 }

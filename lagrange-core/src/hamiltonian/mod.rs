@@ -17,13 +17,13 @@ use crate::motion::{
     builder::{MotionBuilder, MotionFrom, Start},
 };
 use crate::names::Entry;
-use crate::number::{Real, Scalar};
+use crate::number::Real;
 use crate::solution::solve::solve;
 use crate::system::finite::check_entries;
 use crate::system::{Lagrangian, StateOf};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Trajectory;
-use crate::vector::{Array, Vector, vector};
+use crate::vector::{Vector, zeros};
 use phase::rate;
 
 /// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints, for every [`Lagrangian`]
@@ -77,7 +77,7 @@ pub trait Hamiltonian: Lagrangian<Scalar: Real> + Sized {
     /// singular along the constraints; [`Error::MomentumNotReached`] if Newton's iteration does not converge;
     /// [`Error::Contradictory`] if dependent constraints demand different velocities.
     fn legendre(&self, phase: &PhaseState<Self::Scalar, Self::N>) -> Result<StateOf<Self>, Error> {
-        self.legendre_near(phase, &vector(Array::filled(Self::Scalar::constant(0.0))))
+        self.legendre_near(phase, &zeros())
     }
 
     /// Like [`legendre`](Self::legendre), with an initial guess of the velocity: for a Lagrangian that is

@@ -22,8 +22,11 @@ pub use broadcast::{Broadcast, Wide};
 pub use dual::Dual;
 #[cfg(feature = "std")]
 pub use lanes::{FourLanes, Lanes};
+#[cfg(feature = "alloc")]
+pub(crate) use numeric::order;
 pub(crate) use numeric::{
-    beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller, sum,
+    beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller,
+    sum, unit_of,
 };
 pub use parts::Parts;
 pub use real::Real;

@@ -22,6 +22,17 @@ pub(crate) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
     if b < a { b } else { a }
 }
 
+/// Returns the order of two numbers; they count as equal if one is NaN.
+#[cfg(feature = "alloc")]
+pub(crate) fn order<T: PartialOrd>(x: T, y: T) -> Ordering {
+    x.partial_cmp(&y).unwrap_or(Ordering::Equal)
+}
+
+/// Returns `size` if it is positive, else 1: the unit in which numbers of this size are 1, and zeros stay.
+pub(crate) fn unit_of<T: Real>(size: T) -> T {
+    if size > T::constant(0.0) { size } else { T::constant(1.0) }
+}
+
 /// Returns the largest magnitude in `x`, ignoring NaN.
 ///
 /// Never inlined: rustc did not terminate when LLVM 22 unrolled this along the rows of a matrix of 32 columns

@@ -11,7 +11,7 @@ use nalgebra::{Complex, DMatrix};
 
 use crate::error::Error;
 use crate::linearized::eigenvalues;
-use crate::number::{Real, Scalar, norm};
+use crate::number::{Real, Scalar, norm, order};
 
 /// Cycles of the iteration. Groups of multipliers whose moduli differ by a factor of 10 or more are separated to round-off after 16;
 /// nearer ones stay in one block, where they cannot bury one another.
@@ -42,7 +42,7 @@ pub(super) fn of_product<T: Real>(factors: &[DMatrix<T>]) -> Result<Vec<Complex<
         let product = triangles.iter().fold(DMatrix::identity(size, size), |product, r| part(r) * product);
         found.extend(eigenvalues(&(part(&turn) * product))?);
     }
-    found.sort_by(|x, y| modulus(*y).partial_cmp(&modulus(*x)).unwrap_or(core::cmp::Ordering::Equal));
+    found.sort_by(|x, y| order(modulus(*y), modulus(*x)));
     Ok(found)
 }
 
@@ -66,10 +66,8 @@ pub(super) fn paired<T: Real>(mut multipliers: Vec<Complex<T>>) -> Vec<Complex<T
     while let Some(first) = (!multipliers.is_empty()).then(|| multipliers.remove(0)) {
         let inverse = reciprocal(first);
         let distance = |x: &Complex<T>| modulus(Complex::new(x.re - inverse.re, x.im - inverse.im));
-        let nearest = (0..multipliers.len()).min_by(|&j, &k| {
-            let order = distance(&multipliers[j]).partial_cmp(&distance(&multipliers[k]));
-            order.unwrap_or(core::cmp::Ordering::Equal)
-        });
+        let nearest = (0..multipliers.len())
+            .min_by(|&j, &k| order(distance(&multipliers[j]), distance(&multipliers[k])));
         let Some(nearest) = nearest else {
             pairs.push(first);
             continue;

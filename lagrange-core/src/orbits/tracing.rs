@@ -9,7 +9,7 @@ use super::orbit::PeriodicOrbit;
 use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
-use crate::number::{Real, Scalar, exceeds, norm, power_of_epsilon};
+use crate::number::{Real, Scalar, exceeds, norm, power_of_epsilon, unit_of};
 
 /// Least cosine of the angle between neighbours of a family; a step across which it turns more is halved. 20° are small
 /// enough that a step does not end on another family that crosses at a right angle.
@@ -38,8 +38,7 @@ impl<L: Linearized<Scalar: Real>> FamilyStart<L> {
     pub(super) fn choose(&mut self, k: usize) {
         let before = self.problem.parameter.replace(k);
         let value = Scalar::abs(self.chain.system.parameters()[k]);
-        self.problem.parameter_unit =
-            if value > L::Scalar::constant(0.0) { value } else { L::Scalar::constant(1.0) };
+        self.problem.parameter_unit = unit_of(value);
         let count =
             self.chain.system.linearize(&self.chain.nodes[0], &[]).map_or(0, |near| near.basis.ncols());
         let column = self.problem.parameter_column(count).unwrap_or(count);

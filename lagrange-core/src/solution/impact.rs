@@ -15,7 +15,7 @@ use crate::solution::solve::solve_in_general;
 use crate::system::finite::check_finite;
 use crate::system::lookup::index;
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Entrywise, Vector, vector};
+use crate::vector::{Array, Entrywise, Vector, zeros};
 
 /// Result of an impact: [`Simulate::impact`](crate::Simulate::impact).
 pub struct Impact<L: Lagrangian> {
@@ -54,7 +54,7 @@ pub(crate) fn impact<L: Lagrangian<Scalar: Real>>(
     // is hit.
     let mut rates = system.constraint_rate(state);
     rates[hit] *= L::Scalar::constant(1.0) + restitution;
-    let no_force = vector(Array::filled(L::Scalar::constant(0.0)));
+    let no_force = zeros();
     let jump = system.solve_with(&system.factor(state), &no_force, &rates);
     let jump = match is_trustworthy(&jump) {
         true => jump,

@@ -11,7 +11,7 @@ mod tests;
 use super::consistent::level::Level;
 use crate::number::{Real, Scalar, sum};
 use crate::system::{Lagrangian, SolutionOf, State, StateOf};
-use crate::vector::{Array, Entrywise, Length, Vector, from_fn, vector};
+use crate::vector::{Array, Entrywise, Length, Vector, from_fn, vector, zeros};
 
 /// Strategy of the corrections: when and how often to correct, and whether a correction of the coordinates
 /// also changes the velocities.
@@ -61,7 +61,7 @@ pub(crate) fn project<L: Lagrangian, R: Real>(
 ) -> (StateOf<L>, L::Scalar) {
     let zero = L::Scalar::constant(0.0);
     let (factor, mut doubt) = (system.factor(&state), zero);
-    let mut follow = vector(Array::filled(zero));
+    let mut follow = zeros();
     for &level in levels.iter().filter(|level| level.concerns::<L>()) {
         let size = level.magnitude(system, &state);
         let mut rounds = 0..corrections.most();
@@ -121,13 +121,12 @@ fn following<L: Lagrangian, R: Real>(
     let w = correction.accelerations.each(|w| w * number(scale));
     let multipliers = correction.multipliers.each(|mu| mu * number(scale));
     let there = |v| State { t: *t + part, q: q.each_with(&state.v, |q, v| q + v * part), v };
-    let at_rest = vector(Array::filled(number(0.0)));
+    let at_rest = zeros();
     let back_a_part = w.each(|w| -w * part);
     let slower = v.each_with(&back_a_part, |v, change| v + change);
     let forces = |v, w: &_, multipliers: &_| system.inverse_dynamics(&there(v), w, multipliers);
     let with = forces(slower, &w, &multipliers);
-    let [without, of_change, of_none] =
-        [*v, back_a_part, at_rest].map(|v| forces(v, &at_rest, &vector(Array::filled(number(0.0)))));
+    let [without, of_change, of_none] = [*v, back_a_part, at_rest].map(|v| forces(v, &at_rest, &zeros()));
     let (coordinates, way) = (size(q), step.abs() * size(v));
     let back = number(1.0 / scale) / part;
     let back = size(&w).select_by_order((coordinates + way) * number(16.0), back, back, number(0.0));

@@ -9,7 +9,7 @@ use crate::number::{Real, Scalar, exceeds};
 use crate::solution::solve::solve;
 use crate::solution::vector_field::VectorField;
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Array, Length, vector};
+use crate::vector::{Length, zeros};
 
 /// Nodes in a step and weights of Gauss's formula of order 16 (Abramowitz and Stegun, table 25.4). In the long steps of
 /// `Taylor` a formula of order 8 leaves errors 10⁶ times those of the motion
@@ -101,7 +101,7 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
         GAUSS.iter().try_fold(S::Scalar::constant(0.0), |sum, (node, weight)| {
             let state = self.state_at(between(from, to, *node))?;
             let multipliers = match <S::M>::COUNT {
-                0 => vector(Array::filled(S::Scalar::constant(0.0))),
+                0 => zeros(),
                 _ => solve(&self.system, &state)?.multipliers,
             };
             Ok(sum

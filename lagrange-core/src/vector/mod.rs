@@ -8,6 +8,6 @@ mod phase_vector;
 pub use array::{Array, FixedArray};
 pub(crate) use array::{entries, from_fn};
 pub use length::{Contiguous, Element, Length};
-pub(crate) use nalgebra::{Entrywise, array, matrix, rows, vector};
+pub(crate) use nalgebra::{Entrywise, array, matrix, rows, vector, zeros};
 pub use nalgebra::{Matrix, Vector};
 pub use phase_vector::PhaseVector;

@@ -38,6 +38,12 @@ pub(crate) fn vector<T: Element, N: Length>(entries: Array<T, N>) -> Vector<T, N
     N::vector(entries.0)
 }
 
+/// Returns a column vector of zeros.
+#[inline]
+pub(crate) fn zeros<T: Scalar, N: Length>() -> Vector<T, N> {
+    vector(Array::filled(T::constant(0.0)))
+}
+
 /// Converts a column vector to an array, without a copy.
 #[inline]
 pub(crate) fn array<T: Element, N: Length>(vector: Vector<T, N>) -> Array<T, N> {

@@ -7,7 +7,7 @@ use crate::contact::Contacts;
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar, larger};
 use crate::system::{Lagrangian, StateOf, lookup};
-use crate::vector::{Array, Entrywise, Vector, vector};
+use crate::vector::{Entrywise, Vector, zeros};
 
 /// A step of a motion: what is known at its end.
 pub struct TimeStep<L: Lagrangian> {
@@ -27,7 +27,7 @@ impl<L: Lagrangian<Scalar: Real>> TimeStep<L> {
     /// The start of a motion.
     pub(super) fn start(state: StateOf<L>) -> Self {
         let zero = L::Scalar::constant(0.0);
-        Self { state, impulses: vector(Array::filled(zero)), iterations: 0, residual: zero }
+        Self { state, impulses: zeros(), iterations: 0, residual: zero }
     }
 }
 

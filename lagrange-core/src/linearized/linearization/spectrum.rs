@@ -1,14 +1,13 @@
 //! Eigenvalues of a linearization: stability and natural frequencies.
 
 use alloc::vec::Vec;
-use core::cmp::Ordering;
 
 use nalgebra::{Complex, DMatrix};
 
 use super::Linearization;
 use super::francis;
 use crate::error::Error;
-use crate::number::{Real, Scalar, larger, norm, power_of_epsilon, power_of_two};
+use crate::number::{Real, Scalar, larger, norm, order, power_of_epsilon, power_of_two};
 
 /// Stability of an equilibrium, as decided by the linear part (Lyapunov's indirect method).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -121,8 +120,4 @@ fn resolution<T: Real>(eigenvalues: &[Complex<T>]) -> T {
 
 fn magnitude<T: Real>(s: Complex<T>) -> T {
     norm(&[s.re, s.im])
-}
-
-fn order<T: Real>(x: T, y: T) -> Ordering {
-    x.partial_cmp(&y).unwrap_or(Ordering::Equal)
 }

@@ -22,7 +22,7 @@ use crate::room::Room;
 use crate::solution::eliminate::LoopFactor;
 use crate::solution::near::compensated;
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, array, from_fn, rows, vector};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, array, from_fn, rows, vector, zeros};
 
 /// Fraction of the visible terms up to which a residual may be the round-off of hidden terms.
 const HIDDEN: f64 = 1e-3;
@@ -270,7 +270,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         stages: &mut StageMemory<L::Factor, L::Scalar, L::N, L::M, S>,
         residuals: &StageResiduals<L::Scalar, L::N, L::M, S>,
     ) {
-        let none = vector(Array::filled(L::Scalar::constant(0.0)));
+        let none = zeros();
         for (v, residual) in stages.velocities.iter_mut().zip(&residuals.momenta) {
             let push = vector(residual.map(|x| -x));
             let correction = self.system.solve_with(&stages.factor, &push, &none).accelerations;
@@ -344,7 +344,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         let last = stages.velocities[S - 1];
         let mut state = State { t: self.to, q: vector(*q), v: vector(last) };
         stages.factor = system.factor(&state);
-        let mut multipliers: Vector<L::Scalar, L::M> = vector(Array::filled(L::Scalar::constant(0.0)));
+        let mut multipliers: Vector<L::Scalar, L::M> = zeros();
         let (mut of_momenta, mut of_rates) = (Residuals::new(), Residuals::new());
         loop {
             let force = system.constraint_force(&state, &multipliers);

@@ -15,7 +15,7 @@ use crate::number::{Parts, Scalar};
 use crate::solution::near::compensated;
 use crate::structure::{ConstantMassMatrix, HolonomicConstraints, VelocityFreeForces};
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, array, vector};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, array, vector, zeros};
 
 /// The method of Störmer and Verlet, symplectic and of order 2; with holonomic constraints it is RATTLE.
 ///
@@ -130,7 +130,7 @@ fn onto_constraints<L: Lagrangian<Scalar: Parts>>(
     (factor, h_vector): (&L::Factor, &Vector<L::Scalar, L::N>),
     (h, to): (L::Scalar, L::Scalar),
 ) -> Result<Vector<L::Scalar, L::N>, NotSettled> {
-    let (half, none) = (h * L::Scalar::constant(0.5), vector(Array::filled(L::Scalar::constant(0.0))));
+    let (half, none) = (h * L::Scalar::constant(0.5), zeros());
     let bias = system.constraint_bias(&point.state).each(|x| half * x);
     let mut kick = system.solve_with(factor, &h_vector.each(|x| half * x), &bias).accelerations;
     let mut residuals = Residuals::new();
@@ -172,7 +172,7 @@ fn along_constraints<L: Lagrangian<Scalar: Parts>>(
     let second = system.solve_with(factor, &push, &system.constraint_rate(state));
     let [mut v, mut rest] = point.pushed(&array(kick.plus(&second.accelerations)));
     let mut residuals = Residuals::new();
-    let none = vector(Array::filled(L::Scalar::constant(0.0)));
+    let none = zeros();
     loop {
         let state = State { v: vector(v), ..*state };
         let rate = system.constraint_rate(&state);

@@ -9,7 +9,7 @@ use super::level::Level;
 use super::{Adjustment, gradient, make_consistent};
 use crate::error::Error;
 use crate::names::{Names, name};
-use crate::number::{Real, Scalar, larger, norm, power_of_epsilon};
+use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, unit_of};
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Rank, Rows};
 use crate::solution::pivot::is_trustworthy;
@@ -150,12 +150,8 @@ fn minimum<L: Lagrangian<Scalar: Real>>(
     guess: &StateOf<L>,
     mut state: StateOf<L>,
 ) -> Result<StateOf<L>, (L::Scalar, Error)> {
-    let one = L::Scalar::constant(1.0);
     let gradients = Level::Position.jacobian(system, guess);
-    let units = Array::from_fn(|a| {
-        let length = norm(&gradients[a]);
-        if length > L::Scalar::constant(0.0) { length } else { one }
-    });
+    let units = Array::from_fn(|a| unit_of(norm(&gradients[a])));
     let mut damping = L::Scalar::constant(1e-3);
     let mut residuals = LinearResiduals::at(system, &state, &units);
     for _ in 0..STEPS {
@@ -187,8 +183,7 @@ fn minimum<L: Lagrangian<Scalar: Real>>(
             break;
         }
     }
-    let largest =
-        residuals.value.iter().fold(L::Scalar::constant(0.0), |most, x| larger(most, Scalar::abs(*x)));
+    let largest = largest(&residuals.value);
     let size = residual_scale::<L>(&state.q);
     if largest <= size * power_of_epsilon::<L::Scalar>(0.25) {
         return Ok(state);

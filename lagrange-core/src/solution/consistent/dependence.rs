@@ -12,7 +12,7 @@ use crate::names::Names;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Entrywise, Length, Vector, entries, vector};
+use crate::vector::{Array, Entrywise, Length, Vector, entries, zeros};
 
 /// Number of directions, beside the remainders of the dependent rows, along which second derivatives are taken.
 /// A nonzero quadratic form H may vanish along one of them by chance, but hardly along three.
@@ -66,7 +66,7 @@ fn second_derivatives<L: Lagrangian<Scalar: Real>>(
     let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
     let bias = |v| system.constraint_bias(&State { v, ..*state });
     let [ahead, back] = [direction, direction.negated()].map(bias);
-    let rest = bias(vector(Array::filled(zero)));
+    let rest = bias(zeros());
     let is_holonomic = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
     entries(|a| if is_holonomic(a) { half * (ahead[a] + back[a]) - rest[a] } else { zero })
 }

@@ -1,6 +1,6 @@
 //! Natural units, in which masses are about 1 and constraint rows have length 1.
 
-use crate::number::{Real, Scalar, larger, largest, norm, power_of_two};
+use crate::number::{Real, Scalar, larger, largest, norm, power_of_two, unit_of};
 use crate::vector::{Array, Element, Length, entries};
 
 /// The natural units of a mass matrix and a constraint Jacobian.
@@ -46,14 +46,11 @@ impl<T: Real, N: Length, M: Length> Units<T, N, M> {
     }
 
     fn lengths_of(&self, f: &Array<Array<T, N>, M>) -> Array<T, M> {
-        entries(|a| {
-            let length = norm::<T>(&entries::<T, N>(|i| f[a][i] / self.powers[a] * self.coordinates[i]));
-            if length > T::constant(0.0) { length } else { T::constant(1.0) }
-        })
+        entries(|a| unit_of(norm::<T>(&entries::<T, N>(|i| f[a][i] / self.powers[a] * self.coordinates[i]))))
     }
 
     fn of_massless(&self, i: usize, m: &Array<Array<T, N>, N>, f: &Array<Array<T, N>, M>) -> T {
-        let (zero, one) = (T::constant(0.0), T::constant(1.0));
+        let zero = T::constant(0.0);
         // Two coordinates that have an inertia only together share it.
         let inertia = |j: usize| match m[j][j] == zero {
             true => Scalar::sqrt(Scalar::abs(m[i][j])),
@@ -61,6 +58,6 @@ impl<T: Real, N: Length, M: Length> Units<T, N, M> {
         };
         let couplings = (0..M::COUNT).map(|a| Scalar::abs(self.of_row(a, f[a][i])));
         let strongest = (0..N::COUNT).map(inertia).chain(couplings).fold(zero, larger);
-        if strongest > zero { one / strongest } else { one }
+        T::constant(1.0) / unit_of(strongest)
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::blocks::{Blocks, Four, four, times, turned_back};
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, norm};
 use crate::solution::consistent;
 use crate::system::StateOf;
 use crate::system::finite::check_finite;
@@ -86,7 +86,7 @@ fn rotation<T: Real>(before: Four<T>, after: Four<T>) -> [T; 3] {
     let cos = (0..4).fold(zero, |sum, k| sum + before[k] * after[k]);
     let vector = turned_back(before, after);
     let (cos, vector) = if cos < zero { (-cos, vector.map(|x| -x)) } else { (cos, vector) };
-    let sin = length(vector);
+    let sin = norm(&vector);
     // atan(sin/cos)/sin, at 0 its limit
     let ratio = if sin == zero { T::constant(1.0) / cos } else { Scalar::atan2(sin, cos) / sin };
     vector.map(|x| x * ratio * T::constant(2.0))
@@ -95,19 +95,9 @@ fn rotation<T: Real>(before: Four<T>, after: Four<T>) -> [T; 3] {
 /// Q ⊗ exp(½ δφ).
 fn turned<T: Real>(q: Four<T>, rotation: [T; 3]) -> Four<T> {
     let half = rotation.map(|x| x * T::constant(0.5));
-    let angle = length(half);
+    let angle = norm(&half);
     let (sin, cos) = Scalar::sin_cos(angle);
     let ratio = if angle == T::constant(0.0) { T::constant(1.0) } else { sin / angle };
     let along = times(q, half.map(|x| x * ratio));
     [0, 1, 2, 3].map(|k| q[k] * cos + along[k])
-}
-
-/// The length of a vector. Its squares neither overflow nor vanish.
-fn length<T: Real>(x: [T; 3]) -> T {
-    let zero = T::constant(0.0);
-    let most = x.iter().fold(zero, |most, x| larger(most, Scalar::abs(*x)));
-    if most == zero {
-        return zero;
-    }
-    most * Scalar::sqrt(x.iter().fold(zero, |sum, x| sum + (*x / most) * (*x / most)))
 }
