@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use super::bodies::{Bodies, Delassus, States};
 use super::cones::length;
@@ -18,6 +19,21 @@ use crate::vector::{Array, vector};
 
 /// Speed, in units of its round-off, with which bodies begin to slide along two velocities: friction has no direction at rest.
 pub(super) const BEGIN: f64 = 64.0;
+
+impl FrictionRows {
+    /// Indices of its velocities among the constraints.
+    pub(crate) fn rows(&self) -> Range<usize> {
+        self.row..self.row + self.count
+    }
+
+    /// Size of a velocity or force with these components.
+    pub(crate) fn size<T: Real>(&self, component: impl Fn(usize) -> T) -> T {
+        match self.count {
+            1 => Scalar::abs(component(self.row)),
+            _ => length([component(self.row), component(self.row + 1)]),
+        }
+    }
+}
 
 /// The rows of bodies that touch, at a state.
 pub(super) struct TouchingRows<L: Contacts<Scalar: Real>> {
@@ -89,10 +105,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     pub(super) fn rows(&self, touching: Vec<usize>, state: &StateOf<L>) -> Result<TouchingRows<L>, Error> {
         let mut all: Vec<usize> = touching.iter().map(|&k| L::CONTACTS[k]).collect();
         let mut frictions = Vec::new();
-        for (f, &FrictionRows { row, count, contact, .. }) in L::FRICTIONS.iter().enumerate() {
-            if contact.is_none_or(|k| touching.contains(&k)) {
+        for (f, friction) in L::FRICTIONS.iter().enumerate() {
+            if friction.contact.is_none_or(|k| touching.contains(&k)) {
                 frictions.push((f, all.len()));
-                all.extend(row..row + count);
+                all.extend(friction.rows());
             }
         }
         let delassus = self.delassus(&all, state)?;
@@ -101,15 +117,13 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
 
     /// Velocity of friction, its size, and the round-off of that.
     fn sliding(&self, f: usize, state: &StateOf<L>) -> ([L::Scalar; 2], [L::Scalar; 2]) {
-        let FrictionRows { row, count, .. } = L::FRICTIONS[f];
         let mut velocity = [L::Scalar::constant(0.0); 2];
         let mut noise = velocity[0];
-        for (component, a) in (row..row + count).enumerate() {
+        for (component, a) in L::FRICTIONS[f].rows().enumerate() {
             let measured = self.measured_at(a, state);
             (velocity[component], noise) = (measured.rate, larger(noise, measured.noise[1]));
         }
-        let [x, y] = velocity;
-        (velocity, [Scalar::sqrt(x * x + y * y), noise])
+        (velocity, [length(velocity), noise])
     }
 
     /// Direction in which bodies slide; `None` if they are at rest but for so many units of round-off.

@@ -317,6 +317,8 @@ pub use builder::{AcrossContacts, ContactArrival, CrossesContacts};
 pub use stepping::{MoreauJean, SteppedTrajectory, TimeStep, TimeStepping};
 #[cfg(feature = "alloc")]
 pub use trajectory::{ContactTrajectory, Transition};
+#[cfg(feature = "alloc")]
+pub(crate) use watched::held;
 
 /// Law of impact of a contact, with a coefficient of restitution e.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -184,7 +184,7 @@ pub(super) fn round_off<L: Contacts<Scalar: Real>>(solution: &SolutionOf<L>) -> 
 
 /// The largest force of contact or friction.
 fn largest<L: Contacts<Scalar: Real>>(SolutionOf::<L> { multipliers, .. }: &SolutionOf<L>) -> L::Scalar {
-    let frictions = L::FRICTIONS.iter().flat_map(|friction| friction.row..friction.row + friction.count);
+    let frictions = L::FRICTIONS.iter().flat_map(FrictionRows::rows);
     let rows = L::CONTACTS.iter().copied().chain(frictions);
     rows.fold(L::Scalar::constant(0.0), |size, row| larger(size, Scalar::abs(multipliers[row])))
 }
@@ -211,23 +211,15 @@ fn check_held<L: Contacts<Scalar: Real> + Clone>(
 }
 
 /// Limit of friction that sticks, and its force.
-pub(super) fn held<L: Contacts<Scalar: Real> + Clone>(
+pub(crate) fn held<L: Contacts<Scalar: Real> + Clone>(
     closed: &L,
     f: usize,
     state: &StateOf<L>,
     SolutionOf::<L> { multipliers, .. }: &SolutionOf<L>,
 ) -> Result<[L::Scalar; 2], Error> {
-    let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
     let [limit, _] = bounds(closed, f, state)?;
-    let press = contact.map_or(L::Scalar::constant(1.0), |k| multipliers[L::CONTACTS[k]]);
-    let force = match count {
-        1 => Scalar::abs(multipliers[row]),
-        _ => {
-            let [x, y] = [multipliers[row], multipliers[row + 1]];
-            Scalar::sqrt(x * x + y * y)
-        }
-    };
-    Ok([limit * press, force])
+    let press = L::FRICTIONS[f].contact.map_or(L::Scalar::constant(1.0), |k| multipliers[L::CONTACTS[k]]);
+    Ok([limit * press, L::FRICTIONS[f].size(|a| multipliers[a])])
 }
 
 /// Velocity of friction that slides along its direction. That of two velocities has turned by 60° where this is zero, before

@@ -6,11 +6,15 @@ use core::ops::Range;
 
 use nalgebra::ComplexField;
 
+#[cfg(feature = "alloc")]
+use super::argument::parameter;
 use super::jacobian::name_of;
 use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Broadcast, Real, Scalar, Wide};
+#[cfg(feature = "alloc")]
+use crate::number::Broadcast;
+use crate::number::{Real, Scalar, Wide};
 use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::pivot::{is_trustworthy, least_pivot};
@@ -22,7 +26,7 @@ use crate::system::{ConstraintKind, unit};
 use crate::system::{Lagrangian, ResidualChange, Solution, SolutionOf, State, StateOf};
 #[cfg(feature = "alloc")]
 use crate::vector::from_fn;
-use crate::vector::{Array, Element, Entrywise, Length, Vector, rows, vector};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, rows, zeros};
 
 /// Equations of motion at a state: solved, factorized and differentiated.
 pub(crate) struct Tangent<'a, L: StateDerivatives> {
@@ -133,10 +137,11 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
         entry: impl Fn(usize) -> Entry,
         give: &mut impl FnMut(usize, &SolutionOf<L>),
     ) -> Result<(), Error> {
-        let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
-        for first in (0..count).step_by(lanes) {
-            let block = first..count.min(first + lanes);
-            self.respond(block.clone(), &changes(block), &entry, give)?;
+        for first in (0..count).step_by(WideOf::<L>::COUNT) {
+            let block = first..count.min(first + WideOf::<L>::COUNT);
+            let changes = changes(block.clone());
+            let responses = self.responses(block.len(), &changes, |lane| entry(first + lane))?;
+            block.for_each(|k| give(k, &responses.lane(k - first)));
         }
         Ok(())
     }
@@ -184,17 +189,13 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
         if count == 0 {
             return Ok(());
         }
-        let (lanes, zero) = (<WideOf<L> as Wide<L::Scalar>>::COUNT, L::Scalar::constant(0.0));
-        let slopes = self.system.residual_slopes_by_parameters(self.state, &self.solution);
-        let entry = |k: usize| Entry::Parameter(L::PARAMETERS[parameter(k)]);
-        for first in (0..count).step_by(lanes) {
-            let mut rates = vector(Array::<_, L::P>::filled(WideOf::<L>::of(zero)));
-            let block = first..count.min(first + lanes);
-            block.clone().for_each(|k| rates[parameter(k)].put(k - first, L::Scalar::constant(1.0)));
-            let changes = self.system.residual_change_by_parameters_with(&slopes, &rates);
-            self.respond(block, &changes, &entry, &mut give)?;
-        }
-        Ok(())
+        let slopes = self.parameter_slopes();
+        let changes = |block: Range<usize>| {
+            let mut rates = zeros::<WideOf<L>, L::P>();
+            block.clone().for_each(|k| rates[parameter(k)].put(k - block.start, L::Scalar::constant(1.0)));
+            self.changes_by_parameters(&slopes, &rates)
+        };
+        self.respond_to_each(count, changes, |k| Entry::Parameter(L::PARAMETERS[parameter(k)]), &mut give)
     }
 
     /// Derivatives of the residual along these directions.
@@ -216,7 +217,6 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     }
 
     /// Numbers from which the derivatives of the residual by parameters are computed.
-    #[cfg(feature = "alloc")]
     pub(super) fn parameter_slopes(&self) -> L::ParameterSlopes
     where
         L: Linearized,
@@ -225,7 +225,6 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     }
 
     /// Derivatives of the residual if parameters change at these rates.
-    #[cfg(feature = "alloc")]
     #[inline]
     pub(super) fn changes_by_parameters(
         &self,
@@ -238,33 +237,43 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
         self.system.residual_change_by_parameters_with(slopes, rates)
     }
 
-    /// Derivative of the residual along this direction, the same in all lanes.
+    /// Derivative of the residual along this direction. It is computed on all lanes, so that the long function is
+    /// compiled for lanes alone.
     #[cfg(feature = "alloc")]
-    fn changes_alike(&self, direction: &Direction<L::Scalar, L::N>) -> ResidualChange<WideOf<L>, L::N, L::M> {
+    fn change_in(&self, direction: &Direction<L::Scalar, L::N>) -> ResidualChange<L::Scalar, L::N, L::M> {
         let of = WideOf::<L>::of;
         let Direction { t, q, v } = direction;
-        self.changes(&Direction { t: of(*t), q: q.each(of), v: v.each(of) })
+        self.changes(&Direction { t: of(*t), q: q.each(of), v: v.each(of) }).lane(0)
     }
 
-    /// Derivative of the residual if the state changes along this direction and this parameter at unit rate,
-    /// the same in all lanes.
+    /// Derivative of the residual if the state changes along this direction, and the argument at unit rate if it is a
+    /// parameter of the system.
     #[cfg(feature = "alloc")]
     pub(super) fn change_with(
         &self,
         direction: &Direction<L::Scalar, L::N>,
-        parameter: Option<usize>,
-    ) -> ResidualChange<WideOf<L>, L::N, L::M>
+        argument: Option<Entry>,
+    ) -> ResidualChange<L::Scalar, L::N, L::M>
     where
         L: Linearized,
     {
-        let change = self.changes_alike(direction);
-        let Some(k) = parameter else { return change };
-        change.plus(&self.changes_by_parameters(&self.parameter_slopes(), &unit(k)))
+        let change = self.change_in(direction);
+        let Some(k) = argument.and_then(parameter::<L>) else { return change };
+        change.plus(&self.changes_by_parameters(&self.parameter_slopes(), &unit(k)).lane(0))
+    }
+
+    /// Solves for the δq̈ and δλ that compensate this change of the residual; `entry` names it for errors.
+    #[cfg(feature = "alloc")]
+    pub(super) fn response(
+        &self,
+        change: &ResidualChange<L::Scalar, L::N, L::M>,
+        entry: Entry,
+    ) -> Result<SolutionOf<L>, Error> {
+        Ok(self.responses(1, &change.each(WideOf::<L>::of), |_| entry)?.lane(0))
     }
 
     /// Solves for the δq̈ and δλ that compensate these changes of the residual, in `lanes` lanes; `entry` names a lane
     /// for errors.
-    #[cfg(feature = "alloc")]
     #[inline]
     pub(super) fn responses(
         &self,
@@ -274,68 +283,43 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     ) -> Result<Solution<WideOf<L>, L::N, L::M>, Error> {
         let mut responses =
             self.system.solve_with(&self.factor, &changes.motion.negated(), &changes.acceleration);
-        if are_sound::<L::Scalar, L::N, L::M>(changes, &responses) {
-            return Ok(responses);
+        if !are_sound::<L::Scalar, L::N, L::M>(changes, &responses) {
+            for lane in 0..lanes {
+                let change = self.checked(changes.lane(lane), entry(lane))?;
+                if !is_trustworthy::<L::Scalar, _, _>(&responses.lane(lane)) {
+                    self.respond_in_general(&change, entry(lane), (&mut responses, lane))?;
+                }
+            }
         }
-        self.respond(0..lanes, changes, &entry, &mut |lane, response| {
-            let entries = responses.accelerations.iter_mut().zip(&response.accelerations);
-            entries.for_each(|(wide, x)| wide.put(lane, *x));
-            let entries = responses.multipliers.iter_mut().zip(&response.multipliers);
-            entries.for_each(|(wide, x)| wide.put(lane, *x));
-        })?;
         Ok(responses)
     }
 
-    /// Solves for the δq̈ and δλ that compensate these changes of the residual, and passes them to `give` lane by lane.
-    fn respond(
-        &self,
-        block: Range<usize>,
-        changes: &ResidualChange<WideOf<L>, L::N, L::M>,
-        entry: &impl Fn(usize) -> Entry,
-        give: &mut impl FnMut(usize, &SolutionOf<L>),
-    ) -> Result<(), Error> {
-        let (h, gamma) = (changes.motion.negated(), changes.acceleration);
-        let fast = self.system.solve_with(&self.factor, &h, &gamma);
-        let is_sound = are_sound::<L::Scalar, L::N, L::M>(changes, &fast);
-        for k in block.clone() {
-            let lane = k - block.start;
-            let response = lane_of(&fast, lane);
-            if is_sound {
-                give(k, &response);
-                continue;
-            }
-            let change = self.checked(changes.lane(lane), entry(k))?;
-            match is_trustworthy(&response) {
-                true => give(k, &response),
-                false => give(k, &self.response_in_general(&change, entry(k))?),
-            }
-        }
-        Ok(())
-    }
-
+    /// Writes the δq̈ and δλ that compensate a change into a lane, by the general solver.
     #[cold]
-    fn response_in_general(
+    fn respond_in_general(
         &self,
         change: &ResidualChange<L::Scalar, L::N, L::M>,
         entry: Entry,
-    ) -> Result<SolutionOf<L>, Error> {
+        (responses, lane): (&mut Solution<WideOf<L>, L::N, L::M>, usize),
+    ) -> Result<(), Error> {
         let (time, factors) = (self.state.t.to_f64(), &self.matrices().factors);
-        let solution = factors
+        let Solution { accelerations, multipliers, .. } = factors
             .solve(&change.motion.negated().into(), &change.acceleration.into())
             .map_err(|found| fault::<L>(&found, time))?;
-        self.check_finite(&solution.accelerations, &[solution.multipliers], entry)?;
-        Ok(solution)
+        self.check_finite(&accelerations, &[multipliers], entry)?;
+        let places = responses.accelerations.iter_mut().chain(&mut responses.multipliers);
+        places.zip(accelerations.iter().chain(&multipliers)).for_each(|(wide, x)| wide.put(lane, *x));
+        Ok(())
     }
 
-    /// Derivative of the residual along one direction; an error if it is not finite. It is computed on all lanes, so
-    /// that the long function is compiled for lanes alone.
+    /// Derivative of the residual along one direction; an error if it is not finite.
     #[cfg(feature = "alloc")]
     pub(super) fn residual_change(
         &self,
         direction: &Direction<L::Scalar, L::N>,
         entry: Entry,
     ) -> Result<ResidualChange<L::Scalar, L::N, L::M>, Error> {
-        self.checked(self.changes_alike(direction).lane(0), entry)
+        self.checked(self.change_in(direction), entry)
     }
 
     /// Derivative of the residual by parameter `k`, with these accelerations and multipliers; an error if it is not
@@ -399,14 +383,4 @@ fn are_sound<T: Real, N: Length, M: Length>(
 #[inline(always)]
 fn sum_of_magnitudes<W: Scalar>(start: W, numbers: &[W]) -> W {
     numbers.iter().fold(start, |sum, x| sum + x.abs())
-}
-
-/// Extracts the solution in one lane.
-fn lane_of<T: Real, N: Length, M: Length>(wide: &Solution<T::Wide, N, M>, lane: usize) -> Solution<T, N, M> {
-    Solution {
-        accelerations: wide.accelerations.each(|x| x.lane(lane)),
-        multipliers: wide.multipliers.each(|x| x.lane(lane)),
-        pivot: wide.pivot.lane(lane),
-        rank: wide.rank,
-    }
 }

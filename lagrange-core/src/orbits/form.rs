@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use crate::linearized::Linearized;
 use crate::number::{Real, Scalar, larger};
 use crate::system::{Direction, Solution, StateOf};
-use crate::vector::{Array, Length, vector};
+use crate::vector::{Length, zeros};
 
 /// Matrix Ω of the form ω(x, y) = xᵀ Ω y = δp·δq′ − δp′·δq in (q, q̇).
 ///
@@ -20,12 +20,7 @@ pub(super) fn symplectic_form<L: Linearized<Scalar: Real>>(
 ) -> DMatrix<L::Scalar> {
     let n = <L::N>::COUNT;
     let zero = L::Scalar::constant(0.0);
-    let still = Solution {
-        accelerations: vector(Array::filled(zero)),
-        multipliers: vector(Array::filled(zero)),
-        pivot: L::Scalar::constant(1.0),
-        rank: <L::M>::COUNT,
-    };
+    let still = Solution::given(zeros(), zeros());
     let mass = system.mass_matrix(state);
     let mut by_velocity = DMatrix::zeros(n, n);
     for j in 0..n {

@@ -1,7 +1,7 @@
 //! Directions in (t, q, q̇), and derivatives of the equations along them.
 
 use crate::number::{Scalar, Wide};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, vector};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, vector, zeros};
 
 /// Direction of differentiation: rate of change of the time and of each entry of the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +17,7 @@ pub struct Direction<T: Element, N: Length> {
 impl<T: Scalar, N: Length> Direction<T, N> {
     /// The zero direction.
     pub fn zero() -> Self {
-        let zero = T::constant(0.0);
-        Self { t: zero, q: vector(Array::filled(zero)), v: vector(Array::filled(zero)) }
+        Self { t: T::constant(0.0), q: zeros(), v: zeros() }
     }
 
     /// Direction in which the time alone changes, at rate 1.
@@ -80,10 +79,10 @@ impl<T: Scalar, N: Length, M: Length> ResidualChange<T, N, M> {
     #[cfg(feature = "alloc")]
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
-            motion: self.motion.each_with(&other.motion, |x, y| x + y),
-            acceleration: self.acceleration.each_with(&other.acceleration, |x, y| x + y),
-            rate: self.rate.each_with(&other.rate, |x, y| x + y),
-            position: self.position.each_with(&other.position, |x, y| x + y),
+            motion: self.motion.plus(&other.motion),
+            acceleration: self.acceleration.plus(&other.acceleration),
+            rate: self.rate.plus(&other.rate),
+            position: self.position.plus(&other.position),
         }
     }
 
@@ -92,12 +91,17 @@ impl<T: Scalar, N: Length, M: Length> ResidualChange<T, N, M> {
     where
         T: Wide<X>,
     {
+        self.each(|x| x.lane(lane))
+    }
+
+    /// Returns the values of a function of each entry.
+    pub(crate) fn each<X: Element>(&self, of: impl Fn(T) -> X + Copy) -> ResidualChange<X, N, M> {
         let Self { motion, acceleration, rate, position } = self;
         ResidualChange {
-            motion: motion.each(|x| x.lane(lane)),
-            acceleration: acceleration.each(|x| x.lane(lane)),
-            rate: rate.each(|x| x.lane(lane)),
-            position: position.each(|x| x.lane(lane)),
+            motion: motion.each(of),
+            acceleration: acceleration.each(of),
+            rate: rate.each(of),
+            position: position.each(of),
         }
     }
 }

@@ -4,8 +4,8 @@ use core::fmt::{self, Debug, Display, Formatter};
 
 use super::entries::Entries;
 use super::lagrangian::Lagrangian;
-use crate::number::Scalar;
-use crate::vector::{Array, Element, Length, Vector};
+use crate::number::{Scalar, Wide};
+use crate::vector::{Array, Element, Entrywise, Length, Vector};
 
 /// The time `t`, the generalized coordinates `q` and the generalized velocities `v` = q̇.
 ///
@@ -129,7 +129,28 @@ pub type StateOf<L> = State<<L as Lagrangian>::Scalar, <L as Lagrangian>::N>;
 /// Solution of the equations of motion of a system.
 pub type SolutionOf<L> = Solution<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, <L as Lagrangian>::M>;
 
+#[cfg(feature = "alloc")]
+impl<T: Scalar, N: Length, M: Length> Solution<T, N, M> {
+    /// Joins accelerations and multipliers that are given, not computed by an elimination.
+    pub(crate) fn given(accelerations: Vector<T, N>, multipliers: Vector<T, M>) -> Self {
+        Self { accelerations, multipliers, pivot: T::constant(1.0), rank: M::COUNT }
+    }
+}
+
 impl<T: Element, N: Length, M: Length> Solution<T, N, M> {
+    /// Returns the solution in one SIMD lane.
+    pub(crate) fn lane<X: Element>(&self, lane: usize) -> Solution<X, N, M>
+    where
+        T: Wide<X>,
+    {
+        Solution {
+            accelerations: self.accelerations.each(|x| x.lane(lane)),
+            multipliers: self.multipliers.each(|x| x.lane(lane)),
+            pivot: self.pivot.lane(lane),
+            rank: self.rank,
+        }
+    }
+
     /// True if the equations determine the multipliers; false if constraints depend on one another.
     pub fn multipliers_are_unique(&self) -> bool {
         self.rank == M::COUNT

@@ -17,7 +17,7 @@ use crate::solution::kkt::Rank;
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::solve_in_general;
 use crate::system::{Lagrangian, SolutionOf, StateOf};
-use crate::vector::{Array, Entrywise, Length, Matrix, Vector, vector};
+use crate::vector::{Array, Entrywise, Length, Matrix, Vector, vector, zeros};
 
 /// Gaps and residuals of constraints count as zero up to this part of what the free bodies move in a step: a hundred times what
 /// velocities whose residual is the default tolerance move them, so that contacts at rest stay closed.
@@ -82,7 +82,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
         let (rates, sizes) = (bodies.closed.constraint_rate(state), bodies.closed.rate_magnitude(state));
         let unit = L::Scalar::constant(L::Scalar::EPSILON * UNITS);
         let is_still = |a: usize| Scalar::abs(rates[a]) <= unit * sizes[a];
-        let sticks = |friction: &FrictionRows| (friction.row..friction.row + friction.count).all(is_still);
+        let sticks = |friction: &FrictionRows| friction.rows().all(is_still);
         Self {
             settings,
             cones: Cones::with_room(rows),
@@ -93,7 +93,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
             sticks: L::FRICTIONS.iter().map(sticks).collect(),
             returned: L::Scalar::constant(1.0),
             bounces: false,
-            impulses: vector(Array::filled(L::Scalar::constant(0.0))),
+            impulses: zeros(),
             bodies,
         }
     }
@@ -245,7 +245,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
 
     /// Adds a row whose rate shall be zero or more with this added. Returns its place.
     fn add_row(&mut self, row: usize, added: L::Scalar, middle: &Middle<L>) -> Result<usize, Error> {
-        let none = vector(Array::filled(L::Scalar::constant(0.0)));
+        let none = zeros();
         let of_row = vector(Array::from_fn(|i| middle.jacobian[(row, i)]));
         let response = self.solved((&middle.state, &middle.factor), (of_row, none))?;
         let place = self.rows.len();
@@ -307,19 +307,17 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
         for row in L::CONTACTS {
             self.impulses[*row] = L::Scalar::constant(0.0);
         }
-        for FrictionRows { row, count, .. } in L::FRICTIONS {
-            (*row..row + count).for_each(|row| self.impulses[row] = L::Scalar::constant(0.0));
+        for row in L::FRICTIONS.iter().flat_map(FrictionRows::rows) {
+            self.impulses[row] = L::Scalar::constant(0.0);
         }
         for (&row, &impulse) in self.rows.iter().zip(self.cones.impulses()) {
             self.impulses[row] = impulse;
         }
-        for (f, &FrictionRows { row, count, .. }) in L::FRICTIONS.iter().enumerate() {
-            let size = (row..row + count)
-                .fold(L::Scalar::constant(0.0), |sum, a| sum + self.impulses[a] * self.impulses[a]);
-            let place = self.rows.iter().position(|&other| other == row);
+        for (f, friction) in L::FRICTIONS.iter().enumerate() {
+            let size = friction.size(|a| self.impulses[a]);
+            let place = self.rows.iter().position(|&other| other == friction.row);
             let radius = place.and_then(|place| self.cones.radius(place));
-            self.sticks[f] =
-                radius.is_some_and(|radius| Scalar::sqrt(size) < L::Scalar::constant(WITHIN) * radius);
+            self.sticks[f] = radius.is_some_and(|radius| size < L::Scalar::constant(WITHIN) * radius);
         }
     }
 
@@ -358,7 +356,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
         let (factor, jacobian) =
             (self.bodies.open.factor(state), self.bodies.closed.constraint_jacobian(state));
         let gaps = self.bodies.closed.constraint_residual(state);
-        let none = vector(Array::filled(L::Scalar::constant(0.0)));
+        let none = zeros();
         let mut change =
             self.solved((state, &factor), (none, self.bodies.open.constraint_residual(state)))?.accelerations;
         self.cones.clear();
@@ -368,7 +366,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Stepper<L> {
                 continue;
             }
             let of_row = vector(Array::from_fn(|i| jacobian[(row, i)]));
-            let none = vector(Array::filled(L::Scalar::constant(0.0)));
+            let none = zeros();
             self.responses.push(self.solved((state, &factor), (of_row, none))?);
             let responses = &self.responses;
             let gap = gaps[row] + of_row.dot(&change);

@@ -6,15 +6,15 @@ use nalgebra::ComplexField;
 
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::argument::{check_parameters, parameter};
-use crate::linearized::tangent::{Tangent, WideOf};
+use crate::linearized::argument::check_parameters;
+use crate::linearized::tangent::Tangent;
 use crate::motion::{AnyEvent, Event, EventFunction, EventValue};
 use crate::names::Entry;
-use crate::number::{Dual, Real, Scalar, Wide};
+use crate::number::{Dual, Real, Scalar};
 use crate::solution::solve::solve;
 use crate::system::lookup::index;
-use crate::system::{Direction, ResidualChange, Solution, State, StateOf};
-use crate::vector::{Array, Entrywise, Length, vector};
+use crate::system::{Direction, Solution, State, StateOf};
+use crate::vector::{Entrywise, Length, zeros};
 
 /// State of a system over dual numbers: values, and their derivatives by one argument, for functions to be
 /// differentiated.
@@ -104,11 +104,10 @@ impl<'a, L: Linearized<Scalar: Real>> DualSample<'a, L> {
         // minus the one with λ.
         let accelerations = solution.accelerations.each(|x| x.value);
         let motion = |multipliers| {
-            let solution =
-                Solution { accelerations, multipliers, pivot: solution.pivot.value, rank: <L::M>::COUNT };
-            self.change_at(&Tangent::of(self.system, &state, solution), &direction).motion[i].lane(0)
+            let tangent = Tangent::of(self.system, &state, Solution::given(accelerations, multipliers));
+            tangent.change_with(&direction, self.argument).motion[i]
         };
-        let by_direction = motion(vector(Array::filled(L::Scalar::constant(0.0)))) - motion(multipliers);
+        let by_direction = motion(zeros()) - motion(multipliers);
         let force = |multipliers| self.system.constraint_force(&state, multipliers)[i];
         Ok(Dual { value: force(&multipliers), slope: force(&changes) + by_direction })
     }
@@ -135,18 +134,12 @@ impl<'a, L: Linearized<Scalar: Real>> DualSample<'a, L> {
     /// The errors of [`Linearized::jacobian_by`].
     pub fn solution(&self) -> Result<Solution<Dual<L::Scalar>, L::N, L::M>, Error> {
         let (state, direction) = self.parts();
-        let zero = L::Scalar::constant(0.0);
         if self.argument.is_none() && direction == Direction::zero() {
-            return Ok(dual(&solve(self.system, &state)?, |_| zero, |_| zero));
+            return Ok(dual(&solve(self.system, &state)?, &Solution::given(zeros(), zeros())));
         }
         let tangent = Tangent::at(self.system, &state)?;
-        let change = self.change_at(&tangent, &direction);
-        let response = tangent.responses(1, &change, |_| self.argument.unwrap_or(Entry::Time))?;
-        Ok(dual(
-            &tangent.solution,
-            |i| response.accelerations[i].lane(0),
-            |a| response.multipliers[a].lane(0),
-        ))
+        let change = tangent.change_with(&direction, self.argument);
+        Ok(dual(&tangent.solution, &tangent.response(&change, self.argument.unwrap_or(Entry::Time))?))
     }
 
     /// Splits the dual state into the state and the direction of its change.
@@ -155,30 +148,19 @@ impl<'a, L: Linearized<Scalar: Real>> DualSample<'a, L> {
         let state = State { t: t.value, q: q.each(|x| x.value), v: v.each(|x| x.value) };
         (state, Direction { t: t.slope, q: q.each(|x| x.slope), v: v.each(|x| x.slope) })
     }
-
-    /// Derivative of the residual if the state changes along `direction` and the parameter of
-    /// differentiation, if any, at unit rate.
-    fn change_at(
-        &self,
-        tangent: &Tangent<'_, L>,
-        direction: &Direction<L::Scalar, L::N>,
-    ) -> ResidualChange<WideOf<L>, L::N, L::M> {
-        tangent.change_with(direction, self.argument.and_then(parameter::<L>))
-    }
 }
 
 /// Combines a solution and its derivatives to a solution over dual numbers.
 fn dual<T: Real, N: Length, M: Length>(
     solution: &Solution<T, N, M>,
-    acceleration: impl Fn(usize) -> T,
-    multiplier: impl Fn(usize) -> T,
+    change: &Solution<T, N, M>,
 ) -> Solution<Dual<T>, N, M> {
-    let Solution { accelerations, multipliers, pivot, rank } = solution;
+    let dual = |value, slope| Dual { value, slope };
     Solution {
-        accelerations: vector(Array::from_fn(|i| Dual { value: accelerations[i], slope: acceleration(i) })),
-        multipliers: vector(Array::from_fn(|a| Dual { value: multipliers[a], slope: multiplier(a) })),
-        pivot: Dual { value: *pivot, slope: T::constant(0.0) },
-        rank: *rank,
+        accelerations: solution.accelerations.each_with(&change.accelerations, dual),
+        multipliers: solution.multipliers.each_with(&change.multipliers, dual),
+        pivot: dual(solution.pivot, T::constant(0.0)),
+        rank: solution.rank,
     }
 }
 

@@ -15,14 +15,14 @@ use nalgebra::{Const, DMatrix, DVector};
 use super::events::DualSample;
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::argument::{Argument, parameter};
+use crate::linearized::argument::Argument;
 use crate::linearized::tangent::Tangent;
 use crate::names::Entry;
-use crate::number::{Broadcast, Dual, Real, Scalar, Wide, larger, power_of_epsilon};
+use crate::number::{Dual, Real, Scalar, larger, power_of_epsilon};
 use crate::solution::impact::impact;
 use crate::solution::solve::solve;
 use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, from_fn, vector};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, from_fn, vector, zeros};
 
 /// A state of a motion with its derivatives by some arguments: entries of the initial state, parameters, and numbers
 /// captured by events and resets.
@@ -203,27 +203,21 @@ pub(super) fn impact_sensitivity<L: Linearized<Scalar: Real>>(
     hit: usize,
     (restitution, slopes): (L::Scalar, &dyn Fn(usize) -> L::Scalar),
 ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
-    let of = <L::Scalar as Real>::Wide::of;
-    let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
     let impact = impact(system, &at.state, hit, restitution)?;
-    let solution =
-        |accelerations, multipliers| Solution { accelerations, multipliers, pivot: one, rank: <L::M>::COUNT };
-    let none = solution(vector(Array::filled(zero)), vector(Array::filled(zero)));
-    let jumped = Tangent::of(system, &at.state, solution(impact.state.v.minus(&at.state.v), impact.impulses));
-    let still = Tangent::of(system, &at.state, none);
+    let jump = Solution::given(impact.state.v.minus(&at.state.v), impact.impulses);
+    let jumped = Tangent::of(system, &at.state, jump);
+    let still = Tangent::of(system, &at.state, Solution::given(zeros(), zeros()));
     let rate = system.constraint_rate(&at.state)[hit];
     let mut after = StateSensitivity { state: impact.state, ..at.clone() };
     for (j, &argument) in at.arguments.iter().enumerate() {
-        let along = (at.direction(j), parameter::<L>(argument));
-        let [with, without] = [&jumped, &still].map(|tangent| tangent.change_with(&along.0, along.1));
-        let mut acceleration = with.acceleration.minus(&without.acceleration);
-        acceleration = acceleration.plus(&with.rate);
-        let by_restitution = of(slopes(j) * rate);
-        acceleration[hit] = acceleration[hit] + of(restitution) * with.rate[hit] + by_restitution;
+        let direction = at.direction(j);
+        let [with, without] =
+            [&jumped, &still].map(|tangent| tangent.change_with(&direction, Some(argument)));
+        let mut acceleration = with.acceleration.minus(&without.acceleration).plus(&with.rate);
+        acceleration[hit] = acceleration[hit] + restitution * with.rate[hit] + slopes(j) * rate;
         let motion = with.motion.minus(&without.motion);
-        let change = ResidualChange { motion, acceleration, ..with };
-        let jump = jumped.responses(1, &change, |_| argument)?.accelerations;
-        after.v.column_mut(j).iter_mut().zip(&jump).for_each(|(v, jump)| *v += jump.lane(0));
+        let jump = jumped.response(&ResidualChange { motion, acceleration, ..with }, argument)?.accelerations;
+        after.v.column_mut(j).iter_mut().zip(&jump).for_each(|(v, jump)| *v += *jump);
     }
     Ok(after)
 }

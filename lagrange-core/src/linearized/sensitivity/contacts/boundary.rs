@@ -2,17 +2,16 @@
 
 use super::fails;
 use super::law::NamedLaw;
-use crate::contact::{Contact, Contacts, Friction, FrictionRows};
+use crate::contact::{Contact, Contacts, Friction};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::linearized::argument::parameter;
 use crate::linearized::sensitivity::state::{StateSensitivity, at_event};
 use crate::linearized::tangent::Tangent;
 use crate::names::{Entry, name};
-use crate::number::{Real, Scalar, Wide};
-use crate::system::{Direction, ResidualChange, Solution, StateOf};
+use crate::number::{Real, Scalar};
+use crate::system::{Direction, Lagrangian, ResidualChange, Solution, StateOf};
 use crate::trajectory::Trajectory;
-use crate::vector::{Array, Length, vector};
+use crate::vector::{Vector, zeros};
 
 /// What becomes zero at the end of a leg.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,8 +95,8 @@ impl Boundary {
     ) -> Result<L::Scalar, Error> {
         let row = self.row::<L>();
         match self {
-            Self::Gap(_) => Ok(kinematic(system, state, direction, argument).position[row].lane(0)),
-            Self::Slip(_) => Ok(kinematic(system, state, direction, argument).rate[row].lane(0)),
+            Self::Gap(_) => Ok(kinematic(system, state, direction, argument).position[row]),
+            Self::Slip(_) => Ok(kinematic(system, state, direction, argument).rate[row]),
             Self::Push(_) => Ok(multipliers(system, state, direction, argument)?.1[row]),
             Self::Hold(f) => hold(f, system, state, direction, argument),
         }
@@ -112,28 +111,24 @@ fn hold<L: Linearized<Scalar: Real> + Contacts + Clone>(
     direction: &Direction<L::Scalar, L::N>,
     argument: Option<Entry>,
 ) -> Result<L::Scalar, Error> {
-    let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
+    let friction = L::FRICTIONS[f];
     let limit = NamedLaw {
-        name: name(L::CONSTRAINTS, row),
+        name: name(L::CONSTRAINTS, friction.row),
         value: &|system: &L, state: &StateOf<L>| system.friction_limit(f, state),
     };
     let [value, change] = [limit.at(system, state), limit.change(system, state, direction, argument)?];
     let (forces, changes) = multipliers(system, state, direction, argument)?;
-    let left = match contact.map(|k| L::CONTACTS[k]) {
+    let left = match friction.contact.map(|k| L::CONTACTS[k]) {
         Some(gap) => change * forces[gap] + value * changes[gap],
         None => change,
     };
-    let zero = L::Scalar::constant(0.0);
-    let [square, product] = (row..row + count).fold([zero; 2], |[square, product], a| {
-        [square + forces[a] * forces[a], product + forces[a] * changes[a]]
-    });
-    Ok(left - product / Scalar::sqrt(square))
+    let product = friction.rows().fold(L::Scalar::constant(0.0), |sum, a| sum + forces[a] * changes[a]);
+    Ok(left - product / friction.size(|a| forces[a]))
 }
 
 /// Multipliers, and their derivatives along a direction and by an argument.
 type ForcesAndChanges<L> = (MultipliersOf<L>, MultipliersOf<L>);
-type MultipliersOf<L> =
-    crate::vector::Vector<<L as crate::system::Lagrangian>::Scalar, <L as crate::system::Lagrangian>::M>;
+type MultipliersOf<L> = Vector<<L as Lagrangian>::Scalar, <L as Lagrangian>::M>;
 
 fn multipliers<L: Linearized<Scalar: Real>>(
     system: &L,
@@ -142,10 +137,9 @@ fn multipliers<L: Linearized<Scalar: Real>>(
     argument: Option<Entry>,
 ) -> Result<ForcesAndChanges<L>, Error> {
     let tangent = Tangent::at(system, state)?;
-    let change = tangent.change_with(direction, argument.and_then(parameter::<L>));
-    let response = tangent.responses(1, &change, |_| argument.unwrap_or(Entry::Time))?;
-    let changes = vector(Array::from_fn(|a| response.multipliers[a].lane(0)));
-    Ok((tangent.solution.multipliers, changes))
+    let change = tangent.change_with(direction, argument);
+    let response = tangent.response(&change, argument.unwrap_or(Entry::Time))?;
+    Ok((tangent.solution.multipliers, response.multipliers))
 }
 
 /// Derivatives of gaps and velocities, which need no forces.
@@ -154,9 +148,6 @@ pub(super) fn kinematic<L: Linearized<Scalar: Real>>(
     state: &StateOf<L>,
     direction: &Direction<L::Scalar, L::N>,
     argument: Option<Entry>,
-) -> ResidualChange<crate::linearized::tangent::WideOf<L>, L::N, L::M> {
-    let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
-    let (accelerations, multipliers) = (vector(Array::filled(zero)), vector(Array::filled(zero)));
-    let none = Solution { accelerations, multipliers, pivot: one, rank: <L::M>::COUNT };
-    Tangent::of(system, state, none).change_with(direction, argument.and_then(parameter::<L>))
+) -> ResidualChange<L::Scalar, L::N, L::M> {
+    Tangent::of(system, state, Solution::given(zeros(), zeros())).change_with(direction, argument)
 }

@@ -1,15 +1,17 @@
 //! Conditions on which neighbouring motions pass a transition in the same way.
 
+use core::ops::Range;
+
 use super::boundary::{Boundary, kinematic};
 use super::{IN_THE_PLANE, fails};
-use crate::contact::{Contact, Contacts, Friction, FrictionRows};
+use crate::contact::{Contact, Contacts, Friction, held};
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::sensitivity::state::StateSensitivity;
-use crate::number::{Real, Scalar, Wide, power_of_epsilon};
+use crate::number::{Real, Scalar, power_of_epsilon};
 use crate::solution::solve::solve;
-use crate::system::StateOf;
-use crate::vector::{Array, Length, Vector, vector};
+use crate::system::{Lagrangian, StateOf};
+use crate::vector::{Length, Vector, zeros};
 
 /// A transition: the states before and after it, and the systems whose contacts are as then.
 pub(super) struct Change<'a, L: Linearized> {
@@ -26,28 +28,28 @@ fn stuck<L: Contacts + Clone>(system: &L, f: usize) -> L {
 
 /// Size of the velocity of this friction in the system where it sticks.
 fn speed<L: Contacts<Scalar: Real>>(stuck: &L, f: usize, state: &StateOf<L>) -> L::Scalar {
-    let (FrictionRows { row, count, .. }, rates) = (L::FRICTIONS[f], stuck.constraint_rate(state));
-    let square = (row..row + count).fold(L::Scalar::constant(0.0), |sum, a| sum + rates[a] * rates[a]);
-    Scalar::sqrt(square)
+    let rates = stuck.constraint_rate(state);
+    L::FRICTIONS[f].size(|a| rates[a])
 }
 
-/// Sum of the magnitudes Σ |Wᵢ uᵢ| of the velocity of friction in the system where it sticks.
-fn terms<L: Contacts<Scalar: Real>>(
-    stuck: &L,
-    f: usize,
+/// Sum of the magnitudes Σ |Wᵢ uᵢ| of the rates of these constraints.
+pub(super) fn terms<L: Lagrangian<Scalar: Real>>(
+    system: &L,
+    rows: Range<usize>,
     state: &StateOf<L>,
     u: &Vector<L::Scalar, L::N>,
 ) -> L::Scalar {
-    let (FrictionRows { row, count, .. }, jacobian) = (L::FRICTIONS[f], stuck.constraint_jacobian(state));
-    let each = (row..row + count).flat_map(|a| (0..<L::N>::COUNT).map(move |i| (a, i)));
+    let jacobian = system.constraint_jacobian(state);
+    let each = rows.flat_map(|a| (0..<L::N>::COUNT).map(move |i| (a, i)));
     each.fold(L::Scalar::constant(0.0), |sum, (a, i)| sum + Scalar::abs(jacobian[(a, i)] * u[i]))
 }
 
 /// Whether the velocity of friction is zero after a transition: below √ε of its terms before and after.
 pub(super) fn is_at_rest<L: Contacts<Scalar: Real>>(stuck: &L, f: usize, states: [&StateOf<L>; 2]) -> bool {
-    let sizes = states.map(|state| terms(stuck, f, state, &state.v) + speed(stuck, f, state));
+    let sizes =
+        states.map(|state| terms(stuck, L::FRICTIONS[f].rows(), state, &state.v) + speed(stuck, f, state));
     let [before, _] = states;
-    let still = StateOf::<L> { v: vector(Array::filled(L::Scalar::constant(0.0))), ..*before };
+    let still = StateOf::<L> { v: zeros(), ..*before };
     let size = sizes[0] + sizes[1] + speed(stuck, f, &still);
     speed(stuck, f, states[1]) <= power_of_epsilon::<L::Scalar>(0.5) * size
 }
@@ -98,8 +100,8 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Change<'_, L> {
         let stuck = stuck(before, f);
         let is_none = |j: usize| {
             let (direction, argument) = (at.direction(j), at.arguments()[j]);
-            let change = kinematic(&stuck, &at.state, &direction, Some(argument)).rate[row].lane(0);
-            let terms = terms(&stuck, f, &at.state, &direction.v);
+            let change = kinematic(&stuck, &at.state, &direction, Some(argument)).rate[row];
+            let terms = terms(&stuck, L::FRICTIONS[f].rows(), &at.state, &direction.v);
             Scalar::abs(change) <= power_of_epsilon::<L::Scalar>(0.5) * terms
         };
         (0..at.arguments().len()).all(is_none)
@@ -137,18 +139,18 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Change<'_, L> {
     pub(super) fn check_start(&self, at: &StateSensitivity<L::Scalar, L::N>) -> Result<(), Error> {
         let [_, after] = self.systems;
         for f in 0..L::FRICTIONS.len() {
-            let (stuck, FrictionRows { row, count, .. }) = (stuck(after, f), L::FRICTIONS[f]);
+            let (stuck, friction) = (stuck(after, f), L::FRICTIONS[f]);
             let slides =
                 matches!(after.friction(f), Some(Friction::Slides(direction)) if direction != [0.0; 2]);
             let moves = |j: usize| {
                 let change = kinematic(&stuck, &at.state, &at.direction(j), Some(at.arguments()[j])).rate;
-                (row..row + count).any(|a| change[a].lane(0) != L::Scalar::constant(0.0))
+                friction.rows().any(|a| change[a] != L::Scalar::constant(0.0))
             };
             if slides && is_at_rest(&stuck, f, self.states.each_ref()) && (0..at.arguments().len()).any(moves)
             {
                 let reason =
                     "it begins to slide from rest at the start, and an argument changes its velocity there";
-                return fails(L::CONSTRAINTS[row], self.states[1].t, reason);
+                return fails(L::CONSTRAINTS[friction.row], self.states[1].t, reason);
             }
         }
         Ok(())
@@ -157,20 +159,15 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Change<'_, L> {
 
 /// Whether the force of friction in the system where it sticks is at its limit. Where contacts share forces in more than one
 /// way, none has a limit of its own.
-fn is_at_limit<L: Linearized<Scalar: Real> + Contacts>(
+fn is_at_limit<L: Linearized<Scalar: Real> + Contacts + Clone>(
     stuck: &L,
     f: usize,
     state: &StateOf<L>,
 ) -> Result<bool, Error> {
-    let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
-    let (solution, one) = (solve(stuck, state)?, L::Scalar::constant(1.0));
+    let solution = solve(stuck, state)?;
     if !solution.multipliers_are_unique() {
         return Ok(false);
     }
-    let forces = solution.multipliers;
-    let press = contact.map_or(one, |k| forces[L::CONTACTS[k]]);
-    let limit = press * stuck.friction_limit(f, state).unwrap_or(L::Scalar::constant(0.0));
-    let square = (row..row + count).fold(L::Scalar::constant(0.0), |sum, a| sum + forces[a] * forces[a]);
-    let force = Scalar::sqrt(square);
+    let [limit, force] = held(stuck, f, state, &solution)?;
     Ok(Scalar::abs(force - limit) <= power_of_epsilon::<L::Scalar>(0.5) * (force + Scalar::abs(limit)))
 }

@@ -3,18 +3,18 @@
 use alloc::vec::Vec;
 
 use super::boundary::Boundary;
-use super::change::is_at_rest;
+use super::change::{is_at_rest, terms};
 use super::fails;
-use super::law::{NamedLaw, largest};
+use super::law::NamedLaw;
 use crate::contact::{Contact, Contacts, Friction, FrictionRows, ImpactLaw, impulse_changes};
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::sensitivity::state::{StateSensitivity, impact_sensitivity};
 use crate::names::name;
-use crate::number::{Real, Scalar, power_of_epsilon};
+use crate::number::{Real, Scalar, largest, power_of_epsilon};
 use crate::system::{Lagrangian, StateOf};
 use crate::trajectory::Trajectory;
-use crate::vector::{Entrywise, Length};
+use crate::vector::Entrywise;
 
 /// An impact on one contact, at the end of a leg.
 pub(super) struct Hit<L> {
@@ -45,11 +45,10 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
                 hit.check_poisson(after)?;
                 Ok(hit)
             }
-            _ => Err(Error::NoDerivativeAcross {
-                contact: hits.first().map_or("", |&k| Self::name(k)),
-                time: after.t.to_f64(),
-                reason: "several contacts are hit at one time, whose order the arguments may change",
-            }),
+            _ => {
+                let reason = "several contacts are hit at one time, whose order the arguments may change";
+                fails(hits.first().map_or("", |&k| Self::name(k)), after.t, reason)
+            }
         }
     }
 
@@ -77,20 +76,16 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         [before, after]: [&StateOf<L>; 2],
         impulses: &Impulses<L>,
     ) -> Result<Friction, Error> {
-        let FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
+        let friction @ FrictionRows { row, count, contact, .. } = L::FRICTIONS[f];
         let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
         let of = |a: usize| impulse_of(impulses, L::CONSTRAINTS[a]);
-        let size = |numbers: [L::Scalar; 2]| Scalar::sqrt(numbers[0] * numbers[0] + numbers[1] * numbers[1]);
-        let both = |number: &dyn Fn(usize) -> L::Scalar| {
-            [number(row), if count == 2 { number(row + 1) } else { zero }]
-        };
         let limit = self.pushing.friction_limit(f, before).unwrap_or(zero);
         let limit = limit * contact.map_or(zero, |k| of(L::CONTACTS[k]));
-        let is_at_limit = size(both(&of)) >= limit * (one - power_of_epsilon::<L::Scalar>(0.5));
+        let is_at_limit = friction.size(of) >= limit * (one - power_of_epsilon::<L::Scalar>(0.5));
         let fails = |reason| fails(L::CONSTRAINTS[row], after.t, reason);
         let rate = self.pushing.constraint_rate(after)[row];
         let is_round_off = |a| self.is_still(a, impulses, [before, after]);
-        let is_still = (row..row + count).map(is_round_off).collect::<Result<Vec<_>, _>>()?;
+        let is_still = friction.rows().map(is_round_off).collect::<Result<Vec<_>, _>>()?;
         let rests = is_at_rest(&self.pushing, f, [before, after]) || is_still.into_iter().all(|still| still);
         match (is_at_limit, rests) {
             (false, _) => Ok(Friction::Sticks),
@@ -109,7 +104,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
     /// neighbouring impacts.
     fn check_poisson(&self, after: &StateOf<L>) -> Result<(), Error> {
         let pushes = |k: &usize| self.pushing.contact(*k) != Some(Contact::Open);
-        let pushing: alloc::vec::Vec<usize> = (0..L::CONTACTS.len()).filter(pushes).collect();
+        let pushing: Vec<usize> = (0..L::CONTACTS.len()).filter(pushes).collect();
         let Some(&k) = pushing.iter().find(|&&k| L::IMPACT_LAWS[k] == ImpactLaw::Poisson) else {
             return Ok(());
         };
@@ -139,7 +134,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         };
         let slopes = (0..at.arguments().len())
             .map(|j| law.change(&self.pushing, &at.state, &at.direction(j), Some(at.arguments()[j])))
-            .collect::<Result<alloc::vec::Vec<_>, Error>>()?;
+            .collect::<Result<Vec<_>, Error>>()?;
         let restitution = law.at(&self.pushing, &at.state);
         impact_sensitivity(&self.pushing, &at, L::CONTACTS[self.contact], (restitution, &|j| slopes[j]))
     }
@@ -153,7 +148,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         [at, after]: [&StateSensitivity<L::Scalar, L::N>; 2],
     ) -> Result<(), Error> {
         let unit = power_of_epsilon::<L::Scalar>(0.5);
-        let all: alloc::vec::Vec<L::Scalar> = impulses.iter().map(|&(_, impulse)| impulse).collect();
+        let all: Vec<L::Scalar> = impulses.iter().map(|&(_, impulse)| impulse).collect();
         let rests = |&k: &usize| leg.system().contact(k) != Some(Contact::Open);
         for k in (0..L::CONTACTS.len()).filter(rests) {
             let (mut other, impulse) = (self.pushing.clone(), impulse_of(impulses, Self::name(k)));
@@ -187,7 +182,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
             Some((L::CONSTRAINTS.iter().position(|&constraint| constraint == name)?, impulse))
         });
         let changes = impulse_changes(&self.pushing, row, &of_rows.collect::<Vec<_>>(), before)?;
-        let [one, other] = [before, after].map(|state| row_size(&self.pushing, row, state));
+        let [one, other] = [before, after].map(|state| terms(&self.pushing, row..row + 1, state, &state.v));
         let rate = Scalar::abs(self.pushing.constraint_rate(after)[row]);
         Ok(rate <= power_of_epsilon::<L::Scalar>(0.5) * (one + other + changes))
     }
@@ -199,12 +194,11 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
             return Ok(());
         }
         let rate = |state| self.pushing.constraint_rate(state)[L::CONTACTS[self.contact]];
-        let (contact, time) = (Self::name(self.contact), expected.t.to_f64());
         let reason = match rate(expected) < rate(found) {
             true => "the restitution is lowered there to where friction gains no energy",
             false => "contacts part or press at a rate of zero there, and the arguments decide which",
         };
-        Err(Error::NoDerivativeAcross { contact, time, reason })
+        fails(Self::name(self.contact), expected.t, reason)
     }
 }
 
@@ -212,11 +206,4 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
 fn impulse_of<T: Real>(impulses: &[(&'static str, T)], name: &str) -> T {
     let found = impulses.iter().find(|&&(of, _)| of == name);
     found.map_or(T::constant(0.0), |&(_, impulse)| impulse)
-}
-
-/// Sum of the magnitudes Σ |Wᵢ q̇ᵢ| of the rate of a constraint.
-fn row_size<L: Lagrangian<Scalar: Real>>(system: &L, row: usize, state: &StateOf<L>) -> L::Scalar {
-    let jacobian = system.constraint_jacobian(state);
-    (0..<L::N>::COUNT)
-        .fold(L::Scalar::constant(0.0), |sum, i| sum + Scalar::abs(jacobian[(row, i)] * state.v[i]))
 }

@@ -1,13 +1,14 @@
 //! Derivatives of the laws of contacts: restitutions, and limits of friction.
 
+use super::fails;
 use crate::contact::Contacts;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::parameter;
 use crate::names::Entry;
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, largest, unit_of};
 use crate::system::{Direction, State, StateOf};
-use crate::vector::Entrywise;
+use crate::vector::{Entrywise, Length};
 
 /// First step of the differences of a law, in units of its arguments. The formula of order six is off by h⁶/140 of the
 /// seventh derivative, 2·10⁻¹⁷ for one that varies over its arguments, and by some ε/h of the value, 6·10⁻¹⁴.
@@ -54,7 +55,8 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> NamedLaw<'_, L> {
             let state = State { t: add(state.t, direction.t), q, v: state.v.each_with(&direction.v, add) };
             let value = self.at(&moved, &state);
             let is_known = is_set || value == L::Scalar::constant(0.0);
-            if is_known { Ok(value) } else { Err(self.cannot_be_set(&state)) }
+            let reason = "the parameter cannot be set, on which its law may depend";
+            if is_known { Ok(value) } else { fails(self.name, state.t, reason) }
         };
         let (mut known, mut agree, mut shorter) = (None, 0, 1.0);
         for _ in 0..STEPS {
@@ -73,12 +75,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> NamedLaw<'_, L> {
             (known, shorter) = (Some(derivative), shorter * SHORTER);
         }
         let reason = "its law varies too fast for differences of it";
-        Err(Error::NoDerivativeAcross { contact: self.name, time: state.t.to_f64(), reason })
-    }
-
-    fn cannot_be_set(&self, state: &StateOf<L>) -> Error {
-        let reason = "the parameter cannot be set, on which its law may depend";
-        Error::NoDerivativeAcross { contact: self.name, time: state.t.to_f64(), reason }
+        fails(self.name, state.t, reason)
     }
 }
 
@@ -95,23 +92,13 @@ fn differences<T: Real>(at: impl Fn(f64) -> Result<T, Error>) -> Result<[T; 2], 
 
 /// First step of the differences: [`STEP`] of the time, the largest coordinate, the largest velocity and the parameter, or of
 /// one if they are zero.
-fn step<T: Real, N: crate::vector::Length>(
-    state: &State<T, N>,
-    direction: &Direction<T, N>,
-    parameter: Option<T>,
-) -> T {
-    let (zero, one) = (T::constant(0.0), T::constant(1.0));
-    let rate = |size: T, change: T| change / if size > zero { size } else { one };
+fn step<T: Real, N: Length>(state: &State<T, N>, direction: &Direction<T, N>, parameter: Option<T>) -> T {
+    let rate = |size: T, change: T| change / unit_of(size);
     let rates = [
         rate(Scalar::abs(state.t), Scalar::abs(direction.t)),
         rate(largest(state.q.as_slice()), largest(direction.q.as_slice())),
         rate(largest(state.v.as_slice()), largest(direction.v.as_slice())),
-        parameter.map_or(zero, |value| rate(Scalar::abs(value), one)),
+        parameter.map_or(T::constant(0.0), |value| rate(Scalar::abs(value), T::constant(1.0))),
     ];
     T::constant(STEP) / rates.into_iter().fold(T::constant(STEP), larger)
-}
-
-/// Largest magnitude of these numbers.
-pub(super) fn largest<T: Real>(entries: &[T]) -> T {
-    entries.iter().fold(T::constant(0.0), |most, x| larger(most, Scalar::abs(*x)))
 }

@@ -21,7 +21,6 @@ use alloc::vec::Vec;
 use boundary::Boundary;
 use change::Change;
 use hit::Hit;
-use law::largest;
 
 use super::state::{StateSensitivity, start};
 use super::trajectory::integrate;
@@ -29,7 +28,7 @@ use crate::contact::{ContactTrajectory, Contacts, Transition};
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::variation::DifferentiableMethod;
-use crate::number::{Real, power_of_epsilon};
+use crate::number::{Real, largest, power_of_epsilon};
 use crate::solution::solve::solve;
 use crate::system::StateOf;
 use crate::trajectory::Trajectory;
