@@ -78,3 +78,11 @@ pub(crate) fn parameter<L: Linearized>(entry: Entry) -> Option<usize> {
         _ => None,
     }
 }
+
+/// Sets a parameter; an error if it cannot be set.
+pub(crate) fn set_parameter<L: Linearized>(system: &mut L, k: usize, value: L::Scalar) -> Result<(), Error> {
+    match system.set_parameter(k, value) {
+        true => Ok(()),
+        false => Err(Error::ParameterFixed { name: L::PARAMETERS[k] }),
+    }
+}

@@ -1,7 +1,6 @@
 //! Lyapunov exponents: long-time growth rates of variations of a motion.
 
 use alloc::{vec, vec::Vec};
-use core::cmp::Ordering;
 
 use nalgebra::DMatrix;
 
@@ -10,10 +9,9 @@ use super::tangent::Tangent;
 use super::variation::{DifferentiableMethod, Variations};
 use crate::error::{Ending, Error};
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, order};
 use crate::system::finite::check_finite;
-use crate::system::lookup::entry;
-use crate::system::{StateOf, check_contacts};
+use crate::system::{StateOf, check_contacts, entry};
 use crate::vector::{Length, from_fn, vector};
 
 /// Lyapunov exponents of a motion, with their standard errors.
@@ -141,11 +139,11 @@ impl<T: Real> LyapunovSpectrum<T> {
             let squares = parts.iter().fold(zero, |sum, part| sum + off(part) * off(part));
             Scalar::sqrt(squares / (count * (count - T::constant(1.0))))
         };
-        let mut order: Vec<usize> = (0..means.len()).collect();
-        order.sort_by(|&j, &k| means[k].partial_cmp(&means[j]).unwrap_or(Ordering::Equal));
-        let sorted = |all: &[T]| order.iter().map(|&j| all[j]).collect::<Vec<T>>();
+        let mut descending: Vec<usize> = (0..means.len()).collect();
+        descending.sort_by(|&j, &k| order(means[k], means[j]));
+        let sorted = |all: &[T]| descending.iter().map(|&j| all[j]).collect::<Vec<T>>();
         running.iter_mut().for_each(|(_, means)| *means = sorted(means));
-        let errors = order.iter().map(|&j| error(j)).collect();
+        let errors = descending.iter().map(|&j| error(j)).collect();
         Self { exponents: sorted(&means), errors, running }
     }
 }

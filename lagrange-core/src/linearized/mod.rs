@@ -29,6 +29,8 @@ mod variation;
 
 #[cfg(feature = "parquet")]
 pub(crate) use argument::check_parameters;
+#[cfg(feature = "alloc")]
+pub(crate) use argument::set_parameter;
 pub use bodies::MotionGradients;
 pub use contract::Linearized;
 #[cfg(feature = "alloc")]

@@ -9,7 +9,7 @@ mod tests;
 
 use alloc::vec::Vec;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use crate::number::{Real, Scalar, is_within, larger};
 
@@ -59,6 +59,28 @@ impl<T: Real> Singular<T> {
         b.zip(self.columns.column(k).iter())
             .take(self.rows)
             .fold(T::constant(0.0), |sum, (x, y)| sum + x * *y)
+    }
+
+    /// The least x with A x = −b, if μ = 0: −Σ_k v_k σ_k (u_k·b)/(σ_k² + μ) over the singular values above `least`. `scaled`
+    /// converts entry `j` of a vector in the units of the columns.
+    pub(crate) fn step(
+        &self,
+        b: impl Iterator<Item = T> + Clone,
+        (least, damping): (T, T),
+        scaled: impl Fn(usize, T) -> T,
+    ) -> DVector<T> {
+        let mut step = DVector::from_element(self.values.len(), T::constant(0.0));
+        for (k, &sigma) in self.values.iter().enumerate().filter(|(_, sigma)| **sigma > least) {
+            let length = -self.along(k, b.clone()) / (sigma * sigma + damping);
+            (0..step.len()).for_each(|j| step[j] += scaled(j, self.direction(k, j) * length));
+        }
+        step
+    }
+
+    /// Largest magnitude of entry `j` in the right singular vectors whose singular values are at most `least`.
+    pub(crate) fn freedom(&self, j: usize, least: T) -> T {
+        let free = self.values.iter().enumerate().filter(|(_, sigma)| **sigma <= least);
+        free.fold(T::constant(0.0), |most, (k, _)| larger(most, Scalar::abs(self.direction(k, j))))
     }
 
     /// Scalar product of two columns of A V.

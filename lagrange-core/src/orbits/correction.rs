@@ -6,7 +6,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::error::OrbitError;
-use super::frame::{flat, size};
+use super::frame::flat;
 use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized};
@@ -240,13 +240,13 @@ impl<T: Real> Problem<T> {
     ) -> Error {
         let (entry, gap) = shot.worst(&self.conditions);
         OrbitError::NotClosed {
-            entry: Shot::<L>::entry(entry),
+            entry,
             gap: gap.to_f64(),
             iterations: steps,
             start: (0..2 * <L::N>::COUNT)
                 .map(|i| {
                     let value = flat::<L>(&shot.chain.nodes[0])[i];
-                    alloc::format!("{} = {:?}", Shot::<L>::entry(i), value.to_f64())
+                    alloc::format!("{} = {:?}", crate::system::entry::<L>(i), value.to_f64())
                 })
                 .collect(),
             period: shot.chain.period.to_f64(),
@@ -282,7 +282,8 @@ impl<T: Real> Problem<T> {
         let moves = offsets.iter().zip(&shot.spread).map(|(offset, spread)| (spread * &step + offset).amax());
         let moved = moves.fold(T::constant(0.0), larger);
         let count = shot.frames[0].count();
-        let later = if self.conditions.period_is_free() { size(step[count]) } else { T::constant(0.0) };
+        let later =
+            if self.conditions.period_is_free() { Scalar::abs(step[count]) } else { T::constant(0.0) };
         Ok(larger(moved, later))
     }
 }

@@ -13,7 +13,7 @@ use super::shot::Chain;
 use super::table::{Family, FamilyEnding};
 use super::tracing::{FamilyStart, TracedOrbit, Tracer};
 use crate::error::Error;
-use crate::linearized::{DifferentiableMethod, Linearized};
+use crate::linearized::{DifferentiableMethod, Linearized, set_parameter};
 use crate::number::{Real, Scalar, larger, smaller};
 use crate::system::lookup;
 
@@ -90,9 +90,7 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
         self.start = self.start.and_then(|mut start| {
             let k = lookup::index::<L>(L::PARAMETERS, "parameter", name)?;
             let value = start.chain.system.parameters()[k];
-            if !start.chain.system.set_parameter(k, value) {
-                return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
-            }
+            set_parameter(&mut start.chain.system, k, value)?;
             start.choose(k);
             Ok(start)
         });

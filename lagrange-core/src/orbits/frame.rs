@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::form::symplectic_form;
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::number::{Real, Scalar, larger, norm, smaller};
+use crate::number::{Real, larger, norm, smaller, unit_of};
 use crate::system::{ConstraintKind, StateOf};
 use crate::trajectory::Trajectory;
 use crate::vector::Length;
@@ -26,7 +26,7 @@ impl<T: Real> OrbitUnits<T> {
         for state in motions.flat_map(Trajectory::steps).map(|sample| *sample.state()) {
             largest = [larger(largest[0], state.q.amax()), larger(largest[1], state.v.amax())];
         }
-        let [q, v] = largest.map(|size| if size > T::constant(0.0) { size } else { T::constant(1.0) });
+        let [q, v] = largest.map(unit_of);
         Self { q, v }
     }
 
@@ -130,9 +130,4 @@ pub(super) fn shifted<L: Linearized<Scalar: Real>>(
     let mut moved = *state;
     moved.q.iter_mut().chain(&mut moved.v).zip(by.iter()).for_each(|(x, by)| *x += *by);
     moved
-}
-
-/// |x| of a component.
-pub(super) fn size<T: Real>(x: T) -> T {
-    Scalar::abs(x)
 }

@@ -156,8 +156,8 @@ impl<T: Real> Problem<T> {
         let gap = around.largest_gap();
         if self.conditions.is_half() && exceeds(gap, T::constant(1e3) * tolerance) {
             let (entry, gap) = around.worst(&whole.conditions);
-            let (entry, gap) = (Shot::<L>::entry(entry), gap.to_f64());
-            return Err(OrbitError::NotMirrored { entry, gap, period: shot.chain.period.to_f64() }.into());
+            let (gap, period) = (gap.to_f64(), shot.chain.period.to_f64());
+            return Err(OrbitError::NotMirrored { entry, gap, period }.into());
         }
         let error = whole.error_of(&around, method)?;
         let monodromy = whole.monodromy(&around);

@@ -9,13 +9,14 @@ use alloc::vec::Vec;
 use nalgebra::{DMatrix, DVector};
 
 use super::conditions::Conditions;
-use super::frame::{Frame, OrbitUnits, flat, shifted, size};
+use super::frame::{Frame, OrbitUnits, flat, shifted};
 use super::segment::Segment;
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
 use crate::motion::Simulate;
+use crate::names::Entry;
 use crate::number::{Real, Scalar, larger};
-use crate::system::{StateOf, lookup};
+use crate::system::{StateOf, entry};
 use crate::vector::Length;
 
 /// Nodes of an orbit, its period, and the system with the parameter in question.
@@ -327,8 +328,8 @@ impl<L: Linearized<Scalar: Real>> Shot<L> {
     }
 
     /// Entry of the state with the largest gap, and the gap.
-    pub(super) fn worst(&self, conditions: &Conditions<L::Scalar>) -> (usize, L::Scalar) {
-        let n = <L::N>::COUNT;
+    pub(super) fn worst(&self, conditions: &Conditions<L::Scalar>) -> (Entry, L::Scalar) {
+        let (n, size) = (<L::N>::COUNT, |x: L::Scalar| Scalar::abs(x));
         let mut worst = (0, L::Scalar::constant(0.0));
         let mut see = |i: usize, gap: L::Scalar| {
             if size(gap) / self.chain.units.unit(i, n) > size(worst.1) / self.chain.units.unit(worst.0, n) {
@@ -345,17 +346,11 @@ impl<L: Linearized<Scalar: Real>> Shot<L> {
             let gap = self.closing.rows(0, self.frames[0].count()).into_owned();
             (&self.frames[0].basis * gap).iter().enumerate().for_each(|(i, gap)| see(i, *gap));
         }
-        worst
-    }
-
-    /// Name of entry `i` of (q, q̇).
-    pub(super) fn entry(i: usize) -> crate::names::Entry {
-        lookup::entry::<L>(i)
+        (entry::<L>(worst.0), worst.1)
     }
 }
 
-/// Least step u with A u = −r in the damped sense: −Σ_k v_k σ_k (u_k·r)/(σ_k² + μ), over the singular values above `part` of the
-/// largest.
+/// Least step u with A u = −r, damped, over the singular values above `part` of the largest.
 pub(super) fn least_step<T: Real>(
     a: &DMatrix<T>,
     r: &DVector<T>,
@@ -363,13 +358,5 @@ pub(super) fn least_step<T: Real>(
     part: T,
 ) -> Result<DVector<T>, Error> {
     let factors = Singular::of(a).ok_or(Error::EigenvaluesNotFound)?;
-    let least = factors.norm() * part;
-    let mut step = DVector::zeros(a.ncols());
-    for (k, &sigma) in factors.values.iter().enumerate().filter(|(_, sigma)| **sigma > least) {
-        let length = -factors.along(k, r.iter().copied()) / (sigma * sigma + damping);
-        for j in 0..step.len() {
-            step[j] += factors.direction(k, j) * length;
-        }
-    }
-    Ok(step)
+    Ok(factors.step(r.iter().copied(), (factors.norm() * part, damping), |_, x| x))
 }

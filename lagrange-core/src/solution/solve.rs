@@ -139,6 +139,16 @@ pub(crate) fn first_row<L: Lagrangian>(
     coordinate.or_else(constraint)
 }
 
+/// Returns the coordinate or constraint of row `i`: rows of the motion come first, then those of all constraints, level by
+/// level.
+#[cfg(feature = "alloc")]
+pub(crate) fn row<L: Lagrangian>(i: usize) -> Row {
+    match i.checked_sub(<L::N>::COUNT) {
+        None => Row::Coordinate(L::COORDINATES[i]),
+        Some(a) => Row::Constraint(L::CONSTRAINTS[a % <L::M>::COUNT]),
+    }
+}
+
 /// Returns the coordinates whose share in the undetermined motions is at least a tenth of the largest.
 fn most_involved<L: Lagrangian<Scalar: Real>>(share: &Array<L::Scalar, L::N>) -> Names {
     let largest = share.iter().copied().fold(L::Scalar::constant(0.0), larger);

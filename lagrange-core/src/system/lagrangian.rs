@@ -7,8 +7,9 @@ use super::equations::{Equations, equations};
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
 use super::state::{Solution, SolutionOf, StateOf};
+use crate::names::Entry;
 use crate::number::{Broadcast, Scalar};
-use crate::vector::{Array, Length, Matrix, Vector, matrix, vector};
+use crate::vector::{Array, Length, Matrix, Vector, matrix, zeros};
 
 /// Form in which a constraint is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -175,7 +176,7 @@ pub trait Lagrangian {
     /// stick, else 0: the diagonal of c in F q̈ + γ + c λ = 0. While a constraint is off, its Φ, F, b and γ are zero, and so is
     /// its λ; that of friction which slides is its force.
     fn compliance(&self) -> Vector<Self::Scalar, Self::M> {
-        vector(Array::filled(Self::Scalar::constant(0.0)))
+        zeros()
     }
 
     /// Index of the first constraint whose friction slides with a force μ λ, proportional to the multiplier of its contact;
@@ -301,6 +302,13 @@ pub(crate) const fn check_names<L: Lagrangian>() {
     assert!(L::COORDINATES.len() == <L::N>::COUNT, "`COORDINATES` must have `N` names");
     assert!(L::CONSTRAINTS.len() == <L::M>::COUNT, "`CONSTRAINTS` must have `M` names");
     assert!(L::CONSTRAINT_KINDS.len() == <L::M>::COUNT, "`CONSTRAINT_KINDS` must have `M` entries");
+}
+
+/// Returns the entry at `index` of (q, q̇).
+pub(crate) fn entry<L: Lagrangian>(index: usize) -> Entry {
+    const { check_names::<L>() };
+    let name = L::COORDINATES[index % <L::N>::COUNT];
+    if index < <L::N>::COUNT { Entry::Coordinate(name) } else { Entry::Velocity(name) }
 }
 
 /// Asserts, at compile time, that no motion passes through contacts.

@@ -9,7 +9,7 @@ use alloc::{
     vec::Vec,
 };
 
-use super::lagrangian::{Lagrangian, check_names};
+use super::lagrangian::{Lagrangian, check_names, entry};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::names::similar::{listed, nearest};
@@ -19,13 +19,6 @@ use crate::vector::Length;
 pub(crate) fn entries<L: Lagrangian>() -> Vec<String> {
     const { check_names::<L>() };
     (0..2 * <L::N>::COUNT).map(|index| entry::<L>(index).to_string()).collect()
-}
-
-/// Returns the entry at `index` of (q, q̇).
-pub(crate) fn entry<L: Lagrangian>(index: usize) -> Entry {
-    const { check_names::<L>() };
-    let name = L::COORDINATES[index % <L::N>::COUNT];
-    if index < <L::N>::COUNT { Entry::Coordinate(name) } else { Entry::Velocity(name) }
 }
 
 /// Returns the index of `name` among `known`.

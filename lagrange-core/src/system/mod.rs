@@ -21,7 +21,6 @@ mod structure;
 pub(crate) mod switch;
 mod taylor_series;
 
-#[cfg(feature = "alloc")]
 pub(crate) use direction::unit;
 pub use direction::{Direction, ResidualChange};
 pub use entries::Entries;
@@ -32,7 +31,7 @@ pub use integrability::{Classification, Extent, Integrability, Integrals};
 #[cfg(feature = "alloc")]
 pub(crate) use lagrangian::check_contacts;
 pub use lagrangian::{ConstraintKind, Lagrangian};
-pub(crate) use lagrangian::{check_friction, check_names};
+pub(crate) use lagrangian::{check_friction, check_names, entry};
 pub use pack::{Pack, Packed, Shared};
 pub(crate) use state::write_state;
 pub use state::{Solution, SolutionOf, State, StateOf};

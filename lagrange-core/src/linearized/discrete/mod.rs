@@ -16,7 +16,7 @@ use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::system::finite::check_finite;
-use crate::system::{StateOf, check_contacts, lookup, unit};
+use crate::system::{StateOf, check_contacts, entry, lookup, unit};
 use crate::vector::{Array, Length, vector};
 
 /// A system in discrete time, x⁺ = f(x, u): the motion from a state x = (q, q̇) over an interval in which the inputs u
@@ -83,7 +83,7 @@ impl<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> DiscreteTime<L, D>
         method.check()?;
         let inputs = lookup::indices::<L>(L::PARAMETERS, "parameter", inputs)?;
         let size = 2 * <L::N>::COUNT;
-        let mut arguments: Vec<Entry> = (0..size).map(lookup::entry::<L>).collect();
+        let mut arguments: Vec<Entry> = (0..size).map(entry::<L>).collect();
         arguments.extend(inputs.iter().map(|&k| Entry::Parameter(L::PARAMETERS[k])));
         let none = vector(Array::filled(L::Scalar::constant(f64::NAN)));
         Ok(Self {

@@ -7,7 +7,7 @@ use nalgebra::{ComplexField, DMatrix};
 use super::DiscreteTime;
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::linearized::argument::parameter;
+use crate::linearized::argument::{parameter, set_parameter};
 use crate::linearized::tangent::WideOf;
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::motion::{Method, RungeKutta4, runge_kutta_step};
@@ -92,9 +92,7 @@ where
         let (mut system, values) = (self.system.pack(), self.system.parameters());
         for (index, argument) in self.variations.arguments().iter().enumerate().skip(size) {
             let Some(k) = parameter::<L>(*argument) else { continue };
-            if !system.set_parameter(k, at(values[k], index)) {
-                return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
-            }
+            set_parameter(&mut system, k, at(values[k], index))?;
         }
         Ok(Sweep { system, state })
     }
@@ -143,19 +141,13 @@ fn seed<L: Linearized<Scalar: Real>>(
 }
 
 /// A motion over dual numbers of dual numbers.
-struct Sweep<L: Linearized<Scalar: Real> + Pack<SecondDuals<L>>>
-where
-    PackedSecondDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = SecondDuals<L>>,
-{
+struct Sweep<L: Linearized<Scalar: Real> + Pack<SecondDuals<L>>> {
     system: PackedSecondDuals<L>,
     state: State<SecondDuals<L>, L::N>,
 }
 
 /// Observer that takes the steps of a motion in all sweeps.
-struct Sweeps<'m, L: Linearized<Scalar: Real> + Pack<SecondDuals<L>>>
-where
-    PackedSecondDuals<L>: Linearized<N = L::N, M = L::M, P = L::P, Scalar = SecondDuals<L>>,
-{
+struct Sweeps<'m, L: Linearized<Scalar: Real> + Pack<SecondDuals<L>>> {
     system: &'m L,
     end: L::Scalar,
     all: Vec<Sweep<L>>,

@@ -5,10 +5,10 @@ use nalgebra::{ComplexField, DMatrix, DVector};
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
-use crate::names::Row;
-use crate::number::{Real, Scalar};
-use crate::system::{Lagrangian, ResidualChange, Solution, StateOf};
-use crate::vector::{Array, Entrywise, Length, Vector, vector};
+use crate::number::Real;
+use crate::solution::solve::row;
+use crate::system::{ResidualChange, Solution, StateOf};
+use crate::vector::{Entrywise, Length, Vector, zeros};
 
 /// Values of the unknowns: parameters of the system, state and multipliers.
 #[derive(Clone)]
@@ -36,14 +36,7 @@ impl<L: Linearized<Scalar: Real>> Point<L> {
     /// Derivatives of R by the unknowns, followed by those by the multipliers.
     pub(super) fn jacobian(&self, unknowns: &[Argument]) -> DMatrix<L::Scalar> {
         let mut jacobian = DMatrix::zeros(<L::N>::COUNT + 3 * <L::M>::COUNT, unknowns.len() + <L::M>::COUNT);
-        let multipliers = self.multipliers;
-        let zero = vector(Array::filled(L::Scalar::constant(0.0)));
-        let still = Solution {
-            accelerations: zero,
-            multipliers,
-            pivot: L::Scalar::constant(1.0),
-            rank: <L::M>::COUNT,
-        };
+        let still = Solution::given(zeros(), self.multipliers);
         for (j, &unknown) in unknowns.iter().enumerate() {
             let change = unknown.residual_change(&self.system, &self.state, &still);
             jacobian.set_column(j, &stacked(&change));
@@ -81,14 +74,15 @@ impl<L: Linearized<Scalar: Real>> Point<L> {
         }
     }
 
-    /// Sets an unknown; returns false if it is a parameter that cannot be changed.
-    pub(super) fn set(&mut self, unknown: Argument, value: L::Scalar) -> bool {
+    /// Sets an unknown.
+    pub(super) fn set(&mut self, unknown: Argument, value: L::Scalar) {
         match unknown {
             Argument::Coordinate(i) => self.state.q[i] = value,
             Argument::Velocity(i) => self.state.v[i] = value,
-            Argument::Parameter(k) => return self.system.set_parameter(k, value),
+            Argument::Parameter(k) => {
+                self.system.set_parameter(k, value);
+            }
         }
-        true
     }
 }
 
@@ -96,13 +90,4 @@ fn stacked<T: Real, N: Length, M: Length>(residual: &ResidualChange<T, N, M>) ->
     let ResidualChange { motion, acceleration, rate, position } = residual;
     let rows = motion.iter().chain(acceleration).chain(rate).chain(position);
     DVector::from_iterator(N::COUNT + 3 * M::COUNT, rows.copied())
-}
-
-/// Coordinate or constraint that row `i` of R belongs to.
-pub(super) fn row<L: Lagrangian>(i: usize) -> Row {
-    if i < <L::N>::COUNT {
-        Row::Coordinate(L::COORDINATES[i])
-    } else {
-        Row::Constraint(L::CONSTRAINTS[(i - <L::N>::COUNT) % <L::M>::COUNT])
-    }
 }

@@ -8,18 +8,18 @@ use core::iter::successors;
 
 use nalgebra::{ComplexField, DMatrix, DVector};
 
-use super::point::{Point, row};
+use super::point::Point;
 use super::weights::weights;
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::argument::Argument;
+use crate::linearized::argument::{Argument, set_parameter};
 use crate::linearized::singular::Singular;
-use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon, smaller};
+use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon, smaller, unit_of};
 use crate::solution::consistent::{Level, project};
 use crate::solution::newton::{Left, Search};
-use crate::solution::solve::solve;
+use crate::solution::solve::{row, solve};
 use crate::system::StateOf;
-use crate::vector::{Array, Length, vector};
+use crate::vector::{Length, zeros};
 
 /// Unknowns of the search, and the units of rows and columns.
 pub(super) struct EquilibriumSearch<L: Linearized> {
@@ -46,19 +46,17 @@ impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
         guess: &StateOf<L>,
         unknowns: Vec<Argument>,
     ) -> Result<(Self, Iterate<L>), Error> {
-        let none = vector(Array::filled(L::Scalar::constant(0.0)));
         let mut state = *guess;
         // Project onto the constraints if no coordinate is held. A guess that cannot be projected is kept.
         if (0..<L::N>::COUNT).all(|i| unknowns.contains(&Argument::Coordinate(i))) {
             project(&system, &[Level::Position], &mut state).unwrap_or_default();
         }
-        let multipliers = solve(&system, &state).map_or(none, |solution| solution.multipliers);
+        let multipliers = solve(&system, &state).map_or(zeros(), |solution| solution.multipliers);
         let mut point = Point { system, state, multipliers };
         for &unknown in &unknowns {
             let Argument::Parameter(k) = unknown else { continue };
-            if !point.set(unknown, point.value(unknown)) {
-                return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
-            }
+            let value = point.value(unknown);
+            set_parameter(&mut point.system, k, value)?;
         }
         let mut balance = Self { unknowns, weights: DVector::zeros(0), scale: DVector::zeros(0) };
         let start = balance.trial(point, L::Scalar::constant(1e-3));
@@ -74,29 +72,21 @@ impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
         Iterate { residual: point.residual(), jacobian: point.jacobian(&self.unknowns), point, damping }
     }
 
-    /// Damped step δ = −Σ_k v_k σ_k (u_k·R)/(σ_k² + μ), over the singular values that are not zero.
+    /// Damped step, along the directions in which the residual changes.
     fn damped(
         &self,
         factors: &Singular<L::Scalar>,
         residual: &DVector<L::Scalar>,
         damping: L::Scalar,
     ) -> DVector<L::Scalar> {
-        let mut step = DVector::zeros(self.scale.len());
         let least = factors.norm() * L::Scalar::constant(L::Scalar::EPSILON);
-        for (k, &sigma) in factors.values.iter().enumerate().filter(|(_, sigma)| **sigma > least) {
-            let rows = residual.iter().zip(&self.weights).map(|(r, w)| *r * *w);
-            let length = -factors.along(k, rows) / (sigma * sigma + damping);
-            for j in 0..step.len() {
-                step[j] += factors.direction(k, j) * length * self.unit(j);
-            }
-        }
-        step
+        let rows = residual.iter().zip(&self.weights).map(|(r, w)| *r * *w);
+        factors.step(rows, (least, damping), |j, x| x * self.unit(j))
     }
 
     /// Unit of a step in unknown `j`: such a step changes R by about as much as R is at the guess.
     fn unit(&self, j: usize) -> L::Scalar {
-        let one = L::Scalar::constant(1.0);
-        if self.scale[j] > L::Scalar::constant(0.0) { one / self.scale[j] } else { one }
+        L::Scalar::constant(1.0) / unit_of(self.scale[j])
     }
 
     fn moved(&self, trial: &Point<L>, step: &DVector<L::Scalar>) -> Point<L> {
@@ -173,16 +163,11 @@ impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
 
     /// Names of the unknowns that take part in directions along which R does not change.
     pub(super) fn undetermined(&mut self, found: &Iterate<L>) -> Result<Vec<String>, Error> {
-        let zero = L::Scalar::constant(0.0);
         let factors = self.linearize(found)?;
         let least = factors.norm() * power_of_epsilon(2.0 / 3.0);
-        let free: Vec<usize> = (0..factors.values.len()).filter(|&k| factors.values[k] <= least).collect();
-        let share =
-            |j: usize| free.iter().fold(zero, |most, &k| larger(most, Scalar::abs(factors.direction(k, j))));
-        let shares: Vec<_> = (0..self.unknowns.len()).map(share).collect();
-        let names =
-            self.unknowns.iter().zip(shares).filter(|(_, share)| *share > power_of_epsilon(1.0 / 3.0));
-        Ok(names.map(|(unknown, _)| format!("{}", unknown.entry::<L>())).collect())
+        let is_free = |(j, _): &(usize, _)| factors.freedom(*j, least) > power_of_epsilon(1.0 / 3.0);
+        let free = self.unknowns.iter().enumerate().filter(is_free);
+        Ok(free.map(|(_, unknown)| format!("{}", unknown.entry::<L>())).collect())
     }
 }
 

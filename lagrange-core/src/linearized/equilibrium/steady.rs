@@ -4,11 +4,12 @@ use alloc::vec::Vec;
 
 use nalgebra::DMatrix;
 
-use super::point::{Point, row};
+use super::point::Point;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::solution::solve::row;
 use crate::vector::Length;
 
 /// Contributions of the moving coordinates (q̇ᵢ ≠ 0), one per column, to the time derivative of the residuals (M q̈ −

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::error::Error;
 use crate::linearized::singular::Singular;
 use crate::names::Row;
-use crate::number::{Real, Scalar, exceeds, larger, power_of_epsilon};
+use crate::number::{Real, Scalar, exceeds, larger, power_of_epsilon, unit_of};
 use crate::solution::consistent;
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, StateOf, finite::check_finite, lookup};
@@ -48,7 +48,7 @@ impl<T: Real> Demands<T> {
             (system.constraint_jacobian(state), system.constraint_bias(state), state.t.to_f64());
         let mut f = DMatrix::from_fn(<L::M>::COUNT, <L::N>::COUNT, |a, i| f[(a, i)]);
         let mut gamma = DVector::from_iterator(<L::M>::COUNT, gamma.iter().copied());
-        let lengths = DVector::from_fn(<L::M>::COUNT, |a, _| length_of(f.row(a).norm()));
+        let lengths = DVector::from_fn(<L::M>::COUNT, |a, _| unit_of(f.row(a).norm()));
         for (a, length) in lengths.iter().enumerate() {
             f.row_mut(a).unscale_mut(*length);
             gamma[a] /= *length;
@@ -73,21 +73,16 @@ impl<T: Real> Demands<T> {
     ) -> Result<DVector<T>, Error> {
         let left = self.left(others.as_slice());
         // Columns of length 1: the decision does not depend on the units of the coordinates.
-        let length = |j: usize| length_of(self.f.column(sought[j]).norm());
+        let length = |j: usize| unit_of(self.f.column(sought[j]).norm());
         let columns = DMatrix::from_fn(left.len(), sought.len(), |a, j| self.f[(a, sought[j])] / length(j));
         let factors = Singular::of(&columns).ok_or(Error::EigenvaluesNotFound)?;
-        let mut found = DVector::from_element(sought.len(), T::constant(0.0));
-        for (k, &sigma) in factors.values.iter().enumerate() {
-            if sigma <= power_of_epsilon::<T>(2.0 / 3.0) {
-                let is_free = |j: &usize| Scalar::abs(factors.direction(k, *j)) > power_of_epsilon::<T>(0.5);
-                let coordinates =
-                    (0..sought.len()).filter(is_free).map(|j| L::COORDINATES[sought[j]]).collect();
-                return Err(Error::AccelerationsNotUnique { coordinates, time: self.time });
-            }
-            let along = factors.along(k, left.iter().copied()) / (sigma * sigma);
-            (0..sought.len()).for_each(|j| found[j] -= factors.direction(k, j) * along / length(j));
+        let least = power_of_epsilon::<T>(2.0 / 3.0);
+        if let Some(k) = factors.values.iter().position(|sigma| *sigma <= least) {
+            let is_free = |j: &usize| Scalar::abs(factors.direction(k, *j)) > power_of_epsilon::<T>(0.5);
+            let coordinates = (0..sought.len()).filter(is_free).map(|j| L::COORDINATES[sought[j]]).collect();
+            return Err(Error::AccelerationsNotUnique { coordinates, time: self.time });
         }
-        Ok(found)
+        Ok(factors.step(left.iter().copied(), (least, T::constant(0.0)), |j, x| x / length(j)))
     }
 
     /// Requires each row to vanish to √ε of its terms.
@@ -104,9 +99,4 @@ impl<T: Real> Demands<T> {
         }
         Ok(())
     }
-}
-
-/// The divisor that makes a row or a column of this length one of length 1, unless it is zero.
-fn length_of<T: Real>(length: T) -> T {
-    if length > T::constant(0.0) { length } else { T::constant(1.0) }
 }

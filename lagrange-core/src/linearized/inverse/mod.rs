@@ -12,16 +12,15 @@ pub use regressor::{BaseParameters, Regressor};
 pub(super) use regressor::{inertial_parameters, regressor};
 
 use super::Linearized;
-use super::argument::Argument;
+use super::argument::{Argument, set_parameter};
 use super::singular::Singular;
 use crate::error::Error;
-use crate::names::Row;
-use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::number::{Real, Scalar, larger, power_of_epsilon, unit_of};
 use crate::solution::consistent::gradient::check_parameters;
 use crate::solution::kkt::Units;
-use crate::solution::solve::first_row;
+use crate::solution::solve::{first_row, row};
 use crate::system::{Solution, StateOf, finite::check_finite, unit};
-use crate::vector::{Array, Element, Length, Vector, entries, rows, vector};
+use crate::vector::{Array, Element, Length, Vector, entries, rows, zeros};
 
 /// Inputs and multipliers that produce given accelerations.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,21 +91,11 @@ impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
         for (value, input) in values.iter_mut().zip(&inputs) {
             let Argument::Parameter(k) = *input else { continue };
             *value = parameters[k];
-            if !system.set_parameter(k, parameters[k]) {
-                return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
-            }
+            set_parameter(&mut system, k, parameters[k])?;
         }
         let f = rows(&system.constraint_jacobian(state));
         let units = Units::of(&system.mass_matrix(state).into(), &f);
-        Ok(Self {
-            system,
-            state,
-            accelerations,
-            inputs,
-            values,
-            multipliers: vector(Array::filled(zero)),
-            units,
-        })
+        Ok(Self { system, state, accelerations, inputs, values, multipliers: zeros(), units })
     }
 
     /// Converts a number of row `i` to the unit of that row. The rows of motion come first.
@@ -141,14 +130,9 @@ impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
     /// Derivatives of the rows by each input and each multiplier.
     fn jacobian(&self) -> Result<DMatrix<L::Scalar>, Error> {
         let Self { system, state, multipliers, .. } = self;
-        let (zero, one, count) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0), self.inputs.len());
-        let here = Solution {
-            accelerations: *self.accelerations,
-            multipliers: *multipliers,
-            pivot: one,
-            rank: <L::M>::COUNT,
-        };
-        let mut jacobian = DMatrix::from_element(<L::N>::COUNT + <L::M>::COUNT, count + <L::M>::COUNT, zero);
+        let here = Solution::given(*self.accelerations, *multipliers);
+        let (one, count) = (L::Scalar::constant(1.0), self.inputs.len());
+        let mut jacobian = DMatrix::zeros(<L::N>::COUNT + <L::M>::COUNT, count + <L::M>::COUNT);
         for (j, input) in self.inputs.iter().enumerate() {
             if let Argument::Coordinate(i) = *input {
                 jacobian[(i, j)] = self.scaled(i, -one);
@@ -158,8 +142,8 @@ impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
             for (i, x) in change.motion.iter().chain(&change.acceleration).enumerate() {
                 jacobian[(i, j)] = self.scaled(i, *x);
             }
-            let (row, entry) = (|i: usize| !jacobian[(i, j)].is_finite(), input.entry::<L>());
-            if let Some(row) = first_row::<L>(row, |a| !jacobian[(<L::N>::COUNT + a, j)].is_finite()) {
+            if let Some(i) = jacobian.column(j).iter().position(|x| !x.is_finite()) {
+                let (row, entry) = (row::<L>(i), input.entry::<L>());
                 return Err(Error::DerivativeNotFinite { row, entry, time: state.t.to_f64() });
             }
         }
@@ -172,32 +156,18 @@ impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
 
     /// Newton step of least norm. Fails if an input is undetermined.
     fn step(&self) -> Result<DVector<L::Scalar>, Error> {
-        let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
         let (residual, mut jacobian) = (self.residual()?, self.jacobian()?);
         let columns = jacobian.ncols();
         // Scale columns to length 1: the step then does not depend on the units of inputs and multipliers.
-        let lengths = DVector::from_fn(columns, |j, _| {
-            let length = jacobian.column(j).norm();
-            if length > zero { length } else { one }
-        });
+        let lengths = DVector::from_fn(columns, |j, _| unit_of(jacobian.column(j).norm()));
         (0..columns).for_each(|j| jacobian.column_mut(j).unscale_mut(lengths[j]));
         let factors = Singular::of(&jacobian).ok_or(Error::EigenvaluesNotFound)?;
         let least = power_of_epsilon::<L::Scalar>(2.0 / 3.0);
-        let mut step = DVector::from_element(columns, zero);
-        let mut free = DVector::from_element(columns, zero);
-        for (k, &sigma) in factors.values.iter().enumerate() {
-            let direction = |j: usize| factors.direction(k, j);
-            if sigma <= least {
-                (0..columns).for_each(|j| free[j] = larger(free[j], Scalar::abs(direction(j))));
-                continue;
-            }
-            let length = factors.along(k, residual.iter().copied()) / (sigma * sigma);
-            (0..columns).for_each(|j| step[j] -= direction(j) * length / lengths[j]);
-        }
-        let is_free = |j: &usize| free[*j] > power_of_epsilon::<L::Scalar>(0.5);
+        let is_free = |j: &usize| factors.freedom(*j, least) > power_of_epsilon::<L::Scalar>(0.5);
         let undetermined: Vec<usize> = (0..self.inputs.len()).filter(is_free).collect();
         if undetermined.is_empty() {
-            return Ok(step);
+            let undamped = (least, L::Scalar::constant(0.0));
+            return Ok(factors.step(residual.iter().copied(), undamped, |j, x| x / lengths[j]));
         }
         let inputs = undetermined.into_iter().map(|j| match self.inputs[j] {
             Argument::Coordinate(i) | Argument::Velocity(i) => L::COORDINATES[i],
@@ -260,12 +230,12 @@ impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
         match (0..<L::N>::COUNT + <L::M>::COUNT).rev().find(|&i| Scalar::abs(residual[i]) > part * scale(i)) {
             None => Ok(()),
             Some(i) => {
-                let row = match i.checked_sub(<L::N>::COUNT) {
-                    None => Row::Coordinate(L::COORDINATES[i]),
-                    Some(a) => Row::Constraint(L::CONSTRAINTS[a]),
-                };
                 let left = residual[i] / self.scaled(i, L::Scalar::constant(1.0));
-                Err(Error::NotRealizable { row, residual: left.to_f64(), time: state.t.to_f64() })
+                Err(Error::NotRealizable {
+                    row: row::<L>(i),
+                    residual: left.to_f64(),
+                    time: state.t.to_f64(),
+                })
             }
         }
     }

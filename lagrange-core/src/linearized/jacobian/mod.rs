@@ -15,8 +15,8 @@ use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::Real;
-use crate::system::{Lagrangian, Solution, StateOf};
-use crate::vector::{Array, Element, Length, Matrix, Vector, matrix, vector};
+use crate::system::{Lagrangian, Solution, StateOf, entry};
+use crate::vector::{Array, Element, Length, Matrix, Vector, matrix, zeros};
 
 /// Partial derivatives of `R` quantities by the time, `N` coordinates, `N` velocities and `P` parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,21 +93,15 @@ impl<T: Real, N: Length, M: Length, P: Length> Jacobian<T, N, M, P> {
 
 /// Name of argument `k`.
 pub(super) fn name_of<L: Lagrangian>(k: usize) -> Entry {
-    match k.checked_sub(1) {
-        None => Entry::Time,
-        Some(i) if i < <L::N>::COUNT => Entry::Coordinate(L::COORDINATES[i]),
-        Some(i) => Entry::Velocity(L::COORDINATES[i - <L::N>::COUNT]),
-    }
-}
-
-fn zeros<T: Real, R: Length, C: Length>() -> Matrix<T, R, C> {
-    matrix(Array::filled(Array::filled(T::constant(0.0))))
+    k.checked_sub(1).map_or(Entry::Time, entry::<L>)
 }
 
 impl<T: Real, R: Length, N: Length, P: Length> PartialDerivatives<T, R, N, P> {
     fn zero() -> Self {
-        let zero = T::constant(0.0);
-        Self { t: vector(Array::filled(zero)), q: zeros(), v: zeros(), parameters: zeros() }
+        fn columns<T: Real, R: Length, C: Length>() -> Matrix<T, R, C> {
+            matrix(Array::filled(Array::filled(T::constant(0.0))))
+        }
+        Self { t: zeros(), q: columns(), v: columns(), parameters: columns() }
     }
 
     /// Sets the derivatives by argument `k`.

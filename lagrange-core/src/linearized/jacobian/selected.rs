@@ -46,19 +46,16 @@ pub(in crate::linearized) fn jacobian_by<L: Linearized<Scalar: Real>>(
         accelerations.set_column(column, &change.accelerations);
         multipliers.set_column(column, &change.multipliers);
     };
-    let (of_state, parameters): (Vec<_>, Vec<_>) =
-        arguments.iter().enumerate().partition(|(_, argument)| !matches!(argument, Argument::Parameter(_)));
-    let argument = |j: usize| match *of_state[j].1 {
-        Argument::Coordinate(i) => 1 + i,
-        Argument::Velocity(i) => 1 + <L::N>::COUNT + i,
-        Argument::Parameter(_) => 0,
-    };
-    tangent.by_each(of_state.len(), argument, |j, change| set(of_state[j].0, change))?;
-    let parameter = |j: usize| match *parameters[j].1 {
-        Argument::Parameter(k) => k,
-        _ => 0,
-    };
-    tangent.by_parameters(parameters.len(), parameter, |j, change| set(parameters[j].0, change))?;
+    let (mut of_state, mut parameters) = (Vec::new(), Vec::new());
+    for (column, argument) in arguments.iter().enumerate() {
+        match *argument {
+            Argument::Coordinate(i) => of_state.push((column, 1 + i)),
+            Argument::Velocity(i) => of_state.push((column, 1 + <L::N>::COUNT + i)),
+            Argument::Parameter(k) => parameters.push((column, k)),
+        }
+    }
+    tangent.by_each(of_state.len(), |j| of_state[j].1, |j, change| set(of_state[j].0, change))?;
+    tangent.by_parameters(parameters.len(), |j| parameters[j].1, |j, change| set(parameters[j].0, change))?;
     let names = arguments.iter().map(|argument| format!("{}", argument.entry::<L>())).collect();
     Ok(SelectedJacobian { solution: tangent.solution, accelerations, multipliers, arguments: names })
 }

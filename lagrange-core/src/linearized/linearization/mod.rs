@@ -23,8 +23,8 @@ use crate::number::{Real, Scalar, Wide, larger, largest, norm, power_of_epsilon}
 use crate::solution::consistent;
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::finite::check_finite;
-use crate::system::{Direction, Solution, SolutionOf, StateOf, lookup};
-use crate::vector::{Array, Length, Vector, vector};
+use crate::system::{Direction, Solution, SolutionOf, StateOf, entry, lookup};
+use crate::vector::{Array, Length, Vector, zeros};
 
 /// The linear system ż = A z + B u near a state; u is the change of the inputs.
 ///
@@ -112,11 +112,11 @@ impl<L: StateDerivatives<Scalar: Real>> Tangent<'_, L> {
             let changes = directions.q.iter_mut().chain(&mut directions.v).zip(basis.column(j));
             changes.for_each(|(wide, x)| wide.put(lane, *x));
         };
-        let entry = |j: usize| lookup::entry::<L>(basis.column(j).icamax());
+        let most = |j: usize| entry::<L>(basis.column(j).icamax());
         change
             .view_mut((0, 0), (<L::N>::COUNT, basis.ncols()))
             .copy_from(&basis.view((<L::N>::COUNT, 0), (<L::N>::COUNT, basis.ncols())));
-        self.along_each(basis.ncols(), put, entry, |j, solution| {
+        self.along_each(basis.ncols(), put, most, |j, solution| {
             change.view_mut((<L::N>::COUNT, j), (<L::N>::COUNT, 1)).copy_from(&solution.accelerations);
         })?;
         Ok(change)
@@ -143,12 +143,12 @@ impl<L: StateDerivatives<Scalar: Real>> Tangent<'_, L> {
 
     /// Orthonormal basis of the changes (δq, δv) with F δq = 0 for holonomic constraints and δ(F v + b) = 0 for all.
     pub(super) fn space(&self) -> Result<DMatrix<L::Scalar>, Error> {
-        let zero = vector(Array::filled(L::Scalar::constant(0.0)));
+        let zero = zeros();
         let mut changes: Vec<[Vector<L::Scalar, L::N>; 2]> = Vec::new();
         let holonomic = Rows::of(&self.matrices().m, &self.holonomic_rows(), Rank::off_constraints());
         for q in holonomic.null_space() {
             // A change of q changes F: the velocity must follow.
-            let entry = lookup::entry::<L>(q.icamax());
+            let entry = entry::<L>(q.icamax());
             let turned = self.residual_change(&Direction { q, ..Direction::zero() }, entry)?;
             changes.push([q, self.matrices().factors.rows.least(&turned.rate.into())]);
         }
@@ -205,7 +205,7 @@ impl<L: StateDerivatives<Scalar: Real>> Tangent<'_, L> {
         let left =
             strongest(&|i| (0..<L::N>::COUNT).fold(zero, |sum, j| sum + m[i][j] * solution.accelerations[j]));
         let rests = left <= power_of_epsilon::<L::Scalar>(0.5) * terms;
-        let accelerations = if rests { vector(Array::filled(zero)) } else { solution.accelerations };
+        let accelerations = if rests { zeros() } else { solution.accelerations };
         Ok(Solution { accelerations, ..*solution })
     }
 }

@@ -11,7 +11,7 @@ use crate::motion::method::control::Tolerance;
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::statistics::Statistics;
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, entry};
 use crate::vector::{Array, Length, PhaseVector};
 
 /// Estimated error of a step.
@@ -32,9 +32,7 @@ impl<L: Lagrangian<Scalar: Real>> Estimate<L> {
             let allowed = tolerance.absolute + tolerance.relative * Scalar::abs(y.flat()[k]).to_f64();
             Scalar::abs(self.entries.flat()[k]).to_f64() / allowed
         };
-        let n = <L::N>::COUNT;
-        let k = (0..2 * n).fold(0, |most, k| if part(k) > part(most) { k } else { most });
-        if k < n { Entry::Coordinate(L::COORDINATES[k]) } else { Entry::Velocity(L::COORDINATES[k - n]) }
+        entry::<L>((0..2 * <L::N>::COUNT).fold(0, |most, k| if part(k) > part(most) { k } else { most }))
     }
 }
 

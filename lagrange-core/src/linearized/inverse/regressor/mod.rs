@@ -2,9 +2,9 @@
 
 mod base;
 
+use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use alloc::{format, vec};
 
 use nalgebra::{ComplexField, DMatrix, DVector};
 
@@ -12,13 +12,13 @@ pub use base::BaseParameters;
 
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::argument::check_parameters;
+use crate::linearized::argument::{check_parameters, set_parameter};
 use crate::linearized::tangent::Tangent;
 use crate::names::{Entry, Row};
-use crate::number::{Real, Scalar, exceeds, larger, power_of_epsilon};
+use crate::number::{Real, Scalar, exceeds, larger, largest, power_of_epsilon};
 use crate::solution::solve::first_row;
-use crate::system::{Solution, StateOf, finite::check_finite, lookup, unit};
-use crate::vector::{Array, Length, Vector, vector};
+use crate::system::{Solution, StateOf, finite::check_finite, unit};
+use crate::vector::{Length, Vector, zeros};
 
 /// Generalized forces τ = M q̈ − h = Y π + τ₀ at a state with given accelerations, linear in the inertial parameters π of
 /// bodies.
@@ -64,43 +64,36 @@ fn indices<L: Linearized>(bodies: &[&str]) -> Result<Vec<Indices>, Error> {
         return Err(Error::RepeatedName { name: (*body).into() });
     }
     let of = |body: &&str| {
-        let mut names = vec![format!("{body}.m")];
-        names.extend((0..3).map(|k| format!("{body}.centre[{k}]")));
-        names.extend(TRIANGLE.map(|[j, k]| format!("{body}.inertia[{j}][{k}]")));
-        let mut found = [0; 10];
-        let refused = |name: String, hint: &str| Error::UnknownName {
-            name,
+        let refused = |hint: &str| Error::UnknownName {
+            name: (*body).into(),
             kind: "body with the members `m`, `centre: [3]` and `inertia: symmetric`",
             hint: Some(hint.into()),
             known: Vec::new(),
         };
-        let other = format!("{body}.inertia[1][0]");
-        if L::PARAMETERS.contains(&&*other) {
-            return Err(refused(
-                (*body).into(),
-                "its inertia is declared as any matrix; declare it as `inertia: symmetric`",
-            ));
+        let index = |name: &str| L::PARAMETERS.iter().position(|known| *known == name);
+        if index(&format!("{body}.inertia[1][0]")).is_some() {
+            return Err(refused("its inertia is declared as any matrix; declare it as `inertia: symmetric`"));
         }
-        for (index, name) in found.iter_mut().zip(&names) {
-            *index = lookup::index::<L>(L::PARAMETERS, "parameter", name).map_err(|error| match error {
-                Error::UnknownName { .. } => {
-                    refused((*body).into(), &format!("there is no parameter `{name}`"))
-                }
-                error => error,
-            })?;
+        let mut found = [0; 10];
+        for (place, name) in
+            found.iter_mut().zip(ten(["m", "centre", "inertia"].map(|member| format!("{body}.{member}"))))
+        {
+            let missing = || refused(&format!("there is no parameter `{name}`"));
+            *place = index(&name).ok_or_else(missing)?;
         }
         Ok(found)
     };
     bodies.iter().map(of).collect()
 }
+/// Names of a mass, of three components and of the entries of an inertia.
+fn ten([mass, vector, inertia]: [String; 3]) -> impl Iterator<Item = String> {
+    let components = (0..3).map(move |k| format!("{vector}[{k}]"));
+    let entries = TRIANGLE.into_iter().map(move |[j, k]| format!("{inertia}[{j}][{k}]"));
+    [mass].into_iter().chain(components).chain(entries)
+}
 
 fn names(bodies: &[&str]) -> Vec<String> {
-    let of = |body: &&str| {
-        let mut names = vec![format!("m({body})")];
-        names.extend((0..3).map(|k| format!("mc({body})[{k}]")));
-        names.extend(TRIANGLE.map(|[j, k]| format!("I({body})[{j}][{k}]")));
-        names
-    };
+    let of = |body: &&str| ten(["m", "mc", "I"].map(|symbol| format!("{symbol}({body})")));
     bodies.iter().flat_map(of).collect()
 }
 
@@ -155,8 +148,7 @@ fn forces<L: Linearized<Scalar: Real>>(
     state: &StateOf<L>,
     accelerations: &Vector<L::Scalar, L::N>,
 ) -> DVector<L::Scalar> {
-    let none = vector(Array::filled(L::Scalar::constant(0.0)));
-    let forces = system.inverse_dynamics(state, accelerations, &none);
+    let forces = system.inverse_dynamics(state, accelerations, &zeros());
     DVector::from_iterator(<L::N>::COUNT, forces.iter().copied())
 }
 
@@ -165,9 +157,7 @@ fn with<L: Linearized<Scalar: Real> + Clone>(system: &L, bodies: &[Indices], mas
     let mut bare = system.clone();
     for (k, &index) in bodies.iter().flat_map(|body| body.iter().enumerate()) {
         let value = L::Scalar::constant(if k == 0 { mass } else { 0.0 });
-        if !bare.set_parameter(index, value) {
-            return Err(Error::ParameterFixed { name: L::PARAMETERS[index] });
-        }
+        set_parameter(&mut bare, index, value)?;
     }
     Ok(bare)
 }
@@ -188,15 +178,9 @@ fn columns<L: Linearized<Scalar: Real> + Clone>(
     accelerations: &Vector<L::Scalar, L::N>,
     bodies: &[Indices],
 ) -> Result<DMatrix<L::Scalar>, Error> {
-    let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
     let points = with(system, bodies, 1.0)?;
-    let here = Solution {
-        accelerations: *accelerations,
-        multipliers: vector(Array::filled(zero)),
-        pivot: one,
-        rank: <L::M>::COUNT,
-    };
-    let mut matrix = DMatrix::from_element(<L::N>::COUNT, 10 * bodies.len(), zero);
+    let here = Solution::given(*accelerations, zeros());
+    let mut matrix = DMatrix::zeros(<L::N>::COUNT, 10 * bodies.len());
     for (column, &index) in bodies.iter().flatten().enumerate() {
         let change = points.residual_change_by_parameters(state, &here, &unit(index)).motion;
         if let Some(row) = first_row::<L>(|i| !change[i].is_finite(), |_| false) {
@@ -215,11 +199,8 @@ fn check<L: Linearized<Scalar: Real>>(
     (matrix, offset): (&DMatrix<L::Scalar>, &DVector<L::Scalar>),
     state: &StateOf<L>,
 ) -> Result<(), Error> {
-    let most = matrix
-        .iter()
-        .chain(offset)
-        .chain(forces)
-        .fold(L::Scalar::constant(0.0), |most, x| larger(most, Scalar::abs(*x)));
+    let most =
+        larger(largest(matrix.as_slice()), larger(largest(offset.as_slice()), largest(forces.as_slice())));
     let is_off = |i: &usize| {
         let allowed = power_of_epsilon::<L::Scalar>(0.5) * most;
         exceeds(Scalar::abs(forces[*i] - expected[*i]), allowed)
