@@ -176,12 +176,7 @@ pub trait Linearized: StateDerivatives {
     /// and the derivatives include this projection. Along the motion they stay in the tangent space, projected as the
     /// state is. [`MotionDerivatives`] continues across events.
     ///
-    /// Supported methods: [`Dop853`](crate::Dop853), [`Dopri5`](crate::Dopri5) and other embedded
-    /// [`Pair`](crate::motion::Pair)s, on Lagrange's equations; [`Radau`]; [`RungeKutta4`](crate::RungeKutta4), whose steps
-    /// have one length. If the number type of the system is a type parameter, also
-    /// [`Taylor`](crate::Taylor) and the methods of type [`FixedStep`](crate::motion::FixedStep): the derivatives along
-    /// these are those of the discrete map, so they are a symplectic matrix along a symplectic method, to round-off.
-    /// Motions by other methods, and in momenta, are not differentiated.
+    /// Every [`DifferentiableMethod`] is supported. Motions by other methods, and in momenta, are not differentiated.
     ///
     /// ```
     /// use lagrange_core::prelude::*;

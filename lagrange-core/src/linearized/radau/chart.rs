@@ -16,7 +16,7 @@ use crate::solution::kkt::{Factors, Rank};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::fault;
 use crate::system::{ConstraintKind, Lagrangian, StateOf};
-use crate::vector::{Array, Length, PhaseVector, rows, vector};
+use crate::vector::{Array, Length, PhaseVector, rows, vector, zeros};
 
 /// Largest number of corrections towards the constraints. Those that are not round-off shrink by two each.
 const CORRECTIONS: usize = 60;
@@ -48,9 +48,8 @@ impl<L: Lagrangian<Scalar: Real>> Solver<L> {
     /// Factorizes by the emitted function if that is reliable and has the constraints of this level; `old` gives its storage.
     fn at(system: &L, level: Level, state: &StateOf<L>, old: Option<Self>) -> Self {
         if level == Level::Velocity || !is_mixed::<L>() {
-            let (factor, none) = (system.factor(state), zero::<L>());
-            let zeros = (vector(Array::filled(none)), vector(Array::filled(none)));
-            if is_trustworthy(&system.solve_with(&factor, &zeros.0, &zeros.1)) {
+            let factor = system.factor(state);
+            if is_trustworthy::<L::Scalar, _, _>(&system.solve_with(&factor, &zeros(), &zeros())) {
                 return Self::Emitted(factor);
             }
         }
@@ -72,12 +71,11 @@ impl<L: Lagrangian<Scalar: Real>> Solver<L> {
         residual: &Array<L::Scalar, L::M>,
         time: L::Scalar,
     ) -> Result<Array<L::Scalar, L::N>, Error> {
-        let none = Array::filled(zero::<L>());
         let found = match self {
-            Self::Emitted(factor) => system.solve_with(factor, &vector(none), &vector(*residual)),
-            Self::General(factors) => {
-                factors.solve(&none, residual).map_err(|found| fault::<L>(&found, time.to_f64()))?
-            }
+            Self::Emitted(factor) => system.solve_with(factor, &zeros(), &vector(*residual)),
+            Self::General(factors) => factors
+                .solve(&Array::filled(zero::<L>()), residual)
+                .map_err(|found| fault::<L>(&found, time.to_f64()))?,
         };
         Ok(found.accelerations.into())
     }

@@ -2,12 +2,12 @@
 
 use nalgebra::Const;
 
-use super::iteration::StageChanges;
+use super::iteration::{StageChanges, combination, zip};
 use super::tableau::{RadauStages, basis};
 use crate::number::Real;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
-use crate::vector::{Array, Element, Length, PhaseVector};
+use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
 
 /// Dense output of a step of [`Radau`](super::Radau), of the order of the number of its stages.
 #[derive(Clone, Copy, Debug)]
@@ -25,14 +25,8 @@ where
 {
     /// Change since the start of the step and its derivative, at θ steps after the start.
     pub(super) fn change(&self, theta: f64) -> [PhaseVector<T, N>; 2] {
-        let mut sums = [PhaseVector::filled(T::constant(0.0)); 2];
-        for (j, change) in self.changes.iter().enumerate() {
-            for (sum, weight) in sums.iter_mut().zip(basis(<Const<S>>::NODES, j, theta)) {
-                let weight = T::constant(weight);
-                sum.flat_mut().iter_mut().zip(change.flat()).for_each(|(sum, x)| *sum += weight * *x);
-            }
-        }
-        sums
+        let weights: [_; S] = from_fn(|j| basis(<Const<S>>::NODES, j, theta));
+        [0, 1].map(|k| combination(&weights.map(|of| of[k]), &self.changes))
     }
 }
 
@@ -41,8 +35,8 @@ where
     Const<S>: RadauStages,
 {
     fn at(&self, t: T) -> StagePoint<T, N> {
-        let [mut y, slope] = self.change(((t - self.time) / self.length).to_f64());
-        y.flat_mut().iter_mut().zip(self.start.flat()).for_each(|(y, start)| *y += *start);
+        let [change, slope] = self.change(((t - self.time) / self.length).to_f64());
+        let y = zip(&change, &self.start, |change, start| change + start);
         StagePoint { t, y, velocity: Array::from_fn(|i| slope[0][i] / self.length) }
     }
 }

@@ -17,7 +17,7 @@ use crate::linearized::tangent::{Tangent, WideOf};
 use crate::number::{Real, Scalar, Wide};
 use crate::solution::consistent::BOTH;
 use crate::solution::consistent::level::Level;
-use crate::system::{Direction, SolutionOf, StateOf};
+use crate::system::{Direction, SolutionOf, StateOf, unit};
 use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
 
 /// Π ∂q̈/∂q Π and Π ∂q̈/∂q̇ Π at a state, column by column.
@@ -57,8 +57,7 @@ impl<T: Real, N: Length> Derivatives<T, N> {
         let Self { by_q, by_v, directions: known } = self;
         for (level, columns) in BOTH.into_iter().zip([by_q, by_v]) {
             for k in 0..N::COUNT {
-                let unit = Array::from_fn(|i| T::constant(if i == k { 1.0 } else { 0.0 }));
-                known[k] = chart.tangent(system, level, &unit, state.t)?;
+                known[k] = chart.tangent(system, level, &unit::<T, N>(k).into(), state.t)?;
             }
             let put = |k: usize, directions: &mut Direction<WideOf<L>, N>, lane: usize| {
                 let half = if level == Level::Position { &mut directions.q } else { &mut directions.v };

@@ -14,13 +14,9 @@ mod tableau;
 #[cfg(feature = "alloc")]
 mod variations;
 
-use core::fmt;
-
 use nalgebra::Const;
 
-use crate::error::Error;
 use crate::motion::Limits;
-use crate::motion::method::contract::check_settings;
 use crate::motion::method::control::Tolerance;
 use crate::number::Real;
 
@@ -46,7 +42,7 @@ pub use tableau::RadauStages;
 ///
 /// A pose at which constraints depend on one another, as where a linkage folds flat, is crossed on the branch of the motion.
 /// Where multipliers grow without bound towards it, the motion ends before
-/// ([`Error::UnboundedMultipliers`]).
+/// ([`Error::UnboundedMultipliers`](crate::Error::UnboundedMultipliers)).
 ///
 /// Derivatives have no value on the kink of a force, as of |x| at x = 0; there they are evaluated beside it, within the
 /// tolerance.
@@ -150,20 +146,6 @@ impl<const STAGES: usize> Radau<STAGES> {
     pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
         self.limits.wall_time = Some(limit);
         self
-    }
-
-    fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result {
-        let Self { relative, absolute, max_step, first_step, .. } = self;
-        write!(to, "Radau {} {relative:?} {absolute:?} {max_step:?} {first_step:?}", 2 * STAGES - 1)
-    }
-
-    fn check(&self) -> Result<(), Error> {
-        check_settings([
-            ("relative tolerance", Some(self.relative)),
-            ("absolute tolerance", Some(self.absolute)),
-            ("longest step", self.max_step),
-            ("first step", self.first_step),
-        ])
     }
 
     /// Tolerances of the error estimate.

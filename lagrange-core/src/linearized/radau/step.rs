@@ -19,6 +19,7 @@ use super::{Radau, pose};
 use crate::error::{Ending, Error, Pace};
 use crate::linearized::StateDerivatives;
 use crate::motion::method::clock::Clock;
+use crate::motion::method::contract::check_settings;
 use crate::motion::{Limits, Method, Step};
 use crate::names::Entry;
 use crate::number::{Real, Scalar, smaller};
@@ -64,11 +65,17 @@ where
     }
 
     fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result {
-        self.identify(to)
+        let Self { relative, absolute, max_step, first_step, .. } = self;
+        write!(to, "Radau {} {relative:?} {absolute:?} {max_step:?} {first_step:?}", 2 * S - 1)
     }
 
     fn check(&self) -> Result<(), Error> {
-        self.check()
+        check_settings([
+            ("relative tolerance", Some(self.relative)),
+            ("absolute tolerance", Some(self.absolute)),
+            ("longest step", self.max_step),
+            ("first step", self.first_step),
+        ])
     }
 
     fn begin(

@@ -13,7 +13,7 @@ use crate::motion::event::DenseStep;
 use crate::motion::progress::{OnProgress, report};
 use crate::motion::record::{Arrival, Record, RecordPlan};
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
-use crate::motion::{MotionBuilder, SamplesAlone};
+use crate::motion::{DynEvent, MotionBuilder, SamplesAlone};
 use crate::number::Real;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::finite::check_finite;
@@ -109,27 +109,27 @@ fn integrate<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     let mut begun = Run::<L, D>::begin(system, &start.state, method);
     let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
     let (course, stages) = Course::from(system, &run.state, start, method)?;
-    let lent =
-        events.iter_mut().map(|event| -> Box<crate::motion::event::DynEvent<'_, L>> { Box::new(event) });
-    let record = Record::begin(plan, lent.collect(), None, system, &run.state, end)?;
-    let ends = [run.state.t, end];
-    let mut sampled = SampledAlong::<_, D> {
-        system,
-        ends,
-        record,
-        course,
-        stages,
-        before: run.state,
-        samples: Vec::new(),
-        within: Vec::new(),
-        on_progress,
+    let (arrival, course, before, samples) = {
+        let lent = events.iter_mut().map(|event| -> Box<DynEvent<'_, L>> { Box::new(event) });
+        let record = Record::begin(plan, lent.collect(), None, system, &run.state, end)?;
+        let mut sampled = SampledAlong::<_, D> {
+            system,
+            ends: [run.state.t, end],
+            record,
+            course,
+            stages,
+            before: run.state,
+            samples: Vec::new(),
+            within: Vec::new(),
+            on_progress,
+        };
+        sampled.sample()?;
+        let limits = Watchdog::new(method.limits(), &run.statistics);
+        let driven = run.drive(method, &limits, &mut sampled);
+        let ending = driven.err().unwrap_or(Ending::Complete { time: end.to_f64() });
+        let arrival = sampled.record.arrive(run.state, ending, run.statistics);
+        (arrival, sampled.course, sampled.before, sampled.samples)
     };
-    sampled.sample()?;
-    let limits = Watchdog::new(method.limits(), &run.statistics);
-    let driven = run.drive(method, &limits, &mut sampled);
-    let ending = driven.err().unwrap_or(Ending::Complete { time: end.to_f64() });
-    let (record, course, before, samples) = sampled.end();
-    let arrival = record.arrive(run.state, ending, run.statistics);
     let end = course.end(system, &arrival.state, &arrival.ending, &arrival.crossings, events, &before);
     Ok(SampledSensitivity { arrival, samples, end })
 }
@@ -159,12 +159,6 @@ impl<'o, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> SampledAlong<'
             self.samples.push(self.course.at(self.system, state)?);
         }
         Ok(())
-    }
-
-    /// Returns the parts that the result is made of.
-    #[allow(clippy::type_complexity, reason = "its fields")]
-    fn end(self) -> (Record<'o, L>, Course<L>, StateOf<L>, Vec<StateSensitivity<L::Scalar, L::N>>) {
-        (self.record, self.course, self.before, self.samples)
     }
 }
 

@@ -129,12 +129,13 @@ pub(super) fn integrate<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod
     let mut begun = Run::<L, D>::begin(system, &start.state, method);
     let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
     let (course, stages) = Course::from(system, &run.state, start, method)?;
-    let stored = Stored::begin(system, &run.state, end, events, on_progress)?;
-    let mut along = Along { stored, course, stages, before: run.state };
-    let limits = Watchdog::new(method.limits(), &run.statistics);
-    let driven = run.drive(method, &limits, &mut along);
-    let (stored, course, before) = along.end();
-    let trajectory = stored.finish(driven, run.statistics, *adjustment);
+    let (trajectory, course, before) = {
+        let stored = Stored::begin(system, &run.state, end, events, on_progress)?;
+        let mut along = Along { stored, course, stages, before: run.state };
+        let limits = Watchdog::new(method.limits(), &run.statistics);
+        let driven = run.drive(method, &limits, &mut along);
+        (along.stored.finish(driven, run.statistics, *adjustment), along.course, along.before)
+    };
     let (ending, crossings) = (trajectory.ending(), trajectory.crossings());
     let end = course.end(system, trajectory.end().state(), ending, crossings, events, &before);
     Ok(TrajectorySensitivity { trajectory, course, end })
@@ -148,14 +149,6 @@ struct Along<'a, 'e, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>, W>
     stages: D::VariationMemory,
     /// State at the start of the last step.
     before: StateOf<L>,
-}
-
-impl<'a, 'e, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>, W> Along<'a, 'e, L, D, W> {
-    /// Stored motion, derivatives, and the state before the last step.
-    #[allow(clippy::type_complexity, reason = "its fields")]
-    fn end(self) -> (Stored<'a, 'e, L, W, D::Interpolant, true>, Course<L>, StateOf<L>) {
-        (self.stored, self.course, self.before)
-    }
 }
 
 impl<L, D, W> Observer<L, D> for Along<'_, '_, L, D, W>
@@ -224,26 +217,26 @@ impl<L: Linearized<Scalar: Real>> Course<L> {
         system: &L,
         state: &StateOf<L>,
     ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
-        let (lanes, blocks) = (<WideOf<L> as Wide<L::Scalar>>::COUNT, self.variations.blocks.len());
+        let blocks = &self.variations.blocks;
         let mut at = StateSensitivity::of(*state, self.variations.arguments().to_vec());
         let found = if state.t == self.end { None } else { self.step(state.t) };
-        let tangent = if const { <L::M>::COUNT > 0 } { Some(Tangent::at(system, state)) } else { None };
-        let tangent = tangent.transpose()?;
-        for block in 0..blocks {
+        let tangent = if const { <L::M>::COUNT > 0 } { Some(Tangent::at(system, state)?) } else { None };
+        let equations = tangent.as_ref().map(|tangent| self.variations.equations(tangent));
+        for (k, block) in blocks.iter().enumerate() {
             let mut y = match found {
-                None => *self.variations.block(block),
+                None => block.y,
                 Some((step, part)) => {
-                    let each = self.coefficients.len() / (self.steps.len() * blocks);
-                    let first = each * (step * blocks + block);
+                    let each = self.coefficients.len() / (self.steps.len() * blocks.len());
+                    let first = each * (step * blocks.len() + k);
                     (self.between)(&self.coefficients[first..first + each], WideOf::<L>::of(part))
                 }
             };
-            if let Some(tangent) = &tangent {
-                y = self.variations.projected(block, tangent, y)?;
+            if let Some(equations) = &equations {
+                y = equations.projected(block, y)?;
             }
-            for column in lanes * block..at.arguments().len().min(lanes * (block + 1)) {
-                let [q, v] = y.arrays().map(|half| half.map(|x| x.lane(column - lanes * block)));
-                at.set(column, [&q, &v]);
+            for lane in 0..block.lanes {
+                let [q, v] = y.arrays().map(|half| half.map(|x| x.lane(lane)));
+                at.set(block.first + lane, [&q, &v]);
             }
         }
         Ok(at)

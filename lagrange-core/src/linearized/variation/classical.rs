@@ -9,7 +9,7 @@ use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::run::Run;
 use crate::motion::{PhaseVector, RungeKutta4};
 use crate::number::{Broadcast, Real, Scalar};
-use crate::solution::interpolant::{evaluate, hermite};
+use crate::solution::interpolant::hermite;
 use crate::solution::solve::solve_near;
 use crate::system::{State, StateOf};
 use crate::vector::{Array, Element, Length, from_fn, vector};
@@ -76,16 +76,13 @@ impl<L: Linearized<Scalar: Real>> DifferentiableMethod<L> for RungeKutta4 {
         let zero = PhaseVector::filled(WideOf::<L>::constant(0.0));
         let found = run.look_within(system, self, within).and_then(|()| {
             let at_end = Tangent::at(system, &run.state).and_then(|tangent| {
-                variations.slopes_at(
-                    &tangent,
-                    |_, block| block.y,
-                    |k, slope| {
-                        let at = coefficients.len();
-                        coefficients.extend([zero; 4]);
-                        let (stages, y) = (&all[k], &variations.blocks[k].y);
-                        hermite(h, (&stages.start, &stages.slopes[0]), (y, &slope), &mut coefficients[at..]);
-                    },
-                )
+                let equations = variations.equations(&tangent);
+                for (block, ClassicalStages { start, slopes }) in variations.blocks.iter().zip(&*all) {
+                    let (at, slope) = (coefficients.len(), equations.slope(block, &block.y)?);
+                    coefficients.extend([zero; 4]);
+                    hermite(h, (start, &slopes[0]), (&block.y, &slope), &mut coefficients[at..]);
+                }
+                Ok(())
             });
             at_end.map_err(|error| Ending::of(error, run.before.t.to_f64()))
         });
@@ -94,13 +91,6 @@ impl<L: Linearized<Scalar: Real>> DifferentiableMethod<L> for RungeKutta4 {
             coefficients.truncate(first);
             step_back(variations, all);
         })
-    }
-
-    fn between(
-        coefficients: &[PhaseVector<WideOf<L>, L::N>],
-        part: WideOf<L>,
-    ) -> PhaseVector<WideOf<L>, L::N> {
-        evaluate(coefficients, part).0
     }
 }
 
@@ -136,11 +126,10 @@ fn go<L: Linearized<Scalar: Real>>(
             let before = number.checked_sub(1).map(|before| &slopes[before]);
             block.at_stage = before.map_or(*start, |slope| along(start, length, slope));
         }
-        variations.slopes_at(
-            &tangent,
-            |_, block| block.at_stage,
-            |k, slope| all[k].slopes[number] = slope,
-        )?;
+        let equations = variations.equations(&tangent);
+        for (block, stages) in variations.blocks.iter().zip(&mut *all) {
+            stages.slopes[number] = equations.slope(block, &block.at_stage)?;
+        }
     }
     let sixth = WideOf::<L>::of(h / L::Scalar::constant(6.0));
     for (block, ClassicalStages { start, slopes }) in variations.blocks.iter_mut().zip(&*all) {

@@ -8,6 +8,7 @@ use crate::linearized::tangent::WideOf;
 use crate::motion::Method;
 use crate::motion::run::Run;
 use crate::number::Real;
+use crate::solution::interpolant::evaluate;
 use crate::system::StateOf;
 use crate::vector::PhaseVector;
 
@@ -17,7 +18,8 @@ use crate::vector::PhaseVector;
 /// [`RungeKutta4`](crate::RungeKutta4) differentiate their stages, and [`Radau`](crate::linearized::Radau) the equations of its
 /// stages. [`Taylor`](crate::Taylor) expands the motion over dual numbers, and the methods that keep the structure of mechanics
 /// ([`FixedStep`](crate::motion::FixedStep)) take their steps over dual numbers; for both, the number type of the system must be a
-/// type parameter.
+/// type parameter. Derivatives by a `FixedStep` are those of the discrete map, so they are a symplectic matrix along a symplectic
+/// method, to round-off.
 #[diagnostic::on_unimplemented(
     message = "the steps of `{Self}` cannot be differentiated along motions of `{L}`",
     label = "no derivatives of its steps",
@@ -97,10 +99,12 @@ pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> + Sized {
         coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending>;
 
-    /// Variations of a block at a fraction of a step, from its coefficients.
+    /// Variations of a block at a fraction of a step, from its coefficients: by default those of the interpolants of pairs.
     #[doc(hidden)]
     fn between(
         coefficients: &[PhaseVector<WideOf<L>, L::N>],
         part: WideOf<L>,
-    ) -> PhaseVector<WideOf<L>, L::N>;
+    ) -> PhaseVector<WideOf<L>, L::N> {
+        evaluate(coefficients, part).0
+    }
 }

@@ -2,10 +2,11 @@
 
 use crate::error::Error;
 use crate::linearized::Linearized;
+use crate::linearized::argument::set_parameter;
 use crate::linearized::tangent::WideOf;
 use crate::number::{Broadcast, Dual, Real, Scalar, Wide};
-use crate::system::Pack;
-use crate::vector::{Length, Vector};
+use crate::system::{Pack, State};
+use crate::vector::{Length, PhaseVector, Vector, from_fn, vector};
 
 /// Dual numbers with derivatives along one direction per lane.
 pub(super) type Duals<L> = Dual<WideOf<L>>;
@@ -27,9 +28,22 @@ where
     for k in 0..<L::P>::COUNT {
         let changes = (0..WideOf::<L>::COUNT).any(|lane| rates[k].lane(lane) != zero);
         let value = Dual { value: WideOf::<L>::of(values[k]), slope: rates[k] };
-        if changes && !over.set_parameter(k, value) {
-            return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
+        if changes {
+            set_parameter(&mut over, k, value)?;
         }
     }
     Ok(over)
+}
+
+/// A state whose coordinates and velocities change along the variations.
+pub(super) fn with_slopes<T: Real<Wide = W>, W: Wide<T>, N: Length>(
+    state: &State<T, N>,
+    y: &PhaseVector<W, N>,
+) -> State<Dual<W>, N> {
+    let dual = |value: T, slope| Dual { value: W::of(value), slope };
+    State {
+        t: dual(state.t, W::constant(0.0)),
+        q: vector(from_fn(|i| dual(state.q[i], y[0][i]))),
+        v: vector(from_fn(|i| dual(state.v[i], y[1][i]))),
+    }
 }

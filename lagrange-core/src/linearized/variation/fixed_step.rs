@@ -7,7 +7,7 @@
 use alloc::vec::Vec;
 use core::convert::Infallible;
 
-use super::duals::{Duals, PackedDuals, with_rates};
+use super::duals::{Duals, PackedDuals, with_rates, with_slopes};
 use super::{Block, DifferentiableMethod, Variations};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
@@ -15,10 +15,9 @@ use crate::linearized::tangent::WideOf;
 use crate::motion::geometric::{CompensatedState, FixedStep, Scheme};
 use crate::motion::run::Run;
 use crate::number::{Broadcast, Dual, Parts, Real, Scalar, Wide, is_within, larger, power_of_epsilon};
-use crate::solution::interpolant::evaluate;
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, State, StateOf};
-use crate::vector::{Array, Element, Length, PhaseVector, array, from_fn, vector};
+use crate::vector::{Array, Element, Length, PhaseVector, array};
 
 /// Round-off of an iteration, in units of ε of the largest coordinate: at most the residual at which it may end.
 const ROUND_OFF: f64 = 4096.0;
@@ -89,7 +88,7 @@ where
             let time = before.t.to_f64();
             match (moved, fault) {
                 (_, Some((row, lane))) => {
-                    let entry = variations.argument(k, lane);
+                    let entry = variations.arguments()[block.first + lane];
                     return Err(Ending::of(Error::DerivativeNotFinite { row, entry, time }, time));
                 }
                 (Err(_), None) => {
@@ -135,13 +134,6 @@ where
         }
         Ok(())
     }
-
-    fn between(
-        coefficients: &[PhaseVector<WideOf<L>, L::N>],
-        part: WideOf<L>,
-    ) -> PhaseVector<WideOf<L>, L::N> {
-        evaluate(coefficients, part).0
-    }
 }
 
 /// True if a step over dual numbers from `start` ends at the state of the motion, to half of the digits of each coordinate or
@@ -159,17 +151,4 @@ fn is_near<T: Real<Wide = W>, W: Wide<T>, N: Length>(
         let off = Scalar::abs(end.q[i].value.lane(0) - motion.q[i]);
         is_within(off, power_of_epsilon::<T>(0.5) * size(i) + round_off)
     })
-}
-
-/// A state whose coordinates and velocities change along the variations.
-fn with_slopes<T: Real<Wide = W>, W: Wide<T>, N: Length>(
-    state: &State<T, N>,
-    y: &PhaseVector<W, N>,
-) -> State<Dual<W>, N> {
-    let dual = |value: T, slope| Dual { value: W::of(value), slope };
-    State {
-        t: dual(state.t, W::constant(0.0)),
-        q: vector(from_fn(|i| dual(state.q[i], y[0][i]))),
-        v: vector(from_fn(|i| dual(state.v[i], y[1][i]))),
-    }
 }

@@ -13,26 +13,27 @@
 mod classical;
 mod differentiable;
 mod duals;
+mod equations;
 mod fixed_step;
 mod stages;
 mod taylor;
 
 use alloc::vec::Vec;
 
+use super::Linearized;
 use super::argument::parameter;
 use super::tangent::{Tangent, WideOf};
-use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-use crate::number::{Real, Scalar, Wide};
+use crate::number::{Real, Scalar, Wide, unit_of};
 use crate::room::Room;
 use crate::solution::consistent::factors_of_nearest;
 use crate::solution::kkt::{Factors, Fault, Rank};
 use crate::solution::solve::fault;
-use crate::system::{Direction, ResidualChange};
-use crate::vector::{Array, Element, Length, PhaseVector, Vector, entries, vector};
+use crate::vector::{Array, Element, Length, PhaseVector, Vector, entries, zeros};
 
 pub use differentiable::DifferentiableMethod;
+pub(super) use equations::VariationalEquations;
 
 /// Variations of a motion, one per SIMD lane.
 #[derive(Clone, Debug)]
@@ -47,6 +48,8 @@ pub(crate) struct Block<W: Element, N: Length, P: Length> {
     pub(crate) unit: W,
     /// Number of lanes in use.
     pub(crate) lanes: usize,
+    /// Index of the argument of the first lane.
+    pub(crate) first: usize,
 }
 
 /// Variations of a motion by several arguments, in blocks of lanes.
@@ -75,7 +78,8 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
         let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
         let parameters: Vec<_> = arguments.iter().map(|entry| parameter::<L>(*entry)).collect();
         let values = system.parameters();
-        let blocks = parameters.chunks(lanes).map(|parameters| Block::of(parameters, &values)).collect();
+        let block = |(k, parameters)| Block::of(k * lanes, parameters, &values);
+        let blocks = parameters.chunks(lanes).enumerate().map(block).collect();
         Self { arguments, blocks }
     }
 
@@ -88,12 +92,8 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
         let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
         for j in 0..self.count() {
             let column = column(j);
-            let entries = column.iter().flat_map(|half| half.iter());
-            self.blocks[j / lanes]
-                .y_mut()
-                .iter_mut()
-                .zip(entries)
-                .for_each(|(wide, x)| wide.put(j % lanes, *x));
+            let entries = self.blocks[j / lanes].y.flat_mut().iter_mut().zip(column.iter().flatten());
+            entries.for_each(|(wide, x)| wide.put(j % lanes, *x));
         }
         self.set_out(tangent)
     }
@@ -136,7 +136,7 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
             x.put(into.1, combined);
         };
         let from_y = self.blocks[from.0].y;
-        let pairs = self.blocks[into.0].y_mut().iter_mut().zip(from_y.flat());
+        let pairs = self.blocks[into.0].y.flat_mut().iter_mut().zip(from_y.flat());
         pairs.for_each(|(x, y)| combine(x, *y));
         if !linear.is_empty() {
             let y = *linear[from.0];
@@ -157,20 +157,10 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
         &self.arguments
     }
 
-    /// Argument of the variation in this lane of a block.
-    pub(crate) fn argument(&self, block: usize, lane: usize) -> Entry {
-        lane_names::<L>(&self.arguments, block)(lane)
-    }
-
     /// Entry of δ(q, q̇) of variation `j`, coordinates first.
     pub(super) fn entry(&self, j: usize, i: usize) -> L::Scalar {
         let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
         self.blocks[j / lanes].y.flat()[i].lane(j % lanes)
-    }
-
-    /// Variations δ(q, q̇) of a block.
-    pub(super) fn block(&self, index: usize) -> &PhaseVector<WideOf<L>, L::N> {
-        &self.blocks[index].y
     }
 
     /// Projects the variations at the start onto the tangent space. As for the start itself, the coordinates are moved
@@ -182,14 +172,13 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
                 &tangent.holonomic_rows(),
                 Rank::off_constraints(),
             ));
-            let by_parameters = self.parameter_slopes(tangent);
-            for (k, block) in self.blocks.iter_mut().enumerate() {
-                let names = lane_names::<L>(&self.arguments, k);
-                let position = block.changes(tangent, &by_parameters, &block.y).position;
+            let equations = VariationalEquations::at(tangent, &self.arguments, &self.blocks);
+            for block in &mut self.blocks {
+                let position = equations.changes(block, &block.y).position;
                 block
                     .move_by(&nearest, &position)
                     .map_err(|found| fault::<L>(&found, tangent.state.t.to_f64()))?;
-                block.y = block.half_projected(1, tangent, &by_parameters, block.y, &names)?;
+                block.y = equations.half_projected(1, block, block.y)?;
             }
         }
         Ok(())
@@ -198,88 +187,34 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
     /// Projects the variations at the end of a step onto the tangent space.
     pub(crate) fn arrive(&mut self, tangent: &Tangent<'_, L>) -> Result<(), Error> {
         if const { <L::M>::COUNT > 0 } {
-            let by_parameters = self.parameter_slopes(tangent);
-            for (k, block) in self.blocks.iter_mut().enumerate() {
-                let names = lane_names::<L>(&self.arguments, k);
-                block.y = block.projected(tangent, &by_parameters, block.y, &names)?;
+            let equations = VariationalEquations::at(tangent, &self.arguments, &self.blocks);
+            for block in &mut self.blocks {
+                block.y = equations.projected(block, block.y)?;
             }
         }
         Ok(())
     }
 
-    /// Passes δ(q̇, q̈) of each block at a state to `give`; `y` returns the block's δ(q, q̇) there.
-    pub(crate) fn slopes_at(
-        &self,
-        tangent: &Tangent<'_, L>,
-        y: impl Fn(usize, &Block<WideOf<L>, L::N, L::P>) -> PhaseVector<WideOf<L>, L::N>,
-        mut give: impl FnMut(usize, PhaseVector<WideOf<L>, L::N>),
-    ) -> Result<(), Error> {
-        let by_parameters = self.parameter_slopes(tangent);
-        for (k, block) in self.blocks.iter().enumerate() {
-            let names = lane_names::<L>(&self.arguments, k);
-            give(k, block.slope_at(tangent, &by_parameters, &y(k, block), &names)?);
-        }
-        Ok(())
+    /// The equations of the variations at a state.
+    pub(super) fn equations<'a>(&'a self, tangent: &'a Tangent<'a, L>) -> VariationalEquations<'a, L> {
+        VariationalEquations::at(tangent, &self.arguments, &self.blocks)
     }
-
-    /// Projects δ(q, q̇) of a block at an intermediate state onto the tangent space there.
-    pub(super) fn projected(
-        &self,
-        index: usize,
-        tangent: &Tangent<'_, L>,
-        y: PhaseVector<WideOf<L>, L::N>,
-    ) -> Result<PhaseVector<WideOf<L>, L::N>, Error> {
-        let names = lane_names::<L>(&self.arguments, index);
-        self.blocks[index].projected(tangent, &self.parameter_slopes(tangent), y, &names)
-    }
-
-    /// Rates δ(q̇, q̈) at a state where a block has the variations `y`.
-    #[cfg(any(feature = "std", feature = "libm"))]
-    pub(super) fn slope(
-        &self,
-        index: usize,
-        tangent: &Tangent<'_, L>,
-        y: &PhaseVector<WideOf<L>, L::N>,
-    ) -> Result<PhaseVector<WideOf<L>, L::N>, Error> {
-        let names = lane_names::<L>(&self.arguments, index);
-        self.blocks[index].slope_at(tangent, &self.parameter_slopes(tangent), y, &names)
-    }
-
-    /// Coefficients of the derivatives by parameters; `None` if no variation changes a parameter.
-    fn parameter_slopes(&self, tangent: &Tangent<'_, L>) -> Option<L::ParameterSlopes> {
-        self.blocks.iter().any(|block| block.rates.is_some()).then(|| tangent.parameter_slopes())
-    }
-}
-
-/// Names the lanes of a block by their arguments, for errors.
-fn lane_names<L: StateDerivatives<Scalar: Real>>(
-    arguments: &[Entry],
-    block: usize,
-) -> impl Fn(usize) -> Entry {
-    let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
-    move |lane| arguments[lanes * block + lane]
 }
 
 impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
-    /// Creates a block of variations that are zero, one per lane. Each is by the parameter of this index, or
-    /// by an entry of the state if it is `None`.
-    fn of<T: Real>(parameters: &[Option<usize>], values: &Vector<T, P>) -> Self
+    /// Creates a block of variations that are zero, one per lane, from argument `first` on. Each is by the parameter of
+    /// this index, or by an entry of the state if it is `None`.
+    fn of<T: Real>(first: usize, parameters: &[Option<usize>], values: &Vector<T, P>) -> Self
     where
         W: Wide<T>,
     {
-        let (zero, one) = (W::constant(0.0), T::constant(1.0));
-        let (mut rates, mut unit) = (None, W::constant(1.0));
+        let (one, none) = (T::constant(1.0), PhaseVector::filled(W::constant(0.0)));
+        let (mut rates, mut unit): (Option<Vector<W, P>>, _) = (None, W::constant(1.0));
         for (lane, k) in parameters.iter().enumerate().filter_map(|(lane, k)| Some((lane, (*k)?))) {
-            rates.get_or_insert_with(|| vector(Array::filled(zero)))[k].put(lane, one);
-            let size = Scalar::abs(values[k]);
-            unit.put(lane, if size > T::constant(0.0) { one / size } else { one });
+            rates.get_or_insert_with(zeros)[k].put(lane, one);
+            unit.put(lane, one / unit_of(Scalar::abs(values[k])));
         }
-        let none = PhaseVector::filled(zero);
-        Self { y: none, at_stage: none, rates, unit, lanes: parameters.len() }
-    }
-
-    fn y_mut(&mut self) -> &mut [W] {
-        self.y.flat_mut()
+        Self { y: none, at_stage: none, rates, unit, lanes: parameters.len(), first }
     }
 
     /// Adds to δq the correction that compensates these changes of Φ, lane by lane.
@@ -298,65 +233,5 @@ impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
             moved.for_each(|(x, least)| x.put(lane, x.lane(lane) + *least));
         }
         Ok(())
-    }
-
-    /// Derivative of the residual along the variations.
-    #[inline]
-    fn changes<L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>>(
-        &self,
-        tangent: &Tangent<'_, L>,
-        by_parameters: &Option<L::ParameterSlopes>,
-        y: &PhaseVector<W, N>,
-    ) -> ResidualChange<W, N, L::M> {
-        let of_state =
-            tangent.changes(&Direction { t: W::constant(0.0), q: vector(y.half(0)), v: vector(y.half(1)) });
-        let Some((slopes, rates)) = by_parameters.as_ref().zip(self.rates.as_ref()) else { return of_state };
-        of_state.plus(&tangent.changes_by_parameters(slopes, rates))
-    }
-
-    /// Rates δ(q̇, q̈) of the variations.
-    #[inline]
-    fn slope_at<L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>>(
-        &self,
-        tangent: &Tangent<'_, L>,
-        by_parameters: &Option<L::ParameterSlopes>,
-        y: &PhaseVector<W, N>,
-        names: &impl Fn(usize) -> Entry,
-    ) -> Result<PhaseVector<W, N>, Error> {
-        let changes = self.changes(tangent, by_parameters, y);
-        let rates = tangent.responses(self.lanes, &changes, names)?.accelerations;
-        Ok(PhaseVector::new([y.half(1), rates.into()]))
-    }
-
-    /// Projects variations onto the tangent space.
-    fn projected<L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>>(
-        &self,
-        tangent: &Tangent<'_, L>,
-        by_parameters: &Option<L::ParameterSlopes>,
-        mut y: PhaseVector<W, N>,
-        names: &impl Fn(usize) -> Entry,
-    ) -> Result<PhaseVector<W, N>, Error> {
-        for half in 0..2 {
-            y = self.half_projected(half, tangent, by_parameters, y, names)?;
-        }
-        Ok(y)
-    }
-
-    /// Projects δq (`half` 0) or δq̇ (`half` 1), by the rows of all constraints.
-    fn half_projected<L: Linearized<N = N, P = P, Scalar: Real<Wide = W>>>(
-        &self,
-        half: usize,
-        tangent: &Tangent<'_, L>,
-        by_parameters: &Option<L::ParameterSlopes>,
-        mut y: PhaseVector<W, N>,
-        names: &impl Fn(usize) -> Entry,
-    ) -> Result<PhaseVector<W, N>, Error> {
-        let changes = self.changes(tangent, by_parameters, &y);
-        let left = if half == 0 { changes.position } else { changes.rate };
-        let motion = vector(Array::filled(W::constant(0.0)));
-        let demands = ResidualChange { motion, acceleration: left, ..changes };
-        let correction = tangent.responses(self.lanes, &demands, names)?.accelerations;
-        y[half].iter_mut().zip(&correction).for_each(|(x, correction)| *x = *x + *correction);
-        Ok(y)
     }
 }

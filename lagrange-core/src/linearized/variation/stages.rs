@@ -6,8 +6,9 @@ use alloc::vec::Vec;
 
 use nalgebra::ComplexField;
 
-use super::{Block, DifferentiableMethod, Linearized, StateDerivatives, Variations};
+use super::{Block, DifferentiableMethod, Linearized, Variations};
 use crate::error::{Ending, Error};
+use crate::linearized::StateDerivatives;
 use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::method::control::VariedEnds;
 use crate::motion::method::pair::{Slopes, advance, last};
@@ -16,11 +17,11 @@ use crate::motion::run::Run;
 use crate::motion::{Adaptive, Pair, TableauRow};
 use crate::number::{Broadcast, Real, Scalar, Wide, exceeds};
 use crate::room::Room;
-use crate::solution::interpolant::{evaluate, hermite};
+use crate::solution::interpolant::hermite;
 use crate::solution::solve::solve_near;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::{Solution, State, StateOf};
-use crate::vector::{Array, Element, Length, PhaseVector, vector};
+use crate::vector::{Array, Element, Length, PhaseVector, vector, zeros};
 
 /// Stage slopes of a block of variations.
 #[derive(Clone, Debug)]
@@ -57,7 +58,11 @@ impl<Q: Pair, L: Linearized<Scalar: Real>> DifferentiableMethod<L> for Adaptive<
         all: &mut Self::VariationMemory,
     ) -> Result<(), Error> {
         let tangent = Tangent::at(system, start)?;
-        variations.slopes_at(&tangent, |_, block| block.y, |k, slope| all[k].slope = slope)
+        let equations = variations.equations(&tangent);
+        for (block, stages) in variations.blocks.iter().zip(all) {
+            stages.slope = equations.slope(block, &block.y)?;
+        }
+        Ok(())
     }
 
     fn linear(companion: &mut Self::VariationMemory) -> Vec<&mut PhaseVector<WideOf<L>, L::N>> {
@@ -117,13 +122,6 @@ impl<Q: Pair, L: Linearized<Scalar: Real>> DifferentiableMethod<L> for Adaptive<
         }
         Ok(())
     }
-
-    fn between(
-        coefficients: &[PhaseVector<WideOf<L>, L::N>],
-        part: WideOf<L>,
-    ) -> PhaseVector<WideOf<L>, L::N> {
-        evaluate(coefficients, part).0
-    }
 }
 
 impl<Q: Pair> Adaptive<Q> {
@@ -177,13 +175,12 @@ fn go<Q: Pair, L: Linearized<Scalar: Real>>(
     let state = state_at(memory.clock.now, &memory.y);
     let tangent = tangent_at(system, &state, &memory.slope.half(1), &memory.active)?;
     variations.arrive(&tangent)?;
-    variations.slopes_at(
-        &tangent,
-        |_, block| block.y,
-        |k, slope| {
-            (all[k].slope, all[k].slopes[last::<Q>()]) = (slope, slope);
-        },
-    )
+    let equations = variations.equations(&tangent);
+    for (block, stages) in variations.blocks.iter().zip(all) {
+        stages.slope = equations.slope(block, &block.y)?;
+        stages.slopes[last::<Q>()] = stages.slope;
+    }
+    Ok(())
 }
 
 /// Computes the slopes of these stages of the last step; `first` is the number of the first stage.
@@ -203,11 +200,10 @@ fn stages<Q: Pair, L: Linearized<Scalar: Real>>(
         for (block, Stages { start, slopes, .. }) in variations.blocks.iter_mut().zip(&*all) {
             advance(start, wide, slopes, row, &mut block.at_stage);
         }
-        variations.slopes_at(
-            &tangent,
-            |_, block| block.at_stage,
-            |k, slope| all[k].slopes[number] = slope,
-        )?;
+        let equations = variations.equations(&tangent);
+        for (block, stages) in variations.blocks.iter().zip(&mut *all) {
+            stages.slopes[number] = equations.slope(block, &block.at_stage)?;
+        }
     }
     Ok(())
 }
@@ -232,9 +228,7 @@ fn tangent_at<'a, L: StateDerivatives<Scalar: Real>>(
             solve_near(system, state, Some(active), |solution, _| *solution)?,
         ));
     }
-    let (zero, one) = (L::Scalar::constant(0.0), L::Scalar::constant(1.0));
-    let (accelerations, multipliers) = (vector(*accelerations), vector(Array::filled(zero)));
-    Ok(Tangent::of(system, state, Solution { accelerations, multipliers, pivot: one, rank: <L::M>::COUNT }))
+    Ok(Tangent::of(system, state, Solution::given(vector(*accelerations), zeros())))
 }
 
 impl<W: Scalar, N: Length> Stages<W, N> {

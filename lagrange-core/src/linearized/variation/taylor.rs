@@ -10,7 +10,7 @@ use core::convert::Infallible;
 
 use nalgebra::ComplexField;
 
-use super::duals::{Duals, PackedDuals, with_rates};
+use super::duals::{Duals, PackedDuals, with_rates, with_slopes};
 use super::{Block, DifferentiableMethod, Variations};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
@@ -25,7 +25,7 @@ use crate::number::{Broadcast, Dual, Real, Scalar, Wide, exceeds, smaller};
 use crate::solution::pivot::least_pivot;
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, StateOf, TaylorSeries};
-use crate::vector::{Array, Element, FixedArray, Length, PhaseVector, entries, from_fn, vector};
+use crate::vector::{Array, Element, FixedArray, Length, PhaseVector, entries, from_fn};
 use general::DualGeneral;
 
 type Sums<L> = <PackedDuals<L> as TaylorSeries>::Sums;
@@ -79,8 +79,8 @@ where
         self.aim(memory, end);
         let of = |error| Ending::of(error, time);
         self.expand(system, memory, &mut run.statistics).map_err(of)?;
-        for (k, (varied, block)) in companion.iter_mut().zip(&variations.blocks).enumerate() {
-            let entry = |lane| variations.argument(k, lane);
+        for (varied, block) in companion.iter_mut().zip(&variations.blocks) {
+            let entry = |lane| variations.arguments()[block.first + lane];
             varied.expand::<L, _, L::P>(system, memory, block, entry).map_err(of)?;
             let scales = self.scales([&block.y; 2], block.unit, &memory.series);
             let sizes: [_; LAST] = from_fn(|i| varied.size(varied.series.order() + 1 - LAST + i, &scales));
@@ -176,16 +176,15 @@ impl Taylor {
         let length = WideOf::<L>::of(Scalar::abs(memory.clock.now - memory.series.start));
         let bound = L::Scalar::constant(self.jump_allowed::<L::Scalar>());
         let mut worst = None;
-        let look = |k: usize, slope: PhaseVector<WideOf<L>, L::N>| {
-            let block = &variations.blocks[k];
-            let BlockStep { before, rates } = &steps[k];
+        let equations = variations.equations(&tangent);
+        for (block, BlockStep { before, rates }) in variations.blocks.iter().zip(steps) {
+            let slope = equations.slope(block, &block.y)?;
             let scales = self.scales([before, &block.y], block.unit, &memory.series);
             let off = (0..<L::N>::COUNT).map(|i| (rates[i] - slope[1][i]).abs() * length * scales[1][i]);
             let off = off.fold(WideOf::<L>::constant(0.0), |most, off| most + off);
             let lane = (0..block.lanes).find(|&lane| exceeds(off.lane(lane), bound));
-            worst = worst.or_else(|| lane.map(|lane| variations.argument(k, lane)));
-        };
-        variations.slopes_at(&tangent, |_, block| block.y, look)?;
+            worst = worst.or_else(|| lane.map(|lane| variations.arguments()[block.first + lane]));
+        }
         Ok(worst)
     }
 }
@@ -205,14 +204,9 @@ impl<S, U: FixedArray<Dual<W>>, W: Scalar, N: Length> Varied<S, U, W, N> {
         W: Wide<L::Scalar>,
         V: FixedArray<L::Scalar>,
     {
-        let dual = |value: L::Scalar, slope| Dual { value: W::of(value), slope };
-        let (at, none, y) = (&memory.state, W::constant(0.0), &block.y);
-        let state = State {
-            t: dual(at.t, none),
-            q: vector(from_fn(|i| dual(at.q[i], y[0][i]))),
-            v: vector(from_fn(|i| dual(at.v[i], y[1][i]))),
-        };
-        let unit = dual(memory.series.unit, none);
+        let at = &memory.state;
+        let state = with_slopes(at, &block.y);
+        let unit = Dual { value: W::of(memory.series.unit), slope: W::constant(0.0) };
         let solution = self.system.accelerations_unchecked(&state);
         if memory.solved.is_by_elimination() && is_sound::<L::Scalar, W, N, L::M>(&solution) {
             let factor = self.system.factor(&state);

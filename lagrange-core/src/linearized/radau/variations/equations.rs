@@ -8,12 +8,13 @@ use alloc::vec::Vec;
 
 use nalgebra::{Const, DMatrix};
 
+use super::super::iteration::zip;
 use super::super::memory::RadauMemory;
 use super::super::tableau::RadauStages;
 use super::stage::{Held, Normals, StageDerivatives};
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::tangent::{Tangent, WideOf};
+use crate::linearized::tangent::Tangent;
 use crate::linearized::variation::Variations;
 use crate::number::{Real, Scalar, Wide};
 use crate::solution::consistent::BOTH;
@@ -136,9 +137,8 @@ impl<T: Real> StageDerivatives<T> {
 
 /// Coordinates and velocities of variations, a column for each.
 fn columns<L: Linearized<Scalar: Real>>(variations: &Variations<L>, half: usize) -> DMatrix<L::Scalar> {
-    let lanes = <WideOf<L> as Wide<L::Scalar>>::COUNT;
-    let entry = |i: usize, j: usize| variations.blocks[j / lanes].y[half][i].lane(j % lanes);
-    DMatrix::from_fn(<L::N>::COUNT, variations.arguments().len(), entry)
+    let (n, count) = (<L::N>::COUNT, variations.arguments().len());
+    DMatrix::from_fn(n, count, |i, j| variations.entry(j, half * n + i))
 }
 
 /// Variations of the coordinates and velocities of each stage.
@@ -164,8 +164,6 @@ impl<T: Real> StageVariations<T> {
         block: usize,
         start: &PhaseVector<T::Wide, N>,
     ) -> PhaseVector<T::Wide, N> {
-        let mut y = self.at(stage, block);
-        y.flat_mut().iter_mut().zip(start.flat()).for_each(|(y, start)| *y = *y - *start);
-        y
+        zip(&self.at(stage, block), start, |y, start| y - start)
     }
 }

@@ -11,7 +11,7 @@ use super::equations::StageVariations;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::tangent::{Tangent, WideOf};
-use crate::linearized::variation::Variations;
+use crate::linearized::variation::{Block, VariationalEquations, Variations};
 use crate::motion::method::control::{SLACK, VariedEnds};
 use crate::number::{Real, Wide};
 use crate::solution::solve::solve_near;
@@ -33,16 +33,15 @@ where
         let state = from.state();
         let solution = solve_near(system, &state, Some(&from.active), |solution, _| *solution)?;
         let tangent = Tangent::of(system, &state, solution);
-        let (mut worst, lanes) = ((0.0, 0), <WideOf<L> as Wide<L::Scalar>>::COUNT);
+        let (equations, mut worst) = (variations.equations(&tangent), (0.0, 0));
         for (k, block) in variations.blocks.iter().enumerate() {
-            let rates = variations.slope(k, &tangent, &block.y)?;
+            let rates = equations.slope(block, &block.y)?;
             for lane in 0..block.lanes {
-                let error =
-                    self.error_of_lane(memory, (variations, stages), (k, lane), (&tangent, &rates))?;
+                let error = self.error_of_lane(memory, &equations, (k, block, lane), (stages, &rates))?;
                 // NaN counts as infinite.
                 let error = if error.is_nan() { f64::INFINITY } else { error };
                 if error > worst.0 {
-                    worst = (error, k * lanes + lane);
+                    worst = (error, block.first + lane);
                 }
             }
         }
@@ -53,17 +52,17 @@ where
     fn error_of_lane<L: Linearized<Scalar: Real>>(
         &self,
         memory: &RadauMemory<L, S>,
-        (variations, stages): (&Variations<L>, &StageVariations<L::Scalar>),
-        (k, lane): (usize, usize),
-        (tangent, rates): (&Tangent<'_, L>, &PhaseVector<WideOf<L>, L::N>),
+        equations: &VariationalEquations<'_, L>,
+        (k, block, lane): (usize, &Block<WideOf<L>, L::N, L::P>, usize),
+        (stages, rates): (&StageVariations<L::Scalar>, &PhaseVector<WideOf<L>, L::N>),
     ) -> Result<f64, Error> {
-        let (system, time, block) = (tangent.system, tangent.state.t, &variations.blocks[k]);
-        let in_plane = |y: &_| memory.chart.tangents(system, y, time);
+        let Tangent { system, state, .. } = equations.tangent;
+        let in_plane = |y: &_| memory.chart.tangents(system, y, state.t);
         let [start, end, rates] = [&block.y, &stages.at(S - 1, k), rates].map(|y| lane_of::<L>(y, lane));
         let changes = from_fn(|stage| lane_of::<L>(&stages.change(stage, k, &block.y), lane));
         let all = combination(&memory.transformation.start, &changes);
         let slopes = StartSlopes { tangent: in_plane(&all)?, all };
-        let places = [&PhaseVector::of(tangent.state.q, tangent.state.v), &memory.at.y];
+        let places = [&PhaseVector::of(state.q, state.v), &memory.at.y];
         let step = VariedEnds { variations: [&start, &end], places, unit: block.unit.lane(lane) };
         let tolerance = self.tolerance::<L::Scalar>();
         let slack = of_estimate::<L::Scalar, S>(SLACK);
@@ -71,8 +70,8 @@ where
         let estimate = memory.estimate_of([&rates, &in_plane(&rates)?], &slopes, part, |errors| {
             let mut y = block.y;
             y.flat_mut().iter_mut().zip(errors.flat()).for_each(|(y, x)| y.put(lane, y.lane(lane) + *x));
-            let y = variations.projected(k, tangent, y)?;
-            in_plane(&lane_of::<L>(&variations.slope(k, tangent, &y)?, lane))
+            let y = equations.projected(block, y)?;
+            in_plane(&lane_of::<L>(&equations.slope(block, &y)?, lane))
         });
         Ok(estimate?.size)
     }

@@ -14,7 +14,8 @@ use crate::linearized::tangent::{Tangent, WideOf};
 use crate::linearized::variation::Variations;
 use crate::number::{Real, Wide};
 use crate::solution::consistent::level::Level;
-use crate::vector::{Array, Entrywise, Length};
+use crate::system::unit;
+use crate::vector::{Entrywise, Length};
 
 /// Directions along which the chart moves states onto the constraints of a level, one for each that determines them.
 pub(super) struct Normals<T> {
@@ -31,8 +32,7 @@ impl<T: Real> Normals<T> {
     ) -> Result<Self, Error> {
         let (mut constraints, mut directions) = (Vec::new(), Vec::new());
         for a in (0..<L::M>::COUNT).filter(|&a| level.is_active(L::CONSTRAINT_KINDS[a])) {
-            let unit = Array::from_fn(|b| T::constant(if a == b { 1.0 } else { 0.0 }));
-            let direction = chart.correction(system, level, &unit, time)?;
+            let direction = chart.correction(system, level, &unit::<T, L::M>(a).into(), time)?;
             // The general solver leaves out constraints that depend on others.
             if direction.iter().any(|x| *x != T::constant(0.0)) {
                 constraints.push(a);
@@ -145,15 +145,15 @@ impl<T: Real> ParameterChanges<T> {
         tangent: &Tangent<'_, L>,
         variations: &Variations<L>,
     ) -> Result<Self, Error> {
-        let (lanes, count) = (<WideOf<L> as Wide<T>>::COUNT, variations.arguments().len());
-        let zeros = |rows| DMatrix::zeros(rows, count);
+        let arguments = variations.arguments();
+        let zeros = |rows| DMatrix::zeros(rows, arguments.len());
         let [mut forced, mut position, mut rate] = [<L::N>::COUNT, <L::M>::COUNT, <L::M>::COUNT].map(zeros);
-        for (k, block) in variations.blocks.iter().enumerate() {
+        for block in &variations.blocks {
             let Some(rates) = &block.rates else { continue };
             let changes = tangent.changes_by_parameters(&tangent.parameter_slopes(), rates);
-            let found = tangent.responses(block.lanes, &changes, |lane| variations.argument(k, lane))?;
+            let found = tangent.responses(block.lanes, &changes, |lane| arguments[block.first + lane])?;
             for lane in 0..block.lanes {
-                let column = k * lanes + lane;
+                let column = block.first + lane;
                 forced.set_column(column, &found.accelerations.each(|x| x.lane(lane)));
                 position.set_column(column, &changes.position.each(|x| x.lane(lane)));
                 rate.set_column(column, &changes.rate.each(|x| x.lane(lane)));
