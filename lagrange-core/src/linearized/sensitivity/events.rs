@@ -4,6 +4,7 @@ use core::fmt::{self, Debug, Formatter};
 
 use nalgebra::ComplexField;
 
+use super::state::{ChangingState, ChangingStateOf};
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::check_parameters;
@@ -31,15 +32,11 @@ pub struct DualSample<'a, L: Linearized> {
 }
 
 impl<'a, L: Linearized<Scalar: Real>> DualSample<'a, L> {
-    pub(super) fn along(
-        system: &'a L,
-        state: &StateOf<L>,
-        direction: &Direction<L::Scalar, L::N>,
-        argument: Option<Entry>,
-    ) -> Self {
+    pub(super) fn of(system: &'a L, at: &ChangingStateOf<'_, L>) -> Self {
         let dual = |value, slope| Dual { value, slope };
-        let (t, q) = (dual(state.t, direction.t), state.q.each_with(&direction.q, dual));
-        Self { system, state: State { t, q, v: state.v.each_with(&direction.v, dual) }, argument }
+        let ChangingState { state: State { t, q, v }, direction, argument } = at;
+        let (q, v) = (q.each_with(&direction.q, dual), v.each_with(&direction.v, dual));
+        Self { system, state: State { t: dual(*t, direction.t), q, v }, argument: *argument }
     }
 
     /// The system.
@@ -192,7 +189,8 @@ where
     V: EventValue<Dual<L::Scalar>>,
 {
     fn at(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
-        Ok((self.0)(&DualSample::along(system, state, &Direction::zero(), None)).value()?.value)
+        let still = ChangingState::along(state, Direction::zero());
+        Ok((self.0)(&DualSample::of(system, &still)).value()?.value)
     }
 }
 
@@ -203,16 +201,9 @@ where
     note = "make one by `system.differentiable_event(\"name\", |sample| …)`, of the same system"
 )]
 pub trait DifferentiableEvent<L: Linearized>: AnyEvent<L> {
-    /// Derivative of the event's function along `direction` and by `argument`; an error with the event's name if it is
-    /// not finite.
+    /// Derivative of the event's function at a changing state; an error with the event's name if it is not finite.
     #[doc(hidden)]
-    fn change(
-        &self,
-        system: &L,
-        state: &StateOf<L>,
-        direction: &Direction<L::Scalar, L::N>,
-        argument: Option<Entry>,
-    ) -> Result<L::Scalar, Error>;
+    fn change(&self, system: &L, at: &ChangingStateOf<'_, L>) -> Result<L::Scalar, Error>;
 
     /// Name of the event.
     #[doc(hidden)]
@@ -225,18 +216,12 @@ where
     G: Fn(&DualSample<'_, L>) -> V,
     V: EventValue<Dual<L::Scalar>>,
 {
-    fn change(
-        &self,
-        system: &L,
-        state: &StateOf<L>,
-        direction: &Direction<L::Scalar, L::N>,
-        argument: Option<Entry>,
-    ) -> Result<L::Scalar, Error> {
+    fn change(&self, system: &L, at: &ChangingStateOf<'_, L>) -> Result<L::Scalar, Error> {
         let OverDuals(function) = self.function();
-        let slope = function(&DualSample::along(system, state, direction, argument)).value()?.slope;
+        let slope = function(&DualSample::of(system, at)).value()?.slope;
         match slope.is_finite() {
             true => Ok(slope),
-            false => Err(Error::EventNotFinite { event: self.name(), time: state.t.to_f64() }),
+            false => Err(Error::EventNotFinite { event: self.name(), time: at.state.t.to_f64() }),
         }
     }
 
@@ -246,14 +231,8 @@ where
 }
 
 impl<L: Linearized<Scalar: Real>, W: DifferentiableEvent<L> + ?Sized> DifferentiableEvent<L> for &mut W {
-    fn change(
-        &self,
-        system: &L,
-        state: &StateOf<L>,
-        direction: &Direction<L::Scalar, L::N>,
-        argument: Option<Entry>,
-    ) -> Result<L::Scalar, Error> {
-        (**self).change(system, state, direction, argument)
+    fn change(&self, system: &L, at: &ChangingStateOf<'_, L>) -> Result<L::Scalar, Error> {
+        (**self).change(system, at)
     }
 
     fn called(&self) -> &'static str {

@@ -79,6 +79,11 @@ impl<T: Real, N: Length> StateSensitivity<T, N> {
         Direction { t: self.t[j], q: column(&self.q), v: column(&self.v) }
     }
 
+    /// The state as it changes with argument `j`.
+    pub(super) fn by(&self, j: usize) -> ChangingState<'_, T, N> {
+        ChangingState { state: &self.state, direction: self.direction(j), argument: Some(self.arguments[j]) }
+    }
+
     /// Converts column `j` to a state whose time changes by `by` more: adds `by` times the rates of the state.
     pub(super) fn delay(&mut self, j: usize, by: T, accelerations: &Vector<T, N>) {
         self.t[j] += by;
@@ -113,13 +118,28 @@ pub(super) fn start<L: Linearized<Scalar: Real>>(
     Ok(start)
 }
 
-/// Derivative of the function of an event at a state, along a direction and by an argument.
-pub(super) type EventChange<'c, L> = dyn Fn(
-        &StateOf<L>,
-        &Direction<<L as Lagrangian>::Scalar, <L as Lagrangian>::N>,
-        Option<Entry>,
-    ) -> Result<<L as Lagrangian>::Scalar, Error>
-    + 'c;
+/// A state that changes along a direction, and with a parameter at unit rate if that is the argument.
+#[derive(Clone, Copy, Debug)]
+pub struct ChangingState<'s, T: Element, N: Length> {
+    pub(super) state: &'s State<T, N>,
+    pub(super) direction: Direction<T, N>,
+    /// `None` for a rate along the motion.
+    pub(super) argument: Option<Entry>,
+}
+
+/// Changing state of a system.
+pub(super) type ChangingStateOf<'s, L> = ChangingState<'s, <L as Lagrangian>::Scalar, <L as Lagrangian>::N>;
+
+impl<'s, T: Real, N: Length> ChangingState<'s, T, N> {
+    /// The state along a direction of the motion, for all arguments alike.
+    pub(super) fn along(state: &'s State<T, N>, direction: Direction<T, N>) -> Self {
+        Self { state, direction, argument: None }
+    }
+}
+
+/// Derivative of the function of an event at a changing state.
+pub(super) type EventChange<'c, L> =
+    dyn Fn(&ChangingStateOf<'_, L>) -> Result<<L as Lagrangian>::Scalar, Error> + 'c;
 
 /// Converts derivatives at fixed time to derivatives at the event of this name. `before` is an earlier state of the motion,
 /// at which the rate of the event's function gives the scale for grazing.
@@ -140,7 +160,7 @@ pub(super) fn at_event<L: Linearized<Scalar: Real>>(
         return Err(Error::Grazing { event, time: at.state.t.to_f64() });
     }
     for j in 0..at.arguments.len() {
-        let change = change(&at.state, &at.direction(j), Some(at.arguments[j]))?;
+        let change = change(&at.by(j))?;
         at.delay(j, -change / rate, &accelerations);
     }
     Ok(at)
@@ -161,7 +181,7 @@ fn rate<L: Linearized<Scalar: Real>>(
             i if i < 2 * <L::N>::COUNT => Direction { v: only(i - <L::N>::COUNT, &accelerations), ..zero },
             _ => Direction::of_time(),
         };
-        let part = change(state, &direction, None)?;
+        let part = change(&ChangingState::along(state, direction))?;
         sums = [sums[0] + part, sums[1] + Scalar::abs(part)];
     }
     Ok(sums.into())
@@ -178,13 +198,12 @@ pub(super) fn push_forward<L: Linearized<Scalar: Real>, const K: usize>(
     at: &StateSensitivity<L::Scalar, L::N>,
     map: impl Fn(&DualSample<'_, L>) -> Result<[[Dual<L::Scalar>; K]; 2], Error>,
 ) -> Result<StateSensitivity<L::Scalar, Const<K>>, Error> {
-    let [q, v] = map(&DualSample::along(system, &at.state, &Direction::zero(), None))?
-        .map(|half| vector(Array(half.map(|x| x.value))));
+    let still = ChangingState::along(&at.state, Direction::zero());
+    let [q, v] = map(&DualSample::of(system, &still))?.map(|half| vector(Array(half.map(|x| x.value))));
     let mut after = StateSensitivity::of(State { t: at.state.t, q, v }, at.arguments.clone());
     after.t.copy_from(&at.t);
-    for (j, argument) in at.arguments.iter().enumerate() {
-        let sample = DualSample::along(system, &at.state, &at.direction(j), Some(*argument));
-        let slopes = map(&sample)?.map(|half| half.map(|x| x.slope));
+    for j in 0..at.arguments.len() {
+        let slopes = map(&DualSample::of(system, &at.by(j)))?.map(|half| half.map(|x| x.slope));
         after.set(j, [&slopes[0], &slopes[1]]);
     }
     Ok(after)

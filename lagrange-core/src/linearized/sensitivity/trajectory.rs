@@ -259,12 +259,7 @@ impl<L: Linearized<Scalar: Real>> Course<L> {
         let last = crossings.last().filter(|_| matches!(ending, Ending::Event { .. }));
         match last.and_then(|crossing| events.get(crossing.index)) {
             None => Ok(at),
-            Some(event) => {
-                let change = |state: &StateOf<L>, direction: &_, argument| {
-                    event.change(system, state, direction, argument)
-                };
-                at_event(system, at, (event.called(), &change), before)
-            }
+            Some(event) => at_event(system, at, (event.called(), &|at: &_| event.change(system, at)), before),
         }
     }
 

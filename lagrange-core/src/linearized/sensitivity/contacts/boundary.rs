@@ -5,11 +5,11 @@ use super::law::NamedLaw;
 use crate::contact::{Contact, Contacts, Friction};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::linearized::sensitivity::state::{StateSensitivity, at_event};
+use crate::linearized::sensitivity::state::{ChangingStateOf, StateSensitivity, at_event};
 use crate::linearized::tangent::Tangent;
 use crate::names::{Entry, name};
 use crate::number::{Real, Scalar};
-use crate::system::{Direction, Lagrangian, ResidualChange, Solution, StateOf};
+use crate::system::{Lagrangian, ResidualChange, Solution, StateOf};
 use crate::trajectory::Trajectory;
 use crate::vector::{Vector, zeros};
 
@@ -69,8 +69,7 @@ impl Boundary {
         let steps = leg.statistics().accepted;
         let before = leg.states_of_steps().nth(steps.saturating_sub(1)).unwrap_or(at.state);
         let system = self.closed(leg.system());
-        let change =
-            |state: &StateOf<L>, direction: &_, argument| self.change(&system, state, direction, argument);
+        let change = |at: &ChangingStateOf<'_, L>| self.change(&system, at);
         at_event(leg.system(), at, (self.name::<L>(), &change), &before)
     }
 
@@ -85,20 +84,18 @@ impl Boundary {
         closed
     }
 
-    /// Derivative of the function along a direction and by an argument.
+    /// Derivative of the function.
     fn change<L: Linearized<Scalar: Real> + Contacts + Clone>(
         self,
         system: &L,
-        state: &StateOf<L>,
-        direction: &Direction<L::Scalar, L::N>,
-        argument: Option<Entry>,
+        at: &ChangingStateOf<'_, L>,
     ) -> Result<L::Scalar, Error> {
         let row = self.row::<L>();
         match self {
-            Self::Gap(_) => Ok(kinematic(system, state, direction, argument).position[row]),
-            Self::Slip(_) => Ok(kinematic(system, state, direction, argument).rate[row]),
-            Self::Push(_) => Ok(multipliers(system, state, direction, argument)?.1[row]),
-            Self::Hold(f) => hold(f, system, state, direction, argument),
+            Self::Gap(_) => Ok(kinematic(system, at).position[row]),
+            Self::Slip(_) => Ok(kinematic(system, at).rate[row]),
+            Self::Push(_) => Ok(multipliers(system, at)?.1[row]),
+            Self::Hold(f) => hold(f, system, at),
         }
     }
 }
@@ -107,17 +104,15 @@ impl Boundary {
 fn hold<L: Linearized<Scalar: Real> + Contacts + Clone>(
     f: usize,
     system: &L,
-    state: &StateOf<L>,
-    direction: &Direction<L::Scalar, L::N>,
-    argument: Option<Entry>,
+    at: &ChangingStateOf<'_, L>,
 ) -> Result<L::Scalar, Error> {
     let friction = L::FRICTIONS[f];
     let limit = NamedLaw {
         name: name(L::CONSTRAINTS, friction.row),
         value: &|system: &L, state: &StateOf<L>| system.friction_limit(f, state),
     };
-    let [value, change] = [limit.at(system, state), limit.change(system, state, direction, argument)?];
-    let (forces, changes) = multipliers(system, state, direction, argument)?;
+    let [value, change] = [limit.at(system, at.state), limit.change(system, at)?];
+    let (forces, changes) = multipliers(system, at)?;
     let left = match friction.contact.map(|k| L::CONTACTS[k]) {
         Some(gap) => change * forces[gap] + value * changes[gap],
         None => change,
@@ -126,28 +121,24 @@ fn hold<L: Linearized<Scalar: Real> + Contacts + Clone>(
     Ok(left - product / friction.size(|a| forces[a]))
 }
 
-/// Multipliers, and their derivatives along a direction and by an argument.
+/// Multipliers, and their derivatives.
 type ForcesAndChanges<L> = (MultipliersOf<L>, MultipliersOf<L>);
 type MultipliersOf<L> = Vector<<L as Lagrangian>::Scalar, <L as Lagrangian>::M>;
 
 fn multipliers<L: Linearized<Scalar: Real>>(
     system: &L,
-    state: &StateOf<L>,
-    direction: &Direction<L::Scalar, L::N>,
-    argument: Option<Entry>,
+    at: &ChangingStateOf<'_, L>,
 ) -> Result<ForcesAndChanges<L>, Error> {
-    let tangent = Tangent::at(system, state)?;
-    let change = tangent.change_with(direction, argument);
-    let response = tangent.response(&change, argument.unwrap_or(Entry::Time))?;
+    let tangent = Tangent::at(system, at.state)?;
+    let change = tangent.change_with(&at.direction, at.argument);
+    let response = tangent.response(&change, at.argument.unwrap_or(Entry::Time))?;
     Ok((tangent.solution.multipliers, response.multipliers))
 }
 
 /// Derivatives of gaps and velocities, which need no forces.
 pub(super) fn kinematic<L: Linearized<Scalar: Real>>(
     system: &L,
-    state: &StateOf<L>,
-    direction: &Direction<L::Scalar, L::N>,
-    argument: Option<Entry>,
+    at: &ChangingStateOf<'_, L>,
 ) -> ResidualChange<L::Scalar, L::N, L::M> {
-    Tangent::of(system, state, Solution::given(zeros(), zeros())).change_with(direction, argument)
+    Tangent::of(system, at.state, Solution::given(zeros(), zeros())).change_with(&at.direction, at.argument)
 }

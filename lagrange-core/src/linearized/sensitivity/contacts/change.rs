@@ -99,9 +99,9 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Change<'_, L> {
         let ([before, _], row) = (self.systems, L::FRICTIONS[f].row);
         let stuck = stuck(before, f);
         let is_none = |j: usize| {
-            let (direction, argument) = (at.direction(j), at.arguments()[j]);
-            let change = kinematic(&stuck, &at.state, &direction, Some(argument)).rate[row];
-            let terms = terms(&stuck, L::FRICTIONS[f].rows(), &at.state, &direction.v);
+            let changing = at.by(j);
+            let change = kinematic(&stuck, &changing).rate[row];
+            let terms = terms(&stuck, L::FRICTIONS[f].rows(), &at.state, &changing.direction.v);
             Scalar::abs(change) <= power_of_epsilon::<L::Scalar>(0.5) * terms
         };
         (0..at.arguments().len()).all(is_none)
@@ -143,7 +143,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Change<'_, L> {
             let slides =
                 matches!(after.friction(f), Some(Friction::Slides(direction)) if direction != [0.0; 2]);
             let moves = |j: usize| {
-                let change = kinematic(&stuck, &at.state, &at.direction(j), Some(at.arguments()[j])).rate;
+                let change = kinematic(&stuck, &at.by(j)).rate;
                 friction.rows().any(|a| change[a] != L::Scalar::constant(0.0))
             };
             if slides && is_at_rest(&stuck, f, self.states.each_ref()) && (0..at.arguments().len()).any(moves)

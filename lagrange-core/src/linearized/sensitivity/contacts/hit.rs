@@ -133,7 +133,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
             value: &|system: &L, state: &StateOf<L>| system.restitution(self.contact, state),
         };
         let slopes = (0..at.arguments().len())
-            .map(|j| law.change(&self.pushing, &at.state, &at.direction(j), Some(at.arguments()[j])))
+            .map(|j| law.change(&self.pushing, &at.by(j)))
             .collect::<Result<Vec<_>, Error>>()?;
         let restitution = law.at(&self.pushing, &at.state);
         impact_sensitivity(&self.pushing, &at, L::CONTACTS[self.contact], (restitution, &|j| slopes[j]))

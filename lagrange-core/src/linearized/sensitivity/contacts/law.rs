@@ -5,7 +5,7 @@ use crate::contact::Contacts;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::parameter;
-use crate::names::Entry;
+use crate::linearized::sensitivity::state::{ChangingState, ChangingStateOf};
 use crate::number::{Real, Scalar, larger, largest, unit_of};
 use crate::system::{Direction, State, StateOf};
 use crate::vector::{Entrywise, Length};
@@ -35,14 +35,12 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> NamedLaw<'_, L> {
         (self.value)(system, state).unwrap_or(L::Scalar::constant(0.0))
     }
 
-    /// Derivative along a direction and by an argument, by differences of order six. Steps are shortened until the differences
+    /// Derivative at a changing state, by differences of order six. Steps are shortened until the differences
     /// of three lengths agree. A law that varies only within a sixteenth of the shortest step is taken for a constant one.
     pub(super) fn change(
         &self,
         system: &L,
-        state: &StateOf<L>,
-        direction: &Direction<L::Scalar, L::N>,
-        argument: Option<Entry>,
+        ChangingState { state, direction, argument }: &ChangingStateOf<'_, L>,
     ) -> Result<L::Scalar, Error> {
         let parameter = argument.and_then(parameter::<L>).map(|k| (k, system.parameters()[k]));
         let step = step(state, direction, parameter.map(|(_, value)| value));
