@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use super::Linearized;
 use super::tangent::Tangent;
-use super::variation::{DifferentiableMethod, Variations};
+use super::variation::{DifferentiableMethod, Variations, VariedRun};
 use crate::error::{Ending, Error};
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::number::{Real, Scalar, order};
@@ -50,10 +50,10 @@ pub(super) fn spectrum<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     let most = |j: usize| entry::<L>(basis.column(j).icamax());
     let column = |j: usize| [0, <L::N>::COUNT].map(|half| vector(from_fn(|i| basis[(half + i, j)])));
     let variations = Variations::begin(&tangent, (0..basis.ncols()).map(most).collect(), column)?;
-    let stages = method.companion(system, &start, &variations)?;
+    let memory = method.companion(system, &start, &variations)?;
     let limits = Watchdog::new(method.limits(), &run.statistics);
     let growth = vec![L::Scalar::constant(0.0); variations.count()];
-    let mut exponents = Growth { system, start: start.t, end, variations, stages, growth, parts: Vec::new() };
+    let mut exponents = Growth { system, start: start.t, end, variations, memory, growth, parts: Vec::new() };
     run.drive(method, &limits, &mut exponents)?;
     Ok(LyapunovSpectrum::of(&exponents.parts[1..]))
 }
@@ -65,7 +65,7 @@ struct Growth<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> {
     end: L::Scalar,
     variations: Variations<L>,
     /// Memory of the method for the next step of the variations.
-    stages: D::VariationMemory,
+    memory: D::VariationMemory,
     /// Logarithm of the growth of each variation in the current part.
     growth: Vec<L::Scalar>,
     /// End time of each completed part, and the mean growth rates in it.
@@ -102,7 +102,8 @@ where
         while self.parts.len() <= PARTS {
             let stop = self.stop();
             if run.state.t != stop {
-                method.prepare(self.system, run, stop, &self.variations, &mut self.stages)?;
+                let Self { system, variations, memory, .. } = self;
+                method.prepare(VariedRun { system, run, variations, memory }, stop)?;
                 return Ok(Some(stop));
             }
             self.end_part(stop);
@@ -111,12 +112,13 @@ where
     }
 
     fn follow(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
-        method.follow(self.system, run, &mut self.variations, &mut self.stages)
+        let Self { system, variations, memory, .. } = self;
+        method.follow(VariedRun { system, run, variations, memory })
     }
 
     fn keep(&mut self, _: &D, _: &mut Run<L, D>) -> Result<(), Ending> {
-        let Self { variations, stages, growth, .. } = self;
-        let linear = &mut D::linear(stages);
+        let Self { variations, memory, growth, .. } = self;
+        let linear = &mut D::linear(memory);
         variations.orthonormalize(linear, |j, length| growth[j] += Scalar::ln(length));
         Ok(())
     }

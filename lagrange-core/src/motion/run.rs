@@ -2,7 +2,6 @@
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
-use core::fmt::{self, Debug, Formatter};
 
 use super::method::{Limits, Method, Step};
 use crate::error::{Ending, Error, Pace};
@@ -16,8 +15,7 @@ use crate::system::{Lagrangian, StateOf};
 use crate::vector::Length;
 
 /// A motion during its integration: state, working memory of the method, and statistics.
-#[cfg_attr(not(feature = "alloc"), allow(unreachable_pub, reason = "what differentiates motions allocates"))]
-pub struct Run<L, P, F = LagrangianVectorField>
+pub(crate) struct Run<L, P, F = LagrangianVectorField>
 where
     L: Lagrangian<Scalar: Real>,
     P: Method<L, F>,
@@ -28,20 +26,6 @@ where
     /// State at the start of the last step.
     pub(crate) before: StateOf<L>,
     pub(crate) statistics: Statistics,
-}
-
-impl<L, P, F> Debug for Run<L, P, F>
-where
-    L: Lagrangian<Scalar: Real>,
-    P: Method<L, F>,
-    F: VectorField<L>,
-{
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Run")
-            .field("state", &self.state)
-            .field("statistics", &self.statistics)
-            .finish_non_exhaustive()
-    }
 }
 
 impl<L, P, F> Run<L, P, F>

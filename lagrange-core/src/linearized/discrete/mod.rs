@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use super::Linearized;
 use super::argument::check_parameters;
 use super::tangent::Tangent;
-use super::variation::{DifferentiableMethod, Variations};
+use super::variation::{DifferentiableMethod, Variations, VariedRun};
 use crate::error::{Ending, Error};
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::names::Entry;
@@ -203,11 +203,13 @@ where
         if run.state.t == self.end {
             return Ok(None);
         }
-        method.prepare(self.system, run, self.end, self.variations, self.memory)?;
+        let Self { system, variations, memory, .. } = self;
+        method.prepare(VariedRun { system, run, variations, memory }, self.end)?;
         Ok(Some(self.end))
     }
 
     fn follow(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
-        method.follow(self.system, run, self.variations, self.memory)
+        let Self { system, variations, memory, .. } = self;
+        method.follow(VariedRun { system, run, variations, memory })
     }
 }

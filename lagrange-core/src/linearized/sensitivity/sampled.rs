@@ -7,7 +7,7 @@ use super::state::StateSensitivity;
 use super::trajectory::{Course, DynDifferentiableEvent};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::linearized::variation::DifferentiableMethod;
+use crate::linearized::variation::{DifferentiableMethod, VariedRun};
 use crate::motion::builder::EventList;
 use crate::motion::event::DenseStep;
 use crate::motion::progress::{OnProgress, report};
@@ -108,7 +108,7 @@ fn integrate<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     plan.check()?;
     let mut begun = Run::<L, D>::begin(system, &start.state, method);
     let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
-    let (course, stages) = Course::from(system, &run.state, start, method)?;
+    let (course, memory) = Course::from(system, &run.state, start, method)?;
     let (arrival, course, before, samples) = {
         let lent = events.iter_mut().map(|event| -> Box<DynEvent<'_, L>> { Box::new(event) });
         let record = Record::begin(plan, lent.collect(), None, system, &run.state, end)?;
@@ -117,7 +117,7 @@ fn integrate<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
             ends: [run.state.t, end],
             record,
             course,
-            stages,
+            memory,
             before: run.state,
             samples: Vec::new(),
             within: Vec::new(),
@@ -143,7 +143,7 @@ struct SampledAlong<'a, 'o, L: Linearized<Scalar: Real>, D: DifferentiableMethod
     /// Derivatives along the last step.
     course: Course<L>,
     /// Memory of the method for the derivatives.
-    stages: D::VariationMemory,
+    memory: D::VariationMemory,
     /// State at the start of the last step.
     before: StateOf<L>,
     samples: Vec<StateSensitivity<L::Scalar, L::N>>,
@@ -181,15 +181,16 @@ where
         }
         self.course.forget_steps();
         self.within.clear();
-        method.prepare(self.system, run, end, &self.course.variations, &mut self.stages)?;
+        let Self { system, course: Course { variations, .. }, memory, .. } = self;
+        method.prepare(VariedRun { system, run, variations, memory }, end)?;
         Ok(Some(end))
     }
 
     fn follow(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
-        let Self { system, course: Course { variations, coefficients, .. }, stages, within, .. } = self;
-        method.follow(system, run, variations, stages)?;
+        let Self { system, course: Course { variations, coefficients, .. }, memory, within, .. } = self;
+        method.follow(VariedRun { system, run, variations, memory })?;
         match self.record.looks_into(run.before.t, run.state.t) {
-            true => method.interpolate(system, run, variations, stages, within, coefficients),
+            true => method.interpolate(VariedRun { system, run, variations, memory }, within, coefficients),
             false => Ok(()),
         }
     }

@@ -8,7 +8,7 @@ use super::state::{StateSensitivity, at_event};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
 use crate::linearized::tangent::{Tangent, WideOf};
-use crate::linearized::variation::{DifferentiableMethod, Variations};
+use crate::linearized::variation::{DifferentiableMethod, Variations, VariedRun};
 use crate::motion::builder::EventList;
 use crate::motion::progress::OnProgress;
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
@@ -128,10 +128,10 @@ pub(super) fn integrate<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod
     check_end(end)?;
     let mut begun = Run::<L, D>::begin(system, &start.state, method);
     let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
-    let (course, stages) = Course::from(system, &run.state, start, method)?;
+    let (course, memory) = Course::from(system, &run.state, start, method)?;
     let (trajectory, course, before) = {
         let stored = Stored::begin(system, &run.state, end, events, on_progress)?;
-        let mut along = Along { stored, course, stages, before: run.state };
+        let mut along = Along { stored, course, memory, before: run.state };
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let driven = run.drive(method, &limits, &mut along);
         (along.stored.finish(driven, run.statistics, *adjustment), along.course, along.before)
@@ -146,7 +146,7 @@ struct Along<'a, 'e, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>, W>
     stored: Stored<'a, 'e, L, W, D::Interpolant, true>,
     course: Course<L>,
     /// Memory of the method for the next step of the derivatives.
-    stages: D::VariationMemory,
+    memory: D::VariationMemory,
     /// State at the start of the last step.
     before: StateOf<L>,
 }
@@ -164,17 +164,18 @@ where
     fn goal(&mut self, method: &D, run: &mut Run<L, D>) -> Result<Option<L::Scalar>, Ending> {
         let goal = self.stored.goal(method, run)?;
         if let Some(end) = goal {
-            let system = self.stored.system();
-            method.prepare(system, run, end, &self.course.variations, &mut self.stages)?;
+            let Self { stored, course: Course { variations, .. }, memory, .. } = self;
+            method.prepare(VariedRun { system: stored.system(), run, variations, memory }, end)?;
         }
         Ok(goal)
     }
 
     fn follow(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
-        let Self { stored, course: Course { variations, coefficients, .. }, stages, .. } = self;
+        let Self { stored, course: Course { variations, coefficients, .. }, memory, .. } = self;
         let system = stored.system();
-        method.follow(system, run, variations, stages)?;
-        method.interpolate(system, run, variations, stages, stored.interpolants(), coefficients)
+        method.follow(VariedRun { system, run, variations, memory })?;
+        let at = VariedRun { system, run, variations, memory };
+        method.interpolate(at, stored.interpolants(), coefficients)
     }
 
     fn keep(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
@@ -200,9 +201,9 @@ impl<L: Linearized<Scalar: Real>> Course<L> {
             [q.each_with(&state.v, back), v.each_with(&tangent.solution.accelerations, back)]
         };
         let variations = Variations::begin(&tangent, start.arguments().to_vec(), column)?;
-        let companion = method.companion(system, state, &variations)?;
+        let memory = method.companion(system, state, &variations)?;
         let (steps, coefficients) = (Vec::new(), Vec::new());
-        Ok((Self { variations, end: state.t, steps, coefficients, between: D::between }, companion))
+        Ok((Self { variations, end: state.t, steps, coefficients, between: D::between }, memory))
     }
 
     /// Records a step that the variations have followed.

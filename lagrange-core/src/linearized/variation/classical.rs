@@ -3,10 +3,9 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::{DifferentiableMethod, Linearized, Variations};
+use super::{DifferentiableMethod, Linearized, Variations, VariedRun};
 use crate::error::{Ending, Error};
 use crate::linearized::tangent::{Tangent, WideOf};
-use crate::motion::run::Run;
 use crate::motion::{PhaseVector, RungeKutta4};
 use crate::number::{Broadcast, Real, Scalar};
 use crate::solution::interpolant::hermite;
@@ -47,13 +46,8 @@ impl<L: Linearized<Scalar: Real>> DifferentiableMethod<L> for RungeKutta4 {
         Ok(())
     }
 
-    fn follow(
-        &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        variations: &mut Variations<L>,
-        all: &mut Self::VariationMemory,
-    ) -> Result<(), Ending> {
+    fn follow(&self, at: VariedRun<'_, L, Self>) -> Result<(), Ending> {
+        let VariedRun { system, run, variations, memory: all } = at;
         let blocks = variations.blocks.iter().zip(&mut *all);
         blocks.for_each(|(block, stages)| stages.start = block.y);
         go(system, [&run.before, &run.state], variations, all).map_err(|error| {
@@ -64,10 +58,7 @@ impl<L: Linearized<Scalar: Real>> DifferentiableMethod<L> for RungeKutta4 {
 
     fn interpolate(
         &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        variations: &mut Variations<L>,
-        all: &mut Self::VariationMemory,
+        VariedRun { system, run, variations, memory: all }: VariedRun<'_, L, Self>,
         within: &mut Vec<Self::Interpolant>,
         coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending> {

@@ -1,6 +1,7 @@
 //! Methods whose steps can be differentiated.
 
 use alloc::vec::Vec;
+use core::fmt::{self, Debug, Formatter};
 
 use super::{Linearized, Variations};
 use crate::error::{Ending, Error};
@@ -11,6 +12,20 @@ use crate::number::Real;
 use crate::solution::interpolant::evaluate;
 use crate::system::StateOf;
 use crate::vector::PhaseVector;
+
+/// A motion during its integration, with its variations and the memory of the method for them.
+pub struct VariedRun<'r, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> {
+    pub(in crate::linearized) system: &'r L,
+    pub(in crate::linearized) run: &'r mut Run<L, D>,
+    pub(in crate::linearized) variations: &'r mut Variations<L>,
+    pub(in crate::linearized) memory: &'r mut D::VariationMemory,
+}
+
+impl<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> Debug for VariedRun<'_, L, D> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("VariedRun").field("variations", &self.variations.arguments()).finish_non_exhaustive()
+    }
+}
 
 /// A [`Method`] whose steps can be differentiated, so that derivatives of a motion can be integrated with it.
 ///
@@ -63,38 +78,22 @@ pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> + Sized {
 
     /// Called before a step towards `end`: limits its length to what the variations allow.
     #[doc(hidden)]
-    fn prepare(
-        &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        end: L::Scalar,
-        variations: &Variations<L>,
-        companion: &mut Self::VariationMemory,
-    ) -> Result<(), Ending> {
-        let _ = (system, run, end, variations, companion);
+    fn prepare(&self, at: VariedRun<'_, L, Self>, end: L::Scalar) -> Result<(), Ending> {
+        let _ = (at, end);
         Ok(())
     }
 
     /// Applies the step that the run has taken to the variations, if it is short enough for them. An error means that
     /// the step is to be taken back; the variations are then unchanged.
     #[doc(hidden)]
-    fn follow(
-        &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        variations: &mut Variations<L>,
-        companion: &mut Self::VariationMemory,
-    ) -> Result<(), Ending>;
+    fn follow(&self, at: VariedRun<'_, L, Self>) -> Result<(), Ending>;
 
     /// Appends dense output of the last step: an interpolant of the motion, and coefficients for the variations, the
     /// same number for each block and step. An error means that the step is to be taken back.
     #[doc(hidden)]
     fn interpolate(
         &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        variations: &mut Variations<L>,
-        companion: &mut Self::VariationMemory,
+        at: VariedRun<'_, L, Self>,
         within: &mut Vec<Self::Interpolant>,
         coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending>;

@@ -28,7 +28,7 @@ impl<'a, L: Linearized<Scalar: Real>> VariationalEquations<'a, L> {
 
     /// Derivative of the residual along the variations.
     #[inline]
-    pub(super) fn changes(
+    pub(in crate::linearized) fn changes(
         &self,
         block: &BlockOf<L>,
         y: &VariationsOf<L>,

@@ -8,12 +8,11 @@ use alloc::vec::Vec;
 use core::convert::Infallible;
 
 use super::duals::{Duals, PackedDuals, with_rates, with_slopes};
-use super::{Block, DifferentiableMethod, Variations};
+use super::{Block, DifferentiableMethod, Variations, VariedRun};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
 use crate::linearized::tangent::WideOf;
 use crate::motion::geometric::{CompensatedState, FixedStep, Scheme};
-use crate::motion::run::Run;
 use crate::number::{Broadcast, Dual, Parts, Real, Scalar, Wide, is_within, larger, power_of_epsilon};
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, State, StateOf};
@@ -59,13 +58,8 @@ where
         variations.blocks.iter().map(varied).collect()
     }
 
-    fn follow(
-        &self,
-        _: &L,
-        run: &mut Run<L, Self>,
-        variations: &mut Variations<L>,
-        companion: &mut Self::VariationMemory,
-    ) -> Result<(), Ending> {
+    fn follow(&self, at: VariedRun<'_, L, Self>) -> Result<(), Ending> {
+        let VariedRun { run, variations, memory: companion, .. } = at;
         let (before, after) = (&run.before, &run.state);
         for (k, varied) in companion.iter_mut().enumerate() {
             let block = &variations.blocks[k];
@@ -112,10 +106,7 @@ where
 
     fn interpolate(
         &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        _: &mut Variations<L>,
-        companion: &mut Self::VariationMemory,
+        VariedRun { system, run, memory: companion, .. }: VariedRun<'_, L, Self>,
         within: &mut Vec<Self::Interpolant>,
         coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending> {

@@ -33,6 +33,7 @@ use crate::solution::solve::fault;
 use crate::vector::{Array, Element, Length, PhaseVector, Vector, entries, zeros};
 
 pub use differentiable::DifferentiableMethod;
+pub(super) use differentiable::VariedRun;
 pub(super) use equations::VariationalEquations;
 
 /// Variations of a motion, one per SIMD lane.

@@ -6,14 +6,13 @@ use alloc::vec::Vec;
 
 use nalgebra::ComplexField;
 
-use super::{Block, DifferentiableMethod, Linearized, Variations};
+use super::{Block, DifferentiableMethod, Linearized, Variations, VariedRun};
 use crate::error::{Ending, Error};
 use crate::linearized::StateDerivatives;
 use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::method::control::VariedEnds;
 use crate::motion::method::pair::{Slopes, advance, last};
 use crate::motion::method::pair_memory::PairMemory;
-use crate::motion::run::Run;
 use crate::motion::{Adaptive, Pair, TableauRow};
 use crate::number::{Broadcast, Real, Scalar, Wide, exceeds};
 use crate::room::Room;
@@ -69,13 +68,8 @@ impl<Q: Pair, L: Linearized<Scalar: Real>> DifferentiableMethod<L> for Adaptive<
         companion.iter_mut().map(|stages| &mut stages.slope).collect()
     }
 
-    fn follow(
-        &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        variations: &mut Variations<L>,
-        all: &mut Self::VariationMemory,
-    ) -> Result<(), Ending> {
+    fn follow(&self, at: VariedRun<'_, L, Self>) -> Result<(), Ending> {
+        let VariedRun { system, run, variations, memory: all } = at;
         for (block, stages) in variations.blocks.iter().zip(&mut *all) {
             (stages.start, stages.slopes[0]) = (block.y, stages.slope);
         }
@@ -96,10 +90,7 @@ impl<Q: Pair, L: Linearized<Scalar: Real>> DifferentiableMethod<L> for Adaptive<
 
     fn interpolate(
         &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        variations: &mut Variations<L>,
-        all: &mut Self::VariationMemory,
+        VariedRun { system, run, variations, memory: all }: VariedRun<'_, L, Self>,
         within: &mut Vec<Self::Interpolant>,
         coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending> {
@@ -258,7 +249,7 @@ mod tests {
     use crate::motion::{Adaptive, Method};
     use crate::{Dop853, error::Entry, prelude::*};
 
-    use super::{DifferentiableMethod, Variations};
+    use super::{DifferentiableMethod, Variations, VariedRun};
 
     #[derive(Lagrangian)]
     #[coordinates(x)]
@@ -278,7 +269,9 @@ mod tests {
         let limits = Watchdog::new(Method::<Spring>::limits(&method), &run.statistics);
         run.step(&system, &method, 1.0, &limits).expect("a step");
         let mut stages = method.companion(&system, &start, &variations).expect("a start");
-        method.follow(&system, &mut run, &mut variations, &mut stages).expect("a step");
+        let at =
+            VariedRun { system: &system, run: &mut run, variations: &mut variations, memory: &mut stages };
+        method.follow(at).expect("a step");
         let (error, _) = method.error_of(&run.memory, &variations, &stages);
         assert!(method.accepts(error));
         // Break the first of the two variations.

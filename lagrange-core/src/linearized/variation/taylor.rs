@@ -11,12 +11,11 @@ use core::convert::Infallible;
 use nalgebra::ComplexField;
 
 use super::duals::{Duals, PackedDuals, with_rates, with_slopes};
-use super::{Block, DifferentiableMethod, Variations};
+use super::{Block, DifferentiableMethod, Variations, VariedRun};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
 use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::method::control::SLACK;
-use crate::motion::run::Run;
 use crate::motion::taylor::expansion::Expansion;
 use crate::motion::taylor::last::{LAST, Last};
 use crate::motion::taylor::{Taylor, TaylorMemory};
@@ -67,14 +66,8 @@ where
         variations.blocks.iter().map(varied).collect()
     }
 
-    fn prepare(
-        &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        end: L::Scalar,
-        variations: &Variations<L>,
-        companion: &mut Self::VariationMemory,
-    ) -> Result<(), Ending> {
+    fn prepare(&self, at: VariedRun<'_, L, Self>, end: L::Scalar) -> Result<(), Ending> {
+        let VariedRun { system, run, variations, memory: companion } = at;
         let (memory, time) = (&mut run.memory, run.state.t.to_f64());
         self.aim(memory, end);
         let of = |error| Ending::of(error, time);
@@ -94,13 +87,8 @@ where
         Ok(())
     }
 
-    fn follow(
-        &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        variations: &mut Variations<L>,
-        companion: &mut Self::VariationMemory,
-    ) -> Result<(), Ending> {
+    fn follow(&self, at: VariedRun<'_, L, Self>) -> Result<(), Ending> {
+        let VariedRun { system, run, variations, memory: companion } = at;
         let (memory, time) = (&run.memory, run.before.t.to_f64());
         let steps: Vec<_> = variations
             .blocks
@@ -119,10 +107,7 @@ where
 
     fn interpolate(
         &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        _: &mut Variations<L>,
-        companion: &mut Self::VariationMemory,
+        VariedRun { system, run, memory: companion, .. }: VariedRun<'_, L, Self>,
         within: &mut Vec<Self::Interpolant>,
         coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending> {

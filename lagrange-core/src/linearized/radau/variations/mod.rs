@@ -14,10 +14,9 @@ use nalgebra::Const;
 use super::Radau;
 use super::tableau::{RadauStages, Transformation, basis, inverse};
 use crate::error::{Ending, Error};
-use crate::linearized::tangent::WideOf;
-use crate::linearized::variation::{DifferentiableMethod, Variations};
 use crate::linearized::Linearized;
-use crate::motion::run::Run;
+use crate::linearized::tangent::WideOf;
+use crate::linearized::variation::{DifferentiableMethod, Variations, VariedRun};
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::system::StateOf;
 use crate::vector::{Element, Length, PhaseVector};
@@ -42,13 +41,8 @@ where
         Ok(RadauVariations { a: inverse(&Transformation::<S>::new().slopes), steps: Vec::new() })
     }
 
-    fn follow(
-        &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        variations: &mut Variations<L>,
-        companion: &mut Self::VariationMemory,
-    ) -> Result<(), Ending> {
+    fn follow(&self, at: VariedRun<'_, L, Self>) -> Result<(), Ending> {
+        let VariedRun { system, run, variations, memory: companion } = at;
         let time = run.before.t.to_f64();
         let equations = StepEquations::at(system, &run.memory, variations, &companion.a);
         let equations = equations.map_err(|error| Ending::of(error, time))?;
@@ -74,10 +68,7 @@ where
 
     fn interpolate(
         &self,
-        system: &L,
-        run: &mut Run<L, Self>,
-        _: &mut Variations<L>,
-        companion: &mut Self::VariationMemory,
+        VariedRun { system, run, memory: companion, .. }: VariedRun<'_, L, Self>,
         within: &mut Vec<Self::Interpolant>,
         coefficients: &mut Vec<PhaseVector<WideOf<L>, L::N>>,
     ) -> Result<(), Ending> {
@@ -107,9 +98,10 @@ mod tests {
     use super::*;
     use crate::linearized::tangent::Tangent;
     use crate::motion::Method;
-    use crate::motion::run::Watchdog;
+    use crate::motion::run::{Run, Watchdog};
     use crate::names::Entry;
     use crate::prelude::*;
+    use crate::system::unit;
 
     /// Two bobs on rods, the upper pivot shaken, and a blade on the lower bob.
     #[derive(Clone, Lagrangian)]
@@ -139,28 +131,24 @@ mod tests {
             Entry::Parameter("l"),
             Entry::Velocity("s[0]"),
         ];
-        let unit = |j: usize| {
-            let one = |i: usize, on: bool| if on { crate::system::unit(i) } else { crate::system::unit(9) };
-            [one(0, j == 0), one(2, j == 4)]
-        };
+        let column = |j: usize| [unit(if j == 0 { 0 } else { 9 }), unit(if j == 4 { 2 } else { 9 })];
         let tangent = Tangent::at(&system, &start).expect("a start");
-        let mut variations = Variations::<_>::begin(&tangent, arguments, unit).expect("a start");
+        let mut variations = Variations::<_>::begin(&tangent, arguments, column).expect("a start");
         let limits = Watchdog::new(Method::<Shaken>::limits(&method), &run.statistics);
         let mut companion = method.companion(&system, &start, &variations).expect("a start");
         for _ in 0..20 {
             run.step(&system, &method, 1.0, &limits).expect("a step");
-            method.follow(&system, &mut run, &mut variations, &mut companion).expect("a step");
+            let at = VariedRun {
+                system: &system,
+                run: &mut run,
+                variations: &mut variations,
+                memory: &mut companion,
+            };
+            method.follow(at).expect("a step");
             let tangent = Tangent::at(&system, &run.state).expect("a state");
+            let equations = variations.equations(&tangent);
             for block in &variations.blocks {
-                let direction = crate::system::Direction {
-                    t: WideOf::<Shaken>::constant(0.0),
-                    q: crate::vector::vector(block.y.half(0)),
-                    v: crate::vector::vector(block.y.half(1)),
-                };
-                let mut change = tangent.changes(&direction);
-                if let Some(rates) = &block.rates {
-                    change = change.plus(&tangent.changes_by_parameters(&tangent.parameter_slopes(), rates));
-                }
+                let change = equations.changes(block, &block.y);
                 for lane in 0..block.lanes {
                     let change = change.lane::<f64>(lane);
                     let size = block.y.flat().iter().fold(1.0, |most, x| f64::max(most, x.lane(lane).abs()));
