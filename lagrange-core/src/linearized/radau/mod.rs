@@ -16,7 +16,7 @@ mod variations;
 
 use nalgebra::Const;
 
-use crate::motion::Limits;
+use crate::motion::method::contract::{Limits, limit_setters};
 use crate::motion::method::control::Tolerance;
 use crate::number::Real;
 
@@ -125,10 +125,8 @@ impl<const STAGES: usize> Radau<STAGES> {
         Self { absolute: tolerance, ..self }
     }
 
-    /// Sets the limit on steps, rejected ones included.
-    pub fn max_steps(mut self, steps: usize) -> Self {
-        self.limits.max_steps = steps;
-        self
+    limit_setters! {
+        /// Sets the limit on steps, rejected ones included.
     }
 
     /// Sets the longest step allowed, in units of time.
@@ -139,13 +137,6 @@ impl<const STAGES: usize> Radau<STAGES> {
     /// Sets the first step to try, instead of an estimate.
     pub fn first_step(self, step: f64) -> Self {
         Self { first_step: Some(step), ..self }
-    }
-
-    /// Sets the limit on the wall-clock time of the integration.
-    #[cfg(feature = "std")]
-    pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
-        self.limits.wall_time = Some(limit);
-        self
     }
 
     /// Tolerances of the error estimate.

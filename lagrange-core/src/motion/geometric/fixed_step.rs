@@ -8,7 +8,7 @@ use super::scheme::{CompensatedState, Scheme, SymmetricScheme};
 use super::settle::NotSettled;
 use crate::error::{Ending, Error};
 use crate::motion::method::clock::Clock;
-use crate::motion::method::contract::{Limits, Method, Step, check_settings};
+use crate::motion::method::contract::{Limits, Method, Step, check_settings, limit_setters};
 use crate::number::{Parts, Real, Scalar};
 use crate::solution::interpolant::Polynomial;
 use crate::solution::solve::{first_row, solve, solve_near};
@@ -36,17 +36,8 @@ impl<S: Default> FixedStep<S> {
         Self { step, scheme: S::default(), composition: None, limits: Limits::default() }
     }
 
-    /// Sets the limit on the number of steps.
-    pub fn max_steps(mut self, steps: usize) -> Self {
-        self.limits.max_steps = steps;
-        self
-    }
-
-    /// Sets the limit on the wall-clock time of the integration.
-    #[cfg(feature = "std")]
-    pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
-        self.limits.wall_time = Some(limit);
-        self
+    limit_setters! {
+        /// Sets the limit on the number of steps.
     }
 
     /// Composes steps of a symmetric scheme of order 2 to a method of higher order.

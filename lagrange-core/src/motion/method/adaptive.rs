@@ -3,7 +3,7 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use super::contract::{Limits, check_settings};
+use super::contract::{Limits, check_settings, limit_setters};
 use super::pair::Pair;
 use crate::error::Error;
 
@@ -65,11 +65,9 @@ impl<P> Adaptive<P> {
         Self { absolute: tolerance, ..self }
     }
 
-    /// Sets the limit on steps, rejected ones included. It also bounds the memory of a trajectory, which stores 5
-    /// (`Dopri5`) or 8 (`Dop853`) times 2N numbers for each accepted step. An ensemble or a `Motion` stores no steps.
-    pub fn max_steps(mut self, steps: usize) -> Self {
-        self.limits.max_steps = steps;
-        self
+    limit_setters! {
+        /// Sets the limit on steps, rejected ones included. It also bounds the memory of a trajectory, which stores 5
+        /// (`Dopri5`) or 8 (`Dop853`) times 2N numbers for each accepted step. An ensemble or a `Motion` stores no steps.
     }
 
     /// Sets the longest step allowed, in units of time.
@@ -89,13 +87,6 @@ impl<P> Adaptive<P> {
     /// equations have no solution there, that later call returns the error.
     pub fn fixed_step(self, step: f64) -> Self {
         Self { fixed_step: Some(step), ..self }
-    }
-
-    /// Sets the limit on the wall-clock time of the integration.
-    #[cfg(feature = "std")]
-    pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
-        self.limits.wall_time = Some(limit);
-        self
     }
 
     /// Writes the coefficients and settings of the method. The coefficients identify the pair; its name does not.

@@ -175,6 +175,26 @@ pub struct Limits {
     pub wall_time: Option<std::time::Duration>,
 }
 
+/// Setters of a method with the field `limits`. The limit on steps is described in the words given.
+macro_rules! limit_setters {
+    ($(#[$words:meta])*) => {
+        $(#[$words])*
+        pub fn max_steps(mut self, steps: usize) -> Self {
+            self.limits.max_steps = steps;
+            self
+        }
+
+        /// Sets the limit on the wall-clock time of the integration.
+        #[cfg(feature = "std")]
+        pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
+            self.limits.wall_time = Some(limit);
+            self
+        }
+    };
+}
+
+pub(crate) use limit_setters;
+
 /// At most 100 000 steps, no limit on wall-clock time.
 impl Default for Limits {
     fn default() -> Self {

@@ -6,7 +6,7 @@ use core::fmt;
 use nalgebra::ComplexField;
 
 use super::clock::Clock;
-use super::contract::{Limits, Method, Step, check_settings};
+use super::contract::{Limits, Method, Step, check_settings, limit_setters};
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar};
 use crate::solution::consistent::{BOTH, project};
@@ -99,17 +99,8 @@ impl RungeKutta4 {
         Self { step, limits: Limits::default() }
     }
 
-    /// Sets the limit on the number of steps.
-    pub fn max_steps(mut self, steps: usize) -> Self {
-        self.limits.max_steps = steps;
-        self
-    }
-
-    /// Sets the limit on the wall-clock time of the integration.
-    #[cfg(feature = "std")]
-    pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
-        self.limits.wall_time = Some(limit);
-        self
+    limit_setters! {
+        /// Sets the limit on the number of steps.
     }
 }
 

@@ -1,6 +1,6 @@
 //! Settings of Taylor's method.
 
-use crate::motion::method::Limits;
+use crate::motion::method::contract::{Limits, limit_setters};
 
 /// Taylor's method. Each step is a power series of the motion about its start; the derive emits the recurrences of its
 /// coefficients (Jorba and Zou, *Experimental Mathematics* 14 (2005) 99–117).
@@ -110,16 +110,7 @@ impl Taylor {
         Self { max_step: Some(step), ..self }
     }
 
-    /// Sets the limit on the number of attempted steps.
-    pub fn max_steps(mut self, steps: usize) -> Self {
-        self.limits.max_steps = steps;
-        self
-    }
-
-    /// Sets the limit on the wall-clock time of the integration.
-    #[cfg(feature = "std")]
-    pub fn wall_time(mut self, limit: std::time::Duration) -> Self {
-        self.limits.wall_time = Some(limit);
-        self
+    limit_setters! {
+        /// Sets the limit on the number of attempted steps.
     }
 }
