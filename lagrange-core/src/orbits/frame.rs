@@ -6,7 +6,7 @@ use super::form::symplectic_form;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::number::{Real, larger, norm, smaller, unit_of};
-use crate::system::{ConstraintKind, StateOf};
+use crate::system::{StateOf, has_velocity_constraints};
 use crate::trajectory::Trajectory;
 use crate::vector::Length;
 
@@ -93,7 +93,7 @@ impl<T: Real> Frame<T> {
         system: &L,
         state: &StateOf<L>,
     ) -> Option<(DVector<T>, T)> {
-        let gradient = match L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity) {
+        let gradient = match has_velocity_constraints::<L>() {
             false => self.basis.tr_mul(&(symplectic_form(system, state) * &self.rate)),
             // There the form lacks the work of the multipliers along changes that velocities do not allow.
             true => self.energy_by_differences(system, state),

@@ -304,6 +304,11 @@ pub(crate) const fn check_names<L: Lagrangian>() {
     assert!(L::CONSTRAINT_KINDS.len() == <L::M>::COUNT, "`CONSTRAINT_KINDS` must have `M` entries");
 }
 
+/// True if some constraints hold the velocities alone.
+pub(crate) fn has_velocity_constraints<L: Lagrangian>() -> bool {
+    L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity)
+}
+
 /// Returns the entry at `index` of (q, q̇).
 pub(crate) fn entry<L: Lagrangian>(index: usize) -> Entry {
     const { check_names::<L>() };

@@ -31,7 +31,7 @@ pub use integrability::{Classification, Extent, Integrability, Integrals};
 #[cfg(feature = "alloc")]
 pub(crate) use lagrangian::check_contacts;
 pub use lagrangian::{ConstraintKind, Lagrangian};
-pub(crate) use lagrangian::{check_friction, check_names, entry};
+pub(crate) use lagrangian::{check_friction, check_names, entry, has_velocity_constraints};
 pub use pack::{Pack, Packed, Shared};
 pub(crate) use state::write_state;
 pub use state::{Solution, SolutionOf, State, StateOf};

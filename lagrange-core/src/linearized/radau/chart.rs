@@ -15,7 +15,7 @@ use crate::solution::consistent::level::Level;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::fault;
-use crate::system::{ConstraintKind, Lagrangian, StateOf};
+use crate::system::{Lagrangian, StateOf, has_velocity_constraints};
 use crate::vector::{Array, Length, PhaseVector, rows, vector, zeros};
 
 /// Largest number of corrections towards the constraints. Those that are not round-off shrink by two each.
@@ -47,7 +47,7 @@ enum Solver<L: Lagrangian> {
 impl<L: Lagrangian<Scalar: Real>> Solver<L> {
     /// Factorizes by the emitted function if that is reliable and has the constraints of this level; `old` gives its storage.
     fn at(system: &L, level: Level, state: &StateOf<L>, old: Option<Self>) -> Self {
-        if level == Level::Velocity || !is_mixed::<L>() {
+        if level == Level::Velocity || !has_velocity_constraints::<L>() {
             let factor = system.factor(state);
             if is_trustworthy::<L::Scalar, _, _>(&system.solve_with(&factor, &zeros(), &zeros())) {
                 return Self::Emitted(factor);
@@ -93,7 +93,8 @@ enum Gradients {
 impl<L: Lagrangian<Scalar: Real>> Chart<L> {
     pub(super) fn at(system: &L, state: &StateOf<L>) -> Self {
         let velocities = (<L::M>::COUNT > 0).then(|| Solver::at(system, Level::Velocity, state, None));
-        let coordinates = is_mixed::<L>().then(|| Solver::at(system, Level::Position, state, None));
+        let coordinates =
+            has_velocity_constraints::<L>().then(|| Solver::at(system, Level::Position, state, None));
         Self { f: Room::of(rows(&system.constraint_jacobian(state))), velocities, coordinates }
     }
 
@@ -222,11 +223,6 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
         let tangent = self.tangent(system, level, &least, state.t)?;
         Ok(Array::from_fn(|i| least[i] - tangent[i]))
     }
-}
-
-/// True if some constraints hold the velocities alone.
-fn is_mixed<L: Lagrangian>() -> bool {
-    L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity)
 }
 
 fn zero<L: Lagrangian>() -> L::Scalar {

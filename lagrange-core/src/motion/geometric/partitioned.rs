@@ -21,7 +21,7 @@ use crate::number::{Parts, Scalar};
 use crate::room::Room;
 use crate::solution::eliminate::LoopFactor;
 use crate::solution::near::compensated;
-use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
+use crate::system::{ConstraintKind, Lagrangian, State, StateOf, has_velocity_constraints, unit};
 use crate::vector::{Array, Element, Entrywise, Length, Vector, array, from_fn, rows, vector, zeros};
 
 /// Fraction of the visible terms up to which a residual may be the round-off of hidden terms.
@@ -184,7 +184,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         velocities: &[Array<L::Scalar, L::N>; S],
     ) -> Array<L::Scalar, L::M> {
         let holonomic = self.system.constraint_residual(state);
-        let rate = has_velocity_constraint::<L>()
+        let rate = has_velocity_constraints::<L>()
             .then(|| self.system.constraint_rate(&self.chord(state, velocities)));
         Array::from_fn(|a| match (L::CONSTRAINT_KINDS[a], &rate) {
             (ConstraintKind::Velocity, Some(rate)) => rate[a],
@@ -383,11 +383,6 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
     }
 }
 
-/// True if a constraint is imposed on the velocities alone.
-fn has_velocity_constraint<L: Lagrangian>() -> bool {
-    L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity)
-}
-
 /// True if residuals may be the round-off of hidden terms: they are within a thousandth of the visible ones, or of the largest
 /// so far, because a motion that comes to rest leaves terms of the size of its whole way.
 fn are_hidden<T: Parts, N: Length>(size: &Array<T, N>, terms: &Array<T, N>, largest: &Array<T, N>) -> bool {
@@ -397,8 +392,7 @@ fn are_hidden<T: Parts, N: Length>(size: &Array<T, N>, terms: &Array<T, N>, larg
 /// The move that changes constraint `a` by −1, and no other.
 fn moved_by<T: Parts, N: Length, M: Length>(matrices: &LoopFactor<T, N, M>, a: usize) -> Array<T, N> {
     let none = Array::filled(T::constant(0.0));
-    let unit = Array::from_fn(|b| T::constant(if a == b { 1.0 } else { 0.0 }));
-    matrices.held(&none, &matrices.multipliers(&none, &unit))
+    matrices.held(&none, &matrices.multipliers(&none, &unit::<T, M>(a).into()))
 }
 
 /// Sums of the magnitudes over the stages.

@@ -14,7 +14,7 @@ use super::settle::{NotSettled, Residuals, have_hardly_turned};
 use crate::number::{Parts, Scalar};
 use crate::solution::near::compensated;
 use crate::structure::{ConstantMassMatrix, HolonomicConstraints, VelocityFreeForces};
-use crate::system::{Lagrangian, State, StateOf};
+use crate::system::{Lagrangian, State, StateOf, unit};
 use crate::vector::{Array, Element, Entrywise, Length, Vector, array, vector, zeros};
 
 /// The method of Störmer and Verlet, symplectic and of order 2; with holonomic constraints it is RATTLE.
@@ -145,8 +145,7 @@ fn onto_constraints<L: Lagrangian<Scalar: Parts>>(
         };
         let is_noise = || {
             have_hardly_turned(&system.constraint_jacobian(&there), |a| {
-                let unit = Array::from_fn(|b| L::Scalar::constant(if a == b { 1.0 } else { 0.0 }));
-                array(system.solve_with(factor, &none, &vector(unit)).accelerations)
+                array(system.solve_with(factor, &none, &unit(a)).accelerations)
             })
         };
         let is_last = residuals.settle(&magnitudes(&residual), &terms, [&wider; 2], is_noise)?;
