@@ -117,7 +117,7 @@ impl<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> DiscreteTime<L, D>
         check_finite(&self.system, state)?;
         check_end(end)?;
         let (mut run, _) = Run::<L, D>::begin(&self.system, state, &self.method)?;
-        self.restart(&run.state)?;
+        self.restart(&mut run)?;
         let limits = Watchdog::new(self.method.limits(), &run.statistics);
         let Self { system, method, variations, memory, .. } = self;
         if let Some(memory) = memory {
@@ -143,16 +143,16 @@ impl<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> DiscreteTime<L, D>
     }
 
     /// Puts the variations at the start of an interval: along each entry of the state, and by each input.
-    fn restart(&mut self, start: &StateOf<L>) -> Result<(), Error> {
+    fn restart(&mut self, run: &mut Run<L, D>) -> Result<(), Error> {
         let Self { system, method, variations, memory, .. } = self;
         let size = <L::N>::COUNT;
         // A column of a parameter is zero: its index is that of no entry.
         let column = |j: usize| [unit(j), unit(j.wrapping_sub(size))];
-        variations.restart(&Tangent::at(system, start)?, column)?;
-        if let Some(memory) = memory {
-            return method.restart(system, start, variations, memory);
+        variations.restart(&Tangent::at(system, &run.state)?, column)?;
+        match memory {
+            Some(memory) => method.restart(VariedRun { system, run, variations, memory })?,
+            None => *memory = Some(method.companion(system, &run.state, variations)?),
         }
-        *memory = Some(method.companion(system, start, variations)?);
         Ok(())
     }
 

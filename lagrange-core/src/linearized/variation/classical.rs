@@ -36,13 +36,7 @@ impl<L: Linearized<Scalar: Real>> DifferentiableMethod<L> for RungeKutta4 {
         Ok(vec![ClassicalStages { start: zero, slopes: [zero; 4] }; variations.blocks.len()])
     }
 
-    fn restart(
-        &self,
-        _: &L,
-        _: &StateOf<L>,
-        _: &Variations<L>,
-        _: &mut Self::VariationMemory,
-    ) -> Result<(), Error> {
+    fn restart(&self, _: VariedRun<'_, L, Self>) -> Result<(), Error> {
         Ok(())
     }
 

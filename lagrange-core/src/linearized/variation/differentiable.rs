@@ -57,14 +57,8 @@ pub trait DifferentiableMethod<L: Linearized<Scalar: Real>>: Method<L> + Sized {
 
     /// Prepares the memory for a motion from another start, or of a changed system.
     #[doc(hidden)]
-    fn restart(
-        &self,
-        system: &L,
-        start: &StateOf<L>,
-        variations: &Variations<L>,
-        companion: &mut Self::VariationMemory,
-    ) -> Result<(), Error> {
-        *companion = self.companion(system, start, variations)?;
+    fn restart(&self, at: VariedRun<'_, L, Self>) -> Result<(), Error> {
+        *at.memory = self.companion(at.system, &at.run.state, at.variations)?;
         Ok(())
     }
 

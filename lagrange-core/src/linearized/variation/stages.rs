@@ -45,23 +45,12 @@ impl<Q: Pair, L: Linearized<Scalar: Real>> DifferentiableMethod<L> for Adaptive<
         let zero = PhaseVector::filled(WideOf::<L>::constant(0.0));
         let none = Stages { start: zero, slopes: Room::filled(zero), slope: zero };
         let mut all = vec![none; variations.blocks.len()];
-        self.restart(system, start, variations, &mut all)?;
+        set_out(system, start, variations, &mut all)?;
         Ok(all)
     }
 
-    fn restart(
-        &self,
-        system: &L,
-        start: &StateOf<L>,
-        variations: &Variations<L>,
-        all: &mut Self::VariationMemory,
-    ) -> Result<(), Error> {
-        let tangent = Tangent::at(system, start)?;
-        let equations = variations.equations(&tangent);
-        for (block, stages) in variations.blocks.iter().zip(all) {
-            stages.slope = equations.slope(block, &block.y)?;
-        }
-        Ok(())
+    fn restart(&self, at: VariedRun<'_, L, Self>) -> Result<(), Error> {
+        set_out(at.system, &at.run.state, at.variations, at.memory)
     }
 
     fn linear(companion: &mut Self::VariationMemory) -> Vec<&mut PhaseVector<WideOf<L>, L::N>> {
@@ -139,6 +128,21 @@ impl<Q: Pair> Adaptive<Q> {
         let each = (0..variations.count()).map(|j| (size(errors[j / lanes].lane(j % lanes)), j));
         each.fold((zero, 0), |worst, one| if exceeds(one.0, worst.0) { one } else { worst })
     }
+}
+
+/// Computes the slopes of the variations at the start of a motion.
+fn set_out<L: Linearized<Scalar: Real>>(
+    system: &L,
+    start: &StateOf<L>,
+    variations: &Variations<L>,
+    all: &mut [Stages<WideOf<L>, L::N>],
+) -> Result<(), Error> {
+    let tangent = Tangent::at(system, start)?;
+    let equations = variations.equations(&tangent);
+    for (block, stages) in variations.blocks.iter().zip(all) {
+        stages.slope = equations.slope(block, &block.y)?;
+    }
+    Ok(())
 }
 
 /// Restores the variations to the start of the last step.
