@@ -27,36 +27,27 @@ mod tangent;
 #[cfg(feature = "alloc")]
 mod variation;
 
+#[cfg(feature = "alloc")]
+pub(crate) use self::{argument::set_parameter, linearization::eigenvalues, singular::Singular};
+#[cfg(feature = "alloc")]
+pub use self::{
+    discrete::DiscreteTime,
+    equilibrium::Equilibrium,
+    inverse::{BaseParameters, InverseDynamics, Regressor},
+    jacobian::SelectedJacobian,
+    linearization::{Linearization, LocalCoordinates, Stability},
+    lyapunov::LyapunovSpectrum,
+    sensitivity::{
+        DifferentiableEvent, DualSample, MotionDerivatives, OverDuals, SampledSensitivity, StateSensitivity,
+        TrajectorySensitivity,
+    },
+    variation::DifferentiableMethod,
+};
 #[cfg(feature = "parquet")]
 pub(crate) use argument::check_parameters;
-#[cfg(feature = "alloc")]
-pub(crate) use argument::set_parameter;
 pub use bodies::MotionGradients;
 pub use contract::Linearized;
-#[cfg(feature = "alloc")]
-pub use discrete::DiscreteTime;
-#[cfg(feature = "alloc")]
-pub use equilibrium::Equilibrium;
-#[cfg(feature = "alloc")]
-pub use inverse::{BaseParameters, InverseDynamics, Regressor};
-#[cfg(feature = "alloc")]
-pub use jacobian::SelectedJacobian;
 pub use jacobian::{Jacobian, PartialDerivatives};
-#[cfg(feature = "alloc")]
-pub(crate) use linearization::eigenvalues;
-#[cfg(feature = "alloc")]
-pub use linearization::{Linearization, LocalCoordinates, Stability};
-#[cfg(feature = "alloc")]
-pub use lyapunov::LyapunovSpectrum;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use radau::{Collocation, Radau, RadauMemory, RadauStages};
-#[cfg(feature = "alloc")]
-pub use sensitivity::{
-    DifferentiableEvent, DualSample, MotionDerivatives, OverDuals, SampledSensitivity, StateSensitivity,
-    TrajectorySensitivity,
-};
-#[cfg(feature = "alloc")]
-pub(crate) use singular::Singular;
 pub use state_derivatives::StateDerivatives;
-#[cfg(feature = "alloc")]
-pub use variation::DifferentiableMethod;
