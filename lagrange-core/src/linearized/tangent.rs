@@ -277,6 +277,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Solves for the δq̈ and δλ that compensate these changes of the residual, in `lanes` lanes; `entry` names a lane
     /// for errors.
+    #[cfg(feature = "alloc")]
     #[inline]
     pub(super) fn responses(
         &self,
