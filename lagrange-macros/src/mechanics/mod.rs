@@ -56,8 +56,8 @@ pub(crate) use marker::Marker;
 #[cfg(test)]
 pub(crate) use twists::TreeColumn;
 pub(crate) use twists::{
-    BodyTree, ChainRule, Dependence, Euler, Link, Resultants, RigidBody, TreeBody, TreeJoint, Turning,
-    Turnings,
+    Argument, BodyTree, ChainRule, Dependence, Euler, Link, Resultants, RigidBody, TreeBody, TreeJoint,
+    Turning, Turnings,
 };
 
 /// Results derived from a problem. Their expressions are nodes of the graph of the problem.

@@ -45,7 +45,7 @@ impl Arrays {
         }
     }
 
-    fn add_bodies(&mut self, BodyNames { links, bodies }: &BodyNames) {
+    fn add_bodies(&mut self, BodyNames { links, bodies, .. }: &BodyNames) {
         let matrices =
             links.iter().flat_map(|link| &link.axes).chain(bodies.iter().map(|body| &body.inertia));
         matrices.for_each(|matrix| self.add(&format!("{matrix}[0][0]")));

@@ -50,12 +50,17 @@ impl Page<'_> {
         }
         let weights = self.weights(&bodies, resultants.lift, |position, _| Some(position));
         let [with, without] = resultants.beside.energies.map(|part| self.term(part, Self::part_of_energy));
-        terms.extend(shortest([with, apart(&weights, without)])?);
+        let known = shortest([with, apart(&weights, without)]);
+        terms.extend(known.or_else(|| apart(&weights, self.energy_of_potential(resultants)))?);
         Some(Formula::sum([terms, less].concat())).filter(|energy| length(energy) <= READABLE as usize)
     }
 
     /// ½ m ṙ·ṙ, and m ṙ·∂r/∂t to be taken off; only their difference if no coordinate moves the body.
-    fn moving(&self, resultants: &Resultants, named: BodyWithNames) -> Option<[Option<Formula>; 2]> {
+    pub(super) fn moving(
+        &self,
+        resultants: &Resultants,
+        named: BodyWithNames,
+    ) -> Option<[Option<Formula>; 2]> {
         let BodyWithNames { body, own, .. } = named;
         if body.mass == Id::ZERO || !resultants.is_moving(self.graph, body) {
             return Some([None, None]);
@@ -72,7 +77,7 @@ impl Page<'_> {
     }
 
     /// ½ ω·(I ω), and (I ω)·Ω to be taken off; only their difference if no coordinate turns the body.
-    fn turning_of(&self, resultants: &Resultants, named: BodyWithNames) -> [Option<Formula>; 2] {
+    pub(super) fn turning_of(&self, resultants: &Resultants, named: BodyWithNames) -> [Option<Formula>; 2] {
         if !named.body.has_inertia() || !resultants.is_turning(named.body.link) {
             return [None, None];
         }
@@ -85,7 +90,7 @@ impl Page<'_> {
         }
     }
 
-    fn has(&self, parts: &[Id], is_it: fn(Variable) -> bool) -> bool {
+    pub(super) fn has(&self, parts: &[Id], is_it: fn(Variable) -> bool) -> bool {
         self.graph.symbols(parts).any(|symbol| is_it(Variable::of(symbol)))
     }
 
@@ -110,14 +115,17 @@ impl Page<'_> {
         let changed = self.weights(&bodies, resultants.lift_rate, |position, _| Some(position));
         let weights = weights.zip(changed).map(|(weights, changed)| [weights, changed].concat());
         let [with, without] = resultants.beside.rates.map(|part| self.term(part, Self::expression));
-        let by_definitions = self.rate_by_definitions(resultants);
-        terms.extend(shortest([with, apart(&weights, without), apart(&weights, by_definitions)])?);
+        let by_arguments = self.rate_by_arguments(resultants);
+        let known = shortest([with, apart(&weights, without), apart(&weights, by_arguments)]);
+        terms.extend(known.or_else(|| {
+            apart(&weights, self.slope_of_potential(resultants, Variable::Time).map(|slope| vec![slope]))
+        })?);
         terms.extend(self.term(resultants.beside.power, Self::expression)?);
         Some(Formula::sum(terms)).filter(|rate| length(rate) <= READABLE as usize)
     }
 
     /// Terms m (−g) r of all bodies and axes, with `of` a component of r; `None` if one cannot be written.
-    fn weights(
+    pub(super) fn weights(
         &self,
         bodies: &[BodyWithNames],
         lift: Triple,
@@ -167,7 +175,9 @@ impl Page<'_> {
             terms.extend(moving.map(|moving| product(vec![mass, moving])));
             terms.extend(turning);
         }
-        terms.extend(self.term(resultants.beside.momenta[i], Self::expression)?);
+        if resultants.beside.momenta[i] != Id::ZERO {
+            terms.push(self.given_momentum(resultants, i).ok()?);
+        }
         Some(Formula::sum(terms))
     }
 }

@@ -74,6 +74,16 @@ impl Formula {
         Self::Name { base, dots, indices }
     }
 
+    /// A name with one more dot.
+    pub(super) fn dotted(self) -> Option<Self> {
+        match self {
+            Self::Name { base, dots: dots @ 0..=1, indices } => {
+                Some(Self::Name { base, dots: dots + 1, indices })
+            }
+            _ => None,
+        }
+    }
+
     /// Generalized momentum p of a coordinate, with dots.
     pub(super) fn momentum(text: &str, dots: usize) -> Self {
         Self::labelled(&format!("p_{text}"), dots)

@@ -17,10 +17,15 @@ use crate::variables::Variable;
 const LETTERS: [[&str; 2]; 7] =
     [["A", "C"], ["omega", "Omega"], ["r", "x"], ["F", "K"], ["N", "M"], ["I", "Theta"], ["Omega", "W"]];
 
+/// Most bodies beside which a potential is named: the lines of more, which its equations need, are too long for a page.
+const FEW: usize = 3;
+
 /// Names of the links and bodies of [`Resultants`], in their order.
 pub(super) struct BodyNames {
     pub(super) links: Vec<LinkNames>,
     pub(super) bodies: Vec<RigidBodyNames>,
+    /// Name of the potential, if L has its name and the bodies are few.
+    pub(super) potential: Option<&'static str>,
 }
 
 /// Names of bodies, and the lines that define them with the names that they define.
@@ -74,8 +79,11 @@ impl BodyNames {
                 [position, force, torque, inertia].map(|letter| format!("{letter}_{base}{place}{indices}"));
             RigidBodyNames { position, force, torque, inertia }
         });
-        let bodies = bodies.collect();
-        Some(Self { links: named, bodies })
+        let bodies: Vec<RigidBodyNames> = bodies.collect();
+        let taken = taken(problem);
+        let potential = ["V", "W"].into_iter().find(|letter| !is_taken(&taken, letter));
+        let potential = potential.filter(|_| !is_taken(&taken, "L") && bodies.len() <= FEW);
+        Some(Self { links: named, bodies, potential })
     }
 }
 

@@ -23,6 +23,7 @@ mod notation;
 mod order;
 mod page;
 mod pieces;
+mod potential;
 mod product;
 mod reading;
 mod remark;

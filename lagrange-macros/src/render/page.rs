@@ -40,6 +40,8 @@ pub(super) struct Page<'a> {
     pub(super) axes: Vec<NamedAxes>,
     /// Names of bodies, once an equation of motion by coordinates is too long to be read.
     pub(super) bodies: Option<NamedBodies>,
+    /// Index of the chain rule by which the forces beside the bodies are stated.
+    pub(super) chain: usize,
     /// Length of the definition of each of these matrices.
     pub(super) axes_lengths: Vec<usize>,
     /// Definitions that are vectors, with the numbers of their components.
@@ -82,6 +84,7 @@ impl<'a> Page<'a> {
             roots,
             entries: named_entries(&axes, problem, derived),
             bodies: None,
+            chain: 0,
             axes_lengths: Vec::new(),
             axes,
             vectors: problem.vectors.iter().map(|(name, n)| (Formula::labelled(name, 0), *n)).collect(),

@@ -81,6 +81,11 @@ impl Page<'_> {
         });
         self.bodies = lines.filter(|bodies| bodies.lines.iter().all(|(_, line)| !line.is_too_long()));
         self.begin_readings();
+        self.choose_chain();
+        let potential = self.potential_line();
+        if let Some(bodies) = &mut self.bodies {
+            bodies.lines.extend(potential);
+        }
     }
 
     pub(super) fn named_bodies(&self) -> Option<(&Resultants, Vec<BodyWithNames<'_>>)> {
@@ -105,8 +110,12 @@ impl Page<'_> {
         let right = match speed {
             Speed::Coordinate(i) => [self.given_force(resultants, i), self.constraint_force(i)],
             Speed::Turning(k, axis) => {
-                let torques = [resultants.torques[k], self.derived.turnings.all[k].constraint.0];
-                torques.map(|torque| self.component_of(&torque, axis))
+                let turning = &self.derived.turnings.all[k];
+                let torques = [resultants.torques[k], turning.constraint.0];
+                let [given, constraint] = torques.map(|torque| self.component_of(&torque, axis));
+                let by_arguments =
+                    || self.torque_by_arguments(resultants, turning.first, &self.speed(speed, 0));
+                [given.or_else(|size| by_arguments().ok_or(size)), constraint]
             }
         };
         let zero = Formula::sum(Vec::new());

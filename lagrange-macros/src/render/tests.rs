@@ -10,6 +10,7 @@ mod golden;
 mod golden_contacts;
 mod golden_lines;
 mod mathml;
+mod potentials;
 mod reader;
 mod systems;
 mod texts;

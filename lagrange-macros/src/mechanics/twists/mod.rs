@@ -6,6 +6,7 @@
 
 mod accelerations;
 mod bodies;
+mod chain_rule;
 mod components;
 mod composite;
 mod parts;
@@ -21,9 +22,10 @@ use super::formulation::Formulation;
 use crate::symbolic::{Forward, Graph, Id};
 use crate::variables::{drift, has_velocity, total_time_derivative};
 use accelerations::InTime;
+pub(crate) use chain_rule::{Argument, ChainRule};
 pub(super) use components::Twists;
 use parts::TwistParts;
-pub(crate) use resultants::{ChainRule, Dependence, Link, Resultants, RigidBody};
+pub(crate) use resultants::{Dependence, Link, Resultants, RigidBody};
 #[cfg(test)]
 pub(crate) use tree::TreeColumn;
 pub(crate) use tree::{BodyTree, TreeBody, TreeJoint};
@@ -97,7 +99,7 @@ impl Twists<'_> {
     fn parts(&self, graph: &mut Graph, in_time: InTime) -> TwistParts {
         let mut parts = self.nothing();
         let places = self.places(graph);
-        let gravity = self.others_of(graph, in_time, &places, &mut parts, false);
+        let gravity = self.others_of(graph, in_time, &places, &mut parts, None);
         self.of_bodies(graph, in_time, gravity, &mut parts);
         self.given_forces(graph, &mut parts);
         parts

@@ -22,21 +22,45 @@ use crate::variables::{Variable, nodes};
 
 impl Twists<'_> {
     /// Adds the generalized forces of all terms of L that are not bodies. Returns uniform gravity as an acceleration,
-    /// which the equations of the bodies include; `by_moments` as in [`without_gravity`](Self::without_gravity).
+    /// which the equations of the bodies include. With `definitions`, it is also sought as in
+    /// [`without_gravity`](Self::without_gravity) `by_moments`, and in the terms outside of these nodes, which may contain
+    /// positions of the same frames.
     pub(super) fn others_of(
         &self,
         graph: &mut Graph,
         in_time: InTime,
         places: &IndexMap<Id, RowOrOrigin>,
         parts: &mut TwistParts,
-        by_moments: bool,
+        definitions: Option<&[Id]>,
     ) -> Triple {
         let (momenta, mut slopes) = self.slopes(graph, self.others, places);
         let coordinates = nodes(graph, self.problem.coordinates.len(), Variable::Coordinate);
         let placed: Vec<Id> = coordinates.iter().chain(places.keys()).copied().collect();
-        let gravity = self.without_gravity(graph, &placed, &mut slopes, by_moments);
+        let mut gravity = self.without_gravity(graph, &placed, &mut slopes, definitions.is_some());
+        if let Some(definitions) = definitions.filter(|_| gravity == [Id::ZERO; 3]) {
+            gravity = self.without_gravity_beside(graph, definitions, &placed, &mut slopes);
+        }
         self.at_rest(graph, places, &slopes, parts);
         self.in_motion(graph, in_time, &momenta, parts);
+        gravity
+    }
+
+    /// Removes uniform gravity in the terms outside of these definitions.
+    fn without_gravity_beside(
+        &self,
+        graph: &mut Graph,
+        definitions: &[Id],
+        placed: &[Id],
+        slopes: &mut [Id],
+    ) -> Triple {
+        let held = [placed, &self.velocities.nodes, definitions].concat();
+        let before = graph.gradient_to(self.others, &held);
+        let mut after = before[..placed.len()].to_vec();
+        let gravity = self.without_gravity(graph, placed, &mut after, true);
+        for ((slope, before), after) in slopes.iter_mut().zip(before).zip(after) {
+            let weight = graph.sub(before, after);
+            *slope = graph.sub(*slope, weight);
+        }
         gravity
     }
 

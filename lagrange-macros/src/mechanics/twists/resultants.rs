@@ -11,6 +11,7 @@ use num_traits::One;
 use rustc_hash::FxHashMap;
 
 use super::Twists;
+use super::chain_rule::ChainRule;
 use super::turning::{Turning, Turnings};
 use crate::resolve::{Frame, Problem, Step, Triple, columns, sum};
 use crate::symbolic::{Forward, Graph, Id, Node};
@@ -31,8 +32,9 @@ pub(crate) struct Resultants {
     pub(crate) beside: Beside,
     /// Generalized force on each coordinate, without constraint forces.
     pub(crate) rest: Vec<Id>,
-    /// The same by the chain rule, if L without the bodies has no velocities.
-    pub(crate) by_definitions: Option<ChainRule>,
+    /// L without the bodies and their weights, and its generalized forces by the chain rule, in one or two ways.
+    pub(crate) others: Id,
+    pub(crate) chains: Vec<ChainRule>,
     /// Torque along the axes of each [`Turning`], without constraint forces.
     pub(crate) torques: Vec<Triple>,
 }
@@ -48,17 +50,6 @@ pub(crate) struct Beside {
     pub(crate) rates: [Id; 2],
     /// Q·q̇ − λ·b
     pub(crate) power: Id,
-}
-
-/// Generalized forces Q_i − ∂U/∂q_i − Σ ∂U/∂d·∂d/∂q_i, with U a function of coordinates and definitions d.
-#[derive(Debug)]
-pub(crate) struct ChainRule {
-    /// Q_i − ∂U/∂q_i, with the definitions held.
-    pub(crate) direct: Vec<Id>,
-    /// ∂U/∂t, with the definitions held.
-    pub(crate) by_time: Id,
-    /// Definitions d, each with −∂U/∂d.
-    pub(crate) slopes: Vec<(Id, Id)>,
 }
 
 /// A frame, and how it lies in the next link that carries it, or in the fixed frame.
@@ -114,8 +105,8 @@ impl Twists<'_> {
     fn resultants(&self, graph: &mut Graph, turnings: &Turnings, power: Id) -> Resultants {
         let frames = self.named_carriers();
         let new = &turnings.new;
-        let links =
-            frames.iter().map(|&frame| self.link(graph, frame, &frames).replaced(graph, new)).collect();
+        let links = frames.iter().map(|&frame| self.link(graph, frame, &frames).replaced(graph, new));
+        let links: Vec<Link> = links.collect();
         let bodies = self.bodies.iter().filter_map(|body| {
             let frame = &self.problem.frames[body.frame];
             let shift = frame.axes.map(|row| graph.dot(&row, &body.centre));
@@ -130,48 +121,30 @@ impl Twists<'_> {
         let bodies: Vec<RigidBody> = bodies.collect();
         let mut parts = self.nothing();
         let places = self.places(graph);
-        let lift = self.others_of(graph, total_time_derivative, &places, &mut parts, true);
+        let points = self.points(graph);
+        let named: Vec<Id> = points.iter().flat_map(|&(node, rate)| [node, rate]).collect();
+        let lift = self.others_of(graph, total_time_derivative, &places, &mut parts, Some(&named));
         self.given_forces(graph, &mut parts);
         let n = self.problem.coordinates.len();
         let rest = self.hand_back(graph, parts, if turnings.all.is_empty() { n } else { self.outer });
         let torques = turnings.all.iter().map(|turning| turning.torque(graph, &rest, new)).collect();
         let rest = rest.into_iter().map(|force| graph.replaced(force, new)).collect();
-        let beside = self.beside(graph, &bodies, lift);
-        let has_velocities = has_velocity(graph, &[self.others]);
-        let by_definitions = (!has_velocities).then(|| self.chain_rule(graph, beside.energies[1]));
-        let beside = Beside { power, ..beside }.replaced(graph, new);
+        let weights = weights(graph, &bodies, lift);
+        let others = graph.add(self.others, weights);
+        let chains = self.chain_rules(graph, (others, &links), points);
+        let beside = Beside { power, ..self.beside(graph, weights, &chains[0]) }.replaced(graph, new);
         let mut along_time = Forward::along([(Variable::Time.symbol(), Id::ONE)]);
         let lift_rate = lift.map(|lift| along_time.of(graph, lift));
-        Resultants { links, bodies, lift, lift_rate, beside, rest, by_definitions, torques }
+        Resultants { links, bodies, lift, lift_rate, beside, rest, others, chains, torques }
     }
 
-    fn chain_rule(&self, graph: &mut Graph, potential: Id) -> ChainRule {
-        let n = self.problem.coordinates.len();
-        let mut held = nodes(graph, n, Variable::Coordinate);
-        held.push(graph.symbol(Variable::Time.symbol()));
-        let mut definitions: Vec<Id> = self.problem.names.keys().copied().collect();
-        definitions.sort_unstable();
-        held.extend(&definitions);
-        let mut slopes = graph.gradient_to(potential, &held);
-        let of_definitions = slopes.split_off(n + 1);
-        let by_time = slopes.pop().unwrap_or(Id::ZERO);
-        let mut parts = self.nothing();
-        self.given_forces(graph, &mut parts);
-        let given = self.hand_back(graph, parts, n);
-        let direct = given.into_iter().zip(slopes).map(|(given, slope)| graph.sub(given, slope)).collect();
-        let slopes = definitions.into_iter().zip(of_definitions).filter(|(_, slope)| *slope != Id::ZERO);
-        let slopes = slopes.map(|(definition, slope)| (definition, graph.neg(slope))).collect();
-        ChainRule { direct, by_time, slopes }
-    }
-
-    fn beside(&self, graph: &mut Graph, bodies: &[RigidBody], lift: Triple) -> Beside {
+    fn beside(&self, graph: &mut Graph, weights: Id, chain: &ChainRule) -> Beside {
         let velocities = nodes(graph, self.problem.coordinates.len(), Variable::Velocity);
         let momenta = graph.gradient_to(self.others, &velocities);
         // Terms that are linear in the velocities are no part of E.
         let is_affine = !has_velocity(graph, &momenta);
         let others = if is_affine { graph.without(self.others, &velocities) } else { self.others };
-        let vis_viva = if is_affine { Id::ZERO } else { graph.dot(&momenta, &velocities) };
-        let weights = weights(graph, bodies, lift);
+        let vis_viva = if is_affine { Id::ZERO } else { chain.vis_viva(graph, &velocities) };
         let mut along_time = Forward::along([(Variable::Time.symbol(), Id::ONE)]);
         let [with, without] = [Id::ZERO, weights].map(|weights| {
             let part = graph.add(others, weights);

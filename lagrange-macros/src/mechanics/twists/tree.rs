@@ -74,7 +74,7 @@ impl BodyTree {
         }
         let mut rest = twists.nothing();
         let places = twists.places(graph);
-        tree.fixed = twists.others_of(graph, total_time_derivative, &places, &mut rest, false);
+        tree.fixed = twists.others_of(graph, total_time_derivative, &places, &mut rest, None);
         twists.given_forces(graph, &mut rest);
         let rest = twists.hand_back(graph, rest, problem.coordinates.len());
         tree.rest = rest.into_iter().map(|force| graph.neg(force)).collect();

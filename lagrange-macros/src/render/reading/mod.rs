@@ -59,6 +59,13 @@ impl Page<'_> {
         }
     }
 
+    /// Keeps the names of these nodes in all readings.
+    pub(super) fn keep_names(&self, nodes: impl Iterator<Item = Id> + Clone) {
+        self.readings
+            .iter()
+            .for_each(|Reading(expansion)| expansion.borrow_mut().names.extend(nodes.clone()));
+    }
+
     /// Equation Σ inertia = Σ forces of the velocity `own`.
     pub(super) fn row(&self, own: usize, inertia: Id, forces: &[Id]) -> Equation {
         let sides = |reading: &Reading| {

@@ -3,6 +3,7 @@
 
 mod checks;
 mod links;
+mod potential;
 mod state;
 mod turns;
 
@@ -122,6 +123,7 @@ pub(super) fn check(system: &System) {
             let page = Page { system, text, written };
             checks::check_axes(&page);
             links::check(&page);
+            potential::check(&page);
             checks::check_motion(&page);
             checks::check_quantities(&page);
             checks::check_hamilton(&page);

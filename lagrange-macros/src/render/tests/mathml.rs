@@ -129,6 +129,7 @@ impl Xml {
             ("mfrac", [above, below]) if is_differential(above) => {
                 format!("{}/{}", differential(above), differential(below))
             }
+            ("mfrac", [above, below]) if above.text() == "d" && below.text() == "dt" => "d/dt ".to_owned(),
             ("mfrac", [above, below]) => format!("(({})/({}))", above.said(), below.said()),
             ("msqrt", all) => format!("√({})", line(all.iter())),
             ("msub", [base, below]) => indexed(base, below),

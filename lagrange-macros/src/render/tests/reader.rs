@@ -14,6 +14,11 @@ pub(super) trait Meanings {
 
     /// ∂f/∂x∂y, at the formal arguments if none are given.
     fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> Value;
+
+    /// d/dt (∂f/∂x)
+    fn rate_of_partial(&self, function: &str, by: &[String]) -> Value {
+        panic!("no rate of ∂{function}/∂{by:?} here")
+    }
 }
 
 /// Point at which the formulas of these tests are evaluated.
@@ -230,6 +235,12 @@ impl Reader<'_> {
             let value = self.sum();
             self.expect(")");
             return self.component(value);
+        }
+        if self.take("d/dt ") {
+            let is_enclosed = self.take("(");
+            let (function, by) = self.partial();
+            is_enclosed.then(|| self.expect(")"));
+            return self.meanings.rate_of_partial(&function, &by);
         }
         if self.take("√") {
             return vec![number(self.atom()).sqrt()];

@@ -1,7 +1,7 @@
 //! Angular velocities, positions and their partial derivatives, by differences of the orientations and positions of frames.
 
 use super::turns::spread;
-use super::{Page, Value, outer, value};
+use super::{Page, Value, outer, potential, value};
 use crate::mechanics::Turning;
 use crate::render::formula::Formula;
 use crate::render::links::{BodyNames, LinkNames};
@@ -10,13 +10,13 @@ use crate::symbolic::{Approximate, Id, Rational, Sample};
 use crate::variables::Variable;
 
 /// Coefficients of f(h k) − f(−h k) in h f′(0), for k = 1 … 4, with an error in h⁸.
-const FIRST: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+pub(super) const FIRST: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 /// Coefficients of f(h k) − 2 f(0) + f(−h k) in h² f″(0).
 const SECOND: [f64; 4] = [8.0 / 5.0, -1.0 / 5.0, 8.0 / 315.0, -1.0 / 560.0];
-const STEP: f64 = 0.01;
+pub(super) const STEP: f64 = 0.01;
 
 /// Time, coordinates, and their first and second derivatives along a curve.
-struct Curve {
+pub(super) struct Curve {
     start: Vec<f64>,
     rates: [Vec<f64>; 2],
 }
@@ -31,7 +31,7 @@ impl Curve {
     }
 
     /// The motion of a sample, or the displacement of its coordinates at these rates.
-    fn of(system: &System, sample: &Sample, rates: Option<&[f64]>) -> Self {
+    pub(super) fn of(system: &System, sample: &Sample, rates: Option<&[f64]>) -> Self {
         let n = system.problem.coordinates.len();
         let all = |kind: fn(usize) -> Variable| (0..n).map(move |i| value(sample, kind(i)));
         let start = all(Variable::Coordinate).chain([value(sample, Variable::Time)]).collect();
@@ -45,8 +45,13 @@ impl Curve {
         Self { start, rates }
     }
 
-    /// Values of nodes at a time after the start, without the accelerations and velocities.
+    /// Values of nodes at a time after the start.
     fn at(&self, system: &System, sample: &Sample, nodes: &[Id], time: f64) -> Vec<f64> {
+        self.moved(sample, time).values(&system.graph, nodes).iter().map(|entry| entry.value).collect()
+    }
+
+    /// The state at a time after the start, with the accelerations of the start.
+    pub(super) fn moved(&self, sample: &Sample, time: f64) -> Sample {
         let mut sample = sample.clone();
         let place = |i: usize| {
             let last = self.start.len() - 1;
@@ -56,8 +61,13 @@ impl Curve {
             let x = x + time * self.rates[0][i] + 0.5 * time * time * self.rates[1][i];
             (place(i).symbol(), Approximate::exact(x))
         });
-        sample.set(moved.collect::<Vec<_>>());
-        sample.values(&system.graph, nodes).iter().map(|entry| entry.value).collect()
+        let velocities = self.rates[1].iter().enumerate().take(self.start.len() - 1).map(|(i, a)| {
+            let velocity = Variable::Velocity(i);
+            (velocity.symbol(), Approximate::exact(value(&sample, velocity) + time * a))
+        });
+        let all: Vec<_> = moved.chain(velocities).collect();
+        sample.set(all);
+        sample
     }
 
     /// Values of nodes with their first and second derivatives along the curve.
@@ -115,7 +125,7 @@ pub(super) fn values(system: &Page, sample: &Sample) -> Vec<(Formula, Value)> {
     all
 }
 
-fn named<'s>(system: &'s Page) -> Option<(BodyNames, &'s crate::mechanics::Resultants)> {
+pub(super) fn named<'s>(system: &'s Page) -> Option<(BodyNames, &'s crate::mechanics::Resultants)> {
     let names = is_by_bodies(system).then(|| BodyNames::of(&system.problem, &system.derived)).flatten();
     names.zip(system.derived.resultants.as_ref())
 }
@@ -131,10 +141,9 @@ pub(super) fn partial(system: &Page, sample: &Sample, function: &str, by: &str) 
     let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
     let coordinate = |dots| (0..n).find(|&i| written(&system.problem.coordinates[i].text, dots) == by);
     let along = |i: usize| Curve::of(system, sample, Some(&unit(i)));
-    let nodes = nodes_of(system, function);
-    if !nodes.is_empty() {
-        let by_coordinate = coordinate(0).map(|i| along(i).derivatives(system, sample, &nodes)[1].clone());
-        return by_coordinate.or_else(|| Some(by_velocity(system, sample, &nodes, coordinate(1)?)));
+    if potential::is_it(system, function) {
+        let along = coordinate(0).map(Variable::Coordinate).or_else(|| coordinate(1).map(Variable::Velocity));
+        return Some(vec![potential::slope(system, sample, along?)]);
     }
     let of_turning = |turning: &Turning| {
         let text = system.problem.coordinates[turning.first].text.strip_suffix("[0]")?;
@@ -142,10 +151,20 @@ pub(super) fn partial(system: &Page, sample: &Sample, function: &str, by: &str) 
         let q = [0, 1, 2, 3].map(|k| value(sample, Variable::Coordinate(turning.first + k)));
         let mut rates = vec![0.0; n];
         (0..4).for_each(|k| rates[turning.first + k] = 0.5 * spread(q)[axis][k]);
-        Some(Curve::of(system, sample, Some(&rates)))
+        Some(rates)
     };
     let turnings = &system.derived.turnings.all;
-    let curve = coordinate(1).map(along).or_else(|| turnings.iter().find_map(of_turning))?;
+    let rates = || coordinate(1).map(unit).or_else(|| turnings.iter().find_map(of_turning));
+    let nodes = nodes_of(system, function, 0);
+    if !nodes.is_empty() {
+        let by_coordinate = coordinate(0).map(|i| along(i).derivatives(system, sample, &nodes)[1].clone());
+        return by_coordinate.or_else(|| Some(by_velocity(system, sample, &nodes, &rates()?)));
+    }
+    let curve = Curve::of(system, sample, Some(&rates()?));
+    let nodes = nodes_of(system, function, 1);
+    if !nodes.is_empty() {
+        return Some(curve.derivatives(system, sample, &nodes)[1].clone());
+    }
     let link = names.links.iter().position(|own| written(&own.rate, 0) == function);
     let body = names.bodies.iter().position(|own| written(&own.position, 1) == function);
     let axes = |link: usize| &system.problem.frames[resultants.links[link].frame].axes;
@@ -154,10 +173,31 @@ pub(super) fn partial(system: &Page, sample: &Sample, function: &str, by: &str) 
     rate.or_else(|| Some(curve.derivatives(system, sample, position(body?))[1].clone()))
 }
 
+/// First and second derivatives of all definitions along the motion, if the page is by bodies.
+pub(super) fn rates_of_definitions(system: &Page, sample: &Sample) -> Vec<(Formula, f64)> {
+    if named(system).is_none() {
+        return Vec::new();
+    }
+    let mut definitions: Vec<(&Id, &String)> = system.problem.names.iter().collect();
+    definitions.sort();
+    let nodes: Vec<Id> = definitions.iter().map(|(id, _)| **id).collect();
+    let derivatives = Curve::of(system, sample, None).derivatives(system, sample, &nodes);
+    let all = (1..3).flat_map(|dots| {
+        definitions
+            .iter()
+            .zip(&derivatives[dots])
+            .map(move |((_, name), &x)| (Formula::labelled(name, dots), x))
+    });
+    all.collect()
+}
+
 /// Value of ∂r/∂t with the coordinates held, of a definition likewise, or of ∂ṙ/∂t or ∂ω/∂t with the velocities held, too, or of a component.
 fn by_time(system: &Page, sample: &Sample, function: &str) -> Option<Value> {
     let (names, resultants) = named(system)?;
-    let nodes = nodes_of(system, function);
+    if potential::is_it(system, function) {
+        return Some(vec![potential::slope(system, sample, Variable::Time)]);
+    }
+    let nodes = nodes_of(system, function, 0);
     if !nodes.is_empty() {
         return Some(Curve::of_time(system, sample).derivatives(system, sample, &nodes)[1].clone());
     }
@@ -166,7 +206,7 @@ fn by_time(system: &Page, sample: &Sample, function: &str) -> Option<Value> {
         all.into_iter().find(|(name, _)| system.written(name) == function).map(|(_, value)| value)
     };
     // All of it later, and at the same coordinates and velocities.
-    let rate = |at: &dyn Fn(&Sample) -> Value| {
+    let rate = |at: &dyn Fn(&Sample) -> Value| -> Value {
         let later = |time: f64| {
             let mut sample = sample.clone();
             let start = value(&sample, Variable::Time);
@@ -181,7 +221,10 @@ fn by_time(system: &Page, sample: &Sample, function: &str) -> Option<Value> {
                 .map(|(after, before)| FIRST[k] * (after - before) / STEP)
                 .collect::<Value>()
         };
-        (0..4).map(change).fold(vec![0.0; 3], |sum, part| sum.iter().zip(part).map(|(x, y)| x + y).collect())
+        (0..4)
+            .map(change)
+            .reduce(|sum, part| sum.iter().zip(part).map(|(x, y)| x + y).collect())
+            .expect("steps")
     };
     let motion = |sample: &Sample| Curve::of(system, sample, None);
     let of_bodies = names.bodies.iter().zip(&resultants.bodies).find_map(|(own, body)| {
@@ -197,29 +240,38 @@ fn by_time(system: &Page, sample: &Sample, function: &str) -> Option<Value> {
             entries(&own.rate, 0, rate(&turning))
         })
     };
-    of_bodies.or_else(of_links)
+    let of_definitions = || {
+        let nodes = nodes_of(system, function, 1);
+        let velocity = |time: &Sample| motion(time).derivatives(system, time, &nodes)[1].clone();
+        (!nodes.is_empty()).then(|| rate(&velocity))
+    };
+    of_bodies.or_else(of_links).or_else(of_definitions)
 }
 
-/// Nodes of the definitions or the constraints of this name.
-fn nodes_of(system: &Page, function: &str) -> Vec<Id> {
+/// Nodes of the definitions or the constraints of which a name has this many dots.
+fn nodes_of(system: &Page, function: &str, dots: usize) -> Vec<Id> {
     let constraints = system.problem.constraints.iter().map(|(label, node)| (&label.text, *node));
     let mut definitions: Vec<_> = system.problem.names.iter().map(|(node, name)| (name, *node)).collect();
     definitions.sort();
-    let all = constraints.chain(definitions).filter(|(name, _)| is_in(system, function, name));
+    let all = constraints.chain(definitions).filter(|(name, _)| is_in(system, function, name, dots));
     all.map(|(_, node)| node).collect()
 }
 
-fn is_in(system: &Page, function: &str, name: &str) -> bool {
-    let entry = Formula::labelled(name, 0);
+fn is_in(system: &Page, function: &str, name: &str, dots: usize) -> bool {
+    let entry = Formula::labelled(name, dots);
     outer(&entry).into_iter().chain([entry]).any(|formula| system.written(&formula) == function)
 }
 
-/// Derivatives by a velocity of nodes in which it is linear.
-fn by_velocity(system: &Page, sample: &Sample, nodes: &[Id], i: usize) -> Value {
+/// Derivatives along rates of the coordinates of nodes that are linear in the velocities.
+fn by_velocity(system: &Page, sample: &Sample, nodes: &[Id], rates: &[f64]) -> Vec<f64> {
     let at = |more: f64| {
         let mut sample = sample.clone();
-        let velocity = Variable::Velocity(i);
-        sample.set([(velocity.symbol(), Approximate::exact(value(&sample, velocity) + more))]);
+        let moved = rates.iter().enumerate().map(|(i, rate)| {
+            let velocity = Variable::Velocity(i);
+            (velocity.symbol(), Approximate::exact(value(&sample, velocity) + more * rate))
+        });
+        let moved: Vec<_> = moved.collect();
+        sample.set(moved);
         sample.values(&system.graph, nodes)
     };
     at(1.0).iter().zip(at(0.0)).map(|(after, before)| after.value - before.value).collect()

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Page, links, momentum, outer, turns, value};
+use super::{Page, links, momentum, outer, potential, turns, value};
 use crate::render::axes::named_axes;
 use crate::render::formula::Formula;
 use crate::render::roots::named_roots;
@@ -83,6 +83,10 @@ impl<'a> State<'a> {
         for (&id, name) in definitions {
             put(Formula::labelled(name, 0), sample.values(graph, &[id])[0].value);
         }
+        if potential::name(system).is_some() {
+            put(Formula::labelled("L", 0), sample.values(graph, &[problem.lagrangian])[0].value);
+        }
+        links::rates_of_definitions(system, sample).into_iter().for_each(|(name, value)| put(name, value));
         vectors.append(&mut names);
         vectors.extend(transposes.into_iter().map(|(name, entries)| (system.written(&name), entries)));
         for (name, value) in links::values(system, sample) {
@@ -112,7 +116,7 @@ impl<'a> State<'a> {
     fn read_resultants(&mut self) {
         let mut lines = self.system.lines("Lagrangian\n");
         lines.extend(self.system.lines("Equations of motion\n"));
-        for name in links::resultants(self.system) {
+        for name in links::resultants(self.system).into_iter().chain(potential::name(self.system)) {
             let start = self.system.written(&name) + " = ";
             let text = lines.iter().find_map(|line| line.strip_prefix(&start));
             if let Some(value) = text.map(|text| self.read(text.split("   (").next().expect("a formula"))) {
@@ -183,6 +187,10 @@ impl Meanings for State<'_> {
             _ => return self.external(function, &vec![0; primes], arguments),
         };
         vec![number]
+    }
+
+    fn rate_of_partial(&self, function: &str, by: &[String]) -> Value {
+        potential::rate_of_momentum(self.system, &self.sample, function, &by[0]).expect("a potential")
     }
 
     fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> Value {
