@@ -56,7 +56,7 @@ pub(crate) use marker::Marker;
 #[cfg(test)]
 pub(crate) use twists::TreeColumn;
 pub(crate) use twists::{
-    Argument, BodyTree, ChainRule, Dependence, Euler, Link, Resultants, RigidBody, TreeBody, TreeJoint,
+    BodyTree, ChainArgument, ChainRule, Dependence, Euler, Link, Resultants, RigidBody, TreeBody, TreeJoint,
     Turning, Turnings,
 };
 

@@ -7,7 +7,7 @@ use super::motion::vector;
 use super::page::Page;
 use super::resultants::component;
 use super::roots::{is_taken, taken};
-use crate::mechanics::{Argument, ChainRule, ConstraintKind, Resultants};
+use crate::mechanics::{ChainArgument, ChainRule, ConstraintKind, Resultants};
 use crate::symbolic::Id;
 use crate::variables::Variable;
 
@@ -79,7 +79,7 @@ impl Page<'_> {
         resultants: &Resultants,
         i: usize,
         [whole, direct]: [Id; 2],
-        factor: fn(&Argument) -> Id,
+        factor: fn(&ChainArgument) -> Id,
         by_potential: Option<Formula>,
     ) -> Result<Formula, u64> {
         let by_arguments = || {
@@ -116,8 +116,13 @@ impl Page<'_> {
     }
 
     /// Factors times the derivatives of arguments by a coordinate, and of angular velocities by its rate.
-    fn by_arguments(&self, chain: &ChainRule, i: usize, factor: fn(&Argument) -> Id) -> Option<Vec<Formula>> {
-        let (rates, points): (Vec<&Argument>, Vec<&Argument>) =
+    fn by_arguments(
+        &self,
+        chain: &ChainRule,
+        i: usize,
+        factor: fn(&ChainArgument) -> Id,
+    ) -> Option<Vec<Formula>> {
+        let (rates, points): (Vec<&ChainArgument>, Vec<&ChainArgument>) =
             chain.arguments.iter().partition(|argument| argument.is_rate());
         let mut terms = Vec::new();
         for (arguments, variable, dots) in

@@ -24,14 +24,14 @@ pub(crate) struct ChainRule {
     pub(crate) momenta: Vec<Id>,
     /// −∂ℓ/∂t, with the arguments held.
     pub(crate) by_time: Id,
-    pub(crate) arguments: Vec<Argument>,
+    pub(crate) arguments: Vec<ChainArgument>,
     /// Rates of change without names of their own, each with the argument, or the rate of one, that it is the rate of.
     pub(crate) rates: Vec<(Id, Id)>,
 }
 
 /// An argument of ℓ: a definition of coordinates and time, or a component of the angular velocity ω of a link.
 #[derive(Debug)]
-pub(crate) struct Argument {
+pub(crate) struct ChainArgument {
     pub(crate) node: Id,
     /// Its rate of change; for a component of ω, the component itself.
     pub(crate) rate: Id,
@@ -43,7 +43,7 @@ pub(crate) struct Argument {
     pub(crate) momentum: Id,
 }
 
-impl Argument {
+impl ChainArgument {
     /// True for a component of an angular velocity.
     pub(crate) fn is_rate(&self) -> bool {
         self.node == self.rate
@@ -54,7 +54,7 @@ impl ChainRule {
     /// Σ q̇ ∂ℓ/∂q̇, with arguments whose rates are linear in q̇ but for what time adds to them.
     pub(super) fn vis_viva(&self, graph: &mut Graph, velocities: &[Id]) -> Id {
         let mut sum = graph.dot(&self.momenta, velocities);
-        for &Argument { rate, momentum, .. } in &self.arguments {
+        for &ChainArgument { rate, momentum, .. } in &self.arguments {
             let imposed = graph.without(rate, velocities);
             let rate = graph.sub(rate, imposed);
             let part = graph.mul(momentum, rate);
@@ -98,11 +98,11 @@ impl Twists<'_> {
             |node: Id| slopes.get(&node).copied().filter(|_| !own.contains(&node)).unwrap_or(Id::ZERO);
 
         let (mut along, rates) = self.rates_of_named(graph, points, turning);
-        let mut arguments: Vec<Argument> = Vec::new();
+        let mut arguments: Vec<ChainArgument> = Vec::new();
         for &(node, rate) in points {
             let (slope, momentum) = (slope(node), slope(rate));
             let change = along.of(graph, momentum);
-            arguments.push(Argument { node, rate, force: graph.sub(slope, change), slope, momentum });
+            arguments.push(ChainArgument { node, rate, force: graph.sub(slope, change), slope, momentum });
         }
         for &rate in turning {
             let spin = rate.map(slope);
@@ -110,7 +110,7 @@ impl Twists<'_> {
             let carried = cross(rate, spin, graph);
             let torque = sum([change, carried], graph).map(|torque| graph.neg(torque));
             for ((node, force), momentum) in rate.into_iter().zip(torque).zip(spin) {
-                arguments.push(Argument { node, rate: node, force, slope: Id::ZERO, momentum });
+                arguments.push(ChainArgument { node, rate: node, force, slope: Id::ZERO, momentum });
             }
         }
         let mut parts = self.nothing();

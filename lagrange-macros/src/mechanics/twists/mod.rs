@@ -22,7 +22,7 @@ use super::formulation::Formulation;
 use crate::symbolic::{Forward, Graph, Id};
 use crate::variables::{drift, has_velocity, total_time_derivative};
 use accelerations::InTime;
-pub(crate) use chain_rule::{Argument, ChainRule};
+pub(crate) use chain_rule::{ChainArgument, ChainRule};
 pub(super) use components::Twists;
 use parts::TwistParts;
 pub(crate) use resultants::{Dependence, Link, Resultants, RigidBody};
