@@ -12,8 +12,8 @@ use crate::number::{Real, Scalar, larger};
 /// Largest number of corrections of the directions in which bodies slide. For one contact a few are usual.
 const CORRECTIONS: usize = 200;
 
-/// Change of a direction, in units of round-off, below which it counts as none.
-const STEADY: f64 = 16.0;
+/// Change of a direction, in units of round-off, below which it is found.
+const FOUND: f64 = 16.0;
 
 /// What friction does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,8 +58,6 @@ pub(super) struct Law<'a, T> {
     /// Round-off of each rate.
     pub(super) noise: Vec<T>,
     pub(super) touches: Vec<Touch<T>>,
-    /// Part of the terms of a rate by which forces may be off the law.
-    pub(super) accuracy: f64,
 }
 
 /// What the law gives.
@@ -82,7 +80,7 @@ pub(super) struct ContactForces<T> {
 pub(super) enum NoForces {
     /// None satisfy the laws.
     Jammed,
-    /// The directions of sliding do not come to rest, or the forces found are off their law.
+    /// The directions of sliding do not come to rest.
     Undecided,
 }
 
@@ -103,34 +101,34 @@ enum Unknown {
 
 impl<T: Real> Law<'_, T> {
     /// Finds forces that satisfy the law, also for friction of two velocities: it sticks if forces within its limit keep the
-    /// bodies together, and else slides in the direction that its forces lead to. Whatever way they were found, forces are
-    /// compared with the law before they are believed.
-    pub(super) fn decide(&self) -> Result<ContactForces<T>, NoForces> {
+    /// bodies together, and else slides in the direction that its forces lead to.
+    pub(super) fn decide(self) -> Result<ContactForces<T>, NoForces> {
+        let law = self.clone();
         let mut forces = if self.is_shared() { self.shared()? } else { self.unshared()? };
-        self.close_idle(&mut forces);
+        law.close_idle(&mut forces);
         Ok(forces)
     }
 
-    fn unshared(&self) -> Result<ContactForces<T>, NoForces> {
-        self.in_directions().or_else(|why| self.by_cones().ok_or(why))
+    fn unshared(self) -> Result<ContactForces<T>, NoForces> {
+        let law = self.clone();
+        self.in_directions().or_else(|why| law.by_cones().ok_or(why))
     }
 
     /// Finds forces by corrections of the directions in which bodies slide.
-    pub(super) fn in_directions(&self) -> Result<ContactForces<T>, NoForces> {
-        let mut law = self.clone();
+    pub(super) fn in_directions(mut self) -> Result<ContactForces<T>, NoForces> {
         let is_planar = |touch: &Touch<T>| {
             touch.friction.is_some_and(|friction| friction.count == 2 && friction.grip == Grip::Sticks)
         };
         let planar: Vec<usize> = (0..self.touches.len()).filter(|&k| is_planar(&self.touches[k])).collect();
         for _ in 0..CORRECTIONS {
-            let outcome = law.solve().ok_or(NoForces::Jammed)?;
+            let outcome = self.solve().ok_or(NoForces::Jammed)?;
             let corrections: Vec<(usize, Grip<T>)> =
-                planar.iter().filter_map(|&k| Some((k, law.correction(k, &outcome)?))).collect();
+                planar.iter().filter_map(|&k| Some((k, self.correction(k, &outcome)?))).collect();
             if corrections.is_empty() {
-                return if self.obeys(&outcome) { Ok(outcome) } else { Err(NoForces::Undecided) };
+                return Ok(outcome);
             }
             for (k, grip) in corrections {
-                law.touches[k].friction.iter_mut().for_each(|friction| friction.grip = grip);
+                self.touches[k].friction.iter_mut().for_each(|friction| friction.grip = grip);
             }
         }
         Err(NoForces::Undecided)
@@ -141,7 +139,7 @@ impl<T: Real> Law<'_, T> {
         let Touch { gap, friction, .. } = self.touches[k];
         let Rubbing { place, grip, bounds: [limit, _], .. } = friction?;
         let press = gap.map_or(T::constant(1.0), |gap| outcome.forces[gap]);
-        let unit = T::constant(T::EPSILON * STEADY);
+        let unit = T::constant(T::EPSILON * FOUND);
         let of = |all: &[T]| [all[place], all[place + 1]];
         match grip {
             Grip::Sticks => {
@@ -177,7 +175,6 @@ impl<T: Real> Law<'_, T> {
             matrix: vec![vec![zero; size]; size],
             constant: vec![zero; size],
             noise: vec![zero; size],
-            units: unknowns.iter().map(|&of| self.unit(of)).collect(),
             is_free: unknowns.iter().map(|(unknown, _)| matches!(unknown, Unknown::Hold)).collect(),
         };
         for (w, &(unknown, place)) in unknowns.iter().enumerate() {
@@ -221,16 +218,6 @@ impl<T: Real> Law<'_, T> {
             }
         }
         unknowns
-    }
-
-    /// Unit of what belongs to an unknown, a rate or the force that is left of a limit: that of a rate is √g.
-    fn unit(&self, (unknown, place): (Unknown, usize)) -> T {
-        let response = Scalar::sqrt(larger(self.matrix[place][place], T::constant(0.0)));
-        match unknown {
-            _ if response == T::constant(0.0) => T::constant(1.0),
-            Unknown::Speed(_) => T::constant(1.0) / response,
-            _ => response,
-        }
     }
 
     /// Forces of the rows: their multiples of the unknowns, and what does not depend on them, of dry friction and of the smallest
@@ -318,7 +305,6 @@ impl<T: Real> Law<'_, T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::defect::FOUND;
 
     /// A block on a floor with gap and one or two velocities, in units of its mass.
     fn block(rates: [f64; 3], grip: Grip<f64>, count: usize) -> ContactForces<f64> {
@@ -326,8 +312,7 @@ mod tests {
             (0..3).map(|i| (0..3).map(|j| if i == j { 1.0 } else { 0.0 }).collect()).collect();
         let friction = Rubbing { place: 1, count, grip, bounds: [0.5, 0.5] };
         let touches = vec![Touch { gap: Some(0), least: 0.0, friction: Some(friction) }];
-        let law =
-            Law { matrix: &matrix, rates: rates.to_vec(), noise: vec![1e-15; 3], touches, accuracy: FOUND };
+        let law = Law { matrix: &matrix, rates: rates.to_vec(), noise: vec![1e-15; 3], touches };
         law.decide().expect("forces")
     }
 

@@ -18,8 +18,6 @@ pub(super) struct Exchange<T> {
     pub(super) constant: Vec<T>,
     /// Round-off of each constant, below which it counts as zero.
     pub(super) noise: Vec<T>,
-    /// Unit of each w, positive: the artificial unknown is measured in these.
-    pub(super) units: Vec<T>,
     pub(super) is_free: Vec<bool>,
 }
 
@@ -29,7 +27,7 @@ pub(super) struct Exchanged<T> {
     pub(super) is_basic: Vec<bool>,
 }
 
-/// The equations w − M z − e z₀ = q with the units e of w, solved for the basic ones of the 2n + 1 unknowns: w, z and the artificial z₀.
+/// The equations w − M z − e z₀ = q, solved for the basic ones of the 2n + 1 unknowns: w, z and the artificial z₀.
 struct ExchangeTableau<T> {
     size: usize,
     /// A row for each basic unknown: the columns of w, z and z₀, and the right-hand side.
@@ -89,7 +87,7 @@ impl<T: Real> ExchangeTableau<T> {
             let mut row = vec![zero; 2 * size + 2];
             row[k] = one;
             (0..size).for_each(|j| row[size + j] = -problem.matrix[k][j]);
-            row[2 * size] = if problem.is_free[k] { zero } else { -problem.units[k] };
+            row[2 * size] = if problem.is_free[k] { zero } else { -one };
             let constant = problem.constant[k];
             row[2 * size + 1] = if Scalar::abs(constant) <= problem.noise[k] { zero } else { constant };
             row
@@ -102,11 +100,11 @@ impl<T: Real> ExchangeTableau<T> {
         let (size, artificial) = (self.size, 2 * self.size);
         let is_negative =
             |&row: &usize| is_bound(self.basic[row]) && self.rows[row][artificial + 1] < T::constant(0.0);
-        let first = |&one: &usize, &other: &usize| self.order(one, other, artificial);
-        let Some(row) = (0..size).filter(is_negative).max_by(first) else { return Some(()) };
+        let least = |&one: &usize, &other: &usize| self.order(one, other, None);
+        let Some(row) = (0..size).filter(is_negative).min_by(least) else { return Some(()) };
         let mut entering = self.complement_of(self.basic[row]);
-        self.pivot(row, artificial);
         let round_off = Scalar::abs(self.rows[row][artificial + 1]) * T::constant(T::EPSILON * ZERO);
+        self.pivot(row, artificial);
         for _ in 0..=EXCHANGES * size {
             // Of dependent rows z₀ may become zero without leaving.
             let value = |row: usize| self.rows[row][artificial + 1];
@@ -121,7 +119,7 @@ impl<T: Real> ExchangeTableau<T> {
             let first = |&one: &usize, &other: &usize| {
                 // z₀ leaves if it may.
                 let leaves = |row: usize| self.basic[row] == artificial;
-                self.order(one, other, entering).then(leaves(other).cmp(&leaves(one)))
+                self.order(one, other, Some(entering)).then(leaves(other).cmp(&leaves(one)))
             };
             let row = (0..size).filter(is_blocking).min_by(first)?;
             let leaving = self.basic[row];
@@ -138,9 +136,10 @@ impl<T: Real> ExchangeTableau<T> {
         if unknown < self.size { unknown + self.size } else { unknown - self.size }
     }
 
-    /// Order of two rows by right-hand side and inverse, divided by their entries in a column.
-    fn order(&self, one: usize, other: usize, column: usize) -> Ordering {
-        let (by, by_other) = (self.rows[one][column], self.rows[other][column]);
+    /// Order of two rows by right-hand side and inverse, divided by their entries in a column if one is given.
+    fn order(&self, one: usize, other: usize, column: Option<usize>) -> Ordering {
+        let divisor = |row: usize| column.map_or(T::constant(1.0), |column| self.rows[row][column]);
+        let (by, by_other) = (divisor(one), divisor(other));
         let places = [2 * self.size + 1].into_iter().chain(0..self.size);
         let compared = places.map(|place| {
             let (x, y) = (self.rows[one][place] / by, self.rows[other][place] / by_other);
@@ -201,13 +200,7 @@ mod tests {
             (matrix[i + 1][i + 3], matrix[i + 2][i + 3]) = (1.0, 1.0);
             matrix[i + 3][i..i + 3].copy_from_slice(&[mu, -1.0, -1.0]);
         }
-        Exchange {
-            matrix,
-            constant,
-            noise: vec![1e-14; size],
-            units: vec![1.0; size],
-            is_free: vec![false; size],
-        }
+        Exchange { matrix, constant, noise: vec![1e-14; size], is_free: vec![false; size] }
     }
 
     #[test]
@@ -231,13 +224,8 @@ mod tests {
     #[test]
     fn a_free_unknown_may_be_negative() {
         let matrix = vec![vec![2.0, 1.0], vec![1.0, 2.0]];
-        let problem = Exchange {
-            matrix,
-            constant: vec![-3.0, 3.0],
-            noise: vec![0.0; 2],
-            units: vec![1.0; 2],
-            is_free: vec![false, true],
-        };
+        let problem =
+            Exchange { matrix, constant: vec![-3.0, 3.0], noise: vec![0.0; 2], is_free: vec![false, true] };
         let Exchanged { z, .. } = problem.solve().expect("a solution");
         assert!((z[0] - 3.0).abs() < 1e-15 && (z[1] + 3.0).abs() < 1e-15, "{z:?}");
     }
