@@ -264,7 +264,7 @@ pub enum Error {
         /// Number of local coordinates: of places, and as many of velocities.
         expected: usize,
     },
-    /// An entry of a change of a state is infinite or NaN.
+    /// An entry of a change in local coordinates is infinite or NaN.
     #[cfg(feature = "alloc")]
     LocalChangeNotFinite {
         /// Name of the local coordinate.

@@ -195,7 +195,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let measured: Vec<Measured<L::Scalar>> =
                 places.iter().map(|&place| self.measured(touching[place], state)).collect();
             problem.constant = measured.iter().map(|measured| measured.rate).collect();
-            // Round-off too: it would close in, on a wall in a slot without room, at once and again.
+            // A rate that is round-off counts, too: in a slot without room, the gap would close again at once.
             let is_wrong = |k: &usize| !is_active[*k] && measured[*k].rate < L::Scalar::constant(0.0);
             // One that depends on others stops along with them.
             let mut together = active.clone();

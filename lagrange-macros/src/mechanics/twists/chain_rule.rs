@@ -153,7 +153,8 @@ impl Twists<'_> {
         let within = graph.reachable(&[function]);
         let all = links.iter().map(|link| self.problem.frames[link.frame].angular_velocity);
         let is_held = |rate: &Triple| {
-            rate.iter().all(|&id| is_definition(graph, id)) && rate.iter().any(|id| within.contains(id))
+            rate.iter().all(|&id| is_definition(graph, id))
+                && rate.iter().any(|id| within.binary_search(id).is_ok())
         };
         all.filter(is_held).collect()
     }

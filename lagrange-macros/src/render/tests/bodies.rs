@@ -5,7 +5,7 @@
 use super::forms::check_forms;
 use super::golden::rendered;
 
-/// Systems, and lines that their pages have.
+/// Systems, each with lines that must stand on its printed page.
 #[rustfmt::skip]
 const BODIES: &[(&str, &[&str])] = &[
     // The gradient of gravity turns a satellite by 3 μ r×(I r)/|r|⁵, as the crate `orts` has it (`GravityGradientTorque`).

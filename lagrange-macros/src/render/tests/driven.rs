@@ -6,7 +6,7 @@
 use super::forms::check_forms;
 use super::systems::System;
 
-/// Systems, and lines that their pages have.
+/// Systems, each with lines that must stand on its printed page.
 #[rustfmt::skip]
 const DRIVEN: &[(&str, &[&str])] = &[
     // A table that turns: E is T + U less the angular velocity times the angular momentum, and conserved.

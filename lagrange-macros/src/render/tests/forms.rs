@@ -5,7 +5,7 @@
 use super::everywhere::check;
 use super::systems::System;
 
-/// Systems, and lines that their pages have.
+/// Systems, each with lines that must stand on its printed page.
 #[rustfmt::skip]
 const ENTRIES: &[(&str, &[&str])] = &[
     // A vector that is a definition is one vector in H, and hides no force in the equations of motion.

@@ -6,7 +6,7 @@
 use super::forms::check_forms;
 use super::systems::System;
 
-/// Systems, and lines that their pages have.
+/// Systems, each with lines that must stand on its printed page.
 #[rustfmt::skip]
 const FRAMES: &[(&str, &[&str])] = &[
     // One body about a fixed point. The last angle turns about an axis of the body.

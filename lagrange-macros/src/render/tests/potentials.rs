@@ -6,7 +6,7 @@
 
 use super::forms::check_forms;
 
-/// Systems, and lines that their pages have.
+/// Systems, each with lines that must stand on its printed page.
 #[rustfmt::skip]
 const POTENTIALS: &[(&str, &[&str])] = &[
     // A charge at the tip of a double pendulum, in a homogeneous field.
