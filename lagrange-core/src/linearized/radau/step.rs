@@ -155,6 +155,11 @@ where
                 return Step::Rejected;
             }
             Err(Rejection::TooSlow(part)) => {
+                if L::HAS_PLANAR_FRICTION {
+                    // Friction that has just begun to slide is stiff: where its velocity, much smaller than the tolerance, is not
+                    // yet along its force, the polynomial of the last step leads far away. The start is a better guess.
+                    memory.taken = None;
+                }
                 let reason = "the iteration of a step does not converge, however short it is";
                 let obstacle = memory.obstacle.clone().map(|error| Ending::of(error, now));
                 (part, obstacle.unwrap_or(Ending::MethodFailed { time: now, reason }))
