@@ -362,7 +362,8 @@ pub enum Error {
         time: f64,
     },
     /// Friction that slides leaves no acceleration with a force that presses the bodies together: the contact digs in, or the
-    /// force grows without bound (Painlevé's paradox).
+    /// force grows without bound (Painlevé's paradox). For up to four contacts, all that they may do was tried; for more, Lemke's
+    /// method found no forces.
     FrictionJams {
         /// Name of the friction.
         friction: &'static str,

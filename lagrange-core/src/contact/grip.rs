@@ -8,6 +8,7 @@ use super::complementarity::Complementarity;
 use super::friction::{BEGIN, TouchNames, TouchingRows};
 use super::instant::{Changed, Decided};
 use super::law::{ContactForces, Grip, Law, Touch};
+use super::watched::BEYOND;
 use super::{Contacts, Friction};
 use crate::error::Error;
 use crate::number::{Real, Scalar};
@@ -110,7 +111,8 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
         };
         let (touches, names) = self.bodies.touches(self.rows, &plays, state, grip)?;
         let (rates, noise) = self.pressing.iter().map(|&[rate, noise]| (rate, noise)).unzip();
-        let law = Law { matrix: &self.rows.delassus.0, rates, noise, touches: touches.clone() };
+        let (matrix, touching) = (&self.rows.delassus.0, touches.clone());
+        let law = Law { matrix, rates, noise, touches: touching, accuracy: BEYOND };
         let forces = law.decide().map_err(|why| self.bodies.jams(why, &names, state))?;
         Ok(Gripped { forces, touches, names, plays })
     }

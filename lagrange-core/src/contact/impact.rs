@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 
 use super::bodies::{Bodies, Measured};
 use super::complementarity::{Complementarity, ComplementarySolution};
+use super::defect::FOUND;
 use super::friction::{BEGIN, TouchingRows};
 use super::law::{Grip, Law, NoForces, Touch};
 use super::trajectory::Transition;
@@ -60,7 +61,7 @@ impl<T: Real> StagedImpact<'_, T> {
 
     fn stage(&self, rates: Vec<T>, touches: Vec<Touch<T>>) -> Result<StagedImpulses<T>, NoForces> {
         let noise = self.measured.iter().map(|measured| measured.noise[1]).collect();
-        let outcome = Law { matrix: self.matrix, rates, noise, touches }.decide()?;
+        let outcome = Law { matrix: self.matrix, rates, noise, touches, accuracy: FOUND }.decide()?;
         Ok(StagedImpulses { forces: outcome.forces, rates: outcome.rates })
     }
 

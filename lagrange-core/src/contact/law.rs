@@ -6,14 +6,20 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::cones::length;
 use super::lemke::{Exchange, Exchanged};
 use crate::number::{Real, Scalar, larger};
 
-/// Largest number of corrections of the directions in which bodies slide. For one contact a few are usual.
+/// Largest number of corrections of the directions in which bodies slide, and then of damped ones. For one contact a few are usual;
+/// where the force all but holds the bodies, corrections swing unless they are damped.
 const CORRECTIONS: usize = 200;
 
-/// Change of a direction, in units of round-off, below which it is found.
-const FOUND: f64 = 16.0;
+/// Part of the terms of a rate by which forces may be off the law where there could be some, but for round-off: masses of 10⁻⁴ and
+/// 10⁴ leave eight digits of the response of the heavy ones, and up to 10⁻⁶ of the terms.
+const NEAR: f64 = 1e-4;
+
+/// Change of a direction, in units of round-off, below which it counts as none.
+const STEADY: f64 = 16.0;
 
 /// What friction does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +64,8 @@ pub(super) struct Law<'a, T> {
     /// Round-off of each rate.
     pub(super) noise: Vec<T>,
     pub(super) touches: Vec<Touch<T>>,
+    /// Part of the terms of a rate by which forces may be off the law.
+    pub(super) accuracy: f64,
 }
 
 /// What the law gives.
@@ -80,7 +88,7 @@ pub(super) struct ContactForces<T> {
 pub(super) enum NoForces {
     /// None satisfy the laws.
     Jammed,
-    /// The directions of sliding do not come to rest.
+    /// The directions of sliding do not come to rest, or the forces found are off their law.
     Undecided,
 }
 
@@ -101,60 +109,71 @@ enum Unknown {
 
 impl<T: Real> Law<'_, T> {
     /// Finds forces that satisfy the law, also for friction of two velocities: it sticks if forces within its limit keep the
-    /// bodies together, and else slides in the direction that its forces lead to.
-    pub(super) fn decide(self) -> Result<ContactForces<T>, NoForces> {
-        let law = self.clone();
-        let mut forces = if self.is_shared() { self.shared()? } else { self.unshared()? };
-        law.close_idle(&mut forces);
+    /// bodies together, and else slides in the direction that its forces lead to. Whatever way they were found, forces are
+    /// compared with the law before they are believed.
+    pub(super) fn decide(&self) -> Result<ContactForces<T>, NoForces> {
+        let found = if self.is_shared() { self.shared() } else { self.unshared() };
+        let mut forces = found.map_err(|why| if self.is_near() { NoForces::Undecided } else { why })?;
+        self.close_idle(&mut forces);
         Ok(forces)
     }
 
-    fn unshared(self) -> Result<ContactForces<T>, NoForces> {
-        let law = self.clone();
-        self.in_directions().or_else(|why| law.by_cones().ok_or(why))
+    /// Whether there are forces but for round-off.
+    fn is_near(&self) -> bool {
+        Law { accuracy: NEAR, ..self.clone() }.solve().is_some()
+    }
+
+    fn unshared(&self) -> Result<ContactForces<T>, NoForces> {
+        self.in_directions().or_else(|why| self.by_cones().ok_or(why))
     }
 
     /// Finds forces by corrections of the directions in which bodies slide.
-    pub(super) fn in_directions(mut self) -> Result<ContactForces<T>, NoForces> {
+    pub(super) fn in_directions(&self) -> Result<ContactForces<T>, NoForces> {
+        let mut law = self.clone();
         let is_planar = |touch: &Touch<T>| {
             touch.friction.is_some_and(|friction| friction.count == 2 && friction.grip == Grip::Sticks)
         };
         let planar: Vec<usize> = (0..self.touches.len()).filter(|&k| is_planar(&self.touches[k])).collect();
-        for _ in 0..CORRECTIONS {
-            let outcome = self.solve().ok_or(NoForces::Jammed)?;
-            let corrections: Vec<(usize, Grip<T>)> =
-                planar.iter().filter_map(|&k| Some((k, self.correction(k, &outcome)?))).collect();
+        for number in 0..2 * CORRECTIONS {
+            let is_damped = number >= CORRECTIONS;
+            let outcome = law.solve().ok_or(NoForces::Jammed)?;
+            let correction = |&k: &usize| Some((k, law.correction(k, is_damped, &outcome)?));
+            let corrections: Vec<(usize, Grip<T>)> = planar.iter().filter_map(correction).collect();
             if corrections.is_empty() {
-                return Ok(outcome);
+                return if self.obeys(&outcome) { Ok(outcome) } else { Err(NoForces::Undecided) };
             }
             for (k, grip) in corrections {
-                self.touches[k].friction.iter_mut().for_each(|friction| friction.grip = grip);
+                law.touches[k].friction.iter_mut().for_each(|friction| friction.grip = grip);
             }
         }
         Err(NoForces::Undecided)
     }
 
-    /// Correction of friction of two velocities whose law is not satisfied.
-    fn correction(&self, k: usize, outcome: &ContactForces<T>) -> Option<Grip<T>> {
+    /// Correction of friction of two velocities whose law is not satisfied: it slides along the velocity u that it gets or, damped,
+    /// along u − g T with its force T and its response g.
+    fn correction(&self, k: usize, is_damped: bool, outcome: &ContactForces<T>) -> Option<Grip<T>> {
         let Touch { gap, friction, .. } = self.touches[k];
         let Rubbing { place, grip, bounds: [limit, _], .. } = friction?;
         let press = gap.map_or(T::constant(1.0), |gap| outcome.forces[gap]);
-        let unit = T::constant(T::EPSILON * FOUND);
+        let unit = T::constant(T::EPSILON * STEADY);
         let of = |all: &[T]| [all[place], all[place + 1]];
         match grip {
             Grip::Sticks => {
                 let [x, y] = of(&outcome.forces);
-                let size = Scalar::sqrt(x * x + y * y);
+                let size = length([x, y]);
                 (size > limit * press * (T::constant(1.0) + unit))
                     .then(|| Grip::Slides([-x / size, -y / size]))
             }
             Grip::Slides(known) => {
                 let [x, y] = of(&outcome.rates);
-                let size = Scalar::sqrt(x * x + y * y);
-                if size <= larger(self.noise[place], self.noise[place + 1]) {
+                if length([x, y]) <= larger(self.noise[place], self.noise[place + 1]) {
                     return None;
                 }
-                let direction = [x / size, y / size];
+                let response = self.matrix[place][place] + self.matrix[place + 1][place + 1];
+                let damping = if is_damped { response } else { T::constant(0.0) };
+                let forces = of(&outcome.forces);
+                let towards = [x - damping * forces[0], y - damping * forces[1]];
+                let direction = towards.map(|part| part / length(towards));
                 let change =
                     larger(Scalar::abs(direction[0] - known[0]), Scalar::abs(direction[1] - known[1]));
                 (change > unit).then_some(Grip::Slides(direction))
@@ -163,7 +182,8 @@ impl<T: Real> Law<'_, T> {
         }
     }
 
-    /// Finds forces with which friction of two velocities does what its grip says.
+    /// Finds forces with which friction of two velocities does what its grip says: by Lemke's method or, where round-off leads it
+    /// astray, by trying all that a few contacts may do. `None` for a few contacts thus says that there are none.
     pub(super) fn solve(&self) -> Option<ContactForces<T>> {
         let unknowns = self.unknowns();
         let (pushes, known) = self.pushes(&unknowns);
@@ -194,7 +214,11 @@ impl<T: Real> Law<'_, T> {
                 _ => {}
             }
         }
-        let solved = problem.solve()?;
+        let solved = problem.solve();
+        let is_found = solved.as_ref().is_some_and(|found| problem.is_solved(found, self.accuracy));
+        let chosen =
+            if is_found { None } else { problem.by_choices(&Self::choices(&unknowns), self.accuracy) };
+        let solved = chosen.or(solved)?;
         let force = |row: usize| known[row] + times(&pushes[row], &|z| solved.z[z]);
         let forces: Vec<T> = (0..self.rates.len()).map(force).collect();
         let rate = |row: usize| self.rates[row] + times(&self.matrix[row], &|other| forces[other]);
@@ -218,6 +242,35 @@ impl<T: Real> Law<'_, T> {
             }
         }
         unknowns
+    }
+
+    /// What each contact may do, by the unknowns that may exceed zero: it opens, sticks with friction forwards or backwards, or slides
+    /// against it.
+    fn choices(unknowns: &[(Unknown, usize)]) -> Vec<Vec<Vec<usize>>> {
+        let mut groups: Vec<Vec<Vec<usize>>> = Vec::new();
+        let mut pressed = None;
+        for (z, &(unknown, _)) in unknowns.iter().enumerate() {
+            match unknown {
+                Unknown::Hold => groups.push(vec![vec![z]]),
+                Unknown::Push(k) => {
+                    groups.push(vec![vec![], vec![z]]);
+                    pressed = Some((k, z));
+                }
+                Unknown::Forth(k) => {
+                    let push = pressed.filter(|&(of, _)| of == k).map(|(_, push)| push);
+                    if push.is_some() {
+                        groups.pop();
+                    }
+                    let with = |others: &[usize]| push.into_iter().chain(others.iter().copied()).collect();
+                    let mut group: Vec<Vec<usize>> =
+                        [&[z][..], &[z + 1], &[z, z + 2], &[z + 1, z + 2]].map(with).into();
+                    group.extend(push.map(|_| vec![]));
+                    groups.push(group);
+                }
+                Unknown::Back | Unknown::Speed(_) => {}
+            }
+        }
+        groups
     }
 
     /// Forces of the rows: their multiples of the unknowns, and what does not depend on them, of dry friction and of the smallest
@@ -305,6 +358,7 @@ impl<T: Real> Law<'_, T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::defect::FOUND;
 
     /// A block on a floor with gap and one or two velocities, in units of its mass.
     fn block(rates: [f64; 3], grip: Grip<f64>, count: usize) -> ContactForces<f64> {
@@ -312,7 +366,8 @@ mod tests {
             (0..3).map(|i| (0..3).map(|j| if i == j { 1.0 } else { 0.0 }).collect()).collect();
         let friction = Rubbing { place: 1, count, grip, bounds: [0.5, 0.5] };
         let touches = vec![Touch { gap: Some(0), least: 0.0, friction: Some(friction) }];
-        let law = Law { matrix: &matrix, rates: rates.to_vec(), noise: vec![1e-15; 3], touches };
+        let law =
+            Law { matrix: &matrix, rates: rates.to_vec(), noise: vec![1e-15; 3], touches, accuracy: FOUND };
         law.decide().expect("forces")
     }
 

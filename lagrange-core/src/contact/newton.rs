@@ -26,7 +26,7 @@ impl<T: Real> Cones<T> {
             self.center.extend_from_slice(&self.impulses);
             for _ in 0..STEPS {
                 self.linearize(T::constant(weight));
-                if !self.eliminate() {
+                if !eliminate(&mut self.jacobian, &mut self.right) {
                     break;
                 }
                 self.impulses.iter_mut().zip(&self.right).for_each(|(p, &change)| *p += change);
@@ -142,45 +142,45 @@ impl<T: Real> Cones<T> {
             }
         }
     }
+}
 
-    /// Solves the linear equations in place, by elimination with row pivoting. Returns `false` if they are singular.
-    fn eliminate(&mut self) -> bool {
-        let size = self.rates.len();
-        let (matrix, right) = (&mut self.jacobian, &mut self.right);
-        for k in 0..size {
-            let (mut pivot, mut most) = (k, T::constant(0.0));
-            for row in k..size {
-                let entry = Scalar::abs(matrix[row * size + k]);
-                if entry > most {
-                    (pivot, most) = (row, entry);
-                }
-            }
-            if !(most > T::constant(0.0) && most.is_finite()) {
-                return false;
-            }
-            if pivot != k {
-                (k..size).for_each(|column| matrix.swap(k * size + column, pivot * size + column));
-                right.swap(k, pivot);
-            }
-            let (above, below) = matrix.split_at_mut((k + 1) * size);
-            let top = &above[k * size..];
-            for (row, entries) in below.chunks_exact_mut(size).enumerate() {
-                let factor = entries[k] / top[k];
-                if factor == T::constant(0.0) {
-                    continue;
-                }
-                for column in k..size {
-                    entries[column] -= factor * top[column];
-                }
-                let change = factor * right[k];
-                right[k + 1 + row] -= change;
+/// Solves linear equations by elimination with row pivoting: the right-hand side becomes the solution. Returns `false` if they
+/// are singular.
+pub(super) fn eliminate<T: Real>(matrix: &mut [T], right: &mut [T]) -> bool {
+    let size = right.len();
+    for k in 0..size {
+        let (mut pivot, mut most) = (k, T::constant(0.0));
+        for row in k..size {
+            let entry = Scalar::abs(matrix[row * size + k]);
+            if entry > most {
+                (pivot, most) = (row, entry);
             }
         }
-        for k in (0..size).rev() {
-            let rest =
-                (k + 1..size).fold(right[k], |rest, column| rest - matrix[k * size + column] * right[column]);
-            right[k] = rest / matrix[k * size + k];
+        if !(most > T::constant(0.0) && most.is_finite()) {
+            return false;
         }
-        true
+        if pivot != k {
+            (k..size).for_each(|column| matrix.swap(k * size + column, pivot * size + column));
+            right.swap(k, pivot);
+        }
+        let (above, below) = matrix.split_at_mut((k + 1) * size);
+        let top = &above[k * size..];
+        for (row, entries) in below.chunks_exact_mut(size).enumerate() {
+            let factor = entries[k] / top[k];
+            if factor == T::constant(0.0) {
+                continue;
+            }
+            for column in k..size {
+                entries[column] -= factor * top[column];
+            }
+            let change = factor * right[k];
+            right[k + 1 + row] -= change;
+        }
     }
+    for k in (0..size).rev() {
+        let rest =
+            (k + 1..size).fold(right[k], |rest, column| rest - matrix[k * size + column] * right[column]);
+        right[k] = rest / matrix[k * size + k];
+    }
+    true
 }

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::complementarity::Complementarity;
 use super::cones::{Cone, Cones, length};
+use super::defect::FOUND;
 use super::friction::{BEGIN, TouchingRows};
 use super::grip::Gripped;
 use super::instant::Decided;
@@ -13,18 +14,14 @@ use super::{Contacts, Friction};
 use crate::number::{Real, Scalar, larger, order};
 use crate::solution::pivot::least_pivot;
 
-/// Residual of Coulomb's law within which forces are found, relative to the rates without forces.
-const FOUND: f64 = 1e-12;
-
 /// Largest number of sweeps.
 const SWEEPS: usize = 10_000;
 
+/// Largest number of choices of contacts that push, of those that depend on one another. A table on four legs has four.
+const TRIES: usize = 64;
+
 /// Rates along a contact, in units of those that the residual allows, up to which it sticks. What sticks has the residual.
 const STICKS: f64 = 1e3;
-
-/// Acceleration, relative to its terms, below which forces of friction that have reached their limits together are in balance:
-/// those are within 10⁻¹⁰ of their limits, or 5·10⁻⁵ where the motion in which they slide is slow.
-const BALANCED: f64 = 1e-8;
 
 /// Part of its limit that friction at rest has left, where others could begin to slide. Forces of cones, from which it is known which
 /// contacts push, are off by up to 10⁻⁹ of it: with 10⁻¹⁰, tables stayed at rest a thousand times on their way to the limit.
@@ -40,46 +37,30 @@ impl<T> ContactForces<T> {
 impl<T: Real> Law<'_, T> {
     /// Finds forces of friction that several contacts share. Those with which the contacts that push first keep all at rest are
     /// tried first, and then those by cones, where others may push. Friction that has reached its limits together slides.
-    pub(super) fn shared(self) -> Result<ContactForces<T>, NoForces> {
-        let at_rest = self.solve().and_then(|outcome| self.with_reserve(outcome));
+    pub(super) fn shared(&self) -> Result<ContactForces<T>, NoForces> {
+        let obeying = |forces: &ContactForces<T>| self.obeys(forces);
+        let at_rest = self.solve().and_then(|outcome| self.with_reserve(outcome)).filter(obeying);
         if let Some(forces) = at_rest.as_ref().filter(|forces| !forces.slide()) {
             return Ok(forces.clone());
         }
         let by_cones = self.by_cones();
-        let found = [
-            by_cones.clone().filter(|forces| !forces.slide() && self.has_reserve(forces)),
-            at_rest.clone().filter(|forces| self.is_balanced(forces, BALANCED)),
-            by_cones,
-        ];
-        match found.into_iter().flatten().next() {
-            Some(forces) => Ok(forces),
-            None => self.in_directions().or_else(|why| at_rest.ok_or(why)),
-        }
+        let with_rest = by_cones.clone().filter(|forces| !forces.slide() && self.has_reserve(forces));
+        with_rest.or(at_rest).or(by_cones).map_or_else(|| self.in_directions(), Ok)
     }
 
-    /// Whether all friction is in balance, with some of its limit left.
+    /// Whether all friction has some of its limit left.
     fn has_reserve(&self, forces: &ContactForces<T>) -> bool {
-        let is_left = |touch: &Touch<T>| {
+        self.touches.iter().all(|touch| {
             let Some(Rubbing { place, count, bounds: [limit, _], .. }) = touch.friction else { return true };
             let press = touch.gap.map_or(T::constant(1.0), |gap| forces.forces[gap]);
             let force = |c: usize| if c < count { forces.forces[place + c] } else { T::constant(0.0) };
             let size = length([force(0), force(1)]);
             size == T::constant(0.0) || size < limit * press * T::constant(1.0 - LEFT)
-        };
-        self.touches.iter().all(is_left) && self.is_balanced(forces, LEFT)
-    }
-
-    /// Whether the velocities of friction have no accelerations, but for this part of their terms.
-    fn is_balanced(&self, forces: &ContactForces<T>, part: f64) -> bool {
-        let frictions = self.touches.iter().filter_map(|touch| touch.friction);
-        frictions.flat_map(|friction| friction.place..friction.place + friction.count).all(|row| {
-            let size = Scalar::abs(self.rates[row]) + self.size(row, forces);
-            Scalar::abs(forces.rates[row]) <= T::constant(part) * size
         })
     }
 
     /// Size of the terms of what forces change a rate by.
-    fn size(&self, row: usize, forces: &ContactForces<T>) -> T {
+    pub(super) fn size(&self, row: usize, forces: &ContactForces<T>) -> T {
         let parts = self.matrix[row].iter().zip(&forces.forces);
         parts.fold(T::constant(0.0), |sum, (&g, &force)| sum + Scalar::abs(g * force))
     }
@@ -92,16 +73,32 @@ impl<T: Real> Law<'_, T> {
     /// Finds forces that satisfy the law to a residual of 10⁻¹², whatever rows depend on one another. Gaps whose rows depend
     /// on others that push do not push. `None` if none are found, or if something slides already.
     pub(super) fn by_cones(&self) -> Option<ContactForces<T>> {
-        let problem = self.problem();
         let mut plays: Vec<bool> = self.touches.iter().map(|_| true).collect();
-        loop {
-            let outcome = self.within_cones(&plays)?;
-            let Some(spare) = self.spare(&problem, &outcome) else {
-                let outcome = self.of_pushing(&outcome).unwrap_or(outcome);
-                return Some(self.with_reserve(outcome.clone()).unwrap_or(outcome));
-            };
-            plays[spare] = false;
+        self.with_fewer(&self.problem(), &mut plays, &mut { TRIES })
+    }
+
+    /// Forces of the contacts that `plays` marks or, where some of these depend on others, of fewer: without the one that has the
+    /// least force, or the next one if the others do not hold the bodies then.
+    fn with_fewer(
+        &self,
+        problem: &Complementarity<T>,
+        plays: &mut [bool],
+        tries: &mut usize,
+    ) -> Option<ContactForces<T>> {
+        *tries = tries.checked_sub(1)?;
+        let outcome = self.within_cones(plays)?;
+        let spares = self.spares(problem, &outcome);
+        if spares.is_empty() {
+            let outcome = self.of_pushing(&outcome).unwrap_or(outcome);
+            let shared = self.with_reserve(outcome.clone());
+            return shared.into_iter().chain([outcome]).find(|forces| self.obeys(forces));
         }
+        spares.into_iter().find_map(|spare| {
+            plays[spare] = false;
+            let found = self.with_fewer(problem, plays, tries);
+            plays[spare] = true;
+            found
+        })
     }
 
     /// Forces with which the contacts that push keep all at rest, to round-off; those found satisfy the law to [`FOUND`] alone.
@@ -145,25 +142,25 @@ impl<T: Real> Law<'_, T> {
         }
     }
 
-    /// The contact with the least force among those whose gap is a combination of gaps with larger forces: without it, the others
-    /// hold the body in the same way.
-    fn spare(&self, problem: &Complementarity<T>, outcome: &ContactForces<T>) -> Option<usize> {
+    /// Contacts that push, and whose gaps are combinations of those of others that do: without one of them, the others hold the body
+    /// in the same way. The one with the least force comes first.
+    fn spares(&self, problem: &Complementarity<T>, outcome: &ContactForces<T>) -> Vec<usize> {
         let mut pushing: Vec<(usize, usize)> = (0..self.touches.len())
             .filter(|&k| outcome.pushes[k])
             .filter_map(|k| Some((k, self.touches[k].gap?)))
             .collect();
-        let force = |&(_, gap): &(usize, usize)| -outcome.forces[gap];
+        let force = |&(_, gap): &(usize, usize)| outcome.forces[gap];
         pushing.sort_by(|one, other| order(force(one), force(other)));
-        let mut active = Vec::new();
-        let mut spare = None;
-        for (k, gap) in pushing {
-            if problem.depends(gap, &active) {
-                spare = Some(k);
-            } else {
-                active.push(gap);
+        let is_spare = |&(_, gap): &(usize, usize)| {
+            let mut active = Vec::new();
+            for &(_, other) in pushing.iter().rev().filter(|&&(_, other)| other != gap) {
+                if !problem.depends(other, &active) {
+                    active.push(other);
+                }
             }
-        }
-        spare
+            problem.depends(gap, &active)
+        };
+        pushing.iter().filter(|of| is_spare(of)).map(|&(k, _)| k).collect()
     }
 
     /// Forces of the contacts that `plays` marks, and of dry friction.

@@ -1,0 +1,69 @@
+//! Solutions of small complementarity problems with friction, by trying each of the things that contacts may do.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::lemke::{Exchange, Exchanged};
+use super::newton::eliminate;
+use crate::number::{Real, Scalar, larger};
+
+/// Largest number of choices that are tried: four contacts that open, stick or slide, with friction either way, have as many.
+const CHOICES: usize = 625;
+
+/// Number of solutions of the linear equations: those after the first correct the one before.
+const ROUNDS: usize = 2;
+
+impl<T: Real> Exchange<T> {
+    /// The first solution among those where the unknowns that may exceed zero are one of the choices of each group. `None` if there
+    /// are too many choices, or if none leads to a solution.
+    pub(super) fn by_choices(&self, groups: &[Vec<Vec<usize>>], accuracy: f64) -> Option<Exchanged<T>> {
+        let count = groups.iter().try_fold(1_usize, |count, group| count.checked_mul(group.len()));
+        let count = count.filter(|&count| count <= CHOICES)?;
+        (0..count).find_map(|number| {
+            let mut rest = number;
+            let mut basic = Vec::new();
+            for group in groups {
+                basic.extend_from_slice(&group[rest % group.len()]);
+                rest /= group.len();
+            }
+            self.with_basic(&basic).filter(|found| self.is_solved(found, accuracy))
+        })
+    }
+
+    /// The unknowns for which w of the basic ones is zero; negative ones that may not be so count as zero.
+    fn with_basic(&self, basic: &[usize]) -> Option<Exchanged<T>> {
+        let size = self.constant.len();
+        let mut found = Exchanged { z: vec![T::constant(0.0); size], is_basic: vec![false; size] };
+        basic.iter().for_each(|&k| found.is_basic[k] = true);
+        for _ in 0..ROUNDS {
+            let entries = basic.iter().flat_map(|&row| basic.iter().map(move |&column| (row, column)));
+            let mut matrix: Vec<T> = entries.map(|(row, column)| self.matrix[row][column]).collect();
+            let mut change: Vec<T> = basic.iter().map(|&row| -self.w(row, &found.z)[0]).collect();
+            if !eliminate(&mut matrix, &mut change) {
+                return None;
+            }
+            basic.iter().zip(&change).for_each(|(&k, &change)| found.z[k] += change);
+        }
+        for k in (0..size).filter(|&k| !self.is_free[k]) {
+            found.z[k] = larger(found.z[k], T::constant(0.0));
+        }
+        Some(found)
+    }
+
+    /// Whether w of the basic unknowns is zero, and that of others not negative, to this part of its terms.
+    pub(super) fn is_solved(&self, found: &Exchanged<T>, accuracy: f64) -> bool {
+        (0..found.z.len()).all(|k| {
+            let [w, terms] = self.w(k, &found.z);
+            let allowed = self.noise[k] + T::constant(accuracy) * terms;
+            w >= -allowed && (!found.is_basic[k] || w <= allowed)
+        })
+    }
+
+    /// w of an unknown, and the size of its terms.
+    fn w(&self, k: usize, z: &[T]) -> [T; 2] {
+        let constant = self.constant[k];
+        self.matrix[k].iter().zip(z).fold([constant, Scalar::abs(constant)], |[sum, size], (&entry, &z)| {
+            [sum + entry * z, size + Scalar::abs(entry * z)]
+        })
+    }
+}
