@@ -1,6 +1,6 @@
 //! Bodies at rest that begin to slide.
 
-use lagrange_core::contact::{Contact, Transition};
+use lagrange_core::contact::{Contact, Friction, Transition};
 use lagrange_core::prelude::*;
 
 /// A block at rest on a table that tilts begins to slide where tan(ω t) = μ, with a force that grows slowly: its direction is
@@ -100,4 +100,28 @@ fn four_wheels_begin_to_slide_at_once() {
     assert!(slips.clone().count() > 0 && slips.map(Transition::time).all(|time| (time - 2.0).abs() < 1e-11));
     // ẍ = t − μ g.
     assert!((path.end().q[0] - 4.5).abs() < 1e-11 && (path.end().v[0] - 4.5).abs() < 1e-11);
+}
+
+/// A block that a turning pull keeps near the limit of its friction, beside a body that swings.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, z)]
+#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2)]
+#[force(x: 49/50*cos(3*t) + t/100)]
+#[force(y: 49/50*sin(3*t))]
+#[force(z: -sin(t))]
+#[friction(rub: [x_dot, y_dot], limit: 1, sliding: 1)]
+struct Turned {
+    rub: Friction,
+}
+
+/// Its velocity is much smaller than the tolerance when it begins to slide. Stages guessed from the step before took 3,354 steps, with
+/// those refused.
+#[test]
+fn a_block_begins_to_slide_in_few_steps() {
+    let motion = Turned { rub: Friction::Sticks }.motion(State::new([0.0; 3], [0.0, 0.0, 1.0]));
+    let path = motion.by(Radau::with_tolerance(1e-6)).with_contacts().to(30.0).unwrap();
+    assert_eq!(path.transitions().len(), 27);
+    let statistics = path.statistics();
+    let steps = statistics.accepted + statistics.rejected;
+    assert!(steps < 2_400, "{steps} steps");
 }
