@@ -401,7 +401,8 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// Impacts follow one another at one time without end.
+    /// Elastic impacts follow one another at one time without end, as of a ball between walls without room. Those that are not
+    /// elastic end: after 10,000 of them, the contacts come to rest, which is what more impacts come to.
     ImpactsDoNotEnd {
         /// Their time.
         time: f64,

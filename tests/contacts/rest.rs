@@ -191,3 +191,31 @@ fn a_ball_in_a_slot_without_room_comes_to_rest() {
         }
     }
 }
+
+/// A heavy ball drives a light one against another that moves away: the light one is hit in turn without end, and they go on together.
+/// Elastic ones part with the energy that they had.
+#[test]
+fn heavy_balls_catch_a_light_one() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x: [3])]
+    #[lagrangian(sum(i in 0..3, m[i]/2*x_dot[i]^2))]
+    #[contact(gap[i in 0..2]: x[i+1] - x[i] >= 0, restitution: e)]
+    struct Balls {
+        m: [f64; 3],
+        e: f64,
+        gap: [Contact; 2],
+    }
+    let start = || State::new([0.0; 3], [1.0, 0.0, 0.25]);
+    for (e, m) in [(0.3, [1.0, 1e-4, 2.0]), (0.9, [1.0, 1e-5, 2.0])] {
+        let path = Balls { m, e, gap: [Contact::Open; 2] }.motion(start()).with_contacts().to(1.0).unwrap();
+        // Momentum is kept.
+        let together = (m[0] + 0.25 * m[2]) / (m[0] + m[1] + m[2]);
+        for v in path.end().v.iter() {
+            assert!((v - together).abs() < 1e-12, "e = {e}: {v} for {together}");
+        }
+    }
+    let elastic = Balls { m: [1.0, 1e-4, 2.0], e: 1.0, gap: [Contact::Open; 2] };
+    let path = elastic.motion(start()).with_contacts().to(1.0).unwrap();
+    let energy = elastic.energy(&start());
+    assert!((elastic.energy(path.end()) - energy).abs() < 1e-13 && path.end().v[2] > 0.0);
+}

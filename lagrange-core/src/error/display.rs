@@ -217,7 +217,7 @@ impl Display for Error {
             }
             Self::ImpactsDoNotEnd { time } => write!(
                 f,
-                "impacts follow one another without end at t = {time}: give one of the contacts a restitution below 1"
+                "elastic impacts follow one another without end at t = {time}: give the contacts that touch a restitution below 1"
             ),
             Self::MotionBackwards { start, end } => write!(
                 f,
