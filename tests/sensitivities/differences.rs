@@ -76,7 +76,7 @@ where
 }
 
 /// Names of all entries of the state, and of all parameters.
-fn names<S: Linearized>() -> Vec<String> {
+pub(crate) fn names<S: Linearized>() -> Vec<String> {
     let mut names: Vec<String> = S::COORDINATES.iter().copied().map(String::from).collect();
     names.extend(S::COORDINATES.iter().map(|name| Entry::Velocity(name).to_string()));
     names.extend(S::PARAMETERS.iter().copied().map(String::from));

@@ -14,6 +14,7 @@ mod mixed;
 mod random;
 mod steps;
 mod stiff;
+mod trees;
 
 use std::f64::consts::PI;
 

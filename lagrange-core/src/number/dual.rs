@@ -4,6 +4,9 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::scalar::Scalar;
 
+// Arithmetic is `#[inline]`, not `#[inline(always)]`, as that of lanes. Without optimization it then is not inlined, and
+// leaves none of its intermediate results in the frames of derived functions.
+
 /// `value` + ε `slope` with ε² = 0: a value and its derivative. The components are of any scalar type, also
 /// dual numbers themselves.
 ///
@@ -27,13 +30,13 @@ pub struct Dual<S> {
 
 impl<S: Scalar> Dual<S> {
     /// Returns f(self), given f(value) and f′(value).
-    #[inline(always)]
+    #[inline]
     fn chain(self, value: S, derivative: S) -> Self {
         Self { value, slope: derivative * self.slope }
     }
 
     /// Like `chain` for a derivative that may be infinite: a slope of zero stays zero.
-    #[inline(always)]
+    #[inline]
     fn chain_if_moving(self, value: S, derivative: S) -> Self {
         Self { value, slope: self.slope.zero_or_product(derivative) }
     }
@@ -42,7 +45,7 @@ impl<S: Scalar> Dual<S> {
 impl<S: Scalar> Add for Dual<S> {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn add(self, y: Self) -> Self {
         Self { value: self.value + y.value, slope: self.slope + y.slope }
     }
@@ -51,7 +54,7 @@ impl<S: Scalar> Add for Dual<S> {
 impl<S: Scalar> Sub for Dual<S> {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn sub(self, y: Self) -> Self {
         Self { value: self.value - y.value, slope: self.slope - y.slope }
     }
@@ -60,7 +63,7 @@ impl<S: Scalar> Sub for Dual<S> {
 impl<S: Scalar> Mul for Dual<S> {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn mul(self, y: Self) -> Self {
         Self { value: self.value * y.value, slope: self.slope * y.value + self.value * y.slope }
     }
@@ -69,7 +72,7 @@ impl<S: Scalar> Mul for Dual<S> {
 impl<S: Scalar> Div for Dual<S> {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn div(self, y: Self) -> Self {
         let value = self.value / y.value;
         Self { value, slope: (self.slope - value * y.slope) / y.value }
@@ -79,7 +82,7 @@ impl<S: Scalar> Div for Dual<S> {
 impl<S: Scalar> Neg for Dual<S> {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn neg(self) -> Self {
         Self { value: -self.value, slope: -self.slope }
     }
@@ -89,7 +92,7 @@ impl<S: Scalar> Neg for Dual<S> {
 impl<S: Scalar> Add<S> for Dual<S> {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn add(self, x: S) -> Self {
         Self { value: self.value + x, ..self }
     }
@@ -98,7 +101,7 @@ impl<S: Scalar> Add<S> for Dual<S> {
 impl<S: Scalar> Sub<S> for Dual<S> {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn sub(self, x: S) -> Self {
         Self { value: self.value - x, ..self }
     }
@@ -107,7 +110,7 @@ impl<S: Scalar> Sub<S> for Dual<S> {
 impl<S: Scalar> Mul<S> for Dual<S> {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn mul(self, x: S) -> Self {
         Self { value: self.value * x, slope: self.slope * x }
     }
@@ -116,7 +119,7 @@ impl<S: Scalar> Mul<S> for Dual<S> {
 impl<S: Scalar> Div<S> for Dual<S> {
     type Output = Self;
 
-    #[inline(always)]
+    #[inline]
     fn div(self, x: S) -> Self {
         Self { value: self.value / x, slope: self.slope / x }
     }
@@ -124,18 +127,18 @@ impl<S: Scalar> Div<S> for Dual<S> {
 
 #[diagnostic::do_not_recommend]
 impl<S: Scalar> Scalar for Dual<S> {
-    #[inline(always)]
+    #[inline]
     fn constant(x: f64) -> Self {
         Self { value: S::constant(x), slope: S::constant(0.0) }
     }
 
-    #[inline(always)]
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         let (sine, cosine) = self.value.sin_cos();
         (self.chain(sine, cosine), self.chain(cosine, -sine))
     }
 
-    #[inline(always)]
+    #[inline]
     fn sin_cos_of_small<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
         let (sines, cosines) = S::sin_cos_of_small(angles.map(|angle| angle.value));
         let sine = |k: usize| angles[k].chain(sines[k], cosines[k]);
@@ -143,38 +146,38 @@ impl<S: Scalar> Scalar for Dual<S> {
         (core::array::from_fn(sine), core::array::from_fn(cosine))
     }
 
-    #[inline(always)]
+    #[inline]
     fn small_angles<const K: usize>(angles: [Self; K]) -> [Self; K] {
         let small = S::small_angles(angles.map(|angle| angle.value));
         core::array::from_fn(|k| Self { value: small[k], ..angles[k] })
     }
 
-    #[inline(always)]
+    #[inline]
     fn tan(self) -> Self {
         let tangent = self.value.tan();
         self.chain(tangent, S::constant(1.0) + tangent * tangent)
     }
 
-    #[inline(always)]
+    #[inline]
     fn asin(self) -> Self {
         let x = self.value;
         self.chain_if_moving(x.asin(), S::constant(1.0) / beside(x).sqrt())
     }
 
-    #[inline(always)]
+    #[inline]
     fn acos(self) -> Self {
         let x = self.value;
         self.chain_if_moving(x.acos(), S::constant(-1.0) / beside(x).sqrt())
     }
 
-    #[inline(always)]
+    #[inline]
     fn atan(self) -> Self {
         let x = self.value;
         self.chain(x.atan(), S::constant(1.0) / (S::constant(1.0) + x * x))
     }
 
     /// Scaling by the larger magnitude keeps the squares near 1: they neither overflow nor underflow.
-    #[inline(always)]
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         let size = self.value.abs().max(x.value.abs());
         let (sine, cosine) = (self.value / size, x.value / size);
@@ -182,19 +185,19 @@ impl<S: Scalar> Scalar for Dual<S> {
         Self { value: self.value.atan2(x.value), slope: turn / size }
     }
 
-    #[inline(always)]
+    #[inline]
     fn sinh(self) -> Self {
         self.chain(self.value.sinh(), self.value.cosh())
     }
 
-    #[inline(always)]
+    #[inline]
     fn cosh(self) -> Self {
         self.chain(self.value.cosh(), self.value.sinh())
     }
 
     /// The derivative 1/cosh² is computed as 4 y/(1 + y)² with y = exp(−2 |x|), since 1 − tanh² cancels for
     /// large |x|.
-    #[inline(always)]
+    #[inline]
     fn tanh(self) -> Self {
         let (x, zero, one) = (self.value, S::constant(0.0), S::constant(1.0));
         let y = (S::constant(2.0) * x.select_by_order(zero, x, x, -x)).exp();
@@ -202,25 +205,25 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(x.tanh(), y * root * root)
     }
 
-    #[inline(always)]
+    #[inline]
     fn exp(self) -> Self {
         let value = self.value.exp();
         self.chain(value, value)
     }
 
-    #[inline(always)]
+    #[inline]
     fn ln(self) -> Self {
         self.chain(self.value.ln(), S::constant(1.0) / self.value)
     }
 
-    #[inline(always)]
+    #[inline]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.chain_if_moving(root, S::constant(0.5) / root)
     }
 
     /// At zero the slope is zero, the mean of the slopes on both sides.
-    #[inline(always)]
+    #[inline]
     fn abs(self) -> Self {
         let zero = S::constant(0.0);
         let slope = self.value.select_by_order(zero, -self.slope, zero, self.slope);
@@ -228,7 +231,7 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
 
     /// A constant exponent needs no logarithm of the base, so the base may be negative.
-    #[inline(always)]
+    #[inline]
     fn powf(self, exponent: Self) -> Self {
         let value = self.value.powf(exponent.value);
         // x⁰ is 1 everywhere; the general rule would give a slope of 0 · 0⁻¹ at zero.
@@ -244,7 +247,7 @@ impl<S: Scalar> Scalar for Dual<S> {
 
     /// The slope is that of the smaller value, the mean of both slopes if the values are equal, and NaN if a
     /// value is NaN.
-    #[inline(always)]
+    #[inline]
     fn min(self, other: Self) -> Self {
         let (x, y) = (self.slope, other.slope);
         let slope = self.value.select_by_order(other.value, x, mean(x, y), y);
@@ -252,14 +255,14 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
 
     /// The slope follows the rule of [`min`](Self::min), for the larger value.
-    #[inline(always)]
+    #[inline]
     fn max(self, other: Self) -> Self {
         let (x, y) = (self.slope, other.slope);
         let slope = self.value.select_by_order(other.value, y, mean(x, y), x);
         Self { value: self.value.max(other.value), slope }
     }
 
-    #[inline(always)]
+    #[inline]
     fn select_by_order(self, other: Self, less: Self, equal: Self, greater: Self) -> Self {
         let choose = |l: S, e: S, g: S| self.value.select_by_order(other.value, l, e, g);
         Self {
@@ -268,7 +271,18 @@ impl<S: Scalar> Scalar for Dual<S> {
         }
     }
 
-    #[inline(always)]
+    // The default of the trait is always inlined.
+    #[inline]
+    fn multiply_add(self, y: Self, z: Self) -> Self {
+        self * y + z
+    }
+
+    #[inline]
+    fn subtract_product(self, y: Self, z: Self) -> Self {
+        z - self * y
+    }
+
+    #[inline]
     fn zero_or_product(self, y: Self) -> Self {
         Self {
             value: self.value.zero_or_product(y.value),
@@ -278,13 +292,13 @@ impl<S: Scalar> Scalar for Dual<S> {
 }
 
 /// 1 − x² as a product: rounding the square would cause cancellation near 1.
-#[inline(always)]
+#[inline]
 fn beside<S: Scalar>(x: S) -> S {
     (S::constant(1.0) - x) * (S::constant(1.0) + x)
 }
 
 /// Mean of two numbers, without overflow.
-#[inline(always)]
+#[inline]
 fn mean<S: Scalar>(x: S, y: S) -> S {
     let half = S::constant(0.5);
     x * half + y * half
