@@ -305,6 +305,8 @@ mod stepping;
 #[cfg(feature = "alloc")]
 mod trajectory;
 #[cfg(feature = "alloc")]
+mod unknowns;
+#[cfg(feature = "alloc")]
 mod watched;
 
 pub use crate::system::switch::{Contact, Friction};
