@@ -362,8 +362,8 @@ pub enum Error {
         time: f64,
     },
     /// Friction that slides leaves no acceleration with a force that presses the bodies together: the contact digs in, or the
-    /// force grows without bound (Painlevé's paradox). For up to four contacts, all that they may do was tried; for more, Lemke's
-    /// method found no forces.
+    /// force grows without bound (Painlevé's paradox). For up to four contacts with friction along one velocity, all that they may do
+    /// was tried; for others, Lemke's method found no forces.
     FrictionJams {
         /// Name of the friction.
         friction: &'static str,
@@ -401,8 +401,8 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// Elastic impacts follow one another at one time without end, as of a ball between walls without room. Those that are not
-    /// elastic end: after 10,000 of them, the contacts come to rest, which is what more impacts come to.
+    /// More than 100,000 impacts follow one another at one time: elastic ones of a ball between walls without room, or those of a
+    /// body that is lighter than its neighbours by a factor of a million.
     ImpactsDoNotEnd {
         /// Their time.
         time: f64,

@@ -8,6 +8,10 @@ use crate::number::{Real, Scalar, larger, smaller};
 /// what pushes and sticks from then on, for which [`BEYOND`](super::watched::BEYOND) is enough.
 pub(super) const FOUND: f64 = 1e-12;
 
+/// Largest terms of a rate, in units of the largest rate without forces, that count: bodies wedged between contacts take forces
+/// of any size, and those of 10¹⁴ left velocities that were round-off.
+const TERMS: f64 = 1e3;
+
 /// Units of round-off of the terms, which remain in any case.
 const UNITS: f64 = 64.0;
 
@@ -56,16 +60,17 @@ impl<T: Real> Law<'_, T> {
             return true;
         }
         let accuracy = larger(T::constant(self.accuracy), T::constant(T::EPSILON * UNITS));
+        let scale = scale * Scalar::sqrt(response);
         let [mut is, mut pulled, mut round_off] = [[zero; 2], [zero; 2], [zero; 2]];
         for (c, row) in rows.enumerate() {
             is[c] = forces.forces[row];
             pulled[c] = is[c] - forces.rates[row] / response;
-            round_off[c] =
-                self.noise[row] + accuracy * (Scalar::abs(self.rates[row]) + self.size(row, forces));
+            let terms = Scalar::abs(self.rates[row]) + self.size(row, forces);
+            round_off[c] = self.noise[row] + accuracy * smaller(terms, T::constant(TERMS) * scale);
         }
         let nearest = allowed(pulled);
         let defect = response * length([nearest[0] - is[0], nearest[1] - is[1]]);
-        defect <= T::constant(FOUND) * scale * Scalar::sqrt(response) + round_off[0] + round_off[1]
+        defect <= T::constant(FOUND) * scale + round_off[0] + round_off[1]
     }
 
     /// The largest rate without forces, in units of the square root of energy.

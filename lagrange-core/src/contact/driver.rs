@@ -169,7 +169,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let Self { bodies, decided, .. } = self;
         let system = bodies.with(&decided.states);
         let closed = bodies.closed.clone();
-        let (mut run, adjustment) = Run::begin(&system, &self.state, method)?;
+        let (mut run, adjustment) = Run::begin(&system, &self.state, method).map_err(decided_otherwise)?;
         run.statistics = run.statistics.after(&self.statistics);
         // The projection may move gaps of open contacts. Conditions are watched from where it leads.
         let state = &{ run.state };
@@ -299,5 +299,13 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let along = slips.iter().find(|(of, _)| *of == f).map_or([1.0, 0.0], |&(_, along)| along);
         slips.extend(powerless.into_iter().map(|other| (other, along)));
         Ok(if is_left { Vec::new() } else { slips })
+    }
+}
+
+/// At the start of a leg there are forces: where those of its contacts have no solution, the decision among several was not the one.
+fn decided_otherwise(error: Error) -> Error {
+    match error {
+        Error::FrictionJams { friction, time } => Error::FrictionUndecided { friction, time },
+        other => other,
     }
 }

@@ -80,7 +80,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         self.check_gradients(&touching, state)?;
         let rows = self.rows(touching, state)?;
         let mut changed = changed.clone();
-        for impacts in 0..IMPACTS {
+        for _ in 0..IMPACTS {
             let pressing = self.pressing(&rows.all, state)?;
             let noise = self.motion_noise(&rows.delassus.0, state);
             let rests = |place: usize| {
@@ -92,12 +92,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
                 !resting[place] && self.measured(rows.touching[place], state).rate < L::Scalar::constant(0.0)
             };
             if (0..rows.touching.len()).any(approaches) {
-                self.impact(
-                    &rows,
-                    (&resting, self.bounces(impacts, &rows.touching, state)?),
-                    state,
-                    transitions,
-                )?;
+                self.impact(&rows, &resting, state, transitions)?;
                 (changed.ends_leg, changed.implied) = (false, Vec::new());
                 continue;
             }

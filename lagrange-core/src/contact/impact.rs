@@ -91,17 +91,17 @@ impl<T: Real> StagedImpact<'_, T> {
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
-    /// An impact: the contacts that approach or rest push, and those that approach bounce with this part of their restitution.
+    /// An impact: the contacts that approach or rest push.
     pub(super) fn impact(
         &mut self,
         rows: &TouchingRows<L>,
-        bouncing: (&[bool], L::Scalar),
+        resting: &[bool],
         state: &mut StateOf<L>,
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<(), Error> {
         match L::FRICTIONS.is_empty() && !L::IMPACT_LAWS.contains(&ImpactLaw::Poisson) {
-            true => self.impact_by_newton(rows, bouncing, state, transitions),
-            false => self.impact_in_stages(rows, bouncing, state, transitions),
+            true => self.impact_by_newton(rows, resting, state, transitions),
+            false => self.impact_in_stages(rows, resting, state, transitions),
         }
     }
 
@@ -110,7 +110,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     fn impact_by_newton(
         &mut self,
         TouchingRows { touching, delassus: (matrix, responses), .. }: &TouchingRows<L>,
-        (resting, bounces): (&[bool], L::Scalar),
+        resting: &[bool],
         state: &mut StateOf<L>,
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<(), Error> {
@@ -121,7 +121,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let places: Vec<usize> = (0..touching.len()).filter(takes_part).collect();
         let mut returned = Vec::with_capacity(places.len());
         for &place in &places {
-            let restitution = bounces * self.restitution(touching[place], state)?;
+            let restitution = self.restitution(touching[place], state)?;
             returned.push(if resting[place] { zero } else { restitution * measured[place].rate });
         }
         let rates = |state: &StateOf<L>| {
@@ -160,7 +160,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     fn impact_in_stages(
         &mut self,
         rows: &TouchingRows<L>,
-        (resting, bounces): (&[bool], L::Scalar),
+        resting: &[bool],
         state: &mut StateOf<L>,
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<(), Error> {
@@ -171,7 +171,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let (touches, names) = self.touches(rows, &plays, state, undecided::<L>)?;
         let [mut returned, mut expansion] = [0; 2].map(|_| vec![zero; rows.all.len()]);
         for place in (0..plays.len()).filter(|&place| plays[place]) {
-            let restitution = bounces * self.restitution(rows.touching[place], state)?;
+            let restitution = self.restitution(rows.touching[place], state)?;
             match L::IMPACT_LAWS[rows.touching[place]] {
                 ImpactLaw::Poisson => expansion[place] = restitution,
                 ImpactLaw::Newton if !resting[place] => returned[place] = restitution * measured[place].rate,

@@ -217,7 +217,7 @@ impl Display for Error {
             }
             Self::ImpactsDoNotEnd { time } => write!(
                 f,
-                "elastic impacts follow one another without end at t = {time}: give the contacts that touch a restitution below 1"
+                "impacts follow one another without end at t = {time}: give the contacts that touch a lower restitution, below 1, or none where one body is much lighter than those beside it"
             ),
             Self::MotionBackwards { start, end } => write!(
                 f,
