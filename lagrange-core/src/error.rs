@@ -402,7 +402,7 @@ pub enum Error {
         value: f64,
     },
     /// More than 100,000 impacts follow one another at one time: elastic ones of a ball between walls without room, or those of a
-    /// body that is lighter than its neighbours by a factor of a million.
+    /// body that is lighter than its neighbours by a factor of ten thousand or more.
     ImpactsDoNotEnd {
         /// Their time.
         time: f64,

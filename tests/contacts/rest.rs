@@ -192,7 +192,7 @@ fn a_ball_in_a_slot_without_room_comes_to_rest() {
     }
 }
 
-/// A heavy ball drives a light one against another that moves away: the light one is hit in turn, tens of thousands of times, until they
+/// A heavy ball drives a light one against another that moves away: the light one is hit in turn, thousands of times, until they
 /// go on together. Nearly elastic ones part.
 #[test]
 fn heavy_balls_catch_a_light_one() {
@@ -206,7 +206,7 @@ fn heavy_balls_catch_a_light_one() {
         gap: [Contact; 2],
     }
     let start = || State::new([0.0; 3], [1.0, 0.0, 0.25]);
-    for (e, m) in [(0.3, [1.0, 1e-4, 2.0]), (0.9, [1.0, 1e-5, 2.0])] {
+    for (e, m) in [(0.3, [1.0, 1e-2, 2.0]), (0.9, [1.0, 1e-3, 2.0])] {
         let path = Balls { m, e, gap: [Contact::Open; 2] }.motion(start()).with_contacts().to(1.0).unwrap();
         // Momentum is kept.
         let together = (m[0] + 0.25 * m[2]) / (m[0] + m[1] + m[2]);

@@ -73,14 +73,17 @@ impl<T: Real> Law<'_, T> {
         defect <= T::constant(FOUND) * scale + round_off[0] + round_off[1]
     }
 
-    /// The largest rate without forces, in units of the square root of energy.
+    /// The largest rate without forces or with the smallest ones of gaps, in units of the square root of energy.
     fn scale(&self) -> T {
-        let rows = self.touches.iter().flat_map(|touch| {
+        let zero = T::constant(0.0);
+        self.touches.iter().fold(zero, |most, touch| {
             let rubbing = touch.friction.map_or(0..0, |of| of.place..of.place + of.count);
-            touch.gap.into_iter().chain(rubbing)
-        });
-        rows.filter(|&row| self.matrix[row][row] > T::constant(0.0)).fold(T::constant(0.0), |most, row| {
-            larger(most, Scalar::abs(self.rates[row]) / Scalar::sqrt(self.matrix[row][row]))
+            touch.gap.into_iter().chain(rubbing).fold(most, |most, row| {
+                let response = Scalar::sqrt(larger(self.matrix[row][row], zero));
+                let least = if touch.gap == Some(row) { touch.least * response } else { zero };
+                let rate = if response > zero { Scalar::abs(self.rates[row]) / response } else { zero };
+                larger(most, larger(rate, least))
+            })
         })
     }
 }
