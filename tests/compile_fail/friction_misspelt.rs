@@ -7,6 +7,7 @@ use lagrange_core::prelude::*;
 #[contact(floor: y >= 0, friction: x_dot)]
 #[contact(wall: x >= 0, friction(mu) = y_dot)]
 #[contact(lid: 1 - y >= 0, friction(mu): x_dot, friction(mu): x_dot)]
+#[contact(ledge: y - 2 >= 0, friction(mu, limit: 2*mu): x_dot)]
 #[friction(belt: x_dot, limit: mu)]
 #[friction(brake: x_dot, mu)]
 #[friction(joint: y_dot, sliding: mu, sliding: 2*mu)]
@@ -16,6 +17,7 @@ struct Words {
     floor: Contact,
     wall: Contact,
     lid: Contact,
+    ledge: Contact,
     belt: Friction,
     brake: Friction,
     joint: Friction,

@@ -192,35 +192,86 @@ fn a_ball_in_a_slot_without_room_comes_to_rest() {
     }
 }
 
+/// Three balls in a row, which touch.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x: [3])]
+#[lagrangian(sum(i in 0..3, m[i]/2*x_dot[i]^2))]
+#[contact(gap[i in 0..2]: x[i+1] - x[i] >= 0, restitution: e)]
+struct Balls {
+    m: [f64; 3],
+    e: f64,
+    gap: [Contact; 2],
+}
+
+impl Balls {
+    /// Number of impacts, and velocities after them.
+    fn after(m: [f64; 3], e: f64, v: [f64; 3]) -> (usize, [f64; 3]) {
+        let balls = Balls { m, e, gap: [Contact::Open; 2] };
+        let path = balls.motion(State::new([0.0; 3], v)).with_contacts().to(0.1).unwrap();
+        let is_impact = |of: &&Transition<f64>| matches!(of, Transition::Impact { .. });
+        (path.transitions().iter().filter(is_impact).count(), path.end().v.into())
+    }
+}
+
 /// A heavy ball drives a light one against another that moves away: the light one is hit in turn, thousands of times, until they
-/// go on together. Nearly elastic ones part.
+/// go on together.
 #[test]
 fn heavy_balls_catch_a_light_one() {
-    #[derive(Clone, Lagrangian)]
-    #[coordinates(x: [3])]
-    #[lagrangian(sum(i in 0..3, m[i]/2*x_dot[i]^2))]
-    #[contact(gap[i in 0..2]: x[i+1] - x[i] >= 0, restitution: e)]
-    struct Balls {
-        m: [f64; 3],
-        e: f64,
-        gap: [Contact; 2],
-    }
-    let start = || State::new([0.0; 3], [1.0, 0.0, 0.25]);
     for (e, m) in [(0.3, [1.0, 1e-2, 2.0]), (0.9, [1.0, 1e-3, 2.0])] {
-        let path = Balls { m, e, gap: [Contact::Open; 2] }.motion(start()).with_contacts().to(1.0).unwrap();
+        let (_, after) = Balls::after(m, e, [1.0, 0.0, 0.25]);
         // Momentum is kept.
         let together = (m[0] + 0.25 * m[2]) / (m[0] + m[1] + m[2]);
-        for v in path.end().v.iter() {
-            assert!((v - together).abs() < 1e-12, "e = {e}: {v} for {together}");
+        assert!(after.iter().all(|v| (v - together).abs() < 1e-12), "e = {e}: {after:?} for {together}");
+    }
+}
+
+/// A light ball between two heavy ones that close in is hit thousands of times, until they part: as by Newton's law for one impact after
+/// another.
+#[test]
+fn a_light_ball_drives_heavy_ones_apart() {
+    for (light, e) in [(1e-8, 0.9999), (1e-6, 0.99999)] {
+        let (m, mut v) = ([1.0, light, 1.0], [1.0, 2.0, -1.0]);
+        let mut count = 0;
+        while let Some(i) = (0..2).find(|&i| v[i + 1] < v[i]) {
+            let impulse = (1.0 + e) * (v[i] - v[i + 1]) * m[i] * m[i + 1] / (m[i] + m[i + 1]);
+            (v[i], v[i + 1]) = (v[i] - impulse / m[i], v[i + 1] + impulse / m[i + 1]);
+            count += 1;
+        }
+        let (impacts, after) = Balls::after(m, e, [1.0, 2.0, -1.0]);
+        assert_eq!(impacts, count, "{light}, {e}");
+        let off = after.iter().zip(v).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-8, "{light}, {e}: off by {off:e}");
+    }
+}
+
+/// A mass at rest in a groove, held by two walls with friction. Several forces hold it, and where none of those found does, the motion
+/// does not end by Painlevé's paradox.
+#[test]
+fn a_mass_in_a_groove_does_not_jam() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian((x_dot^2 + y_dot^2)/2 + f[0]*x + f[1]*y)]
+    #[contact(wall[i in 0..2]: n[i][0]*x + n[i][1]*y >= 0, friction(mu[i]): n[i][1]*x_dot - n[i][0]*y_dot)]
+    struct Groove {
+        f: [f64; 2],
+        n: [[f64; 2]; 2],
+        mu: [f64; 2],
+        wall: [Contact; 2],
+    }
+    let mut held = 0;
+    for lean in [0.0_f64, 5.0, 10.0] {
+        for (mu, pull) in [([1.0, 0.5], -30.0_f64), ([1.0, 1.0], -90.0), ([0.5, 0.5], -60.0)] {
+            let along = |degrees: f64| [degrees.to_radians().cos(), degrees.to_radians().sin()];
+            let n = [along(lean), along(180.0 - lean)];
+            let groove = Groove { f: along(pull), n, mu, wall: [Contact::Open; 2] };
+            let motion = groove.motion(State::at_rest([0.0; 2])).with_contacts();
+            match motion.max_transitions(100).towards(0.1) {
+                Ok(path) => held += usize::from(path.end().v.norm() < 1e-9),
+                Err(error) => {
+                    assert!(!matches!(error, Error::FrictionJams { .. }), "{lean}, {mu:?}: {error}")
+                }
+            }
         }
     }
-    // By one impact after another until nothing approaches: 23,747 impacts.
-    let squeezed = Balls { m: [1.0, 1e-8, 1.0], e: 0.9999, gap: [Contact::Open; 2] };
-    let start_of_squeezed = State::new([0.0; 3], [1.0, 2.0, -1.0]);
-    let path = squeezed.motion(start_of_squeezed).with_contacts().to(0.1).unwrap();
-    assert!((squeezed.energy(path.end()) - 0.0930).abs() < 1e-4);
-    let elastic = Balls { m: [1.0, 1e-4, 2.0], e: 1.0, gap: [Contact::Open; 2] };
-    let path = elastic.motion(start()).with_contacts().to(1.0).unwrap();
-    let energy = elastic.energy(&start());
-    assert!((elastic.energy(path.end()) - energy).abs() < 1e-13 && path.end().v[2] > 0.0);
+    assert!(held >= 4, "{held} of 9");
 }

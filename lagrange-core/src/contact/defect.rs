@@ -1,79 +1,93 @@
-//! How far forces are off their law.
+//! The comparison of forces with the laws of gaps and of Coulomb.
+
+use core::ops::Range;
 
 use super::cones::length;
 use super::law::{ContactForces, Grip, Law, Rubbing, Touch};
 use crate::number::{Real, Scalar, larger, smaller};
 
-/// Defect of the law, relative to the terms of a rate, within which forces are found. That of impulses may be no more; forces say
-/// what pushes and sticks from then on, for which [`BEYOND`](super::watched::BEYOND) is enough.
+/// How far impulses may be off their law, as a part of the terms of each rate: the velocities after an impact follow from them. Forces
+/// only decide what pushes and sticks from then on, for which [`BEYOND`](super::watched::BEYOND) is enough.
 pub(super) const FOUND: f64 = 1e-12;
 
-/// Largest terms of a rate, in units of the largest rate without forces, that count: bodies wedged between contacts take forces
-/// of any size, and those of 10¹⁴ left velocities that were round-off.
-const TERMS: f64 = 1e3;
+/// Largest forces, in units of the largest rate without forces, whose defect may be [`Law::accuracy`] of their terms. Contacts that press
+/// a body from two sides may do so with any force, and the work that a defect of the rates does with forces of 10⁹ was ten
+/// thousand times the energy before an impact.
+const PRESSED: f64 = 1e3;
 
-/// Units of round-off of the terms, which remain in any case.
+/// Round-off of a rate, in units of ε of its terms: a smaller defect is none.
 const UNITS: f64 = 64.0;
 
 impl<T: Real> Law<'_, T> {
-    /// Whether forces satisfy the law of all gaps, and of friction whose force was to be decided: those of each are the allowed ones
-    /// that are nearest to p − u/g, with the forces p, the rates u and their response g.
+    /// Whether the forces p of each gap, and of each friction that was not known to slide, satisfy their law with the rates u: of all
+    /// forces that the law allows, p is the nearest to p − u/g, where g is the rate that a force of 1 causes (Jourdan, Alart and Jean,
+    /// *Computer Methods in Applied Mechanics and Engineering* 155, 1998).
+    ///
+    /// With the exact law an impact takes energy. What a defect δu adds to it is at most Σ |p| |δu| / 2, which is bounded too.
     pub(super) fn obeys(&self, forces: &ContactForces<T>) -> bool {
         let scale = self.scale();
-        self.touches.iter().all(|touch| {
-            let pushes = touch.gap.is_none_or(|gap| {
-                self.are_nearest([gap].into_iter(), forces, scale, |[push, none]| {
+        let work = self.touches.iter().try_fold(T::constant(0.0), |work, touch| {
+            let of_gap = touch.gap.map_or(Some(T::constant(0.0)), |gap| {
+                self.work_of_defect(gap..gap + 1, forces, scale, |[push, none]| {
                     [larger(push, touch.least), none]
                 })
             });
-            pushes && self.obeys_friction(touch, forces, scale)
-        })
+            Some(work + of_gap? + self.work_of_friction(touch, forces, scale)?)
+        });
+        let allowed = scale * scale * T::constant(self.accuracy * PRESSED * PRESSED);
+        work.is_some_and(|work| work <= allowed)
     }
 
-    fn obeys_friction(&self, touch: &Touch<T>, forces: &ContactForces<T>, scale: T) -> bool {
-        let Some(Rubbing { place, count, grip, bounds }) = touch.friction else { return true };
+    fn work_of_friction(&self, touch: &Touch<T>, forces: &ContactForces<T>, scale: T) -> Option<T> {
+        let none = Some(T::constant(0.0));
+        let Some(Rubbing { place, count, grip, bounds }) = touch.friction else { return none };
         if matches!(grip, Grip::Idle | Grip::Slides(_)) {
-            return true;
+            return none;
         }
         let press = larger(touch.gap.map_or(T::constant(1.0), |gap| forces.forces[gap]), T::constant(0.0));
         let force = |c: usize| if c < count { forces.forces[place + c] } else { T::constant(0.0) };
         // What slides does so with a force between its bounds.
         let [limit, sliding] = bounds.map(|bound| bound * press);
         let radius = larger(smaller(length([force(0), force(1)]), limit), sliding);
-        self.are_nearest(place..place + count, forces, scale, |p| {
+        self.work_of_defect(place..place + count, forces, scale, |p| {
             let size = length(p);
             if size <= radius { p } else { p.map(|part| part * (radius / size)) }
         })
     }
 
-    /// Whether the forces of a gap or of a friction are the allowed ones that are nearest.
-    fn are_nearest(
+    /// Largest work |p| |δu| that the forces p of these rows do with the defect of their rates. `None` if they are not the nearest to
+    /// p − u/g that `allowed` gives, within the accuracy.
+    fn work_of_defect(
         &self,
-        rows: impl Iterator<Item = usize> + Clone,
+        rows: Range<usize>,
         forces: &ContactForces<T>,
         scale: T,
         allowed: impl Fn([T; 2]) -> [T; 2],
-    ) -> bool {
+    ) -> Option<T> {
         let zero = T::constant(0.0);
         let response = rows.clone().fold(zero, |most, row| larger(most, self.matrix[row][row]));
         if response <= zero {
-            return true;
+            return Some(zero);
         }
         let accuracy = larger(T::constant(self.accuracy), T::constant(T::EPSILON * UNITS));
-        let scale = scale * Scalar::sqrt(response);
-        let [mut is, mut pulled, mut round_off] = [[zero; 2], [zero; 2], [zero; 2]];
+        let [mut is, mut pulled, mut terms] = [[zero; 2], [zero; 2], [zero; 2]];
+        let mut noise = T::constant(FOUND) * scale * Scalar::sqrt(response);
         for (c, row) in rows.enumerate() {
             is[c] = forces.forces[row];
             pulled[c] = is[c] - forces.rates[row] / response;
-            let terms = Scalar::abs(self.rates[row]) + self.size(row, forces);
-            round_off[c] = self.noise[row] + accuracy * smaller(terms, T::constant(TERMS) * scale);
+            terms[c] = Scalar::abs(self.rates[row]) + self.size(row, forces);
+            noise = noise + self.noise[row];
         }
         let nearest = allowed(pulled);
         let defect = response * length([nearest[0] - is[0], nearest[1] - is[1]]);
-        defect <= T::constant(FOUND) * scale + round_off[0] + round_off[1]
+        let terms = terms[0] + terms[1];
+        // The rates themselves are as uncertain as their round-off, also where the defect happens to be zero.
+        let defect_at_most = larger(defect, T::constant(T::EPSILON) * terms);
+        (defect <= noise + accuracy * terms).then(|| length(is) * defect_at_most)
     }
 
-    /// The largest rate without forces or with the smallest ones of gaps, in units of the square root of energy.
+    /// The largest rate without forces, and the largest that the smallest forces of gaps cause, each divided by √g: a unit that is the same
+    /// for light and for heavy bodies.
     fn scale(&self) -> T {
         let zero = T::constant(0.0);
         self.touches.iter().fold(zero, |most, touch| {
@@ -95,20 +109,7 @@ mod tests {
     use super::*;
     use crate::contact::law::NoForces;
     use crate::contact::watched::BEYOND;
-
-    /// A number from −1 to 1, by a linear congruence.
-    struct Random(u64);
-
-    impl Random {
-        fn next(&mut self) -> f64 {
-            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        }
-
-        fn many(&mut self, count: usize) -> Vec<f64> {
-            (0..count).map(|_| self.next()).collect()
-        }
-    }
+    use crate::fixtures::Random;
 
     /// How the rows of contacts go together.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,7 +121,15 @@ mod tests {
         Nearly,
         /// Masses from 10⁻⁴ to 10⁴.
         Unlike,
+        /// The last contact presses against the first, but for small differences, with much friction.
+        Opposed,
     }
+
+    /// Cases that had 27,000 times their energy after an impact: a wedge of 10⁻⁸ with impulses of 10⁹.
+    const WEDGED: [u64; 2] = [2_965, 4_340];
+
+    /// A case of dependent contacts whose forces exist although none are found: each choice leaves them undetermined.
+    const DEGENERATE: u64 = 81_329;
 
     /// Contacts at one instant: for each, rows of its gap and of one or two velocities of friction.
     struct Case {
@@ -139,54 +148,90 @@ mod tests {
     impl Case {
         fn any(case: u64, kind: Kind) -> Self {
             let mut random = Random(case);
-            random.many(5);
-            let mut below = |count: u64| (0.5 * (random.next() + 1.0) * count as f64) as usize;
-            let (contacts, motions, count) = (1 + below(4), 2 + below(5), 1 + below(2));
-            let mu = [0.0, 0.1, 0.3, 1.0][below(4)];
-            let mut row = || {
-                let scale = |_| if kind == Kind::Unlike { 10.0_f64.powf(2.0 * random.next()) } else { 1.0 };
-                let scales: Vec<f64> = (0..motions).map(scale).collect();
-                (scales, random.many(motions))
-            };
-            let (scales, _) = row();
-            let mut scaled = || row().1.iter().zip(&scales).map(|(x, scale)| x * scale).collect::<Vec<f64>>();
-            let mut rows: Vec<Vec<f64>> = (0..contacts * (1 + count)).map(|_| scaled()).collect();
-            let motion = scaled().iter().zip(&scales).map(|(x, scale)| x / (scale * scale)).collect();
-            if matches!(kind, Kind::Dependent | Kind::Nearly) && contacts > 1 {
-                let apart = if kind == Kind::Nearly { 10.0_f64.powf(-5.0 + 3.0 * scaled()[0]) } else { 0.0 };
-                let parts = scaled();
-                // Gaps stand first, then the velocities of each friction.
-                let places =
-                    |k: usize| [k].into_iter().chain(contacts + k * count..contacts + (k + 1) * count);
-                let other = if contacts > 2 { 1 } else { 0 };
-                for ((last, first), second) in places(contacts - 1).zip(places(0)).zip(places(other)) {
-                    let more = scaled();
-                    rows[last] = (0..motions)
-                        .map(|i| {
-                            parts[0].abs() * rows[first][i]
-                                + parts[1].abs() * rows[second][i]
-                                + apart * more[i]
-                        })
-                        .collect();
+            let (contacts, motions, count) = (1 + random.below(4), 2 + random.below(5), 1 + random.below(2));
+            let mu = if kind == Kind::Opposed { 2.0 } else { [0.0, 0.1, 0.3, 1.0][random.below(4)] };
+            let mut many = |count: usize| (0..count).map(|_| random.next()).collect::<Vec<f64>>();
+            let unlike = if kind == Kind::Unlike { 2.0 } else { 0.0 };
+            let scales: Vec<f64> = many(motions).iter().map(|x| 10.0_f64.powf(unlike * x)).collect();
+            let mut row = || many(motions).iter().zip(&scales).map(|(x, scale)| x * scale).collect();
+            let rows: Vec<Vec<f64>> = (0..contacts * (1 + count)).map(|_| row()).collect();
+            let motion = row().iter().zip(&scales).map(|(x, scale)| x / (scale * scale)).collect();
+            let mut drawn = Self { rows, contacts, count, mu, motion };
+            let [apart, first, second] = [0, 1, 2].map(|_| random.next());
+            let apart = if kind == Kind::Dependent { 0.0 } else { 10.0_f64.powf(-5.0 + 3.0 * apart) };
+            match kind {
+                Kind::Dependent | Kind::Nearly => {
+                    drawn.depend([first.abs(), second.abs()], apart, || random.next());
+                }
+                Kind::Opposed => drawn.depend([-1.0, 0.0], apart, || random.next()),
+                Kind::Independent | Kind::Unlike => {}
+            }
+            drawn
+        }
+
+        /// Rows of a contact: gaps stand first, then the velocities of each friction.
+        fn places(&self, k: usize) -> impl Iterator<Item = usize> + use<> {
+            let first = self.contacts + k * self.count;
+            [k].into_iter().chain(first..first + self.count)
+        }
+
+        /// Makes the rows of the last contact sums of those of others with these parts, but for small differences.
+        fn depend(&mut self, parts: [f64; 2], apart: f64, mut more: impl FnMut() -> f64) {
+            if self.contacts == 1 {
+                return;
+            }
+            let other = if self.contacts > 2 { 1 } else { 0 };
+            let of_others = self.places(0).zip(self.places(other));
+            for (last, (first, second)) in self.places(self.contacts - 1).zip(of_others) {
+                for i in 0..self.motion.len() {
+                    self.rows[last][i] =
+                        parts[0] * self.rows[first][i] + parts[1] * self.rows[second][i] + apart * more();
                 }
             }
-            Self { rows, contacts, count, mu, motion }
         }
 
         fn forces(&self, accuracy: f64) -> Result<ContactForces<f64>, NoForces> {
-            let matrix: Vec<Vec<f64>> =
-                self.rows.iter().map(|row| self.rows.iter().map(|other| dot(row, other)).collect()).collect();
-            let rates: Vec<f64> = self.rows.iter().map(|row| dot(row, &self.motion)).collect();
+            let rates = self.rows.iter().map(|row| dot(row, &self.motion)).collect();
+            let grip = if self.count == 1 { Grip::Open } else { Grip::Sticks };
+            self.decided(rates, |_| grip, accuracy)
+        }
+
+        fn matrix(&self) -> Vec<Vec<f64>> {
+            self.rows.iter().map(|row| self.rows.iter().map(|other| dot(row, other)).collect()).collect()
+        }
+
+        fn decided(
+            &self,
+            rates: Vec<f64>,
+            grip: impl Fn(usize) -> Grip<f64>,
+            accuracy: f64,
+        ) -> Result<ContactForces<f64>, NoForces> {
             let size = |row: &Vec<f64>| row.iter().zip(&self.motion).map(|(x, y)| (x * y).abs()).sum::<f64>();
             let noise = self.rows.iter().map(|row| 8.0 * f64::EPSILON * size(row)).collect();
-            let grip = if self.count == 1 { Grip::Open } else { Grip::Sticks };
             let touch = |k: usize| {
                 let (place, bounds) = (self.contacts + k * self.count, [self.mu; 2]);
-                let friction = Rubbing { place, count: self.count, grip, bounds };
+                let friction = Rubbing { place, count: self.count, grip: grip(k), bounds };
                 Touch { gap: Some(k), least: 0.0, friction: Some(friction) }
             };
             let touches = (0..self.contacts).map(touch).collect();
-            Law { matrix: &matrix, rates, noise, touches, accuracy }.decide()
+            Law { matrix: &self.matrix(), rates, noise, touches, accuracy }.decide()
+        }
+
+        /// What the law finds for contacts that open, stick or slide along their first velocity, pushed so that forces exist.
+        fn pushed(&self, mut random: Random) -> Result<ContactForces<f64>, NoForces> {
+            let (matrix, size) = (self.matrix(), self.rows.len());
+            let (mut forces, mut rates, mut grips) = (vec![0.0; size], vec![0.0; size], Vec::new());
+            for k in 0..self.contacts {
+                let [push, grip, part] = [0, 1, 2].map(|_| random.next());
+                let unit = matrix[k][k].sqrt();
+                (forces[k], rates[k]) = if push > 0.0 { (push / unit, 0.0) } else { (0.0, -push * unit) };
+                let rests = grip.abs() < 0.5 && self.count == 1;
+                let part = if rests { part } else { -grip.signum() };
+                forces[self.contacts + k * self.count] = part * self.mu * forces[k];
+                grips.push(if rests { Grip::Open } else { Grip::Slides([-part, 0.0]) });
+            }
+            rates.iter_mut().zip(&matrix).for_each(|(rate, row)| *rate -= dot(row, &forces));
+            self.decided(rates, |k| grips[k], BEYOND)
         }
 
         /// By how much forces violate the law, in units of what is allowed: gaps do not close nor pull, those that open do not
@@ -209,7 +254,8 @@ mod tests {
                 (0..motions).map(of).sum::<f64>()
             };
             let allowed = |row: usize| 4.0 * (1e-12 * scale * response(row) + accuracy * terms(row));
-            let mut worst: f64 = 0.0;
+            // Impacts take energy.
+            let mut worst = (dot(&after, &after) / dot(&self.motion, &self.motion) - 1.0) / 1e-6;
             for k in 0..self.contacts {
                 let (push, rate) = (forces[k], dot(&self.rows[k], &after));
                 let force = |row: usize| allowed(row) / (response(row) * response(row));
@@ -229,22 +275,29 @@ mod tests {
         }
     }
 
-    /// `LAGRANGE_SHARES` says how many cases are drawn. Where forces are not found, the motion ends with a name.
+    /// `LAGRANGE_SHARES` says how many cases are drawn.
+    fn number_of_cases() -> u64 {
+        std::env::var("LAGRANGE_SHARES").map_or(1_000, |text| text.parse().expect("a number"))
+    }
+
+    /// Where forces are not found, the motion ends with a name.
     #[test]
     fn forces_that_are_believed_satisfy_the_law() {
-        let cases = std::env::var("LAGRANGE_SHARES").map_or(1_000, |text| text.parse().expect("a number"));
-        for (kind, most) in
-            [(Kind::Independent, 1), (Kind::Dependent, 1), (Kind::Nearly, 2), (Kind::Unlike, 25)]
-        {
+        let cases = number_of_cases();
+        for (kind, most) in [
+            (Kind::Independent, 1),
+            (Kind::Dependent, 1),
+            (Kind::Nearly, 2),
+            (Kind::Unlike, 50),
+            (Kind::Opposed, 140),
+        ] {
             for accuracy in [FOUND, BEYOND] {
                 let mut none = 0;
-                for case in 0..cases {
+                for case in (0..cases).chain(WEDGED) {
                     let drawn = Case::any(case, kind);
                     let found = match drawn.forces(accuracy) {
                         Ok(found) => found,
-                        Err(NoForces::Jammed) if drawn.count == 1 => {
-                            panic!("{kind:?} contacts, case {case}: impacts have a solution")
-                        }
+                        Err(NoForces::Jammed) => panic!("{kind:?} contacts, case {case}: impacts do not jam"),
                         Err(_) => {
                             none += 1;
                             continue;
@@ -254,6 +307,16 @@ mod tests {
                     assert!(worst <= 1.0, "{kind:?} contacts, case {case}: {worst}");
                 }
                 assert!(none * 1000 <= cases * most, "{kind:?} contacts: {none} of {cases} undecided");
+            }
+        }
+    }
+    /// Friction that slides may leave no solution, but round-off hides none.
+    #[test]
+    fn contacts_do_not_jam_where_forces_exist() {
+        for kind in [Kind::Independent, Kind::Dependent, Kind::Nearly, Kind::Unlike, Kind::Opposed] {
+            for case in (0..number_of_cases()).chain([DEGENERATE]) {
+                let found = Case::any(case, kind).pushed(Random(!case));
+                assert!(!matches!(found, Err(NoForces::Jammed)), "{kind:?} contacts, case {case}");
             }
         }
     }

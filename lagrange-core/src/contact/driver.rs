@@ -169,7 +169,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let Self { bodies, decided, .. } = self;
         let system = bodies.with(&decided.states);
         let closed = bodies.closed.clone();
-        let (mut run, adjustment) = Run::begin(&system, &self.state, method).map_err(decided_otherwise)?;
+        let (mut run, adjustment) = Run::begin(&system, &self.state, method).map_err(undecided)?;
         run.statistics = run.statistics.after(&self.statistics);
         // The projection may move gaps of open contacts. Conditions are watched from where it leads.
         let state = &{ run.state };
@@ -302,8 +302,9 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     }
 }
 
-/// At the start of a leg there are forces: where those of its contacts have no solution, the decision among several was not the one.
-fn decided_otherwise(error: Error) -> Error {
+/// Forces that satisfy the law have been found before a leg starts. Where its closed and sliding contacts leave no solution all the
+/// same, several choices satisfy the law, and this one cannot go on: that is undecided, not Painlevé's paradox.
+fn undecided(error: Error) -> Error {
     match error {
         Error::FrictionJams { friction, time } => Error::FrictionUndecided { friction, time },
         other => other,

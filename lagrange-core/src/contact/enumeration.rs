@@ -1,4 +1,4 @@
-//! Solutions of small complementarity problems with friction, by trying each of the things that contacts may do.
+//! Complementarity problems of a few contacts with friction, solved by trials: each contact opens, sticks or slides.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -7,15 +7,18 @@ use super::lemke::{Exchange, Exchanged};
 use super::newton::eliminate;
 use crate::number::{Real, Scalar, larger};
 
-/// Largest number of choices that are tried: four contacts that open, stick or slide, with friction either way, have as many.
-const CHOICES: usize = 625;
+/// Largest number of contacts all of whose choices are tried.
+pub(super) const TRIED: usize = 4;
 
-/// Number of solutions of the linear equations: those after the first correct the one before.
+/// Largest number of trials: each contact opens, sticks with friction forwards or backwards, or slides forwards or backwards.
+const CHOICES: usize = 5_usize.pow(TRIED as u32);
+
+/// Number of times that the linear equations of a trial are solved: once, and once more for what round-off leaves of them.
 const ROUNDS: usize = 2;
 
 impl<T: Real> Exchange<T> {
-    /// The first solution among those where the unknowns that may exceed zero are one of the choices of each group. `None` if there
-    /// are too many choices, or if none leads to a solution.
+    /// Tries one choice of each group after another, and returns the first solution. A choice is the list of unknowns of the group that
+    /// may exceed zero. `None` if there are too many, or if none is a solution to this part of the terms of w.
     pub(super) fn by_choices(&self, groups: &[Vec<Vec<usize>>], accuracy: f64) -> Option<Exchanged<T>> {
         let count = groups.iter().try_fold(1_usize, |count, group| count.checked_mul(group.len()));
         let count = count.filter(|&count| count <= CHOICES)?;
@@ -30,7 +33,7 @@ impl<T: Real> Exchange<T> {
         })
     }
 
-    /// The unknowns for which w of the basic ones is zero; negative ones that may not be so count as zero.
+    /// The z for which w of the basic unknowns is zero and z of all others. Entries that may not be negative, but are, are set to zero.
     fn with_basic(&self, basic: &[usize]) -> Option<Exchanged<T>> {
         let size = self.constant.len();
         let mut found = Exchanged { z: vec![T::constant(0.0); size], is_basic: vec![false; size] };
@@ -50,12 +53,12 @@ impl<T: Real> Exchange<T> {
         Some(found)
     }
 
-    /// Whether w of the basic unknowns is zero, and that of others not negative, to this part of its terms.
+    /// Whether w of basic and free unknowns is zero, and that of all others not negative, to this part of its terms.
     pub(super) fn is_solved(&self, found: &Exchanged<T>, accuracy: f64) -> bool {
         (0..found.z.len()).all(|k| {
             let [w, terms] = self.w(k, &found.z);
             let allowed = self.noise[k] + T::constant(accuracy) * terms;
-            w >= -allowed && (!found.is_basic[k] || w <= allowed)
+            w >= -allowed && (w <= allowed || !found.is_basic[k] && !self.is_free[k])
         })
     }
 

@@ -12,8 +12,8 @@ use crate::number::{Real, Scalar};
 use crate::system::StateOf;
 use crate::vector::{Array, Vector, vector};
 
-/// Largest number of impacts at one time. Each takes energy, or passes it on to the next of bodies in a row; those that go on
-/// without end, as of a light ball between heavy ones, come to rest where the rates are round-off.
+/// Largest number of impacts at one time. Each takes energy, or passes it on to the next of bodies in a row. A light ball that two heavy
+/// ones hit in turn takes thousands, until its rates are round-off.
 pub(super) const IMPACTS: usize = 100_000;
 
 /// Largest number of rounds that stop contacts which approach at rest.

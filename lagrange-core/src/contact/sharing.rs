@@ -17,7 +17,8 @@ use crate::solution::pivot::least_pivot;
 /// Largest number of sweeps.
 const SWEEPS: usize = 10_000;
 
-/// Largest number of choices of contacts that push, of those that depend on one another. A table on four legs has four.
+/// Largest number of sets of contacts that are tried, where gaps are combinations of one another: a table on four legs can stand on any
+/// three of them.
 const TRIES: usize = 64;
 
 /// Rates along a contact, in units of those that the residual allows, up to which it sticks. What sticks has the residual.
@@ -77,8 +78,8 @@ impl<T: Real> Law<'_, T> {
         self.with_fewer(&self.problem(), &mut plays, &mut { TRIES })
     }
 
-    /// Forces of the contacts that `plays` marks or, where some of these depend on others, of fewer: without the one that has the
-    /// least force, or the next one if the others do not hold the bodies then.
+    /// Forces of the contacts that `plays` marks. Where gaps of some are combinations of others, one of those is left out: the one with
+    /// the least force first, and the next one if no forces are found without it.
     fn with_fewer(
         &self,
         problem: &Complementarity<T>,
@@ -134,7 +135,7 @@ impl<T: Real> Law<'_, T> {
         })
     }
 
-    fn problem(&self) -> Complementarity<T> {
+    pub(super) fn problem(&self) -> Complementarity<T> {
         Complementarity {
             matrix: self.matrix.to_vec(),
             constant: self.rates.clone(),
@@ -142,8 +143,8 @@ impl<T: Real> Law<'_, T> {
         }
     }
 
-    /// Contacts that push, and whose gaps are combinations of those of others that do: without one of them, the others hold the body
-    /// in the same way. The one with the least force comes first.
+    /// Contacts that push, and whose gaps are combinations of those of others that push, in the order of their forces, the least
+    /// first. Without one of them, the others can hold the body as well.
     fn spares(&self, problem: &Complementarity<T>, outcome: &ContactForces<T>) -> Vec<usize> {
         let mut pushing: Vec<(usize, usize)> = (0..self.touches.len())
             .filter(|&k| outcome.pushes[k])

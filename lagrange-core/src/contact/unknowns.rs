@@ -1,6 +1,6 @@
-//! The law of touching bodies as a complementarity problem, for friction of one velocity or in given directions: with two opposite
-//! forces for each velocity (Stewart and Trinkle, *International Journal for Numerical Methods in Engineering* 39, 1996) its matrix is
-//! copositive, and Lemke's method finds a solution for impacts.
+//! The law of bodies that touch as a complementarity problem. Friction along one velocity is the difference of two forces that are not
+//! negative (Stewart and Trinkle, *International Journal for Numerical Methods in Engineering* 39, 1996); along two velocities it sticks
+//! or slides in a given direction. The matrix is copositive, so that Lemke's method finds a solution for impacts.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,7 +9,7 @@ use super::law::{ContactForces, Grip, Law, Rubbing, Touch};
 use super::lemke::{Exchange, Exchanged};
 use crate::number::Real;
 
-/// An unknown of the problem, with the touch that it belongs to.
+/// An unknown of the problem; the number is that of its touch.
 #[derive(Clone, Copy)]
 enum Unknown {
     /// Force of a gap.
@@ -25,8 +25,8 @@ enum Unknown {
 }
 
 impl<T: Real> Law<'_, T> {
-    /// Finds forces with which friction of two velocities does what its grip says: by Lemke's method or, where round-off leads it
-    /// astray, by trying all that a few contacts may do. `None` for a few contacts thus says that there are none.
+    /// Finds forces, with friction along two velocities that sticks or slides as its grip says: by Lemke's method or, where that finds
+    /// none or is off by round-off, by trials of all that up to four contacts may do.
     pub(super) fn solve(&self) -> Option<ContactForces<T>> {
         let unknowns = self.unknowns();
         let (pushes, known) = self.pushes(&unknowns);
@@ -60,7 +60,7 @@ impl<T: Real> Law<'_, T> {
         let solved = problem.solve();
         let is_found = solved.as_ref().is_some_and(|found| problem.is_solved(found, self.accuracy));
         let chosen =
-            if is_found { None } else { problem.by_choices(&Self::choices(&unknowns), self.accuracy) };
+            if is_found { None } else { problem.by_choices(&self.choices(&unknowns), self.accuracy) };
         let solved = chosen.or(solved)?;
         let force = |row: usize| known[row] + times(&pushes[row], &|z| solved.z[z]);
         let forces: Vec<T> = (0..self.rates.len()).map(force).collect();
@@ -87,33 +87,22 @@ impl<T: Real> Law<'_, T> {
         unknowns
     }
 
-    /// What each contact may do, by the unknowns that may exceed zero: it opens, sticks with friction forwards or backwards, or slides
-    /// against it.
-    fn choices(unknowns: &[(Unknown, usize)]) -> Vec<Vec<Vec<usize>>> {
-        let mut groups: Vec<Vec<Vec<usize>>> = Vec::new();
-        let mut pressed = None;
-        for (z, &(unknown, _)) in unknowns.iter().enumerate() {
-            match unknown {
-                Unknown::Hold => groups.push(vec![vec![z]]),
-                Unknown::Push(k) => {
-                    groups.push(vec![vec![], vec![z]]);
-                    pressed = Some((k, z));
-                }
-                Unknown::Forth(k) => {
-                    let push = pressed.filter(|&(of, _)| of == k).map(|(_, push)| push);
-                    if push.is_some() {
-                        groups.pop();
-                    }
-                    let with = |others: &[usize]| push.into_iter().chain(others.iter().copied()).collect();
-                    let mut group: Vec<Vec<usize>> =
-                        [&[z][..], &[z + 1], &[z, z + 2], &[z + 1, z + 2]].map(with).into();
-                    group.extend(push.map(|_| vec![]));
-                    groups.push(group);
-                }
-                Unknown::Back | Unknown::Speed(_) => {}
+    /// What each contact and friction may do, as lists of the unknowns that may exceed zero then: a contact opens, or it pushes while its
+    /// friction sticks or slides, forwards or backwards.
+    fn choices(&self, unknowns: &[(Unknown, usize)]) -> Vec<Vec<Vec<usize>>> {
+        let has_open_friction = |k: usize| self.touches[k].friction.is_some_and(|of| of.grip == Grip::Open);
+        let of = |(z, &(unknown, _)): (usize, &(Unknown, usize))| match unknown {
+            Unknown::Hold => Some(vec![vec![z]]),
+            Unknown::Push(k) => (!has_open_friction(k)).then(|| vec![vec![], vec![z]]),
+            Unknown::Forth(k) => {
+                let push = push_of(k, unknowns);
+                let rubs = [&[z][..], &[z + 1], &[z, z + 2], &[z + 1, z + 2]];
+                let with_push = rubs.map(|rubs| push.iter().chain(rubs).copied().collect());
+                Some(with_push.into_iter().chain(push.map(|_| vec![])).collect())
             }
-        }
-        groups
+            Unknown::Back | Unknown::Speed(_) => None,
+        };
+        unknowns.iter().enumerate().filter_map(of).collect()
     }
 
     /// Forces of the rows: their multiples of the unknowns, and what does not depend on them, of dry friction and of the smallest
@@ -137,8 +126,7 @@ impl<T: Real> Law<'_, T> {
                 continue;
             };
             let against = direction.map(|component| sliding * component);
-            let push =
-                unknowns.iter().position(|(unknown, _)| matches!(unknown, Unknown::Push(of) if *of == k));
+            let push = push_of(k, unknowns);
             for (component, &force) in against.iter().enumerate().take(count) {
                 match push {
                     Some(push) => {
@@ -159,7 +147,7 @@ impl<T: Real> Law<'_, T> {
         let Touch { least, friction: Some(Rubbing { bounds: [limit, _], .. }), .. } = self.touches[k] else {
             return;
         };
-        match unknowns.iter().position(|(unknown, _)| matches!(unknown, Unknown::Push(of) if *of == k)) {
+        match push_of(k, unknowns) {
             Some(push) => (problem.matrix[w][push], problem.constant[w]) = (limit, limit * least),
             None => problem.constant[w] = limit,
         }
@@ -196,4 +184,9 @@ impl<T: Real> Law<'_, T> {
         }
         ContactForces { forces, rates, pushes, grips, motion: None }
     }
+}
+
+/// Place of the force of the gap of a touch among the unknowns; `None` for dry friction.
+fn push_of(touch: usize, unknowns: &[(Unknown, usize)]) -> Option<usize> {
+    unknowns.iter().position(|(unknown, _)| matches!(unknown, Unknown::Push(of) if *of == touch))
 }

@@ -4,8 +4,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::scalar::Scalar;
 
-// Arithmetic is `#[inline]`, not `#[inline(always)]`, as that of lanes. Without optimization it then is not inlined, and
-// leaves none of its intermediate results in the frames of derived functions.
+// Operations on dual numbers are `#[inline]`, as those on lanes. With `#[inline(always)]` a derived function that is not
+// optimized keeps every intermediate result on the stack: 8 MB for second derivatives of a quadruped, 1.2 MB without.
 
 /// `value` + ε `slope` with ε² = 0: a value and its derivative. The components are of any scalar type, also
 /// dual numbers themselves.

@@ -139,7 +139,13 @@ fn coulomb(cursor: &mut Cursor) -> Result<((Expression, Expression), Law)> {
     const FORM: &str =
         "the friction of a contact has a coefficient and a velocity: write `friction(mu): x_dot`";
     let Some(group) = cursor.take_group(Delimiter::Parenthesis) else { return Err(cursor.error(FORM)) };
-    let coefficient = expression::whole(&mut Cursor::inside(&group))?;
+    let mut inside = Cursor::inside(&group);
+    let coefficient = expression::whole(&mut inside.until_comma())?;
+    if !inside.is_empty() {
+        return Err(
+            inside.error("the friction of a contact has one coefficient: write `friction(mu): x_dot`")
+        );
+    }
     cursor.expect_punct(':', FORM)?;
     let velocity = expression::whole(&mut cursor.until_comma())?;
     Ok((against_zero(velocity), Law::Coulomb { coefficient }))

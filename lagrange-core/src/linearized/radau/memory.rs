@@ -37,8 +37,9 @@ const WORTH: f64 = 2.0;
 /// Growth of the longest step with the derivatives at its start, after one for which the iteration did not converge: a longer one
 /// is tried once in ten.
 const RETRIED: f64 = 1.05;
-/// Contraction of the iteration below which that step may double for friction along two velocities.
-const FASTER: f64 = 0.01;
+/// Contraction of the iteration below which that step doubles for friction along two velocities: what begins to slide becomes ever
+/// faster, and its force turns ever less.
+const DOUBLED: f64 = 0.01;
 /// Largest ratio to a step with the derivatives at each stage: they are evaluated at the extrapolated polynomial.
 const LONGER: f64 = 2.0;
 /// Largest ratio of a step to the one before for which it keeps the length, and the factorizations with it.
@@ -215,9 +216,8 @@ where
         let error = error.max(1e-10);
         let mut ratio = growth::<L::Scalar, S>(error, iterations);
         let converging = CONTRACTION / self.contraction;
-        // What begins to slide becomes ever faster, and its force turns ever less.
-        let is_faster = L::HAS_PLANAR_FRICTION && self.contraction <= FASTER;
-        self.longest *= if is_faster { LONGER } else { RETRIED };
+        let doubles = L::HAS_PLANAR_FRICTION && self.contraction <= DOUBLED;
+        self.longest *= if doubles { 2.0 } else { RETRIED };
         match is_coupled {
             true => ratio = ratio.min(converging).min(LONGER),
             false => self.longest = self.longest.min(length * converging),

@@ -156,8 +156,8 @@ where
             }
             Err(Rejection::TooSlow(part)) => {
                 if L::HAS_PLANAR_FRICTION {
-                    // Friction that has just begun to slide is stiff: where its velocity, much smaller than the tolerance, is not
-                    // yet along its force, the polynomial of the last step leads far away. The start is a better guess.
+                    // A velocity that has just left zero is smaller than the tolerance, and not yet along its force: the polynomial
+                    // of the last step turns it by any angle. The next guess is the state at the start of the step.
                     memory.taken = None;
                 }
                 let reason = "the iteration of a step does not converge, however short it is";
