@@ -244,34 +244,61 @@ fn a_light_ball_drives_heavy_ones_apart() {
     }
 }
 
-/// A mass at rest in a groove, held by two walls with friction. Several forces hold it, and where none of those found does, the motion
-/// does not end by Painlevé's paradox.
+/// A mass between two walls with friction, pulled by a force.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 + f[0]*x + f[1]*y)]
+#[contact(wall[i in 0..2]: n[i][0]*x + n[i][1]*y >= 0, friction(mu[i]): n[i][1]*x_dot - n[i][0]*y_dot)]
+struct Groove {
+    f: [f64; 2],
+    n: [[f64; 2]; 2],
+    mu: [f64; 2],
+    wall: [Contact; 2],
+}
+
+impl Groove {
+    /// Whether forces of the walls balance the one that pulls: those at two edges of their cones of friction do, one of each wall.
+    fn is_held(&self) -> bool {
+        let edge = |wall: usize, side: f64| {
+            let ([x, y], mu) = (self.n[wall], self.mu[wall]);
+            [x + side * mu * y, y - side * mu * x]
+        };
+        let area = |[a, b]: [f64; 2], [c, d]: [f64; 2]| a * d - b * c;
+        let sides = [-1.0, 1.0];
+        sides.iter().any(|&first| {
+            sides.iter().any(|&second| {
+                let (one, other) = (edge(0, first), edge(1, second));
+                let parts = [area(other, self.f), area(self.f, one)].map(|part| part / area(one, other));
+                parts.iter().all(|&part| part > 1e-3)
+            })
+        })
+    }
+}
+
+/// A mass at rest in a groove stays, held by forces that are not unique, where the walls lean by little from one another too. Where none
+/// of those found can go on, the motion ends as undecided: 4 in 100 may.
 #[test]
-fn a_mass_in_a_groove_does_not_jam() {
-    #[derive(Clone, Lagrangian)]
-    #[coordinates(x, y)]
-    #[lagrangian((x_dot^2 + y_dot^2)/2 + f[0]*x + f[1]*y)]
-    #[contact(wall[i in 0..2]: n[i][0]*x + n[i][1]*y >= 0, friction(mu[i]): n[i][1]*x_dot - n[i][0]*y_dot)]
-    struct Groove {
-        f: [f64; 2],
-        n: [[f64; 2]; 2],
-        mu: [f64; 2],
-        wall: [Contact; 2],
-    }
-    let mut held = 0;
-    for lean in [0.0_f64, 5.0, 10.0] {
-        for (mu, pull) in [([1.0, 0.5], -30.0_f64), ([1.0, 1.0], -90.0), ([0.5, 0.5], -60.0)] {
-            let along = |degrees: f64| [degrees.to_radians().cos(), degrees.to_radians().sin()];
-            let n = [along(lean), along(180.0 - lean)];
-            let groove = Groove { f: along(pull), n, mu, wall: [Contact::Open; 2] };
-            let motion = groove.motion(State::at_rest([0.0; 2])).with_contacts();
-            match motion.max_transitions(100).towards(0.1) {
-                Ok(path) => held += usize::from(path.end().v.norm() < 1e-9),
-                Err(error) => {
-                    assert!(!matches!(error, Error::FrictionJams { .. }), "{lean}, {mu:?}: {error}")
-                }
-            }
+fn a_mass_in_a_groove_stays() {
+    let angles = [0.0_f64, 1.0, 5.0, 20.0];
+    let coefficients = [0.2, 0.5, 1.0];
+    let (mut held, mut undecided) = (0, 0);
+    for number in 0..4 * 4 * 3 * 3 * 4 {
+        let digit = |place: usize, base: usize| number / place % base;
+        let (lean, opening) = (angles[digit(1, 4)], angles[digit(4, 4)].max(0.01));
+        let mu = [coefficients[digit(16, 3)], coefficients[digit(48, 3)]];
+        let along = |degrees: f64| [degrees.to_radians().cos(), degrees.to_radians().sin()];
+        let n = [along(lean + opening / 2.0), along(180.0 + lean - opening / 2.0)];
+        let groove = Groove { f: along(-30.0 * digit(144, 4) as f64), n, mu, wall: [Contact::Open; 2] };
+        if !groove.is_held() {
+            continue;
         }
+        let motion = groove.motion(State::at_rest([0.0; 2])).with_contacts();
+        match motion.max_transitions(100).to(0.1) {
+            Ok(path) => assert!(path.end().v.norm() < 1e-9, "{lean}, {opening}, {mu:?}"),
+            Err(Error::FrictionUndecided { .. }) => undecided += 1,
+            Err(error) => panic!("{lean}, {opening}, {mu:?}: {error}"),
+        }
+        held += 1;
     }
-    assert!(held >= 4, "{held} of 9");
+    assert!(held > 500 && 100 * undecided <= 4 * held, "{undecided} of {held} undecided");
 }

@@ -8,8 +8,9 @@ use crate::number::{Real, Scalar, larger, order};
 /// Largest number of changes of the active set, for each unknown. Without cycles 2ⁿ suffice, and a few are usual.
 const CHANGES: usize = 100;
 
-/// A row of G counts as a combination of others if what is left of its diagonal entry, once they are eliminated, is below this
-/// many units of round-off of the terms that cancel.
+/// A row W of G = W K⁻¹ Wᵀ counts as a combination of others if the square of what they leave of it, |W + Σ g Wₖ|² in the metric K⁻¹,
+/// is below this many units of round-off of (|W| + Σ |g| |Wₖ|)², by which the elimination that finds the g may be off (Higham,
+/// *Accuracy and Stability of Numerical Algorithms*, 2002, theorem 10.4).
 const DEPENDENT: f64 = 64.0;
 
 /// A problem whose matrix is symmetric and positive semidefinite, by rows.
@@ -118,10 +119,11 @@ impl<T: Real> Complementarity<T> {
     fn growth(&self, joins: usize, active: &[usize]) -> (Vec<T>, Option<T>) {
         let own = self.matrix[joins][joins];
         let growth = self.inverse(active, active.iter().map(|&k| -self.matrix[k][joins]).collect());
-        let parts = || active.iter().zip(&growth).map(|(&k, &g)| self.matrix[joins][k] * g);
-        let rate = parts().fold(own, |sum, part| sum + part);
-        let size = parts().fold(own, |sum, part| sum + Scalar::abs(part));
-        let is_free = rate > T::constant(T::EPSILON * DEPENDENT) * size;
+        let parts = || active.iter().zip(&growth);
+        let rate = parts().fold(own, |sum, (&k, &g)| sum + self.matrix[joins][k] * g);
+        let size_of = |k: usize| Scalar::sqrt(self.matrix[k][k]);
+        let size = parts().fold(size_of(joins), |sum, (&k, &g)| sum + Scalar::abs(g) * size_of(k));
+        let is_free = rate > T::constant(T::EPSILON * DEPENDENT) * size * size;
         (growth, is_free.then_some(rate))
     }
 
