@@ -289,6 +289,21 @@ fn periods_that_drive_nothing() {
     assert!(matches!(&error, Error::Orbit(error) if **error == OrbitError::NoClock), "{error}");
 }
 
+/// Hanging at rest meets no condition on the energy either.
+#[test]
+fn energy_that_changes_cannot_be_fixed() {
+    let shaken = Shaken { a: 0.1, omega: 2.0, c: 0.1 };
+    let driven = shaken.periodic_orbit(&State::at_rest([0.0])).driven_by("omega", 1).energy(5.0).find();
+    let cycle = VanDerPol { mu: 1.0 }.periodic_orbit(&State::at_rest([1.9])).period_near(6.6);
+    for (error, is_driven) in [(driven.unwrap_err(), true), (cycle.energy(1.0).find().unwrap_err(), false)] {
+        assert!(
+            matches!(&error, Error::Orbit(error) if **error == OrbitError::EnergyChanges { is_driven }),
+            "{error}"
+        );
+        assert!(error.to_string().contains("leave out `energy`"), "{error}");
+    }
+}
+
 /// Van der Pol's oscillator.
 #[derive(Clone, Lagrangian)]
 #[coordinates(x)]

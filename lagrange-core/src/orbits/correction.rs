@@ -238,6 +238,9 @@ impl<T: Real> Problem<T> {
         shot: &Shot<L>,
         steps: usize,
     ) -> Error {
+        if self.conditions.energy.is_some() && !self.is_conservative {
+            return OrbitError::EnergyChanges { is_driven: false }.into();
+        }
         let (entry, gap) = shot.worst(&self.conditions);
         OrbitError::NotClosed {
             entry,

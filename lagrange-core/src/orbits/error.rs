@@ -24,6 +24,11 @@ pub enum OrbitError {
         /// Period given.
         period: f64,
     },
+    /// The energy was fixed, of an orbit whose energy is not conserved.
+    EnergyChanges {
+        /// True if the equations depend on the time.
+        is_driven: bool,
+    },
     /// What was found is not near an orbit.
     Vague {
         /// Estimated distance from a true orbit, in units of its size.
@@ -97,6 +102,14 @@ impl Display for OrbitError {
             Self::NotItsClock { period } => write!(
                 f,
                 "the equations at t + {period} are not those at t, so that this is not the period of an orbit: give a multiple of the period of what drives them, by `period`, or by `driven_by` and its frequency"
+            ),
+            Self::EnergyChanges { is_driven: true } => write!(
+                f,
+                "the equations depend on the time, so that the energy changes along the orbit and cannot be fixed: leave out `energy`, and reach orbits of another size by a `family` over a parameter"
+            ),
+            Self::EnergyChanges { is_driven: false } => write!(
+                f,
+                "no periodic orbit of this energy found: forces or friction may change the energy along the orbit, so leave out `energy`"
             ),
             Self::Vague { error, period } => write!(
                 f,

@@ -71,7 +71,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
         })
     }
 
-    /// Fixes the energy p·q̇ − L, for a conservative system.
+    /// Fixes the energy p·q̇ − L, of a conservative system; an error if the equations depend on the time.
     pub fn energy(self, energy: L::Scalar) -> Self {
         self.with(|conditions| conditions.energy = Some(energy))
     }
@@ -151,6 +151,9 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
         }
         if has_clock && conditions.period_is_free() {
             return Err(OrbitError::Clock { period: period.to_f64() }.into());
+        }
+        if has_clock && conditions.energy.is_some() {
+            return Err(OrbitError::EnergyChanges { is_driven: true }.into());
         }
         let is_conservative = !has_clock && L::FACTS.energy_is_conserved.is_some();
         let parameter_unit = L::Scalar::constant(1.0);
