@@ -7,3 +7,4 @@ mod families;
 mod monodromy;
 mod shooting;
 mod systems;
+mod windows;

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Recomputes the numbers of these tests by Taylor series in mpmath, which share nothing with the library: 17 or more digits, in some minutes.
 
-    python3 tests/orbits/recompute.py [eight] [cycle] [halo] [doublings]
+    python3 tests/orbits/recompute.py [eight] [cycle] [halo] [doublings] [spring] [mathieu]
 """
 
 import itertools
 import sys
 
-from mpmath import arg, cos, eig, lu_solve, matrix, mp, mpf, nstr, pi, sin
+from mpmath import arg, cos, eig, eigsy, lu_solve, matrix, mp, mpf, nstr, pi, sin
 
 
 def at(series, h):
@@ -215,8 +215,85 @@ def doublings():
         print(turns, "gamma", nstr(newton(residual, guess, mpf("1e-17"))[2], 18), flush=True)
 
 
+def spring_pendulum(y, order=30):
+    """Unit mass on a spring of stiffness 60 and length 0.8, g = 9.81; y points up."""
+    x, z, vx, vz = [[s] + [mpf(0)] * order for s in y]
+    u, w = [[mpf(0)] * order for _ in range(2)]
+    for k in range(order):
+        u[k] = product(x, x, k) + product(z, z, k)
+        w[k] = power(u, w, mpf(-1) / 2, k)
+        ax = 48 * product(x, w, k) - 60 * x[k]
+        az = 48 * product(z, w, k) - 60 * z[k] - (mpf("9.81") if k == 0 else 0)
+        for to, of in ((x, vx[k]), (z, vz[k]), (vx, ax), (vz, az)):
+            to[k + 1] = of / (k + 1)
+    return x, z, vx, vz
+
+
+def spring():
+    """Energies between which the swing of a spring pendulum is unstable, where a deviation closes.
+
+    The swing starts at rest and after a quarter of the period crosses x = 0 with ż = 0. A deviation at rest along the line of
+    constant potential, or of the velocity across the motion, is then opposite or equal to its mirror image, up to the motion's own
+    direction.
+    """
+    mp.dps = 45
+    h = mpf("1e-15")
+
+    def force(x, z):
+        part = 48 / mp.sqrt(x * x + z * z) - 60
+        return part * x, part * z - mpf("9.81")
+
+    def opposite(end, change):
+        return change[1]
+
+    def equal(end, change):
+        return change[0] * force(*end[:2])[1] - change[3] * end[2]
+
+    for name, guess, condition in [
+        ("rest", ["0.60687", "-0.62378", "0.559469"], opposite),
+        ("velocity", ["0.60927", "-0.62066", "0.56004"], equal),
+    ]:
+
+        def residual(u):
+            x, z, quarter = u
+            fx, fz = force(x, z)
+            deviation = [-fz, fx, 0, 0] if name == "rest" else [0, 0, -fz, fx]
+            ends = [
+                flow(spring_pendulum, [s + by * d for s, d in zip([x, z, 0, 0], deviation)], quarter, mpf("0.05"))
+                for by in (0, h, -h)
+            ]
+            change = [(a - b) / (2 * h) for a, b in zip(*ends[1:])]
+            return [ends[0][0], ends[0][3], condition(ends[0], change)]
+
+        x, z, quarter = newton(residual, guess, mpf("1e-20"))
+        energy = 30 * (mp.sqrt(x * x + z * z) - mpf("0.8")) ** 2 + mpf("9.81") * z
+        print(name, "E", nstr(energy, 18), "period", nstr(4 * quarter, 18))
+
+
+def mathieu():
+    """Characteristic values of Mathieu's equation at q = 0.3, from the matrices of the Fourier coefficients."""
+    mp.dps = 25
+    q, n = mpf("0.3"), 25
+
+    def lowest(harmonics, corner=0, first=1):
+        a = matrix(n, n)
+        for i, k in enumerate(harmonics):
+            a[i, i] = mpf(k) ** 2
+        for i in range(n - 1):
+            a[i, i + 1] = a[i + 1, i] = q
+        a[0, 0] += corner
+        a[0, 1] = a[1, 0] = first * q
+        return sorted(eigsy(a, eigvals_only=True))
+
+    odd, even = range(1, 2 * n, 2), range(0, 2 * n, 2)
+    b1, b3 = lowest(odd, -q)[:2]
+    a1, a3 = lowest(odd, q)[:2]
+    b2, a2 = lowest(range(2, 2 * n + 2, 2))[0], lowest(even, first=mp.sqrt(2))[1]
+    print(", ".join(nstr(x, 18) for x in (b1, a1, b2, a2, b3, a3)))
+
+
 if __name__ == "__main__":
-    parts = {"eight": eight, "cycle": cycle, "halo": halo, "doublings": doublings}
+    parts = {"eight": eight, "cycle": cycle, "halo": halo, "doublings": doublings, "spring": spring, "mathieu": mathieu}
     for name in sys.argv[1:] or parts:
         print(f"[{name}]", flush=True)
         parts[name]()

@@ -6,6 +6,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 use nalgebra::{DMatrix, DVector};
 
 use super::conditions::Conditions;
+use super::monodromy::Monodromy;
 use super::multipliers::{modulus, product_of, reciprocal};
 use super::orbit::PeriodicOrbit;
 use super::shot::{Chain, Problem, Shot};
@@ -128,6 +129,18 @@ impl<T: Real> Tests<T> {
         }
     }
 
+    /// Change of each test from those of another orbit, times a factor.
+    pub(super) fn change_from(&self, other: &Self, factor: T) -> Self {
+        Self {
+            turning: (self.turning - other.turning) * factor,
+            determinant: self.determinant.zip(other.determinant).map(|(x, y)| (x - y) * factor),
+            unity: (self.unity - other.unity) * factor,
+            doubling: (self.doubling - other.doubling) * factor,
+            torus: (self.torus - other.torus) * factor,
+            noise: self.noise,
+        }
+    }
+
     /// Tests whose signs differ between two neighbours of a family. `Unity` changes with folds and branch points too, and
     /// counts alone only, as a broken symmetry.
     pub(super) fn changed(&self, next: &Self) -> Vec<Test> {
@@ -150,18 +163,18 @@ impl<T: Real> Tests<T> {
 }
 
 impl<T: Real> Problem<T> {
-    /// Tests at a member of a family with this direction.
+    /// Tests at a member of a family with this direction, from its monodromy and the error of the orbit.
     pub(super) fn tests<L: Linearized<Scalar = T> + Clone>(
         &self,
         shot: &Shot<L>,
         tangent: &DVector<T>,
-        orbit: &PeriodicOrbit<L>,
+        (monodromy, error): (&Monodromy<T>, T),
     ) -> Result<Tests<T>, Error> {
         let bordered = self.with_row(shot, tangent);
         let determinant = if bordered.is_square() { Some(signed_least(&bordered)?) } else { None };
-        let multipliers = orbit.monodromy.nontrivial()?;
+        let multipliers = monodromy.nontrivial()?;
         let one = T::constant(1.0);
-        let torus = match orbit.monodromy.is_symplectic() {
+        let torus = match monodromy.is_symplectic() {
             true => discriminant(&multipliers),
             false => collisions(&multipliers),
         };
@@ -171,7 +184,7 @@ impl<T: Real> Problem<T> {
             unity: product_of(&multipliers, -one),
             doubling: product_of(&multipliers, one),
             torus,
-            noise: T::constant(NOISE) * (orbit.error + T::constant(T::EPSILON)),
+            noise: T::constant(NOISE) * (error + T::constant(T::EPSILON)),
         })
     }
 

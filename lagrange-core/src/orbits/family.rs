@@ -20,6 +20,10 @@ use crate::system::lookup;
 /// Steps of Newton's method up to which the next step along the family grows.
 const EASY: usize = 6;
 
+/// Angle by which multipliers may turn in a step, in radians, at their rate where it starts. A pair that passes 1 or −1 within such
+/// a step shows it by the slopes of its test.
+const TURN: f64 = core::f64::consts::FRAC_PI_2;
+
 /// Settings of the continuation of a periodic orbit to a family.
 ///
 /// Lengths are relative: of the start in units of the largest coordinate and velocity, of the period to its value, of the
@@ -133,9 +137,16 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
     ///
     /// Bifurcations are told by functions that change sign from one orbit to the next: the rate of the parameter or energy,
     /// the bordered determinant of the equations, Π(1 − λ), Π(1 + λ) and Π(1 − λλ′) of the multipliers. A change of sign
-    /// between two orbits of one curve proves that there is one between; two of a kind between neighbours are not seen.
-    /// Each is found by regula falsi on the arclength, to round-off of the function. The family ends early where no orbit
-    /// is found, which is no error: see [`Family::ending`].
+    /// between two orbits of one curve proves that there is one between. Each is found by regula falsi on the arclength, to
+    /// round-off of the function.
+    ///
+    /// Two of a kind between neighbours are found, and an orbit between them becomes a member, where the cubic through values and
+    /// slopes of the function falls below half of its values at both, and the function then passes zero by more than its noise,
+    /// 10³ times the error of an orbit. Steps are shortened so that no multiplier turns by more than 90° at the rate that it has
+    /// at the start of the step. What can still be missed is a window that is narrower, or one beside which the function has
+    /// further extrema between the two orbits.
+    ///
+    /// The family ends early where no orbit is found, which is no error: see [`Family::ending`].
     ///
     /// # Errors
     /// Those of [`OrbitSearch::find`] at the first orbit; [`Error::Orbit`] if the orbit is isolated, or one of a family of more
@@ -157,7 +168,7 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
         let first = tracer.first(start, self.is_backwards)?;
         family.push(first.orbit.clone());
         let ending = self.trace(&tracer, first, &mut family);
-        family.end(ending);
+        family.end(ending.unwrap_or_else(|error| FamilyEnding::Stopped(Box::new(error))));
         Ok(family)
     }
 
@@ -167,35 +178,52 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
         tracer: &Tracer<'_, L, D>,
         mut member: TracedOrbit<L>,
         family: &mut Family<L>,
-    ) -> FamilyEnding
+    ) -> Result<FamilyEnding, Error>
     where
         D: DifferentiableMethod<L> + Clone,
     {
         let (problem, mut step) = (&tracer.problem, self.step);
         let first = Arc::from(problem, &member.shot, member.tangent.clone());
-        loop {
-            if self.is_last(&member.orbit, family) {
-                return FamilyEnding::Until;
-            }
-            if family.orbits().len() >= self.count {
-                return FamilyEnding::Count;
-            }
-            let arc = Arc::from(problem, &member.shot, member.tangent.clone());
-            let (next, taken) = match tracer.advance(&member, &arc, step) {
-                Ok(found) => found,
-                Err(error) => return FamilyEnding::Stopped(Box::new(error)),
-            };
-            let (found, lost) = tracer.between(&member, &arc, (taken, next.tests));
-            found.into_iter().for_each(|found| family.push_bifurcation(found));
-            lost.into_iter().for_each(|lost| family.push_lost(lost));
-            let is_easy = next.orbit.iterations <= EASY;
-            step = if is_easy { smaller(taken * L::Scalar::constant(1.3), self.longest) } else { taken };
-            member = next;
-            family.push(member.orbit.clone());
-            if family.orbits().len() > 4 && first.is_met(problem, &member.shot, taken) {
-                return FamilyEnding::Closed;
-            }
+        if let Some(ending) = self.ending(&member.orbit, family) {
+            return Ok(ending);
         }
+        let mut slopes = tracer.slopes(&member)?;
+        loop {
+            let arc = Arc::from(problem, &member.shot, member.tangent.clone());
+            step = smaller(step, L::Scalar::constant(TURN) / slopes.turn);
+            let (next, taken) = tracer.advance(&member, &arc, step)?;
+            let ahead = tracer.slopes(&next)?;
+            let mut reached = tracer.dips((&member, &slopes), &arc, (taken, &next, &ahead))?;
+            reached.push((taken, next));
+            let mut from = (L::Scalar::constant(0.0), member.tests);
+            for (length, next) in &reached {
+                let to = (*length, next.tests);
+                let (found, lost) = tracer.between(&member, &arc, [from, to]);
+                found.into_iter().for_each(|found| family.push_bifurcation(found));
+                lost.into_iter().for_each(|lost| family.push_lost(lost));
+                family.push(next.orbit.clone());
+                if family.orbits().len() > 4 && first.is_met(problem, &next.shot, taken) {
+                    return Ok(FamilyEnding::Closed);
+                }
+                if let Some(ending) = self.ending(&next.orbit, family) {
+                    return Ok(ending);
+                }
+                from = to;
+            }
+            if let Some((_, next)) = reached.pop() {
+                (member, slopes) = (next, ahead);
+            }
+            let is_easy = member.orbit.iterations <= EASY;
+            step = if is_easy { smaller(taken * L::Scalar::constant(1.3), self.longest) } else { taken };
+        }
+    }
+
+    /// The reason to end the family with its last orbit.
+    fn ending(&mut self, orbit: &PeriodicOrbit<L>, family: &Family<L>) -> Option<FamilyEnding> {
+        if self.is_last(orbit, family) {
+            return Some(FamilyEnding::Until);
+        }
+        (family.orbits().len() >= self.count).then_some(FamilyEnding::Count)
     }
 
     /// True if a condition ends the family.

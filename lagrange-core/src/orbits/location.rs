@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::bifurcation::{Branch, Test, Tests, touches_circle};
 use super::correction::Arc;
 use super::orbit::PeriodicOrbit;
-use super::tracing::{TracedOrbit, Tracer};
+use super::tracing::{AtLength, TracedOrbit, Tracer};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::number::{Real, Scalar, power_of_epsilon};
@@ -28,7 +28,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         self.corrected(self.problem.moved_by(&near.shot, &step, false)?, arc)
     }
 
-    /// Bifurcations between a member and the next, and those of which the orbit or the family that leaves was not found.
+    /// Bifurcations between two arclengths from a member, and those of which the orbit or the family that leaves was not found.
     ///
     /// A fold and a branch point that coincide are one, a pitchfork seen from the family that leaves: the orbit is the one
     /// of the fold, since the determinant there is small to the left and right.
@@ -36,11 +36,12 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         &self,
         from: &TracedOrbit<L>,
         arc: &Arc<L::Scalar>,
-        next: (L::Scalar, Tests<L::Scalar>),
+        [here, next]: [(L::Scalar, Tests<L::Scalar>); 2],
     ) -> (Vec<Located<L>>, Vec<(Test, Error)>) {
         let (mut found, mut lost) = (Vec::new(), Vec::new());
-        for test in from.tests.changed(&next.1) {
-            match self.locate(from, arc, next, test) {
+        for test in here.1.changed(&next.1) {
+            let at = self.locate(from, arc, [here, next], test);
+            match at {
                 // Real multipliers collide, or have the product 1, without a torus.
                 Ok((_, at))
                     if test == Test::Torus
@@ -50,7 +51,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
             }
         }
         if let [(Test::Turning, (fold, _)), (Test::Determinant, (branch, _)), ..] = &found[..]
-            && Scalar::abs(*fold - *branch) <= next.0 * L::Scalar::constant(COINCIDENT)
+            && Scalar::abs(*fold - *branch) <= (next.0 - here.0) * L::Scalar::constant(COINCIDENT)
         {
             found.remove(1);
             found[0].0 = Test::Determinant;
@@ -65,19 +66,20 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         (located, lost)
     }
 
-    /// The member at which a test vanishes, between one and the next: regula falsi with the weights of Illinois.
+    /// The member at which a test vanishes, between two arclengths from another: regula falsi with the weights of Illinois.
     fn locate(
         &self,
         from: &TracedOrbit<L>,
         arc: &Arc<L::Scalar>,
-        (step, tests): (L::Scalar, Tests<L::Scalar>),
+        ends: [(L::Scalar, Tests<L::Scalar>); 2],
         test: Test,
-    ) -> Result<(L::Scalar, TracedOrbit<L>), Error> {
+    ) -> Result<AtLength<L>, Error> {
         const TRIES: usize = 40;
         let mut reason = Error::EigenvaluesNotFound;
         let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
         let of = |tests: &Tests<L::Scalar>| tests.value(test).unwrap_or(zero);
-        let (mut left, mut right) = ((zero, of(&from.tests)), (step, of(&tests)));
+        let [mut left, mut right] = ends.map(|(length, tests)| (length, of(&tests)));
+        let step = right.0 - left.0;
         let (mut best, mut last) = (None, 0);
         let resolution = step * power_of_epsilon(0.75);
         for _ in 0..TRIES {

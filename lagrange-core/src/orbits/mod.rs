@@ -5,6 +5,7 @@
 mod bifurcation;
 mod conditions;
 mod correction;
+mod dip;
 mod error;
 mod family;
 mod form;

@@ -91,6 +91,12 @@ pub(super) fn reciprocal<T: Real>(x: Complex<T>) -> Complex<T> {
     Complex::new(x.re / length / length, -x.im / length / length)
 }
 
+/// x/y.
+pub(super) fn ratio<T: Real>(x: Complex<T>, y: Complex<T>) -> Complex<T> {
+    let inverse = reciprocal(y);
+    Complex::new(x.re * inverse.re - x.im * inverse.im, x.re * inverse.im + x.im * inverse.re)
+}
+
 /// |λ|.
 pub(super) fn modulus<T: Real>(x: Complex<T>) -> T {
     norm(&[x.re, x.im])

@@ -151,7 +151,7 @@ impl<T: Real> Problem<T> {
         if self.has_clock && !repeats(&shot.chain.system, &shot.chain.nodes, shot.chain.period) {
             return Err(OrbitError::NotItsClock { period: shot.chain.period.to_f64() }.into());
         }
-        let whole = Self { conditions: self.conditions.whole(), parameter: None, ..self.clone() };
+        let whole = self.whole();
         let around = self.whole_of(&whole, shot, method)?;
         let gap = around.largest_gap();
         if self.conditions.is_half() && exceeds(gap, T::constant(1e3) * tolerance) {
@@ -164,6 +164,20 @@ impl<T: Real> Problem<T> {
         let units = around.size();
         let Chain { system, nodes, period, .. } = around.chain;
         Ok(PeriodicOrbit { system, start: nodes[0], period, nodes, gap, error, iterations, monodromy, units })
+    }
+
+    fn whole(&self) -> Self {
+        Self { conditions: self.conditions.whole(), parameter: None, ..self.clone() }
+    }
+
+    /// Monodromy of the whole orbit of a shot.
+    pub(super) fn once_around<L, D>(&self, shot: &Shot<L>, method: &D) -> Result<Monodromy<T>, Error>
+    where
+        L: Linearized<Scalar = T> + Clone,
+        D: DifferentiableMethod<L> + Clone,
+    {
+        let whole = self.whole();
+        Ok(whole.monodromy(&self.whole_of(&whole, shot, method)?))
     }
 
     /// The whole orbit of a shot, with the conditions of `whole`.

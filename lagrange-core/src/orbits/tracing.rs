@@ -10,6 +10,7 @@ use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
 use crate::number::{Real, Scalar, exceeds, norm, power_of_epsilon, unit_of};
+use crate::system::Lagrangian;
 
 /// Least cosine of the angle between neighbours of a family; a step across which it turns more is halved. 20° are small
 /// enough that a step does not end on another family that crosses at a right angle.
@@ -61,6 +62,9 @@ pub(super) struct TracedOrbit<L: Linearized> {
     pub(super) tests: Tests<L::Scalar>,
 }
 
+/// A member at an arclength from an earlier one.
+pub(super) type AtLength<L> = (<L as Lagrangian>::Scalar, TracedOrbit<L>);
+
 /// Equations of a family, with the method by which its members are computed.
 pub(super) struct Tracer<'m, L: Linearized, D> {
     pub(super) problem: Problem<L::Scalar>,
@@ -85,11 +89,11 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         let shot = self.problem.shoot(shot.chain, self.method)?;
         let mut tangent = only_direction(&shot.jacobian)?;
         let orbit = self.problem.orbit(&shot, iterations, self.method, self.tolerance)?;
-        let mut tests = self.problem.tests(&shot, &tangent, &orbit)?;
+        let mut tests = self.problem.tests(&shot, &tangent, (&orbit.monodromy, orbit.error))?;
         let grows = self.grows(&shot, &tangent, &orbit)?;
         if grows == is_backwards {
             tangent = -tangent;
-            tests = self.problem.tests(&shot, &tangent, &orbit)?;
+            tests = self.problem.tests(&shot, &tangent, (&orbit.monodromy, orbit.error))?;
         }
         Ok(TracedOrbit { shot, orbit, tangent, tests })
     }
@@ -130,20 +134,25 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
             (shot, more) = self.problem.correct(shot.chain, self.method, Some(arc), self.tolerance)?;
             iterations += more;
         }
-        let along = arc.along(&self.problem, &shot);
-        let mut last = DVector::zeros(shot.jacobian.nrows() + 1);
-        last[shot.jacobian.nrows()] = L::Scalar::constant(-1.0);
-        let (none, part) = (L::Scalar::constant(0.0), L::Scalar::constant(L::Scalar::EPSILON));
-        let tangent = least_step(&self.problem.with_row(&shot, &along), &last, none, part)?;
-        let length = norm(tangent.as_slice());
-        let tangent = tangent / length;
+        let tangent = self.tangent(&shot, arc)?;
         let orbit = self.problem.orbit(&shot, iterations, self.method, self.tolerance)?;
         if exceeds(orbit.error, L::Scalar::constant(VAGUE)) {
             let (error, period) = (orbit.error.to_f64(), orbit.period.to_f64());
             return Err(OrbitError::Vague { error, period }.into());
         }
-        let tests = self.problem.tests(&shot, &tangent, &orbit)?;
+        let tests = self.problem.tests(&shot, &tangent, (&orbit.monodromy, orbit.error))?;
         Ok(TracedOrbit { shot, orbit, tangent, tests })
+    }
+
+    /// Direction of the family at a shot near the base of the arc, of length 1.
+    pub(super) fn tangent(&self, shot: &Shot<L>, arc: &Arc<L::Scalar>) -> Result<DVector<L::Scalar>, Error> {
+        let along = arc.along(&self.problem, shot);
+        let mut last = DVector::zeros(shot.jacobian.nrows() + 1);
+        last[shot.jacobian.nrows()] = L::Scalar::constant(-1.0);
+        let (none, part) = (L::Scalar::constant(0.0), L::Scalar::constant(L::Scalar::EPSILON));
+        let tangent = least_step(&self.problem.with_row(shot, &along), &last, none, part)?;
+        let length = norm(tangent.as_slice());
+        Ok(tangent / length)
     }
 
     /// The next member, and the step to it.
