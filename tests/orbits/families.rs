@@ -195,7 +195,7 @@ fn halo_orbits_leave_the_plane() {
     let planar = search.family(&first).step(0.02).until_first(BifurcationKind::BranchPoint).follow().unwrap();
     let point = planar.first(BifurcationKind::BranchPoint).unwrap();
     check_point(point, HALO);
-    let halo = search.branch(point).orbits(4).step(0.02).follow().unwrap();
+    let halo = search.branch(point).orbits(12).step(0.02).follow().unwrap();
     assert!(halo.orbits().last().unwrap().start.q[2].abs() > 0.02);
     check_halo(&halo);
 }

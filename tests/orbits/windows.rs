@@ -1,5 +1,7 @@
 //! Windows of instability that lie between two neighbours of a family.
 
+use std::f64::consts::PI;
+
 use lagrange_core::orbits::BifurcationKind;
 use lagrange_core::prelude::*;
 
@@ -29,14 +31,25 @@ fn window_of_a_spring_pendulum() {
     let [first, second] = family.bifurcations() else { panic!("{family}") };
     for (found, [energy, period]) in [first, second].into_iter().zip(WINDOW) {
         assert_eq!(found.kind, BifurcationKind::BranchPoint);
-        assert!((found.value - energy).abs() < 1e-5, "{:e}", found.value - energy);
-        assert!((found.orbit.period - period).abs() < 1e-5, "{:e}", found.orbit.period - period);
+        assert!((found.value - energy).abs() < 1e-11, "{:e}", found.value - energy);
+        assert!((found.orbit.period - period).abs() < 1e-11, "{:e}", found.orbit.period - period);
+        assert!(found.orbit.error < 1e-11, "{:e}", found.orbit.error);
     }
     // An orbit of the window is a member.
     assert_eq!(second.after, first.after + 1);
     let inside = &family.orbits()[second.after];
     assert!((WINDOW[0][0]..WINDOW[1][0]).contains(&inside.energy()), "{family}");
     assert!(inside.multipliers().unwrap()[0].re > 1.01);
+    // Swings of the first branch are not mirrored in x = 0; those of the second are nowhere at rest.
+    let branch = |found, step| search.branch(found).step(step).orbits(3).follow().unwrap();
+    // Straight on, the longer step ends at a swing that is mirrored.
+    for orbit in branch(first, 0.01).orbits().iter().chain(branch(first, 0.8).orbits()) {
+        let path = orbit.system.motion(orbit.start).to(0.5 * orbit.period).unwrap();
+        assert!((path.end().state().q[0] + orbit.start.q[0]).abs() > 0.005, "{orbit}");
+    }
+    for orbit in branch(second, 0.01).orbits() {
+        assert!(orbit.start.v[0].hypot(orbit.start.v[1]) > 0.01, "{orbit}");
+    }
 }
 
 /// Mathieu's swing, ẍ + (δ − 2 ε cos 2t) x = 0 for small x.
@@ -63,7 +76,7 @@ const CHARACTERISTIC: [f64; 6] = [
 #[test]
 fn windows_of_mathieus_swing() {
     let system = Mathieu { delta: 0.5, epsilon: 0.3 };
-    let search = system.periodic_orbit(&State::at_rest([0.0])).period(std::f64::consts::PI);
+    let search = system.periodic_orbit(&State::at_rest([0.0])).period(PI);
     let rest = search.find().unwrap();
     for longest in [0.3, 20.0] {
         let family =
@@ -76,5 +89,35 @@ fn windows_of_mathieus_swing() {
             assert_eq!(found.kind, kind);
             assert!((found.value - exact).abs() < 1e-10, "{k}: {:e}", found.value - exact);
         }
+    }
+}
+
+/// Two swings, of different lengths, that a drive couples.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - delta*(x^2 + 2.3*y^2)/2 - epsilon*cos(2*t)*x*y - (x^4 + y^4)/4)]
+struct Coupled {
+    delta: f64,
+    epsilon: f64,
+}
+
+/// Pairs of multipliers that collide on the circle, and others that pass 1: the swing at rest is unstable on one side of each end.
+#[test]
+fn windows_of_coupled_swings() {
+    let at = |delta| Coupled { delta, epsilon: 0.1 };
+    let (rest, method) = (State::at_rest([0.0, 0.0]), Dop853::with_tolerance(1e-13));
+    let search = at(0.1).periodic_orbit(&rest).period(PI);
+    let family = search.family(&search.find().unwrap()).in_parameter("delta").step(50.0);
+    let family = family.until(|orbit| orbit.system.delta > 5.0).follow().unwrap();
+    assert!(family.bifurcations().len() == 6 && family.lost().is_empty(), "{family}");
+    for (k, found) in family.bifurcations().iter().enumerate() {
+        let kind = if k < 2 { BifurcationKind::Torus } else { BifurcationKind::BranchPoint };
+        assert_eq!(found.kind, kind);
+        let growth = [-1e-8, 1e-8].map(|by| {
+            let around = at(found.value + by).monodromy(&rest, PI, method).unwrap();
+            around.multipliers().unwrap()[0].norm() - 1.0
+        });
+        let (outside, inside) = if k % 2 == 0 { (growth[0], growth[1]) } else { (growth[1], growth[0]) };
+        assert!(outside.abs() < 1e-9 && inside > 1e-6, "{k}: {growth:?}");
     }
 }

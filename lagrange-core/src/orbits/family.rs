@@ -138,7 +138,7 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
     /// Bifurcations are told by functions that change sign from one orbit to the next: the rate of the parameter or energy,
     /// the bordered determinant of the equations, Π(1 − λ), Π(1 + λ) and Π(1 − λλ′) of the multipliers. A change of sign
     /// between two orbits of one curve proves that there is one between. Each is found by regula falsi on the arclength, to
-    /// round-off of the function.
+    /// round-off of the function, and a branch point by interpolation between orbits beside it.
     ///
     /// Two of a kind between neighbours are found, and an orbit between them becomes a member, where the cubic through values and
     /// slopes of the function falls below half of its values at both, and the function then passes zero by more than its noise,
@@ -191,7 +191,7 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
         loop {
             let arc = Arc::from(problem, &member.shot, member.tangent.clone());
             step = smaller(step, L::Scalar::constant(TURN) / slopes.turn);
-            let (next, taken) = tracer.advance(&member, &arc, step)?;
+            let (next, taken) = tracer.advance(&member.shot, &arc, step)?;
             let ahead = tracer.slopes(&next)?;
             let mut reached = tracer.dips((&member, &slopes), &arc, (taken, &next, &ahead))?;
             reached.push((taken, next));

@@ -18,13 +18,14 @@ pub(super) type Located<L> = (Test, PeriodicOrbit<L>, Option<Branch<L>>);
 
 impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tracer<'_, L, D> {
     /// The member at an arclength near that of another.
-    fn beside(
+    pub(super) fn beside(
         &self,
         (length, near): (L::Scalar, &TracedOrbit<L>),
         arc: &Arc<L::Scalar>,
     ) -> Result<TracedOrbit<L>, Error> {
-        let rate = arc.along(&self.problem, &near.shot).dot(&near.tangent);
-        let step = &near.tangent * ((arc.length - length) / rate);
+        // Not along its own direction: near a branch point that is a mixture of both families'.
+        let along = arc.along(&self.problem, &near.shot);
+        let step = &along * ((arc.length - length) / along.norm_squared());
         self.corrected(self.problem.moved_by(&near.shot, &step, false)?, arc)
     }
 
@@ -40,7 +41,10 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
     ) -> (Vec<Located<L>>, Vec<(Test, Error)>) {
         let (mut found, mut lost) = (Vec::new(), Vec::new());
         for test in here.1.changed(&next.1) {
-            let at = self.locate(from, arc, [here, next], test);
+            let at = self.locate(from, arc, [here, next], test).and_then(|at| match test {
+                Test::Determinant => Ok(self.centred(&at, arc, next.0 - here.0)?.unwrap_or(at)),
+                _ => Ok(at),
+            });
             match at {
                 // Real multipliers collide, or have the product 1, without a torus.
                 Ok((_, at))

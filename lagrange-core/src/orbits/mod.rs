@@ -3,6 +3,7 @@
 //! [`PeriodicMotion`] is the way in, a trait of every [`Linearized`] system over `f64` or `f32`.
 
 mod bifurcation;
+mod centre;
 mod conditions;
 mod correction;
 mod dip;

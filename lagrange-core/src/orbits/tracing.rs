@@ -81,8 +81,8 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         if let Some(direction) = start.direction {
             let origin = self.problem.shoot(start.chain, self.method)?;
             let direction = direction * sign;
-            let arc = Arc { length: self.step, ..Arc::from(&self.problem, &origin, direction.clone()) };
-            return self.member(&origin, &arc);
+            let arc = Arc::from(&self.problem, &origin, direction);
+            return self.advance(&origin, &arc, self.step).map(|(first, _)| first);
         }
         let (mut shot, iterations) = self.problem.correct(start.chain, self.method, None, self.tolerance)?;
         shot.chain.units = shot.size();
@@ -158,14 +158,14 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
     /// The next member, and the step to it.
     pub(super) fn advance(
         &self,
-        from: &TracedOrbit<L>,
+        from: &Shot<L>,
         arc: &Arc<L::Scalar>,
         mut step: L::Scalar,
     ) -> Result<(TracedOrbit<L>, L::Scalar), Error> {
         let shortest = self.step * L::Scalar::constant(SHORTEST);
         loop {
             let arc = Arc { length: step, ..arc.clone() };
-            let found = self.member(&from.shot, &arc);
+            let found = self.member(from, &arc);
             let is_short = step * L::Scalar::constant(0.5) < shortest;
             match found {
                 Ok(next) => {
