@@ -5,6 +5,7 @@
 
 mod families;
 mod monodromy;
+mod printing;
 mod shooting;
 mod systems;
 mod windows;

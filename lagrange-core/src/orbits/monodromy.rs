@@ -1,9 +1,11 @@
 //! Derivative of the state at the end of a stretch of motion by the state at its start, and its eigenvalues.
 
 use alloc::vec::Vec;
+use core::fmt::{self, Display, Formatter};
 
 use nalgebra::{Complex, DMatrix};
 
+use super::digits::{Printed, printed, rounded};
 use super::form::{phase_derivatives, symplectic_form};
 use super::multipliers::{logarithm, modulus, of_product, paired};
 use crate::error::Error;
@@ -183,6 +185,39 @@ impl<T: Real> Monodromy<T> {
             _ => Stability::AsymptoticallyStable,
         })
     }
+}
+
+/// Prints how symplectic the matrix is, and the multipliers in pairs with their moduli.
+impl<T: Real> Display for Monodromy<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let error = self.symplectic_error().to_f64();
+        let is = if self.is_symplectic() { "symplectic" } else { "not symplectic" };
+        let duration = rounded(self.duration.to_f64(), printed::<T>() * self.duration.to_f64());
+        writeln!(f, "monodromy over {duration}: {is}, by an error of {error:.1e}")?;
+        let Ok(multipliers) = self.nontrivial() else { return writeln!(f, "multipliers not found") };
+        let mut rest = &multipliers[..];
+        while let [first, others @ ..] = rest {
+            let (x, size) = (Printed(*first), modulus(*first).to_f64());
+            let size = rounded(size, size * printed::<T>());
+            rest = others;
+            match others {
+                [second, others @ ..] if self.is_symplectic() || is_conjugate(*first, *second) => {
+                    rest = others;
+                    writeln!(f, "multipliers {x} and {}, |λ| = {size}", Printed(*second))?;
+                }
+                _ => writeln!(f, "multiplier {x}, |λ| = {size}")?,
+            }
+        }
+        match self.trivial {
+            0 => Ok(()),
+            1 => writeln!(f, "multiplier 1 of the shift along the orbit"),
+            _ => writeln!(f, "multipliers 1 and 1 of the shift along the orbit and of its energy"),
+        }
+    }
+}
+
+fn is_conjugate<T: Real>(x: Complex<T>, y: Complex<T>) -> bool {
+    x.im != T::constant(0.0) && x.re == y.re && x.im == -y.im
 }
 
 /// See [`PeriodicMotion::monodromy_across`](super::PeriodicMotion::monodromy_across).

@@ -6,10 +6,11 @@ use core::fmt::{self, Debug, Display, Formatter};
 use nalgebra::{Complex, DMatrix};
 
 use super::conditions::repeats;
+use super::digits::rounded;
 use super::error::OrbitError;
 use super::frame::{Frame, OrbitUnits};
 use super::monodromy::Monodromy;
-use super::multipliers::{modulus, reciprocal};
+use super::multipliers::reciprocal;
 use super::shot::{Chain, Problem, Shot};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Stability};
@@ -96,24 +97,24 @@ impl<L: Linearized<Scalar: Real>> Debug for PeriodicOrbit<L> {
     }
 }
 
-/// Prints start, period, error and multipliers.
+/// Prints start and period to the digits that the error leaves, the error, and the [`Monodromy`].
 impl<L: Linearized<Scalar: Real>> Display for PeriodicOrbit<L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let error = self.error.to_f64();
+        let part = if error > L::Scalar::EPSILON { error } else { L::Scalar::EPSILON };
+        let digits =
+            |x: L::Scalar, unit: L::Scalar| L::Scalar::constant(rounded(x.to_f64(), part * unit.to_f64()));
         writeln!(
             f,
-            "periodic orbit of {}: period {}, off by {:.1e}",
+            "periodic orbit of {}: period {}, off by {error:.1e}",
             L::NAME,
-            self.period,
-            self.error.to_f64()
+            digits(self.period, self.period)
         )?;
-        writeln!(f, "start: {}", self.start)?;
-        let Ok(multipliers) = self.multipliers() else { return writeln!(f, "multipliers not found") };
-        for multiplier in multipliers {
-            let (re, im, length) =
-                (multiplier.re.to_f64(), multiplier.im.to_f64(), modulus(multiplier).to_f64());
-            writeln!(f, "multiplier {re:+.9e} {im:+.9e} i, modulus {length:.9e}")?;
-        }
-        Ok(())
+        let mut start = self.start;
+        start.q.iter_mut().for_each(|x| *x = digits(*x, self.units.q));
+        start.v.iter_mut().for_each(|x| *x = digits(*x, self.units.v));
+        writeln!(f, "start: {start}")?;
+        write!(f, "{}", self.monodromy)
     }
 }
 

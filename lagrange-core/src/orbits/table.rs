@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use core::fmt::{self, Debug, Display, Formatter, Write};
 
 use super::bifurcation::{Bifurcation, BifurcationKind, Branch, Test};
+use super::digits::parts;
 use super::multipliers::modulus;
 use super::orbit::PeriodicOrbit;
 use crate::error::Error;
@@ -130,7 +131,8 @@ impl<L: Linearized<Scalar: Real>> Family<L> {
             write!(text, ",{x}")?;
         }
         for multiplier in orbit.multipliers().unwrap_or_default() {
-            write!(text, ",{},{}", multiplier.re, multiplier.im)?;
+            let [re, im] = parts(multiplier, 4.0 * L::Scalar::EPSILON);
+            write!(text, ",{re},{im}")?;
         }
         let found = self.after(k).map(|found| alloc::format!("{}", found.kind));
         let lost = self.lost_after(k).map(|lost| alloc::format!("{} not found", lost.kind));
@@ -147,10 +149,19 @@ impl<L: Linearized<Scalar: Real>> Family<L> {
     }
 }
 
-/// Prints a line for the first and last orbit and every tenth between, and one for every bifurcation.
+/// Prints a line for the first and last orbit and every tenth between, and one for every bifurcation, below lines that say so.
 impl<L: Linearized<Scalar: Real>> Display for Family<L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{} periodic orbits of {}", self.orbits.len(), L::NAME)?;
+        writeln!(
+            f,
+            "{} periodic orbits of {}: every tenth, the last, and all bifurcations; `csv` has all orbits",
+            self.orbits.len(),
+            L::NAME
+        )?;
+        writeln!(
+            f,
+            "|λ|: largest modulus of the multipliers that are not 1 for every orbit; an orbit with more than 1 is unstable"
+        )?;
         let name = &self.name;
         writeln!(f, "{:>6} {name:>18} {:>18} {:>9} {:>14}", "", "period", "error", "|λ|")?;
         for (k, orbit) in self.orbits.iter().enumerate() {

@@ -1,0 +1,70 @@
+//! Numbers for people, without digits that are round-off.
+
+use core::fmt::{self, Display, Formatter};
+
+use nalgebra::Complex;
+
+use super::multipliers::modulus;
+use crate::number::{Real, Scalar};
+
+/// Resolution to which multipliers are printed, of their modulus; less precise numbers have that of eight of their last digits.
+pub(super) fn printed<T: Real>() -> f64 {
+    (8.0 * T::EPSILON).max(1e-10)
+}
+
+/// The number rounded to a decimal place that is not beyond the resolution; 0 if it is less.
+pub(super) fn rounded(x: f64, resolution: f64) -> f64 {
+    if Scalar::abs(x) < resolution {
+        return 0.0;
+    }
+    let digits = Scalar::ln(Scalar::abs(x) / resolution) / core::f64::consts::LN_10;
+    let digits = (digits as usize).min(16);
+    alloc::format!("{x:.digits$e}").parse().unwrap_or(x)
+}
+
+/// Real and imaginary part of a multiplier, rounded to this part of its modulus.
+pub(super) fn parts<T: Real>(x: Complex<T>, resolution: f64) -> [f64; 2] {
+    let size = modulus(x).to_f64() * resolution;
+    [x.re, x.im].map(|part| rounded(part.to_f64(), size))
+}
+
+/// A multiplier as printed: without an imaginary part if it is real.
+pub(super) struct Printed<T>(pub(super) Complex<T>);
+
+impl<T: Real> Display for Printed<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [re, im] = parts(self.0, printed::<T>());
+        plain(f, re)?;
+        if im == 0.0 {
+            return Ok(());
+        }
+        f.write_str(if im < 0.0 { " − " } else { " + " })?;
+        plain(f, Scalar::abs(im))?;
+        f.write_str(" i")
+    }
+}
+
+/// Very small and large numbers with an exponent.
+fn plain(f: &mut Formatter<'_>, x: f64) -> fmt::Result {
+    let size = Scalar::abs(x);
+    if x == 0.0 || (1e-4..1e9).contains(&size) { write!(f, "{x}") } else { write!(f, "{x:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_off_is_left_out() {
+        let one = parts(Complex::new(1.000_000_000_000_000_2, -1e-17), 4.0 * f64::EPSILON);
+        assert_eq!(one.map(f64::to_bits), [1.0_f64, 0.0].map(f64::to_bits));
+        assert_eq!(rounded(-123.456_789, 1e-3).to_bits(), (-123.457_f64).to_bits());
+        assert_eq!(rounded(-4e-4, 1e-3).to_bits(), 0);
+        assert!(rounded(f64::NAN, 1e-3).is_nan() && rounded(f64::INFINITY, 1e-3).is_infinite());
+        assert_eq!(
+            alloc::format!("{}", Printed(Complex::new(4.235_217_661_e-5_f64, -0.0))),
+            "4.235217661e-5"
+        );
+        assert_eq!(alloc::format!("{}", Printed(Complex::new(-0.5_f32, -0.25))), "-0.5 − 0.25 i");
+    }
+}
