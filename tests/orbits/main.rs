@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod families;
+mod messages;
 mod monodromy;
 mod printing;
 mod shooting;

@@ -63,6 +63,31 @@ pub enum OrbitError {
         /// Largest velocity left.
         velocity: f64,
     },
+    /// The guess is an equilibrium.
+    StartsAtRest,
+    /// No orbit found, and the energy is less than the potential energy along the motion from the guess.
+    TooLittleEnergy {
+        /// Energy demanded.
+        energy: f64,
+        /// Least energy at rest on the way.
+        least: f64,
+    },
+    /// The entries of a mirror are those of none: one of a coordinate and its velocity changes its sign.
+    NoMirror {
+        /// The coordinate.
+        coordinate: Entry,
+        /// Its velocity.
+        velocity: Entry,
+        /// True if both are named, false if neither is.
+        are_named: bool,
+    },
+    /// No orbit found from a guess at which entries are not zero that change their sign in the mirror.
+    StartOffMirror {
+        /// Such an entry.
+        entry: Entry,
+        /// Its value at the guess.
+        value: f64,
+    },
     /// The motion after half a period is not the mirror image of the half before.
     NotMirrored {
         /// Entry of the state that differs most.
@@ -127,6 +152,23 @@ impl Display for OrbitError {
             Self::Equilibrium { period, velocity } => write!(
                 f,
                 "no orbit of the period {period} near the guess but an equilibrium, with velocities of {velocity:e}: give another period, or fix the energy"
+            ),
+            Self::StartsAtRest => write!(
+                f,
+                "the start is an equilibrium, which closes after any time: move it aside, along a normal mode of frequency ω with the period 2π/ω; `linearize` there has the `natural_frequencies`"
+            ),
+            Self::TooLittleEnergy { energy, least } => write!(
+                f,
+                "no periodic orbit found: the energy {energy} is below the potential energy on the whole way from the guess, {least} or more: give a larger energy, or start where the potential is lower"
+            ),
+            Self::NoMirror { coordinate, velocity, are_named } => write!(
+                f,
+                "a mirror image in time changes the sign of one of `{coordinate}` and `{velocity}`: name one of them in `mirrored`, not {}",
+                if *are_named { "both" } else { "neither" }
+            ),
+            Self::StartOffMirror { entry, value } => write!(
+                f,
+                "no periodic orbit found: the guess has `{entry}` = {value}, which is zero where an orbit meets its mirror image: guess the state there, or leave out `mirrored`"
             ),
             Self::NotMirrored { entry, gap, period } => write!(
                 f,

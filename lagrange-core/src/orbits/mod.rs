@@ -6,6 +6,7 @@ mod bifurcation;
 mod centre;
 mod conditions;
 mod correction;
+mod diagnosis;
 mod digits;
 mod dip;
 mod error;

@@ -11,8 +11,9 @@ use super::shot::{Chain, Problem};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::motion::{Dop853, Simulate};
-use crate::number::{Real, Scalar};
+use crate::number::{Real, Scalar, larger};
 use crate::system::{Lagrangian, StateOf, check_contacts, lookup};
+use crate::trajectory::Trajectory;
 
 /// Settings of a search for a periodic orbit near a state. The method is [`Dop853`] with a tolerance of 10⁻¹³ unless
 /// [`by`](Self::by) sets another.
@@ -66,6 +67,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
     pub fn driven_by(self, frequency: &str, turns: usize) -> Self {
         let found = lookup::index::<L>(L::PARAMETERS, "parameter", frequency);
         self.try_with(|conditions| {
+            let turns = at_least_one("number of turns of the drive", turns)?;
             conditions.period = Period::Driven { rate: found?, turns };
             Ok(())
         })
@@ -102,7 +104,10 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
     /// set. An orbit whose deviations grow by more than 10⁶ in a period needs some. The starts between are those of the motion from
     /// the guess.
     pub fn segments(self, count: usize) -> Self {
-        self.with(|conditions| conditions.segments = count.max(1))
+        self.try_with(|conditions| {
+            conditions.segments = at_least_one("number of segments of an orbit", count)?;
+            Ok(())
+        })
     }
 
     /// Largest residual of an orbit, 10⁻⁹ unless set. The search goes on until a step no longer halves the residual, and fails if it
@@ -129,7 +134,8 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
     /// orbits fill a family.
     ///
     /// # Errors
-    /// [`Error::Orbit`]: no orbit found, with the best start and its gap; no period; a symmetry that the motion does not have.
+    /// [`Error::Orbit`]: no orbit found, with the best start and its gap, or with what is wrong with the guess; no period; a symmetry
+    /// that the motion does not have.
     /// [`Error::UnknownName`] for entries, coordinates or parameters; [`Error::Setting`]; [`Error::Unfinished`] if a segment's
     /// motion fails, with the time; those of [`linearize`](Linearized::linearize).
     pub fn find(&self) -> Result<PeriodicOrbit<L>, Error>
@@ -137,8 +143,11 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
         D: DifferentiableMethod<L> + Clone,
     {
         let problem = self.problem()?;
-        let (shot, iterations) = problem.correct(self.chain()?, &self.method, None, self.tolerance)?;
-        problem.orbit(&shot, iterations, &self.method, self.tolerance)
+        let chain = self.chain()?;
+        let found = problem.correct(chain, &self.method, None, self.tolerance);
+        let orbit = found
+            .and_then(|(shot, iterations)| problem.orbit(&shot, iterations, &self.method, self.tolerance));
+        orbit.map_err(|error| self.explained(error))
     }
 
     /// The equations of the search.
@@ -189,8 +198,18 @@ impl<L: Linearized<Scalar: Real> + Clone, D> OrbitSearch<L, D> {
             motions.push(motion);
         }
         nodes.truncate(conditions.segments);
-        Ok(Chain { system: self.system.clone(), nodes, period, units: OrbitUnits::of(motions.iter()) })
+        let units = OrbitUnits::of(motions.iter());
+        let fastest = motions.iter().flat_map(Trajectory::steps).map(|sample| sample.state().v.amax());
+        let moved = fastest.fold(L::Scalar::constant(0.0), larger) * period;
+        if !L::DEPENDS_ON_TIME && moved <= self.tolerance * units.q {
+            return Err(OrbitError::StartsAtRest.into());
+        }
+        Ok(Chain { system: self.system.clone(), nodes, period, units })
     }
+}
+
+fn at_least_one(name: &'static str, count: usize) -> Result<usize, Error> {
+    if count == 0 { Err(Error::Setting { name, value: 0.0 }) } else { Ok(count) }
 }
 
 impl<L: Lagrangian + Linearized, D> Debug for OrbitSearch<L, D> {

@@ -1,0 +1,90 @@
+//! What searches say of mistakes.
+
+use lagrange_core::orbits::OrbitError;
+use lagrange_core::{Error, prelude::*};
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(theta_dot^2/2 + cos(theta))]
+struct Pendulum;
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
+struct HenonHeiles;
+
+#[track_caller]
+fn orbit_error<T: std::fmt::Debug>(found: Result<T, Error>) -> OrbitError {
+    match found.unwrap_err() {
+        Error::Orbit(error) => *error,
+        other => panic!("{other}"),
+    }
+}
+
+/// At rest every motion closes, whatever its period and energy.
+#[test]
+fn start_at_an_equilibrium() {
+    for (x, y) in [(0.0, 0.0), (0.0, 1.0)] {
+        let search = || HenonHeiles.periodic_orbit(&State::at_rest([x, y])).period_near(6.3);
+        for search in
+            [search(), search().energy(0.1), search().mirrored(&["x", "y_dot"]), search().segments(2)]
+        {
+            assert_eq!(orbit_error(search.find()), OrbitError::StartsAtRest);
+        }
+    }
+    // Small motions about it are orbits.
+    let small = Pendulum.periodic_orbit(&State::at_rest([1e-9])).period_near(6.3).mirrored(&["theta_dot"]);
+    assert!((small.find().unwrap().period - std::f64::consts::TAU).abs() < 1e-9);
+}
+
+#[test]
+fn energy_below_the_potential() {
+    let near = Pendulum.periodic_orbit(&State::at_rest([0.3])).period_near(6.3).energy(-1.5);
+    for search in [near.clone(), near.mirrored(&["theta_dot"])] {
+        let error = orbit_error(search.find());
+        let OrbitError::TooLittleEnergy { energy, least } = error else { panic!("{error}") };
+        assert!(energy == -1.5 && (least + 1.0).abs() < 1e-3, "{error}");
+    }
+    let guess = State::new([0.0, 0.0], [0.0, 0.45]);
+    let error = orbit_error(HenonHeiles.periodic_orbit(&guess).period_near(6.6).energy(-0.1).find());
+    assert!(matches!(error, OrbitError::TooLittleEnergy { .. }), "{error}");
+}
+
+#[test]
+fn mirrors_that_are_none() {
+    let search = |entries: &[&str]| {
+        let guess = State::new([0.1, 0.2], [0.1, 0.45]);
+        HenonHeiles.periodic_orbit(&guess).period_near(6.6).mirrored(entries).energy(0.1).find()
+    };
+    let error = orbit_error(search(&["x"]));
+    assert!(matches!(error, OrbitError::NoMirror { are_named: false, .. }), "{error}");
+    let error = orbit_error(
+        Pendulum
+            .periodic_orbit(&State::at_rest([0.3]))
+            .period_near(6.3)
+            .mirrored(&["theta", "theta_dot"])
+            .find(),
+    );
+    let text = "a mirror image in time changes the sign of one of `theta` and `theta_dot`: name one of them in `mirrored`, not both";
+    assert_eq!(error.to_string(), text);
+    let error = orbit_error(search(&["x_dot", "y_dot"]));
+    let OrbitError::StartOffMirror { entry, value } = &error else { panic!("{error}") };
+    assert_eq!((entry.to_string(), *value), ("x_dot".into(), 0.1));
+}
+
+#[test]
+fn counts_of_nothing() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x)]
+    #[lagrangian(x_dot^2/2 - x^2/2 + x*cos(omega*t))]
+    struct Driven {
+        omega: f64,
+    }
+    let none = Pendulum.periodic_orbit(&State::at_rest([0.3])).period_near(6.3).segments(0).find();
+    assert_eq!(
+        none.unwrap_err().to_string(),
+        "the number of segments of an orbit is 0: it must be positive and finite"
+    );
+    let none = Driven { omega: 2.0 }.periodic_orbit(&State::at_rest([0.3])).driven_by("omega", 0).find();
+    assert!(none.unwrap_err().to_string().starts_with("the number of turns of the drive is 0"));
+}
