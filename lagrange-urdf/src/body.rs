@@ -1,9 +1,8 @@
 //! Mass, centre of mass and inertia of links, and of links that are fixed to each other.
 
-use nalgebra::{Matrix3, Vector3};
-use urdf_rs::Inertial;
-
 use crate::pose::Pose;
+use crate::robot::Inertial;
+use nalgebra::{Matrix3, Vector3};
 
 /// A rigid body in the axes of its link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,9 +17,7 @@ pub(crate) struct Body {
 
 impl Body {
     pub(crate) fn of(inertial: &Inertial) -> Self {
-        let pose = Pose::of(&inertial.origin);
-        Self { m: inertial.mass.value, centre: Vector3::zeros(), inertia: matrix(&inertial.inertia) }
-            .at(&pose)
+        Self { m: inertial.mass, centre: Vector3::zeros(), inertia: inertial.inertia }.at(&inertial.origin)
     }
 
     /// The same body in the axes of a frame in which its own lies at `pose`. Numbers are kept as they are where nothing
@@ -63,12 +60,6 @@ impl Body {
 /// Inertia of a unit mass at `d`, |d|² − d dᵀ.
 fn square(d: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::from_diagonal_element(d.norm_squared()) - d * d.transpose()
-}
-
-/// The matrix of the six entries.
-pub(crate) fn matrix(inertia: &urdf_rs::Inertia) -> Matrix3<f64> {
-    let urdf_rs::Inertia { ixx, ixy, ixz, iyy, iyz, izz } = *inertia;
-    Matrix3::new(ixx, ixy, ixz, ixy, iyy, iyz, ixz, iyz, izz)
 }
 
 #[cfg(test)]

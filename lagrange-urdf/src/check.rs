@@ -2,23 +2,37 @@
 
 use std::collections::HashSet;
 
-use nalgebra::Matrix3;
-use urdf_rs::{Dynamics, Inertial, Joint, JointType, Link, Mimic, Robot};
+use nalgebra::Vector3;
 
-use crate::body;
+use crate::limits;
+use crate::names::suggestion;
+use crate::robot::{Inertial, Joint, JointType, Link, Mimic, Robot};
 use crate::tree::{Moving, by_joint};
 
 /// Returns all errors of single links and joints.
 pub(crate) fn errors(robot: &Robot) -> Vec<String> {
-    let mut errors = Vec::new();
     if robot.links.is_empty() {
-        errors.push("the robot has no link".to_owned());
+        return vec!["the robot has no `<link name=\"…\"/>`: add it, or expand xacro first".to_owned()];
     }
+    let mut errors = Vec::new();
     errors.extend(twice("links", robot.links.iter().map(|link| &link.name)));
     errors.extend(twice("joints", robot.joints.iter().map(|joint| &joint.name)));
     errors.extend(robot.links.iter().flat_map(link_errors));
-    errors.extend(robot.joints.iter().flat_map(|joint| joint_errors(robot, joint)));
+    errors.extend(robot.joints.iter().flat_map(joint_errors));
     errors
+}
+
+/// Errors for links that joints name and that do not exist.
+pub(crate) fn missing_links(robot: &Robot) -> Vec<String> {
+    let known: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
+    let ends = robot.joints.iter().flat_map(|joint| {
+        [("parent", &joint.parent), ("child", &joint.child)].map(|(role, link)| (&joint.name, role, link))
+    });
+    ends.filter(|(.., link)| !known.contains(&link.as_str()))
+        .map(|(joint, role, link)| {
+            format!("joint `{joint}`: there is no link `{link}`, its {role}{}", suggestion(link, &known))
+        })
+        .collect()
 }
 
 fn twice<'a>(what: &str, names: impl Iterator<Item = &'a String>) -> Vec<String> {
@@ -31,14 +45,13 @@ fn twice<'a>(what: &str, names: impl Iterator<Item = &'a String>) -> Vec<String>
 
 fn link_errors(link: &Link) -> Vec<String> {
     let (name, Inertial { origin, mass, inertia }) = (&link.name, &link.inertial);
-    let entries = body::matrix(inertia);
-    let mut numbers = origin.xyz.iter().chain(origin.rpy.iter()).chain(&entries).chain([&mass.value]);
+    let mut numbers = origin.xyz.iter().chain(&origin.rpy).chain(inertia).chain([mass]);
     let mut errors = Vec::new();
     if !numbers.all(|x| x.is_finite()) {
         errors.push(format!("link `{name}`: a number of its inertia is not finite"));
     }
-    if mass.value < 0.0 {
-        errors.push(format!("link `{name}` has a negative mass, {}", mass.value));
+    if *mass < 0.0 {
+        errors.push(format!("link `{name}` has a negative mass, {mass}"));
     }
     errors
 }
@@ -47,7 +60,7 @@ fn link_errors(link: &Link) -> Vec<String> {
 /// Of this moment 64 ε are allowed for the rounding of the eigenvalues: of 100,000 rods, whose excess is zero, the worst
 /// needs between 8 ε and 16 ε. An excess in the 13th digit is seen.
 pub(crate) fn impossible_inertia(link: &Link) -> Option<String> {
-    let entries: Matrix3<f64> = body::matrix(&link.inertial.inertia);
+    let entries = link.inertial.inertia;
     if !entries.iter().all(|x| x.is_finite()) {
         return None;
     }
@@ -70,26 +83,21 @@ pub(crate) fn impossible_inertia(link: &Link) -> Option<String> {
     })
 }
 
-fn joint_errors(robot: &Robot, joint: &Joint) -> Vec<String> {
+fn joint_errors(joint: &Joint) -> Vec<String> {
     let name = &joint.name;
     let mut errors = Vec::new();
-    for (role, link) in [("parent", &joint.parent.link), ("child", &joint.child.link)] {
-        if !robot.links.iter().any(|known| known.name == *link) {
-            errors.push(format!("joint `{name}`: there is no link `{link}`, its {role}"));
-        }
-    }
-    let mut numbers = joint.origin.xyz.iter().chain(joint.origin.rpy.iter()).chain(joint.axis.xyz.iter());
+    let mut numbers = joint.origin.xyz.iter().chain(&joint.origin.rpy).chain(&joint.axis);
     if !numbers.all(|x| x.is_finite()) {
         errors.push(format!("joint `{name}`: a number of its origin or axis is not finite"));
     }
-    let has_axis = !matches!(joint.joint_type, JointType::Fixed | JointType::Floating | JointType::Spherical);
-    if has_axis && joint.axis.xyz.iter().all(|x| *x == 0.0) {
+    let has_axis = !matches!(joint.kind, JointType::Fixed | JointType::Floating | JointType::Spherical);
+    if has_axis && joint.axis == Vector3::zeros() {
         errors.push(format!("joint `{name}` has an axis of length zero"));
     }
-    if joint.dynamics.as_ref().is_some_and(|dynamics| !(dynamics.damping >= 0.0 && dynamics.friction >= 0.0))
-    {
+    if !(joint.damping >= 0.0 && joint.friction >= 0.0) {
         errors.push(format!("joint `{name}` has negative damping or friction"));
     }
+    errors.extend(limits::errors(joint));
     errors
 }
 
@@ -123,22 +131,27 @@ pub(crate) fn weightless(links: &[Moving]) -> Vec<String> {
 
 /// Notes on damping and friction that the equations do not have.
 pub(crate) fn left_out(links: &[Moving], friction: bool) -> Vec<String> {
-    let with = |is: &dyn Fn(&Moving, &Dynamics) -> bool| -> Vec<String> {
+    let with = |is: &dyn Fn(&Moving, &Joint) -> bool| {
         let joints = links.iter().filter_map(|moving| Some((moving, moving.joint?)));
-        let joints = joints
-            .filter(|(moving, joint)| joint.dynamics.as_ref().is_some_and(|dynamics| is(moving, dynamics)));
-        joints.map(|(_, joint)| format!("`{}`", joint.name)).collect()
+        in_quotes(joints.filter(|(moving, joint)| is(moving, joint)).map(|(_, joint)| joint))
     };
     let several = with(&|moving, of| !moving.is_simple() && (of.damping > 0.0 || of.friction > 0.0));
     let dry = with(&|moving, of| moving.is_simple() && of.friction > 0.0 && !friction);
-    let note = |joints: Vec<String>, what: &str| {
-        (!joints.is_empty()).then(|| format!("{what}: {}", joints.join(", ")))
-    };
     let notes = [
         note(several, "damping and friction are left out of joints with several coordinates"),
         note(dry, "dry friction is left out without --friction, of the joints"),
     ];
     notes.into_iter().flatten().collect()
+}
+
+/// Names of joints, separated by commas.
+pub(crate) fn in_quotes<'a>(joints: impl Iterator<Item = &'a Joint>) -> String {
+    joints.map(|joint| format!("`{}`", joint.name)).collect::<Vec<_>>().join(", ")
+}
+
+/// A note on joints, if there are any.
+pub(crate) fn note(joints: String, what: &str) -> Option<String> {
+    (!joints.is_empty()).then(|| format!("{what}: {joints}"))
 }
 
 /// Errors for joints that mimic none that moves by a single coordinate, or each other.
@@ -150,7 +163,15 @@ pub(crate) fn mimic_errors(robot: &Robot, links: &[Moving]) -> Vec<String> {
             _ if !moving.is_simple() => {
                 Some(format!("joint `{name}` has several coordinates, and cannot mimic"))
             }
-            None => Some(format!("joint `{name}` mimics `{other}`, which is no joint that moves")),
+            None => {
+                let known: Vec<&str> = robot.joints.iter().map(|joint| joint.name.as_str()).collect();
+                Some(if known.contains(&other.as_str()) {
+                    format!("joint `{name}` mimics `{other}`, which does not move")
+                } else {
+                    let meant = suggestion(other, &known);
+                    format!("joint `{name}` mimics `{other}`: there is no joint of this name{meant}")
+                })
+            }
             Some(index) if !links[index].is_simple() => {
                 Some(format!("joint `{name}` mimics `{other}`, which has several coordinates"))
             }
@@ -176,9 +197,10 @@ fn goes_round(robot: &Robot, joint: &Joint) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use urdf_rs::{Inertia, Mass};
+    use nalgebra::Matrix3;
 
     use super::*;
+    use crate::pose::Pose;
 
     /// A rod has the largest inertia that a body can have: one moment is the sum of the others, up to rounding.
     #[test]
@@ -187,17 +209,10 @@ mod tests {
             let (height, angle) = (f64::from(k) / 50_000.0 - 1.0, f64::from(k) * 2.399_963);
             let across = (1.0 - height * height).sqrt();
             let [x, y, z] = [across * angle.cos(), across * angle.sin(), height];
-            let inertia = |scale: f64| Inertia {
-                ixx: scale * (1.0 - x * x),
-                ixy: -scale * x * y,
-                ixz: -scale * x * z,
-                iyy: scale * (1.0 - y * y),
-                iyz: -scale * y * z,
-                izz: scale * (1.0 - z * z),
-            };
-            let inertial =
-                Inertial { mass: Mass { value: 1.0 }, inertia: inertia(0.037), ..Inertial::default() };
-            let link = Link { name: "rod".to_owned(), inertial, visual: Vec::new(), collision: Vec::new() };
+            let axis = Vector3::new(x, y, z);
+            let inertia = (Matrix3::identity() - axis * axis.transpose()) * 0.037;
+            let inertial = Inertial { origin: Pose::HERE, mass: 1.0, inertia };
+            let link = Link { name: "rod".to_owned(), inertial };
             assert_eq!(impossible_inertia(&link), None, "{x} {y} {z}");
         }
     }

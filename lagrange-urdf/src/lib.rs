@@ -6,16 +6,21 @@
 
 mod body;
 mod check;
+mod grammar;
+mod limits;
 mod names;
 mod number;
 mod options;
 mod pose;
-mod read;
+mod robot;
 mod steps;
+mod syntax;
 mod tree;
 mod write;
+mod xml;
 
 pub use options::{HELP, Options};
+use robot::Robot;
 use tree::Tree;
 
 /// A robot as Rust.
@@ -23,7 +28,7 @@ use tree::Tree;
 pub struct Import {
     /// Text of a module: a struct with its attributes, default values and the limits of its joints.
     pub rust: String,
-    /// What differs from the description or is missing in it, one sentence each.
+    /// What differs from the description or is missing in it, one sentence each. The text has them as comments.
     pub notes: Vec<String>,
 }
 
@@ -52,11 +57,22 @@ pub struct Import {
 /// # Errors
 /// What the equations of motion cannot do without: one root, a body for each link that moves, axes of some length.
 pub fn import(description: &str, options: &Options) -> Result<Import, Vec<String>> {
-    let mut robot = read::read(description).map_err(|error| vec![error])?;
+    let root = xml::parse(description).map_err(|error| vec![error])?;
+    let found = syntax::check(&root);
+    if !found.errors.is_empty() {
+        return Err(found.errors);
+    }
+    let mut robot = Robot::of(&root);
     let mut errors = options.fix_joints(&mut robot);
     errors.extend(check::errors(&robot));
-    let mut notes: Vec<String> = robot.links.iter().filter_map(check::impossible_inertia).collect();
+    let mut notes: Vec<String> = found.notes().collect();
+    notes.extend(robot.links.iter().filter_map(check::impossible_inertia));
     notes.extend(number::right_angles(&mut robot, options.right_angles));
+    let missing = check::missing_links(&robot);
+    if !missing.is_empty() || robot.links.is_empty() {
+        // Without all links the joints make no tree.
+        return Err(errors.into_iter().chain(missing).collect());
+    }
     let tree = match Tree::new(&robot, options) {
         Ok(tree) if errors.is_empty() => tree,
         Ok(_) => return Err(errors),
@@ -64,7 +80,8 @@ pub fn import(description: &str, options: &Options) -> Result<Import, Vec<String
     };
     notes.extend(check::left_out(&tree.links, options.friction));
     let labels = names::Labels::new(&robot.name, &tree, options);
+    notes.extend(limits::notes(&tree.links));
     notes.extend(labels.notes());
-    let rust = write::write(&robot.name, &tree, &labels, options);
+    let rust = write::write(&robot.name, &tree, &labels, options, &notes);
     Ok(Import { rust, notes })
 }

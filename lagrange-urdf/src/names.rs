@@ -148,6 +148,27 @@ fn type_name(name: &str) -> String {
     name
 }
 
+/// The most similar name, if it is similar enough: the bounds are those of names in `lagrange-core`.
+pub(crate) fn nearest<'a>(name: &str, known: &[&'a str]) -> Option<&'a str> {
+    let allowed = match name.chars().count() {
+        0 | 1 => return None,
+        2..=4 => 1,
+        5..=8 => 2,
+        _ => 3,
+    };
+    let apart = |known: &str| {
+        if known.eq_ignore_ascii_case(name) { 0 } else { strsim::damerau_levenshtein(name, known) }
+    };
+    known.iter().copied().filter(|known| apart(known) <= allowed).min_by_key(|known| apart(known))
+}
+
+/// End of a message on a name that is not known.
+pub(crate) fn suggestion(name: &str, known: &[&str]) -> String {
+    nearest(name, known)
+        .filter(|near| *near != name)
+        .map_or(String::new(), |near| format!(": did you mean `{near}`?"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use urdf_rs::Robot;
+use crate::robot::Robot;
 
 /// A number of Rust, in shortest form.
 pub(crate) fn rust(x: f64) -> String {

@@ -1,6 +1,7 @@
 //! Options of the command line.
 
-use urdf_rs::{JointType, Robot};
+use crate::names::suggestion;
+use crate::robot::{JointType, Robot};
 
 /// Text of `--help`.
 pub const HELP: &str = "\
@@ -17,7 +18,8 @@ Usage: lagrange-urdf [options] robot.urdf > robot.rs
   --name NAME      name of the struct; without it, that of the robot
   --help           this text
 
-What is wrong goes to stderr, all at once, with exit status 1; so do notes on what differs from the description.
+What is wrong goes to stderr, all at once, with exit status 1. Notes on what differs from the description go to stderr, and into
+the file as comments.
 ";
 
 /// Options of an import: which joints move, and what is written.
@@ -84,9 +86,12 @@ impl Options {
     pub(crate) fn fix_joints(&self, robot: &mut Robot) -> Vec<String> {
         let mut errors = Vec::new();
         for name in &self.fixed {
-            match robot.joints.iter_mut().find(|joint| joint.name == *name) {
-                Some(joint) => joint.joint_type = JointType::Fixed,
-                None => errors.push(format!("--fix {name}: there is no joint of this name")),
+            if let Some(joint) = robot.joints.iter_mut().find(|joint| joint.name == *name) {
+                joint.kind = JointType::Fixed;
+            } else {
+                let known: Vec<&str> = robot.joints.iter().map(|joint| joint.name.as_str()).collect();
+                let meant = suggestion(name, &known);
+                errors.push(format!("--fix {name}: there is no joint of this name{meant}"));
             }
         }
         errors

@@ -16,10 +16,6 @@ pub(crate) struct Pose {
 impl Pose {
     pub(crate) const HERE: Self = Self { xyz: Vector3::new(0.0, 0.0, 0.0), rpy: [0.0; 3] };
 
-    pub(crate) fn of(origin: &urdf_rs::Pose) -> Self {
-        Self { xyz: Vector3::from(*origin.xyz), rpy: *origin.rpy }
-    }
-
     /// Rotation that maps components along the new axes to components along the old.
     pub(crate) fn rotation(&self) -> Matrix3<f64> {
         let [(sr, cr), (sp, cp), (sy, cy)] = self.rpy.map(sine_and_cosine);
@@ -56,7 +52,7 @@ fn sine_and_cosine(angle: f64) -> (f64, f64) {
 
 /// Angles of a rotation. Of those that fit at a pitch of ±π/2, any; the rotation is met to round-off there too, because
 /// the roll is taken from what is left after the yaw, whose entries are not small.
-fn roll_pitch_yaw(rotation: &Matrix3<f64>) -> [f64; 3] {
+pub(crate) fn roll_pitch_yaw(rotation: &Matrix3<f64>) -> [f64; 3] {
     let entry = |i, j| rotation[(i, j)] + 0.0;
     let yaw = entry(1, 0).atan2(entry(0, 0));
     let (sine, cosine) = yaw.sin_cos();

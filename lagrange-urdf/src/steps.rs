@@ -1,10 +1,10 @@
 //! Steps from a link to the next, across a joint.
 
 use nalgebra::Vector3;
-use urdf_rs::JointType;
 
 use crate::number::{angle, expression, vector};
 use crate::pose::Pose;
+use crate::robot::JointType;
 
 /// Steps of the place of a joint in its parent: the translation, then yaw, pitch, roll. Zeros are left out.
 pub(crate) fn place(pose: &Pose) -> Vec<String> {
@@ -21,7 +21,7 @@ pub(crate) fn place(pose: &Pose) -> Vec<String> {
 }
 
 /// Steps of the motion of a joint whose coordinate is called `q`, and its orientation `turn` if it has one of its own.
-pub(crate) fn motion(kind: &JointType, axis: &Vector3<f64>, q: &str, turn: &str) -> Vec<String> {
+pub(crate) fn motion(kind: JointType, axis: &Vector3<f64>, q: &str, turn: &str) -> Vec<String> {
     match kind {
         JointType::Revolute | JointType::Continuous => vec![rotation(axis, q)],
         JointType::Prismatic => vec![translation(axis, q)],

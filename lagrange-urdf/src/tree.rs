@@ -3,12 +3,13 @@
 use std::collections::HashMap;
 
 use nalgebra::Vector3;
-use urdf_rs::{Dynamics, Joint, JointType, Link, Mimic, Robot};
 
 use crate::body::Body;
 use crate::check;
+use crate::names::suggestion;
 use crate::options::Options;
 use crate::pose::Pose;
+use crate::robot::{Joint, JointType, Link, Mimic, Robot};
 
 /// A robot without fixed joints.
 pub(crate) struct Tree<'a> {
@@ -34,13 +35,13 @@ pub(crate) struct Moving<'a> {
 }
 
 impl Moving<'_> {
-    pub(crate) fn kind(&self) -> &JointType {
-        self.joint.map_or(&JointType::Floating, |joint| &joint.joint_type)
+    pub(crate) fn kind(&self) -> JointType {
+        self.joint.map_or(JointType::Floating, |joint| joint.kind)
     }
 
     /// Axis of the joint, of length 1.
     pub(crate) fn axis(&self) -> Vector3<f64> {
-        let axis = self.joint.map_or(Vector3::z(), |joint| Vector3::from(*joint.axis.xyz));
+        let axis = self.joint.map_or(Vector3::z(), |joint| joint.axis);
         axis / axis.norm()
     }
 
@@ -61,16 +62,12 @@ impl Moving<'_> {
 
     /// Viscous damping, 0 without.
     pub(crate) fn damping(&self) -> f64 {
-        self.dynamics().map_or(0.0, |dynamics| dynamics.damping)
+        self.joint.filter(|_| self.is_simple()).map_or(0.0, |joint| joint.damping)
     }
 
     /// Dry friction, 0 without.
     pub(crate) fn friction(&self) -> f64 {
-        self.dynamics().map_or(0.0, |dynamics| dynamics.friction)
-    }
-
-    fn dynamics(&self) -> Option<&Dynamics> {
-        self.joint.filter(|_| self.is_simple())?.dynamics.as_ref()
+        self.joint.filter(|_| self.is_simple()).map_or(0.0, |joint| joint.friction)
     }
 }
 
@@ -130,10 +127,10 @@ pub(crate) fn by_joint(links: &[Moving], name: &str) -> Option<usize> {
 
 /// The only link that no joint carries.
 fn root(robot: &Robot) -> Result<&Link, Vec<String>> {
-    let carriers = |link: &Link| robot.joints.iter().filter(|joint| joint.child.link == link.name).count();
+    let carriers = |link: &Link| robot.joints.iter().filter(|joint| joint.child == link.name).count();
     let mut errors = Vec::new();
     for link in robot.links.iter().filter(|link| carriers(link) > 1) {
-        let joints = robot.joints.iter().filter(|joint| joint.child.link == link.name);
+        let joints = robot.joints.iter().filter(|joint| joint.child == link.name);
         let names = list(joints.map(|joint| joint.name.as_str()));
         errors.push(format!(
             "link `{}` is the child of several joints, {names}: a loop must be cut, and closed by a constraint",
@@ -166,7 +163,7 @@ fn grow<'a>(robot: &'a Robot, root: &'a Link, floating: bool) -> (Vec<Moving<'a>
     let links: HashMap<&str, &Link> = robot.links.iter().map(|link| (link.name.as_str(), link)).collect();
     let mut children: HashMap<&str, Vec<&Joint>> = HashMap::new();
     for joint in robot.joints.iter().rev() {
-        children.entry(&joint.parent.link).or_default().push(joint);
+        children.entry(&joint.parent).or_default().push(joint);
     }
     let (mut moving, mut sites) = (Vec::new(), HashMap::new());
     let at_rest = Site { host: None, pose: Pose::HERE };
@@ -175,13 +172,13 @@ fn grow<'a>(robot: &'a Robot, root: &'a Link, floating: bool) -> (Vec<Moving<'a>
     let mut waiting: Vec<&Joint> = children.get(root.name.as_str()).cloned().unwrap_or_default();
     while let Some(joint) = waiting.pop() {
         let (Some(&link), Some(&carrier)) =
-            (links.get(joint.child.link.as_str()), sites.get(joint.parent.link.as_str()))
+            (links.get(joint.child.as_str()), sites.get(joint.parent.as_str()))
         else {
             continue;
         };
-        let origin = carrier.pose.then(&Pose::of(&joint.origin));
+        let origin = carrier.pose.then(&joint.origin);
         let site = Site { host: carrier.host, pose: origin };
-        let site = match joint.joint_type {
+        let site = match joint.kind {
             JointType::Fixed => stay(&mut moving, link, site),
             _ => depart(&mut moving, link, site, Some(joint)),
         };
@@ -217,7 +214,8 @@ fn lost(robot: &Robot, sites: &HashMap<&str, Site>) -> Option<String> {
 
 fn tool<'a>(sites: &HashMap<&'a str, Site>, name: &str) -> Result<Tool<'a>, String> {
     let Some((link, site)) = sites.get_key_value(name) else {
-        return Err(format!("--tool {name}: there is no link of this name"));
+        let known: Vec<&str> = sites.keys().copied().collect();
+        return Err(format!("--tool {name}: there is no link of this name{}", suggestion(name, &known)));
     };
     match site.host {
         Some(host) => Ok(Tool { link, host, place: site.pose }),

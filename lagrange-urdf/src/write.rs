@@ -9,9 +9,9 @@ use crate::options::Options;
 use crate::tree::Tree;
 
 /// Returns the text.
-pub(crate) fn write(name: &str, tree: &Tree, labels: &Labels, options: &Options) -> String {
+pub(crate) fn write(name: &str, tree: &Tree, labels: &Labels, options: &Options, notes: &[String]) -> String {
     let rubs = options.friction && tree.links.iter().any(|moving| moving.friction() > 0.0);
-    let mut lines = head(name, options, rubs);
+    let mut lines = head(name, options, rubs, notes);
     lines.push(format!(
         "/// The robot `{}`: a frame for each link that moves, a coordinate for each joint.",
         one_line(name)
@@ -31,7 +31,7 @@ fn one_line(name: &str) -> String {
     name.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-fn head(name: &str, options: &Options, rubs: bool) -> Vec<String> {
+fn head(name: &str, options: &Options, rubs: bool, notes: &[String]) -> Vec<String> {
     let mut lines = vec![
         format!(
             "// The robot `{}`, written by lagrange-urdf from its description, to be read and edited.",
@@ -39,6 +39,7 @@ fn head(name: &str, options: &Options, rubs: bool) -> Vec<String> {
         ),
         "// SI units, angles in rad; gravity is along −z.".to_owned(),
     ];
+    lines.extend(notes.iter().map(|note| format!("// Note: {}.", one_line(note))));
     lines.push(String::new());
     if rubs {
         lines.push("use lagrange_core::contact::Friction;".to_owned());

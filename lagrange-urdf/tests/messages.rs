@@ -23,7 +23,7 @@ fn joint(name: &str, kind: &str, [parent, child]: [&str; 2], more: &str) -> Stri
 }
 
 fn turns(name: &str, links: [&str; 2]) -> String {
-    joint(name, "revolute", links, "")
+    joint(name, "continuous", links, "")
 }
 
 fn errors_of(parts: &[&str], options: &Options) -> Vec<String> {
@@ -42,26 +42,9 @@ fn imported(parts: &[&str], options: &Options) -> Import {
 }
 
 #[test]
-fn text_that_is_no_description() {
-    for text in ["", "no XML", "<robot name='r'><link/></robot>"] {
-        let errors = import(text, &Options::default()).expect_err("wrong");
-        assert!(errors.concat().starts_with("the description cannot be read: "), "{errors:?}");
-    }
-}
-
-#[test]
-fn an_unknown_type_of_joint() {
-    let error = error_of(&[&link("a"), &link("b"), &joint("j", "screw", ["a", "b"], "")]);
-    assert!(error.contains("`screw`"), "{error}");
-    let types =
-        "the type of a joint is revolute, continuous, prismatic, fixed, floating, planar or spherical";
-    assert!(error.ends_with(types), "{error}");
-}
-
-#[test]
 fn no_link() {
     let errors = errors_of(&[], &Options::default());
-    assert_eq!(errors[0], "the robot has no link");
+    assert_eq!(errors, ["the robot has no `<link name=\"…\"/>`: add it, or expand xacro first"]);
 }
 
 #[test]
@@ -106,6 +89,16 @@ fn a_loop() {
 fn a_link_that_is_not_there() {
     let error = error_of(&[&link("a"), &link("b"), &turns("j", ["a", "b"]), &turns("k", ["b", "c"])]);
     assert_eq!(error, "joint `k`: there is no link `c`, its child");
+    // No link is called a root or part of a cycle because of that.
+    for parents in [["bass_link", "base_link"], ["base_link", "bass_link"]] {
+        let links = [link("base_link"), link("arm"), link("hand")].concat();
+        let [first, second] = parents;
+        let error = error_of(&[&links, &turns("j", [first, "arm"]), &turns("k", [second, "hand"])]);
+        let joint = if first == "bass_link" { "j" } else { "k" };
+        let expected =
+            format!("joint `{joint}`: there is no link `bass_link`, its parent: did you mean `base_link`?");
+        assert_eq!(error, expected);
+    }
 }
 
 #[test]
@@ -190,12 +183,57 @@ fn negative_damping() {
 }
 
 #[test]
+fn limits_that_no_motion_keeps() {
+    let links = [link("a"), link("b")].concat();
+    let with = |limit: &str| joint("j", "revolute", ["a", "b"], &format!("<limit {limit}/>"));
+    for (limit, expected) in [
+        (
+            "lower='1' upper='-1' effort='1' velocity='1'",
+            "joint `j`: its lower limit, 1, is above the upper, -1: exchange them, or correct a sign",
+        ),
+        (
+            "lower='-1' upper='1' effort='-1' velocity='1'",
+            "joint `j`: the limit of its effort, -1, is negative: write the magnitude",
+        ),
+        (
+            "lower='-1' upper='1' effort='1' velocity='-2'",
+            "joint `j`: the limit of its velocity, -2, is negative: write the magnitude",
+        ),
+        ("lower='nan' upper='1' effort='1' velocity='1'", "joint `j`: one of its limits is no number"),
+    ] {
+        assert_eq!(error_of(&[&links, &with(limit)]), expected);
+    }
+    let notes = |joint: &str| imported(&[&links, joint], &Options::default()).notes;
+    for (limit, expected) in [
+        ("lower='-1' upper='1' effort='1' velocity='1'", ""),
+        ("effort='0' velocity='0'", "limits that are all zero are taken as missing, of the joints: `j`"),
+        ("effort='1' velocity='1'", "lower and upper limit are the same, of the joints: `j`"),
+        ("upper='1' effort='0' velocity='1'", "the limit of the effort is zero, of the joints: `j`"),
+        ("upper='1' effort='1' velocity='0'", "the limit of the velocity is zero, of the joints: `j`"),
+    ] {
+        assert_eq!(notes(&with(limit)).concat(), expected);
+    }
+    let missing = "revolute and prismatic joints without <limit> are taken to have no limits: `j`";
+    assert_eq!(notes(&joint("j", "revolute", ["a", "b"], "")), [missing]);
+    // A joint that turns without end may well have none, and needs no positions.
+    assert_eq!(notes(&turns("j", ["a", "b"])), [""; 0]);
+    let endless = joint("j", "continuous", ["a", "b"], "<limit effort='1' velocity='1'/>");
+    assert_eq!(notes(&endless), [""; 0]);
+}
+
+#[test]
 fn joints_that_mimic_none() {
     let links = ["a", "b", "c"].map(link).concat();
-    let of =
-        |name: &str, links, other: &str| joint(name, "revolute", links, &format!("<mimic joint='{other}'/>"));
+    let of = |name: &str, links, other: &str| {
+        joint(name, "continuous", links, &format!("<mimic joint='{other}'/>"))
+    };
     let error = error_of(&[&links, &turns("j", ["a", "b"]), &of("k", ["b", "c"], "x")]);
-    assert_eq!(error, "joint `k` mimics `x`, which is no joint that moves");
+    assert_eq!(error, "joint `k` mimics `x`: there is no joint of this name");
+    let fixed = joint("finger", "fixed", ["a", "b"], "");
+    let error = error_of(&[&links, &fixed, &of("k", ["b", "c"], "finger")]);
+    assert_eq!(error, "joint `k` mimics `finger`, which does not move");
+    let error = error_of(&[&links, &fixed, &of("k", ["b", "c"], "figner")]);
+    assert_eq!(error, "joint `k` mimics `figner`: there is no joint of this name: did you mean `finger`?");
     let errors =
         errors_of(&[&links, &of("j", ["a", "b"], "k"), &of("k", ["b", "c"], "j")], &Options::default());
     let expected =
@@ -238,13 +276,15 @@ fn all_errors_come_at_once() {
 #[test]
 fn names_that_must_change_are_noted() {
     let links = ["a", "elbow"].map(link).concat();
-    let notes = imported(&[&links, &turns("elbow", ["a", "elbow"])], &Options::default()).notes;
-    assert_eq!(notes, ["names that had to change: `elbow` is `elbow_link`"]);
+    let import = imported(&[&links, &turns("elbow", ["a", "elbow"])], &Options::default());
+    let note = "names that had to change: `elbow` is `elbow_link`";
+    assert_eq!(import.notes, [note]);
+    assert!(import.rust.contains(&format!("\n// Note: {note}.\n")), "{}", import.rust);
 }
 
 #[test]
 fn angles_that_are_nearly_right_are_noted_or_read() {
-    let origin = joint("j", "revolute", ["a", "b"], "<origin rpy='0 0 1.5708'/>");
+    let origin = joint("j", "continuous", ["a", "b"], "<origin rpy='0 0 1.5708'/>");
     let parts = [&link("a"), &link("b"), &*origin];
     let kept = imported(&parts, &Options::default());
     assert!(kept.rust.contains("rotate_z(1.5708)") && kept.notes[0].contains("--right-angles"), "{kept:?}");
@@ -256,7 +296,7 @@ fn angles_that_are_nearly_right_are_noted_or_read() {
 fn friction_that_is_left_out_is_noted() {
     let dry = "<dynamics damping='2' friction='1'/>";
     let links = ["a", "b", "c"].map(link).concat();
-    let parts = [&*links, &joint("j", "revolute", ["a", "b"], dry), &joint("k", "planar", ["b", "c"], dry)];
+    let parts = [&*links, &joint("j", "continuous", ["a", "b"], dry), &joint("k", "planar", ["b", "c"], dry)];
     let expected = [
         "damping and friction are left out of joints with several coordinates: `k`",
         "dry friction is left out without --friction, of the joints: `j`",
@@ -298,10 +338,11 @@ fn the_program_says_what_is_wrong_and_fails() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/robots/");
     let arm = format!("{folder}two_link.urdf");
     let written = run(&["--tool", "tip", &arm]);
-    let expected = std::fs::read(format!("{folder}two_link.rs")).expect("a file");
+    let expected = std::fs::read_to_string(format!("{folder}two_link.rs")).expect("a file");
     let note = "note: dry friction is left out without --friction, of the joints: `shoulder`\n";
     assert!(written.status.success());
-    assert_eq!((written.stdout, written.stderr), (expected, note.as_bytes().to_vec()));
+    let [text, said] = [written.stdout, written.stderr].map(|bytes| String::from_utf8(bytes).expect("text"));
+    assert_eq!((text, said.as_str()), (expected, note));
     assert_eq!(run(&["--help"]).stdout, lagrange_urdf::HELP.as_bytes());
     for (arguments, expected) in [
         (&["nowhere.urdf"][..], "error: nowhere.urdf: "),

@@ -1,13 +1,13 @@
 //! Attributes of the struct: coordinates, frames, Lagrangian, forces, observables.
 
 use nalgebra::Vector3;
-use urdf_rs::JointType;
 
 use super::one_line;
 use crate::body::Body;
 use crate::names::{Label, Labels};
 use crate::number::{expression, vector};
 use crate::options::Options;
+use crate::robot::JointType;
 use crate::steps;
 use crate::tree::{Moving, Tool, Tree};
 
@@ -89,11 +89,7 @@ fn mimics(tree: &Tree, labels: &Labels) -> impl Iterator<Item = String> {
     for (moving, label) in tree.links.iter().zip(&labels.links) {
         let Some(mimic) = moving.mimic() else { continue };
         let Some(other) = tree.by_joint(&mimic.joint) else { continue };
-        let value = steps::mimic(
-            &labels.links[other].q,
-            mimic.multiplier.unwrap_or(1.0),
-            mimic.offset.unwrap_or(0.0),
-        );
+        let value = steps::mimic(&labels.links[other].q, mimic.multiplier, mimic.offset);
         found.push((tree.depth(moving), format!("{} = {value}", label.q)));
     }
     found.sort_by_key(|(depth, _)| *depth);
@@ -109,25 +105,13 @@ fn frame(moving: &Moving, label: &Label, labels: &Labels) -> Statement {
 
 fn comment(moving: &Moving) -> String {
     let joint = match moving.joint {
-        Some(joint) => format!("by the {} joint `{}`", kind(moving.kind()), one_line(&joint.name)),
+        Some(joint) => format!("by the {} joint `{}`", moving.kind().name(), one_line(&joint.name)),
         None => "free in space".to_owned(),
     };
     let merged =
         moving.merged.iter().map(|name| format!("`{}`", one_line(name))).collect::<Vec<_>>().join(", ");
     let with = if merged.is_empty() { String::new() } else { format!(", with {merged} fixed to it") };
     format!("// `{}`, {joint}{with}", one_line(&moving.link.name))
-}
-
-fn kind(kind: &JointType) -> &'static str {
-    match kind {
-        JointType::Revolute => "revolute",
-        JointType::Continuous => "continuous",
-        JointType::Prismatic => "prismatic",
-        JointType::Fixed => "fixed",
-        JointType::Floating => "floating",
-        JointType::Planar => "planar",
-        JointType::Spherical => "spherical",
-    }
 }
 
 /// Frame of a tool that is not itself the frame of a moving link.

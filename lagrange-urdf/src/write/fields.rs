@@ -1,12 +1,11 @@
 //! The struct with its fields, and the values of these.
 
-use urdf_rs::JointType;
-
 use super::{columns, one_line};
 use crate::body::Body;
 use crate::names::{Label, Labels};
 use crate::number::rust;
 use crate::options::Options;
+use crate::robot::JointType;
 use crate::tree::{Moving, Tree};
 
 /// A field of the struct.
@@ -77,7 +76,7 @@ fn new(Body { m, centre, inertia: i }: &Body) -> String {
 
 fn of_joint(moving: &Moving, label: &Label, options: &Options) -> Vec<Field> {
     let Some(joint) = moving.joint else { return Vec::new() };
-    let (joint, is_sliding) = (one_line(&joint.name), *moving.kind() == JointType::Prismatic);
+    let (joint, is_sliding) = (one_line(&joint.name), moving.kind() == JointType::Prismatic);
     let (effort, damping) = if is_sliding { ("N", "N s/m") } else { ("N m", "N m s/rad") };
     let number = |name: &String, meaning: String, value: f64| Field {
         name: name.clone(),

@@ -1,10 +1,9 @@
 //! Limits of the joints.
 
-use urdf_rs::{JointLimit, JointType};
-
 use super::columns;
 use crate::names::Labels;
 use crate::number::rust;
+use crate::robot::{JointType, Limit};
 use crate::tree::{Moving, Tree};
 
 pub(super) fn limits(tree: &Tree, labels: &Labels) -> Vec<String> {
@@ -31,16 +30,15 @@ pub(super) fn limits(tree: &Tree, labels: &Labels) -> Vec<String> {
     lines
 }
 
-/// Limits of a joint that has some: those of an element that is missing are all zero.
-fn limit<'a>(moving: &Moving<'a>) -> Option<&'a JointLimit> {
-    let joint = moving.joint.filter(|_| moving.is_simple())?;
-    (joint.limit != JointLimit::default()).then_some(&joint.limit)
+/// Limits of a joint that has some.
+fn limit(moving: &Moving) -> Option<Limit> {
+    moving.joint.filter(|_| moving.is_simple())?.limit.filter(|limit| !limit.is_unset())
 }
 
-fn row(moving: &Moving, q: &str, limit: &JointLimit) -> Vec<String> {
+fn row(moving: &Moving, q: &str, limit: Limit) -> Vec<String> {
     let (lower, upper) = match moving.kind() {
         JointType::Continuous => (f64::NEG_INFINITY, f64::INFINITY),
-        _ => (limit.lower, limit.upper),
+        _ => limit.position.into(),
     };
     vec![
         format!("Limit {{ joint: \"{q}\","),

@@ -1,5 +1,6 @@
 // The robot `cart-and gripper`, written by lagrange-urdf from its description, to be read and edited.
 // SI units, angles in rad; gravity is along −z.
+// Note: names that had to change: `t` is `t_joint`, `left-finger` is `left_finger`, `cart` is `cart_link`.
 
 use lagrange_core::nalgebra::{Matrix3, Vector3};
 use lagrange_core::prelude::*;

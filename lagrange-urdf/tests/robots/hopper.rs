@@ -1,5 +1,6 @@
 // The robot `hopper`, written by lagrange-urdf from its description, to be read and edited.
 // SI units, angles in rad; gravity is along −z.
+// Note: revolute and prismatic joints without <limit> are taken to have no limits: `KNEE`.
 
 use lagrange_core::prelude::*;
 

@@ -1,5 +1,6 @@
 // The robot `two_link`, written by lagrange-urdf from its description, to be read and edited.
 // SI units, angles in rad; gravity is along −z.
+// Note: dry friction is left out without --friction, of the joints: `shoulder`.
 
 use lagrange_core::nalgebra::{Matrix3, Vector3};
 use lagrange_core::prelude::*;
