@@ -24,7 +24,7 @@ pub(super) fn attributes(tree: &Tree, labels: &Labels, options: &Options) -> Vec
     let driven = links().filter(|(moving, _)| moving.is_driven());
     let rubbing = links().filter(|(moving, _)| options.friction && moving.friction() > 0.0);
     [
-        vec![coordinates(tree, labels)],
+        vec![all_coordinates(tree, labels)],
         attribute("define", mimics(tree, labels).map(Statement::from)),
         attribute("frame", frames),
         attribute("parameter", bodies.map(Statement::from)),
@@ -72,13 +72,22 @@ fn friction(moving: &Moving, label: &Label, options: &Options) -> String {
     format!("{}: {}, limit: {bound}, sliding: {bound}", label.friction, rate(moving, label))
 }
 
-fn coordinates(tree: &Tree, labels: &Labels) -> String {
+/// Names of the coordinates of a link that mimics none, each with its length: 1 for a number.
+pub(super) fn coordinates<'a>(moving: &Moving, label: &'a Label) -> Vec<(&'a str, usize)> {
+    match moving.kind() {
+        JointType::Floating => vec![(&label.q, 3), (&label.turn, 4)],
+        JointType::Planar => vec![(&label.q, 3)],
+        JointType::Spherical => vec![(&label.q, 4)],
+        _ => vec![(&label.q, 1)],
+    }
+}
+
+fn all_coordinates(tree: &Tree, labels: &Labels) -> String {
     let links = tree.links.iter().zip(&labels.links).filter(|(moving, _)| moving.mimic().is_none());
-    let entries = links.map(|(moving, Label { q, turn, .. })| match moving.kind() {
-        JointType::Floating => format!("{q}: [3], {turn}: [4]"),
-        JointType::Planar => format!("{q}: [3]"),
-        JointType::Spherical => format!("{q}: [4]"),
-        _ => q.clone(),
+    let entries = links.flat_map(|(moving, label)| coordinates(moving, label));
+    let entries = entries.map(|(name, length)| match length {
+        1 => name.to_owned(),
+        _ => format!("{name}: [{length}]"),
     });
     format!("#[coordinates({})]", entries.collect::<Vec<_>>().join(", "))
 }

@@ -130,12 +130,12 @@ impl Body {
     }
 }
 
-/// Limits of a joint.
+/// Limits of a coordinate, infinite where there are none.
 #[allow(dead_code, reason = "for those who read the limits")]
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
-    /// Name of the joint, as in the coordinates.
-    pub joint: &'static str,
+    /// Its name.
+    pub coordinate: &'static str,
     /// Least and greatest position, in rad or m.
     pub position: [f64; 2],
     /// Greatest speed, in rad/s or m/s.
@@ -145,14 +145,22 @@ pub struct Limit {
 }
 
 impl CartAndGripper {
-    /// Limits of the joints, which the equations do not know.
+    /// Limits of the coordinates, in their order, which the equations do not know.
     #[rustfmt::skip]
     #[allow(dead_code, clippy::approx_constant, reason = "for those who read the limits, as described")]
-    pub const LIMITS: [Limit; 5] = [
-        Limit { joint: "cart",         position: [0.0,               1.5],           velocity: 2.0, effort: 100.0 },
-        Limit { joint: "t_joint",      position: [f64::NEG_INFINITY, f64::INFINITY], velocity: 5.0, effort: 30.0 },
-        Limit { joint: "left_finger",  position: [0.0,               0.04],          velocity: 0.2, effort: 20.0 },
-        Limit { joint: "tilt",         position: [0.0,               0.1],           velocity: 0.5, effort: 20.0 },
-        Limit { joint: "right_finger", position: [0.0,               0.04],          velocity: 0.2, effort: 20.0 },
+    pub const LIMITS: [Limit; 6] = [
+        Limit { coordinate: "cart",        position: [0.0,               1.5],           velocity: 2.0,           effort: 100.0 },
+        Limit { coordinate: "t_joint",     position: [f64::NEG_INFINITY, f64::INFINITY], velocity: 5.0,           effort: 30.0 },
+        Limit { coordinate: "left_finger", position: [0.0,               0.04],          velocity: 0.2,           effort: 20.0 },
+        Limit { coordinate: "sliding[0]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "sliding[1]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "sliding[2]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+    ];
+    /// Limits of joints that mimic others.
+    #[rustfmt::skip]
+    #[allow(dead_code, clippy::approx_constant, reason = "for those who read the limits, as described")]
+    pub const MIMIC_LIMITS: [Limit; 2] = [
+        Limit { coordinate: "tilt",         position: [0.0, 0.1],  velocity: 0.5, effort: 20.0 },
+        Limit { coordinate: "right_finger", position: [0.0, 0.04], velocity: 0.2, effort: 20.0 },
     ];
 }

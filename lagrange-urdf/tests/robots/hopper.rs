@@ -64,12 +64,12 @@ impl Default for Hopper {
     }
 }
 
-/// Limits of a joint.
+/// Limits of a coordinate, infinite where there are none.
 #[allow(dead_code, reason = "for those who read the limits")]
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
-    /// Name of the joint, as in the coordinates.
-    pub joint: &'static str,
+    /// Its name.
+    pub coordinate: &'static str,
     /// Least and greatest position, in rad or m.
     pub position: [f64; 2],
     /// Greatest speed, in rad/s or m/s.
@@ -79,10 +79,22 @@ pub struct Limit {
 }
 
 impl Hopper {
-    /// Limits of the joints, which the equations do not know.
+    /// Limits of the coordinates, in their order, which the equations do not know.
     #[rustfmt::skip]
     #[allow(dead_code, clippy::approx_constant, reason = "for those who read the limits, as described")]
-    pub const LIMITS: [Limit; 1] = [
-        Limit { joint: "HIP", position: [-1.0, 1.0], velocity: 10.0, effort: 30.0 },
+    pub const LIMITS: [Limit; 13] = [
+        Limit { coordinate: "place[0]", position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "place[1]", position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "place[2]", position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "turn[0]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "turn[1]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "turn[2]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "turn[3]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "HIP",      position: [-1.0,              1.0],           velocity: 10.0,          effort: 30.0 },
+        Limit { coordinate: "KNEE",     position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "ball[0]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "ball[1]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "ball[2]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
+        Limit { coordinate: "ball[3]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
     ];
 }

@@ -53,6 +53,16 @@ fn texts_are_as_they_were() {
     is_written("hopper.urdf", "hopper.rs", &options);
 }
 
+/// Limits and states can be gone through together.
+#[test]
+fn there_is_a_limit_for_each_coordinate() {
+    use {gripper::CartAndGripper, hopper::Hopper, two_link::TwoLink};
+    assert_eq!(TwoLink::LIMITS.map(|limit| limit.coordinate), TwoLink::COORDINATES);
+    assert_eq!(CartAndGripper::LIMITS.map(|limit| limit.coordinate), CartAndGripper::COORDINATES);
+    assert_eq!(Hopper::LIMITS.map(|limit| limit.coordinate), Hopper::COORDINATES);
+    assert_eq!(CartAndGripper::MIMIC_LIMITS.map(|limit| limit.coordinate), ["tilt", "right_finger"]);
+}
+
 /// Numbers from −1 to 1, the same in every run (Marsaglia's xorshift).
 struct Random(u64);
 

@@ -53,12 +53,12 @@ impl Default for Rubbing {
     }
 }
 
-/// Limits of a joint.
+/// Limits of a coordinate, infinite where there are none.
 #[allow(dead_code, reason = "for those who read the limits")]
 #[derive(Clone, Copy, Debug)]
 pub struct Limit {
-    /// Name of the joint, as in the coordinates.
-    pub joint: &'static str,
+    /// Its name.
+    pub coordinate: &'static str,
     /// Least and greatest position, in rad or m.
     pub position: [f64; 2],
     /// Greatest speed, in rad/s or m/s.
@@ -68,11 +68,11 @@ pub struct Limit {
 }
 
 impl Rubbing {
-    /// Limits of the joints, which the equations do not know.
+    /// Limits of the coordinates, in their order, which the equations do not know.
     #[rustfmt::skip]
     #[allow(dead_code, clippy::approx_constant, reason = "for those who read the limits, as described")]
     pub const LIMITS: [Limit; 2] = [
-        Limit { joint: "shoulder", position: [-2.5, 2.5], velocity: 3.0, effort: 40.0 },
-        Limit { joint: "elbow",    position: [-1.5, 2.0], velocity: 4.0, effort: 15.0 },
+        Limit { coordinate: "shoulder", position: [-2.5, 2.5], velocity: 3.0, effort: 40.0 },
+        Limit { coordinate: "elbow",    position: [-1.5, 2.0], velocity: 4.0, effort: 15.0 },
     ];
 }
