@@ -6,8 +6,6 @@ use super::value::Value;
 use crate::diagnostics::Place;
 use crate::syntax::{Expression, Kind, Name, arrays};
 
-pub(super) const NO_ELEMENTS: &str = "this is a scalar: it has no elements";
-
 /// A field, and the indices and members after its name.
 pub(super) struct Access<'e> {
     pub(super) field: usize,
@@ -153,7 +151,11 @@ impl Lowering<'_> {
         match layout.lengths[..end].get(reached.indices.len()) {
             Some(&length) => self.checked(i, length, index.place),
             None if is_struct => self.report(reached.place, "this is one struct: it has no elements"),
-            None => self.report(reached.place, NO_ELEMENTS),
+            None => {
+                let is_bare = reached.indices.is_empty() && reached.members.is_empty();
+                let bare = is_bare.then(|| self.parameters.fields[reached.root].name.text.clone());
+                self.no_elements(reached.place, bare.as_deref())
+            }
         }
     }
 

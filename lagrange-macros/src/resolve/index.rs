@@ -1,7 +1,8 @@
 //! Elements and slices of arrays, fields and families.
 
-use super::access::{AccessPart, NO_ELEMENTS};
+use super::access::AccessPart;
 use super::lowering::Lowering;
+use super::parameters::text;
 use super::scope::Entity;
 use super::value::Value;
 use crate::diagnostics::Place;
@@ -32,9 +33,33 @@ impl Lowering<'_> {
 
     fn item(&mut self, value: &Value, (base, index): Indexed<'_>) -> Option<Value> {
         let i = self.integer(index)?;
-        let Some(length) = value.length() else { return self.report(base.place, NO_ELEMENTS) };
+        let Some(length) = value.length() else {
+            let name = if let Kind::Name(name) = &base.kind { Some(name.text.as_str()) } else { None };
+            return self.no_elements(base.place, name);
+        };
         let i = self.checked(i, length, index.place)?;
         value.item(i)
+    }
+
+    /// Reports an index into a number, and says at the declaration of a name how it would have elements.
+    pub(super) fn no_elements<T>(&mut self, place: Place, name: Option<&str>) -> Option<T> {
+        self.report::<T>(place, "this is a scalar: it has no elements");
+        let name = name.filter(|name| self.locals.iter().all(|(local, _)| local != name))?;
+        let (entity, declared) = self.scope.entities.get(name)?;
+        let (what, written, declared) = match *entity {
+            Entity::Coordinate(index) | Entity::Velocity(index) | Entity::Acceleration(index) => {
+                let mut entities = self.scope.entities.iter();
+                let (of, _) = entities.find(|(_, (entity, _))| *entity == Entity::Coordinate(index))?;
+                (of.as_str(), format!("`{of}: [n]`"), *declared)
+            }
+            Entity::Field(index) => {
+                let field = &self.parameters.fields[index];
+                (name, format!("its type as `[{}; n]`", text(&field.ty)), field.place)
+            }
+            Entity::Definition(_) => (name, format!("a family, `{name}[i in 0..n] = …`"), *declared),
+            Entity::Function(_) | Entity::Frame => return None,
+        };
+        self.report(declared, format!("`{what}` is one number here: for n of them write {written}"))
     }
 
     /// Lowers `base[from..to]` element by element, so that unused elements of a large field cost nothing.

@@ -1,5 +1,8 @@
 //! Parameters: the entries of fields that expressions use.
 
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
 use indexmap::{IndexMap, IndexSet};
 use quote::ToTokens;
 
@@ -347,9 +350,20 @@ impl Parameters {
         let mut used: Vec<usize> = self.entries.iter().map(|entry| entry.field).collect();
         used.sort_unstable();
         used.dedup();
-        for index in used {
+        let of_field = |index: usize| match &self.fields[index].shape {
+            Ok(FieldShape { scalar: Some(scalar), .. }) => Some(scalar),
+            _ => None,
+        };
+        // A number type that most fields have comes first: the others are at fault.
+        let names: Vec<String> =
+            used.iter().map(|&index| of_field(index).map_or(String::new(), text)).collect();
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        names.iter().for_each(|name| *counts.entry(name).or_default() += 1);
+        let mut used: Vec<(usize, &String)> = used.into_iter().zip(&names).collect();
+        used.sort_by_key(|(_, name)| (!is_scalar_name(name, declaration), Reverse(counts[name.as_str()])));
+        for (index, _) in used {
             let field = &self.fields[index];
-            let Ok(FieldShape { scalar: Some(scalar), .. }) = &field.shape else { continue };
+            let Some(scalar) = of_field(index) else { continue };
             match &found {
                 None => {
                     let name = text(scalar);
@@ -359,11 +373,13 @@ impl Parameters {
                     found = Some((scalar.clone(), index));
                 }
                 Some((known, _)) if text(known) == text(scalar) => {}
-                Some((known, _)) => {
+                Some((known, first)) => {
                     let (known, scalar) = (text(known), text(scalar));
+                    let first =
+                        self.fields.get(*first).map_or("#[lagrange(scalar = …)]", |field| &field.name.text);
                     let message = match is_scalar_name(&scalar, declaration) {
                         true => format!(
-                            "one system computes in one number type: this is `{scalar}`, but others are `{known}`"
+                            "one system computes in one number type: this is `{scalar}`, but `{first}` says `{known}`"
                         ),
                         false => not_a_scalar(field, &scalar),
                     };
