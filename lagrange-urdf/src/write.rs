@@ -16,6 +16,13 @@ pub(crate) fn write(name: &str, tree: &Tree, labels: &Labels, options: &Options,
         "/// The robot `{}`: a frame for each link that moves, a coordinate for each joint.",
         one_line(name)
     ));
+    if rubs {
+        lines.push("///".to_owned());
+        lines.push(
+            "/// Its joints stick and slide in motions `robot.motion(start).with_contacts().to(end)`."
+                .to_owned(),
+        );
+    }
     lines.push("#[derive(Clone, Debug, Lagrangian)]".to_owned());
     if labels.have_capitals() {
         lines.push("#[allow(non_snake_case)]".to_owned());

@@ -5,6 +5,8 @@ use lagrange_core::contact::Friction;
 use lagrange_core::prelude::*;
 
 /// The robot `two_link`: a frame for each link that moves, a coordinate for each joint.
+///
+/// Its joints stick and slide in motions `robot.motion(start).with_contacts().to(end)`.
 #[derive(Clone, Debug, Lagrangian)]
 #[coordinates(shoulder, elbow)]
 #[frame(
