@@ -237,7 +237,11 @@ fn what_is_no_body_is_refused() {
     let state = State::new([0.3], [0.2]);
     let told = |bodies: &[&str]| odd.regressor(&state, &[1.0].into(), bodies).unwrap_err().to_string();
     assert!(told(&["odd"]).contains("not linear in the masses"), "{}", told(&["odd"]));
-    assert!(told(&["even"]).contains("no parameter `even.m`"), "{}", told(&["even"]));
+    // The name of a frame, one with a slip, and another.
+    assert!(told(&["od"]).ends_with("`od`: did you mean `odd`?"), "{}", told(&["od"]));
+    assert!(told(&["dod"]).ends_with("`dod`: did you mean `odd`?"), "{}", told(&["dod"]));
+    assert!(told(&["wheels"]).ends_with("`wheels`: there are `odd`"), "{}", told(&["wheels"]));
+    assert!(told(&["odd.inertia"]).ends_with("there are `odd`"), "{}", told(&["odd.inertia"]));
     // At m = 2 its derivative is that at m = 1 of another law.
     for m in [0.0, 1.0, 2.0] {
         let odd = Odd { odd: Body { m, ..odd.odd } };

@@ -72,13 +72,13 @@ pub(crate) fn unknown<L: Lagrangian>(known: &[impl AsRef<str>], kind: &'static s
                 format!("there are {names}; a field is a parameter if an expression of the system names it")
             })
         };
-        meaning::<L>(name).or_else(near).or_else(idle)
+        meaning::<L>(kind, name).or_else(near).or_else(idle)
     };
     Error::UnknownName { name: name.into(), kind, hint, known }
 }
 
-/// Returns the meaning of a name, and the method of a sample that returns its value.
-fn meaning<L: Lagrangian>(name: &str) -> Option<String> {
+/// Returns the meaning of a name, and the method of a sample that returns its value, or what else is a parameter.
+fn meaning<L: Lagrangian>(kind: &str, name: &str) -> Option<String> {
     let coordinates = L::COORDINATES.iter().copied().flat_map(|x| {
         let (base, index) = x.split_at(x.find('[').unwrap_or(x.len()));
         let derived = |name, method| (name, format!("the {method} of `{x}`"), method, x);
@@ -102,7 +102,14 @@ fn meaning<L: Lagrangian>(name: &str) -> Option<String> {
     let found = named.find(|(known, ..): &(String, String, &str, &str)| is_part(known, name));
     let said = found.map(|(known, what, method, of)| {
         let it = if known == name { "it".into() } else { format!("its element `{known}`") };
-        format!("{it} is {what}, which a sample's `{method}(\"{of}\")` gives")
+        match method {
+            "coordinate" | "velocity" | "acceleration" if kind == "parameter" => {
+                format!(
+                    "{it} is {what}; a parameter is a field, such as the force `u` of `#[force({of}: u)]`"
+                )
+            }
+            _ => format!("{it} is {what}, which a sample's `{method}(\"{of}\")` gives"),
+        }
     });
     said.or_else(|| match name {
         "t" | "time" => {

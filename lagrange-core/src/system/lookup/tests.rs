@@ -91,8 +91,10 @@ fn a_name_that_is_nearly_right_is_suggested() {
     let error = NAMED.state_from(&[("theta_dto", 1.0)]).unwrap_err().to_string();
     assert_eq!(error, "there is no coordinate or velocity `theta_dto`: did you mean `theta_dot`?");
     let error = NAMED.linearize(&start(), &["theta"]).unwrap_err().to_string();
-    let meaning = "it is a coordinate, which a sample's `coordinate(\"theta\")` gives";
-    assert_eq!(error, std::format!("there is no parameter `theta`: {meaning}"));
+    let advice = "a parameter is a field, such as the force `u` of `#[force(theta: u)]`";
+    assert_eq!(error, std::format!("there is no parameter `theta`: it is a coordinate; {advice}"));
+    let error = NAMED.linearize(&start(), &["theta_dot"]).unwrap_err().to_string();
+    assert!(error.ends_with(&std::format!("it is the velocity of `theta`; {advice}")), "{error}");
     let error = NAMED.equilibrium(&start(), &["thta"]).unwrap_err();
     assert!(error.to_string().ends_with("`thta`: did you mean `theta`?"), "{error}");
     // A name that is not similar to any gets the list of names.

@@ -31,7 +31,8 @@ pub struct BaseParameters<T> {
 }
 
 impl<T: Real> BaseParameters<T> {
-    /// Base parameters for motions through states with these regressors, all of the same bodies.
+    /// Base parameters for motions through states with these regressors, all of the same bodies. Without regressors there are
+    /// none.
     ///
     /// # Errors
     /// [`Error::BaseParametersUndecided`], with the parameter; [`Error::OtherBodies`].

@@ -14,6 +14,7 @@ use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::{check_parameters, set_parameter};
 use crate::linearized::tangent::Tangent;
+use crate::names::similar::{listed, nearest};
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, exceeds, larger, largest, power_of_epsilon};
 use crate::solution::solve::first_row;
@@ -78,13 +79,28 @@ fn indices<L: Linearized>(bodies: &[&str]) -> Result<Vec<Indices>, Error> {
         for (place, name) in
             found.iter_mut().zip(ten(["m", "centre", "inertia"].map(|member| format!("{body}.{member}"))))
         {
-            let missing = || refused(&format!("there is no parameter `{name}`"));
+            let missing = || refused(&meant::<L>(body).unwrap_or(format!("there is no parameter `{name}`")));
             *place = index(&name).ok_or_else(missing)?;
         }
         Ok(found)
     };
     bodies.iter().map(of).collect()
 }
+/// Suggests a body for a name none of whose members is a parameter: of a link one may know the frame.
+fn meant<L: Linearized>(name: &str) -> Option<String> {
+    if L::PARAMETERS.iter().any(|known| known.strip_prefix(name).is_some_and(|rest| rest.starts_with('.'))) {
+        return None;
+    }
+    let bodies = L::PARAMETERS.iter().filter_map(|known| known.strip_suffix(".inertia[0][0]"));
+    let bodies: Vec<String> = bodies.map(Into::into).collect();
+    let longer = bodies.iter().filter(|body| body.starts_with(name)).min_by_key(|body| body.len());
+    Some(match longer.or_else(|| nearest(name, &bodies)) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if bodies.is_empty() => return None,
+        None => format!("there are {}", listed(name, &bodies)),
+    })
+}
+
 /// Names of a mass, of three components and of the entries of an inertia.
 fn ten([mass, vector, inertia]: [String; 3]) -> impl Iterator<Item = String> {
     let components = (0..3).map(move |k| format!("{vector}[{k}]"));
