@@ -76,7 +76,7 @@ impl<T: Real> Law<'_, T> {
             is[c] = forces.forces[row];
             pulled[c] = is[c] - forces.rates[row] / response;
             terms[c] = Scalar::abs(self.rates[row]) + self.size(row, forces);
-            noise = noise + self.noise[row];
+            noise += self.noise[row];
         }
         let nearest = allowed(pulled);
         let defect = response * length([nearest[0] - is[0], nearest[1] - is[1]]);
