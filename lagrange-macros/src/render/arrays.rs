@@ -4,6 +4,7 @@ use rustc_hash::FxHashSet;
 
 use super::axes::named_axes;
 use super::formula::Formula;
+use super::letters::{Letters, Quantity};
 use super::links::BodyNames;
 use super::roots::{is_taken, taken};
 use crate::mechanics::Derived;
@@ -13,19 +14,23 @@ use crate::resolve::Problem;
 pub(super) struct Arrays(FxHashSet<String>);
 
 impl Arrays {
-    pub(super) fn of(problem: &Problem, derived: &Derived) -> Self {
+    pub(super) fn of(problem: &Problem, derived: &Derived, letters: &Letters) -> Self {
         let turnings = &derived.turnings;
         let mut arrays = Self(FxHashSet::default());
         for label in &problem.coordinates {
-            ["", "p_", "R_", "Q_"].iter().for_each(|of| arrays.add(&format!("{of}{}", label.text)));
+            arrays.add(&label.text);
+            let of_coordinate = [Quantity::Momentum, Quantity::ConstraintForce, Quantity::Force];
+            of_coordinate.iter().for_each(|&quantity| arrays.add(&letters.text_of(quantity, &label.text)));
         }
         (0..problem.parameters.entries.len()).for_each(|k| arrays.add(&problem.parameters.name(k)));
         for turning in &turnings.all {
             let quaternion = problem.coordinates[turning.first].text.trim_end_matches("[0]");
-            ["omega_", "I_"].iter().for_each(|of| arrays.add(&format!("{of}{quaternion}[0]")));
+            let [rate, inertia] = [Quantity::AngularVelocity, Quantity::Inertia]
+                .map(|quantity| letters.text_of(quantity, quaternion));
+            [rate, inertia].iter().for_each(|name| arrays.add(&format!("{name}[0]")));
         }
         named_axes(problem, turnings).iter().for_each(|axes| arrays.add(&format!("{}[0][0]", axes.text)));
-        BodyNames::of(problem, derived).iter().for_each(|names| arrays.add_bodies(names));
+        BodyNames::of(problem, derived, letters).iter().for_each(|names| arrays.add_bodies(names));
         let taken = taken(problem);
         let is_free = |name: &&str| !is_taken(&taken, name);
         let constraints = problem.constraints.iter().map(|(label, _)| &*label.text);

@@ -7,7 +7,7 @@ use super::lines::{Equation, Line};
 use super::motion::vector;
 use super::page::Page;
 use super::remark::{Fragment, Remark};
-use super::roots::taken;
+use super::roots::{is_taken, taken};
 use crate::mechanics::Turnings;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Node};
@@ -46,7 +46,7 @@ pub(super) fn named_axes(problem: &Problem, turnings: &Turnings) -> Vec<NamedAxe
     });
     let turned: Vec<_> = turned.collect();
     let is_free =
-        |letter: &&&str| turned.iter().all(|(quaternion, _)| !taken.contains(&name(letter, quaternion)));
+        |letter: &&&str| turned.iter().all(|(quaternion, _)| !is_taken(&taken, &name(letter, quaternion)));
     let Some(letter) = LETTERS.iter().find(is_free) else { return Vec::new() };
     let named = turned.iter().map(|&(quaternion, [written, entries])| {
         let nodes = [entries, written]

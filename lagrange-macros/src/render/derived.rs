@@ -152,7 +152,7 @@ impl Page<'_> {
             Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
             Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
             Variable::Switch(k) => Formula::labelled(&self.problem.parameters.name_of_switch(k), 0),
-            Variable::Momentum(i) => Formula::momentum(&self.problem.coordinates[i].text, 0),
+            Variable::Momentum(i) => self.momentum_name(&self.problem.coordinates[i].text, 0),
             // All other variables occur in generated functions only, never in an equation.
             only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),
         }

@@ -2,6 +2,7 @@
 
 use super::formula::Formula;
 use super::length::length;
+use super::letters::Quantity;
 use super::lines::{Equation, Line};
 use super::page::Page;
 use super::remark::{Fragment, Remark};
@@ -11,10 +12,6 @@ use crate::variables::Variable;
 
 /// Longest potential energy, in symbols, that is repeated in the remark on the energy.
 const LONG: usize = 30;
-
-fn name(text: &str) -> Formula {
-    Formula::labelled(text, 0)
-}
 
 fn sum(terms: [Formula; 2]) -> Fragment {
     Fragment::Formula(Formula::Sum(terms.to_vec()))
@@ -53,11 +50,11 @@ impl Page<'_> {
             return Vec::new();
         }
         let mut remark = self.energy_form();
-        let changes: Vec<Formula> = facts.energy_changes.iter().map(|(part, _)| change(*part)).collect();
+        let changes: Vec<Formula> = facts.energy_changes.iter().map(|(part, _)| self.change(*part)).collect();
         if changes.is_empty() {
             return vec![self.energy_line(remark)];
         }
-        let rate = Formula::Call("der".to_owned(), vec![name("E")]);
+        let rate = Formula::Call("der".to_owned(), vec![self.letters.name(Quantity::Energy)]);
         let changes = Fragment::Formula(Formula::sum(changes));
         let of_turnings = self.derived.turnings.energy.map(|[_, rate]| rate);
         let known = Some(of_turnings.unwrap_or(facts.energy_rate))
@@ -86,11 +83,13 @@ impl Page<'_> {
             let apart = self.derived.energies.and_then(|energies| self.energy(energies));
             apart.map_or_else(|| self.quantity(self.derived.equations.energy), Ok)
         });
-        Line { remark: Remark::of(remark), ..Line::known(name("E"), energy) }
+        Line { remark: Remark::of(remark), ..Line::known(self.letters.name(Quantity::Energy), energy) }
     }
 
     fn energy_form(&self) -> Vec<Fragment> {
-        let t_plus_u = || sum([name("T"), name("U")]);
+        let letter = |quantity| self.letters.name(quantity);
+        let t_plus_u = || sum([letter(Quantity::Kinetic), letter(Quantity::Potential)]);
+        let of_degree = |degree| self.letters.name_of(Quantity::Lagrangian, degree, 0);
         match self.derived.facts.energy_form {
             EnergyForm::Sum(_) => vec![t_plus_u()],
             EnergyForm::Even(_) if !self.has_moving_masses() => self.if_potential(t_plus_u()),
@@ -98,12 +97,13 @@ impl Page<'_> {
                 vec![Fragment::words("not "), t_plus_u(), Fragment::words(", as positions move with time")]
             }
             EnergyForm::Even(_) | EnergyForm::Quadratic => {
-                let parts = sum([name("L_2"), name("L_0").negated()]);
+                let parts = sum([of_degree("2"), of_degree("0").negated()]);
                 vec![parts, Fragment::words(" by degree in the velocities")]
             }
             EnergyForm::General => {
-                let product = vec![name("p"), Formula::labelled("q", 1)];
-                vec![sum([Formula::Call("dot".to_owned(), product), name("L").negated()])]
+                let product = vec![letter(Quantity::Momentum), Formula::labelled("q", 1)];
+                let product = Formula::Call("dot".to_owned(), product);
+                vec![sum([product, letter(Quantity::Lagrangian).negated()])]
             }
         }
     }
@@ -116,27 +116,35 @@ impl Page<'_> {
 
     /// T + U on the condition that U is −L at rest, which L alone cannot decide.
     fn if_potential(&self, t_plus_u: Fragment) -> Vec<Fragment> {
-        let is = [Fragment::words(" if "), Fragment::Formula(name("U")), Fragment::words(" is ")];
+        let letter = |quantity| Fragment::Formula(self.letters.name(quantity));
+        let is = [Fragment::words(" if "), letter(Quantity::Potential), Fragment::words(" is ")];
         let potential = self.derived.energies.map(|[_, potential]| potential);
         let written = potential.and_then(|potential| self.part_of_energy(potential).ok());
         let (sum, potential) = match (potential, written) {
-            (Some(Id::ZERO), _) => (Fragment::Formula(name("T")), vec![Fragment::words("0")]),
+            (Some(Id::ZERO), _) => (letter(Quantity::Kinetic), vec![Fragment::words("0")]),
             (_, Some(written)) if length(&written) <= LONG => (t_plus_u, vec![Fragment::Formula(written)]),
-            _ => (t_plus_u, vec![Fragment::Formula(name("L").negated()), Fragment::words(" at rest")]),
+            _ => {
+                let negative = self.letters.name(Quantity::Lagrangian).negated();
+                (t_plus_u, vec![Fragment::Formula(negative), Fragment::words(" at rest")])
+            }
         };
         [sum].into_iter().chain(is).chain(potential).collect()
     }
-}
 
-/// Contribution to the rate of change of the energy: −∂L/∂t, Q·q̇ or −λ·b.
-fn change(part: EnergyChange) -> Formula {
-    let product = |one, other| Formula::Call("dot".to_owned(), vec![one, other]);
-    match part {
-        EnergyChange::Time => {
-            let by = vec![name("t")];
-            Formula::Partial { function: Box::new(name("L")), by, arguments: Vec::new() }.negated()
+    /// Contribution to the rate of change of the energy: −∂L/∂t, Q·q̇ or −λ·b.
+    fn change(&self, part: EnergyChange) -> Formula {
+        let letter = |quantity| self.letters.name(quantity);
+        let product = |one, other| Formula::Call("dot".to_owned(), vec![one, other]);
+        match part {
+            EnergyChange::Time => {
+                let (function, by) =
+                    (Box::new(letter(Quantity::Lagrangian)), vec![self.variable(Variable::Time)]);
+                Formula::Partial { function, by, arguments: Vec::new() }.negated()
+            }
+            EnergyChange::Forces => product(letter(Quantity::Force), Formula::labelled("q", 1)),
+            EnergyChange::Constraints => {
+                product(letter(Quantity::Multiplier), letter(Quantity::Inhomogeneous)).negated()
+            }
         }
-        EnergyChange::Forces => product(name("Q"), Formula::labelled("q", 1)),
-        EnergyChange::Constraints => product(name("lambda"), name("b")).negated(),
     }
 }

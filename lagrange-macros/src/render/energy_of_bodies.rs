@@ -155,7 +155,7 @@ impl Page<'_> {
         match &line.equation {
             Equation::Known(_, right) if length(right) <= length(&momentum) => line,
             _ => {
-                let left = Formula::momentum(&self.problem.coordinates[i].text, 0);
+                let left = self.momentum_name(&self.problem.coordinates[i].text, 0);
                 Line { label: None, equation: Equation::Known(left, momentum), ..line }
             }
         }

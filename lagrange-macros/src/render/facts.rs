@@ -18,9 +18,9 @@ impl Page<'_> {
             .collect()
     }
 
-    fn conserved_quantity(&self, Conserved { name, quantity, evidence }: &Conserved) -> Option<Line> {
+    fn conserved_quantity(&self, Conserved { quantity, evidence, .. }: &Conserved) -> Option<Line> {
         let line = match *quantity {
-            ConservedKind::Momentum(a) => self.conserved_momentum(name, a)?,
+            ConservedKind::Momentum(a) => self.conserved_momentum(a)?,
             ConservedKind::Energy => return Some(self.conserved_energy(*evidence)),
             // A conserved vector is written once, at its first component.
             ConservedKind::Observable(observable, 0) => {
@@ -40,14 +40,17 @@ impl Page<'_> {
     }
 
     /// A vector of momenta that are all conserved is written once, at its first component.
-    fn conserved_momentum(&self, name: &str, a: usize) -> Option<Line> {
+    fn conserved_momentum(&self, a: usize) -> Option<Line> {
         let (rows, line) = self.all_momenta().into_iter().find(|(rows, _)| rows.contains(&a))?;
         if self.are_conserved(&rows) {
             let line = if rows.len() == 1 { self.shorter_momentum(line, a) } else { line };
             return (rows.start == a).then_some(line);
         }
         let momentum = self.momentum(self.derived.equations.momentum[a]);
-        Some(self.shorter_momentum(Line::known(Formula::labelled(name, 0), momentum), a))
+        Some(self.shorter_momentum(
+            Line::known(self.momentum_name(&self.problem.coordinates[a].text, 0), momentum),
+            a,
+        ))
     }
 
     /// Terms of the Lagrangian that are total time derivatives.

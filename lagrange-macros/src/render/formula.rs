@@ -84,11 +84,6 @@ impl Formula {
         }
     }
 
-    /// Generalized momentum p of a coordinate, with dots.
-    pub(super) fn momentum(text: &str, dots: usize) -> Self {
-        Self::labelled(&format!("p_{text}"), dots)
-    }
-
     fn index(text: &str) -> Self {
         match text.parse::<i128>() {
             Ok(number) => Self::Number(Rational::from_integer(number)),

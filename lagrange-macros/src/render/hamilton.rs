@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::formula::Formula;
 use super::length::length;
+use super::letters::Quantity;
 use super::lines::{Equation, Line};
 use super::page::Page;
 use crate::mechanics::{Conserved, ConservedKind, EnergyForm, Hamilton, NoHamiltonian};
@@ -34,7 +35,7 @@ impl Page<'_> {
 
     /// Line of each momentum, or vector of momenta, with the range of its coordinates.
     pub(super) fn all_momenta(&self) -> Vec<(Range<usize>, Line)> {
-        self.by_vector(&self.derived.equations.momentum, Self::momentum, |text| Formula::momentum(text, 0))
+        self.by_vector(&self.derived.equations.momentum, Self::momentum, |text| self.momentum_name(text, 0))
     }
 
     pub(super) fn are_conserved(&self, rows: &Range<usize>) -> bool {
@@ -45,7 +46,10 @@ impl Page<'_> {
     /// Line of the Hamiltonian H(t, q, p).
     pub(super) fn hamiltonian(&self) -> Vec<Line> {
         let written = self.legible().ok().and_then(|hamilton| self.written_out(hamilton));
-        written.map(|written| Line::known(Formula::labelled("H", 0), Ok(written))).into_iter().collect()
+        written
+            .map(|written| Line::known(self.letters.name(Quantity::Hamiltonian), Ok(written)))
+            .into_iter()
+            .collect()
     }
 
     /// Formula of H: T + U, with squares (p − b)² where L has terms linear in the velocities; its terms by their degree in
@@ -90,7 +94,7 @@ impl Page<'_> {
     pub(super) fn canonical(&self) -> Vec<Line> {
         let Ok(hamilton) = self.legible() else { return Vec::new() };
         let velocities = self.by_coordinate(&hamilton.velocities, |text| Formula::labelled(text, 1));
-        let rates = self.by_coordinate(&hamilton.rates, |text| Formula::momentum(text, 1));
+        let rates = self.by_coordinate(&hamilton.rates, |text| self.momentum_name(text, 1));
         velocities.into_iter().chain(rates).collect()
     }
 }

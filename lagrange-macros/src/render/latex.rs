@@ -50,7 +50,7 @@ impl Lines<'_> {
         let lefts = sides.iter().map(|[left, _]| self.width(&left.concat())).filter(|&left| left <= LEFT);
         let column = lefts.fold(0.0, f64::max);
         let equations = lines.iter().zip(&sides).map(|(line, [left, right])| {
-            let label = format!("\\label{{eq:{name}-{}}}", unique(label(line), labels));
+            let label = format!("\\label{{eq:{name}-{}}}", unique(self.label(line), labels));
             self.equation(left, relation(line), right, column).join(" \\nonumber \\\\*\n    ") + " " + &label
         });
         let equations = equations.collect::<Vec<_>>().join(" \\\\\n  ");
@@ -79,7 +79,7 @@ impl Lines<'_> {
             Equation::TooLong(size) => {
                 let name = match &line.label {
                     Some(name) if name.is_ascii() => name.clone(),
-                    _ => label(line),
+                    _ => self.label(line),
                 };
                 [vec![], vec![format!(r"\text{{{}: ({size} symbols)}}", prose(&name))]]
             }
@@ -159,6 +159,26 @@ impl Lines<'_> {
         }
         lines
     }
+
+    /// Label of a line: `theta` for an equation of motion, else the left side with the first letters of the page's symbols.
+    fn label(&self, line: &Line) -> String {
+        let name = match (&line.label, &line.equation) {
+            (Some(label), _) => label.clone(),
+            (None, Equation::Known(left, _)) => Notation::UNICODE.write(&self.notation.standard(left)),
+            (None, _) => "term".to_owned(),
+        };
+        let latin = name.nfd().map(|sign| match sign {
+            '\u{307}' => "-dot".to_owned(),
+            '\u{308}' => "-ddot".to_owned(),
+            sign => {
+                let greek = GREEK.iter().find(|(_, greek)| greek.chars().eq([sign]));
+                greek.map_or_else(|| sign.to_string(), |(latin, _)| (*latin).to_owned())
+            }
+        });
+        let text: String = latin.collect::<String>().nfkd().collect();
+        let words = text.split(|sign: char| !sign.is_ascii_alphanumeric() && sign != '_');
+        words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
+    }
 }
 
 /// Sign between the sides of a line.
@@ -190,26 +210,6 @@ fn clauses(words: &str) -> impl Iterator<Item = &str> {
         rest = end.map(|end| &text[end..]).filter(|rest| !rest.is_empty());
         Some(&text[..end.unwrap_or(text.len())])
     })
-}
-
-/// Label of a line: `theta` for an equation of motion, else the left side.
-fn label(line: &Line) -> String {
-    let name = match (&line.label, &line.equation) {
-        (Some(label), _) => label.clone(),
-        (None, Equation::Known(left, _)) => Notation::UNICODE.write(left),
-        (None, _) => "term".to_owned(),
-    };
-    let latin = name.nfd().map(|sign| match sign {
-        '\u{307}' => "-dot".to_owned(),
-        '\u{308}' => "-ddot".to_owned(),
-        sign => {
-            let greek = GREEK.iter().find(|(_, greek)| greek.chars().eq([sign]));
-            greek.map_or_else(|| sign.to_string(), |(latin, _)| (*latin).to_owned())
-        }
-    });
-    let text: String = latin.collect::<String>().nfkd().collect();
-    let words = text.split(|sign: char| !sign.is_ascii_alphanumeric() && sign != '_');
-    words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
 }
 
 /// The label, with a number appended if an earlier label is equal.

@@ -94,7 +94,7 @@ impl From<Result<[Formula; 2], u64>> for Equation {
     }
 }
 
-pub(super) fn text(name: &str, sections: &[Section]) -> String {
+pub(super) fn text(notation: Notation, name: &str, sections: &[Section]) -> String {
     let mut text = format!("{name}\n");
     for Section { heading, lines, note } in sections.iter().filter(|section| !section.is_empty()) {
         text += &format!("\n{heading}\n");
@@ -109,15 +109,15 @@ pub(super) fn text(name: &str, sections: &[Section]) -> String {
                 _ => String::new(),
             };
             let equation = match equation {
-                Equation::Known(left, right) => Notation::UNICODE.equation(left, right),
+                Equation::Known(left, right) => notation.equation(left, right),
                 Equation::Complementary(gap, multiplier) => {
-                    let [left, right] = Notation::UNICODE.complementary(gap, multiplier);
+                    let [left, right] = notation.complementary(gap, multiplier);
                     left.concat() + " ⊥ " + &right.concat()
                 }
-                Equation::Term(formula) => Notation::UNICODE.write(formula),
+                Equation::Term(formula) => notation.write(formula),
                 Equation::TooLong(size) => format!("… ({size} symbols)"),
             };
-            let remark = remark.spelled(Notation::UNICODE, str::to_owned, |formula| formula);
+            let remark = remark.spelled(notation, str::to_owned, |formula| formula);
             let remark = if remark.is_empty() { String::new() } else { format!("   {remark}") };
             text += &format!("  {label}{equation}{remark}\n");
         }

@@ -3,6 +3,7 @@
 
 use super::axes::named_axes;
 use super::formula::Formula;
+use super::letters::{Letters, Quantity};
 use super::lines::{Line, Section};
 use super::motion::vector;
 use super::page::Page;
@@ -24,8 +25,6 @@ const FEW: usize = 3;
 pub(super) struct BodyNames {
     pub(super) links: Vec<LinkNames>,
     pub(super) bodies: Vec<RigidBodyNames>,
-    /// Name of the potential, if L has its name and the bodies are few.
-    pub(super) potential: Option<&'static str>,
 }
 
 /// Names of bodies, and the lines that define them with the names that they define.
@@ -56,17 +55,17 @@ pub(super) struct RigidBodyNames {
 
 impl BodyNames {
     /// `None` without rigid bodies, or if too many names are taken.
-    pub(super) fn of(problem: &Problem, derived: &Derived) -> Option<Self> {
+    pub(super) fn of(problem: &Problem, derived: &Derived, letters: &Letters) -> Option<Self> {
         let resultants = derived.resultants.as_ref()?;
         let Resultants { links, bodies, .. } = resultants;
         let frame = |link: &Link| problem.frame_names.iter().find(|(frame, _)| *frame == link.frame);
         let frames: Vec<&str> =
             links.iter().map(|link| frame(link).map(|(_, name)| &**name)).collect::<Option<_>>()?;
-        let [axes, rate, position, force, torque, inertia, imposed] = letters(problem, &frames)?;
+        let [axes, rate, position, force, torque, inertia, imposed] = free_letters(problem, &frames)?;
         let mut named = Vec::new();
         for (link, frame) in links.iter().zip(&frames) {
             let [axes, rate, imposed] = [axes, rate, imposed].map(|letter| format!("{letter}_{frame}"));
-            let own = LinkNames::of((problem, derived), &named, (link, frame), [axes, rate]);
+            let own = LinkNames::of((problem, derived, letters), &named, (link, frame), [axes, rate]);
             let imposed = own.imposed((link, resultants), &named, imposed);
             named.push(LinkNames { imposed, ..own });
         }
@@ -80,10 +79,12 @@ impl BodyNames {
             RigidBodyNames { position, force, torque, inertia }
         });
         let bodies: Vec<RigidBodyNames> = bodies.collect();
-        let taken = taken(problem);
-        let potential = ["V", "W"].into_iter().find(|letter| !is_taken(&taken, letter));
-        let potential = potential.filter(|_| !is_taken(&taken, "L") && bodies.len() <= FEW);
-        Some(Self { links: named, bodies, potential })
+        Some(Self { links: named, bodies })
+    }
+
+    /// True if the bodies are so few that a potential beside them has a name.
+    pub(super) fn has_potential(&self) -> bool {
+        self.bodies.len() <= FEW
     }
 }
 
@@ -93,7 +94,7 @@ fn apart(name: &str) -> (&str, &str) {
 }
 
 /// One free letter for each quantity.
-fn letters(problem: &Problem, frames: &[&str]) -> Option<[&'static str; 7]> {
+fn free_letters(problem: &Problem, frames: &[&str]) -> Option<[&'static str; 7]> {
     let taken = taken(problem);
     let is_free = |letter: &str| frames.iter().all(|frame| !is_taken(&taken, &format!("{letter}_{frame}")));
     let mut chosen: Vec<&str> = Vec::new();
@@ -105,7 +106,7 @@ fn letters(problem: &Problem, frames: &[&str]) -> Option<[&'static str; 7]> {
 
 impl LinkNames {
     fn of(
-        (problem, derived): (&Problem, &Derived),
+        (problem, derived, letters): (&Problem, &Derived, &Letters),
         named: &[Self],
         (link, frame): (&Link, &str),
         [axes, rate]: [String; 2],
@@ -118,7 +119,7 @@ impl LinkNames {
             let named = named_axes(problem, &derived.turnings).into_iter();
             let axes =
                 named.map(|axes| (axes.quaternion == Formula::labelled(quaternion, 0)).then_some(axes.text));
-            Some((Some(axes.flatten().next()?), format!("omega_{quaternion}")))
+            Some((Some(axes.flatten().next()?), letters.text_of(Quantity::AngularVelocity, quaternion)))
         });
         let is_turned = link.turned != Frame::fixed().axes;
         let before = link.before.filter(|_| !is_turned).map(|before| &named[before]);

@@ -15,6 +15,7 @@ mod html;
 mod kinds;
 mod latex;
 mod length;
+mod letters;
 mod lines;
 mod links;
 mod motion;
@@ -120,9 +121,9 @@ impl Page<'_> {
         sections[0].lines.extend(roots);
         let name = self.declaration.ident.to_string();
         let [in_latex, in_mathml] =
-            [Notation::LATEX, Notation::MATHML].map(|notation| notation.with(&self.arrays));
+            [Notation::LATEX, Notation::MATHML].map(|notation| self.notation(notation));
         [
-            lines::text(&name, &sections),
+            lines::text(self.notation(Notation::UNICODE), &name, &sections),
             latex::latex(in_latex, name.trim_start_matches("r#"), &sections),
             html::html(in_mathml, &sections),
         ]

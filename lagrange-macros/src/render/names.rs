@@ -65,15 +65,9 @@ impl Notation<'_> {
         }
     }
 
-    /// Writes λ with the name of the constraint as a subscript.
+    /// Writes λ, or the letter in its place, with the name of the constraint as a subscript.
     pub(super) fn multiplier(self, constraint: &str) -> String {
-        let letter = self.spelling.sign("λ");
-        match Formula::labelled(constraint, 0) {
-            Formula::Name { base, indices, .. } => {
-                self.spelling.indexed(letter, &[self.below(&base)], &self.indices(&indices))
-            }
-            other => self.spelling.indexed(letter, &[self.write(&other)], &[]),
-        }
+        self.name(&Formula::labelled(&format!("{}_{constraint}", self.multiplier_letter()), 0))
     }
 }
 

@@ -6,27 +6,39 @@ use super::arrays::Arrays;
 use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_prefixed};
 use super::digits::{decimal, point};
 use super::formula::Formula;
+use super::letters::{Letters, Quantity};
 use super::spelling::{Latex, MathMl, Spelling, Unicode, WIDE};
 use crate::resolve::{is_built_in, is_of_frames, is_step};
 use crate::symbolic::{Rational, Scaled, finite_decimal};
 
-/// A spelling, and the names of arrays, which are bold.
+/// A spelling, the names of arrays, which are bold, and the letters of the page.
 #[derive(Clone, Copy)]
 pub(super) struct Notation<'a> {
     pub(super) spelling: &'static dyn Spelling,
     arrays: Option<&'a Arrays>,
+    letters: Option<&'a Letters>,
 }
 
 impl Notation<'static> {
-    pub(super) const UNICODE: Self = Self { spelling: &Unicode, arrays: None };
-    pub(super) const LATEX: Self = Self { spelling: &Latex, arrays: None };
-    pub(super) const MATHML: Self = Self { spelling: &MathMl, arrays: None };
+    pub(super) const UNICODE: Self = Self { spelling: &Unicode, arrays: None, letters: None };
+    pub(super) const LATEX: Self = Self { spelling: &Latex, arrays: None, letters: None };
+    pub(super) const MATHML: Self = Self { spelling: &MathMl, arrays: None, letters: None };
 }
 
 impl<'a> Notation<'a> {
-    /// The same notation with these names as arrays.
-    pub(super) fn with(self, arrays: &'a Arrays) -> Self {
-        Self { arrays: Some(arrays), ..self }
+    /// The same notation with these names as arrays, and with the letters of a page.
+    pub(super) fn with(self, arrays: &'a Arrays, letters: &'a Letters) -> Self {
+        Self { arrays: Some(arrays), letters: Some(letters), ..self }
+    }
+
+    /// Letter of the multipliers.
+    pub(super) fn multiplier_letter(self) -> &'a str {
+        self.letters.map_or("lambda", |letters| letters.letter(Quantity::Multiplier))
+    }
+
+    /// The name by which programs ask for the row with this left side.
+    pub(super) fn standard(self, left: &Formula) -> Formula {
+        self.letters.map_or_else(|| left.clone(), |letters| letters.standard(left))
     }
 
     pub(super) fn is_array(self, formula: &Formula) -> bool {

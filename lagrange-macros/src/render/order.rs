@@ -1,6 +1,7 @@
 //! Puts sums in the order, and differences in the direction, in which the user wrote them.
 
 use super::formula::Formula;
+use super::letters::Quantity;
 use super::page::Page;
 use crate::syntax::{Declaration, Expression, Kind};
 
@@ -15,7 +16,7 @@ impl Page<'_> {
         let mut sums = Vec::new();
         while let Some(expression) = pending.pop() {
             if let (Kind::Sum(_), Formula::Sum(terms)) = (&expression.kind, self.written(expression)) {
-                let with_momenta: Vec<Formula> = terms.iter().cloned().map(Formula::with_momenta).collect();
+                let with_momenta: Vec<Formula> = terms.iter().map(|term| self.with_momenta(term)).collect();
                 sums.extend(Some(with_momenta).filter(|with_momenta| *with_momenta != terms));
                 sums.push(terms);
             }
@@ -116,6 +117,20 @@ impl Page<'_> {
         }
     }
 
+    /// Replaces each velocity by the momentum of its coordinate: the order of a sum in L then serves for H.
+    fn with_momenta(&self, formula: &Formula) -> Formula {
+        let all = |parts: &[Formula]| parts.iter().map(|part| self.with_momenta(part)).collect();
+        match formula {
+            Formula::Name { base, dots: 1, indices } => {
+                let base = self.letters.text_of(Quantity::Momentum, base);
+                Formula::Name { base, dots: 0, indices: indices.clone() }
+            }
+            Formula::Negative(inner) => Formula::Negative(Box::new(self.with_momenta(inner))),
+            Formula::Product(above, below) => Formula::Product(all(above), all(below)),
+            other => other.clone(),
+        }
+    }
+
     /// Sign and magnitude of a factor, with a sum as `found` gives it.
     fn turned(
         &self,
@@ -148,19 +163,6 @@ impl Formula {
                 same(above, above_other) && same(below, below_other)
             }
             _ => self == other,
-        }
-    }
-
-    /// Replaces each velocity by the momentum of its coordinate: the order of a sum in L then serves for H.
-    fn with_momenta(self) -> Self {
-        let all = |parts: Vec<Self>| parts.into_iter().map(Self::with_momenta).collect();
-        match self {
-            Self::Name { base, dots: 1, indices } => {
-                Self::Name { base: format!("p_{base}"), dots: 0, indices }
-            }
-            Self::Negative(inner) => Self::Negative(Box::new(inner.with_momenta())),
-            Self::Product(above, below) => Self::Product(all(above), all(below)),
-            other => other,
         }
     }
 }

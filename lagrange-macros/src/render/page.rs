@@ -7,8 +7,10 @@ use super::arrays::Arrays;
 use super::axes::{NamedAxes, named_axes};
 use super::formula::Formula;
 use super::length::{length, symbols};
+use super::letters::{Letters, Quantity};
 use super::links::NamedBodies;
 use super::motion::vector;
+use super::notation::Notation;
 use super::reading::{Names, Reading, constants, readings};
 use super::roots::{NamedRoot, named_roots};
 use crate::mechanics::Derived;
@@ -35,6 +37,8 @@ pub(super) struct Page<'a> {
     pub(super) constants: FxHashSet<Id>,
     pub(super) names: Names,
     pub(super) readings: Vec<Reading<'a>>,
+    /// Letters of the quantities that the page names.
+    pub(super) letters: Letters,
     pub(super) arrays: Arrays,
     pub(super) roots: Vec<NamedRoot>,
     pub(super) axes: Vec<NamedAxes>,
@@ -64,6 +68,7 @@ impl<'a> Page<'a> {
         names: Names,
     ) -> Self {
         let constants = constants(graph, problem);
+        let letters = Letters::of(declaration, problem, derived);
         let roots = named_roots(graph, problem);
         let axes = named_axes(problem, &derived.turnings);
         let leads = leads(graph);
@@ -78,9 +83,10 @@ impl<'a> Page<'a> {
             ranks: ranks(declaration, problem),
             ranks_by_name: FxHashMap::default(),
             names,
-            readings: readings((graph, problem, derived), &constants, (&roots, &axes), names),
+            readings: readings((graph, problem, derived), &constants, (&roots, &axes, &letters), names),
             constants,
-            arrays: Arrays::of(problem, derived),
+            arrays: Arrays::of(problem, derived, &letters),
+            letters,
             roots,
             entries: named_entries(&axes, problem, derived),
             bodies: None,
@@ -98,6 +104,16 @@ impl<'a> Page<'a> {
         page.axes_lengths = page.axes.iter().map(lengths).collect();
         page.entries.extend(page.short_entries());
         page
+    }
+
+    /// A notation with the arrays and letters of the page.
+    pub(super) fn notation(&self, notation: Notation<'static>) -> Notation<'_> {
+        notation.with(&self.arrays, &self.letters)
+    }
+
+    /// Momentum of a coordinate, with dots.
+    pub(super) fn momentum_name(&self, text: &str, dots: usize) -> Formula {
+        self.letters.name_of(Quantity::Momentum, text, dots)
     }
 }
 

@@ -4,10 +4,11 @@
 //! (Goldstein, Poole and Safko, *Classical Mechanics*, 1.58).
 
 use super::formula::Formula;
+use super::letters::Quantity;
 use super::lines::Line;
 use super::page::Page;
 use super::remark::{Fragment, Remark};
-use super::resultants::{name, product};
+use super::resultants::product;
 use crate::mechanics::Resultants;
 use crate::symbolic::Id;
 use crate::variables::Variable;
@@ -24,14 +25,15 @@ impl Page<'_> {
         let weights = self.weights(&bodies, resultants.lift, |position, _| Some(position))?;
         let remark = if weights.is_empty() { "potential" } else { "potential without weights" };
         terms.extend(weights.into_iter().map(Formula::negated));
-        terms.push(name("L", 0).negated());
+        terms.push(self.letters.name(Quantity::Lagrangian).negated());
         let potential = self.potential()?;
         let remark = Remark::of(vec![Fragment::words(remark)]);
         Some((potential.clone(), Line { remark, ..Line::known(potential, Ok(Formula::sum(terms))) }))
     }
 
     fn potential(&self) -> Option<Formula> {
-        Some(name(self.bodies.as_ref()?.names.potential?, 0))
+        let has_potential = self.bodies.as_ref()?.names.has_potential();
+        has_potential.then(|| self.letters.name(Quantity::PotentialBesideBodies))
     }
 
     /// ∂V/∂(variable); `None` if it is zero.

@@ -73,7 +73,7 @@ fn along(vector: Formula, function: Formula, u: &Formula, dependence: Dependence
 impl Page<'_> {
     /// Gives bodies names, for equations that are too long without them.
     pub(super) fn name_bodies(&mut self) {
-        let names = BodyNames::of(self.problem, self.derived);
+        let names = BodyNames::of(self.problem, self.derived, &self.letters);
         self.begin_readings();
         let lines = names.zip(self.derived.resultants.as_ref()).map(|(names, resultants)| {
             let lines = self.body_lines(&names, resultants);

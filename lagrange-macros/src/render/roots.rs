@@ -181,12 +181,16 @@ fn body(coordinate: &str) -> Option<String> {
 
 /// All names of a system, as they are written.
 pub(super) fn taken(problem: &Problem) -> FxHashSet<String> {
+    let observables = problem.observables.iter().map(|observed| observed.label.text.clone());
+    names_of(problem).chain(observables).map(|name| written_base(&name)).collect()
+}
+
+/// Names of coordinates, parameters, functions and definitions.
+pub(super) fn names_of(problem: &Problem) -> impl Iterator<Item = String> {
     let coordinates = problem.coordinates.iter().map(|label| label.text.clone());
     let parameters = (0..problem.parameters.entries.len()).map(|k| problem.parameters.name(k));
     let functions = problem.functions.iter().flat_map(|function| function.names.clone());
-    let names = coordinates.chain(parameters).chain(functions).chain(problem.names.values().cloned());
-    let names = names.chain(problem.observables.iter().map(|observed| observed.label.text.clone()));
-    names.map(|name| written_base(&name)).collect()
+    coordinates.chain(parameters).chain(functions).chain(problem.names.values().cloned())
 }
 
 /// True if a name, without its indices, is one of those that are [`taken`].
@@ -194,7 +198,7 @@ pub(super) fn is_taken(taken: &FxHashSet<String>, name: &str) -> bool {
     taken.contains(&written_base(name))
 }
 
-fn written_base(name: &str) -> String {
+pub(super) fn written_base(name: &str) -> String {
     let base = name.split(['[', '.']).next().unwrap_or_default();
     Notation::UNICODE.write(&Formula::labelled(base, 0))
 }

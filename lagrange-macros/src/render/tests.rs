@@ -9,6 +9,7 @@ mod frames;
 mod golden;
 mod golden_contacts;
 mod golden_lines;
+mod letters;
 mod mathml;
 mod potentials;
 mod reader;

@@ -4,6 +4,7 @@ use num_traits::One;
 
 use super::formula::Formula;
 use super::length::{READABLE, length};
+use super::letters::Quantity;
 use super::lines::{Equation, Line};
 use super::motion::{MotionRow, vector};
 use super::notation::Notation;
@@ -21,7 +22,9 @@ impl Page<'_> {
         let of = |turning: &&Turning| (turning.rate..turning.rate + 3).contains(&number);
         let found = self.derived.turnings.all.iter().find(of).map(|turning| {
             let quaternion = &self.problem.coordinates[turning.first].text;
-            format!("omega_{}[{}]", vector(quaternion).unwrap_or(quaternion), number - turning.rate)
+            let name =
+                self.letters.text_of(Quantity::AngularVelocity, vector(quaternion).unwrap_or(quaternion));
+            format!("{name}[{}]", number - turning.rate)
         });
         found.unwrap_or_default()
     }
@@ -30,9 +33,9 @@ impl Page<'_> {
     pub(super) fn turning(&self, number: usize, labels: &[Label]) -> Vec<MotionRow> {
         let turning = &self.derived.turnings.all[number];
         let quaternion = vector(&labels[0].text).unwrap_or_default();
-        let name = format!("omega_{quaternion}");
+        let name = self.letters.text_of(Quantity::AngularVelocity, quaternion);
         let line = |text: &str, equation| Line::labelled(&Formula::labelled(text, 0), equation);
-        let [omega, _] = angular(quaternion);
+        let [omega, _] = self.angular(quaternion);
         let half = Formula::product(
             Rational::new(1, 2).into(),
             vec![Formula::labelled(quaternion, 0), omega.clone()],
@@ -63,7 +66,7 @@ impl Page<'_> {
 
     /// I ω̇ + ω × I ω = N, and I if it is no parameter.
     fn euler(&self, euler: &Euler, quaternion: &str) -> Vec<Line> {
-        let ([rate, acceleration], inertia) = (angular(quaternion), self.inertia(euler, quaternion));
+        let ([rate, acceleration], inertia) = (self.angular(quaternion), self.inertia(euler, quaternion));
         let times = |vector: Formula| Formula::Product(vec![inertia.clone(), vector], Vec::new());
         let gyroscopic = Formula::Call("cross".to_owned(), vec![rate.clone(), times(rate.clone())]);
         let mut terms = vec![times(acceleration), gyroscopic];
@@ -83,7 +86,13 @@ impl Page<'_> {
     /// Name of the moments of inertia: of the parameter, or I with the name of the quaternion.
     fn inertia(&self, euler: &Euler, quaternion: &str) -> Formula {
         let parameter = self.matrix(&euler.inertia);
-        Formula::labelled(&parameter.unwrap_or_else(|| format!("I_{quaternion}")), 0)
+        let own = || self.letters.text_of(Quantity::Inertia, quaternion);
+        Formula::labelled(&parameter.unwrap_or_else(own), 0)
+    }
+
+    /// ω and ω̇ of a quaternion.
+    fn angular(&self, quaternion: &str) -> [Formula; 2] {
+        [0, 1].map(|dots| self.letters.name_of(Quantity::AngularVelocity, quaternion, dots))
     }
 
     /// E = … + ½ ω·(I ω); `None` if no quaternion turns a body, or if L is not quadratic in the velocities.
@@ -94,7 +103,7 @@ impl Page<'_> {
         let spinning = all.iter().filter_map(|turning| {
             let quaternion = vector(&self.problem.coordinates[turning.first].text)?;
             let inertia = self.inertia(turning.euler.as_ref()?, quaternion);
-            let [rate, _] = angular(quaternion);
+            let [rate, _] = self.angular(quaternion);
             let momentum = Formula::Product(vec![inertia, rate.clone()], Vec::new());
             let dot = Formula::Call("dot".to_owned(), vec![rate, momentum]);
             Some(Formula::product(Rational::new(1, 2).into(), vec![dot], Vec::new()))
@@ -141,7 +150,10 @@ impl Page<'_> {
             Ok(Formula::sum(vec![turning, along]))
         });
         let words = Remark::of(vec![Fragment::words("product of quaternions")]);
-        Line { remark: words, ..Line::known(Formula::labelled(&format!("R_{quaternion}"), 0), force) }
+        Line {
+            remark: words,
+            ..Line::known(self.letters.name_of(Quantity::ConstraintForce, quaternion, 0), force)
+        }
     }
 
     /// Name of the parameter whose entries these are.
@@ -181,9 +193,4 @@ fn without_sign(vector: Formula) -> Formula {
         return vector;
     }
     vector.signed(is_negative)
-}
-
-/// ω and ω̇ of a quaternion.
-fn angular(quaternion: &str) -> [Formula; 2] {
-    [0, 1].map(|dots| Formula::labelled(&format!("omega_{quaternion}"), dots))
 }

@@ -3,6 +3,7 @@
 use num_traits::One;
 
 use super::formula::Formula;
+use super::letters::Quantity;
 use super::lines::{Equation, Line};
 use super::notation::Notation;
 use super::page::Page;
@@ -18,27 +19,31 @@ impl Page<'_> {
     pub(super) fn lagrangian(&self) -> Vec<Line> {
         let Declaration { lagrangian, frames, defines, dissipation, forces, powers, .. } = self.declaration;
         let line = |left, right: &Expression| Line::of(Equation::Known(left, self.written(right)));
-        let name = |text: &str| Formula::labelled(text, 0);
+        let letter = |quantity| self.letters.name(quantity);
         let mut lines: Vec<Line> = Vec::new();
         let written_out = match self.names {
             Names::WrittenOut => self.expression(self.problem.lagrangian).ok(),
             _ => None,
         };
         lines.extend(lagrangian.as_ref().map(|lagrangian| match written_out {
-            Some(right) => Line::of(Equation::Known(name("L"), right)),
-            None => line(name("L"), lagrangian),
+            Some(right) => Line::of(Equation::Known(letter(Quantity::Lagrangian), right)),
+            None => line(letter(Quantity::Lagrangian), lagrangian),
         }));
         lines.extend(frames.iter().map(|frame| self.frame(frame)));
         lines.extend(defines.iter().map(|define| line(self.defined(define), &define.body)));
-        lines.extend(dissipation.as_ref().map(|function| line(name("D"), function)));
+        lines.extend(dissipation.as_ref().map(|function| line(letter(Quantity::Dissipation), function)));
         lines.extend(forces.iter().map(|force| {
             let Target { name, indices } = &force.target;
-            let base = format!("Q_{}", name.text);
+            let base = self.letters.text_of(Quantity::Force, &name.text);
             line(Formula::Name { base, dots: 0, indices: self.indices(indices) }, &force.value)
         }));
         lines.extend(powers.iter().map(|Power { indices, force, velocity }| {
             let factors = [force, velocity].map(|factor| self.written(factor)).to_vec();
-            let left = Formula::Name { base: "P".to_owned(), dots: 0, indices: self.indices(indices) };
+            let left = Formula::Name {
+                base: self.letters.letter(Quantity::Power).to_owned(),
+                dots: 0,
+                indices: self.indices(indices),
+            };
             Line::of(Equation::Known(left, Formula::Call("dot".to_owned(), factors)))
         }));
         lines

@@ -6,6 +6,7 @@ use num_traits::One;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::super::axes::NamedAxes;
+use super::super::letters::Letters;
 use super::super::roots::NamedRoot;
 use super::atoms::{Atoms, Meaning};
 use super::polynomial::{Atom, Monomial, Polynomial};
@@ -162,7 +163,7 @@ pub(crate) struct Reading<'a>(pub(super) RefCell<Expansion<'a>>);
 pub(in crate::render) fn readings<'a>(
     (graph, problem, derived): (&'a Graph, &Problem, &Derived),
     constants: &FxHashSet<Id>,
-    (roots, axes): (&[NamedRoot], &[NamedAxes]),
+    (roots, axes, letters): (&[NamedRoot], &[NamedAxes], &Letters),
     names: Names,
 ) -> Vec<Reading<'a>> {
     let all: FxHashSet<Id> = problem.names.keys().copied().collect();
@@ -176,7 +177,7 @@ pub(in crate::render) fn readings<'a>(
     let reading = |kept: FxHashSet<Id>, axes: &[NamedAxes]| {
         let mut expansion = Expansion::new(graph, problem, derived, kept);
         if !axes.is_empty() {
-            expansion.name_tensors(problem, derived, axes);
+            expansion.name_tensors((problem, derived, letters), axes);
         }
         expansion.name(roots);
         Reading(RefCell::new(expansion))

@@ -51,8 +51,12 @@ impl Page<'_> {
     /// Begins new readings in place of those whose work is done.
     pub(super) fn begin_readings(&mut self) {
         let Self { graph, problem, derived, .. } = *self;
-        self.readings =
-            readings((graph, problem, derived), &self.constants, (&self.roots, &self.axes), self.names);
+        self.readings = readings(
+            (graph, problem, derived),
+            &self.constants,
+            (&self.roots, &self.axes, &self.letters),
+            self.names,
+        );
         // Functions stand in products in the order in which they are read: that of the coordinates.
         for id in graph.ids().filter(|&id| matches!(graph.node(id), Node::Function(..))) {
             self.readings.iter().for_each(|Reading(expansion)| drop(expansion.borrow_mut().of(id)));

@@ -4,6 +4,7 @@ use rustc_hash::FxHashSet;
 
 use super::super::axes::NamedAxes;
 use super::super::formula::Formula;
+use super::super::letters::{Letters, Quantity};
 use super::super::motion::vector;
 use super::atoms::Meaning;
 use super::expand::Expansion;
@@ -14,7 +15,11 @@ use crate::variables::Variable;
 
 impl Expansion<'_> {
     /// Names rotation matrices, and the vectors and moments of inertia that they are multiplied with.
-    pub(super) fn name_tensors(&mut self, problem: &Problem, derived: &Derived, axes: &[NamedAxes]) {
+    pub(super) fn name_tensors(
+        &mut self,
+        (problem, derived, letters): (&Problem, &Derived, &Letters),
+        axes: &[NamedAxes],
+    ) {
         for axes in axes {
             self.same.extend(axes.nodes.iter().map(|&(node, [i, j])| (node, axes.entries[i][j])));
         }
@@ -29,7 +34,7 @@ impl Expansion<'_> {
             self.atoms.tensors.add_matrix(axes.name(), entries, true);
         }
         let matrices = matrices(self.graph, problem, derived);
-        for (written, components) in vectors(problem, derived, &self.names) {
+        for (written, components) in vectors((problem, derived, letters), &self.names) {
             if matrices.iter().any(|(matrix, _)| written.has_name(matrix)) {
                 continue;
             }
@@ -61,7 +66,10 @@ impl Expansion<'_> {
 
 /// Vectors of three: coordinates with their rates and momenta, angular velocities, parameters, multipliers, and definitions
 /// that keep their names.
-fn vectors(problem: &Problem, derived: &Derived, names: &FxHashSet<Id>) -> Vec<(Formula, [Meaning; 3])> {
+fn vectors(
+    (problem, derived, letters): (&Problem, &Derived, &Letters),
+    names: &FxHashSet<Id>,
+) -> Vec<(Formula, [Meaning; 3])> {
     let variable = |i: usize, of: fn(usize) -> Variable| Meaning::Variable(of(i));
     let texts: Vec<&str> = problem.coordinates.iter().map(|label| &*label.text).collect();
     let mut all = Vec::new();
@@ -74,13 +82,16 @@ fn vectors(problem: &Problem, derived: &Derived, names: &FxHashSet<Id>) -> Vec<(
         all.extend(
             kinds.map(|(dots, of)| (Formula::labelled(&base, dots), [i, j, k].map(|i| variable(i, of)))),
         );
-        all.push((Formula::momentum(&base, 0), [i, j, k].map(|i| variable(i, Variable::Momentum))));
+        all.push((
+            letters.name_of(Quantity::Momentum, &base, 0),
+            [i, j, k].map(|i| variable(i, Variable::Momentum)),
+        ));
     }
     for turning in &derived.turnings.all {
         let quaternion = vector(&problem.coordinates[turning.first].text).unwrap_or_default();
         let kinds = [(0, Variable::Velocity as fn(usize) -> Variable), (1, Variable::Acceleration)];
         all.extend(kinds.map(|(dots, of)| {
-            let name = Formula::labelled(&format!("omega_{quaternion}"), dots);
+            let name = letters.name_of(Quantity::AngularVelocity, quaternion, dots);
             (name, [0, 1, 2].map(|axis| variable(turning.rate + axis, of)))
         }));
     }

@@ -1,6 +1,6 @@
 //! LaTeX mathematics with the package `amsmath`.
 
-use super::parts::{Spelling, WIDE, greek};
+use super::parts::{Spelling, WIDE, greek, script};
 
 pub(crate) struct Latex;
 
@@ -55,7 +55,8 @@ impl Spelling for Latex {
             "epsilon" => r"\varepsilon".to_owned(),
             latin => format!(r"\{latin}"),
         });
-        match (latin, is_array) {
+        let script = script(name).map(|capital| format!(r"\mathcal{{{capital}}}"));
+        match (latin.or(script), is_array) {
             (Some(letter), true) => format!(r"\boldsymbol{{{letter}}}"),
             (Some(letter), false) => letter,
             (None, true) => format!(r"\mathbf{{{}}}", name.replace('_', r"\_")),
@@ -232,7 +233,8 @@ impl<'a> Measure<'a> {
             "left" | "right" => self.next().unwrap_or(0.0) + 2.0,
             "lvert" | "rvert" | "bigl" | "bigr" | "quad" => 5.0,
             "cdot" | "times" | "ldots" => 13.0,
-            "dot" | "ddot" | "mathit" | "mathrm" | "text" | "operatorname" | "mathbf" | "boldsymbol" => 0.0,
+            "dot" | "ddot" | "mathit" | "mathrm" | "mathcal" | "text" | "operatorname" | "mathbf"
+            | "boldsymbol" => 0.0,
             _ => 6.8,
         }
     }

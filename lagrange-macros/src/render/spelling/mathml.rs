@@ -1,6 +1,6 @@
 //! MathML Core, which browsers show without a script.
 
-use super::parts::{Spelling, WIDE, greek};
+use super::parts::{Spelling, WIDE, greek, script};
 
 pub(crate) struct MathMl;
 
@@ -183,7 +183,8 @@ fn bold(letter: char) -> char {
         'a'..='z' => among('a', '𝐚'),
         'Α'..='Ω' => among('Α', '𝚨'),
         'α'..='ω' => among('α', '𝛂'),
-        _ => None,
+        _ => script(letter.encode_utf8(&mut [0; 4]))
+            .and_then(|capital| char::from_u32('𝓐' as u32 + capital as u32 - 'A' as u32)),
     };
     found.unwrap_or(letter)
 }

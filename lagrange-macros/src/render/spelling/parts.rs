@@ -1,5 +1,7 @@
 //! Interface of a spelling: signs, letters, fractions, roots and powers.
 
+use unicode_normalization::UnicodeNormalization;
+
 use crate::syntax::GREEK;
 
 /// Widest group, in points at a font size of 10 points, that is kept on one line.
@@ -89,6 +91,14 @@ pub(crate) trait Spelling: Sync {
 
     /// Separator between two factors.
     fn beside(&self, before: &str, after: &str) -> &'static str;
+}
+
+/// The capital that a script letter such as ℰ or 𝒫 is a form of.
+pub(super) fn script(name: &str) -> Option<char> {
+    let mut signs = name.chars();
+    let is_script = |sign: &char| ('𝒜'..='𝒵').contains(sign) || "ℬℰℱℋℐℒℳℛ".contains(*sign);
+    let sign = signs.next().filter(|sign| is_script(sign) && signs.next().is_none())?;
+    sign.nfkd().next()
 }
 
 /// Latin name and character of a Greek letter, given either.

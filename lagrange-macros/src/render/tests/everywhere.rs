@@ -13,8 +13,8 @@ use std::sync::LazyLock;
 use super::mathml;
 use super::reader::Value;
 use super::systems::{self, Forms, Library, System};
-use crate::render::arrays::Arrays;
 use crate::render::formula::Formula;
+use crate::render::letters::Quantity;
 use crate::symbolic::{Approximate, Id, Sample};
 use crate::variables::Variable;
 
@@ -60,7 +60,7 @@ struct Page<'a> {
     system: &'a System,
     text: String,
     /// Writes a name as `text` spells it.
-    written: fn(&Arrays, &Formula) -> String,
+    written: fn(&System, &Formula) -> String,
 }
 
 impl Deref for Page<'_> {
@@ -73,7 +73,7 @@ impl Deref for Page<'_> {
 
 impl Page<'_> {
     fn written(&self, formula: &Formula) -> String {
-        (self.written)(&self.arrays, formula)
+        (self.written)(self.system, formula)
     }
 
     /// Lines below a heading.
@@ -89,7 +89,7 @@ fn value(sample: &Sample, variable: Variable) -> f64 {
 }
 
 fn momentum(system: &Page, i: usize) -> String {
-    format!("p_{}", system.problem.coordinates[i].text)
+    system.letters.text_of(Quantity::Momentum, &system.problem.coordinates[i].text)
 }
 
 /// Arrays that contain an entry, such as `r` for `r[0]`.

@@ -2,9 +2,9 @@
 
 use unicode_normalization::UnicodeNormalization;
 
-use crate::render::arrays::Arrays;
 use crate::render::formula::Formula;
 use crate::render::notation::Notation;
+use crate::render::tests::systems::System;
 
 /// An XML element with its contents, or text.
 #[derive(Debug)]
@@ -229,8 +229,8 @@ fn line<'a>(all: impl Iterator<Item = &'a Xml>) -> String {
 }
 
 /// Formula as it appears in the lines that are read.
-pub(super) fn written(arrays: &Arrays, formula: &Formula) -> String {
-    line(parsed(&Notation::MATHML.with(arrays).write(formula)).iter())
+pub(super) fn written(system: &System, formula: &Formula) -> String {
+    line(parsed(&system.notation(Notation::MATHML).write(formula)).iter())
 }
 
 /// The text of a page with its equations replaced by those of the HTML. Letters and digits must be equal in both.

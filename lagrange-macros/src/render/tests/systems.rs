@@ -10,6 +10,7 @@ use crate::diagnostics::Diagnostics;
 use crate::mechanics::{self, Derived};
 use crate::render::arrays::Arrays;
 use crate::render::formula::Formula;
+use crate::render::letters::Letters;
 use crate::render::notation::Notation;
 use crate::render::{Rendered, render};
 use crate::resolve::{self, Problem};
@@ -23,16 +24,22 @@ pub(super) struct System {
     pub(super) derived: Derived,
     pub(super) forms: Forms,
     pub(super) arrays: Arrays,
+    pub(super) letters: Letters,
 }
 
 /// A page in three forms, each as text, LaTeX and HTML.
 pub(super) type Forms = [[String; 3]; 3];
 
-pub(super) fn in_unicode(_: &Arrays, formula: &Formula) -> String {
-    Notation::UNICODE.write(formula)
+pub(super) fn in_unicode(system: &System, formula: &Formula) -> String {
+    system.notation(Notation::UNICODE).write(formula)
 }
 
 impl System {
+    /// A notation with the arrays and letters of the page.
+    pub(super) fn notation(&self, notation: Notation<'static>) -> Notation<'_> {
+        notation.with(&self.arrays, &self.letters)
+    }
+
     /// Resolves and derives a system; `None` after any error.
     pub(super) fn new(tokens: TokenStream) -> Option<Self> {
         let mut diagnostics = Diagnostics::default();
@@ -41,8 +48,9 @@ impl System {
         let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics)?;
         let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics)?;
         let Rendered { forms, .. } = render(&declaration, &graph, &problem, &derived);
-        let arrays = Arrays::of(&problem, &derived);
-        Some(Self { graph, problem, derived, forms, arrays })
+        let letters = Letters::of(&declaration, &problem, &derived);
+        let arrays = Arrays::of(&problem, &derived, &letters);
+        Some(Self { graph, problem, derived, forms, arrays, letters })
     }
 }
 

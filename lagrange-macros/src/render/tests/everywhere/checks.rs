@@ -4,10 +4,11 @@ use std::ops::Range;
 use std::sync::LazyLock;
 
 use super::state::State;
-use super::{Page, links, momentum, outer, turns, value};
+use super::{Page, links, outer, turns, value};
 use crate::mechanics::Derived;
 use crate::render::axes::named_axes;
 use crate::render::formula::Formula;
+use crate::render::letters::Quantity;
 use crate::render::notation::Notation;
 use crate::render::tests::reader::Value;
 use crate::symbolic::{Id, Sample};
@@ -130,10 +131,12 @@ pub(super) fn check_quantities(system: &Page) {
     let equations = &system.derived.equations;
     let conserved = system.lines("Conserved\n");
     let energy = system.lines("Energy\n");
-    for line in conserved.iter().chain(&energy).filter(|line| line.starts_with("E = ")) {
+    let name = system.written(&system.letters.name(Quantity::Energy));
+    let [energy_is, rate_is] = [format!("{name} = "), format!("d/dt {name} = ")];
+    for line in conserved.iter().chain(&energy).filter(|line| line.starts_with(&energy_is)) {
         check_line(system, line, |sample| vec![sample.values(&system.graph, &[equations.energy])[0].value]);
     }
-    for line in energy.iter().filter(|line| line.starts_with("d/dt E = ")) {
+    for line in energy.iter().filter(|line| line.starts_with(&rate_is)) {
         check_line(system, line, |sample| {
             vec![sample.values(&system.graph, &[system.derived.facts.energy_rate])[0].value]
         });
@@ -141,28 +144,28 @@ pub(super) fn check_quantities(system: &Page) {
     let value = |sample: &mut Sample, root: Option<&Id>| {
         root.map_or(0.0, |&root| sample.values(&system.graph, &[root])[0].value)
     };
-    check_by_coordinate(system, &system.lines("Constraint forces\n"), ("R_", 0), |sample, i| {
-        value(sample, equations.constraint_force.get(i))
-    });
+    check_by_coordinate(
+        system,
+        &system.lines("Constraint forces\n"),
+        (Some(Quantity::ConstraintForce), 0),
+        |sample, i| value(sample, equations.constraint_force.get(i)),
+    );
     for lines in [conserved, system.lines("Momenta\n")] {
-        check_by_coordinate(system, &lines, ("p_", 0), |sample, i| value(sample, equations.momentum.get(i)));
+        check_by_coordinate(system, &lines, (Some(Quantity::Momentum), 0), |sample, i| {
+            value(sample, equations.momentum.get(i))
+        });
     }
 }
 
 /// Checks that at p = ∂L/∂q̇ of a state, H is the energy, ∂H/∂p the velocity and ṗ the forces.
 pub(super) fn check_hamilton(system: &Page) {
     let equations = &system.derived.equations;
-    let n = system.problem.coordinates.len();
-    let names = (0..n).map(|i| momentum(system, i));
-    if names.into_iter().any(|name| system.problem.names.values().any(|known| *known == name)) {
-        return;
-    }
     for line in system.lines("Hamiltonian\n") {
         check_line(system, line, |sample| vec![sample.values(&system.graph, &[equations.energy])[0].value]);
     }
     let lines = system.lines("Hamilton's equations\n");
-    check_by_coordinate(system, &lines, ("", 1), |sample, i| value(sample, Variable::Velocity(i)));
-    check_by_coordinate(system, &lines, ("p_", 1), |sample, i| {
+    check_by_coordinate(system, &lines, (None, 1), |sample, i| value(sample, Variable::Velocity(i)));
+    check_by_coordinate(system, &lines, (Some(Quantity::Momentum), 1), |sample, i| {
         let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
         let parts = sample.values(&system.graph, &[equations.momentum_rate[i], force]);
         parts[0].value + parts[1].value
@@ -173,11 +176,14 @@ pub(super) fn check_hamilton(system: &Page) {
 fn check_by_coordinate(
     system: &Page,
     lines: &[&str],
-    (prefix, dots): (&str, usize),
+    (quantity, dots): (Option<Quantity>, usize),
     computed: impl Fn(&mut Sample, usize) -> f64,
 ) {
     let coordinates = system.problem.coordinates.iter();
-    let names = coordinates.map(|label| Formula::labelled(&format!("{prefix}{}", label.text), dots));
+    let names = coordinates.map(|label| match quantity {
+        Some(quantity) => system.letters.name_of(quantity, &label.text, dots),
+        None => Formula::labelled(&label.text, dots),
+    });
     let names: Vec<Formula> = names.collect();
     for line in lines {
         let left = line.split(" = ").next().expect("a side");

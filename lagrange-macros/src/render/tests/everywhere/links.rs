@@ -4,6 +4,7 @@ use super::turns::spread;
 use super::{Page, Value, outer, potential, value};
 use crate::mechanics::Turning;
 use crate::render::formula::Formula;
+use crate::render::letters::Quantity;
 use crate::render::links::{BodyNames, LinkNames};
 use crate::render::tests::systems::System;
 use crate::symbolic::{Approximate, Id, Rational, Sample};
@@ -126,7 +127,9 @@ pub(super) fn values(system: &Page, sample: &Sample) -> Vec<(Formula, Value)> {
 }
 
 pub(super) fn named<'s>(system: &'s Page) -> Option<(BodyNames, &'s crate::mechanics::Resultants)> {
-    let names = is_by_bodies(system).then(|| BodyNames::of(&system.problem, &system.derived)).flatten();
+    let names = is_by_bodies(system)
+        .then(|| BodyNames::of(&system.problem, &system.derived, &system.letters))
+        .flatten();
     names.zip(system.derived.resultants.as_ref())
 }
 
@@ -147,7 +150,9 @@ pub(super) fn partial(system: &Page, sample: &Sample, function: &str, by: &str) 
     }
     let of_turning = |turning: &Turning| {
         let text = system.problem.coordinates[turning.first].text.strip_suffix("[0]")?;
-        let axis = (0..3).find(|axis| written(&format!("omega_{text}[{axis}]"), 0) == by)?;
+        let axis = (0..3).find(|axis| {
+            written(&system.letters.text_of(Quantity::AngularVelocity, &format!("{text}[{axis}]")), 0) == by
+        })?;
         let q = [0, 1, 2, 3].map(|k| value(sample, Variable::Coordinate(turning.first + k)));
         let mut rates = vec![0.0; n];
         (0..4).for_each(|k| rates[turning.first + k] = 0.5 * spread(q)[axis][k]);
@@ -321,7 +326,7 @@ pub(super) fn resultants(system: &Page) -> Vec<Formula> {
 
 /// True if a page defines the names of bodies.
 pub(super) fn is_by_bodies(system: &System) -> bool {
-    let Some(names) = BodyNames::of(&system.problem, &system.derived) else { return false };
+    let Some(names) = BodyNames::of(&system.problem, &system.derived, &system.letters) else { return false };
     let links = names.links.iter().filter(|own| !own.is_known);
     let links = links.flat_map(|own| own.axes.iter().chain([&own.rate]));
     let bodies = names.bodies.iter().flat_map(|own| [&own.position, &own.force, &own.torque]);

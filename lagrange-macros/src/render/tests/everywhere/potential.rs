@@ -4,6 +4,7 @@ use super::checks::check_line;
 use super::links::{Curve, FIRST, STEP, named};
 use super::{Page, Value, value};
 use crate::render::formula::Formula;
+use crate::render::letters::Quantity;
 use crate::symbolic::{Approximate, Id, Sample};
 use crate::variables::Variable;
 
@@ -18,10 +19,10 @@ pub(super) fn is_it(system: &Page, function: &str) -> bool {
 
 /// Name of the potential, if a page has it.
 pub(super) fn name(system: &Page) -> Option<Formula> {
-    let name = Formula::labelled(named(system)?.0.potential?, 0);
+    let name = system.letters.name(Quantity::PotentialBesideBodies);
     let start = format!("{} = ", system.written(&name));
     let has_line = system.lines("Lagrangian\n").iter().any(|line| line.starts_with(&start));
-    has_line.then_some(name)
+    (named(system)?.0.has_potential() && has_line).then_some(name)
 }
 
 /// f′(0), by differences.

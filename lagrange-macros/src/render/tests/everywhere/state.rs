@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::{Page, links, momentum, outer, potential, turns, value};
 use crate::render::axes::named_axes;
 use crate::render::formula::Formula;
+use crate::render::letters::Quantity;
 use crate::render::roots::named_roots;
 use crate::render::tests::reader::{Meanings, Value, read_with};
 use crate::render::tests::systems::System;
@@ -30,7 +31,12 @@ impl<'a> State<'a> {
             for outer in outer(&formula) {
                 vectors.entry(system.written(&outer)).or_default().push(value);
             }
-            names.insert(system.written(&formula), vec![value]);
+            let name = system.written(&formula);
+            assert!(
+                names.insert(name.clone(), vec![value]).is_none(),
+                "{name} stands for two in {}",
+                system.text
+            );
         };
         let kinds: [fn(usize) -> Variable; 3] =
             [Variable::Coordinate, Variable::Velocity, Variable::Acceleration];
@@ -53,14 +59,24 @@ impl<'a> State<'a> {
             let quaternion = quaternion.strip_suffix("[0]").expect("a vector");
             for (dots, values) in turns::angular(sample, turning).into_iter().enumerate() {
                 for (axis, value) in values.into_iter().enumerate() {
-                    put(Formula::labelled(&format!("omega_{quaternion}[{axis}]"), dots), value);
+                    put(
+                        system.letters.name_of(
+                            Quantity::AngularVelocity,
+                            &format!("{quaternion}[{axis}]"),
+                            dots,
+                        ),
+                        value,
+                    );
                 }
             }
             let euler = turning.euler.iter().flat_map(|euler| euler.inertia.iter().enumerate());
             for (i, row) in euler {
                 for (j, &entry) in row.iter().enumerate() {
                     let value = sample.values(graph, &[entry])[0].value;
-                    put(Formula::labelled(&format!("I_{quaternion}[{i}][{j}]"), 0), value);
+                    put(
+                        system.letters.name_of(Quantity::Inertia, &format!("{quaternion}[{i}][{j}]"), 0),
+                        value,
+                    );
                 }
             }
         }
@@ -84,7 +100,10 @@ impl<'a> State<'a> {
             put(Formula::labelled(name, 0), sample.values(graph, &[id])[0].value);
         }
         if potential::name(system).is_some() {
-            put(Formula::labelled("L", 0), sample.values(graph, &[problem.lagrangian])[0].value);
+            put(
+                system.letters.name(Quantity::Lagrangian),
+                sample.values(graph, &[problem.lagrangian])[0].value,
+            );
         }
         links::rates_of_definitions(system, sample).into_iter().for_each(|(name, value)| put(name, value));
         vectors.append(&mut names);
