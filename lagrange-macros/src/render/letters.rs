@@ -45,7 +45,7 @@ const LETTERS: [(Quantity, &[&str]); 15] = [
     (Energy, &["E", "ℰ"]),
     (Hamiltonian, &["H", "ℋ"]),
     (Kinetic, &["T", "K"]),
-    (Potential, &["U", "V"]),
+    (Potential, &["U", "V", "Phi"]),
     (PotentialBesideBodies, &["V", "W"]),
     (Dissipation, &["D", "ℱ"]),
     (Momentum, &["p", "P", "Pi"]),
@@ -129,21 +129,14 @@ fn behind(quantity: Quantity, problem: &Problem, derived: &Derived) -> Vec<Strin
     is_alone.then(String::new).into_iter().chain(below).collect()
 }
 
-/// Names of the system, as they are written without indices. A member of a struct reads like its own name with that of the
-/// struct below it.
+/// Names of the system, as they are written without indices.
 fn taken(declaration: &Declaration, problem: &Problem) -> FxHashSet<String> {
-    let parameters = (0..problem.parameters.entries.len()).map(|k| problem.parameters.name(k));
-    let members = parameters.filter_map(|name| {
-        let (of, member) = name.rsplit_once('.')?;
-        Some(format!("{}_{of}", member.split('[').next()?))
-    });
     let formals = declaration.defines.iter().filter_map(|define| define.formals.as_ref()).flatten();
     let formals = formals.map(|formal| formal.text.clone());
     let frames = problem.frame_names.iter().map(|(_, name)| name.clone());
     let constraints = problem.constraints.iter().map(|(label, _)| label.text.clone());
     let conserved = declaration.observables.iter().filter(|observable| observable.is_conserved);
     let conserved = conserved.map(|observable| observable.target.name.text.clone());
-    let all =
-        names_of(problem).chain(members).chain(formals).chain(frames).chain(constraints).chain(conserved);
+    let all = names_of(problem).chain(formals).chain(frames).chain(constraints).chain(conserved);
     all.map(|name| written_base(&name)).collect()
 }

@@ -272,8 +272,8 @@ fn constants_come_before_times() {
          #[constraint(floor: x^2 + y^2 = (a + b*t)^2)]
          struct S { m: f64, U: f64, V: f64, w: f64, a: f64, b: f64 }";
     expect![[r#"
-        E = ½ m (ẋ² + ẏ²) + x² (U + V cos(w t))   (T + U if U is x² (U + V cos(w t)))
-          d/dt E = 2 b λ_floor (a + b t) − V w x² sin(w t)   (−∂L/∂t − λ·b)"#]]
+        E = ½ m (ẋ² + ẏ²) + x² (U + V cos(w t))   (T + Φ if Φ is x² (U + V cos(w t)))
+          d/dt E = 2 b λ_floor (a + b t) − V w x² sin(w t)   (−∂L/∂t − λ·β)"#]]
     .assert_eq(&lines(lift, "Energy\n"));
 }
 

@@ -58,13 +58,3 @@ fn all_other_letters_give_way_too() {
         assert!(latex.contains(&format!("\\label{{eq:Letters-{label}}}")), "{label} is not in {latex}");
     }
 }
-
-#[test]
-fn a_member_of_a_struct_reads_like_a_multiplier() {
-    let [text, latex, _] = page(
-        "#[coordinates(x)] #[lagrangian(m/2*x_dot^2 - floor.lambda*x)] #[constraint(floor: x = h)]
-         struct Resting { m: f64, h: f64, floor: Floor }",
-    );
-    assert!(text.contains("Λ_floor"), "{text}");
-    assert!(latex.contains(r"\Lambda_{\mathrm{floor}}"), "{latex}");
-}

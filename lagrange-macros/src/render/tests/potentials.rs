@@ -95,7 +95,7 @@ const POTENTIALS: &[(&str, &[&str])] = &[
          struct ChargeOnShakenPendulum { m1: f64, m2: f64, g: f64, l: f64, h: f64, w: f64, e: f64, B: Vector3<f64>, E: Vector3<f64>, p: Vector3<f64>, c1: Vector3<f64>, c2: Vector3<f64>, I1: Matrix3<f64>, I2: Matrix3<f64> }",
         &[
             "F_lower·(∂ṙ_lower/∂ċ) + N_lower·(∂ω_lower/∂ċ) = (e (ṡ×B) + e E)·(∂s/∂c)",
-            "d/dt E = −m₁ ṙ_upper·(∂ṙ_upper/∂t) − m₂ ṙ_lower·(∂ṙ_lower/∂t) − (½ e (ṡ×B) + e E)·(∂s/∂t) − (½ e (B×s))·(∂ṡ/∂t)",
+            "d/dt ℰ = −m₁ ṙ_upper·(∂ṙ_upper/∂t) − m₂ ṙ_lower·(∂ṙ_lower/∂t) − (½ e (ṡ×B) + e E)·(∂s/∂t) − (½ e (B×s))·(∂ṡ/∂t)",
         ],
     ),
     // A charge on a body that a quaternion turns, with a wheel.
