@@ -91,10 +91,11 @@ impl Page<'_> {
 
     /// Power of a node, without the sign of its exponent, and whether it is a divisor.
     fn derived_power(&self, base: Id, exponent: Rational) -> (Formula, bool) {
-        let root = self.roots.iter().find(|root| root.base == base && *exponent.denom() == 2);
-        match (root, times(exponent, Rational::from_integer(2))) {
-            (Some(root), Some(twice)) => {
-                (power(root.name.clone(), twice.abs()), twice.is_negative() != root.is_below)
+        let root = self.roots.iter().find(|root| root.base == base).map(|root| (&root.name, root.is_below));
+        let root = root.or_else(|| self.norms.get(&base).map(|norm| (norm, false)));
+        match (root.filter(|_| *exponent.denom() == 2), times(exponent, Rational::from_integer(2))) {
+            (Some((name, is_below)), Some(twice)) => {
+                (power(name.clone(), twice.abs()), twice.is_negative() != is_below)
             }
             _ => {
                 let is_even = exponent.is_integer() && exponent.numer() % 2 == 0;

@@ -12,7 +12,7 @@ use super::links::NamedBodies;
 use super::motion::vector;
 use super::notation::Notation;
 use super::reading::{Names, Reading, constants, readings};
-use super::roots::{NamedRoot, named_roots};
+use super::roots::{NamedRoot, bases, named_roots};
 use crate::mechanics::Derived;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Node, Rational};
@@ -41,6 +41,8 @@ pub(super) struct Page<'a> {
     pub(super) letters: Letters,
     pub(super) arrays: Arrays,
     pub(super) roots: Vec<NamedRoot>,
+    /// Norms of vectors in L that have no name, by the sums of which they are the square roots.
+    pub(super) norms: FxHashMap<Id, Formula>,
     pub(super) axes: Vec<NamedAxes>,
     /// Names of bodies, once an equation of motion by coordinates is too long to be read.
     pub(super) bodies: Option<NamedBodies>,
@@ -88,6 +90,7 @@ impl<'a> Page<'a> {
             arrays: Arrays::of(problem, derived, &letters),
             letters,
             roots,
+            norms: FxHashMap::default(),
             entries: named_entries(&axes, problem, derived),
             bodies: None,
             chain: 0,
@@ -96,6 +99,8 @@ impl<'a> Page<'a> {
             vectors: problem.vectors.iter().map(|(name, n)| (Formula::labelled(name, 0), *n)).collect(),
             sums: Vec::new(),
         };
+        let norms = bases(graph, problem.lagrangian).into_iter();
+        page.norms = norms.filter_map(|base| Some((base, page.norm(base)?))).collect();
         let by_name =
             page.ranks.iter().enumerate().map(|(k, &rank)| (page.variable(Variable::Parameter(k)), rank));
         page.ranks_by_name = by_name.collect();

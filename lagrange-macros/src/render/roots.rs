@@ -69,7 +69,7 @@ fn defined(graph: &Graph, problem: &Problem) -> Vec<NamedRoot> {
 }
 
 /// Sums under square roots below a node, in the order of the nodes.
-fn bases(graph: &Graph, root: Id) -> Vec<Id> {
+pub(super) fn bases(graph: &Graph, root: Id) -> Vec<Id> {
     let mut bases = Vec::new();
     for id in graph.reachable(&[root]) {
         let Node::Product(factors) = graph.node(id) else { continue };

@@ -261,6 +261,15 @@ impl Page<'_> {
         self.chosen(read, computed, size, false)
     }
 
+    /// Norm, such as |a − b|, that is the square root of a sum.
+    pub(super) fn norm(&self, sum: Id) -> Option<Formula> {
+        let norm = |reading: &Reading| {
+            let sum = self.polynomial(reading, &[(sum, 1)], &[])?;
+            self.collected(reading, |collector| collector.squared_norm(&sum))
+        };
+        self.readings.iter().find_map(norm)
+    }
+
     /// Formula of a named root, √X or 1/√X.
     pub(super) fn root(&self, root: &NamedRoot) -> Option<Formula> {
         let place = self.roots.iter().position(|known| known.name == root.name)?;

@@ -8,6 +8,24 @@ use super::systems::System;
 /// Systems, each with lines that must stand on its printed page.
 #[rustfmt::skip]
 const ENTRIES: &[(&str, &[&str])] = &[
+    // A spring between bodies: its distance and its square stay as they are in L.
+    (
+        "#[coordinates(r1: [3], r2: [3])]
+         #[lagrangian(m1/2*dot(r1_dot, r1_dot) + m2/2*dot(r2_dot, r2_dot) - k/2*(norm(r1 - r2) - l)^2)]
+         struct BodiesOnSpring { m1: f64, m2: f64, k: f64, l: f64 }",
+        &[
+            "E = ½ m₁ ṙ₁·ṙ₁ + ½ m₂ ṙ₂·ṙ₂ + ½ k (|r₁ − r₂| − l)²",
+            "H = (p_r₁·p_r₁)/(2 m₁) + (p_r₂·p_r₂)/(2 m₂) + ½ k (|r₁ − r₂| − l)²",
+        ],
+    ),
+    (
+        "#[coordinates(r: [3])] #[lagrangian(m/2*dot(r_dot, r_dot) - k/2*(norm(r) - l)^2 - m*g*r[2])]
+         struct BobOnSpring { m: f64, k: f64, l: f64, g: f64 }",
+        &[
+            "E = ½ m ṙ·ṙ + ½ k (|r| − l)² + m g r[2]",
+            "H = (p_r·p_r)/(2 m) + ½ k (|r| − l)² + m g r[2]",
+        ],
+    ),
     // A vector that is a definition is one vector in H, and hides no force in the equations of motion.
     (
         "#[coordinates(r: [3])] #[define(A = cross(B, r)/2)]

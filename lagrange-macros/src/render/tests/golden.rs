@@ -396,7 +396,7 @@ fn functions_families_and_vectors() {
               R_b[1] = λ_meet a[0]
 
             Energy
-              E = ½ ȧ·ȧ + ½ ḃ·ḃ + ½ ṡ² + a[0] + pair(|a − b|) + f(a, s) + f([s, 1], s) + p[2][0] + p[1][0]   (T + U if U is a[0] + pair(|a − b|) + f(a, s) + f([s, 1], s) + p[2][0] + p[1][0])
+              E = ½ ȧ·ȧ + ½ ḃ·ḃ + ½ ṡ² + a[0] + p[1][0] + p[2][0] + pair(|a − b|) + f(a, s) + f([s, 1], s)   (T + U if U is a[0] + p[1][0] + p[2][0] + pair(|a − b|) + f(a, s) + f([s, 1], s))
               d/dt E = −k ȧ·ȧ   (Q·q̇)
 
             Momenta
@@ -405,7 +405,7 @@ fn functions_families_and_vectors() {
               p_s = ṡ
 
             Hamiltonian
-              H = ½ p_a·p_a + ½ p_b·p_b + ½ p_s² + a[0] + pair(|a − b|) + f(a, s) + f([s, 1], s) + p[2][0] + p[1][0]
+              H = ½ p_a·p_a + ½ p_b·p_b + ½ p_s² + a[0] + p[1][0] + p[2][0] + pair(|a − b|) + f(a, s) + f([s, 1], s)
 
             Hamilton's equations
               ȧ = p_a
@@ -450,9 +450,9 @@ fn functions_families_and_vectors() {
             \end{align}
             \par\medskip\noindent\textbf{Energy}
             \begin{align}
-              E &= \tfrac{1}{2} \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} + \tfrac{1}{2} \dot{\mathbf{b}} \cdot \dot{\mathbf{b}} + \tfrac{1}{2} \dot s^2 + a_0 + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) \nonumber \\*
-                &\quad + f(\mathbf{a}, s) + f([s, 1], s) + p_{2, 0} + p_{1, 0} \quad \text{(}T + U\text{ if }U\text{ is }a_0 \nonumber \\*
-                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + f(\mathbf{a}, s) + f([s, 1], s) + p_{2, 0} + p_{1, 0}\text{)} \label{eq:Everything-E} \\
+              E &= \tfrac{1}{2} \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} + \tfrac{1}{2} \dot{\mathbf{b}} \cdot \dot{\mathbf{b}} + \tfrac{1}{2} \dot s^2 + a_0 + p_{1, 0} + p_{2, 0} \nonumber \\*
+                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + f(\mathbf{a}, s) + f([s, 1], s) \quad \text{(}T + U\text{ if }U\text{ is }a_0 \nonumber \\*
+                &\quad + p_{1, 0} + p_{2, 0} + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + f(\mathbf{a}, s) + f([s, 1], s)\text{)} \label{eq:Everything-E} \\
               \frac{d}{dt} E &= -k \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} \quad \text{(}Q \cdot \dot q\text{)} \label{eq:Everything-d-dt-E}
             \end{align}
             \par\medskip\noindent\textbf{Momenta}
@@ -463,8 +463,8 @@ fn functions_families_and_vectors() {
             \end{align}
             \par\medskip\noindent\textbf{Hamiltonian}
             \begin{align}
-              H &= \tfrac{1}{2} \mathbf{p}_a \cdot \mathbf{p}_a + \tfrac{1}{2} \mathbf{p}_b \cdot \mathbf{p}_b + \tfrac{1}{2} p_s^2 + a_0 + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) \nonumber \\*
-                &\quad + f(\mathbf{a}, s) + f([s, 1], s) + p_{2, 0} + p_{1, 0} \label{eq:Everything-H}
+              H &= \tfrac{1}{2} \mathbf{p}_a \cdot \mathbf{p}_a + \tfrac{1}{2} \mathbf{p}_b \cdot \mathbf{p}_b + \tfrac{1}{2} p_s^2 + a_0 + p_{1, 0} + p_{2, 0} \nonumber \\*
+                &\quad + \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) + f(\mathbf{a}, s) + f([s, 1], s) \label{eq:Everything-H}
             \end{align}
             \par\medskip\noindent\textbf{Hamilton's equations}
             \begin{align}
