@@ -141,6 +141,18 @@ impl Formula {
         is_it || self.parts().into_iter().any(|part| part.has_name(name))
     }
 
+    /// Returns whether an element of an array stands in the formula by its number, as r[2].
+    pub(super) fn has_numbered_element(&self) -> bool {
+        let is_number = |index: &Self| matches!(index, Self::Number(_));
+        let is_it = match self {
+            Self::Name { indices, .. } => indices.iter().any(is_number),
+            Self::Entry(_, index) => is_number(index),
+            Self::Multiplier(name) | Self::Call(name, _) => name.ends_with(']'),
+            _ => false,
+        };
+        is_it || self.parts().into_iter().any(Self::has_numbered_element)
+    }
+
     /// True if a term is a product with a sum whose terms differ in their degree in the velocities, as w (2 ẏ + w x).
     pub(super) fn mixes_degrees(&self) -> bool {
         match self {

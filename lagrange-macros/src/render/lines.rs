@@ -37,14 +37,19 @@ impl Line {
 
     /// True if a name stands in the equation or in the remark on it.
     pub(super) fn has_name(&self, name: &Formula) -> bool {
+        self.any(|formula| formula.has_name(name))
+    }
+
+    /// True if this holds of a formula of the equation or of the remark on it.
+    pub(super) fn any(&self, is_it: impl Fn(&Formula) -> bool) -> bool {
         let is_in_equation = match &self.equation {
             Equation::Known(left, right) | Equation::Complementary(left, right) => {
-                left.has_name(name) || right.has_name(name)
+                is_it(left) || is_it(right)
             }
-            Equation::Term(term) => term.has_name(name),
+            Equation::Term(term) => is_it(term),
             Equation::TooLong(_) => false,
         };
-        is_in_equation || self.remark.has_name(name)
+        is_in_equation || self.remark.any(is_it)
     }
 
     pub(super) fn is_too_long(&self) -> bool {

@@ -41,6 +41,7 @@ use crate::mechanics::Derived;
 use crate::resolve::Problem;
 use crate::symbolic::Graph;
 use crate::syntax::Declaration;
+use formula::Formula;
 use lines::{Equation, Line, Section};
 use notation::Notation;
 use page::Page;
@@ -51,6 +52,9 @@ const IN_FRAMES: &str =
     "`der` differentiates here what three angles or more turn, one after another: say how the parts lie
   by `#[frame(…)]`, and what they do by `position(…)`, `velocity(…)` and `kinetic(…)`, and the accelerations
   take fewer operations (see lagrange_core::language#frames).";
+
+/// Note on subscripts, which text does not have: there an element is r[2], as in the program.
+const FROM_ZERO: &str = "Indices count from 0, as in the program.";
 
 /// Written forms of a system.
 pub(crate) struct Rendered {
@@ -122,8 +126,12 @@ impl Page<'_> {
         let name = self.declaration.ident.to_string();
         let [in_latex, in_mathml] =
             [Notation::LATEX, Notation::MATHML].map(|notation| self.notation(notation));
+        let text = lines::text(self.notation(Notation::UNICODE), &name, &sections);
+        let mut lines = sections.iter().flat_map(|section| &section.lines);
+        let has_elements = lines.any(|line| line.any(Formula::has_numbered_element));
+        sections[0].note = has_elements.then(|| FROM_ZERO.to_owned());
         [
-            lines::text(self.notation(Notation::UNICODE), &name, &sections),
+            text,
             latex::latex(in_latex, name.trim_start_matches("r#"), &sections),
             html::html(in_mathml, &sections),
         ]

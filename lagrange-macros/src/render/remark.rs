@@ -33,9 +33,8 @@ impl Remark {
         }
     }
 
-    pub(super) fn has_name(&self, name: &Formula) -> bool {
-        let is_in = |part: &Fragment| matches!(part, Fragment::Formula(inner) if inner.has_name(name));
-        self.0.iter().flatten().any(is_in)
+    pub(super) fn any(&self, is_it: impl Fn(&Formula) -> bool) -> bool {
+        self.0.iter().flatten().any(|part| matches!(part, Fragment::Formula(inner) if is_it(inner)))
     }
 
     pub(super) fn formulas(&mut self) -> impl Iterator<Item = &mut Formula> {

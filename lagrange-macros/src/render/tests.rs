@@ -205,3 +205,17 @@ fn indices_and_letters_suit_the_notation() {
     assert_written(sum(number(3, 1)), "Σ(i = 0 … 2) x", r"\sum_{i = 0}^{2} x");
     assert_written(sum(name("n")), "Σ(i = 0 … n − 1) x", r"\sum_{i = 0}^{n - 1} x");
 }
+
+#[test]
+fn typeset_pages_say_from_where_indices_count() {
+    let note = "Indices count from 0";
+    let noted = |source: &str| {
+        let system = systems::System::new(source.parse().expect("tokens")).expect("a system");
+        system.forms[0].each_ref().map(|page| page.contains(note))
+    };
+    let falling =
+        "#[coordinates(r: [3])] #[lagrangian(m/2*dot(r_dot, r_dot) - m*g*r[2])] struct F { m: f64, g: f64 }";
+    assert_eq!(noted(falling), [false, true, true]);
+    let free = "#[coordinates(r: [3])] #[lagrangian(m/2*dot(r_dot, r_dot))] struct F { m: f64 }";
+    assert_eq!(noted(free), [false; 3]);
+}

@@ -44,6 +44,12 @@ use slides::Slides;
 /// q̇. Long generalized forces are products with derivatives of definitions and constraints: λ_c·(∂c/∂q), where the constraint c
 /// is left − right. Equations of at most 60 symbols stay in coordinates.
 ///
+/// The page's own letters give way to names of the system: with a field `E` the energy is ℰ, with `H` the Hamiltonian is ℋ, with `p_x`
+/// the momenta are P. Labels and [`Excerpt::row`] keep `E`, `H` and `p_x`.
+///
+/// Indices count from 0, as in the program: `r[2]` is the third component of r. LaTeX and MathML print it as a subscript, and a note below the
+/// Lagrangian says so.
+///
 /// An expression longer than 250 characters is replaced by its length. Expressions of more than 100 expanded
 /// terms are printed in the form that is computed.
 ///

@@ -327,6 +327,7 @@ fn rotating_frame() {
               \mathbf{v} &= \dot{\mathbf{r}} \label{eq:RotatingFrame-v} \\
               \mathbf{W} &= \boldsymbol{\Omega}(t) \label{eq:RotatingFrame-W}
             \end{align}
+            \par\noindent Indices count from 0, as in the program.
             \par\medskip\noindent\textbf{Equations of motion}
             \begin{align}
               m \ddot{\mathbf{r}} &= m (\mathbf{r} \times \boldsymbol{\Omega}'(t) + 2 (\dot{\mathbf{r}} \times \mathbf{W}) - \mathbf{W} \times (\mathbf{W} \times \mathbf{r}) - \mathbf{A}(t)) - \frac{\partial U}{\partial \mathbf{r}} \label{eq:RotatingFrame-r}
@@ -427,6 +428,7 @@ fn functions_families_and_vectors() {
               \mathbf{p}_{i = 1 \ldots 2} &= \mathbf{p}_{i - 1} + \frac{\mathbf{b}}{i} \label{eq:Everything-p-i-1-2} \\
               \mathbf{Q}_a &= -k \dot{\mathbf{a}} \label{eq:Everything-Q_a}
             \end{align}
+            \par\noindent Indices count from 0, as in the program.
             \par\medskip\noindent\textbf{Constraints}
             \begin{align}
               ([a_0, a_1, 0] \times [b_0, b_1, 0])_2 &= 0 \quad \text{(holonomic)} \label{eq:Everything-meet}

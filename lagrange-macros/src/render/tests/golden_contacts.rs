@@ -136,6 +136,7 @@ fn contacts_are_complementary() {
               L &= \tfrac{1}{2} m \dot z^2 + \tfrac{1}{2} j \dot a^2 - m g z \label{eq:Table-L} \\
               \mathbf{leg} &= [z + a, z - a] \label{eq:Table-leg}
             \end{align}
+            \par\noindent Indices count from 0, as in the program.
             \par\medskip\noindent\textbf{Constraints}
             \begin{align}
               0 \le \mathit{leg}_i &\perp \lambda_{\mathrm{legs}, i} \ge 0 \quad \text{(holonomic; }\text{restitution }0\text{)} \label{eq:Table-legs-i-0-1} \\
