@@ -3,8 +3,9 @@
 use super::formula::Formula;
 use super::notation::Notation;
 
-/// Brackets within brackets at whose sums a line may break.
-const DEPTH: i32 = 4;
+/// Brackets within brackets at whose sums a line may break. Those of an argument count twice, so that a line breaks in the
+/// argument of a cosine only after all sums around it.
+const DEPTH: i32 = 5;
 
 impl Notation<'_> {
     /// Splits a formula into the terms of its sum, between which a line may break.
@@ -43,15 +44,21 @@ impl Notation<'_> {
     /// Splits text outside of groups that are held together and in `depth` brackets at most, where `may_end` accepts the
     /// text before and after the break.
     fn parted(self, text: &str, depth: i32, may_end: impl Fn(&str, &str) -> bool) -> Vec<String> {
-        let (mut parts, mut groups, mut brackets, mut start) = (Vec::new(), 0, 0, 0);
+        let (mut parts, mut groups, mut start) = (Vec::new(), 0, 0);
+        let mut brackets: Vec<i32> = Vec::new();
         for (place, sign) in text.char_indices() {
             let (before, rest) = text.split_at(place);
-            if groups == 0 && brackets <= depth && place > start && may_end(before, rest) {
+            if groups == 0 && brackets.iter().sum::<i32>() <= depth && place > start && may_end(before, rest)
+            {
                 parts.push(text[start..place].to_owned());
                 start = place;
             }
             groups += self.spelling.nesting(rest);
-            brackets += i32::from("([".contains(sign)) - i32::from(")]".contains(sign));
+            match sign {
+                '(' | '[' => brackets.push(1 + i32::from(self.spelling.is_applied(before))),
+                ')' | ']' => drop(brackets.pop()),
+                _ => {}
+            }
         }
         parts.push(text[start..].to_owned());
         parts

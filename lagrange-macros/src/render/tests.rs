@@ -207,6 +207,17 @@ fn indices_and_letters_suit_the_notation() {
 }
 
 #[test]
+fn lines_break_in_sums_before_they_break_in_arguments() {
+    let sum = |one: &str, other: &str| Formula::Sum(vec![name(one), name(other)]);
+    let cosine = call("cos", [sum("theta_1", "theta_2")]);
+    let formula = Formula::Product(vec![sum("x", "y"), cosine], vec![]);
+    let broken = |notation: Notation| notation.within(notation.write(&formula), 40.0);
+    assert_eq!(broken(Notation::LATEX), ["(x", r" + y) \cos(\theta_1", r" + \theta_2)"]);
+    let room = |notation: Notation| notation.within(notation.write(&formula), 88.0);
+    assert_eq!(room(Notation::LATEX), ["(x", r" + y) \cos(\theta_1 + \theta_2)"]);
+}
+
+#[test]
 fn typeset_pages_say_from_where_indices_count() {
     let note = "Indices count from 0";
     let noted = |source: &str| {

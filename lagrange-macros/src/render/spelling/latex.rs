@@ -23,6 +23,11 @@ impl Spelling for Latex {
         begins(&["{", r"\left", r"\lvert", r"\begin"]) - begins(&["}", r"\right", r"\rvert", r"\end"])
     }
 
+    fn is_applied(&self, before: &str) -> bool {
+        let before = [r"\bigl", r"\left"].iter().fold(before, |before, size| before.trim_end_matches(size));
+        before.ends_with(|last: char| last.is_ascii_alphanumeric() || "}'".contains(last))
+    }
+
     fn sign(&self, sign: &str) -> String {
         match sign {
             "·" => r" \cdot ".to_owned(),

@@ -26,6 +26,10 @@ impl Spelling for MathMl {
         i32::from(rest.starts_with('<')) - 2 * i32::from(rest.starts_with("</"))
     }
 
+    fn is_applied(&self, before: &str) -> bool {
+        before.rsplit_once('<').is_some_and(|(before, _)| before.ends_with(APPLIED))
+    }
+
     fn sign(&self, sign: &str) -> String {
         match (sign, sign.trim()) {
             ("λ" | "π", letter) => format!("<mi>{letter}</mi>"),

@@ -23,6 +23,11 @@ pub(crate) trait Spelling: Sync {
     /// Change in nesting depth at the start of `rest`, counting groups that no line break may split.
     fn nesting(&self, rest: &str) -> i32;
 
+    /// Returns whether a bracket behind this text holds the argument of a function.
+    fn is_applied(&self, _before: &str) -> bool {
+        false
+    }
+
     /// A sign, given as in plain text with the spaces around it.
     fn sign(&self, sign: &str) -> String;
 
