@@ -4,6 +4,7 @@ use num_traits::{One, Zero};
 
 use super::derived::power;
 use super::formula::Formula;
+use super::length::length;
 use crate::symbolic::{Rational, Scaled, plus, times};
 
 /// Number · Π base ^ exponent, without zero exponents.
@@ -25,6 +26,21 @@ impl Formula {
             side.into_iter().map(power).collect()
         };
         Self::product(factors.number, powers(above), powers(below))
+    }
+
+    /// A fraction of a sum, as the sum of the fractions of its terms if these cancel to no more symbols: p²/(2 A) + q²/(2 C) for
+    /// (C p² + A q²)/(2 A C).
+    pub(super) fn by_terms(self) -> Self {
+        let Self::Product(above, below) = &self else { return self };
+        let (sums, others): (Vec<&Self>, Vec<&Self>) =
+            above.iter().partition(|factor| matches!(factor, Self::Sum(_)));
+        let [Self::Sum(terms)] = sums[..] else { return self };
+        let fraction = |term: &Self| {
+            let above = others.iter().copied().chain([term]).cloned().collect();
+            Self::flat_product(Rational::one().into(), above, below.clone())
+        };
+        let apart = Self::Sum(terms.iter().map(fraction).collect());
+        if !below.is_empty() && length(&apart) <= length(&self) { apart } else { self }
     }
 }
 

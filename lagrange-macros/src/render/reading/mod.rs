@@ -202,7 +202,8 @@ impl Page<'_> {
     /// Formula of an energy that is the sum of two: T and U stay apart. `None` if an energy is too long to print.
     pub(super) fn energy(&self, [kinetic, potential]: [Id; 2]) -> Option<Formula> {
         let parts = [kinetic, potential].into_iter().filter(|&part| part != Id::ZERO);
-        let parts: Option<Vec<Formula>> = parts.map(|part| self.part_of_energy(part).ok()).collect();
+        let written = |part| self.part_of_energy(part).ok().map(Formula::by_terms);
+        let parts: Option<Vec<Formula>> = parts.map(written).collect();
         parts.map(Formula::sum)
     }
 

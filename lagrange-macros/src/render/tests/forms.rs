@@ -26,6 +26,15 @@ const ENTRIES: &[(&str, &[&str])] = &[
             "H = (p_r·p_r)/(2 m) + ½ k (|r| − l)² + m g r[2]",
         ],
     ),
+    // The terms of a kinetic energy over their own denominators.
+    (
+        "#[coordinates(phi, theta, psi)] #[frame(top: rotate_z(phi), rotate_x(theta), rotate_z(psi))]
+         #[lagrangian(kinetic(top, m, [0, 0, l], [[A, 0, 0], [0, A, 0], [0, 0, C]]) - m*g*position(top, [0, 0, l])[2])]
+         struct TopInFrame { A: f64, C: f64, m: f64, g: f64, l: f64 }",
+        &[
+            "H = (p_φ − p_ψ cos θ)²/(2 (A + m l²) sin² θ) + p_θ²/(2 (A + m l²)) + p_ψ²/(2 C) + m g l cos θ",
+        ],
+    ),
     // A vector that is a definition is one vector in H, and hides no force in the equations of motion.
     (
         "#[coordinates(r: [3])] #[define(A = cross(B, r)/2)]
