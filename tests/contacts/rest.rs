@@ -206,7 +206,7 @@ struct Balls {
 impl Balls {
     /// Number of impacts, and velocities after them.
     fn after(m: [f64; 3], e: f64, v: [f64; 3]) -> (usize, [f64; 3]) {
-        let balls = Balls { m, e, gap: [Contact::Open; 2] };
+        let balls = Self { m, e, gap: [Contact::Open; 2] };
         let path = balls.motion(State::new([0.0; 3], v)).with_contacts().to(0.1).unwrap();
         let is_impact = |of: &&Transition<f64>| matches!(of, Transition::Impact { .. });
         (path.transitions().iter().filter(is_impact).count(), path.end().v.into())
