@@ -4,7 +4,7 @@ use rustc_hash::FxHashSet;
 
 use super::axes::named_axes;
 use super::formula::Formula;
-use super::letters::{Letters, Quantity};
+use super::letters::{Letters, PageQuantity};
 use super::links::BodyNames;
 use super::roots::{is_taken, taken};
 use crate::mechanics::Derived;
@@ -19,13 +19,13 @@ impl Arrays {
         let mut arrays = Self(FxHashSet::default());
         for label in &problem.coordinates {
             arrays.add(&label.text);
-            let of_coordinate = [Quantity::Momentum, Quantity::ConstraintForce, Quantity::Force];
+            let of_coordinate = [PageQuantity::Momentum, PageQuantity::ConstraintForce, PageQuantity::Force];
             of_coordinate.iter().for_each(|&quantity| arrays.add(&letters.text_of(quantity, &label.text)));
         }
         (0..problem.parameters.entries.len()).for_each(|k| arrays.add(&problem.parameters.name(k)));
         for turning in &turnings.all {
             let quaternion = problem.coordinates[turning.first].text.trim_end_matches("[0]");
-            let [rate, inertia] = [Quantity::AngularVelocity, Quantity::Inertia]
+            let [rate, inertia] = [PageQuantity::AngularVelocity, PageQuantity::Inertia]
                 .map(|quantity| letters.text_of(quantity, quaternion));
             [rate, inertia].iter().for_each(|name| arrays.add(&format!("{name}[0]")));
         }

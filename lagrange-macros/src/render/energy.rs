@@ -2,7 +2,7 @@
 
 use super::formula::Formula;
 use super::length::length;
-use super::letters::Quantity;
+use super::letters::PageQuantity;
 use super::lines::{Equation, Line};
 use super::page::Page;
 use super::remark::{Fragment, Remark};
@@ -54,7 +54,7 @@ impl Page<'_> {
         if changes.is_empty() {
             return vec![self.energy_line(remark)];
         }
-        let rate = Formula::Call("der".to_owned(), vec![self.letters.name(Quantity::Energy)]);
+        let rate = Formula::Call("der".to_owned(), vec![self.letters.name(PageQuantity::Energy)]);
         let changes = Fragment::Formula(Formula::sum(changes));
         let of_turnings = self.derived.turnings.energy.map(|[_, rate]| rate);
         let known = Some(of_turnings.unwrap_or(facts.energy_rate))
@@ -83,13 +83,13 @@ impl Page<'_> {
             let apart = self.derived.energies.and_then(|energies| self.energy(energies));
             apart.map_or_else(|| self.quantity(self.derived.equations.energy), Ok)
         });
-        Line { remark: Remark::of(remark), ..Line::known(self.letters.name(Quantity::Energy), energy) }
+        Line { remark: Remark::of(remark), ..Line::known(self.letters.name(PageQuantity::Energy), energy) }
     }
 
     fn energy_form(&self) -> Vec<Fragment> {
         let letter = |quantity| self.letters.name(quantity);
-        let t_plus_u = || sum([letter(Quantity::Kinetic), letter(Quantity::Potential)]);
-        let of_degree = |degree| self.letters.name_of(Quantity::Lagrangian, degree, 0);
+        let t_plus_u = || sum([letter(PageQuantity::Kinetic), letter(PageQuantity::Potential)]);
+        let of_degree = |degree| self.letters.name_of(PageQuantity::Lagrangian, degree, 0);
         match self.derived.facts.energy_form {
             EnergyForm::Sum(_) => vec![t_plus_u()],
             EnergyForm::Even(_) if !self.has_moving_masses() => self.if_potential(t_plus_u()),
@@ -101,9 +101,9 @@ impl Page<'_> {
                 vec![parts, Fragment::words(" by degree in the velocities")]
             }
             EnergyForm::General => {
-                let product = vec![letter(Quantity::Momentum), Formula::labelled("q", 1)];
+                let product = vec![letter(PageQuantity::Momentum), Formula::labelled("q", 1)];
                 let product = Formula::Call("dot".to_owned(), product);
-                vec![sum([product, letter(Quantity::Lagrangian).negated()])]
+                vec![sum([product, letter(PageQuantity::Lagrangian).negated()])]
             }
         }
     }
@@ -117,14 +117,14 @@ impl Page<'_> {
     /// T + U on the condition that U is −L at rest, which L alone cannot decide.
     fn if_potential(&self, t_plus_u: Fragment) -> Vec<Fragment> {
         let letter = |quantity| Fragment::Formula(self.letters.name(quantity));
-        let is = [Fragment::words(" if "), letter(Quantity::Potential), Fragment::words(" is ")];
+        let is = [Fragment::words(" if "), letter(PageQuantity::Potential), Fragment::words(" is ")];
         let potential = self.derived.energies.map(|[_, potential]| potential);
         let written = potential.and_then(|potential| self.part_of_energy(potential).ok());
         let (sum, potential) = match (potential, written) {
-            (Some(Id::ZERO), _) => (letter(Quantity::Kinetic), vec![Fragment::words("0")]),
+            (Some(Id::ZERO), _) => (letter(PageQuantity::Kinetic), vec![Fragment::words("0")]),
             (_, Some(written)) if length(&written) <= LONG => (t_plus_u, vec![Fragment::Formula(written)]),
             _ => {
-                let negative = self.letters.name(Quantity::Lagrangian).negated();
+                let negative = self.letters.name(PageQuantity::Lagrangian).negated();
                 (t_plus_u, vec![Fragment::Formula(negative), Fragment::words(" at rest")])
             }
         };
@@ -138,12 +138,12 @@ impl Page<'_> {
         match part {
             EnergyChange::Time => {
                 let (function, by) =
-                    (Box::new(letter(Quantity::Lagrangian)), vec![self.variable(Variable::Time)]);
+                    (Box::new(letter(PageQuantity::Lagrangian)), vec![self.variable(Variable::Time)]);
                 Formula::Partial { function, by, arguments: Vec::new() }.negated()
             }
-            EnergyChange::Forces => product(letter(Quantity::Force), Formula::labelled("q", 1)),
+            EnergyChange::Forces => product(letter(PageQuantity::Force), Formula::labelled("q", 1)),
             EnergyChange::Constraints => {
-                product(letter(Quantity::Multiplier), letter(Quantity::Inhomogeneous)).negated()
+                product(letter(PageQuantity::Multiplier), letter(PageQuantity::Inhomogeneous)).negated()
             }
         }
     }

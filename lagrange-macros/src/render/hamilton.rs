@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::formula::Formula;
 use super::length::length;
-use super::letters::Quantity;
+use super::letters::PageQuantity;
 use super::lines::{Equation, Line};
 use super::page::Page;
 use crate::mechanics::{Conserved, ConservedKind, EnergyForm, Hamilton, NoHamiltonian};
@@ -47,7 +47,7 @@ impl Page<'_> {
     pub(super) fn hamiltonian(&self) -> Vec<Line> {
         let written = self.legible().ok().and_then(|hamilton| self.written_out(hamilton));
         written
-            .map(|written| Line::known(self.letters.name(Quantity::Hamiltonian), Ok(written)))
+            .map(|written| Line::known(self.letters.name(PageQuantity::Hamiltonian), Ok(written)))
             .into_iter()
             .collect()
     }

@@ -10,8 +10,9 @@ use crate::mechanics::{Derived, EnergyForm};
 use crate::resolve::Problem;
 use crate::syntax::Declaration;
 
+/// Quantity that has a symbol on the page.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Quantity {
+pub(super) enum PageQuantity {
     Lagrangian,
     Energy,
     Hamiltonian,
@@ -37,10 +38,10 @@ pub(super) enum Quantity {
     Inhomogeneous,
 }
 
-use Quantity::*;
+use PageQuantity::*;
 
-/// Letters of each symbol, in the order of [`Quantity`].
-const LETTERS: [(Quantity, &[&str]); 15] = [
+/// Letters of each symbol, in the order of [`PageQuantity`].
+const LETTERS: [(PageQuantity, &[&str]); 15] = [
     (Lagrangian, &["L", "ℒ"]),
     (Energy, &["E", "ℰ"]),
     (Hamiltonian, &["H", "ℋ"]),
@@ -78,21 +79,21 @@ impl Letters {
         Self(std::array::from_fn(|place| std::mem::take(&mut chosen[place])))
     }
 
-    pub(super) fn letter(&self, quantity: Quantity) -> &str {
+    pub(super) fn letter(&self, quantity: PageQuantity) -> &str {
         &self.0[quantity as usize]
     }
 
-    pub(super) fn name(&self, quantity: Quantity) -> Formula {
+    pub(super) fn name(&self, quantity: PageQuantity) -> Formula {
         Formula::labelled(self.letter(quantity), 0)
     }
 
     /// Flat name of a symbol of a coordinate or quaternion: `p_x` of the momentum of `x`.
-    pub(super) fn text_of(&self, quantity: Quantity, text: &str) -> String {
+    pub(super) fn text_of(&self, quantity: PageQuantity, text: &str) -> String {
         format!("{}_{text}", self.letter(quantity))
     }
 
     /// The symbol of a coordinate or quaternion, with dots.
-    pub(super) fn name_of(&self, quantity: Quantity, text: &str, dots: usize) -> Formula {
+    pub(super) fn name_of(&self, quantity: PageQuantity, text: &str, dots: usize) -> Formula {
         Formula::labelled(&self.text_of(quantity, text), dots)
     }
 
@@ -108,7 +109,7 @@ impl Letters {
 }
 
 /// What stands behind the letter of a symbol wherever the page has it: `_x` for the momentum of x.
-fn behind(quantity: Quantity, problem: &Problem, derived: &Derived) -> Vec<String> {
+fn behind(quantity: PageQuantity, problem: &Problem, derived: &Derived) -> Vec<String> {
     let facts = &derived.facts;
     let coordinates = || problem.coordinates.iter().map(|label| &*label.text).collect();
     let quaternions = || {

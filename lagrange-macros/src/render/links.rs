@@ -3,7 +3,7 @@
 
 use super::axes::named_axes;
 use super::formula::Formula;
-use super::letters::{Letters, Quantity};
+use super::letters::{Letters, PageQuantity};
 use super::lines::{Line, Section};
 use super::motion::vector;
 use super::page::Page;
@@ -119,7 +119,7 @@ impl LinkNames {
             let named = named_axes(problem, &derived.turnings).into_iter();
             let axes =
                 named.map(|axes| (axes.quaternion == Formula::labelled(quaternion, 0)).then_some(axes.text));
-            Some((Some(axes.flatten().next()?), letters.text_of(Quantity::AngularVelocity, quaternion)))
+            Some((Some(axes.flatten().next()?), letters.text_of(PageQuantity::AngularVelocity, quaternion)))
         });
         let is_turned = link.turned != Frame::fixed().axes;
         let before = link.before.filter(|_| !is_turned).map(|before| &named[before]);

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::formula::Formula;
 use super::length::length;
-use super::letters::Quantity;
+use super::letters::PageQuantity;
 use super::lines::{Equation, LINE, Line};
 use super::page::Page;
 use super::resultants::Speed;
@@ -100,13 +100,13 @@ impl Page<'_> {
     pub(super) fn constraint_forces(&self) -> Vec<Line> {
         let forces = &self.derived.equations.printed_force;
         let by_vector = self.by_vector(forces, Self::expression, |text| {
-            self.letters.name_of(Quantity::ConstraintForce, text, 0)
+            self.letters.name_of(PageQuantity::ConstraintForce, text, 0)
         });
         let lines = by_vector.into_iter().map(|(rows, line)| {
             let by_names =
                 (self.bodies.is_some() && rows.len() == 1).then(|| self.constraint_force(rows.start));
             let left = |i: usize| {
-                self.letters.name_of(Quantity::ConstraintForce, &self.problem.coordinates[i].text, 0)
+                self.letters.name_of(PageQuantity::ConstraintForce, &self.problem.coordinates[i].text, 0)
             };
             let line = by_names.map(|force| Line::known(left(rows.start), force)).unwrap_or(line);
             (rows, line)

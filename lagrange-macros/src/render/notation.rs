@@ -6,7 +6,7 @@ use super::arrays::Arrays;
 use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_prefixed};
 use super::digits::{decimal, point};
 use super::formula::Formula;
-use super::letters::{Letters, Quantity};
+use super::letters::{Letters, PageQuantity};
 use super::spelling::{Latex, MathMl, Spelling, Unicode, WIDE};
 use crate::resolve::{is_built_in, is_of_frames, is_step};
 use crate::symbolic::{Rational, Scaled, finite_decimal};
@@ -33,7 +33,7 @@ impl<'a> Notation<'a> {
 
     /// Letter of the multipliers.
     pub(super) fn multiplier_letter(self) -> &'a str {
-        self.letters.map_or("lambda", |letters| letters.letter(Quantity::Multiplier))
+        self.letters.map_or("lambda", |letters| letters.letter(PageQuantity::Multiplier))
     }
 
     /// The name by which programs ask for the row with this left side.

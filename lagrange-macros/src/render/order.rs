@@ -1,7 +1,7 @@
 //! Puts sums in the order, and differences in the direction, in which the user wrote them.
 
 use super::formula::Formula;
-use super::letters::Quantity;
+use super::letters::PageQuantity;
 use super::page::Page;
 use crate::syntax::{Declaration, Expression, Kind};
 
@@ -122,7 +122,7 @@ impl Page<'_> {
         let all = |parts: &[Formula]| parts.iter().map(|part| self.with_momenta(part)).collect();
         match formula {
             Formula::Name { base, dots: 1, indices } => {
-                let base = self.letters.text_of(Quantity::Momentum, base);
+                let base = self.letters.text_of(PageQuantity::Momentum, base);
                 Formula::Name { base, dots: 0, indices: indices.clone() }
             }
             Formula::Negative(inner) => Formula::Negative(Box::new(self.with_momenta(inner))),

@@ -7,7 +7,7 @@ use super::arrays::Arrays;
 use super::axes::{NamedAxes, named_axes};
 use super::formula::Formula;
 use super::length::{length, symbols};
-use super::letters::{Letters, Quantity};
+use super::letters::{Letters, PageQuantity};
 use super::links::NamedBodies;
 use super::motion::vector;
 use super::notation::Notation;
@@ -118,7 +118,7 @@ impl<'a> Page<'a> {
 
     /// Momentum of a coordinate, with dots.
     pub(super) fn momentum_name(&self, text: &str, dots: usize) -> Formula {
-        self.letters.name_of(Quantity::Momentum, text, dots)
+        self.letters.name_of(PageQuantity::Momentum, text, dots)
     }
 }
 

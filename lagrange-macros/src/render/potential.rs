@@ -4,7 +4,7 @@
 //! (Goldstein, Poole and Safko, *Classical Mechanics*, 1.58).
 
 use super::formula::Formula;
-use super::letters::Quantity;
+use super::letters::PageQuantity;
 use super::lines::Line;
 use super::page::Page;
 use super::remark::{Fragment, Remark};
@@ -25,7 +25,7 @@ impl Page<'_> {
         let weights = self.weights(&bodies, resultants.lift, |position, _| Some(position))?;
         let remark = if weights.is_empty() { "potential" } else { "potential without weights" };
         terms.extend(weights.into_iter().map(Formula::negated));
-        terms.push(self.letters.name(Quantity::Lagrangian).negated());
+        terms.push(self.letters.name(PageQuantity::Lagrangian).negated());
         let potential = self.potential()?;
         let remark = Remark::of(vec![Fragment::words(remark)]);
         Some((potential.clone(), Line { remark, ..Line::known(potential, Ok(Formula::sum(terms))) }))
@@ -33,7 +33,7 @@ impl Page<'_> {
 
     fn potential(&self) -> Option<Formula> {
         let has_potential = self.bodies.as_ref()?.names.has_potential();
-        has_potential.then(|| self.letters.name(Quantity::PotentialBesideBodies))
+        has_potential.then(|| self.letters.name(PageQuantity::PotentialBesideBodies))
     }
 
     /// ∂V/∂(variable); `None` if it is zero.

@@ -4,7 +4,7 @@ use num_traits::One;
 
 use super::formula::Formula;
 use super::length::{READABLE, length};
-use super::letters::Quantity;
+use super::letters::PageQuantity;
 use super::lines::{Equation, Line};
 use super::motion::{MotionRow, vector};
 use super::notation::Notation;
@@ -23,7 +23,7 @@ impl Page<'_> {
         let found = self.derived.turnings.all.iter().find(of).map(|turning| {
             let quaternion = &self.problem.coordinates[turning.first].text;
             let name =
-                self.letters.text_of(Quantity::AngularVelocity, vector(quaternion).unwrap_or(quaternion));
+                self.letters.text_of(PageQuantity::AngularVelocity, vector(quaternion).unwrap_or(quaternion));
             format!("{name}[{}]", number - turning.rate)
         });
         found.unwrap_or_default()
@@ -33,7 +33,7 @@ impl Page<'_> {
     pub(super) fn turning(&self, number: usize, labels: &[Label]) -> Vec<MotionRow> {
         let turning = &self.derived.turnings.all[number];
         let quaternion = vector(&labels[0].text).unwrap_or_default();
-        let name = self.letters.text_of(Quantity::AngularVelocity, quaternion);
+        let name = self.letters.text_of(PageQuantity::AngularVelocity, quaternion);
         let line = |text: &str, equation| Line::labelled(&Formula::labelled(text, 0), equation);
         let [omega, _] = self.angular(quaternion);
         let half = Formula::product(
@@ -86,13 +86,13 @@ impl Page<'_> {
     /// Name of the moments of inertia: of the parameter, or I with the name of the quaternion.
     fn inertia(&self, euler: &Euler, quaternion: &str) -> Formula {
         let parameter = self.matrix(&euler.inertia);
-        let own = || self.letters.text_of(Quantity::Inertia, quaternion);
+        let own = || self.letters.text_of(PageQuantity::Inertia, quaternion);
         Formula::labelled(&parameter.unwrap_or_else(own), 0)
     }
 
     /// ω and ω̇ of a quaternion.
     fn angular(&self, quaternion: &str) -> [Formula; 2] {
-        [0, 1].map(|dots| self.letters.name_of(Quantity::AngularVelocity, quaternion, dots))
+        [0, 1].map(|dots| self.letters.name_of(PageQuantity::AngularVelocity, quaternion, dots))
     }
 
     /// E = … + ½ ω·(I ω); `None` if no quaternion turns a body, or if L is not quadratic in the velocities.
@@ -152,7 +152,7 @@ impl Page<'_> {
         let words = Remark::of(vec![Fragment::words("product of quaternions")]);
         Line {
             remark: words,
-            ..Line::known(self.letters.name_of(Quantity::ConstraintForce, quaternion, 0), force)
+            ..Line::known(self.letters.name_of(PageQuantity::ConstraintForce, quaternion, 0), force)
         }
     }
 

@@ -3,7 +3,7 @@
 use num_traits::One;
 
 use super::formula::Formula;
-use super::letters::Quantity;
+use super::letters::PageQuantity;
 use super::lines::{Equation, Line};
 use super::notation::Notation;
 use super::page::Page;
@@ -26,21 +26,21 @@ impl Page<'_> {
             _ => None,
         };
         lines.extend(lagrangian.as_ref().map(|lagrangian| match written_out {
-            Some(right) => Line::of(Equation::Known(letter(Quantity::Lagrangian), right)),
-            None => line(letter(Quantity::Lagrangian), lagrangian),
+            Some(right) => Line::of(Equation::Known(letter(PageQuantity::Lagrangian), right)),
+            None => line(letter(PageQuantity::Lagrangian), lagrangian),
         }));
         lines.extend(frames.iter().map(|frame| self.frame(frame)));
         lines.extend(defines.iter().map(|define| line(self.defined(define), &define.body)));
-        lines.extend(dissipation.as_ref().map(|function| line(letter(Quantity::Dissipation), function)));
+        lines.extend(dissipation.as_ref().map(|function| line(letter(PageQuantity::Dissipation), function)));
         lines.extend(forces.iter().map(|force| {
             let Target { name, indices } = &force.target;
-            let base = self.letters.text_of(Quantity::Force, &name.text);
+            let base = self.letters.text_of(PageQuantity::Force, &name.text);
             line(Formula::Name { base, dots: 0, indices: self.indices(indices) }, &force.value)
         }));
         lines.extend(powers.iter().map(|Power { indices, force, velocity }| {
             let factors = [force, velocity].map(|factor| self.written(factor)).to_vec();
             let left = Formula::Name {
-                base: self.letters.letter(Quantity::Power).to_owned(),
+                base: self.letters.letter(PageQuantity::Power).to_owned(),
                 dots: 0,
                 indices: self.indices(indices),
             };

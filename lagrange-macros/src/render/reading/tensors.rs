@@ -4,7 +4,7 @@ use rustc_hash::FxHashSet;
 
 use super::super::axes::NamedAxes;
 use super::super::formula::Formula;
-use super::super::letters::{Letters, Quantity};
+use super::super::letters::{Letters, PageQuantity};
 use super::super::motion::vector;
 use super::atoms::Meaning;
 use super::expand::Expansion;
@@ -83,7 +83,7 @@ fn vectors(
             kinds.map(|(dots, of)| (Formula::labelled(&base, dots), [i, j, k].map(|i| variable(i, of)))),
         );
         all.push((
-            letters.name_of(Quantity::Momentum, &base, 0),
+            letters.name_of(PageQuantity::Momentum, &base, 0),
             [i, j, k].map(|i| variable(i, Variable::Momentum)),
         ));
     }
@@ -91,7 +91,7 @@ fn vectors(
         let quaternion = vector(&problem.coordinates[turning.first].text).unwrap_or_default();
         let kinds = [(0, Variable::Velocity as fn(usize) -> Variable), (1, Variable::Acceleration)];
         all.extend(kinds.map(|(dots, of)| {
-            let name = letters.name_of(Quantity::AngularVelocity, quaternion, dots);
+            let name = letters.name_of(PageQuantity::AngularVelocity, quaternion, dots);
             (name, [0, 1, 2].map(|axis| variable(turning.rate + axis, of)))
         }));
     }

@@ -14,7 +14,7 @@ use super::mathml;
 use super::reader::Value;
 use super::systems::{self, Forms, Library, System};
 use crate::render::formula::Formula;
-use crate::render::letters::Quantity;
+use crate::render::letters::PageQuantity;
 use crate::symbolic::{Approximate, Id, Sample};
 use crate::variables::Variable;
 
@@ -89,7 +89,7 @@ fn value(sample: &Sample, variable: Variable) -> f64 {
 }
 
 fn momentum(system: &Page, i: usize) -> String {
-    system.letters.text_of(Quantity::Momentum, &system.problem.coordinates[i].text)
+    system.letters.text_of(PageQuantity::Momentum, &system.problem.coordinates[i].text)
 }
 
 /// Arrays that contain an entry, such as `r` for `r[0]`.

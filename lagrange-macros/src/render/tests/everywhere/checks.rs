@@ -8,7 +8,7 @@ use super::{Page, links, outer, turns, value};
 use crate::mechanics::Derived;
 use crate::render::axes::named_axes;
 use crate::render::formula::Formula;
-use crate::render::letters::Quantity;
+use crate::render::letters::PageQuantity;
 use crate::render::notation::Notation;
 use crate::render::tests::reader::Value;
 use crate::symbolic::{Id, Sample};
@@ -131,7 +131,7 @@ pub(super) fn check_quantities(system: &Page) {
     let equations = &system.derived.equations;
     let conserved = system.lines("Conserved\n");
     let energy = system.lines("Energy\n");
-    let name = system.written(&system.letters.name(Quantity::Energy));
+    let name = system.written(&system.letters.name(PageQuantity::Energy));
     let [energy_is, rate_is] = [format!("{name} = "), format!("d/dt {name} = ")];
     for line in conserved.iter().chain(&energy).filter(|line| line.starts_with(&energy_is)) {
         check_line(system, line, |sample| vec![sample.values(&system.graph, &[equations.energy])[0].value]);
@@ -147,11 +147,11 @@ pub(super) fn check_quantities(system: &Page) {
     check_by_coordinate(
         system,
         &system.lines("Constraint forces\n"),
-        (Some(Quantity::ConstraintForce), 0),
+        (Some(PageQuantity::ConstraintForce), 0),
         |sample, i| value(sample, equations.constraint_force.get(i)),
     );
     for lines in [conserved, system.lines("Momenta\n")] {
-        check_by_coordinate(system, &lines, (Some(Quantity::Momentum), 0), |sample, i| {
+        check_by_coordinate(system, &lines, (Some(PageQuantity::Momentum), 0), |sample, i| {
             value(sample, equations.momentum.get(i))
         });
     }
@@ -165,7 +165,7 @@ pub(super) fn check_hamilton(system: &Page) {
     }
     let lines = system.lines("Hamilton's equations\n");
     check_by_coordinate(system, &lines, (None, 1), |sample, i| value(sample, Variable::Velocity(i)));
-    check_by_coordinate(system, &lines, (Some(Quantity::Momentum), 1), |sample, i| {
+    check_by_coordinate(system, &lines, (Some(PageQuantity::Momentum), 1), |sample, i| {
         let force = equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
         let parts = sample.values(&system.graph, &[equations.momentum_rate[i], force]);
         parts[0].value + parts[1].value
@@ -176,7 +176,7 @@ pub(super) fn check_hamilton(system: &Page) {
 fn check_by_coordinate(
     system: &Page,
     lines: &[&str],
-    (quantity, dots): (Option<Quantity>, usize),
+    (quantity, dots): (Option<PageQuantity>, usize),
     computed: impl Fn(&mut Sample, usize) -> f64,
 ) {
     let coordinates = system.problem.coordinates.iter();

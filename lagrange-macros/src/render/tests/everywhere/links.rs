@@ -4,7 +4,7 @@ use super::turns::spread;
 use super::{Page, Value, outer, potential, value};
 use crate::mechanics::Turning;
 use crate::render::formula::Formula;
-use crate::render::letters::Quantity;
+use crate::render::letters::PageQuantity;
 use crate::render::links::{BodyNames, LinkNames};
 use crate::render::tests::systems::System;
 use crate::symbolic::{Approximate, Id, Rational, Sample};
@@ -151,7 +151,8 @@ pub(super) fn partial(system: &Page, sample: &Sample, function: &str, by: &str) 
     let of_turning = |turning: &Turning| {
         let text = system.problem.coordinates[turning.first].text.strip_suffix("[0]")?;
         let axis = (0..3).find(|axis| {
-            written(&system.letters.text_of(Quantity::AngularVelocity, &format!("{text}[{axis}]")), 0) == by
+            written(&system.letters.text_of(PageQuantity::AngularVelocity, &format!("{text}[{axis}]")), 0)
+                == by
         })?;
         let q = [0, 1, 2, 3].map(|k| value(sample, Variable::Coordinate(turning.first + k)));
         let mut rates = vec![0.0; n];

@@ -4,7 +4,7 @@ use super::checks::check_line;
 use super::links::{Curve, FIRST, STEP, named};
 use super::{Page, Value, value};
 use crate::render::formula::Formula;
-use crate::render::letters::Quantity;
+use crate::render::letters::PageQuantity;
 use crate::symbolic::{Approximate, Id, Sample};
 use crate::variables::Variable;
 
@@ -19,7 +19,7 @@ pub(super) fn is_it(system: &Page, function: &str) -> bool {
 
 /// Name of the potential, if a page has it.
 pub(super) fn name(system: &Page) -> Option<Formula> {
-    let name = system.letters.name(Quantity::PotentialBesideBodies);
+    let name = system.letters.name(PageQuantity::PotentialBesideBodies);
     let start = format!("{} = ", system.written(&name));
     let has_line = system.lines("Lagrangian\n").iter().any(|line| line.starts_with(&start));
     (named(system)?.0.has_potential() && has_line).then_some(name)

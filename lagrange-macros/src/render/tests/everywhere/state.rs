@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::{Page, links, momentum, outer, potential, turns, value};
 use crate::render::axes::named_axes;
 use crate::render::formula::Formula;
-use crate::render::letters::Quantity;
+use crate::render::letters::PageQuantity;
 use crate::render::roots::named_roots;
 use crate::render::tests::reader::{Meanings, Value, read_with};
 use crate::render::tests::systems::System;
@@ -61,7 +61,7 @@ impl<'a> State<'a> {
                 for (axis, value) in values.into_iter().enumerate() {
                     put(
                         system.letters.name_of(
-                            Quantity::AngularVelocity,
+                            PageQuantity::AngularVelocity,
                             &format!("{quaternion}[{axis}]"),
                             dots,
                         ),
@@ -74,7 +74,7 @@ impl<'a> State<'a> {
                 for (j, &entry) in row.iter().enumerate() {
                     let value = sample.values(graph, &[entry])[0].value;
                     put(
-                        system.letters.name_of(Quantity::Inertia, &format!("{quaternion}[{i}][{j}]"), 0),
+                        system.letters.name_of(PageQuantity::Inertia, &format!("{quaternion}[{i}][{j}]"), 0),
                         value,
                     );
                 }
@@ -101,7 +101,7 @@ impl<'a> State<'a> {
         }
         if potential::name(system).is_some() {
             put(
-                system.letters.name(Quantity::Lagrangian),
+                system.letters.name(PageQuantity::Lagrangian),
                 sample.values(graph, &[problem.lagrangian])[0].value,
             );
         }

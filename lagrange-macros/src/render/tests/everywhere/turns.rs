@@ -6,7 +6,7 @@ use super::checks::{check_line, check_sides, left_over};
 use super::{Page, links, value};
 use crate::mechanics::Turning;
 use crate::render::formula::Formula;
-use crate::render::letters::Quantity;
+use crate::render::letters::PageQuantity;
 use crate::render::notation::Notation;
 use crate::render::tests::systems::System;
 use crate::symbolic::{Approximate, Sample, Symbol};
@@ -89,7 +89,7 @@ pub(super) fn check<'l>(
     };
     let relation = line(lines, &label(name));
     check_line(system, &relation, |sample| state(sample, turning)[1].to_vec());
-    let omega = system.letters.text_of(Quantity::AngularVelocity, name);
+    let omega = system.letters.text_of(PageQuantity::AngularVelocity, name);
     let torques = |sample: &mut Sample| {
         let along = spread(state(sample, turning)[0]);
         let forces = left_over(system, sample, turning.first..turning.first + 4);
