@@ -5,7 +5,7 @@ use core::fmt::{self, Display, Formatter};
 use nalgebra::Complex;
 
 use super::multipliers::modulus;
-use crate::number::{Real, Scalar};
+use crate::number::Real;
 
 /// Resolution to which multipliers are printed, of their modulus; less precise numbers have that of eight of their last digits.
 pub(super) fn printed<T: Real>() -> f64 {
@@ -14,11 +14,11 @@ pub(super) fn printed<T: Real>() -> f64 {
 
 /// The number rounded to a decimal place that is not beyond the resolution; 0 if it is less.
 pub(super) fn rounded(x: f64, resolution: f64) -> f64 {
-    if Scalar::abs(x) < resolution {
+    if x.abs() < resolution {
         return 0.0;
     }
-    let digits = Scalar::ln(Scalar::abs(x) / resolution) / core::f64::consts::LN_10;
-    let digits = (digits as usize).min(16);
+    let is_place = |digits: &i32| (0..*digits).fold(resolution, |unit, _| 10.0 * unit) <= x.abs();
+    let digits = (1..=16).take_while(is_place).count();
     alloc::format!("{x:.digits$e}").parse().unwrap_or(x)
 }
 
@@ -39,14 +39,14 @@ impl<T: Real> Display for Printed<T> {
             return Ok(());
         }
         f.write_str(if im < 0.0 { " − " } else { " + " })?;
-        plain(f, Scalar::abs(im))?;
+        plain(f, im.abs())?;
         f.write_str(" i")
     }
 }
 
 /// Very small and large numbers with an exponent.
 fn plain(f: &mut Formatter<'_>, x: f64) -> fmt::Result {
-    let size = Scalar::abs(x);
+    let size = x.abs();
     if x == 0.0 || (1e-4..1e9).contains(&size) { write!(f, "{x}") } else { write!(f, "{x:e}") }
 }
 
