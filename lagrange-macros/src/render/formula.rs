@@ -141,7 +141,7 @@ impl Formula {
         is_it || self.parts().into_iter().any(|part| part.has_name(name))
     }
 
-    /// Returns whether an element of an array stands in the formula by its number, as r[2].
+    /// Returns whether an element of an array stands in the formula by its number, as `r[2]`.
     pub(super) fn has_numbered_element(&self) -> bool {
         let is_number = |index: &Self| matches!(index, Self::Number(_));
         let is_it = match self {

@@ -53,7 +53,7 @@ const IN_FRAMES: &str =
   by `#[frame(…)]`, and what they do by `position(…)`, `velocity(…)` and `kinetic(…)`, and the accelerations
   take fewer operations (see lagrange_core::language#frames).";
 
-/// Note on subscripts, which text does not have: there an element is r[2], as in the program.
+/// Note on subscripts, which text does not have: there an element is `r[2]`, as in the program.
 const FROM_ZERO: &str = "Indices count from 0, as in the program.";
 
 /// Written forms of a system.
