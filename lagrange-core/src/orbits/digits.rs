@@ -17,7 +17,9 @@ pub(super) fn rounded(x: f64, resolution: f64) -> f64 {
     if x.abs() < resolution {
         return 0.0;
     }
-    let is_place = |digits: &i32| (0..*digits).fold(resolution, |unit, _| 10.0 * unit) <= x.abs();
+    // Resolutions are mostly a power of ten of the number itself: products may be above it by their round-off.
+    let size = x.abs() * (1.0 + 1e-12);
+    let is_place = |digits: &i32| (0..*digits).fold(resolution, |unit, _| 10.0 * unit) <= size;
     let digits = (1..=16).take_while(is_place).count();
     alloc::format!("{x:.digits$e}").parse().unwrap_or(x)
 }
