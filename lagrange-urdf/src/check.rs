@@ -22,7 +22,7 @@ pub(crate) fn errors(robot: &Robot) -> Vec<String> {
     errors
 }
 
-/// Errors for links that joints name and that do not exist.
+/// Errors for joints whose parent or child does not exist.
 pub(crate) fn missing_links(robot: &Robot) -> Vec<String> {
     let known: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
     let ends = robot.joints.iter().flat_map(|joint| {

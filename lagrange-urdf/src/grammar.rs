@@ -4,11 +4,11 @@
 pub(crate) struct Element {
     pub(crate) name: &'static str,
     pub(crate) attributes: &'static [Attribute],
-    /// Elements in it. Those that must be there come with true.
+    /// Elements that it may hold, each with whether it must be there.
     pub(crate) children: &'static [(&'static Self, bool)],
-    /// Elements in it that the equations do not depend on.
+    /// Elements that are left out without a note, since the equations do not depend on them.
     pub(crate) ignored: &'static [&'static str],
-    /// True where the equations may depend on everything else, too.
+    /// True if a note names whatever else stands in it, since the equations may depend on that.
     pub(crate) is_complete: bool,
 }
 
@@ -34,12 +34,12 @@ pub(crate) struct Numbers {
     pub(crate) example: &'static str,
 }
 
-/// Versions of the format in which an attribute may or must be there.
+/// Whether an attribute may be left out.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Need {
     May,
     Must,
-    /// It must be there before version 1.2, and may be from then on.
+    /// It may be left out from version 1.2 of the format on.
     MustBefore12,
 }
 

@@ -70,7 +70,7 @@ pub fn import(description: &str, options: &Options) -> Result<Import, Vec<String
     notes.extend(number::right_angles(&mut robot, options.right_angles));
     let missing = check::missing_links(&robot);
     if !missing.is_empty() || robot.links.is_empty() {
-        // Without all links the joints make no tree.
+        // Joints between links that do not exist make no tree, and further errors would only be consequences.
         return Err(errors.into_iter().chain(missing).collect());
     }
     let tree = match Tree::new(&robot, options) {

@@ -112,7 +112,7 @@ pub(crate) struct Mimic {
 }
 
 impl Robot {
-    /// Reads a root whose syntax is right.
+    /// Reads the root element of a description in which [`check`](crate::syntax::check) has found no error.
     pub(crate) fn of(root: &Node) -> Self {
         let version = version(root);
         Self {

@@ -7,10 +7,11 @@ use super::lemke::{Exchange, Exchanged};
 use super::newton::eliminate;
 use crate::number::{Real, Scalar, larger};
 
-/// Largest number of contacts all of whose choices are tried.
+/// Largest number of contacts for which everything that they may do is tried.
 pub(super) const TRIED: usize = 4;
 
-/// Largest number of trials: each contact opens, sticks with friction forwards or backwards, or slides forwards or backwards.
+/// Largest number of trials. Each contact may do five things: it opens; it sticks, with a force of friction forwards or backwards; or it
+/// slides forwards or backwards.
 const CHOICES: usize = 5_usize.pow(TRIED as u32);
 
 /// Number of times that the linear equations of a trial are solved: once, and once more for what round-off leaves of them.

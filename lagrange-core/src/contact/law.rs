@@ -98,8 +98,9 @@ impl<T: Real> Law<'_, T> {
         Ok(forces)
     }
 
-    /// Whether no forces may exist, where none were found. Where no friction slides yet they do (Stewart and Trinkle 1996), more than
-    /// [`TRIED`] contacts are not tried in all ways, and of dependent gaps each way may leave the forces undetermined.
+    /// Whether a failed search may mean Painlevé's paradox. It means nothing where no friction slides yet, since forces then exist (Stewart
+    /// and Trinkle 1996); for more than [`TRIED`] contacts, since not everything that they may do is tried; and for gaps whose rows depend
+    /// on one another, since equations with dependent rows have no single solution, and trials of them are passed over.
     fn may_jam(&self) -> bool {
         let slides = |touch: &Touch<T>| matches!(touch.friction, Some(Rubbing { grip: Grip::Slides(_), .. }));
         let (problem, mut gaps) = (self.problem(), Vec::new());

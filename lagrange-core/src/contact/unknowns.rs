@@ -87,8 +87,8 @@ impl<T: Real> Law<'_, T> {
         unknowns
     }
 
-    /// What each contact and friction may do, as lists of the unknowns that may exceed zero then: a contact opens, or it pushes while its
-    /// friction sticks or slides, forwards or backwards.
+    /// All that each contact and each friction may do. Each choice is the list of the unknowns that may exceed zero with it: none if the
+    /// contact opens; its force and one of friction if it sticks; the speed as well if it slides.
     fn choices(&self, unknowns: &[(Unknown, usize)]) -> Vec<Vec<Vec<usize>>> {
         let has_open_friction = |k: usize| self.touches[k].friction.is_some_and(|of| of.grip == Grip::Open);
         let of = |(z, &(unknown, _)): (usize, &(Unknown, usize))| match unknown {

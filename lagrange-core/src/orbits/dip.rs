@@ -22,7 +22,7 @@ const SHALLOW: f64 = 0.5;
 
 /// Rates of the tests, and of the angles of the multipliers, along a family.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Slopes<T> {
+pub(super) struct TestSlopes<T> {
     tests: Tests<T>,
     /// Largest change of the argument of a multiplier, in radians a unit of arclength.
     pub(super) turn: T,
@@ -38,7 +38,7 @@ struct Knot<T> {
 
 impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tracer<'_, L, D> {
     /// Rates at a member, by a difference along the tangent. The orbit moved along it is off by the square of the move.
-    pub(super) fn slopes(&self, at: &TracedOrbit<L>) -> Result<Slopes<L::Scalar>, Error> {
+    pub(super) fn slopes(&self, at: &TracedOrbit<L>) -> Result<TestSlopes<L::Scalar>, Error> {
         let move_by = smaller(power_of_epsilon(1.0 / 3.0), self.step * L::Scalar::constant(0.01));
         let arc = Arc::from(&self.problem, &at.shot, at.tangent.clone());
         let chain = self.problem.moved_by(&at.shot, &(&at.tangent * move_by), false)?;
@@ -54,20 +54,20 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
             logarithms.min_by(|x, y| order(size(x), size(y))).map(|least| Scalar::abs(least.im))
         });
         let turn = turns.fold(L::Scalar::constant(0.0), larger) / move_by;
-        Ok(Slopes { tests, turn })
+        Ok(TestSlopes { tests, turn })
     }
 
     /// Members between two neighbours at which a test has not the sign that it has at both, by arclength.
     pub(super) fn dips(
         &self,
-        (from, slopes): (&TracedOrbit<L>, &Slopes<L::Scalar>),
+        (from, slopes): (&TracedOrbit<L>, &TestSlopes<L::Scalar>),
         arc: &Arc<L::Scalar>,
-        (step, next, ahead): (L::Scalar, &TracedOrbit<L>, &Slopes<L::Scalar>),
+        (step, next, ahead): (L::Scalar, &TracedOrbit<L>, &TestSlopes<L::Scalar>),
     ) -> Result<Vec<AtLength<L>>, Error> {
         let rate = arc.along(&self.problem, &next.shot).dot(&next.tangent);
         let mut found = Vec::new();
         for test in Test::ALL {
-            let knot = |length, tests: &Tests<_>, slopes: &Slopes<_>, rate| {
+            let knot = |length, tests: &Tests<_>, slopes: &TestSlopes<_>, rate| {
                 let (value, slope) = (tests.value(test)?, slopes.tests.value(test)?);
                 Some(Knot { length, value, slope: slope / rate })
             };

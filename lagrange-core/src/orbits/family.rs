@@ -140,9 +140,9 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
     /// between two orbits of one curve proves that there is one between. Each is found by regula falsi on the arclength, to
     /// round-off of the function, and a branch point by interpolation between orbits beside it.
     ///
-    /// Two of a kind between neighbours are found, and an orbit between them becomes a member, where the cubic through values and
-    /// slopes of the function falls below half of its values at both, and the function then passes zero by more than its noise,
-    /// 10³ times the error of an orbit. Steps are shortened so that no multiplier turns by more than 90° at the rate that it has
+    /// Two bifurcations of a kind between neighbours are found if two things hold: the cubic with the values and slopes of the function
+    /// at both neighbours falls below half of both values, and the function passes zero between them by more than 10³ times the error of
+    /// an orbit, its noise. An orbit between the two bifurcations then becomes a member. Steps are shortened so that no multiplier turns by more than 90° at the rate that it has
     /// at the start of the step. What can still be missed is a window that is narrower, or one beside which the function has
     /// further extrema between the two orbits.
     ///

@@ -23,7 +23,8 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         (length, near): (L::Scalar, &TracedOrbit<L>),
         arc: &Arc<L::Scalar>,
     ) -> Result<TracedOrbit<L>, Error> {
-        // Not along its own direction: near a branch point that is a mixture of both families'.
+        // Along the arc, and not along the direction of the orbit itself: near a branch point, that is any mixture of the directions of
+        // both families.
         let along = arc.along(&self.problem, &near.shot);
         let step = &along * ((arc.length - length) / along.norm_squared());
         self.corrected(self.problem.moved_by(&near.shot, &step, false)?, arc)

@@ -44,7 +44,7 @@ fn constant(name: &str, meaning: &str, rows: &[Vec<String>]) -> Vec<String> {
     lines
 }
 
-/// Limits of a joint that has some.
+/// Limits of the joint of a link. `None` if it has several coordinates, or states no limits.
 fn limit(moving: &Moving) -> Option<Limit> {
     let limit = moving.joint.filter(|_| moving.is_simple())?.limit.filter(|limit| !limit.is_unset())?;
     let position = if moving.kind() == JointType::Continuous { Limit::NONE.position } else { limit.position };

@@ -23,7 +23,7 @@ pub(crate) trait Spelling: Sync {
     /// Change in nesting depth at the start of `rest`, counting groups that no line break may split.
     fn nesting(&self, rest: &str) -> i32;
 
-    /// Returns whether a bracket behind this text holds the argument of a function.
+    /// Returns whether this text ends with the name of a function, so that the bracket after it holds its argument.
     fn is_applied(&self, _before: &str) -> bool {
         false
     }
