@@ -3,15 +3,7 @@
 use lagrange_core::orbits::OrbitError;
 use lagrange_core::{Error, prelude::*};
 
-#[derive(Clone, Lagrangian)]
-#[coordinates(theta)]
-#[lagrangian(theta_dot^2/2 + cos(theta))]
-struct Pendulum;
-
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
-struct HenonHeiles;
+use crate::systems::{HenonHeiles, Pendulum};
 
 #[track_caller]
 fn orbit_error<T: std::fmt::Debug>(found: Result<T, Error>) -> OrbitError {

@@ -2,15 +2,7 @@
 
 use lagrange_core::prelude::*;
 
-#[derive(Clone, Lagrangian)]
-#[coordinates(theta)]
-#[lagrangian(theta_dot^2/2 + cos(theta))]
-struct Pendulum;
-
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
-struct HenonHeiles;
+use crate::systems::{HenonHeiles, Pendulum};
 
 /// Pairs, moduli, and no digits that are round-off.
 #[test]

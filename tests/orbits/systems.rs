@@ -41,3 +41,15 @@ pub(crate) struct Moon {
 impl Moon {
     pub(crate) const EARTHS: Self = Self { mu: 0.012_150_585_609_624_04 };
 }
+
+/// A pendulum of length 1 with g = 1.
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(theta_dot^2/2 + cos(theta))]
+pub(crate) struct Pendulum;
+
+/// Motion of a star in the plane of a galaxy (Hénon and Heiles, *Astronomical Journal* 69, 1964).
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
+pub(crate) struct HenonHeiles;
