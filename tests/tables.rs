@@ -2,7 +2,7 @@
 //!
 //! `LAGRANGE_FUZZ_SECONDS` and `LAGRANGE_FUZZ_SEED` say how many, and which.
 
-#[path = "../lagrange-macros/src/rounds.rs"]
+#[path = "../lagrange-macros/derive/src/rounds.rs"]
 mod rounds;
 
 use lagrange_core::function::{First, Second, Third, Value};

@@ -1,34 +1,9 @@
-//! Derive macro of `lagrange-core`. Use it through that crate, which re-exports it.
-//!
-//! A pipeline; each stage is a folder with one entry point:
-//!
-//! ```text
-//! tokens ─syntax→ Declaration ─resolve→ Problem ─mechanics→ Derived ─render→ text, LaTeX, MathML ─codegen→ tokens
-//! ```
-//!
-//! All stages share one expression graph, defined in `symbolic`: `resolve` creates it, `mechanics` adds nodes, the
-//! later stages read it. A stage with errors reports all of them and ends the pipeline.
+//! Derive macro of `lagrange-core`. Use it through that crate, which re-exports it. The crate `lagrange-derive` does
+//! the work; a compiler can load only what stands here.
 
-mod codegen;
-mod contract;
-mod diagnostics;
-mod mechanics;
-#[cfg(test)]
-mod pipeline_tests;
 mod print;
-mod render;
-mod resolve;
-#[cfg(test)]
-mod robustness;
-#[cfg(test)]
-mod rounds;
-mod symbolic;
-mod syntax;
-mod variables;
 
-use diagnostics::{Diagnostics, Place};
-use proc_macro2::{Span, TokenStream};
-use syntax::Declaration;
+use proc_macro::TokenStream;
 
 /// Derives the equations of motion of a mechanical system from the Lagrangian, the coordinates and the
 /// constraints stated in attributes on a struct, whose fields are the parameters.
@@ -54,56 +29,10 @@ use syntax::Declaration;
         lagrange
     )
 )]
-pub fn derive_lagrangian(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
-    expand(input.into()).into()
-}
-
-/// Runs the whole pipeline. Also works outside of a compiler, for tests.
-fn expand(input: TokenStream) -> TokenStream {
-    let mut diagnostics = Diagnostics::default();
-    if let Some(span) = syntax::too_deep(input.clone()) {
-        return nests_too_deep(input, span);
-    }
-    let input = match syn::parse2(input) {
-        Ok(input) => input,
-        Err(error) => return error.to_compile_error(),
-    };
-    let declaration = syntax::declaration(input, &mut diagnostics);
-    match derive(&declaration, &mut diagnostics) {
-        Some(tokens) => tokens,
-        None => stub(&declaration, diagnostics.into_errors()),
-    }
-}
-
-/// Returns an error at `span` and a stub. Input nested this deep would overflow the stack of a recursive parser.
-fn nests_too_deep(input: TokenStream, span: Span) -> TokenStream {
-    let limit = syntax::NESTING_LIMIT;
-    let message = format!(
-        "parentheses nest more than {limit} deep here: name parts of the expression with `#[define(…)]`"
-    );
-    let error = Place::at(span).error(message);
-    match syn::parse2(syntax::shallow(input)) {
-        Ok(rest) => stub(&syntax::declaration(rest, &mut Diagnostics::default()), vec![error]),
-        Err(_) => error.to_compile_error(),
-    }
-}
-
-/// Returns the errors of a system, and a placeholder implementation.
-fn stub(declaration: &Declaration, errors: Vec<syn::Error>) -> TokenStream {
-    let outline = resolve::outline(declaration);
-    let mut calls = errors.into_iter().flatten().map(syn::Error::into_compile_error);
-    let unknown = if outline.coordinates.is_none() { calls.next() } else { None };
-    let stub = codegen::stub(declaration, &outline, unknown);
-    calls.chain([stub]).collect()
-}
-
-fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
-    diagnostics.is_empty().then_some(())?;
-    let (mut graph, problem) = resolve::problem(declaration, diagnostics)?;
-    codegen::refuse_hopeless(&graph, &problem, diagnostics)?;
-    let derived = mechanics::derive(&mut graph, &problem, diagnostics)?;
-    let rendered = render::render(declaration, &graph, &problem, &derived);
-    let tokens = codegen::implementation(declaration, &graph, &problem, &derived, &rendered, diagnostics)?;
-    print::if_asked(declaration, &tokens);
-    Some(tokens)
+pub fn derive_lagrangian(input: TokenStream) -> TokenStream {
+    let input = input.into();
+    let name = print::name(&input);
+    let tokens = lagrange_derive::expand(input);
+    print::if_asked(&name, &tokens);
+    tokens.into()
 }

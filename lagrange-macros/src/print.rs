@@ -3,15 +3,19 @@
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 
-use crate::syntax::Declaration;
+/// Returns the name after `struct`, or nothing if the tokens have none.
+pub(crate) fn name(input: &TokenStream) -> String {
+    let mut tokens = input.clone().into_iter();
+    tokens.find(|token| matches!(token, TokenTree::Ident(word) if word == "struct"));
+    tokens.next().map_or(String::new(), |token| token.to_string())
+}
 
 /// Prints the expansion to standard error if `LAGRANGE_PRINT` is the name of the struct, or `all`.
-pub(crate) fn if_asked(declaration: &Declaration, tokens: &TokenStream) {
-    let name = declaration.ident.to_string();
-    if std::env::var("LAGRANGE_PRINT").is_ok_and(|wanted| is_wanted(&wanted, &name)) {
-        eprintln!("{}", expansion(&name, &tokens.to_string()));
+pub(crate) fn if_asked(name: &str, tokens: &TokenStream) {
+    if std::env::var("LAGRANGE_PRINT").is_ok_and(|wanted| is_wanted(&wanted, name)) {
+        eprintln!("{}", expansion(name, &tokens.to_string()));
     }
 }
 

@@ -213,7 +213,8 @@ mod tests {
 
     /// Words in quotes of a constant of the macro, without those that no expression may call.
     fn words(file: &str, constant: &str) -> Vec<String> {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-macros/src").join(file);
+        let path =
+            std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-macros/derive/src").join(file);
         let text = std::fs::read_to_string(path).expect("the macro beside this crate");
         let start = text.find(constant).expect("the constant");
         let body =

@@ -67,7 +67,7 @@ lagrange-core = {{ path = "{root}/lagrange-core" }}
 [profile.dev]
 debug = false
 
-[profile.dev.package.lagrange-macros]
+[profile.dev.package.lagrange-derive]
 opt-level = 2
 """
 

@@ -4,7 +4,7 @@ use super::everywhere::pages;
 use excerpt::Excerpt;
 
 #[expect(dead_code, unreachable_pub, reason = "a module of lagrange-core, which has more uses for it")]
-#[path = "../../../../lagrange-core/src/system/equations/excerpt.rs"]
+#[path = "../../../../../lagrange-core/src/system/equations/excerpt.rs"]
 mod excerpt;
 
 const HEADINGS: [&str; 10] = [

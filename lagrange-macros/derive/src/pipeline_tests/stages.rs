@@ -1,7 +1,7 @@
 //! Output of each stage for one system, as the book shows it. `UPDATE_BOOK=1 cargo test stages` writes it into the
 //! book.
 
-#[path = "../../../book/blocks.rs"]
+#[path = "../../../../book/blocks.rs"]
 mod blocks;
 
 use super::{declaration, derived, systems, tokens};
@@ -14,7 +14,7 @@ use crate::variables::Variable;
 use crate::{expand, render};
 
 fn shows(name: &str, text: &str) {
-    let book = concat!(env!("CARGO_MANIFEST_DIR"), "/../book");
+    let book = concat!(env!("CARGO_MANIFEST_DIR"), "/../../book");
     blocks::check(book.as_ref(), "path.md", name, text);
 }
 

@@ -380,7 +380,7 @@ mod tests {
 
     /// Traits of the runtime, by name.
     fn traits() -> BTreeMap<String, ItemTrait> {
-        let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-core/src");
+        let runtime = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../lagrange-core/src");
         let files =
             sources(&runtime).into_iter().filter(|path| path.extension().is_some_and(|end| end == "rs"));
         let items = files.flat_map(|path| {
@@ -413,7 +413,8 @@ mod tests {
     /// A pointer to a system would give the default of what it does not forward.
     #[test]
     fn pointers_forward_all_of_a_system() {
-        let pointers = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lagrange-core/src/system/pointers.rs");
+        let pointers =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../lagrange-core/src/system/pointers.rs");
         let pointers = std::fs::read_to_string(pointers).expect("a source");
         for item in &traits()["Lagrangian"].items {
             let named = match item {

@@ -158,7 +158,7 @@ impl Library {
 }
 
 fn tokens(folders: &[&str]) -> Vec<TokenStream> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let (mut paths, mut found) = (Vec::new(), Vec::new());
     folders.iter().for_each(|folder| files(&root.join(folder), &mut paths));
     for path in paths {
