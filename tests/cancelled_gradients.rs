@@ -2,11 +2,8 @@
 //!
 //! `LAGRANGE_GRADIENTS` says how many cases; a failure says the number of its case.
 
-#[path = "random/mod.rs"]
-mod random;
-
 use lagrange_core::prelude::*;
-use random::Random;
+use lagrange_random::Random;
 
 /// A planar loop of three links, whose plane is turned by a₀, a₁ and a₂ at one base, and by c at the other.
 macro_rules! linkage {

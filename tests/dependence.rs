@@ -2,11 +2,8 @@
 //!
 //! `LAGRANGE_DEPENDENCE` says how many of each kind; a failure says the number of its case.
 
-#[path = "random/mod.rs"]
-mod random;
-
 use lagrange_core::prelude::*;
-use random::Random;
+use lagrange_random::Random;
 
 /// Two beads on a straight rod that hangs at the origin, by three lengths, of which the third is the sum of the others.
 #[derive(Lagrangian)]

@@ -2,13 +2,10 @@
 //!
 //! `LAGRANGE_GRADIENTS` says how many of each kind; a failure says the number of its case.
 
-#[path = "random/mod.rs"]
-mod random;
-
 use std::f64::consts::PI;
 
 use lagrange_core::prelude::*;
-use random::Random;
+use lagrange_random::Random;
 
 /// A holonomic constraint of three coordinates.
 macro_rules! constrained {

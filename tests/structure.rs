@@ -2,9 +2,6 @@
 //!
 //! The functions that check a promise take only systems that make it. The others must break it visibly.
 
-#[path = "random/mod.rs"]
-mod random;
-
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -12,7 +9,7 @@ use lagrange_core::nalgebra::{Matrix3, Vector3};
 use lagrange_core::prelude::*;
 use lagrange_core::structure::{ConstantMassMatrix, HolonomicConstraints, Unconstrained, VelocityFreeForces};
 use lagrange_core::{ConstraintKind, StateOf, generic};
-use random::Random;
+use lagrange_random::Random;
 
 /// Number of parameters, and of states for each, at random.
 const DRAWS: usize = 20;

@@ -6,7 +6,7 @@ use core::array::from_fn;
 
 use nalgebra::{Const, SMatrix, SVector};
 
-pub(crate) use random::Random;
+pub(crate) use random::RandomMatrix;
 
 use crate::generated::{self, LoopFactor, eliminate, vector};
 use crate::number::Broadcast;

@@ -8,7 +8,8 @@ use lagrange_core::prelude::*;
 
 use crate::functions::{Carried, Frame, Inertial, Velocity, Well};
 use crate::largest;
-use crate::random::Random;
+use lagrange_random::Random;
+use lagrange_systems::random_state;
 
 macro_rules! in_the_frame {
     ($name:ident, $($l:tt)*) => {
@@ -52,7 +53,7 @@ fn settings(seed: u64) -> impl Iterator<Item = Setting> {
     let mut random = Random(seed);
     std::iter::repeat_with(move || {
         let [m, k] = random.array(Random::positive);
-        Setting { m, well: Well { k }, frame: sliding(&mut random), state: random.state() }
+        Setting { m, well: Well { k }, frame: sliding(&mut random), state: random_state(random) }
     })
     .take(1000)
 }

@@ -5,8 +5,9 @@ use lagrange_core::prelude::*;
 
 use crate::accelerating::{Substituted, WithAcceleration, WithoutSquare};
 use crate::functions::{Angles, Carried, Frame, Inertial, Origin, Well};
-use crate::random::Random;
 use crate::rotating::Rotating;
+use lagrange_random::Random;
+use lagrange_systems::random_state;
 
 /// A frame that moves and turns, as it is: no velocity, acceleration or angular velocity of it is given.
 #[derive(Lagrangian)]
@@ -56,7 +57,7 @@ fn settings(seed: u64, of: impl Fn(Frame) -> Frame) -> impl Iterator<Item = Sett
     let mut random = Random(seed);
     std::iter::repeat_with(move || {
         let [m, k] = random.array(Random::positive);
-        Setting { m, well: Well { k }, frame: of(Frame::random(&mut random)), state: random.state() }
+        Setting { m, well: Well { k }, frame: of(Frame::random(&mut random)), state: random_state(random) }
     })
     .take(1000)
 }

@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::{Matrix3, Rotation3, Vector3};
 use lagrange_core::prelude::*;
 
-use crate::random::Random;
+use lagrange_random::Random;
 
 /// U = k √(1 + x² + 2y² + 3z²): anisotropic, and no polynomial.
 #[derive(Clone, Copy)]

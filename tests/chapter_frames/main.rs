@@ -3,8 +3,6 @@
 mod accelerating;
 mod declared;
 mod functions;
-#[path = "../random/mod.rs"]
-mod random;
 mod rotating;
 
 /// The largest of some deviations; not a number if one of them is not.

@@ -5,7 +5,8 @@ use lagrange_core::prelude::*;
 
 use crate::functions::{Acceleration, AngularVelocity, Carried, Frame, Inertial, Well};
 use crate::largest;
-use crate::random::Random;
+use lagrange_random::Random;
+use lagrange_systems::random_state;
 
 /// The Lagrangian (8.44); Ω and A are given by their components along the turning axes.
 #[derive(Lagrangian, Clone)]
@@ -74,7 +75,7 @@ fn close(found: Vector3<f64>, exact: Vector3<f64>, tolerance: f64, scale: f64) {
 fn canonical_momentum_8_45() {
     let mut random = Random(1);
     for _ in 0..1000 {
-        let (system, state) = (Rotating::random(&mut random), random.state());
+        let (system, state) = (Rotating::random(&mut random), random_state(&mut random));
         let p = system.momentum(&state);
         let exact = system.m * (state.v + system.angular_velocity(state.t).cross(&state.q));
         close(p, exact, 1e-12, 1.0 + exact.norm());
@@ -89,7 +90,7 @@ fn at_random(seed: u64, check: impl Fn(&Rotating, &State<f64, 3>)) {
     let mut random = Random(seed);
     for _ in 0..1000 {
         let system = Rotating::random(&mut random);
-        check(&system, &random.state());
+        check(&system, &random_state(&mut random));
     }
 }
 

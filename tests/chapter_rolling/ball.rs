@@ -9,7 +9,7 @@ use lagrange_core::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use lagrange_core::prelude::*;
 
 use crate::largest;
-use crate::random::Random;
+use lagrange_random::Random;
 
 #[derive(Lagrangian, Clone)]
 #[coordinates(r: [3], q: [4])]

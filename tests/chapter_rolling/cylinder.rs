@@ -5,7 +5,7 @@
 use lagrange_core::{ConstraintKind, Sample, prelude::*};
 
 use crate::largest;
-use crate::random::Random;
+use lagrange_random::Random;
 
 /// An incline at `alpha`, a spring of stiffness `k` at the axle, and a weight off the axis that pulls by
 /// `pull sin φ`.

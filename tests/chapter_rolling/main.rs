@@ -5,8 +5,6 @@ mod ball;
 mod cylinder;
 mod euler_angles;
 mod nonholonomic;
-#[path = "../random/mod.rs"]
-mod random;
 
 /// The largest of some deviations; not a number if one of them is not.
 fn largest(deviations: impl IntoIterator<Item = f64>) -> f64 {

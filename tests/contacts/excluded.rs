@@ -9,7 +9,7 @@ use lagrange_core::motion::{Limits, MultiplierBounds, Step};
 use lagrange_core::{Error, Method, StateOf, Statistics, prelude::*};
 
 use crate::count;
-use crate::random::Random;
+use lagrange_random::Random;
 
 /// A method without bounds on multipliers, so that all events of contacts are searched in every step.
 #[derive(Clone, Copy)]

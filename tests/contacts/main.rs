@@ -12,8 +12,6 @@ mod frictionless;
 mod limits;
 mod openings;
 mod poisson;
-#[path = "../random/mod.rs"]
-mod random;
 mod rest;
 mod rubbing_sensitivities;
 mod sensitivities;

@@ -6,7 +6,7 @@ use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::{Method, prelude::*};
 
 use crate::count;
-use crate::random::Random;
+use lagrange_random::Random;
 
 /// A block on a floor and a spring, under a weight of 1 and a load that lifts it: a pulse in time, or a bump in space that it
 /// crosses at the speed 1.

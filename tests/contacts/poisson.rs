@@ -3,7 +3,7 @@
 use lagrange_core::contact::{Contact, MoreauJean};
 use lagrange_core::prelude::*;
 
-use crate::random::Random;
+use lagrange_random::Random;
 
 /// A uniform rod that hits a floor with its lower end.
 #[derive(Clone, Lagrangian)]

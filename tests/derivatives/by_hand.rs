@@ -5,7 +5,8 @@ use lagrange_core::{ConstraintKind, Solution, prelude::*};
 use num_dual::{DualNum, HyperDual64};
 
 use crate::jacobian::check_jacobian;
-use crate::random::Random;
+use lagrange_random::Random;
+use lagrange_systems::random_state;
 
 const STATES: usize = 25;
 /// Largest deviation, as a fraction of the largest entry of a vector or matrix.
@@ -31,7 +32,7 @@ pub(crate) trait WithDerivatives<const N: usize, const M: usize>:
 
     /// A random state where everything is defined.
     fn state(&self, random: &mut Random) -> State<f64, N> {
-        random.state()
+        random_state(random)
     }
 
     /// L(t, q, q̇).

@@ -3,7 +3,7 @@
 use lagrange_core::{ConstraintKind, prelude::*};
 
 use crate::by_hand::{Number, WithDerivatives, check};
-use crate::random::Random;
+use lagrange_random::Random;
 
 /// Milton (8.8)–(8.10).
 #[derive(Lagrangian)]

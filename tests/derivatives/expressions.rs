@@ -3,7 +3,7 @@
 use lagrange_core::prelude::*;
 
 use crate::by_hand::{Number, WithDerivatives, check};
-use crate::random::Random;
+use lagrange_random::Random;
 
 #[derive(Lagrangian)]
 #[coordinates(x, y, z)]

@@ -4,7 +4,8 @@ use lagrange_core::nalgebra::{Matrix3, SMatrix, Vector2};
 use lagrange_core::prelude::*;
 
 use crate::by_hand::{Number, WithDerivatives, check};
-use crate::random::Random;
+use lagrange_random::Random;
+use lagrange_systems::random_state;
 
 /// Coupled oscillators: the stiffness by rows, the inertia as a matrix of nalgebra, and a constraint of two rows.
 #[derive(Lagrangian)]
@@ -66,7 +67,7 @@ impl WithDerivatives<6, 0> for StringOfMasses {
 
     fn state(&self, random: &mut Random) -> State<f64, 6> {
         // Away from the poles, where the azimuth has no inertia.
-        let mut state = random.state();
+        let mut state = random_state(random);
         (0..3).for_each(|i| state.q[i] = random.between(0.5, 2.5));
         state
     }

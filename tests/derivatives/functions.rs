@@ -4,7 +4,7 @@
 use lagrange_core::{ConstraintKind, prelude::*};
 
 use crate::by_hand::{Number, WithDerivatives, check};
-use crate::random::Random;
+use lagrange_random::Random;
 
 fn dot<D: Number>(a: [D; 3], b: [D; 3]) -> D {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

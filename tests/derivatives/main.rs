@@ -15,6 +15,4 @@ mod origin;
 mod particles;
 mod pendulums;
 mod quaternions;
-#[path = "../random/mod.rs"]
-mod random;
 mod trees;

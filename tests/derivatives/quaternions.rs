@@ -4,7 +4,7 @@ use lagrange_core::nalgebra::Matrix3;
 use lagrange_core::{ConstraintKind, prelude::*};
 
 use crate::by_hand::{Number, WithDerivatives, check};
-use crate::random::Random;
+use lagrange_random::Random;
 
 /// A heavy top of any inertia, hung up by its pole, which also moves as a point would in q so that M is regular.
 #[derive(Lagrangian)]

@@ -4,8 +4,8 @@
 
 use lagrange_core::{Method, Sample, StateOf, prelude::*};
 
-use crate::random::Random;
 use crate::{Free, Spring};
+use lagrange_random::Random;
 
 fn cases(unless_told: u64) -> u64 {
     std::env::var("LAGRANGE_EVENTS").ok().and_then(|n| n.parse().ok()).unwrap_or(unless_told)

@@ -4,8 +4,6 @@ mod adversary;
 mod hybrid;
 mod impacts;
 mod middle;
-#[path = "../random/mod.rs"]
-mod random;
 mod rule;
 mod runs;
 mod section;

@@ -4,7 +4,7 @@ use lagrange_core::linearized::DifferentiableMethod;
 use lagrange_core::prelude::*;
 
 use crate::count;
-use crate::random::Random;
+use lagrange_random::Random;
 
 #[derive(Clone, Lagrangian)]
 #[coordinates(a)]

@@ -12,8 +12,6 @@ mod long_time;
 mod nonholonomic;
 mod orders;
 mod own_scheme;
-#[path = "../random/mod.rs"]
-mod random;
 mod symplectic;
 mod systems;
 

@@ -7,12 +7,10 @@ mod closed_forms;
 mod constrained;
 mod legendre;
 mod motion;
-#[path = "../random/mod.rs"]
-mod random;
 mod rotating_frame;
 
 use lagrange_core::{Function, nalgebra::Const, prelude::*};
-use random::Random;
+use lagrange_random::Random;
 
 /// A smooth potential without any symmetry.
 struct Potential;

@@ -11,8 +11,6 @@ mod inverse;
 mod large_fields;
 mod local;
 mod numbers;
-#[path = "../random/mod.rs"]
-mod random;
 mod ranks;
 mod regressor;
 mod steady;

@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::{DMatrix, DVector};
 use lagrange_core::prelude::*;
 
-use crate::random::Random;
+use lagrange_random::Random;
 
 /// Four rows in six directions, of which `rank` are independent.
 fn rows(random: &mut Random, rank: usize) -> [[f64; 6]; 4] {

@@ -4,7 +4,7 @@ use lagrange_core::linearized::{BaseParameters, Regressor};
 use lagrange_core::nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
 use lagrange_core::prelude::*;
 
-use crate::random::Random;
+use lagrange_random::Random;
 
 #[derive(Clone, Copy)]
 struct Body {

@@ -1,11 +1,8 @@
 //! What a long system is asked: every function that is emitted, against the equations of Newton and Euler or against others.
 
-#[path = "../random/mod.rs"]
-pub(crate) mod random;
-
 use lagrange_core::nalgebra::{Const, SMatrix, SVector};
 use lagrange_core::prelude::*;
-use random::Random;
+use lagrange_random::Random;
 
 /// An error where they are further apart than this part of the largest entry, or of `scale`.
 pub(crate) fn close<const R: usize>(
@@ -72,7 +69,7 @@ where
 macro_rules! drive {
     ($name:literal, $system:ident, $state:ident, $accelerations:expr, $multipliers:expr) => {{
         use lagrange_core::{Lanes, Pack};
-        use $crate::drive::random::Random;
+        use lagrange_random::Random;
         use $crate::drive::{close, constraints, moved, one, random_direction, slope};
         let (mut random, sides) = (Random(7), &$multipliers as &[(&str, f64)]);
         let expected = Vec::from($accelerations);
@@ -159,7 +156,7 @@ macro_rules! drive {
 macro_rules! jacobians {
     ($name:literal, $system:ident, $state:ident) => {{
         use lagrange_core::StateDerivatives;
-        use $crate::drive::random::Random;
+        use lagrange_random::Random;
         use $crate::drive::{accelerations, close, moved, parameters, random_direction, slope};
         let said = |found: Result<(), String>| found.map_err(|found| format!("{}: {found}", $name));
         let unsolved = |error: Error| format!("{}: {error}", $name);

@@ -10,8 +10,6 @@ mod event_errors;
 mod events;
 mod lyapunov;
 mod mixed;
-#[path = "../random/mod.rs"]
-mod random;
 mod steps;
 mod stiff;
 mod trees;

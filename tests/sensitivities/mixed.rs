@@ -7,7 +7,8 @@ use lagrange_core::nalgebra::DVector;
 use lagrange_core::{Dual, StateOf, error::Entry, linearized::DifferentiableMethod, prelude::*};
 
 use crate::event_differences::{block, check, stack, values};
-use crate::random::Random;
+use lagrange_random::Random;
+use lagrange_systems::random_state;
 
 fn method() -> Dop853 {
     Dop853::with_tolerance(1e-12)
@@ -217,7 +218,7 @@ fn a_blade_on_a_body_that_turns_in_space() {
         let i = near(random, [1.0, 1.4, 0.8]);
         let [n, g, a, b, c, d] = near(random, [0.2, 1.5, 0.4, -0.3, 0.2, 0.3]);
         let [m, k] = random.array(Random::positive);
-        let start = random.state();
+        let start = random_state(random);
         (Suslov { i, m, n, g, k, a, b, c, d }, start)
     });
 }

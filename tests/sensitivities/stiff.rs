@@ -5,8 +5,8 @@ use lagrange_core::{linearized::DifferentiableMethod, linearized::StateSensitivi
 use num_dual::Dual64;
 
 use crate::differences::difference;
-use crate::random::Random;
 use crate::{ChaplyginSleigh, DAMPED, SliderCrank, Twice};
+use lagrange_random::Random;
 
 /// Asserts that a motion with derivatives ends where it does without, and takes few more steps.
 fn is_as_alone<S, P, const N: usize>(system: &S, start: State<f64, N>, method: P)

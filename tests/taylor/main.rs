@@ -6,8 +6,6 @@ mod control;
 mod drift;
 mod events;
 mod functions;
-#[path = "../random/mod.rs"]
-mod random;
 mod short_ranged;
 mod singular;
 mod supplied;

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use lagrange_core::{Lanes, Pack, TaylorSeries, nalgebra::Const, prelude::*};
 
-use crate::random::Random;
+use lagrange_random::Random;
 
 const END: f64 = 12.0;
 const TOLERANCES: [f64; 4] = [f64::EPSILON, 1e-12, 1e-9, 1e-6];

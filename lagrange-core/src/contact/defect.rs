@@ -109,7 +109,7 @@ mod tests {
     use super::*;
     use crate::contact::law::NoForces;
     use crate::contact::watched::BEYOND;
-    use crate::fixtures::Random;
+    use lagrange_random::Random;
 
     /// How the rows of contacts go together.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,20 +150,20 @@ mod tests {
             let mut random = Random(case);
             let (contacts, motions, count) = (1 + random.below(4), 2 + random.below(5), 1 + random.below(2));
             let mu = if kind == Kind::Opposed { 2.0 } else { [0.0, 0.1, 0.3, 1.0][random.below(4)] };
-            let mut many = |count: usize| (0..count).map(|_| random.next()).collect::<Vec<f64>>();
+            let mut many = |count: usize| (0..count).map(|_| random.number()).collect::<Vec<f64>>();
             let unlike = if kind == Kind::Unlike { 2.0 } else { 0.0 };
             let scales: Vec<f64> = many(motions).iter().map(|x| 10.0_f64.powf(unlike * x)).collect();
             let mut row = || many(motions).iter().zip(&scales).map(|(x, scale)| x * scale).collect();
             let rows: Vec<Vec<f64>> = (0..contacts * (1 + count)).map(|_| row()).collect();
             let motion = row().iter().zip(&scales).map(|(x, scale)| x / (scale * scale)).collect();
             let mut drawn = Self { rows, contacts, count, mu, motion };
-            let [apart, first, second] = [0, 1, 2].map(|_| random.next());
+            let [apart, first, second] = [0, 1, 2].map(|_| random.number());
             let apart = if kind == Kind::Dependent { 0.0 } else { 10.0_f64.powf(-5.0 + 3.0 * apart) };
             match kind {
                 Kind::Dependent | Kind::Nearly => {
-                    drawn.depend([first.abs(), second.abs()], apart, || random.next());
+                    drawn.depend([first.abs(), second.abs()], apart, || random.number());
                 }
-                Kind::Opposed => drawn.depend([-1.0, 0.0], apart, || random.next()),
+                Kind::Opposed => drawn.depend([-1.0, 0.0], apart, || random.number()),
                 Kind::Independent | Kind::Unlike => {}
             }
             drawn
@@ -222,7 +222,7 @@ mod tests {
             let (matrix, size) = (self.matrix(), self.rows.len());
             let (mut forces, mut rates, mut grips) = (vec![0.0; size], vec![0.0; size], Vec::new());
             for k in 0..self.contacts {
-                let [push, grip, part] = [0, 1, 2].map(|_| random.next());
+                let [push, grip, part] = [0, 1, 2].map(|_| random.number());
                 let unit = matrix[k][k].sqrt();
                 (forces[k], rates[k]) = if push > 0.0 { (push / unit, 0.0) } else { (0.0, -push * unit) };
                 let rests = grip.abs() < 0.5 && self.count == 1;

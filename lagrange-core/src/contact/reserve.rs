@@ -222,7 +222,7 @@ fn curvature<T: Real>(parts: &[SharedFriction<T>], velocities: &[[T; 2]]) -> Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fixtures::Random;
+    use lagrange_random::Random;
 
     const POINTS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.3], [-0.4, 0.8]];
 
@@ -296,9 +296,9 @@ mod tests {
         let cases = std::env::var("LAGRANGE_SHARES").map_or(200, |text| text.parse().expect("a number"));
         for case in 0..cases {
             let mut random = Random(case);
-            let points = [0, 1, 2].map(|_| [random.next() / 2.0, random.next() / 2.0]);
-            let limits = [0, 1, 2].map(|_| 0.6 + random.next() / 2.0);
-            let turn = 0.2 * random.next();
+            let points = [0, 1, 2].map(|_| [random.number() / 2.0, random.number() / 2.0]);
+            let limits = [0, 1, 2].map(|_| 0.6 + random.number() / 2.0);
+            let turn = 0.2 * random.number();
             let power = |v: f64, w: f64| {
                 let of = |[px, py]: [f64; 2]| f64::hypot(1.0 - turn * w - py * w, v + px * w);
                 points.iter().zip(limits).map(|(&point, limit)| limit * of(point)).sum::<f64>()

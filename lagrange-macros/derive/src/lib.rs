@@ -20,8 +20,6 @@ mod render;
 mod resolve;
 #[cfg(test)]
 mod robustness;
-#[cfg(test)]
-mod rounds;
 mod symbolic;
 mod syntax;
 mod variables;

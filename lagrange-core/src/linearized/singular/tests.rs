@@ -3,46 +3,44 @@
 use nalgebra::DMatrix;
 
 use super::Singular;
-use crate::fixtures::Random;
+use crate::fixtures::RandomMatrix;
+use lagrange_random::Random;
 
-impl Random {
-    fn orthogonal(&mut self, n: usize) -> DMatrix<f64> {
-        self.matrix(n, n).qr().q()
-    }
-
-    /// Random matrices: dense; of low rank; with rows and columns of widely different sizes; of small integers; sparse;
-    /// bidiagonal with tiny entries; with entries of widely different sizes; with columns that nearly or exactly repeat
-    /// others.
-    fn kinds(&mut self) -> [DMatrix<f64>; 8] {
-        let (rows, columns) = (1 + self.below(12), 1 + self.below(12));
-        let rank = 1 + self.below(rows.min(columns));
-        let dense = self.matrix(rows, columns);
-        let low = self.matrix(rows, rank) * self.matrix(rank, columns);
-        let size = |x: f64| 10.0_f64.powf(8.0 * x);
-        let (tall, wide) = (self.matrix(rows, 1).map(size), self.matrix(1, columns).map(size));
-        let graded = dense.component_mul(&(tall * wide));
-        let integers = self.matrix(rows, columns).map(|x| (1.5 * x).round());
-        let sparse = dense.map(|x| if x.abs() < 0.3 { x } else { 0.0 });
-        let tiny = 10.0_f64.powf(8.0 * (self.next() - 1.0));
-        let mut bidiagonal = DMatrix::zeros(columns, columns);
-        for i in 0..columns {
-            bidiagonal[(i, i)] = if self.below(2) == 0 { tiny } else { 0.0 };
-            if i > 0 {
-                bidiagonal[(i - 1, i)] = self.next();
-            }
-        }
-        let mut repeated = dense.clone();
-        for j in 0..columns {
-            if self.below(3) == 0 {
-                let of = repeated.column(self.below(columns)) * (1.0 + 1e-15 * self.next());
-                repeated.set_column(j, &of);
-            }
-        }
-        let unlike = dense.map(|x| x.powi(31));
-        [dense, low, graded, integers, sparse, bidiagonal, unlike, repeated]
-    }
+fn orthogonal(random: &mut Random, n: usize) -> DMatrix<f64> {
+    random.matrix(n, n).qr().q()
 }
 
+/// Random matrices: dense; of low rank; with rows and columns of widely different sizes; of small integers; sparse;
+/// bidiagonal with tiny entries; with entries of widely different sizes; with columns that nearly or exactly repeat
+/// others.
+fn kinds(random: &mut Random) -> [DMatrix<f64>; 8] {
+    let (rows, columns) = (1 + random.below(12), 1 + random.below(12));
+    let rank = 1 + random.below(rows.min(columns));
+    let dense = random.matrix(rows, columns);
+    let low = random.matrix(rows, rank) * random.matrix(rank, columns);
+    let size = |x: f64| 10.0_f64.powf(8.0 * x);
+    let (tall, wide) = (random.matrix(rows, 1).map(size), random.matrix(1, columns).map(size));
+    let graded = dense.component_mul(&(tall * wide));
+    let integers = random.matrix(rows, columns).map(|x| (1.5 * x).round());
+    let sparse = dense.map(|x| if x.abs() < 0.3 { x } else { 0.0 });
+    let tiny = 10.0_f64.powf(8.0 * (random.number() - 1.0));
+    let mut bidiagonal = DMatrix::zeros(columns, columns);
+    for i in 0..columns {
+        bidiagonal[(i, i)] = if random.below(2) == 0 { tiny } else { 0.0 };
+        if i > 0 {
+            bidiagonal[(i - 1, i)] = random.number();
+        }
+    }
+    let mut repeated = dense.clone();
+    for j in 0..columns {
+        if random.below(3) == 0 {
+            let of = repeated.column(random.below(columns)) * (1.0 + 1e-15 * random.number());
+            repeated.set_column(j, &of);
+        }
+    }
+    let unlike = dense.map(|x| x.powi(31));
+    [dense, low, graded, integers, sparse, bidiagonal, unlike, repeated]
+}
 /// The matrices A V and V.
 fn parts(found: &Singular<f64>) -> [DMatrix<f64>; 2] {
     let (rows, count) = (found.rows, found.columns.ncols());
@@ -55,7 +53,7 @@ fn every_matrix_is_the_product_of_its_decomposition() {
     let count = std::env::var("LAGRANGE_MATRICES").ok().and_then(|n| n.parse().ok()).unwrap_or(100);
     let (mut random, mut worst) = (Random(0x9E37_79B9_7F4A_7C15), [0.0_f64; 3]);
     for round in 0..count {
-        for (kind, a) in random.kinds().into_iter().enumerate() {
+        for (kind, a) in kinds(&mut random).into_iter().enumerate() {
             let found = Singular::of(&a).unwrap_or_else(|| panic!("round {round}: kind {kind} refused: {a}"));
             let ([images, v], size) = (parts(&found), a.norm().max(f64::MIN_POSITIVE));
             let product = (&images * v.transpose() - &a).norm() / size;
@@ -81,7 +79,9 @@ fn singular_values_are_those_that_a_matrix_is_made_with() {
     for _ in 0..100 {
         let n = 1 + random.below(10);
         let mut values: Vec<f64> = (0..n).map(|_| [1.0, 1.0, 1e-8, 1e-16, 0.0][random.below(5)]).collect();
-        let a = random.orthogonal(n) * DMatrix::from_diagonal(&values.clone().into()) * random.orthogonal(n);
+        let a = orthogonal(&mut random, n)
+            * DMatrix::from_diagonal(&values.clone().into())
+            * orthogonal(&mut random, n);
         let mut found = Singular::of(&a).expect("a decomposition").values;
         values.sort_by(f64::total_cmp);
         found.sort_by(f64::total_cmp);

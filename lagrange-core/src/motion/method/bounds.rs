@@ -206,8 +206,8 @@ mod tests {
     use nalgebra::Const;
 
     use super::*;
-    use crate::fixtures::Random;
     use crate::motion::{DormandPrince54, DormandPrince853};
+    use lagrange_random::Random;
 
     /// Fractions of the step at which functions are known.
     fn places<P: Pair>() -> impl Iterator<Item = f64> {
@@ -272,10 +272,10 @@ mod tests {
     fn check_near_cubic_polynomials<P: Pair>() {
         let mut random = Random(11);
         for k in 0..100_000 {
-            let c: [f64; 4] = core::array::from_fn(|_| random.next());
-            let [rate, phase] = [40.0 * random.next(), 7.0 * random.next()];
+            let c: [f64; 4] = core::array::from_fn(|_| random.number());
+            let [rate, phase] = [40.0 * random.number(), 7.0 * random.number()];
             let cubic = |x: f64| c[0] + x * (c[1] + x * (c[2] + x * c[3]));
-            let share = 10.0_f64.powf(-2.0 * random.next().abs());
+            let share = 10.0_f64.powf(-2.0 * random.number().abs());
             let f = |x: f64| cubic(x) + share * (rate * x + phase).sin();
             let values = || places::<P>().map(f);
             let (low, high) =

@@ -160,7 +160,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> RecordPlan<'a, L> {
 #[cfg(test)]
 mod tests {
     use super::SampleTimes;
-    use crate::fixtures::Random;
+    use lagrange_random::Random;
 
     /// Equal parts of an interval of time end at its end, whatever the rounding errors of the multiples. They do not
     /// end there if the interval is changed by more than these errors.
@@ -168,8 +168,8 @@ mod tests {
     fn multiples_of_an_interval_end_at_the_end() {
         let mut random = Random(7);
         for _ in 0..100_000 {
-            let scales = [(); 2].map(|()| 2.0_f64.powf(20.0 * random.next()));
-            let (start, length) = (random.next() * scales[0], random.next() * scales[1]);
+            let scales = [(); 2].map(|()| 2.0_f64.powf(20.0 * random.number()));
+            let (start, length) = (random.number() * scales[0], random.number() * scales[1]);
             let parts = (1 + random.below(300)) as f64;
             let (end, round_off) = (start + length, f64::EPSILON * start.abs().max((start + length).abs()));
             let every = (length / parts).abs();

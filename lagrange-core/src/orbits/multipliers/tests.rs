@@ -3,7 +3,8 @@
 use nalgebra::{Complex, DMatrix};
 
 use super::{of_product, paired};
-use crate::fixtures::Random;
+use crate::fixtures::RandomMatrix;
+use lagrange_random::Random;
 
 /// Factors S_k D S_{k−1}⁻¹ with S_m = S_0: the product has the eigenvalues of D^m.
 fn factors(random: &mut Random, values: &[f64], count: usize) -> Vec<DMatrix<f64>> {

@@ -1,10 +1,10 @@
 use nalgebra::Const;
 
 use super::{Corrections, project};
-use crate::fixtures::Random;
 use crate::prelude::*;
 use crate::solution::consistent::BOTH;
 use crate::vector::Array;
+use lagrange_random::Random;
 
 /// A mass on a growing circle about a centre, in a magnetic field and with anisotropic damping.
 #[derive(Lagrangian)]
@@ -58,16 +58,19 @@ fn changes<L: Lagrangian<N = Const<N>, Scalar = f64>, const N: usize>(
     for case in 0..cases {
         let random = &mut Random(case << 32);
         let system = system(random);
-        let from =
-            State::new([(); N].map(|()| 1.0 + 0.7 * random.next()), [(); N].map(|()| 2.0 * random.next()));
-        let (on, _) =
-            system.make_consistent(&State { t: 0.3 * random.next(), ..from }).expect("near the constraints");
+        let from = State::new(
+            [(); N].map(|()| 1.0 + 0.7 * random.number()),
+            [(); N].map(|()| 2.0 * random.number()),
+        );
+        let (on, _) = system
+            .make_consistent(&State { t: 0.3 * random.number(), ..from })
+            .expect("near the constraints");
         let off = State {
-            q: on.q.map(|q| q + 1e-13 * random.next()),
-            v: on.v.map(|v| v + 1e-15 * random.next()),
+            q: on.q.map(|q| q + 1e-13 * random.number()),
+            v: on.v.map(|v| v + 1e-15 * random.number()),
             ..on
         };
-        let step = 0.6 + 0.3 * random.next();
+        let step = 0.6 + 0.3 * random.number();
         let corrections = [Corrections::OnceAfter(step), Corrections::ToRoundOff];
         for (sum, corrections) in sums.iter_mut().zip(corrections) {
             let (near, doubt) =
@@ -81,8 +84,8 @@ fn changes<L: Lagrangian<N = Const<N>, Scalar = f64>, const N: usize>(
 
 /// A random system; `strength` scales the magnetic field and the damping.
 fn cartesian(random: &mut Random, strength: f64) -> Cartesian {
-    let [b, c] = [strength * random.next(), strength * random.next().abs()];
-    let [m, k, l, u] = [1.5 + random.next(), random.next(), 1.5 + 0.5 * random.next(), random.next()];
+    let [b, c] = [strength * random.number(), strength * random.number().abs()];
+    let [m, k, l, u] = [1.5 + random.number(), random.number(), 1.5 + 0.5 * random.number(), random.number()];
     Cartesian { m, b, c, k, l, u }
 }
 
@@ -97,11 +100,11 @@ fn momenta_are_kept_where_velocities_follow_the_coordinates() {
         },
     );
     let polar = changes(
-        |r| Polar { m: 1.5 + r.next(), k: r.next(), l: 1.5 + 0.5 * r.next(), u: r.next() },
+        |r| Polar { m: 1.5 + r.number(), k: r.number(), l: 1.5 + 0.5 * r.number(), u: r.number() },
         |system, state| system.momentum(state)[1],
     );
     let coupled = changes(
-        |r| Coupled { m: 1.5 + r.next(), g: 2.0 * r.next(), k: r.next(), e: 1.0 + 0.5 * r.next() },
+        |r| Coupled { m: 1.5 + r.number(), g: 2.0 * r.number(), k: r.number(), e: 1.0 + 0.5 * r.number() },
         |system, state| {
             let p = system.momentum(state);
             state.q[0] * p[1] - state.q[1] * p[0] + p[4]

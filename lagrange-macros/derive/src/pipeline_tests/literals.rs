@@ -3,8 +3,8 @@
 
 use super::equations;
 use crate::codegen::solutions;
-use crate::rounds::Random;
 use crate::variables::Variable;
+use lagrange_random::Random;
 
 /// A chain of links. `numbers` returns each number as a literal or as an entry of a field.
 fn chain(numbers: &mut dyn FnMut() -> String) -> String {

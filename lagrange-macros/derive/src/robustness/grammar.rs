@@ -1,6 +1,6 @@
 //! Random combinations of the language's forms. Most names are declared; shapes fit by chance.
 
-use crate::rounds::Random;
+use lagrange_random::Random;
 
 const NUMBERS: [&str; 10] = ["0", "1", "2", "3", "0.5", "9.81", "1e-3", "1_000", "6.62607015e-34", "1e300"];
 const SCALARS: [&str; 12] =

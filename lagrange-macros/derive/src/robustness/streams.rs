@@ -2,7 +2,7 @@
 
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
-use crate::rounds::Random;
+use lagrange_random::Random;
 
 /// Words and signs, some of the language and some not.
 const TOKENS: &str = "x y r theta x_dot r_dot x_ddot t pi m k sin sqrt norm dot cross der lambda sum in i n rod \

@@ -4,14 +4,8 @@
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::eigenvalues;
-use crate::fixtures::Random;
-
-impl Random {
-    fn symmetric(&mut self, n: usize) -> DMatrix<f64> {
-        let a = self.matrix(n, n);
-        &a + a.transpose()
-    }
-}
+use crate::fixtures::RandomMatrix;
+use lagrange_random::Random;
 
 /// Hamiltonian matrix [[A, B], [C, −Aᵀ]] with symmetric B and C.
 fn hamiltonian(random: &mut Random, n: usize) -> DMatrix<f64> {
@@ -32,7 +26,7 @@ fn gyroscopic(random: &mut Random, n: usize) -> DMatrix<f64> {
 /// ± iβ.
 fn rotating_saddle(random: &mut Random) -> DMatrix<f64> {
     let tenth = |n: usize| n as f64 / 10.0;
-    let (w, a, k) = (tenth(1 + random.below(10)), tenth(random.below(10)), random.next() / 2.0);
+    let (w, a, k) = (tenth(1 + random.below(10)), tenth(random.below(10)), random.number() / 2.0);
     saddle(w, a, k)
 }
 
@@ -82,7 +76,7 @@ fn backward_error(a: &DMatrix<f64>, s: Complex<f64>, random: &mut Random) -> f64
     });
     let lu = moved.lu();
     let tries = (0..3).map(|_| {
-        let b = DVector::from_fn(n, |_, _| Complex::new(random.next(), random.next()));
+        let b = DVector::from_fn(n, |_, _| Complex::new(random.number(), random.number()));
         // Elimination fails at a zero pivot: the eigenvalue is exact to the last bit.
         lu.solve(&b).map_or(0.0, |x| if x.norm().is_finite() { b.norm() / x.norm() } else { 0.0 })
     });

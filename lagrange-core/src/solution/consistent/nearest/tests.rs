@@ -3,8 +3,8 @@ use std::vec::Vec;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::fixtures::Random;
 use crate::prelude::*;
+use lagrange_random::Random;
 
 #[derive(Lagrangian)]
 #[coordinates(x, y)]
@@ -68,7 +68,7 @@ fn what_is_found_satisfies_the_equations_of_the_nearest_point() {
     let count = std::env::var("LAGRANGE_NEAREST").ok().and_then(|count| count.parse().ok()).unwrap_or(40);
     let (mut random, mut worst, mut refused, mut nearer) = (Random(1), 0.0_f64, 0, 0);
     for _ in 0..count {
-        let mut next = || random.next();
+        let mut next = || random.number();
         let curve = Curve {
             m: [0; 4].map(|_| 1.0 + 0.8 * next()),
             n: 0.1 * next(),

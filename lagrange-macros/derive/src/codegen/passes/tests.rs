@@ -4,9 +4,9 @@ use super::split::{TwoParts, split};
 use super::{Program, factors, fuse, guard, reciprocals, signs};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
-use crate::rounds::Random;
 use crate::symbolic::{Function, Symbol};
 use crate::variables::Variable;
+use lagrange_random::Random;
 
 /// Evaluates the results; input k has the value 0.3 + 0.1 k.
 fn values(schedule: &Schedule, results: &[Register]) -> Vec<f64> {

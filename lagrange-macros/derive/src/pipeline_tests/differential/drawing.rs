@@ -2,8 +2,8 @@
 
 use super::draft::{Draft, Frame, Step, Supplied, Term, Vector};
 use super::pen::{Pen, binary, function, half, negative, number, power};
-use crate::rounds::Random;
 use crate::symbolic::Function;
+use lagrange_random::Random;
 
 impl Draft {
     pub(super) fn new(random: &mut Random) -> Self {

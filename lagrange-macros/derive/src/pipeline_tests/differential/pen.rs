@@ -2,8 +2,8 @@
 //! there.
 
 use super::draft::{Draft, Term, Vector};
-use crate::rounds::Random;
 use crate::symbolic::Function;
+use lagrange_random::Random;
 
 pub(super) fn number(text: &'static str, numerator: i128, denominator: i128) -> Term {
     Term::Number(text, numerator, denominator)

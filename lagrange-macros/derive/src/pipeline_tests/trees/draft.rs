@@ -4,19 +4,7 @@ use std::collections::BTreeMap;
 
 use super::algebra::{Matrix, Vector, product, transposed, turn_by, unit};
 use super::model::{Joint, Link, Load, Model, Motion, Tie};
-use crate::rounds::Random;
-
-impl Random {
-    pub(super) fn vector(&mut self) -> Vector {
-        [0; 3].map(|_| self.between(-1.0, 1.0))
-    }
-
-    pub(super) fn quaternion(&mut self) -> [f64; 4] {
-        let q = [0; 4].map(|_| self.between(-1.0, 1.0));
-        let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if length < 0.1 { self.quaternion() } else { q.map(|x| x / length) }
-    }
-}
+use lagrange_random::Random;
 
 #[derive(Default)]
 pub(super) struct Draft {

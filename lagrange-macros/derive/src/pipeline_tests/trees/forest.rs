@@ -5,7 +5,7 @@ use super::draft::{Draft, Frame, inertia};
 use super::joints::{AXES, KINDS, Kind};
 use super::loads::{loads, tied};
 use super::model::{Body, Joint, Motion, Point};
-use crate::rounds::Random;
+use lagrange_random::Random;
 
 /// Number of small trees at the start, which take little time to derive.
 const SMALL: u64 = 60;
@@ -120,10 +120,10 @@ fn family(draft: &mut Draft, random: &mut Random, gravity: &Gravity, frames: &mu
     let length = 2 + random.below(3);
     let (name, first) = draft.coordinate(random, length);
     let numbers = |of: &mut dyn FnMut() -> Vec<f64>| (0..length).map(|_| of()).collect::<Vec<_>>();
-    let arms = numbers(&mut || random.vector().to_vec());
+    let arms = numbers(&mut || random.vector::<3>().to_vec());
     let turns = numbers(&mut || random.quaternion().to_vec());
     let masses = numbers(&mut || vec![random.between(0.5, 2.0)]);
-    let centres = numbers(&mut || random.vector().to_vec());
+    let centres = numbers(&mut || random.vector::<3>().to_vec());
     let inertias = numbers(&mut || inertia(random).concat());
     let mut field =
         |ty: &str, numbers: &[Vec<f64>]| draft.field(format!("[{ty}; {length}]"), numbers.concat());

@@ -3,7 +3,7 @@
 use super::algebra::{UNIT, scaled};
 use super::draft::{Draft, Frame, axis};
 use super::model::{Joint, Motion};
-use crate::rounds::Random;
+use lagrange_random::Random;
 
 /// Each kind of joint: name, number of coordinates and function that draws it.
 pub(super) const KINDS: [Kind; 15] = [

@@ -3,7 +3,7 @@
 use super::algebra::{difference, norm, times, transposed};
 use super::draft::{Draft, Frame};
 use super::model::{Load, Point, Tie};
-use crate::rounds::Random;
+use lagrange_random::Random;
 
 /// Each load: name, n if one in n trees has it, and function that draws it.
 pub(super) const LOADS: [(&str, usize, Draw); 7] = [

@@ -8,9 +8,9 @@ use super::super::derived;
 use super::{forest, input};
 use crate::codegen::values;
 use crate::mechanics::{BodyTree, SplitResidual, TreeColumn, TreeJoint};
-use crate::rounds::Random;
 use crate::symbolic::{Id, Symbol};
 use crate::variables::Variable;
+use lagrange_random::Random;
 
 /// Length of the arrays that hold the coordinates, the joints and the columns of any tree of these tests.
 const ROOM: usize = 64;

@@ -6,7 +6,7 @@ use super::super::{Graph, Id, Rational, Scaled, Verdict, parse_decimal};
 use super::double::{self, Double};
 use super::{Outcome, at, for_all, graph, rational, within};
 use crate::codegen;
-use crate::rounds::Random;
+use lagrange_random::Random;
 
 /// Decimal digits of a number, least significant first.
 fn digits(mut value: u64) -> Vec<u32> {
