@@ -53,7 +53,7 @@ fn settings(seed: u64) -> impl Iterator<Item = Setting> {
     let mut random = Random(seed);
     std::iter::repeat_with(move || {
         let [m, k] = random.array(Random::positive);
-        Setting { m, well: Well { k }, frame: sliding(&mut random), state: random_state(random) }
+        Setting { m, well: Well { k }, frame: sliding(&mut random), state: random_state(&mut random) }
     })
     .take(1000)
 }

@@ -57,7 +57,12 @@ fn settings(seed: u64, of: impl Fn(Frame) -> Frame) -> impl Iterator<Item = Sett
     let mut random = Random(seed);
     std::iter::repeat_with(move || {
         let [m, k] = random.array(Random::positive);
-        Setting { m, well: Well { k }, frame: of(Frame::random(&mut random)), state: random_state(random) }
+        Setting {
+            m,
+            well: Well { k },
+            frame: of(Frame::random(&mut random)),
+            state: random_state(&mut random),
+        }
     })
     .take(1000)
 }

@@ -10,6 +10,7 @@ use lagrange_core::prelude::*;
 
 use crate::largest;
 use lagrange_random::Random;
+use lagrange_systems::random_state;
 
 #[derive(Lagrangian, Clone)]
 #[coordinates(r: [3], q: [4])]
@@ -115,7 +116,7 @@ fn the_constraint_links_v_and_omega_8_4() {
     let mut random = Random(1);
     for _ in 0..1000 {
         let ball = ball(&mut random);
-        let state = random.state::<7>();
+        let state = random_state::<7>(&mut random);
         let q = |x: &lagrange_core::nalgebra::SVector<f64, 7>| Quaternion::new(x[3], x[4], x[5], x[6]);
         let omega = (q(&state.v) * q(&state.q).conjugate() * 2.0).imag();
         let [r, v] = Ball::place(&state);

@@ -75,7 +75,7 @@ fn in_order(mut zeros: Vec<f64>, backwards: bool, length: f64) -> Vec<f64> {
 }
 
 /// Up to twelve zeros, alone or in clusters, in `start..end`.
-fn clustered(random: &mut Random, [low, high]: [f64; 2], most: u64) -> Vec<f64> {
+fn clustered(random: &mut Random, [low, high]: [f64; 2], most: usize) -> Vec<f64> {
     let (mut zeros, count, length) = (Vec::new(), 1 + random.below(most), high - low);
     while zeros.len() < count {
         let (zero, apart) =
