@@ -29,6 +29,7 @@ pages!(
     nonholonomic,
     moving_frames,
     bodies,
+    printed,
     hamiltonian,
     small_motions,
     orbits,
