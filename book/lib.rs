@@ -46,6 +46,7 @@ pages!(
     pictures,
     problems,
     language,
+    compile_time,
     methods,
     costs,
     limits,
