@@ -1,5 +1,26 @@
-//! Derives equations of motion from a struct with its Lagrangian. The derive macro of `lagrange-core` is a shell
-//! around this library, which also works outside of a compiler.
+//! Derives equations of motion from a struct with its Lagrangian: a text or tokens in, a [`System`] out. The derive
+//! macro of `lagrange-core` is a shell around this library, which also works outside of a compiler.
+//!
+//! ```
+//! use lagrange_derive::System;
+//!
+//! let pendulum = System::parse(
+//!     "#[coordinates(theta)]
+//!      #[lagrangian(m/2 * l^2 * theta_dot^2 + m*g*l*cos(theta))]
+//!      struct Pendulum { m: f64, l: f64, g: f64 }",
+//! )?;
+//! println!("{pendulum}");
+//! assert!(pendulum.equations().text().contains("l θ̈ = −g sin θ"));
+//! assert!(pendulum.equations().latex().contains(r"l \ddot\theta &= -g \sin \theta"));
+//! println!("{}", pendulum.facts());
+//! # Ok::<(), lagrange_derive::Refusal>(())
+//! ```
+//!
+//! Nothing is read from or written to files, and nothing depends on the time: the crate also runs in a browser
+//! (`wasm32-unknown-unknown`). `lagrange_core::language` documents the language of the attributes. The emitted code needs
+//! `lagrange-core`; this crate does not.
+//!
+//! # Stages
 //!
 //! A pipeline; each stage is a folder with one entry point:
 //!
@@ -13,48 +34,84 @@
 mod codegen;
 mod contract;
 mod diagnostics;
+pub mod facts;
 mod mechanics;
 #[cfg(test)]
 mod pipeline_tests;
+mod refusal;
 mod render;
 mod resolve;
 #[cfg(test)]
 mod robustness;
 mod symbolic;
 mod syntax;
+mod system;
 mod variables;
 
 use diagnostics::{Diagnostics, Place};
+use facts::Facts;
 use proc_macro2::{Span, TokenStream};
+pub use refusal::{Diagnostic, Location, Refusal};
 use syntax::Declaration;
+pub use system::{Constraint, Equations, System};
 
-/// Runs the whole pipeline.
+/// Returns what the derive macro emits: the [tokens](System::tokens) of the system, or its errors as calls of
+/// `compile_error!` with a placeholder implementation, which spares the user follow-up errors.
+///
+/// ```
+/// use quote::quote;
+///
+/// let emitted = lagrange_derive::expand(quote! {
+///     #[coordinates(x)]
+///     #[lagrangian(m/2 * x_dot^2 - V)]
+///     struct Particle { m: f64 }
+/// });
+/// assert!(emitted.to_string().contains("compile_error"));
+/// ```
 pub fn expand(input: TokenStream) -> TokenStream {
-    let mut diagnostics = Diagnostics::default();
-    if let Some(span) = syntax::too_deep(input.clone()) {
-        return nests_too_deep(input, span);
-    }
-    let input = match syn::parse2(input) {
-        Ok(input) => input,
-        Err(error) => return error.to_compile_error(),
-    };
-    let declaration = syntax::declaration(input, &mut diagnostics);
-    match derive(&declaration, &mut diagnostics) {
-        Some(tokens) => tokens,
-        None => stub(&declaration, diagnostics.into_errors()),
+    match run(input) {
+        Ok(system) => system.into_tokens(),
+        Err(failure) => failure.into_tokens(),
     }
 }
 
-/// Returns an error at `span` and a stub. Input nested this deep would overflow the stack of a recursive parser.
-fn nests_too_deep(input: TokenStream, span: Span) -> TokenStream {
+/// Errors of an input, and its declaration if it could be read.
+struct Failure {
+    declaration: Option<Box<Declaration>>,
+    errors: Vec<syn::Error>,
+}
+
+/// Runs the whole pipeline.
+fn run(input: TokenStream) -> Result<System, Failure> {
+    if let Some(span) = syntax::too_deep(input.clone()) {
+        return Err(nests_too_deep(input, span));
+    }
+    let input = syn::parse2(input).map_err(|error| Failure { declaration: None, errors: vec![error] })?;
+    let mut diagnostics = Diagnostics::default();
+    let declaration = syntax::declaration(input, &mut diagnostics);
+    derive(&declaration, &mut diagnostics)
+        .ok_or_else(|| Failure { declaration: Some(declaration.into()), errors: diagnostics.into_errors() })
+}
+
+/// Returns an error at `span`. Input nested this deep would overflow the stack of a recursive parser.
+fn nests_too_deep(input: TokenStream, span: Span) -> Failure {
     let limit = syntax::NESTING_LIMIT;
     let message = format!(
         "parentheses nest more than {limit} deep here: name parts of the expression with `#[define(…)]`"
     );
-    let error = Place::at(span).error(message);
-    match syn::parse2(syntax::shallow(input)) {
-        Ok(rest) => stub(&syntax::declaration(rest, &mut Diagnostics::default()), vec![error]),
-        Err(_) => error.to_compile_error(),
+    let rest = syn::parse2(syntax::shallow(input)).ok();
+    Failure {
+        declaration: rest.map(|rest| syntax::declaration(rest, &mut Diagnostics::default()).into()),
+        errors: vec![Place::at(span).error(message)],
+    }
+}
+
+impl Failure {
+    fn into_tokens(self) -> TokenStream {
+        match self.declaration {
+            Some(declaration) => stub(&declaration, self.errors),
+            None => self.errors.into_iter().map(syn::Error::into_compile_error).collect(),
+        }
     }
 }
 
@@ -67,11 +124,14 @@ fn stub(declaration: &Declaration, errors: Vec<syn::Error>) -> TokenStream {
     calls.chain([stub]).collect()
 }
 
-fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<TokenStream> {
+fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<System> {
     diagnostics.is_empty().then_some(())?;
     let (mut graph, problem) = resolve::problem(declaration, diagnostics)?;
     codegen::refuse_hopeless(&graph, &problem, diagnostics)?;
     let derived = mechanics::derive(&mut graph, &problem, diagnostics)?;
     let rendered = render::render(declaration, &graph, &problem, &derived);
-    codegen::implementation(declaration, &graph, &problem, &derived, &rendered, diagnostics)
+    let facts = Facts::new(&problem, &derived, &rendered);
+    let tokens =
+        codegen::implementation(declaration, &graph, &problem, &derived, &rendered, &facts, diagnostics)?;
+    Some(System::new(declaration, &problem, &derived, facts, rendered.forms, tokens))
 }

@@ -7,6 +7,7 @@ use super::count::OPERATION_LIMIT;
 use super::kernel::Kernel;
 use super::solving::Solving;
 use super::style::FunctionContext;
+use crate::facts::Facts;
 use crate::mechanics::Derived;
 use crate::render::Rendered;
 use crate::resolve::Problem;
@@ -18,6 +19,7 @@ pub(super) struct Emitter<'a> {
     pub(super) problem: &'a Problem,
     pub(super) derived: &'a Derived,
     pub(super) rendered: &'a Rendered,
+    pub(super) facts: &'a Facts,
     /// Programs of the elimination. `None` if the equations are solved by loops of the runtime.
     pub(super) solving: Option<Solving>,
     pub(super) style: FunctionContext<'a>,

@@ -7,26 +7,24 @@ use super::emitter::{Emitter, Written};
 use super::observables::{entry_of, method_name};
 use super::shape::ResultShape;
 use crate::contract::Method;
-use crate::mechanics::{ConservedKind, EnergyForm, Evidence, LinearPart};
+use crate::facts::{Conserved, EnergyForm, Evidence, Facts, LinearPart, TotalDerivative};
+use crate::mechanics::ConservedKind;
 use crate::resolve::Observed;
 
 impl Emitter<'_> {
     pub(super) fn facts(&self) -> TokenStream {
-        let facts = &self.derived.facts;
-        let cyclic = facts.cyclic.iter().map(|&a| &self.problem.coordinates[a].text);
-        let conserved = facts.conserved.iter().map(|conserved| {
-            let (name, evidence) = (&conserved.name, evidence(conserved.evidence));
+        let Facts { cyclic, energy_is_conserved, energy_form, linear_part, .. } = self.facts;
+        let conserved = self.facts.conserved.iter().map(|Conserved { name, evidence }| {
+            let evidence = self::evidence(*evidence);
             quote!(__lagrange::facts::Conserved { name: #name, evidence: #evidence })
         });
-        let energy = facts.conserved.iter().find(|conserved| conserved.quantity == ConservedKind::Energy);
-        let energy_is_conserved = optional(energy.map(|energy| energy.evidence));
-        let energy_form = energy_form(facts.energy_form);
-        let totals =
-            self.rendered.total_derivatives.iter().zip(&facts.total_derivatives).map(|(terms, total)| {
-                let evidence = evidence(total.evidence);
-                quote!(__lagrange::facts::TotalDerivative { terms: #terms, evidence: #evidence })
-            });
-        let linear_part = match facts.linear_part {
+        let energy_is_conserved = optional(*energy_is_conserved);
+        let energy_form = self::energy_form(*energy_form);
+        let totals = self.facts.total_derivatives.iter().map(|TotalDerivative { terms, evidence }| {
+            let evidence = self::evidence(*evidence);
+            quote!(__lagrange::facts::TotalDerivative { terms: #terms, evidence: #evidence })
+        });
+        let linear_part = match *linear_part {
             LinearPart::Absent => quote!(Absent),
             LinearPart::Closed(found) => {
                 let evidence = evidence(found);

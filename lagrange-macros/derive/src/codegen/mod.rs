@@ -37,6 +37,7 @@ mod writer;
 use proc_macro2::TokenStream;
 
 use crate::diagnostics::Diagnostics;
+use crate::facts::Facts;
 use crate::mechanics::Derived;
 use crate::render::Rendered;
 use crate::resolve::{Problem, Supplied};
@@ -62,6 +63,7 @@ pub(crate) fn implementation(
     problem: &Problem,
     derived: &Derived,
     rendered: &Rendered,
+    facts: &Facts,
     diagnostics: &mut Diagnostics,
 ) -> Option<TokenStream> {
     let solving = Solving::cheapest(graph, &derived.equations);
@@ -72,7 +74,7 @@ pub(crate) fn implementation(
     let numbers = solving.as_ref().map(|solving| solving.factor.results.len());
     let sums = series.as_ref().map_or([0; 2], |series| [series.sums, series.terms]);
     let style = FunctionContext::new(graph, problem, numbers, slopes, sums);
-    let emitter = Emitter { declaration, problem, derived, rendered, solving, style };
+    let emitter = Emitter { declaration, problem, derived, rendered, facts, solving, style };
     if emitter.solving.is_none() && !problem.frictions.is_empty() {
         diagnostics.error(
             problem.place,

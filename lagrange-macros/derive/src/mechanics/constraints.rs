@@ -11,12 +11,12 @@ use crate::resolve::{Label, Problem};
 use crate::symbolic::{Function, Graph, Id};
 use crate::variables::{Variable, has_velocity, nodes, symbols};
 
-/// Level at which a constraint is stated: position or velocity.
+/// Form of a constraint as written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum ConstraintKind {
-    /// Φ(q, t) = 0
+pub enum ConstraintKind {
+    /// Holonomic: Φ(q, t) = 0.
     Holonomic,
-    /// F(q, t) q̇ + b(q, t) = 0
+    /// Velocity constraint: F(q, t) q̇ + b(q, t) = 0.
     Velocity,
 }
 

@@ -15,9 +15,10 @@ use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Rational, Verdict};
 use crate::variables::{Variable, has_velocity, nodes};
 
-/// Known form of the energy function E.
+/// Composition of the energy function E = p·q̇ − L, with L₂, L₁ and L₀ the parts of the Lagrangian by degree in the
+/// velocities: whether it is T + U.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum EnergyForm {
+pub enum EnergyForm {
     /// T + U: T, the sum of `kinetic(…)`, is of degree two and contains all velocities; U = T − L.
     Sum(Evidence),
     /// L₂ − L₀, with L₁ = 0: T + U if −L₀ is U.

@@ -5,7 +5,7 @@ use crate::symbolic::{Graph, Id, Verdict};
 
 /// Evidence for a statement: a proof, or tests at random points.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Evidence {
+pub enum Evidence {
     /// Zeros vanish in canonical form; nonzeros have a value whose error bound excludes 0.
     Proved,
     /// The statement held at this many random points, to rounding.

@@ -19,7 +19,7 @@ pub(crate) struct TotalDerivative {
 
 /// Effect of A(q,t)·q̇, the part of L that is linear in the velocities.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum LinearPart {
+pub enum LinearPart {
     /// L has no linear part.
     Absent,
     /// ∂A_i/∂q_j = ∂A_j/∂q_i: the linear part adds no velocity-dependent force.

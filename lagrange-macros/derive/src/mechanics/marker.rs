@@ -5,12 +5,13 @@ use super::equations::Equations;
 use crate::symbolic::{Graph, Id, Node, Polynomials};
 use crate::variables::Variable;
 
-/// Marker trait that a system implements if the statement is proved. Each variant has the name of the trait.
+/// Marker trait of `lagrange_core::structure` that a system implements if its statement is proved. Each variant has the
+/// name of the trait.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Marker {
-    /// M depends on the parameters alone.
+pub enum Marker {
+    /// The mass matrix depends on the parameters alone.
     ConstantMassMatrix,
-    /// h does not depend on the velocities.
+    /// The forces h of M q̈ = h + Fᵀλ do not depend on the velocities.
     VelocityFreeForces,
     /// Every constraint is written without velocities.
     HolonomicConstraints,

@@ -36,23 +36,23 @@ use crate::symbolic::{Graph, Id};
 use crate::variables::{Variable, nodes};
 pub(crate) use completion::Completed;
 pub(crate) use conservation::{Conserved, ConservedKind, EnergyChange};
-pub(crate) use constraints::ConstraintKind;
-pub(crate) use energy_form::EnergyForm;
+pub use constraints::ConstraintKind;
+pub use energy_form::EnergyForm;
 pub(crate) use equations::Equations;
-pub(crate) use evidence::Evidence;
+pub use evidence::Evidence;
 pub(crate) use facts::Facts;
 pub(crate) use form::Form;
-pub(crate) use gauge::LinearPart;
+pub use gauge::LinearPart;
 use gauss::shorter;
 pub(crate) use hamilton::{Hamilton, NoHamiltonian};
 #[cfg(test)]
 pub(crate) use integrability::Kinds;
-pub(crate) use integrability::{Classification, Integrability, Integrals};
+pub use integrability::{Classification, Integrability, Integrals};
 #[cfg(test)]
 pub(crate) use linearization::SplitResidual;
 use linearization::linearize;
 pub(crate) use linearization::{Changes, Linearization, changes};
-pub(crate) use marker::Marker;
+pub use marker::Marker;
 #[cfg(test)]
 pub(crate) use twists::TreeColumn;
 pub(crate) use twists::{

@@ -3,14 +3,21 @@
 use crate::mechanics::Evidence;
 use crate::symbolic::Id;
 
-/// Class of a constraint, as documented for the enumeration of the same name in lagrange-core.
+/// Integrability of a constraint: whether it is equivalent to one without velocities. A velocity constraint is the form
+/// ω = Σ F_a dq_a + b dt in the space of (q, t).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Integrability {
+pub enum Integrability {
+    /// Holonomic as written: Φ(q, t) = 0.
     Holonomic,
+    /// The rate of change of a function of (q, t), at least locally: dω = 0.
     Exact,
+    /// Exact after multiplication by a function of (q, t): ω ∧ dω = 0, but dω ≠ 0.
     IntegratingFactor,
+    /// Not integrable alone, but implied by the integrals of the whole set of constraints.
     Together,
+    /// Not integrable, neither alone nor together with the other constraints.
     Nonholonomic,
+    /// Undecided: no random point was found for a numerical test.
     Undecided,
 }
 
@@ -20,19 +27,24 @@ impl Integrability {
     }
 }
 
-/// Class of one constraint.
+/// Verdict on the integrability of one constraint.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Classification {
-    pub(crate) integrability: Integrability,
-    pub(crate) evidence: Evidence,
+pub struct Classification {
+    /// Verdict.
+    pub integrability: Integrability,
+    /// Evidence for the verdict.
+    pub evidence: Evidence,
 }
 
-/// Number of integrals of the velocity constraints as a set: `count` of `of` independent constraints are integrable.
+/// Integrals of a set of velocity constraints: functions of (q, t) that are constant along every admissible motion.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Integrals {
-    pub(crate) count: usize,
-    pub(crate) of: usize,
-    pub(crate) evidence: Evidence,
+pub struct Integrals {
+    /// Number of integrals.
+    pub count: usize,
+    /// Number of independent velocity constraints, an upper bound of `count`.
+    pub of: usize,
+    /// Evidence for `count`.
+    pub evidence: Evidence,
 }
 
 /// Classes of all constraints, and their integrals.

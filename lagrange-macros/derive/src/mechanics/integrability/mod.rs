@@ -18,7 +18,8 @@ use super::constraints::Constraints;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
 use distribution::{Closure, Distribution};
-pub(crate) use kinds::{Classification, Integrability, Integrals, Kinds};
+pub(crate) use kinds::Kinds;
+pub use kinds::{Classification, Integrability, Integrals};
 use space::{OneForm, Space};
 
 /// Classifies every constraint, and the velocity constraints as a set.

@@ -1,0 +1,107 @@
+//! The library outside of a compiler: text in, equations, facts and errors out.
+
+use lagrange_derive::{Refusal, System};
+
+/// Program that prints the equations of a double pendulum.
+#[test]
+fn twenty_lines_print_the_equations_of_a_system() -> Result<(), Refusal> {
+    let system = System::parse(
+        "#[coordinates(theta1, theta2)]
+         #[define(v1 = der([l*sin(theta1), -l*cos(theta1)]))]
+         #[define(v2 = v1 + der([l*sin(theta2), -l*cos(theta2)]))]
+         #[lagrangian(m/2 * (dot(v1, v1) + dot(v2, v2)) + m*g*l*(2*cos(theta1) + cos(theta2)))]
+         struct DoublePendulum { m: f64, l: f64, g: f64 }",
+    )?;
+    let printed = system.to_string();
+    println!("{printed}");
+    assert!(printed.contains("θ₁: 2 l θ̈₁ + l θ̈₂ cos(θ₁ − θ₂) = −l θ̇₂² sin(θ₁ − θ₂) − 2 g sin θ₁"));
+    assert!(printed.contains("θ₂: l θ̈₁ cos(θ₁ − θ₂) + l θ̈₂ = l θ̇₁² sin(θ₁ − θ₂) − g sin θ₂"));
+    Ok(())
+}
+
+#[test]
+fn names_of_arrays_are_those_of_their_elements() -> Result<(), Refusal> {
+    let system = System::parse(
+        "#[coordinates(x: [2], r#type)]
+         #[function(U(x) = field)]
+         #[lagrangian(m[1]/2 * dot(x_dot, x_dot) + type_dot^2/2 - U(x))]
+         #[constraint(fixed: x = [0, a])]
+         #[observable(place = [x[0], x[1], type])]
+         struct r#struct<F> { a: f64, m: [f64; 2], field: F }",
+    )?;
+    assert_eq!(system.name(), "struct");
+    assert_eq!(system.coordinates(), ["x[0]", "x[1]", "type"]);
+    assert_eq!(system.velocities(), ["x_dot[0]", "x_dot[1]", "type_dot"]);
+    assert_eq!(system.parameters(), ["a", "m[1]"]);
+    assert_eq!(system.functions(), ["U"]);
+    assert_eq!(system.observables(), ["place[0]", "place[1]", "place[2]"]);
+    let constraints: Vec<_> = system.constraints().iter().map(|constraint| &*constraint.name).collect();
+    assert_eq!(constraints, ["fixed[0]", "fixed[1]"]);
+    Ok(())
+}
+
+/// Returns what a terminal shows of a refused text.
+fn shown(text: &str) -> String {
+    System::parse(text).expect_err(text).to_string()
+}
+
+#[test]
+fn text_that_is_no_rust_is_refused_where_it_ends_to_be() {
+    for (text, wanted) in [
+        ("struct System { m: f64", "1:15: this is never closed\nstruct System { m: f64\n              ^"),
+        ("#[coordinates(x)\nstruct S;", "1:2: this is never closed\n#[coordinates(x)\n ^"),
+        (
+            "#[coordinates(x))]\nstruct S;",
+            "1:17: this closes nothing that is open\n#[coordinates(x))]\n                ^",
+        ),
+        ("struct S;\n\t}", "2:2: this closes nothing that is open\n\t}\n\t^"),
+        ("/* struct S;", "1:1: no token of Rust begins here\n/* struct S;\n^"),
+        ("struct \"S", "1:8: no token of Rust begins here\nstruct \"S\n       ^"),
+    ] {
+        assert_eq!(shown(text), wanted, "{text}");
+    }
+}
+
+#[test]
+fn text_of_something_else_is_refused() {
+    for text in ["", "fn main() {}", "struct", "struct S; struct T;", "#![no_std] struct S;", "1 + 1"] {
+        let refusal = System::parse(text).expect_err(text);
+        assert_eq!(refusal.diagnostics().len(), 1, "{text}: {refusal}");
+        assert!(!refusal.diagnostics()[0].message().is_empty(), "{text}");
+    }
+}
+
+#[test]
+fn an_error_is_shown_with_its_notes_and_the_first_line_of_what_is_wrong() {
+    let text = "#[coordinates(x)]
+#[lagrangian(x_dot^2)]
+#[lagrangian(
+    θ̈ + x
+)]
+struct System;";
+    assert_eq!(
+        shown(text),
+        "\
+3:3: `#[lagrangian(…)]` is given twice: a system has one Lagrangian: write it as one sum
+#[lagrangian(
+  ^^^^^^^^^^^ …
+
+2:3: the first one is here
+#[lagrangian(x_dot^2)]
+  ^^^^^^^^^^^^^^^^^^^"
+    );
+    let refusal = System::parse(text).expect_err(text);
+    let [error] = refusal.diagnostics() else { panic!("{refusal}") };
+    let location = error.location().expect("it comes from the text");
+    assert_eq!(&text[location.bytes.clone()], location.text);
+    assert_eq!(location.text, "lagrangian(\n    θ̈ + x\n)");
+    assert_eq!(error.notes().len(), 1);
+}
+
+/// Programs of a test and of a server share an error among threads.
+#[test]
+fn a_refusal_is_an_error_of_any_program() {
+    let refused: Result<System, Box<dyn std::error::Error + Send + Sync>> =
+        System::parse("struct System;").map_err(Into::into);
+    assert!(refused.expect_err("no attributes").to_string().contains("`#[coordinates(…)]` is missing"));
+}
