@@ -1,4 +1,5 @@
-//! What the derive says to wrong input.
+//! Errors that only rustc can report: bounds on traits, constants, and the absence of errors that follow from another
+//! one. The derive's own messages are in tables, `lagrange-macros/derive/tests/refused`.
 //!
 //! One rule a file, and the messages beside it. After a change of messages, `TRYBUILD=overwrite cargo test
 //! --test compile_fail` writes them anew; read the difference before you commit it.

@@ -1,9 +1,0 @@
-use lagrange_core::prelude::*;
-
-#[derive(Lagrangian)]
-#[lagrangian(m/2 * x_dot^2)]
-struct System {
-    m: f64,
-}
-
-fn main() {}

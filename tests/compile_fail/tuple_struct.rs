@@ -1,8 +1,0 @@
-use lagrange_core::prelude::*;
-
-#[derive(Lagrangian)]
-#[coordinates(x)]
-#[lagrangian(m/2 * x_dot^2)]
-struct System(f64);
-
-fn main() {}
