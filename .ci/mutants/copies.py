@@ -21,6 +21,8 @@ FORMS = {
 }
 CARGO = {"CARGO_INCREMENTAL": "0", "CARGO_PROFILE_DEV_DEBUG": "0"}
 DAY = 86400
+# Longest time without output, beyond the limit of processor time, in seconds.
+WAITING = 1800
 
 
 def crate_root(repository, path):
@@ -81,11 +83,18 @@ def write_copy(repository, copy, sites):
             path.unlink()
 
 
-def watch(command, folder, environment, limit, fails):
-    """Runs a program until it ends or `fails` returns a reason for a line of its output.
+def processor_time(process):
+    """Returns the seconds of processor time of a process and of its children that have ended."""
+    fields = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+    return sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")
 
-    Returns the reason of its failure, or None, and the time."""
-    start, is_late, reason = time.monotonic(), threading.Event(), None
+
+def watch(command, folder, environment, limit, fails):
+    """Runs a program until it ends, or `fails` returns a reason for a line of its output, or no line comes.
+
+    The limit is in seconds of processor time after a line, so that a busy machine does not look like a program that hangs. A
+    program that waits for something ends by the clock. Returns the reason of the failure, or None, and the time by the clock."""
+    start, ended, is_late, reason, line = time.monotonic(), threading.Event(), threading.Event(), None, ""
     process = subprocess.Popen(
         command,
         cwd=folder,
@@ -97,21 +106,30 @@ def watch(command, folder, environment, limit, fails):
         errors="replace",
         start_new_session=True,
     )
+    lines = [(start, 0.0)]
 
-    def stop():
-        is_late.set()
-        os.killpg(process.pid, signal.SIGKILL)
+    def guard():
+        while not ended.wait(1.0):
+            since, spent = lines[-1]
+            if processor_time(process) - spent > limit or time.monotonic() - since > limit + WAITING:
+                is_late.set()
+                os.killpg(process.pid, signal.SIGKILL)
+                return
 
-    timer = threading.Timer(limit, stop)
-    timer.start()
+    watchdog = threading.Thread(target=guard)
+    watchdog.start()
     for line in process.stdout:
         if reason := fails(line):
             os.killpg(process.pid, signal.SIGKILL)
             break
+        lines.append((time.monotonic(), processor_time(process)))
+    # The process keeps its number until it is waited for.
+    os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+    ended.set()
+    watchdog.join()
     code = process.wait()
-    timer.cancel()
     if code and not reason:
-        reason = "time limit" if is_late.is_set() else f"exit code {code}"
+        reason = f"time limit, {line.strip()}" if is_late.is_set() else f"exit code {code}"
     return reason, time.monotonic() - start
 
 
