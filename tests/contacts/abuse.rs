@@ -3,8 +3,7 @@
 
 use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
 use lagrange_core::{Ending, prelude::*};
-
-use crate::count;
+use lagrange_random::cases;
 
 /// A rod whose two ends may touch a floor and a wall.
 #[derive(Clone, Lagrangian)]
@@ -96,7 +95,7 @@ fn keeps_the_laws(case: &str, rod: &RoughRod, path: &ContactTrajectory<RoughRod>
 #[test]
 fn rods_on_a_rough_floor_and_a_rough_wall() {
     let (mut seed, mut endings) = (5, [0; 3]);
-    for case in 0..count("LAGRANGE_DROPS", 60) {
+    for case in 0..cases([20, 60, 50_000]) {
         let mut next = |low, high| random(&mut seed, low, high);
         let (e, mu) = ([0.0, 0.3, 0.7][case % 3], next(0.0, 0.4));
         let contacts = [Contact::Open; 2];
@@ -172,7 +171,7 @@ fn random(seed: &mut u64, low: f64, high: f64) -> f64 {
 #[test]
 fn rods_on_a_floor_and_a_wall() {
     let (mut seed, mut endings) = (1, [0; 3]);
-    for case in 0..count("LAGRANGE_DROPS", 60) {
+    for case in 0..cases([20, 60, 50_000]) {
         let mut next = |low, high| random(&mut seed, low, high);
         let e = [0.0, 0.3, 0.7, 1.0][case % 4];
         let contacts = [Contact::Open; 2];

@@ -1,6 +1,6 @@
 //! Steps that bounds on the multipliers exclude from the search: no transition is lost, by a method that has no such bounds.
 //!
-//! `LAGRANGE_CONTACTS` says how many motions; a failure says the number of its case.
+//! A failure says the number of its case.
 
 use std::fmt;
 
@@ -8,7 +8,6 @@ use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
 use lagrange_core::motion::{Limits, MultiplierBounds, Step};
 use lagrange_core::{Error, Method, StateOf, Statistics, prelude::*};
 
-use crate::count;
 use lagrange_random::Random;
 
 /// A method without bounds on multipliers, so that all events of contacts are searched in every step.
@@ -205,7 +204,7 @@ const WIDTH: f64 = 1.67 * 0.15;
 
 #[test]
 fn no_transition_is_lost() {
-    let (cases, mut transitions) = (count("LAGRANGE_CONTACTS", 60) as u64, 0);
+    let (cases, mut transitions) = (lagrange_random::cases([20, 60, 30_000]) as u64, 0);
     // Of pulses narrower than that the search sees some.
     let [mut lost, mut narrow] = [0; 2];
     for k in 0..cases {

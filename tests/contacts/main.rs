@@ -6,6 +6,7 @@
 mod abuse;
 mod along;
 mod bounds;
+mod dropped_boxes;
 mod excluded;
 mod friction;
 mod frictionless;
@@ -17,10 +18,6 @@ mod rubbing_sensitivities;
 mod sensitivities;
 mod shared;
 mod slipping;
+mod stepping;
 mod tables;
 mod toys;
-
-/// A number that an environment variable states, for the long checks.
-fn count(variable: &str, default: usize) -> usize {
-    std::env::var(variable).map_or(default, |text| text.parse().unwrap())
-}

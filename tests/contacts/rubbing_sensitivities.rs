@@ -3,6 +3,7 @@
 use lagrange_core::Scalar;
 use lagrange_core::contact::{Contact, ContactTrajectory, Friction, Transition};
 use lagrange_core::prelude::*;
+use lagrange_random::cases;
 
 use crate::sensitivities::{check, method};
 
@@ -163,7 +164,7 @@ struct Shaken {
 fn random_blocks_that_stick_and_slip_agree_with_differences() {
     let names = ["m", "n", "k", "c", "g", "b", "d", "mu", "nu", "a", "omega", "hold", "q", "pull"];
     let mut all = Vec::new();
-    for case in 0..crate::count("LAGRANGE_CASES", 9) {
+    for case in 0..cases([3, 9, 100]) {
         let mut seed = 1 + case as u64;
         let base = [1.0, 1.5, 6.0, 0.5, 9.81, 0.5, 0.1, 0.15, 0.02, 0.08, 5.0, 0.6, 0.1, 0.25];
         let given = base.map(|x| x * (1.0 + 0.3 * random(&mut seed)));
@@ -209,7 +210,7 @@ struct Rod {
 fn random_rods_that_fall_agree_with_differences() {
     let names = ["m", "i", "g", "l", "mu", "nu", "e"];
     let (mut all, mut refused) = (Vec::new(), Vec::new());
-    for case in 0..crate::count("LAGRANGE_CASES", 16) {
+    for case in 0..cases([6, 16, 100]) {
         let mut seed = 1000 + case as u64;
         let base = [1.0, 0.1, 9.81, 0.5, 0.4, 0.3, 0.5];
         let mut given = base.map(|x| x * (1.0 + 0.5 * random(&mut seed)));

@@ -3,6 +3,7 @@
 use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
 use lagrange_core::prelude::*;
 use lagrange_core::{Ending, Method};
+use lagrange_random::{Level, cases};
 
 /// A table that turns by small angles, with its centre of mass at the height h. A force k t along d pushes it at the height p, and a
 /// moment n t turns it about the vertical.
@@ -127,10 +128,10 @@ fn random_table(case: u64) -> Table {
 }
 
 /// Every stored state keeps the laws, those on both sides of a transition too, however fast forces turn there: where legs begin to
-/// slide or stop, forces change within the round-off of the time. `LAGRANGE_CASES` says how many more tables.
+/// slide or stop, forces change within the round-off of the time.
 #[test]
 fn random_tables_keep_the_laws() {
-    let more = crate::count("LAGRANGE_CASES", 0) as u64;
+    let more = cases([0, 0, 100]) as u64;
     let check = |case, table: &Table, is_stiff| {
         let motion = table.motion(State::at_rest([0.0; 6]));
         let path = match is_stiff {
@@ -179,7 +180,7 @@ fn a_table_that_is_pushed_slides() {
     // ẍ = k (t − t₀)/m.
     let moved = 3.0 * (4.0 - time).powi(3) / 12.0;
     // Events search for forces that are zero, which takes long where it is not optimised.
-    let all = std::env::var_os("LAGRANGE_CASES").is_some();
+    let all = Level::asked() == Level::Full;
     for h in [0.0, 0.5] {
         for d in [[1.0, 0.0], [-0.28, 0.96]] {
             for p in [0.0, 0.3, 1.0] {

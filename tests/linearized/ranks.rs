@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::{DMatrix, DVector};
 use lagrange_core::prelude::*;
 
-use lagrange_random::Random;
+use lagrange_random::{Random, cases};
 
 /// Four rows in six directions, of which `rank` are independent.
 fn rows(random: &mut Random, rank: usize) -> [[f64; 6]; 4] {
@@ -12,9 +12,9 @@ fn rows(random: &mut Random, rank: usize) -> [[f64; 6]; 4] {
     std::array::from_fn(|a| std::array::from_fn(|i| product[(a, i)]))
 }
 
-/// 200 of each; `LAGRANGE_MATRICES` says how many otherwise.
+/// Matrices of each kind.
 fn count() -> usize {
-    std::env::var("LAGRANGE_MATRICES").ok().and_then(|count| count.parse().ok()).unwrap_or(200)
+    cases([100, 200, 100_000])
 }
 
 /// A point that velocity constraints lead.

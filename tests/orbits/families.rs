@@ -7,6 +7,7 @@ use lagrange_core::orbits::{
     Bifurcation, BifurcationKind, Family, FamilyEnding, OrbitError, OrbitSearch, PeriodicOrbit,
 };
 use lagrange_core::{Error, prelude::*};
+use lagrange_random::{Level, cases};
 
 use crate::systems::Moon;
 
@@ -40,7 +41,7 @@ fn cascade_of_doublings() {
     let search = system.periodic_orbit(&start).driven_by("omega", 1);
     let first = search.find().unwrap();
     let mut family = search.family(&first).in_parameter("gamma");
-    let count = if std::env::var_os("LAGRANGE_WHOLE_SPANS").is_some() { 5 } else { 2 };
+    let count = cases([2, 2, 5]);
     for (k, known) in DOUBLINGS.into_iter().take(count).enumerate() {
         let members = family
             .step(0.02 / 3.0_f64.powi(k as i32))
@@ -203,7 +204,7 @@ fn halo_orbits_leave_the_plane() {
 /// The whole family down to the surface of the Moon, where it ends.
 #[test]
 fn halo_orbits_to_the_moon() {
-    if std::env::var_os("LAGRANGE_WHOLE_SPANS").is_none() {
+    if Level::asked() < Level::Full {
         return;
     }
     let search = lyapunov();

@@ -1,6 +1,7 @@
 //! Lyapunov exponents: pairs, sums, and a reference that shares nothing with them.
 
 use lagrange_core::{linearized::DifferentiableMethod, prelude::*};
+use lagrange_random::Level;
 
 use crate::{DoublePendulum, Driven};
 
@@ -11,9 +12,9 @@ fn method() -> Dop853 {
     Dop853::with_tolerance(1e-9).max_steps(10_000_000)
 }
 
-/// A span of time: the first with `LAGRANGE_WHOLE_SPANS`, the second without.
+/// A span of time: the first at the level `full`, the second below.
 fn span(whole: f64, short: f64) -> f64 {
-    if std::env::var_os("LAGRANGE_WHOLE_SPANS").is_some() { whole } else { short }
+    if Level::asked() == Level::Full { whole } else { short }
 }
 
 /// Asserts that four exponents come in pairs of opposite sign. Logarithms of the growth of a pair add up to one of angles between

@@ -1,13 +1,13 @@
 //! Derivatives of motions where holonomic and velocity constraints meet, beside Richardson's extrapolation of differences.
 //!
-//! Systems are families whose coefficients, starts and times are drawn at random: 4 of each, of which 4 arguments each;
-//! `LAGRANGE_MIXED` says how many of each otherwise, and then every argument counts.
+//! Systems are families whose coefficients, starts and times are drawn at random: 4 arguments of each, and every
+//! argument at the level `full`.
 
 use lagrange_core::nalgebra::DVector;
 use lagrange_core::{Dual, StateOf, error::Entry, linearized::DifferentiableMethod, prelude::*};
 
 use crate::event_differences::{block, check, stack, values};
-use lagrange_random::Random;
+use lagrange_random::{Level, Random, cases};
 use lagrange_systems::random_state;
 
 fn method() -> Dop853 {
@@ -229,15 +229,15 @@ where
     S: Linearized<Scalar = f64> + Clone,
     Taylor: DifferentiableMethod<S>,
 {
-    let count = std::env::var("LAGRANGE_MIXED").ok().and_then(|count| count.parse().ok());
+    let count = cases([2, 4, 150]);
     let (mut random, mut worst, mut done, mut unclear) = (Random(seed), 0.0_f64, 0, 0);
-    while done < count.unwrap_or(4) {
+    while done < count {
         let (system, start) = draw(&mut random);
         let end = start.t + random.between(0.5, 1.5);
         let all: Vec<usize> = (0..2 * S::COORDINATES.len() + S::PARAMETERS.len()).collect();
         let first = random.between(0.0, all.len() as f64) as usize;
         let mut arguments = all;
-        if count.is_none() {
+        if Level::asked() != Level::Full {
             arguments.rotate_left(first);
             arguments.truncate(4);
         }

@@ -6,7 +6,7 @@ use num_dual::Dual64;
 
 use crate::differences::difference;
 use crate::{ChaplyginSleigh, DAMPED, SliderCrank, Twice};
-use lagrange_random::Random;
+use lagrange_random::{Random, cases};
 
 /// Asserts that a motion with derivatives ends where it does without, and takes few more steps.
 fn is_as_alone<S, P, const N: usize>(system: &S, start: State<f64, N>, method: P)
@@ -96,10 +96,10 @@ fn are_of_the_steps(masses: &Masses<f64>, method: impl DifferentiableMethod<Mass
 
 /// Masses that rest, so that their motion allows any step, or that have little left of a swing, with dampings from none to strong
 /// ones. Their derivatives by coordinates are the motions from one coordinate of 1, and their errors, which count by
-/// the largest entry, are those of these motions with the tenfold tolerance. `LAGRANGE_SWINGS` is the number of systems.
+/// the largest entry, are those of these motions with the tenfold tolerance.
 #[test]
 fn derivatives_keep_the_tolerance() {
-    let count = std::env::var("LAGRANGE_SWINGS").map_or(60, |count| count.parse().expect("a number"));
+    let count = cases([20, 60, 5_000]);
     let (mut random, mut worst) = (Random(7), [[0.0_f64; 3]; 2]);
     for number in 0..count {
         let mut one = |from: f64, to: f64| random.size(from, to);

@@ -3,5 +3,6 @@
 mod audit;
 mod endings;
 mod owned;
+mod pointers;
 mod table;
 mod written;

@@ -109,7 +109,7 @@ mod tests {
     use super::*;
     use crate::contact::law::NoForces;
     use crate::contact::watched::BEYOND;
-    use lagrange_random::Random;
+    use lagrange_random::{Random, cases};
 
     /// How the rows of contacts go together.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -275,9 +275,8 @@ mod tests {
         }
     }
 
-    /// `LAGRANGE_SHARES` says how many cases are drawn.
     fn number_of_cases() -> u64 {
-        std::env::var("LAGRANGE_SHARES").map_or(1_000, |text| text.parse().expect("a number"))
+        cases([200, 1_000, 50_000]) as u64
     }
 
     /// Where forces are not found, the motion ends with a name.

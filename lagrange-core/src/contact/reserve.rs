@@ -290,10 +290,9 @@ mod tests {
 
     /// Friction holds a load until some motion takes no more power from friction than the load gives (limit analysis). For motions
     /// in which a load of 1 gives the power 1, the limit is thus the least power of friction; golden sections find it.
-    /// `LAGRANGE_SHARES` says how many cases are drawn.
     #[test]
     fn random_loads_are_held_up_to_their_limit() {
-        let cases = std::env::var("LAGRANGE_SHARES").map_or(200, |text| text.parse().expect("a number"));
+        let cases = lagrange_random::cases([50, 200, 50_000]) as u64;
         for case in 0..cases {
             let mut random = Random(case);
             let points = [0, 1, 2].map(|_| [random.number() / 2.0, random.number() / 2.0]);

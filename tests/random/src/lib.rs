@@ -34,6 +34,15 @@ impl Level {
     }
 }
 
+/// True for `option_env!("LAGRANGE_CASES")` at the level [`Full`](Level::Full): tests that take long to compile at that
+/// level alone ask for it in a constant.
+pub const fn is_full(level: Option<&str>) -> bool {
+    match level {
+        Some(level) => matches!(level.as_bytes(), b"full"),
+        None => false,
+    }
+}
+
 /// Returns the number of random cases for the level that is asked for, of those for `cargo test`, `.ci/run` and
 /// `.ci/full`.
 ///

@@ -4,7 +4,7 @@ use super::{Corrections, project};
 use crate::prelude::*;
 use crate::solution::consistent::BOTH;
 use crate::vector::Array;
-use lagrange_random::Random;
+use lagrange_random::{Random, cases};
 
 /// A mass on a growing circle about a centre, in a magnetic field and with anisotropic damping.
 #[derive(Lagrangian)]
@@ -54,7 +54,7 @@ fn changes<L: Lagrangian<N = Const<N>, Scalar = f64>, const N: usize>(
     momentum: impl Fn(&L, &State<f64, N>) -> f64,
 ) -> [f64; 2] {
     let mut sums = [0.0; 2];
-    let cases = std::env::var("LAGRANGE_MOMENTA").ok().and_then(|n| n.parse().ok()).unwrap_or(4000);
+    let cases = cases([500, 4_000, 100_000]) as u64;
     for case in 0..cases {
         let random = &mut Random(case << 32);
         let system = system(random);

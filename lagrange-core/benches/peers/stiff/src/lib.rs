@@ -7,13 +7,13 @@
 //! ```
 
 #[allow(dead_code, unused_imports, reason = "its tests are not compiled here")]
-#[path = "../../../../../tests/problems/andrews.rs"]
+#[path = "../../../../../tests/reference_problems/andrews.rs"]
 mod andrews;
 #[allow(dead_code, reason = "only the problems are used here")]
-#[path = "../../../../../tests/problems/reference.rs"]
+#[path = "../../../../../tests/reference_problems/reference.rs"]
 mod reference;
 #[allow(dead_code, unused_imports, reason = "its tests are not compiled here")]
-#[path = "../../../../../tests/problems/test_set.rs"]
+#[path = "../../../../../tests/reference_problems/test_set.rs"]
 mod test_set;
 
 use lagrange_core::nalgebra::Const;

@@ -5,7 +5,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 
 use super::eigenvalues;
 use crate::fixtures::RandomMatrix;
-use lagrange_random::Random;
+use lagrange_random::{Random, cases};
 
 /// Hamiltonian matrix [[A, B], [C, −Aᵀ]] with symmetric B and C.
 fn hamiltonian(random: &mut Random, n: usize) -> DMatrix<f64> {
@@ -83,10 +83,9 @@ fn backward_error(a: &DMatrix<f64>, s: Complex<f64>, random: &mut Random) -> f64
     tries.fold(f64::INFINITY, f64::min) / a.norm().max(f64::MIN_POSITIVE)
 }
 
-/// Tests 200 matrices of each kind, or as many as `LAGRANGE_MATRICES` says.
 #[test]
 fn no_matrix_is_refused_and_every_eigenvalue_is_one_of_a_matrix_nearby() {
-    let count = std::env::var("LAGRANGE_MATRICES").ok().and_then(|n| n.parse().ok()).unwrap_or(200);
+    let count = cases([50, 200, 100_000]);
     let (mut random, mut worst) = (Random(0x9E37_79B9_7F4A_7C15), 0.0_f64);
     for round in 0..count {
         let (half, n) = (1 + random.below(6), 1 + random.below(12));

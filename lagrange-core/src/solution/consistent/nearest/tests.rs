@@ -4,7 +4,7 @@ use std::vec::Vec;
 use nalgebra::{DMatrix, DVector};
 
 use crate::prelude::*;
-use lagrange_random::Random;
+use lagrange_random::{Random, cases};
 
 #[derive(Lagrangian)]
 #[coordinates(x, y)]
@@ -60,12 +60,11 @@ struct Curve {
     b: [f64; 3],
 }
 
-/// Tests 40 random curves with starts up to three times their size away; `LAGRANGE_NEAREST` sets another
-/// number. The result satisfies the equations of the nearest point, evaluated independently, and no point
+/// Tests random curves with starts up to three times their size away. The result satisfies the equations of the nearest point, evaluated independently, and no point
 /// nearby is nearer.
 #[test]
 fn what_is_found_satisfies_the_equations_of_the_nearest_point() {
-    let count = std::env::var("LAGRANGE_NEAREST").ok().and_then(|count| count.parse().ok()).unwrap_or(40);
+    let count = cases([20, 40, 100_000]);
     let (mut random, mut worst, mut refused, mut nearer) = (Random(1), 0.0_f64, 0, 0);
     for _ in 0..count {
         let mut next = || random.number();

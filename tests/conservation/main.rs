@@ -1,8 +1,0 @@
-//! What the derive finds conserved, and that the motion does conserve it.
-
-mod balance;
-mod drift;
-mod energy;
-mod gauge;
-mod said;
-mod symmetries;

@@ -1,0 +1,9 @@
+//! What can be written in the attributes, and how it is read.
+
+mod accepted;
+mod frames;
+mod functions;
+mod members;
+mod pictures;
+mod shapes;
+mod tables;

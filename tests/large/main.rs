@@ -1,0 +1,5 @@
+//! Systems so large that the compiler takes a minute for each.
+
+mod long;
+mod long_functions;
+mod sizes;

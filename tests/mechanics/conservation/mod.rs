@@ -1,0 +1,10 @@
+//! What the derive finds conserved, and that the motion does conserve it.
+
+mod balance;
+mod drift;
+mod energy;
+mod gauge;
+mod integrability;
+mod said;
+mod structure;
+mod symmetries;

@@ -1,0 +1,407 @@
+//! The table: kinds of faults, the methods that they concern, and the texts of their errors.
+
+use std::time::Duration;
+
+use lagrange_core::prelude::*;
+
+use crate::faults::case::{Ask, Case, Outcome, Scope};
+use crate::faults::methods::{free, held};
+use crate::faults::systems::*;
+
+const NAN: f64 = f64::NAN;
+const INFINITY: f64 = f64::INFINITY;
+
+/// Beginnings of the names of methods, and a part of the text of their errors.
+type Says<'a> = (&'a [&'a str], &'a str);
+
+const ALL: &[&str] = &[""];
+const STEP_CONTROL: &[&str] = &["Dop853", "Dopri5", "Taylor", "Radau"];
+const IMPLICIT: &[&str] = &["Gauss", "Lobatto", "DAlembert"];
+
+/// Asserts that the text of each outcome contains what the first entry for its method states. An entry is for a method whose
+/// name begins with one of its names.
+fn check(kind: &str, outcomes: &[Outcome], says: &[Says]) {
+    println!("{kind}");
+    for Outcome { method, text, .. } in outcomes {
+        println!("    {method}: {text}");
+        let is_of = |methods: &[&str]| methods.iter().any(|name| method.starts_with(name));
+        let (_, part) = says.iter().find(|(methods, _)| is_of(methods)).unwrap();
+        assert!(text.contains(part), "{kind} by {method}: {text}");
+    }
+}
+
+/// Asserts that the motion reaches its end with these coordinates, to 10⁻³.
+fn check_numbers(kind: &str, outcomes: &[Outcome], q: [f64; 2]) {
+    check(kind, outcomes, &[(ALL, "reached the end")]);
+    for Outcome { method, state, .. } in outcomes {
+        let off =
+            [0, 1].map(|i| (state.unwrap().q[i] - q[i]).abs() / (1e-300 + q[i].abs()).max(q[1 - i].abs()));
+        assert!(off[0] < 1e-3 && off[1] < 1e-3, "{kind} by {method}: off by {off:?}");
+    }
+}
+
+fn swinging() -> State<f64, 2> {
+    State::new([0.5, 0.2], [0.0, 0.3])
+}
+
+fn hanging() -> State<f64, 2> {
+    State::at_rest([0.6, -0.8])
+}
+
+fn spring() -> Case<Spring> {
+    Case::of(SPRING, swinging(), 1.0)
+}
+
+/// The same, for motions that do not get on.
+fn few_steps() -> Case<Spring> {
+    Case { max_steps: 500, ..spring() }
+}
+
+/// The particle on its spring at a time.
+fn swung(t: f64) -> [f64; 2] {
+    [0.5 * t.cos(), 0.2 * t.cos() + 0.3 * t.sin()]
+}
+
+fn rod() -> Case<Rod> {
+    Case::of(ROD, hanging(), 1.0)
+}
+
+fn field(star: f64, cliff: f64, escape: f64, start: State<f64, 2>) -> Case<Field> {
+    Case::of(Field { star, cliff, escape }, start, 10.0)
+}
+
+#[test]
+fn settings() {
+    let late = || Case { start: swinging().at_time(1.0), end: 2.0, ..spring() };
+    for (kind, step, text) in [
+        ("step of zero", 0.0, "the fixed step is 0: it must be positive and finite"),
+        ("negative step", -0.1, "the fixed step is -0.1: it must be"),
+        ("step that is no number", NAN, "the fixed step is NaN: it must be"),
+        ("infinite step", INFINITY, "the fixed step is inf: it must be"),
+        ("denormal step", 5e-324, "after 500 steps, the limit; raise it with `max_steps`"),
+    ] {
+        check(kind, &free(&few_steps().with_step(step)), &[(ALL, text)]);
+    }
+    let text = "a step of 5e-324 does not advance the time; allow longer ones, or count the time from nearby";
+    check("denormal step far from zero", &free(&late().with_step(5e-324)), &[(ALL, text)]);
+    let near = Case { end: 0.01, ..spring() };
+    check_numbers("step beyond the end", &free(&near.with_step(1e300)), swung(0.01));
+    let far = Case { end: 1e3, ..rod() };
+    check(
+        "step over many oscillations",
+        &held(&far.with_step(1e300)),
+        &[
+            (&["RungeKutta4"], "no consistent state found near the one given at t = 1000"),
+            (ALL, "the iteration of a step does not converge; take shorter steps"),
+        ],
+    );
+    for (kind, tolerance, text) in [
+        ("tolerance of zero", 0.0, "the relative tolerance is 0: it must be positive and finite"),
+        ("negative tolerance", -1e-6, "the relative tolerance is -0.000001: it must be"),
+        ("tolerance that is no number", NAN, "the relative tolerance is NaN: it must be"),
+        ("infinite tolerance", INFINITY, "the relative tolerance is inf: it must be"),
+    ] {
+        check(kind, &free(&spring().with_tolerance(tolerance)), &[(ALL, text)]);
+    }
+    for tolerance in [1e-16, 1e-30] {
+        let outcomes = free(&spring().with_tolerance(tolerance));
+        check_numbers("tolerance below round-off", &outcomes, swung(1.0));
+    }
+}
+
+#[test]
+fn starts() {
+    let from = |start| Case { start, ..spring() };
+    for (x, value) in [(NAN, "NaN"), (INFINITY, "inf")] {
+        for (entry, start) in [
+            ("y", State::new([0.5, x], [0.0; 2])),
+            ("x_dot", State::new([0.5, 0.0], [x, 0.0])),
+            ("t", swinging().at_time(x)),
+        ] {
+            let text = format!("`{entry}` is {value} in the state given: every entry must be finite");
+            check(&format!("{value} in {entry}"), &free(&from(start)), &[(ALL, &text)]);
+        }
+    }
+    let text = "the state violates constraint `rod` at t = 0: its residual is -7.5e-1, not 0; call `make_consistent` first";
+    check(
+        "coordinates off the rod",
+        &held(&Case { start: State::at_rest([0.5, 0.0]), ..rod() }),
+        &[(ALL, text)],
+    );
+    let text = "its rate F q_dot + b is 1.2e0, not 0; call `make_consistent` first";
+    let leaving = State::new([0.6, -0.8], [1.0, 0.0]);
+    check("velocities off the rod", &held(&Case { start: leaving, ..rod() }), &[(ALL, text)]);
+    let impossible = Case { system: Rod { square: -1.0, ..ROD }, ..rod() };
+    check("rod of an imaginary length", &held(&impossible), &[(ALL, "the state violates constraint `rod`")]);
+    let system = Rod { square: 0.0, ..ROD };
+    let text = "the gradient of constraint `rod` vanishes at t = 0, where it holds";
+    check("rod of length zero", &held(&Case::of(system, State::at_rest([0.0; 2]), 1.0)), &[(ALL, text)]);
+    check(
+        "one rod twice",
+        &held(&Case::of(TwoRods { a: 1.0 }, hanging(), 1.0)),
+        &[
+            (&["RungeKutta4", "Dop853", "Dopri5", "Taylor", "Radau"], "reached the end"),
+            (ALL, "if constraints depend on one another, `Dop853`"),
+        ],
+    );
+    let text = "constraints `rod`, `again` depend on one another at t = 0 to first order";
+    check(
+        "two rods that touch",
+        &held(&Case::of(TwoRods { a: 2.0 }, State::at_rest([0.0, -1.0]), 1.0)),
+        &[(ALL, text)],
+    );
+}
+
+#[test]
+fn parameters() {
+    let of = |system| Case { system, ..spring() };
+    let undetermined = "the equations do not determine the acceleration of `y` at t = 0: give each a mass";
+    check("mass of zero", &free(&of(Spring { n: 0.0, ..SPRING })), &[(ALL, undetermined)]);
+    let undetermined =
+        "the equations do not determine the acceleration of `x`, `y` at t = 0: give each a mass";
+    check("denormal mass", &free(&of(Spring { m: 1e-310, ..SPRING })), &[(ALL, undetermined)]);
+    check(
+        "rod without mass",
+        &held(&Case { system: Rod { m: 0.0, ..ROD }, ..rod() }),
+        &[(ALL, undetermined)],
+    );
+    let is = |name, value| {
+        format!("the parameter `{name}` is {value}: every parameter in the equations must be finite")
+    };
+    check("mass that is no number", &free(&of(Spring { m: NAN, ..SPRING })), &[(ALL, &is("m", "NaN"))]);
+    check("stiffness that is no number", &free(&of(Spring { k: NAN, ..SPRING })), &[(ALL, &is("k", "NaN"))]);
+    check("infinite stiffness", &free(&of(Spring { k: INFINITY, ..SPRING })), &[(ALL, &is("k", "inf"))]);
+    let heavy = Case { system: Rod { g: NAN, ..ROD }, ..rod() };
+    check("gravity that is no number", &held(&heavy), &[(ALL, &is("g", "NaN"))]);
+    check(
+        "infinite mass",
+        &free(&of(Spring { m: INFINITY, ..SPRING })),
+        &[(IMPLICIT, "the equations are not finite in the row of coordinate `x`"), (ALL, "reached the end")],
+    );
+    let numbers = [0.5 * 1.0_f64.cosh(), swung(1.0)[1]];
+    check_numbers("negative mass", &free(&of(Spring { m: -1.0, ..SPRING })), numbers);
+    check_numbers("huge masses", &free(&of(Spring { m: 1e300, n: 1e300, k: 1e300 })), swung(1.0));
+}
+
+#[test]
+fn spans() {
+    for (end, value) in [(NAN, "NaN"), (INFINITY, "inf")] {
+        let text = format!("cannot integrate to t = {value}: the end must be finite");
+        check(&format!("end at {value}"), &free(&Case { end, ..spring() }), &[(ALL, &text)]);
+    }
+    check_numbers("no span", &free(&Case { end: 0.0, ..spring() }), swung(0.0));
+    check_numbers("end before the start", &free(&Case { end: -1.0, ..spring() }), swung(-1.0));
+    let next = Case { start: swinging().at_time(1.0), end: 1.0 + f64::EPSILON, ..spring() };
+    check_numbers("end at the next time", &free(&next), swung(0.0));
+    check(
+        "times that lie far apart",
+        &free(&Case { start: swinging().at_time(1e18), end: 2e18, ..spring() }),
+        &[
+            (STEP_CONTROL, "demands a step too small to advance the time"),
+            (ALL, "does not advance the time; allow longer ones, or count the time from nearby"),
+        ],
+    );
+    let whole = Case { start: swinging().at_time(-f64::MAX), end: f64::MAX, ..spring() };
+    check(
+        "all times",
+        &free(&whole),
+        &[
+            (&["Radau"], "the iteration of a step does not converge, however short it is"),
+            (STEP_CONTROL, "the equations are not finite in the row of coordinate `x`"),
+            (ALL, "does not advance the time; allow longer ones, or count the time from nearby"),
+        ],
+    );
+}
+
+#[test]
+fn limits() {
+    let far = || Case { end: 100.0, ..spring() };
+    check("too few steps", &free(&Case { max_steps: 7, ..far() }), &[(ALL, "after 7 steps, the limit")]);
+    let text = "stopped at t = 0 after 0 steps, the limit; raise it with `max_steps`";
+    check("no steps", &free(&Case { max_steps: 0, ..far() }), &[(ALL, text)]);
+    let text = "stopped at t = 0 by the limit on wall time; raise it with `wall_time`";
+    check("no time", &free(&Case { wall_time: Some(Duration::ZERO), ..far() }), &[(ALL, text)]);
+    check("progress that cancels", &free(&far().asking(Ask::Cancelled)), &[(ALL, "cancelled at t = ")]);
+}
+
+#[test]
+fn forces() {
+    let row = "the equations are not finite at t = 0; row of coordinate `x`: check the parameters, and whether the state is at a pole";
+    check("start at a pole", &free(&field(1.0, 0.0, 0.0, State::at_rest([0.0; 2]))), &[(ALL, row)]);
+    check(
+        "start where a root is imaginary",
+        &free(&field(0.0, 1.0, 0.0, State::at_rest([2.5, 0.0]))),
+        &[(ALL, row)],
+    );
+    check(
+        "forces that overflow at the start",
+        &free(&field(0.0, 0.0, 1.0, State::at_rest([1e200, 0.0]))),
+        &[(ALL, row)],
+    );
+    let row = "the equations are not finite in the row of coordinate `x`; check the parameters, whether the motion runs into a pole";
+    let outcomes = free(&field(0.0, 1.0, 0.0, State::new([1.0, 0.0], [0.5, 0.0])));
+    check("root that ends on the way", &outcomes, &[(ALL, row)]);
+    // Up to a step before the end of the root.
+    assert!(outcomes.iter().all(|outcome| outcome.state.unwrap().q[0] > 1.95));
+    check(
+        "fall on a star",
+        &free(&Case { scope: Scope::StepControl, ..field(1.0, 0.0, 0.0, State::at_rest([1.0, 0.0])) }),
+        &[(ALL, "demands a step too small to advance the time; the motion is singular nearby")],
+    );
+    check(
+        "rod that shrinks to nothing",
+        &held(&Case {
+            system: Rod { shrinks: 1.0, ..ROD },
+            start: State::new([0.6, -0.8], [-0.3, 0.4]),
+            end: 2.0,
+            ..rod()
+        }),
+        &[
+            (&["Radau"], "the iteration of a step does not converge, however short it is"),
+            (STEP_CONTROL, "demands a step too small to advance the time; the motion is singular nearby"),
+            (&["RungeKutta4"], "constraint `rod` has residual"),
+            (ALL, "the iteration of a step does not converge; take shorter steps"),
+        ],
+    );
+    let stiff = Case { system: Spring { k: 1e6, ..SPRING }, end: 10.0, ..spring() };
+    check(
+        "oscillations shorter than a step",
+        &free(&stiff),
+        &[
+            (
+                &["Gauss", "Lobatto 4", "DAlembert, order 6"],
+                "the iteration of a step does not converge; take shorter steps",
+            ),
+            (&["Taylor"], "reached the end"),
+            (STEP_CONTROL, "after 20000 steps, the limit, where the next is"),
+            (ALL, "with steps of one length, whether shorter ones are stable"),
+        ],
+    );
+}
+
+#[test]
+fn magnitudes() {
+    let huge = free(&Case { start: State::at_rest([1e300, -1e300]), ..spring() });
+    let (radau, others): (Vec<_>, Vec<_>) = huge.into_iter().partition(|outcome| outcome.method == "Radau");
+    check_numbers("huge coordinates", &others, [1e300 * 1.0_f64.cos(), -1e300 * 1.0_f64.cos()]);
+    // Squares of the errors overflow.
+    check(
+        "huge coordinates",
+        &radau,
+        &[(ALL, "the iteration of a step does not converge, however short it is")],
+    );
+    let denormal = free(&Case { start: State::at_rest([5e-324, 1e-310]), ..spring() });
+    check("denormal coordinates", &denormal, &[(ALL, "reached the end")]);
+    let flying = Case {
+        start: State::new([0.0; 2], [1e308; 2]),
+        system: Spring { k: 0.0, ..SPRING },
+        end: 1e3,
+        ..spring()
+    };
+    check(
+        "coordinates that overflow on the way",
+        &free(&flying),
+        &[
+            (&["Radau", "Gauss 4", "Lobatto", "DAlembert"], "the iteration of a step does not converge"),
+            (ALL, "the equations are not finite in the row of coordinate `x`"),
+        ],
+    );
+}
+
+#[test]
+fn events() {
+    let ringing = |function| spring().asking(Ask::Event(function));
+    let text =
+        "the function of the event `bell` is not a number at t = 0: make it one wherever the motion may lead";
+    check("event that is no number", &free(&ringing(|_| NAN)), &[(ALL, text)]);
+    let late = |t| if t > 0.3 { NAN } else { 1.0 };
+    let text = "the function of the event `bell` is not a number soon after; make it one wherever";
+    check("event that is no number later on", &free(&ringing(late)), &[(ALL, text)]);
+    check(
+        "event that is no number later on, on a rod",
+        &held(&rod().asking(Ask::Event(late))),
+        &[(ALL, text)],
+    );
+    // A jump to minus infinity is a crossing, a function that is zero has none.
+    let falls = |t| if t > 0.3 { -INFINITY } else { 1.0 };
+    check_numbers("event that becomes infinite", &free(&ringing(falls)), swung(1.0));
+    check_numbers("event that is always zero", &free(&ringing(|_| 0.0)), swung(1.0));
+    check_numbers("storm of events", &free(&ringing(|t| (300.0 * t).sin())), swung(1.0));
+    check(
+        "event of an unknown coordinate",
+        &free(&spring().asking(Ask::UnknownEvent)),
+        &[(ALL, "there is no coordinate `z`")],
+    );
+}
+
+#[test]
+fn samples() {
+    let at = |times: &[f64]| free(&spring().asking(Ask::Samples(times.to_vec())));
+    let text = "the sample time 1 (counted from 0) is 0.25: give finite times in the order of the motion";
+    check("sample times out of order", &at(&[0.5, 0.25]), &[(ALL, text)]);
+    check(
+        "sample time that is no number",
+        &at(&[0.5, NAN]),
+        &[(ALL, "the sample time 1 (counted from 0) is NaN")],
+    );
+    check("sample time beyond the end", &at(&[0.5, 1.5]), &[(ALL, "t = 1.5 lies outside the trajectory")]);
+    for interval in [0.0, -0.1, NAN] {
+        let text = format!("the interval of the samples is {interval}: it must be positive and finite");
+        check("interval of samples", &free(&spring().asking(Ask::Every(interval))), &[(ALL, &text)]);
+    }
+    let text = "the interval of the samples is 1e-300: times this near are not told apart; make it longer";
+    check(
+        "interval of samples below that of times",
+        &free(&spring().asking(Ask::Every(1e-300))),
+        &[(ALL, text)],
+    );
+}
+
+#[test]
+fn controllers() {
+    let by = |interval, value| free(&spring().asking(Ask::Controlled(interval, value)));
+    for interval in [0.0, NAN] {
+        let text = format!("the interval of the controller is {interval}: it must be positive and finite");
+        check("interval of a controller", &by(interval, Some(1.0)), &[(ALL, &text)]);
+    }
+    check(
+        "interval of a controller that takes all steps",
+        &free(&few_steps().asking(Ask::Controlled(1e-300, Some(1.0)))),
+        &[(ALL, "after 500 steps, the limit")],
+    );
+    // Methods that begin anew after a controller look at parameters; the others meet the equations.
+    let row =
+        "stopped at t = 0.5: the equations are not finite in the row of coordinate `x`; check the parameters";
+    let is = "stopped at t = 0.5: the parameter `k` is NaN";
+    let anew: &[&str] = &["Gauss", "Verlet", "Lobatto", "DAlembert"];
+    let either = "stopped at t = 0.5: the";
+    check(
+        "controller that sets no number",
+        &by(0.1, Some(NAN)),
+        &[(anew, is), (&["Radau"], either), (ALL, row)],
+    );
+    let text = "stopped at t = 0.5: the controller failed: the battery is empty";
+    check("controller that fails", &by(0.1, None), &[(ALL, text)]);
+    let lengthen = |square| held(&rod().asking(Ask::Controlled(0.1, Some(square))));
+    let text = "stopped at t = 0.5: the state violates constraint `rod` at t = 0.5: its residual is";
+    check("controller that lengthens a rod", &lengthen(2.0), &[(ALL, text)]);
+    check("controller that makes a rod no number", &lengthen(NAN), &[(ALL, text)]);
+}
+
+/// A motion that refuses a state or a time stays where it was, and goes on.
+#[test]
+fn states_and_times_that_are_set() {
+    let set = |state| Ask::SetState(state);
+    let text = "`x` is NaN in the state given: every entry must be finite";
+    check(
+        "state that is no number",
+        &free(&spring().asking(set(State::at_rest([NAN, 0.0])))),
+        &[(ALL, text)],
+    );
+    let text = "the state violates constraint `rod` at t = 0: its residual is 3e0";
+    check("state off the rod", &held(&rod().asking(set(State::at_rest([2.0, 0.0])))), &[(ALL, text)]);
+    for (t, value) in [(NAN, "NaN"), (INFINITY, "inf")] {
+        let text = format!("stopped at t = 0.5: cannot integrate to t = {value}: the end must be finite");
+        check(&format!("advance to {value}"), &free(&spring().asking(Ask::AdvanceTo(t))), &[(ALL, &text)]);
+    }
+}

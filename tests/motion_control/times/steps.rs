@@ -1,0 +1,91 @@
+//! The lengths of steps.
+
+use lagrange_core::{Ending, prelude::*};
+
+use crate::times::{Spring, exact};
+
+/// The lengths of the steps, and the end reached.
+fn lengths(start: f64, end: f64, method: Dop853) -> Vec<f64> {
+    let spring = Spring { omega: 1.0 };
+    let path = spring.integrate(State::at_rest([1.0]).at_time(start), end, method).expect("a motion");
+    assert_eq!(*path.ending(), Ending::Complete { time: end });
+    let times: Vec<f64> = path.steps().map(|step| step.time()).collect();
+    times.windows(2).map(|t| t[1] - t[0]).collect()
+}
+
+#[test]
+fn no_step_is_longer_than_allowed() {
+    for (start, end) in [(0.0, 1.0), (0.0, 1.005), (-0.3, 1.0), (1e3, 1e3 + 1.0), (1.7e9, 1.7e9 + 1.0)] {
+        for longest in [0.01, 0.1, 0.1 + 1e-9, 0.3, 0.334, 0.5, 0.996] {
+            for method in [Dop853::default(), Dop853::default().first_step(2.0)] {
+                let lengths = lengths(start, end, method.max_step(longest));
+                assert!(lengths.iter().all(|h| *h <= longest), "{lengths:?} from {start}, at most {longest}");
+                // As many as it takes, one for the rounding of the time, and two that the estimate of the first costs.
+                assert!(lengths.len() as f64 <= ((end - start) / longest).ceil() + 3.0);
+                let [.., before, last] = lengths[..] else { continue };
+                assert!(last >= 0.99 * before, "{lengths:?} ends with a tiny step");
+            }
+        }
+    }
+}
+
+/// Also where the numbers of the times are few.
+#[test]
+fn no_step_is_longer_than_allowed_in_single_precision() {
+    let spring = Spring { omega: 1.0_f32 };
+    let start = State::at_rest([1.0]).at_time(1e4);
+    let path = spring.integrate(start, 1.001e4, Dop853::default().max_step(0.01)).unwrap();
+    let times: Vec<f32> = path.steps().map(|step| step.time()).collect();
+    assert!(path.ending().is_complete() && times.windows(2).all(|t| t[1] > t[0] && t[1] - t[0] <= 0.01));
+}
+
+#[test]
+fn fixed_steps_are_as_many_as_fit() {
+    for (start, end, count) in [
+        (0.0, 1.0, 10),
+        (0.0, 0.3, 3),
+        (0.1, 0.7, 6),
+        (0.0, 10.0, 1000),
+        (-10.0, 0.0, 7),
+        (1e3, 1e3 + 1.0, 7),
+        (1.7e9, 1.7e9 + 1.0, 10),
+        (0.0, 1e4, 10_000),
+    ] {
+        let step = (end - start) / f64::from(count);
+        let lengths = lengths(start, end, Dop853::default().fixed_step(step));
+        assert_eq!(lengths.len(), count as usize, "from {start} to {end}");
+        // Each end of a step is off by the distance of two numbers at most.
+        let apart = 2.0 * f64::EPSILON * f64::max(start.abs(), end.abs());
+        let off = lengths.iter().fold(0.0, |most, h| f64::max(most, (h - step).abs()));
+        assert!(off <= 2.0 * apart, "from {start} to {end}: off by {off:e}");
+    }
+    let lengths = lengths(0.0, 1.0, Dop853::default().fixed_step(0.3));
+    assert!(lengths.len() == 4 && (lengths[3] - 0.1).abs() < 1e-15, "{lengths:?}");
+}
+
+#[test]
+fn fixed_steps_are_as_many_as_fit_in_single_precision() {
+    let spring = Spring { omega: 1.0_f32 };
+    let method = Dopri5::default().fixed_step(0.05);
+    let path = spring.integrate(State::at_rest([1.0]), 1e4, method.max_steps(1_000_000)).unwrap();
+    assert_eq!((path.ending().is_complete(), path.statistics().accepted), (true, 200_000));
+    let times: Vec<f32> = path.steps().map(|step| step.time()).collect();
+    // Two numbers below 10⁴ are 2⁻¹⁰ apart, and 200 000 numbers 0.05 off by half an ulp each.
+    let off = times.iter().zip(0..).map(|(t, k)| (f64::from(*t) - 0.05 * f64::from(k)).abs());
+    assert!(off.fold(0.0, f64::max) < 2e-3);
+}
+
+/// Before, rounding added up to a shorter motion.
+#[test]
+fn fixed_steps_arrive_with_their_order() {
+    let (start, omega) = (1.7e9, 1e3);
+    let spring = Spring { omega };
+    let error = |count: i32| {
+        let end = start + 0.125;
+        let method = Dop853::default().fixed_step(0.125 / f64::from(count));
+        let path = spring.integrate(State::at_rest([1.0]).at_time(start), end, method).unwrap();
+        (path.end().coordinate("x").unwrap() - exact(omega, start, end)).abs()
+    };
+    let order = (error(150) / error(300)).log2();
+    assert!((7.5..8.7).contains(&order), "{order}");
+}
