@@ -10,7 +10,7 @@ mod members;
 mod parts;
 mod samples;
 mod tables;
-mod taylor;
+mod taylor_on_lanes;
 mod unseen;
 
 use lagrange_core::prelude::*;

@@ -10,7 +10,7 @@
 //! | member of an `Ensemble` | samples | all; progress is `observe` | yes | all |
 //! | the same on lanes | samples | all; progress is `observe` | yes | pairs, `Taylor` |
 //!
-//! What does not compile stands in `tests/compile_fail`: `motions_that_cannot_be_asked_for.rs`.
+//! What does not compile stands in `tests/rustc/cases`: `motions_that_cannot_be_asked_for.rs`.
 
 use core::ops::ControlFlow;
 

@@ -4,6 +4,6 @@
 #![allow(mixed_script_confusables)]
 
 mod forms;
+mod lanes_and_dual_numbers;
 mod names;
-mod numbers;
 mod places;

@@ -3,7 +3,7 @@
 // What helps tests may panic as they do.
 #![allow(clippy::unwrap_used)]
 
-mod families;
+mod bifurcations;
 mod messages;
 mod monodromy;
 mod printing;
