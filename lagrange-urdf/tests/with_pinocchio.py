@@ -66,6 +66,9 @@ lagrange-core = {{ path = "{root}/lagrange-core" }}
 
 [profile.dev]
 debug = false
+
+[profile.dev.package.lagrange-derive]
+opt-level = 2
 """
 
 # Reads a state, accelerations and efforts a line; writes mass matrix, inverse dynamics without efforts, accelerations with, and the
