@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use lagrange_random::{Random, cases};
 use proc_macro2::{TokenStream, TokenTree};
 
 use super::{bodies, systems, tokens};
@@ -175,21 +176,15 @@ fn assert_parts_see_their_own_locals(system: &str) {
 }
 
 /// With two of three links alike, a loop and the code outside of it compute the sine and the cosine of the same
-/// angle. `LAGRANGE_CHAINS` is the number of further random chains, of 15 to 32 links.
+/// angle. At the level `full`, further random chains have 15 to 32 links.
 #[test]
 fn parts_of_a_chain_of_unlike_links_see_their_own_locals_alone() {
     assert_parts_see_their_own_locals(&unlike_links(&std::array::from_fn::<_, 15, _>(|i| i % 3 < 2)));
-    let count = std::env::var("LAGRANGE_CHAINS").ok().and_then(|n| n.parse().ok()).unwrap_or(0);
-    let mut state = 1_u64;
-    for _ in 0..count {
-        let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            state >> 33
-        };
-        let links = 15 + random() as usize % 18;
-        let period = 1 + random() as usize % 5;
-        let turn: Vec<bool> = (0..period).map(|_| random() % 2 == 0).collect();
-        let kinds: Vec<bool> = (0..links).map(|i| turn[i % period] != (random() % 8 == 0)).collect();
+    let mut random = Random(1);
+    for _ in 0..cases([0, 0, 200]) {
+        let (links, period) = (15 + random.below(18), 1 + random.below(5));
+        let turn: Vec<bool> = (0..period).map(|_| random.once_in(2)).collect();
+        let kinds: Vec<bool> = (0..links).map(|i| turn[i % period] != random.once_in(8)).collect();
         assert_parts_see_their_own_locals(&unlike_links(&kinds));
     }
 }

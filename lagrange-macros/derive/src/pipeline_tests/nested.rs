@@ -83,40 +83,34 @@ fn sums_cost_what_recursions_cost() {
     }
 }
 
-/// Accelerations by the last form, which takes the fewest operations.
-fn accelerations(source: &str, n: usize, input: impl Fn(Symbol) -> f64) -> Vec<f64> {
-    let (graph, _, equations) = equations(source);
-    let last = solutions(&graph, &equations, input).into_iter().flatten().next_back();
-    last.expect("short enough")[..n].to_vec()
+/// Accelerations at five points by the last form, which takes the fewest operations.
+fn accelerations(source: &str, n: usize) -> Vec<Vec<f64>> {
+    let (graph, problem, equations) = equations(source);
+    let at = |point: u64| {
+        let input = |symbol: Symbol| {
+            // Values go by name, because parameters are numbered in the order of their first use.
+            let (index, low, width) = match Variable::of(symbol) {
+                Variable::Parameter(k) => {
+                    let name = problem.parameters.name(k);
+                    let code = name.bytes().fold(0, |code, byte| code * 31 + u32::from(byte));
+                    (code % 100_000, 0.5, 1.0)
+                }
+                _ => (symbol.index, -1.0, 2.0),
+            };
+            let place = u64::from(symbol.family) * 977 + u64::from(index) * 131 + point * 7_919;
+            low + width * (place as f64 * 0.618_033_988_749_894_9).fract()
+        };
+        let last = solutions(&graph, &equations, input).into_iter().flatten().next_back();
+        last.expect("short enough")[..n].to_vec()
+    };
+    (0..5).map(at).collect()
 }
 
 #[test]
 fn sums_and_recursions_have_one_solution() {
     let n = 7;
     for (sums, recursion, _) in spellings(n) {
-        for point in 0..5 {
-            let input = |symbol: Symbol| {
-                let place = u64::from(symbol.family) * 977 + u64::from(symbol.index) * 131 + point * 7_919;
-                let part = (place as f64 * 0.618_033_988_749_894_9).fract();
-                if matches!(Variable::of(symbol), Variable::Parameter(_)) {
-                    0.5 + part
-                } else {
-                    2.0 * part - 1.0
-                }
-            };
-            // Values go by name, because parameters are numbered in the order of their first use.
-            let [one, other] = [&sums, &recursion].map(|source| {
-                let (_, problem, _) = equations(source);
-                let by_name = |symbol: Symbol| match Variable::of(symbol) {
-                    Variable::Parameter(k) => {
-                        let name = problem.parameters.name(k);
-                        let code = name.bytes().fold(0, |code, byte| code * 31 + u32::from(byte));
-                        input(Symbol { index: code % 100_000, ..symbol })
-                    }
-                    _ => input(symbol),
-                };
-                accelerations(source, n, by_name)
-            });
+        for (one, other) in accelerations(&sums, n).iter().zip(accelerations(&recursion, n)) {
             let scale = other.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
             let is_one = one.iter().zip(&other).all(|(x, y)| (x - y).abs() < 1e-11 * scale);
             assert!(is_one, "{one:?}, {other:?}: {sums}");

@@ -13,6 +13,8 @@ mod split;
 
 use std::collections::BTreeMap;
 
+use lagrange_random::cases;
+
 use super::equations;
 use crate::codegen::solutions;
 use crate::resolve::Problem;
@@ -24,10 +26,9 @@ use oracle::Solution;
 /// Largest accepted error, relative to the largest entry.
 const TOLERANCE: f64 = 1e-10;
 
-/// `LAGRANGE_TREES` is the number of trees, 60 by default.
 #[test]
 fn the_accelerations_are_those_of_newton_and_euler() {
-    let trees = std::env::var("LAGRANGE_TREES").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
+    let trees = cases([20, 60, 500]) as u64;
     let (mut worst, mut counts) = (0.0_f64, BTreeMap::new());
     for number in 0..trees {
         let draft = forest::tree(number);

@@ -17,6 +17,7 @@ mod systems;
 mod texts;
 mod typeset;
 
+use lagrange_random::cases;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -91,7 +92,7 @@ fn formulas() -> impl Strategy<Value = Formula> {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 2000,
+        cases: cases([250, 2_000, 20_000]) as u32,
         failure_persistence: None,
         rng_seed: RngSeed::Fixed(1687),
         ..ProptestConfig::default()

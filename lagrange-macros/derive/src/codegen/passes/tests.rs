@@ -6,7 +6,7 @@ use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Function, Symbol};
 use crate::variables::Variable;
-use lagrange_random::Random;
+use lagrange_random::{Random, cases};
 
 /// Evaluates the results; input k has the value 0.3 + 0.1 k.
 fn values(schedule: &Schedule, results: &[Register]) -> Vec<f64> {
@@ -45,7 +45,7 @@ fn input(schedule: &mut Schedule, index: u32) -> Register {
 #[test]
 fn signs_change_no_value() {
     let mut random = Random(1);
-    for _ in 0..500 {
+    for _ in 0..cases([100, 500, 5_000]) {
         let (schedule, results) = program(&mut random);
         let (new, new_results) = signs::gathered(&schedule, &results);
         let (before, after) = (values(&schedule, &results), values(&new, &new_results));
@@ -60,7 +60,7 @@ fn signs_change_no_value() {
 #[test]
 fn no_pass_changes_a_result_beyond_rounding_nor_leaves_more_to_do() {
     let mut random = Random(2);
-    for _ in 0..2000 {
+    for _ in 0..cases([250, 2_000, 20_000]) {
         let (schedule, results) = program(&mut random);
         for pass in [factors::taken_out, reciprocals::shared, fuse::fused] {
             let (new, new_results) = pass(&schedule, &results);

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::{Mutex, mpsc};
 use std::thread::JoinHandle;
 
+use lagrange_random::cases;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use crate::diagnostics::Diagnostics;
@@ -130,6 +131,11 @@ fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
     }
 }
 
+/// Number of systems of which one is checked.
+pub(super) fn share() -> usize {
+    cases([8, 1, 1])
+}
+
 /// Pages about the systems of some folders, which are derived once for several tests.
 pub(super) struct Library {
     pub(super) pages: Vec<Forms>,
@@ -137,11 +143,13 @@ pub(super) struct Library {
 }
 
 impl Library {
-    /// Derives every system without errors in these folders, and checks each while other tests read the pages.
+    /// Derives the systems without errors in these folders, one in [`share`], and checks each while other tests read
+    /// the pages.
     pub(super) fn of(folders: &'static [&str], check: fn(&System)) -> Self {
         let (send, pages) = mpsc::channel();
         let work = move || {
-            let systems: Vec<System> = tokens(folders).into_iter().filter_map(System::new).collect();
+            let chosen = tokens(folders).into_iter().step_by(share());
+            let systems: Vec<System> = chosen.filter_map(System::new).collect();
             send.send(systems.iter().map(|system| system.forms.clone()).collect()).expect("a test");
             systems.iter().for_each(check);
         };

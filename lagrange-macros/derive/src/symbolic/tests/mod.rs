@@ -22,6 +22,7 @@ mod zero;
 use std::cell::Cell;
 use std::fmt::Debug;
 
+use lagrange_random::cases;
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 
@@ -39,18 +40,17 @@ enum Outcome {
     Skipped,
 }
 
-/// Runs `property` on `cases` random values, the same in every run unless `PROPTEST_CASES` and `PROPTEST_RNG_SEED` are
-/// set. At least the fraction `share` of them must not be skipped.
+/// Runs `property` on `count` random values at the level `run`, on an eighth and on ten times as many at the levels below
+/// and above. They are the same in every run unless `PROPTEST_RNG_SEED` is set. At least the fraction `share` of them
+/// must not be skipped.
 fn for_all<T: Debug>(
-    cases: u32,
+    count: usize,
     share: f64,
     strategy: impl Strategy<Value = T>,
     property: impl Fn(T) -> Result<Outcome, TestCaseError>,
 ) {
-    let mut config = Config { failure_persistence: None, ..Config::default() };
-    if std::env::var_os("PROPTEST_CASES").is_none() {
-        config.cases = cases;
-    }
+    let cases = cases([count / 8, count, 10 * count]) as u32;
+    let mut config = Config { failure_persistence: None, cases, ..Config::default() };
     if std::env::var_os("PROPTEST_RNG_SEED").is_none() {
         config.rng_seed = RngSeed::Fixed(1687);
     }

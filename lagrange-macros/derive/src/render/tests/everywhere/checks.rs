@@ -1,7 +1,8 @@
 //! Printed lines against computed values, at states of their own.
 
 use std::ops::Range;
-use std::sync::LazyLock;
+
+use lagrange_random::cases;
 
 use super::state::State;
 use super::{Page, links, outer, turns, value};
@@ -18,12 +19,9 @@ const STATES: u64 = 40;
 /// Tolerance relative to the greatest of the compared values.
 const CLOSE: f64 = 1e-8;
 
-/// Number of states to compare at. One distinguishes two formulas; more reach more branches. The environment variable
-/// `LAGRANGE_STATES` overrides it.
+/// Number of states to compare at. One distinguishes two formulas; more reach more branches.
 fn wanted() -> usize {
-    static WANTED: LazyLock<usize> =
-        LazyLock::new(|| std::env::var("LAGRANGE_STATES").ok().and_then(|n| n.parse().ok()).unwrap_or(1));
-    *WANTED
+    cases([1, 1, 8])
 }
 
 /// Checks that each row, or vector of rows, is proportional to the computed one in accelerations and multipliers: the
