@@ -1,5 +1,21 @@
 //! Mechanical systems for tests and benches, each derived once.
 
+#![allow(missing_docs, reason = "the documentation of a system says what its fields are")]
+
+mod floors;
+mod oscillators;
+mod pendulums;
+mod planets;
+mod rolling;
+mod tops;
+
+pub use floors::{Flying, LeaningRod, SlidingRod, Touching};
+pub use oscillators::{DrivenSpring, HenonHeiles, Spring, Sticking};
+pub use pendulums::{BeadOnHoop, DoublePendulum, Foucault, Pendulum, PolarPendulum, SphericalPendulum};
+pub use planets::{Planet, ThreeBodies};
+pub use rolling::{BallInAngles, ChaplyginSleigh, KnifeEdge, TiedParticle};
+pub use tops::HeavyTop;
+
 use lagrange_core::State;
 use lagrange_random::Random;
 
