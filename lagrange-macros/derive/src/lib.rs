@@ -28,7 +28,7 @@
 //! tokens ─syntax→ Declaration ─resolve→ Problem ─mechanics→ Derived ─render→ text, LaTeX, MathML ─codegen→ tokens
 //! ```
 //!
-//! All stages share one expression graph, defined in `symbolic`: `resolve` creates it, `mechanics` adds nodes, the
+//! All stages share one expression graph, defined in `lagrange-symbolic`: `resolve` creates it, `mechanics` adds nodes, the
 //! later stages read it. A stage with errors reports all of them and ends the pipeline.
 
 mod codegen;
@@ -43,13 +43,13 @@ mod render;
 mod resolve;
 #[cfg(test)]
 mod robustness;
-mod symbolic;
 mod syntax;
 mod system;
 mod variables;
 
 use diagnostics::{Diagnostics, Place};
 use facts::Facts;
+use lagrange_symbolic as symbolic;
 use proc_macro2::{Span, TokenStream};
 pub use refusal::{Diagnostic, Location, Refusal};
 use syntax::Declaration;

@@ -53,7 +53,7 @@ use solving::Solving;
 pub(crate) use stub::stub;
 use style::FunctionContext;
 #[cfg(test)]
-pub(crate) use tests::{operations, solutions, solutions_by, solving, value, values};
+pub(crate) use tests::{apply, operations, solutions, solutions_by, solving, values};
 
 /// Emits the trait implementations and a method for each observable. Reports functions that are too long and returns
 /// `None`.

@@ -6,6 +6,9 @@
 //! and the values of time, coordinates, velocities and parameters. `LAGRANGE_FUZZ_SECONDS` sets the duration of the
 //! test, `LAGRANGE_FUZZ_SEED` the first seed.
 
+#[expect(dead_code, reason = "a module of lagrange-symbolic, which has more uses for it")]
+#[path = "../../../symbolic/src/tests/double.rs"]
+mod double;
 mod draft;
 mod drawing;
 mod here;

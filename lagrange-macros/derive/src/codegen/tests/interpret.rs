@@ -5,8 +5,11 @@ use rustc_hash::FxHashMap;
 use crate::codegen::body::{Chunk, FunctionBody, Given, Local, Operand, SineAndCosine, Slot, Statement};
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::schedule::Schedule;
-use crate::symbolic::{Symbol, apply};
+use crate::symbolic::Symbol;
 use crate::variables::Variable;
+
+#[path = "../../../../symbolic/src/tests/functions.rs"]
+pub(crate) mod functions;
 
 impl Operation<f64> {
     /// Evaluates the operation on numeric operands.
@@ -38,7 +41,7 @@ impl Operation<f64> {
                 }
             }
             Self::SquareRoot(x) => x.sqrt(),
-            Self::Function(function, x) => apply(function, &x),
+            Self::Function(function, x) => functions::apply(function, &x),
             Self::Atan2(y, x) => y.atan2(x),
             Self::Power(x, y) => x.powf(y),
             Self::Result { .. } => f64::NAN,

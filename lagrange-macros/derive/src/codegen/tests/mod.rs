@@ -1,5 +1,6 @@
 //! Queries about the emitted code for tests of the pipeline, without a compiler.
 
+mod constants;
 mod interpret;
 
 use super::body::FunctionBody;
@@ -9,6 +10,7 @@ use super::passes::Program;
 use super::solving::solve;
 use crate::mechanics::Equations;
 use crate::symbolic::{Graph, Id, Symbol};
+pub(crate) use interpret::functions::apply;
 
 /// Operation count of computing `roots` together.
 pub(crate) fn operations(graph: &Graph, roots: &[Id]) -> Count {
@@ -16,7 +18,7 @@ pub(crate) fn operations(graph: &Graph, roots: &[Id]) -> Count {
 }
 
 /// Value of a constant after compilation.
-pub(crate) fn value(graph: &Graph, root: Id) -> f64 {
+fn value(graph: &Graph, root: Id) -> f64 {
     values(graph, &[root], |_| f64::NAN)[0]
 }
 

@@ -5,7 +5,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use num_traits::Signed;
 
-use crate::symbolic::{Double, Function, Rational};
+use super::double::Double;
+use crate::symbolic::{Function, Rational};
 
 /// A number, with a bound on the rounding errors of its evaluation in f64, in units of the round-off. Each
 /// operation adds one error, which the slopes of later operations propagate (running error analysis: Higham,

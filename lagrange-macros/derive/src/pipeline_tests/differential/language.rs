@@ -1,10 +1,11 @@
 //! Scalar expressions of the language: their text and their values.
 
+use super::double::{self, Double};
 use super::draft::{ATOM, Draft, POWER, PRODUCT, SIGN, SUM, Term, Vector};
 use super::here::Here;
 use super::jet::Jet;
 use super::space;
-use crate::symbolic::{Double, Function, Rational};
+use crate::symbolic::{Function, Rational};
 
 impl Term {
     pub(super) fn text(&self, draft: &Draft) -> String {
@@ -70,7 +71,7 @@ impl Term {
         match self {
             Self::Number(_, n, 1) => Jet::number(*n as f64),
             Self::Number(_, n, d) => Jet::rounded(Double::from(Rational::new(*n, *d))),
-            Self::Pi => Jet::rounded(Double::PI),
+            Self::Pi => Jet::rounded(double::PI),
             Self::Time => here.time.clone(),
             Self::Index => Jet::number(here.index as f64),
             Self::Argument(k) => here.arguments[*k].clone(),

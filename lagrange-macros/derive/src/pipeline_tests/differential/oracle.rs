@@ -1,10 +1,10 @@
 //! Accelerations and multipliers from derivatives of the Lagrangian as written and Gaussian elimination, to twice
 //! the precision of f64. Each has the error bound that a solution in f64 can be expected to meet.
 
+use super::double::Double;
 use super::draft::{Draft, Term};
 use super::here::Here;
 use super::jet::{Jet, Running};
-use crate::symbolic::Double;
 
 /// Accelerations, then multipliers.
 pub(super) struct Solution {

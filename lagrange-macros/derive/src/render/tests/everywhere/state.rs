@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Page, links, momentum, outer, potential, turns, value};
+use crate::codegen;
 use crate::render::axes::named_axes;
 use crate::render::formula::Formula;
 use crate::render::letters::PageQuantity;
@@ -10,7 +11,7 @@ use crate::render::roots::named_roots;
 use crate::render::tests::reader::{Meanings, Value, read_with};
 use crate::render::tests::systems::System;
 use crate::resolve::{self, Entry, Parameters, Supplied};
-use crate::symbolic::{Approximate, External, Function, Id, Sample, apply, superposition};
+use crate::symbolic::{Approximate, External, Function, Id, Sample, superposition};
 use crate::variables::Variable;
 
 /// Values of the names of a system at a state.
@@ -199,7 +200,7 @@ impl Meanings for State<'_> {
 
     fn call(&self, function: &str, primes: usize, arguments: &[f64]) -> Value {
         let number = match (Function::named(function), function, arguments) {
-            (Some(function), _, &[x]) => apply(function, &x),
+            (Some(function), _, &[x]) => codegen::apply(function, &x),
             (_, "max", [x, y]) => x.max(*y),
             (_, "step", [x]) => f64::from(u8::from(*x > 0.0)),
             (_, "atan2", [y, x]) => y.atan2(*x),
