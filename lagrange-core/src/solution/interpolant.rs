@@ -2,7 +2,7 @@
 
 use crate::number::{Real, Scalar};
 use crate::solution::vector_field::StagePoint;
-use crate::vector::{Array, Element, Length, PhaseVector, entries, from_fn};
+use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
 
 /// Dense output of one step: a continuous function of time, equal to the states at both ends.
 ///
@@ -93,8 +93,8 @@ pub(crate) fn evaluate<T: Scalar, N: Length>(
     let (mut sum, mut slope) = (PhaseVector::filled(zero), Array::filled(zero));
     for (k, r) in coefficients.iter().enumerate().rev() {
         let (factor, sign) = if k % 2 == 0 { (theta, one) } else { (one - theta, -one) };
-        slope = entries(|i| factor.multiply_add(slope[i], sign * sum[0][i]));
-        sum = from_fn(|half| entries(|i| factor.multiply_add(sum[half][i], r[half][i])));
+        slope = Array::from_fn(|i| factor.multiply_add(slope[i], sign * sum[0][i]));
+        sum = from_fn(|half| Array::from_fn(|i| factor.multiply_add(sum[half][i], r[half][i])));
     }
     (sum, slope)
 }

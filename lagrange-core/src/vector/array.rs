@@ -6,7 +6,6 @@ use core::ops::{Deref, DerefMut};
 use nalgebra::Const;
 
 use super::{Element, Length};
-use crate::number::Scalar;
 
 /// Array of a length: `[T; K]` for [`Const<K>`](Const). It dereferences to a slice.
 #[derive(Clone, Copy)]
@@ -116,19 +115,6 @@ impl<T: Element, const R: usize, const C: usize> From<[[T; R]; C]> for Array<Arr
     fn from(columns: [[T; R]; C]) -> Self {
         Self(columns.map(Array))
     }
-}
-
-/// Like [`from_fn`], but cheaper to compile: rustc has many times as much work with `from_fn`, as
-/// with iterators.
-#[inline]
-pub(crate) fn entries<T: Scalar, N: Length>(mut of: impl FnMut(usize) -> T) -> Array<T, N> {
-    let mut entries = Array::filled(T::constant(0.0));
-    let mut k = 0;
-    while k < N::COUNT {
-        entries[k] = of(k);
-        k += 1;
-    }
-    entries
 }
 
 /// An array that a function of the index fills: `[X; K]` or [`Array`].

@@ -95,6 +95,12 @@ where
 {
 }
 
+/// Returns the array without entries, for K = 0. Other arrays are filled in a loop, because `core::array::from_fn` is
+/// seven functions to compile for each function that fills one.
+fn none<T, const K: usize>() -> [T; K] {
+    core::array::from_fn(|_| unreachable!("the array has no entries"))
+}
+
 impl<const K: usize> Length for Const<K> {
     const COUNT: usize = K;
     type Entries<T: Element> = [T; K];
@@ -108,8 +114,17 @@ impl<const K: usize> Length for Const<K> {
     }
 
     #[inline]
-    fn from_fn<T: Element>(of: impl FnMut(usize) -> T) -> [T; K] {
-        core::array::from_fn(of)
+    fn from_fn<T: Element>(mut of: impl FnMut(usize) -> T) -> [T; K] {
+        if K == 0 {
+            return none();
+        }
+        let mut entries = [of(0); K];
+        let mut k = 1;
+        while k < K {
+            entries[k] = of(k);
+            k += 1;
+        }
+        entries
     }
 
     #[inline]

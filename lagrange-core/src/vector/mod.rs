@@ -5,8 +5,8 @@ mod length;
 mod nalgebra;
 mod phase_vector;
 
+pub(crate) use array::from_fn;
 pub use array::{Array, FixedArray};
-pub(crate) use array::{entries, from_fn};
 pub use length::{Contiguous, Element, Length};
 pub(crate) use nalgebra::{Entrywise, array, matrix, rows, vector, zeros};
 pub use nalgebra::{Matrix, Vector};

@@ -20,7 +20,7 @@ use crate::solution::consistent::gradient::check_parameters;
 use crate::solution::kkt::Units;
 use crate::solution::solve::{first_row, row};
 use crate::system::{Solution, StateOf, finite::check_finite, unit};
-use crate::vector::{Array, Element, Length, Vector, entries, rows, zeros};
+use crate::vector::{Array, Element, Length, Vector, rows, zeros};
 
 /// Inputs and multipliers that produce given accelerations.
 #[derive(Clone, Debug, PartialEq)]
@@ -118,8 +118,9 @@ impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
         }
         let (f, bias, zero) =
             (system.constraint_jacobian(state), system.constraint_bias(state), L::Scalar::constant(0.0));
-        let demanded: Array<_, L::M> =
-            entries(|a| (0..<L::N>::COUNT).fold(zero, |sum, i| sum + f[(a, i)] * accelerations[i]) + bias[a]);
+        let demanded: Array<_, L::M> = Array::from_fn(|a| {
+            (0..<L::N>::COUNT).fold(zero, |sum, i| sum + f[(a, i)] * accelerations[i]) + bias[a]
+        });
         if let Some(row) = first_row::<L>(|i| !motion[i].is_finite(), |a| !demanded[a].is_finite()) {
             return Err(Error::EquationsNotFinite { row, time: state.t.to_f64() });
         }

@@ -30,7 +30,7 @@ use crate::room::Room;
 use crate::solution::consistent::factors_of_nearest;
 use crate::solution::kkt::{Factors, Fault, Rank};
 use crate::solution::solve::fault;
-use crate::vector::{Array, Element, Length, PhaseVector, Vector, entries, zeros};
+use crate::vector::{Array, Element, Length, PhaseVector, Vector, zeros};
 
 pub use differentiable::DifferentiableMethod;
 pub(super) use differentiable::VariedRun;
@@ -228,7 +228,7 @@ impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
         W: Wide<T>,
     {
         for lane in 0..self.lanes {
-            let demanded = entries(|a| position[a].lane(lane));
+            let demanded = Array::from_fn(|a| position[a].lane(lane));
             let least = nearest.solve(&Array::filled(T::constant(0.0)), &demanded)?.accelerations;
             let moved = self.y[0].iter_mut().zip(&least);
             moved.for_each(|(x, least)| x.put(lane, x.lane(lane) + *least));

@@ -24,7 +24,7 @@ use crate::number::{Broadcast, Dual, Real, Scalar, Wide, exceeds, smaller};
 use crate::solution::pivot::least_pivot;
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, StateOf, TaylorSeries};
-use crate::vector::{Array, Element, FixedArray, Length, PhaseVector, entries, from_fn};
+use crate::vector::{Array, Element, FixedArray, Length, PhaseVector, from_fn};
 use general::DualGeneral;
 
 type Sums<L> = <PackedDuals<L> as TaylorSeries>::Sums;
@@ -124,7 +124,7 @@ where
     ) -> PhaseVector<WideOf<L>, L::N> {
         let zero = PhaseVector::filled(WideOf::<L>::constant(0.0));
         coefficients.iter().rev().fold(zero, |sum, coefficient| {
-            from_fn(|half| entries(|i| sum[half][i].multiply_add(part, coefficient[half][i])))
+            from_fn(|half| Array::from_fn(|i| sum[half][i].multiply_add(part, coefficient[half][i])))
         })
     }
 }
@@ -143,7 +143,7 @@ impl Taylor {
         from_fn(|half| {
             let sizes = ends.iter().flat_map(|y| y[half].iter().map(|x| x.abs()));
             let largest = sizes.fold(W::constant(0.0), |most, size| most.max(size));
-            entries(|i| one / (times * (largest + unit * W::of(Scalar::abs(own[half][i]) + slack))))
+            Array::from_fn(|i| one / (times * (largest + unit * W::of(Scalar::abs(own[half][i]) + slack))))
         })
     }
 
@@ -265,7 +265,7 @@ impl<S, U: FixedArray<Dual<W>>, W: Scalar, N: Length> Varied<S, U, W, N> {
         let length = Dual { value: W::of(now - motion.start), slope: W::constant(0.0) };
         let [dq, dv, rates] = self.series.change(length).map(|all| all.map(|x| x.slope));
         let before = block.y;
-        block.y = from_fn(|half| entries(|i| before[half][i] + [&dq, &dv][half][i]));
+        block.y = from_fn(|half| Array::from_fn(|i| before[half][i] + [&dq, &dv][half][i]));
         BlockStep { before, rates }
     }
 

@@ -8,7 +8,7 @@ use crate::number::{Real, Scalar, larger, smaller};
 use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
-use crate::vector::{Array, Element, Length, entries};
+use crate::vector::{Array, Element, Length};
 
 /// Bounds on the multiplier of each constraint within a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,16 +110,16 @@ fn bounds<P: Pair, T: Real, M: Length>(all: &[Array<T, M>], another: &Array<T, M
     let (one, other) = all.split_at(const { count::<P>() / 2 });
     let [mut lowest, mut highest] = [all[0]; 2];
     for (x, y) in one.iter().chain(&other[other.len() - 1..]).zip(other.iter().chain(&other[..1])) {
-        lowest = entries(|a| smaller(lowest[a], smaller(x[a], y[a])));
-        highest = entries(|a| larger(highest[a], larger(x[a], y[a])));
+        lowest = Array::from_fn(|a| smaller(lowest[a], smaller(x[a], y[a])));
+        highest = Array::from_fn(|a| larger(highest[a], larger(x[a], y[a])));
     }
-    lowest = entries(|a| smaller(lowest[a], another[a]));
-    highest = entries(|a| larger(highest[a], another[a]));
+    lowest = Array::from_fn(|a| smaller(lowest[a], another[a]));
+    highest = Array::from_fn(|a| larger(highest[a], another[a]));
     // From the middle by a half range to the ends, and by 2Λ of them beyond.
     let beyond = |a: usize| (highest[a] - lowest[a]) * T::constant(const { lebesgue::<P>() });
     MultiplierBounds {
-        lowest: entries(|a| lowest[a] - beyond(a)),
-        highest: entries(|a| highest[a] + beyond(a)),
+        lowest: Array::from_fn(|a| lowest[a] - beyond(a)),
+        highest: Array::from_fn(|a| highest[a] + beyond(a)),
     }
 }
 

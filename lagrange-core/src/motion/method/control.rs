@@ -9,7 +9,7 @@ use super::pair::{Pair, Slopes, combine};
 #[cfg(feature = "alloc")]
 use crate::number::Broadcast;
 use crate::number::{Real, Scalar, exceeds, larger, smaller, sum};
-use crate::vector::{Length, PhaseVector, entries, from_fn};
+use crate::vector::{Array, Length, PhaseVector, from_fn};
 
 /// Length of the next step, and the memory of the controller.
 #[derive(Clone, Debug)]
@@ -134,7 +134,7 @@ impl Tolerance {
         let [relative, slack] = [self.relative, slack].map(W::constant);
         from_fn(|half| {
             let largest = relative * largest(half);
-            entries(|i| slack * (largest + W::of(own[half][i]) * *unit))
+            Array::from_fn(|i| slack * (largest + W::of(own[half][i]) * *unit))
         })
     }
 
@@ -181,7 +181,7 @@ impl Tolerance {
         let relative = T::constant(self.relative);
         let absolute = T::constant(self.absolute);
         let size = |half: usize, i: usize| a[half][i].abs().max(b[half][i].abs());
-        from_fn(|half| entries(|i| absolute + relative * size(half, i)))
+        from_fn(|half| Array::from_fn(|i| absolute + relative * size(half, i)))
     }
 }
 
@@ -265,7 +265,7 @@ impl<P: Pair> Adaptive<P> {
         after: &PhaseVector<T, N>,
     ) -> T {
         let scale = self.tolerance::<T>().scale(y, y);
-        let change: PhaseVector<T, N> = from_fn(|half| entries(|i| after[half][i] - before[half][i]));
+        let change: PhaseVector<T, N> = from_fn(|half| Array::from_fn(|i| after[half][i] - before[half][i]));
         let one = T::constant(1.0);
         let fastest = larger(norm(one, &change, &scale) / guess, norm(one, before, &scale));
         let step = if fastest > T::constant(1e-15) && fastest.is_finite() {

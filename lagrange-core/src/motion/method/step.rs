@@ -24,7 +24,7 @@ use crate::solution::interpolant::{Polynomial, hermite};
 use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Length, PhaseVector, entries, from_fn, vector};
+use crate::vector::{Array, Element, Length, PhaseVector, from_fn, vector};
 
 /// Reason to reject a step.
 enum Refusal<T> {
@@ -330,7 +330,7 @@ impl<P: Pair> Adaptive<P> {
         let mut there = *here;
         let (active, mut statistics) = (memory.has_slope.then_some(active)?, Statistics::default());
         slope::<L, F>(system, &point, Some(active), &mut there, &mut statistics).ok()?;
-        let change: PhaseVector<_, L::N> = from_fn(|half| entries(|i| there[half][i] - here[half][i]));
+        let change: PhaseVector<_, L::N> = from_fn(|half| Array::from_fn(|i| there[half][i] - here[half][i]));
         let lost = self.tolerance::<L::Scalar>().part(control.step, &change, y);
         (lost >= L::Scalar::constant(0.5)).then(|| (next - clock.now).to_f64())
     }
@@ -344,7 +344,7 @@ impl<P: Pair> Adaptive<P> {
         let PairMemory { clock, y, slope: first, active, .. } = memory;
         let guess = self.tolerance::<L::Scalar>().guess_step(y, first, clock.left());
         let h = clock.directed(guess);
-        let euler: PhaseVector<_, L::N> = from_fn(|half| entries(|i| y[half][i] + h * first[half][i]));
+        let euler: PhaseVector<_, L::N> = from_fn(|half| Array::from_fn(|i| y[half][i] + h * first[half][i]));
         let point = StagePoint { t: clock.now + h, y: euler, velocity: first.half(0) };
         let mut second = *first;
         match slope::<L, F>(system, &point, Some(active), &mut second, statistics) {

@@ -14,7 +14,7 @@ use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Rank, Rows};
 use crate::solution::pivot::is_trustworthy;
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, entries, rows};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, rows};
 
 /// Largest number of steps of the search for the least residuals.
 const STEPS: usize = 300;
@@ -93,8 +93,8 @@ impl<T: Real, N: Length, M: Length> LinearResiduals<T, N, M> {
         units: &Array<T, M>,
     ) -> Self {
         let (value, f) = (system.constraint_residual(state), Level::Position.jacobian(system, state));
-        let value = entries(|a| value[a] / units[a]);
-        let jacobian = Array::from_fn(|a| entries(|i| f[a][i] / units[a]));
+        let value = Array::from_fn(|a| value[a] / units[a]);
+        let jacobian = Array::from_fn(|a| Array::from_fn(|i| f[a][i] / units[a]));
         let square = value.iter().fold(T::constant(0.0), |sum, x| sum + *x * *x);
         Self { value, jacobian, square }
     }
@@ -102,8 +102,9 @@ impl<T: Real, N: Length, M: Length> LinearResiduals<T, N, M> {
     /// Jᵀr and JᵀJ.
     fn normal_equations(&self) -> (Array<T, N>, Array<Array<T, N>, N>) {
         let sum = |of: &dyn Fn(usize) -> T| (0..M::COUNT).fold(T::constant(0.0), |sum, a| sum + of(a));
-        let slope = entries(|i| sum(&|a| self.jacobian[a][i] * self.value[a]));
-        let square = Array::from_fn(|i| entries(|j| sum(&|a| self.jacobian[a][i] * self.jacobian[a][j])));
+        let slope = Array::from_fn(|i| sum(&|a| self.jacobian[a][i] * self.value[a]));
+        let square =
+            Array::from_fn(|i| Array::from_fn(|j| sum(&|a| self.jacobian[a][i] * self.jacobian[a][j])));
         (slope, square)
     }
 }
@@ -169,7 +170,7 @@ fn minimum<L: Lagrangian<Scalar: Real>>(
         // without it.
         let own = |i: usize| square[i][i] + L::Scalar::constant(1e-9) * trace;
         let damped = Array::from_fn(|i| {
-            entries(|j| if i == j { square[i][i] + damping * own(i) } else { square[i][j] })
+            Array::from_fn(|j| if i == j { square[i][i] + damping * own(i) } else { square[i][j] })
         });
         let step = eliminate::<_, L::N, Const<0>>(damped, slope.map(|x| -x), [].into(), [].into());
         let mut next = state;

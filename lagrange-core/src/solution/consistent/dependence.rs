@@ -12,7 +12,7 @@ use crate::names::Names;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Entrywise, Length, Vector, entries, zeros};
+use crate::vector::{Array, Entrywise, Length, Vector, zeros};
 
 /// Number of directions, beside the remainders of the dependent rows, along which second derivatives are taken.
 /// A nonzero quadratic form H may vanish along one of them by chance, but hardly along three.
@@ -68,7 +68,7 @@ fn second_derivatives<L: Lagrangian<Scalar: Real>>(
     let [ahead, back] = [direction, direction.negated()].map(bias);
     let rest = bias(zeros());
     let is_holonomic = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
-    entries(|a| if is_holonomic(a) { half * (ahead[a] + back[a]) - rest[a] } else { zero })
+    Array::from_fn(|a| if is_holonomic(a) { half * (ahead[a] + back[a]) - rest[a] } else { zero })
 }
 
 /// Returns the constraints whose coefficients exceed ε^(1/3) of the largest coefficient.

@@ -10,7 +10,7 @@ use crate::names::name;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::round_off::{SAFETY, neighbours};
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Entrywise, Length, entries, from_fn};
+use crate::vector::{Array, Entrywise, Length, from_fn};
 
 /// Largest entry of a row that is its rounding error, in units of ε times [`jacobian_round_off`]. An entry that is larger is
 /// correct to a quarter of itself. In 10⁵ random linkages whose planes agree, no entry across the plane exceeded 1.
@@ -70,7 +70,7 @@ fn vanishing<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Arr
     for nearby in neighbours(state, state, power_of_epsilon::<L::Scalar>(0.75).to_f64()) {
         let there = system.constraint_jacobian(&nearby);
         for a in 0..<L::M>::COUNT {
-            noise[a] = entries(|i| larger(noise[a][i], Scalar::abs(there[(a, i)] - here[a][i])));
+            noise[a] = Array::from_fn(|i| larger(noise[a][i], Scalar::abs(there[(a, i)] - here[a][i])));
         }
     }
     let safety = L::Scalar::constant(SAFETY);

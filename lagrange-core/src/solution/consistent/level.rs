@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::names::name;
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, smaller, sum};
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Length, Vector, entries, from_fn};
+use crate::vector::{Array, Element, Length, Vector, from_fn};
 
 /// Unknowns of a projection: the coordinates, projected onto the holonomic constraints, or the velocities,
 /// projected onto all constraints.
@@ -38,7 +38,7 @@ impl Level {
     ) -> Array<Array<L::Scalar, L::N>, L::M> {
         let (zero, jacobian) = (L::Scalar::constant(0.0), system.constraint_jacobian(state));
         let is_active = |a: usize| self.is_active(L::CONSTRAINT_KINDS[a]);
-        from_fn(|a| entries(|i| if is_active(a) { jacobian[(a, i)] } else { zero }))
+        from_fn(|a| Array::from_fn(|i| if is_active(a) { jacobian[(a, i)] } else { zero }))
     }
 
     /// Magnitude of the terms of the residual, for its round-off.
@@ -87,9 +87,9 @@ impl<T: Real, N: Length, M: Length> Residual<T, N, M> {
         let value = level.residual(system, state);
         let x = *level.unknowns(&mut { *state });
         Self {
-            value: entries(|a| if active(a) { value[a] } else { zero }),
-            terms: entries(|a| sum(N::COUNT, |i| Scalar::abs(jacobian[a][i] * x[i]))),
-            sensitivity: entries(|a| sum(N::COUNT, |i| Scalar::abs(jacobian[a][i]))),
+            value: Array::from_fn(|a| if active(a) { value[a] } else { zero }),
+            terms: Array::from_fn(|a| sum(N::COUNT, |i| Scalar::abs(jacobian[a][i] * x[i]))),
+            sensitivity: Array::from_fn(|a| sum(N::COUNT, |i| Scalar::abs(jacobian[a][i]))),
             jacobian,
         }
     }
@@ -106,7 +106,7 @@ impl<T: Real, N: Length, M: Length> Residual<T, N, M> {
 
     /// Returns the residual of each constraint that a projection may leave as round-off.
     pub(crate) fn negligible(&self) -> Array<T, M> {
-        entries(|a| self.bound(T::constant(NEGLIGIBLE * T::EPSILON), a))
+        Array::from_fn(|a| self.bound(T::constant(NEGLIGIBLE * T::EPSILON), a))
     }
 
     /// Limits each term to the actual change of Φ with its coordinate, measured by an increase of the

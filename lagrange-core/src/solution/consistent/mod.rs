@@ -27,7 +27,7 @@ use crate::solution::near::{self, Corrections};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::pivot::is_trustworthy;
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, entries, from_fn, vector};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, from_fn, vector};
 pub(crate) use level::{BOTH, Level, check_level};
 use level::{NEGLIGIBLE, Residual};
 
@@ -230,7 +230,7 @@ impl<L: Lagrangian<Scalar: Real>> Projection<'_, L> {
     ) -> Option<Vector<L::Scalar, L::N>> {
         let zero = L::Scalar::constant(0.0);
         let step = factors_of_nearest(m, f, rank).solve(&Array::filled(zero), left).ok()?.accelerations;
-        let moving: Vector<_, L::N> = vector(entries(|i| if self.held[i] { zero } else { step[i] }));
+        let moving: Vector<_, L::N> = vector(Array::from_fn(|i| if self.held[i] { zero } else { step[i] }));
         moving.iter().all(|x| x.is_finite()).then_some(moving)
     }
 }
@@ -316,7 +316,7 @@ fn hold<T: Real, N: Length>(held: &Array<bool, N>, m: &mut [Array<T, N>], f: &mu
     for i in (0..N::COUNT).filter(|&i| held[i]) {
         m.iter_mut().chain(&mut *f).for_each(|row| row[i] = T::constant(0.0));
         if let Some(row) = m.get_mut(i) {
-            *row = entries(|j| T::constant(if i == j { 1.0 } else { 0.0 }));
+            *row = Array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 }));
         }
     }
 }
@@ -335,5 +335,5 @@ fn mass_matrix<L: Lagrangian<Scalar: Real>>(
 fn diagonal<T: Real, N: Length>(m: &Array<Array<T, N>, N>) -> Room<Array<Array<T, N>, N>> {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let mass = |i: usize| if m[i][i] == zero { one } else { Scalar::abs(m[i][i]) };
-    Room::of(from_fn(|i| entries(|j| if i == j { mass(i) } else { zero })))
+    Room::of(from_fn(|i| Array::from_fn(|j| if i == j { mass(i) } else { zero })))
 }

@@ -23,7 +23,7 @@ use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::newton::halvings;
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, entries, from_fn, vector};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, from_fn, vector};
 
 /// Limit on Newton steps. Usually about five suffice; far from the constraints and at flat minima more, 31 for
 /// a chain of 50 rods.
@@ -119,7 +119,7 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         let mut f = gradients(*system, &state);
         hold(self.held, &mut [], &mut f);
         let way = given.q.minus(&state.q);
-        let pull = entries(|i| dot(&metric[i], way.as_slice()));
+        let pull = Array::from_fn(|i| dot(&metric[i], way.as_slice()));
         let found =
             Factors::of(metric, &f, Rank::off_constraints()).solve(&pull, &Array::filled(zero)).ok()?;
         let square = dot(&pull, way.as_slice());
@@ -211,7 +211,7 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
     ) -> Option<Vector<L::Scalar, L::N>> {
         let multiples = successors(Some(0.25), |multiple| Some(4.0 * multiple)).take(10);
         multiples.map(L::Scalar::constant).find_map(|multiple| {
-            let sum = from_fn(|i| entries(|j| hessian[i][j] + multiple * self.metric[i][j]));
+            let sum = from_fn(|i| Array::from_fn(|j| hessian[i][j] + multiple * self.metric[i][j]));
             let factors = Factors::of(&sum, &place.f, Rank::off_constraints());
             if factors.is_semidefinite() { Self::newton(&factors, place) } else { None }
         })
@@ -224,10 +224,10 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         down: Vector<L::Scalar, L::N>,
     ) -> Vector<L::Scalar, L::N> {
         let down = down.as_slice();
-        let length = dot(down, &entries::<_, L::N>(|i| dot(&self.metric[i], down)));
+        let length = dot(down, &Array::<_, L::N>::from_fn(|i| dot(&self.metric[i], down)));
         let scale = Scalar::sqrt(place.square / length);
         let scale = if dot(&place.pull, down) < L::Scalar::constant(0.0) { -scale } else { scale };
-        vector(entries(|i| down[i] * scale))
+        vector(Array::from_fn(|i| down[i] * scale))
     }
 
     /// Hessian M − Σ μ ∇²Φ, from central differences of Fᵀμ over ε^(1/3) of the distance. |Fᵀμ| is M times
@@ -239,7 +239,7 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
     ) -> Room<Array<Array<L::Scalar, L::N>, L::N>> {
         let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
         let is_active = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
-        let multipliers = vector(entries(|a| if is_active(a) { place.multipliers[a] } else { zero }));
+        let multipliers = vector(Array::from_fn(|a| if is_active(a) { place.multipliers[a] } else { zero }));
         let mut hessian = self.metric.clone();
         for j in 0..<L::N>::COUNT {
             let step = self.difference(place, j);

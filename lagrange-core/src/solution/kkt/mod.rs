@@ -14,7 +14,7 @@ mod units;
 use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, smaller};
 
 use crate::system::Solution;
-use crate::vector::{Array, Element, Length, Vector, entries, from_fn, vector};
+use crate::vector::{Array, Element, Length, Vector, from_fn, vector};
 use qr::{Qr, dot};
 use symmetric::Symmetric;
 pub(crate) use units::Units;
@@ -97,11 +97,11 @@ fn refined<T: Real, N: Length, M: Length>(
     let KktSystem { m, h, f, gamma } = equations;
     let (a, lambda) = (&solution.accelerations, &solution.multipliers);
     let pull = |i: usize| (0..M::COUNT).fold(h[i], |sum, k| sum + f[k][i] * lambda[k]);
-    let force = entries(|i| (0..N::COUNT).fold(pull(i), |sum, j| sum - m[i][j] * a[j]));
-    let bias = entries(|k| (0..N::COUNT).fold(gamma[k], |sum, j| sum + f[k][j] * a[j]));
+    let force = Array::from_fn(|i| (0..N::COUNT).fold(pull(i), |sum, j| sum - m[i][j] * a[j]));
+    let bias = Array::from_fn(|k| (0..N::COUNT).fold(gamma[k], |sum, j| sum + f[k][j] * a[j]));
     let Ok(correction) = factors.solve_as_given(&force, &bias) else { return solution };
-    let accelerations = vector(entries::<T, N>(|i| a[i] + correction.accelerations[i]));
-    let multipliers = vector(entries::<T, M>(|k| lambda[k] + correction.multipliers[k]));
+    let accelerations = vector(Array::<T, N>::from_fn(|i| a[i] + correction.accelerations[i]));
+    let multipliers = vector(Array::<T, M>::from_fn(|k| lambda[k] + correction.multipliers[k]));
     let is_finite = |x: &T| x.is_finite();
     match accelerations.as_slice().iter().chain(multipliers.as_slice()).all(is_finite) {
         true => Solution { accelerations, multipliers, ..solution },
@@ -156,7 +156,9 @@ impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
     /// Returns a direction of negative mass that F leaves free.
     pub(crate) fn downhill(&self) -> Option<Vector<T, N>> {
         let (rank, y) = (self.rows.split.rank, self.along.negative()?);
-        Some(self.rows.out_of_basis(entries(|i| if i < rank { T::constant(0.0) } else { y[i - rank] })))
+        Some(
+            self.rows.out_of_basis(Array::from_fn(|i| if i < rank { T::constant(0.0) } else { y[i - rank] })),
+        )
     }
 
     /// Solves M q̈ − Fᵀλ = h, F q̈ + γ = 0.
@@ -166,7 +168,7 @@ impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
         gamma: &Array<T, M>,
     ) -> Result<Solution<T, N, M>, Fault<T, N>> {
         if self.must_agree {
-            let scaled = entries(|i| h[i] * self.rows.units.coordinates[i]);
+            let scaled = Array::from_fn(|i| h[i] * self.rows.units.coordinates[i]);
             self.rows.check_agreement(gamma, &scaled, &self.rows.fixed(gamma))?;
         }
         self.solve_as_given(h, gamma)
@@ -175,12 +177,13 @@ impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
     /// Solves them by the independent constraints, whether the others agree or not.
     fn solve_as_given(&self, h: &Array<T, N>, gamma: &Array<T, M>) -> Result<Solution<T, N, M>, Fault<T, N>> {
         let Rows { units, split } = &self.rows;
-        let mut h = entries(|i| h[i] * units.coordinates[i]);
+        let mut h = Array::from_fn(|i| h[i] * units.coordinates[i]);
         let fixed = self.rows.fixed(gamma);
         split.enter_basis(&mut h);
         let free = self.free_accelerations(&h, &fixed)?;
-        let q = entries(|i| fixed[i] + free[i]);
-        let force = entries(|i| if i < split.rank { dot(&self.m[i], &q) - h[i] } else { T::constant(0.0) });
+        let q = Array::from_fn(|i| fixed[i] + free[i]);
+        let force =
+            Array::from_fn(|i| if i < split.rank { dot(&self.m[i], &q) - h[i] } else { T::constant(0.0) });
         Ok(Solution {
             accelerations: self.rows.out_of_basis(q),
             multipliers: vector(self.multipliers(&force)),
@@ -196,9 +199,10 @@ impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
         if !self.are_regular() {
             return Err(Fault::Singular(undetermined(&self.rows.split, &self.along, size)));
         }
-        let force = entries(|i| if i < size { h[rank + i] - dot(&self.m[rank + i], fixed) } else { zero });
+        let force =
+            Array::from_fn(|i| if i < size { h[rank + i] - dot(&self.m[rank + i], fixed) } else { zero });
         let y = self.along.solve(&force);
-        Ok(entries(|i| if i < rank { zero } else { y[i - rank] }))
+        Ok(Array::from_fn(|i| if i < rank { zero } else { y[i - rank] }))
     }
 
     /// Returns λ with Fᵀλ = M q̈ − h (given in the range basis): the solution of least Euclidean norm if there
@@ -207,7 +211,7 @@ impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
         match &self.wide {
             None => {
                 let scaled = self.rows.split.solve(force);
-                entries(|a| self.rows.units.of_row(a, scaled[a]))
+                Array::from_fn(|a| self.rows.units.of_row(a, scaled[a]))
             }
             Some(wide) => {
                 let mut lambda = wide.solve_transposed(force);
@@ -241,7 +245,7 @@ impl<T: Real, N: Length, M: Length> Rows<T, N, M> {
     #[cfg(feature = "alloc")]
     pub(crate) fn null_space(&self) -> impl Iterator<Item = Vector<T, N>> {
         (self.split.rank..N::COUNT)
-            .map(|k| self.out_of_basis(entries(|i| T::constant(if i == k { 1.0 } else { 0.0 }))))
+            .map(|k| self.out_of_basis(Array::from_fn(|i| T::constant(if i == k { 1.0 } else { 0.0 }))))
     }
 
     /// Returns the least x with F x + γ = 0 in natural units, ignoring dependent constraints.
@@ -253,7 +257,7 @@ impl<T: Real, N: Length, M: Length> Rows<T, N, M> {
     /// Transforms from the range basis and natural units to the coordinates.
     fn out_of_basis(&self, mut x: Array<T, N>) -> Vector<T, N> {
         self.split.leave_basis(&mut x);
-        vector(entries(|i| x[i] * self.units.coordinates[i]))
+        vector(Array::from_fn(|i| x[i] * self.units.coordinates[i]))
     }
 
     /// Returns the least x with F x + γ = 0, in the range basis.
@@ -263,14 +267,14 @@ impl<T: Real, N: Length, M: Length> Rows<T, N, M> {
 
     /// Right-hand sides of the rows, −γ in natural units.
     fn demands(&self, gamma: &Array<T, M>) -> Array<T, M> {
-        entries(|a| -self.units.of_row(a, gamma[a]))
+        Array::from_fn(|a| -self.units.of_row(a, gamma[a]))
     }
 
     /// Returns the direction with F x = 0, of length 1 in natural units, with these weights of the basis
     /// vectors of the null space. `None` if the null space is empty.
     pub(crate) fn free_direction(&self, weight: impl Fn(usize) -> T) -> Option<Vector<T, N>> {
         let rank = self.split.rank;
-        let x = entries(|i| if i < rank { T::constant(0.0) } else { weight(i - rank) });
+        let x = Array::from_fn(|i| if i < rank { T::constant(0.0) } else { weight(i - rank) });
         let length = norm::<T>(&x);
         (rank < N::COUNT).then(|| self.out_of_basis(x.map(|x| x / length)))
     }
@@ -364,9 +368,9 @@ fn undetermined<T: Real, N: Length, M: Length>(
     let mut share = Array::filled(zero);
     for index in 0..size - factors.rank {
         let y = factors.null_vector(index);
-        let mut x = entries(|i| if i < split.rank { zero } else { y[i - split.rank] });
+        let mut x = Array::from_fn(|i| if i < split.rank { zero } else { y[i - split.rank] });
         split.leave_basis(&mut x);
-        share = entries(|i| larger(share[i], Scalar::abs(x[i])));
+        share = Array::from_fn(|i| larger(share[i], Scalar::abs(x[i])));
     }
     share
 }

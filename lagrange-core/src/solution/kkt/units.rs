@@ -1,7 +1,7 @@
 //! Natural units, in which masses are about 1 and constraint rows have length 1.
 
 use crate::number::{Real, Scalar, larger, largest, norm, power_of_two, unit_of};
-use crate::vector::{Array, Element, Length, entries};
+use crate::vector::{Array, Element, Length};
 
 /// The natural units of a mass matrix and a constraint Jacobian.
 ///
@@ -22,8 +22,8 @@ impl<T: Real, N: Length, M: Length> Units<T, N, M> {
         let (zero, one) = (T::constant(0.0), T::constant(1.0));
         let mass = |i: usize| Scalar::abs(m[i][i]);
         let mut units = Self {
-            coordinates: entries(|i| if mass(i) > zero { one / Scalar::sqrt(mass(i)) } else { zero }),
-            powers: entries(|a| power_of_two(largest(&f[a]))),
+            coordinates: Array::from_fn(|i| if mass(i) > zero { one / Scalar::sqrt(mass(i)) } else { zero }),
+            powers: Array::from_fn(|a| power_of_two(largest(&f[a]))),
             lengths: Array::filled(one),
         };
         // If a row ties massless coordinates only, its entries determine their units.
@@ -37,7 +37,7 @@ impl<T: Real, N: Length, M: Length> Units<T, N, M> {
 
     /// Returns row `a`, scaled to length 1.
     pub(super) fn unit_row(&self, a: usize, row: &Array<T, N>) -> Array<T, N> {
-        entries(|i| row[i] / self.powers[a] * (self.coordinates[i] / self.lengths[a]))
+        Array::from_fn(|i| row[i] / self.powers[a] * (self.coordinates[i] / self.lengths[a]))
     }
 
     /// Converts a quantity of row `a`, such as its residual, to the unit of that row.
@@ -46,7 +46,9 @@ impl<T: Real, N: Length, M: Length> Units<T, N, M> {
     }
 
     fn lengths_of(&self, f: &Array<Array<T, N>, M>) -> Array<T, M> {
-        entries(|a| unit_of(norm::<T>(&entries::<T, N>(|i| f[a][i] / self.powers[a] * self.coordinates[i]))))
+        Array::from_fn(|a| {
+            unit_of(norm::<T>(&Array::<T, N>::from_fn(|i| f[a][i] / self.powers[a] * self.coordinates[i])))
+        })
     }
 
     fn of_massless(&self, i: usize, m: &Array<Array<T, N>, N>, f: &Array<Array<T, N>, M>) -> T {

@@ -15,7 +15,7 @@ use crate::linearized::variation::{Block, VariationalEquations, Variations};
 use crate::motion::method::control::{SLACK, VariedEnds};
 use crate::number::{Real, Wide};
 use crate::solution::solve::solve_near;
-use crate::vector::{PhaseVector, entries, from_fn};
+use crate::vector::{Array, PhaseVector, from_fn};
 
 impl<const S: usize> Radau<S>
 where
@@ -82,5 +82,5 @@ fn lane_of<L: Linearized<Scalar: Real>>(
     y: &PhaseVector<WideOf<L>, L::N>,
     lane: usize,
 ) -> PhaseVector<L::Scalar, L::N> {
-    from_fn(|half| entries(|i| y[half][i].lane(lane)))
+    from_fn(|half| Array::from_fn(|i| y[half][i].lane(lane)))
 }

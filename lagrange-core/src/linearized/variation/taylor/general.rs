@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::motion::taylor::expansion::General;
 use crate::number::{Dual, Real, Wide};
 use crate::system::{Lagrangian, RightHandSides, Solution, State};
-use crate::vector::{Array, Element, Entrywise, Length, entries, from_fn, vector};
+use crate::vector::{Array, Element, Entrywise, Length, from_fn, vector};
 
 /// Factors of the general solver at a state, with the derivatives of M and F.
 pub(super) struct DualGeneral<T: Element, W: Element, N: Length, M: Length> {
@@ -28,8 +28,8 @@ impl<T: Real<Wide = W>, W: Wide<T>, N: Length, M: Length> DualGeneral<T, W, N, M
     {
         let (m, f) = (over.mass_matrix(varied), over.constraint_jacobian(varied));
         let zero = W::constant(0.0);
-        let f = from_fn(|a| entries(|i| if active[a] { f[(a, i)].slope } else { zero }));
-        let m = from_fn(|i| entries(|j| m[(i, j)].slope));
+        let f = from_fn(|a| Array::from_fn(|i| if active[a] { f[(a, i)].slope } else { zero }));
+        let m = from_fn(|i| Array::from_fn(|j| m[(i, j)].slope));
         Ok(Self { general: General::at(system, state, active)?, m, f })
     }
 
