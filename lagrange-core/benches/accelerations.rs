@@ -1,6 +1,6 @@
 //! One evaluation of the emitted accelerations and multipliers.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-core --bench accelerations`
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-benches --bench accelerations`
 //!
 //! Chains of n links: planar in angles (dense mass matrix), and in Cartesian coordinates with a rod as a constraint
 //! each (sparse); the spherical pendulum with its multiplier. Each evaluation is of another of 64 random states.

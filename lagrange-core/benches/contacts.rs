@@ -1,6 +1,6 @@
 //! What it costs to watch contacts in steps without a transition, beside the same system with constraints in their place.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-core --bench contacts`
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-benches --bench contacts`
 //!
 //! Both keep a trajectory with its dense output, and take the same steps. They are timed in turn; of 301 rounds each the
 //! least time counts.

@@ -1,6 +1,6 @@
 //! Double pendulums on SIMD lanes against the same one by one, on one thread.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-core --bench ensemble`
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-benches --bench ensemble`
 //!
 //! The two are timed in turn, so that what disturbs one disturbs the other; the least of the times counts.
 

@@ -1,6 +1,6 @@
 //! What it costs to watch for events, and whether all are found: Poincaré sections of Hénon and Heiles' potential.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-core --bench events`
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-benches --bench events`
 //!
 //! What is compared is timed in turn, so that what disturbs one disturbs the other; of 21 rounds each the least time counts.
 

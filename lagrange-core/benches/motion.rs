@@ -1,6 +1,6 @@
 //! What a motion costs beside its equations.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-core --bench motion [-- PART...]`
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-benches --bench motion [-- PART...]`
 //!
 //! PART is `rods`, `lanes` or `quaternions`. What is compared is timed in turn, so that what disturbs one disturbs the
 //! other; of 21 rounds each the least time counts. "called" is the emitted function behind a call that is not inlined.

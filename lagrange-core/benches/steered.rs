@@ -1,7 +1,7 @@
 //! A control loop that changes its input every 10 ms: an acrobot, steered, against loops written by hand over the emitted
 //! accelerations.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-core --bench steered`
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p lagrange-benches --bench steered`
 //!
 //! All are timed in turn, so that what disturbs one disturbs the others; the medians of the ratios to the loop by hand count.
 

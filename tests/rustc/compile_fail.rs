@@ -2,7 +2,7 @@
 //! one. The derive's own messages are in tables, `lagrange-macros/derive/tests/refused`.
 //!
 //! One rule a file, and the messages beside it. After a change of messages, `TRYBUILD=overwrite cargo test
-//! --test rustc` writes them anew; read the difference before you commit it.
+//! -p lagrange-rustc` writes them anew; read the difference before you commit it.
 
 use std::env;
 use std::process::Command;
@@ -17,7 +17,7 @@ fn wrong_input_is_told_what_to_write_instead() {
     const NAME: &str = "CARGO_ENCODED_RUSTFLAGS";
     if env::var(NAME).is_ok_and(|flags| flags == FLAGS) {
         // All of them in one go of cargo, on all cores: a case that has to run would take that away.
-        return trybuild::TestCases::new().compile_fail("tests/rustc/cases/*.rs");
+        return trybuild::TestCases::new().compile_fail("cases/*.rs");
     }
     let mut again = Command::new(env::current_exe().expect("this test"));
     // What the compiler says, and not what another one in its place does.
