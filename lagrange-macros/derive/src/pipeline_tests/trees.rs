@@ -28,11 +28,13 @@ const TOLERANCE: f64 = 1e-10;
 
 #[test]
 fn the_accelerations_are_those_of_newton_and_euler() {
-    let trees = cases([20, 60, 500]) as u64;
+    let trees = cases([12, 60, 500]) as u64;
     let (mut worst, mut counts) = (0.0_f64, BTreeMap::new());
-    for number in 0..trees {
+    for number in 0..trees.max(60) {
         let draft = forest::tree(number);
-        worst = worst.max(checked(number, &draft));
+        if number < trees {
+            worst = worst.max(checked(number, &draft));
+        }
         for (what, count) in draft.counts {
             *counts.entry(what).or_insert(0) += count;
         }

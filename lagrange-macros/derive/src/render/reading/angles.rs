@@ -3,8 +3,8 @@
 use num_traits::{One, Signed};
 
 use super::atoms::{Atoms, Meaning};
-use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::symbolic::{self, Function, Rational};
+use crate::symbolic::{Atom, Monomial, Polynomial};
 
 /// A sine or cosine in a monomial.
 struct Wave {

@@ -7,8 +7,8 @@ use num_traits::{One, Signed};
 use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
 use super::super::formula::Formula;
-use super::polynomial::{Atom, Monomial, Polynomial};
 use super::turned::Tensors;
+use crate::symbolic::{Atom, Monomial, Polynomial};
 use crate::symbolic::{External, Function, Id, Parity, Rational, power, square_root};
 use crate::variables::Variable;
 

@@ -4,8 +4,8 @@ use num_traits::{One, Signed};
 
 use super::atoms::Meaning;
 use super::collect::Collector;
-use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::symbolic::{self, Rational};
+use crate::symbolic::{Atom, Monomial, Polynomial};
 use crate::variables::Variable;
 
 impl Collector<'_, '_> {

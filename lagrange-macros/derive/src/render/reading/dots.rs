@@ -7,9 +7,9 @@ use num_traits::Zero;
 use super::super::formula::Formula;
 use super::atoms::Meaning;
 use super::collect::Collector;
-use super::polynomial::{Monomial, Polynomial};
 use super::vectors::{Components, Vector, VectorTerm};
 use crate::symbolic::{self, Rational};
+use crate::symbolic::{Monomial, Polynomial};
 use crate::variables::Variable;
 
 /// Sum of products of components, with a coefficient for each product.

@@ -9,9 +9,9 @@ use super::super::axes::NamedAxes;
 use super::super::letters::Letters;
 use super::super::roots::NamedRoot;
 use super::atoms::{Atoms, Meaning};
-use super::polynomial::{Atom, Monomial, Polynomial};
 use crate::mechanics::Derived;
 use crate::resolve::Problem;
+use crate::symbolic::{Atom, Monomial, Polynomial};
 use crate::symbolic::{External, Graph, Id, Node, Rational};
 use crate::variables::Variable;
 

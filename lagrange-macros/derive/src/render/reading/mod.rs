@@ -15,7 +15,6 @@ mod dots;
 mod energies;
 mod expand;
 mod group;
-mod polynomial;
 mod relation;
 mod row;
 mod sphere;
@@ -35,10 +34,10 @@ use super::lines::Equation;
 use super::page::Page;
 use super::roots::NamedRoot;
 use crate::symbolic::{Id, Node, Rational};
+use crate::symbolic::{Monomial, Polynomial};
 use atoms::LIMIT;
 use collect::Collector;
 pub(super) use expand::{Names, Reading, constants, readings};
-use polynomial::{Monomial, Polynomial};
 use vectors::VectorTerm;
 
 /// Longest polynomial, in terms, whose sines and cosines are merged.

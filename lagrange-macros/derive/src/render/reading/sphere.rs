@@ -3,9 +3,9 @@
 use num_traits::{One, Zero};
 
 use super::atoms::{Atoms, Meaning};
-use super::polynomial::{Monomial, Polynomial};
 use super::relation::{Relation, reduce};
 use crate::symbolic::Rational;
+use crate::symbolic::{Monomial, Polynomial};
 use crate::variables::Variable;
 
 impl Atoms {

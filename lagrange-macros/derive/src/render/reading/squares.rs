@@ -8,9 +8,9 @@ use super::atoms::Meaning;
 use super::collect::{Collector, TermOrder};
 use super::dependence::is_velocity;
 use super::group::Group;
-use super::polynomial::{Monomial, Polynomial, common};
 use super::vectors::VectorTerm;
 use crate::symbolic::{self, Rational, square_root};
+use crate::symbolic::{Monomial, Polynomial, common};
 use crate::variables::Variable;
 
 impl Collector<'_, '_> {

@@ -133,7 +133,7 @@ fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
 
 /// Number of systems of which one is checked.
 pub(super) fn share() -> usize {
-    cases([8, 1, 1])
+    cases([40, 8, 1])
 }
 
 /// Pages about the systems of some folders, which are derived once for several tests.

@@ -1,45 +1,45 @@
-//! Polynomials with rational coefficients and rational exponents.
+//! Sums of products of powers, with rational coefficients and rational exponents.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
 use num_traits::{One, Signed, Zero};
 
-use crate::symbolic::{Rational, plus, times};
+use crate::{Rational, plus, times};
 
-/// Indivisible factor: a name, or a function of an argument. Its meaning is stored in [`Atoms`](super::atoms::Atoms).
+/// Indivisible factor: a name, or a function of an argument. Its user knows its meaning.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) struct Atom(pub(super) u32);
+pub struct Atom(pub u32);
 
 /// Π atom ^ exponent, sorted by atom, without zero exponents.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
-pub(super) struct Monomial(Vec<(Atom, Rational)>);
+pub struct Monomial(Vec<(Atom, Rational)>);
 
 impl Monomial {
-    pub(super) fn of(atom: Atom, exponent: Rational) -> Self {
+    pub fn of(atom: Atom, exponent: Rational) -> Self {
         Self(vec![(atom, exponent)])
     }
 
     /// Product of two different atoms.
-    pub(super) fn product(one: Atom, other: Atom) -> Self {
+    pub fn product(one: Atom, other: Atom) -> Self {
         let [first, second] = if one < other { [one, other] } else { [other, one] };
         Self(vec![(first, Rational::one()), (second, Rational::one())])
     }
 
-    pub(super) fn factors(&self) -> &[(Atom, Rational)] {
+    pub fn factors(&self) -> &[(Atom, Rational)] {
         &self.0
     }
 
-    pub(super) fn is_one(&self) -> bool {
+    pub fn is_one(&self) -> bool {
         self.0.is_empty()
     }
 
-    pub(super) fn exponent(&self, atom: Atom) -> Rational {
+    pub fn exponent(&self, atom: Atom) -> Rational {
         let place = self.0.binary_search_by_key(&atom, |&(known, _)| known);
         place.map_or(Rational::zero(), |place| self.0[place].1)
     }
 
-    pub(super) fn times(&self, other: &Self) -> Option<Self> {
+    pub fn times(&self, other: &Self) -> Option<Self> {
         let mut factors = self.0.clone();
         for &(atom, exponent) in &other.0 {
             match factors.binary_search_by_key(&atom, |&(known, _)| known) {
@@ -51,26 +51,26 @@ impl Monomial {
         Some(Self(factors))
     }
 
-    pub(super) fn power(&self, exponent: Rational) -> Option<Self> {
+    pub fn power(&self, exponent: Rational) -> Option<Self> {
         let factors = self.0.iter().map(|&(atom, inner)| Some((atom, times(inner, exponent)?)));
         factors.collect::<Option<_>>().map(Self)
     }
 
-    pub(super) fn has_divisor(&self) -> bool {
+    pub fn has_divisor(&self) -> bool {
         self.0.iter().any(|(_, exponent)| exponent.is_negative())
     }
 
     /// Returns whether all exponents are negative.
-    pub(super) fn is_divisor(&self) -> bool {
+    pub fn is_divisor(&self) -> bool {
         self.0.iter().all(|(_, exponent)| exponent.is_negative())
     }
 
-    pub(super) fn over(&self, other: &Self) -> Option<Self> {
+    pub fn over(&self, other: &Self) -> Option<Self> {
         self.times(&other.power(-Rational::one())?)
     }
 
     /// Common factor of two monomials: for each atom with exponents of the same sign in both, the smaller power.
-    pub(super) fn shared(&self, other: &Self) -> Self {
+    pub fn shared(&self, other: &Self) -> Self {
         let factors = self.0.iter().filter_map(|&(atom, one)| {
             let two = other.exponent(atom);
             let exponent = if one.abs() < two.abs() { one } else { two };
@@ -80,7 +80,7 @@ impl Monomial {
     }
 
     /// Divisor of two monomials that leaves no negative exponents: for each atom, the smaller exponent of the two.
-    pub(super) fn divisor(&self, other: &Self) -> Self {
+    pub fn divisor(&self, other: &Self) -> Self {
         let atoms: BTreeSet<Atom> = self.0.iter().chain(&other.0).map(|&(atom, _)| atom).collect();
         let smaller = atoms.into_iter().map(|atom| (atom, self.exponent(atom).min(other.exponent(atom))));
         Self(smaller.filter(|(_, exponent)| !exponent.is_zero()).collect())
@@ -95,51 +95,51 @@ impl Monomial {
     }
 
     /// Product of the factors whose atoms `keep` accepts.
-    pub(super) fn filtered(&self, keep: impl Fn(Atom) -> bool) -> Self {
+    pub fn filtered(&self, keep: impl Fn(Atom) -> bool) -> Self {
         Self(self.0.iter().copied().filter(|&(atom, _)| keep(atom)).collect())
     }
 }
 
 /// Σ coefficient · monomial, without zero coefficients.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
-pub(super) struct Polynomial(BTreeMap<Monomial, Rational>);
+pub struct Polynomial(BTreeMap<Monomial, Rational>);
 
 impl Polynomial {
-    pub(super) fn number(value: Rational) -> Self {
+    pub fn number(value: Rational) -> Self {
         Self::term(Monomial::default(), value)
     }
 
-    pub(super) fn atom(atom: Atom) -> Self {
+    pub fn atom(atom: Atom) -> Self {
         Self::term(Monomial::of(atom, Rational::one()), Rational::one())
     }
 
-    pub(super) fn term(monomial: Monomial, coefficient: Rational) -> Self {
+    pub fn term(monomial: Monomial, coefficient: Rational) -> Self {
         Self([(monomial, coefficient)].into_iter().filter(|(_, c)| !c.is_zero()).collect())
     }
 
-    pub(super) fn terms(&self) -> impl ExactSizeIterator<Item = (&Monomial, &Rational)> {
+    pub fn terms(&self) -> impl ExactSizeIterator<Item = (&Monomial, &Rational)> {
         self.0.iter()
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.0.len()
     }
 
-    pub(super) fn is_zero(&self) -> bool {
+    pub fn is_zero(&self) -> bool {
         self.0.is_empty()
     }
 
     /// Monomial and coefficient, if the polynomial has a single term.
-    pub(super) fn single(&self) -> Option<(&Monomial, Rational)> {
+    pub fn single(&self) -> Option<(&Monomial, Rational)> {
         self.0.iter().next().filter(|_| self.len() == 1).map(|(monomial, &c)| (monomial, c))
     }
 
-    pub(super) fn coefficient(&self, monomial: &Monomial) -> Option<Rational> {
+    pub fn coefficient(&self, monomial: &Monomial) -> Option<Rational> {
         self.0.get(monomial).copied()
     }
 
     /// Adds a term; `None` if the coefficient overflows.
-    pub(super) fn push(&mut self, monomial: Monomial, coefficient: Rational) -> Option<()> {
+    pub fn push(&mut self, monomial: Monomial, coefficient: Rational) -> Option<()> {
         let sum = plus(self.coefficient(&monomial).unwrap_or_default(), coefficient)?;
         if sum.is_zero() {
             self.0.remove(&monomial)
@@ -149,26 +149,26 @@ impl Polynomial {
         Some(())
     }
 
-    pub(super) fn remove(&mut self, monomial: &Monomial) {
+    pub fn remove(&mut self, monomial: &Monomial) {
         self.0.remove(monomial);
     }
 
     /// Adds factor · other; `None` if a coefficient overflows.
-    pub(super) fn add(&mut self, other: &Self, factor: Rational) -> Option<()> {
+    pub fn add(&mut self, other: &Self, factor: Rational) -> Option<()> {
         other.0.iter().try_for_each(|(monomial, &c)| self.push(monomial.clone(), times(c, factor)?))
     }
 
-    pub(super) fn negated(&self) -> Self {
+    pub fn negated(&self) -> Self {
         Self(self.0.iter().map(|(monomial, &c)| (monomial.clone(), -c)).collect())
     }
 
     /// Multiplies by one term.
-    pub(super) fn scaled(&self, monomial: &Monomial, coefficient: Rational) -> Option<Self> {
+    pub fn scaled(&self, monomial: &Monomial, coefficient: Rational) -> Option<Self> {
         let terms = self.0.iter().map(|(own, &c)| Some((own.times(monomial)?, times(c, coefficient)?)));
         terms.collect::<Option<_>>().map(Self)
     }
 
-    pub(super) fn times(&self, other: &Self) -> Option<Self> {
+    pub fn times(&self, other: &Self) -> Option<Self> {
         let mut product = Self::default();
         for (monomial, &c) in &other.0 {
             product.add(&self.scaled(monomial, c)?, Rational::one())?;
@@ -177,14 +177,14 @@ impl Polynomial {
     }
 
     /// Returns whether the first nonconstant term is negative. This holds for exactly one of p and −p.
-    pub(super) fn leads_negative(&self) -> bool {
+    pub fn leads_negative(&self) -> bool {
         let lead = self.0.iter().find(|(monomial, _)| !monomial.is_one()).or_else(|| self.0.iter().next());
         lead.is_some_and(|(_, c)| c.is_negative())
     }
 
     /// The shortest sum, of two terms at least, that one product of factors that `is_kept` accepts is multiplied by; without
     /// common factors, and with a positive first term.
-    pub(super) fn cofactor(&self, is_kept: impl Fn(Atom) -> bool) -> Option<Self> {
+    pub fn cofactor(&self, is_kept: impl Fn(Atom) -> bool) -> Option<Self> {
         let mut cofactors: BTreeMap<Monomial, Self> = BTreeMap::new();
         for (monomial, &c) in self.terms() {
             let kept = monomial.filtered(&is_kept);
@@ -197,19 +197,19 @@ impl Polynomial {
     }
 
     /// Positive common factor of all coefficients, and common factor of all monomials.
-    pub(super) fn content(&self) -> (Rational, Monomial) {
+    pub fn content(&self) -> (Rational, Monomial) {
         let number = common(self.0.values().copied());
         let mut monomials = self.0.keys();
         let first = monomials.next().cloned().unwrap_or_default();
         (number, monomials.fold(first, |shared, monomial| shared.shared(monomial)))
     }
 
-    pub(super) fn has_fraction(&self) -> bool {
+    pub fn has_fraction(&self) -> bool {
         self.0.keys().any(Monomial::has_divisor)
     }
 
     /// Least common denominator of all coefficients; `None` if it overflows.
-    pub(super) fn denominators(&self) -> Option<Rational> {
+    pub fn denominators(&self) -> Option<Rational> {
         let common = |least: i128, c: &Rational| (least / divisor(least, *c.denom())).checked_mul(*c.denom());
         self.0.values().try_fold(1, common).map(Rational::from_integer)
     }
@@ -221,7 +221,7 @@ impl Polynomial {
     }
 
     /// Quotient, if the division is exact: long division by the greatest monomials.
-    pub(super) fn divided(&self, divisor: &Self) -> Option<Self> {
+    pub fn divided(&self, divisor: &Self) -> Option<Self> {
         let (lead, by) = divisor.lead()?;
         let (mut rest, mut quotient) = (self.clone(), Self::default());
         for _ in 0..self.len() {
@@ -243,7 +243,7 @@ impl FromIterator<(Monomial, Rational)> for Polynomial {
 
 /// Greatest common divisor of the numerators over that of the denominators: all coefficients are multiples of it, with
 /// no larger numerators or denominators than before. Examples: 2 for 4 and 6, ½ for ½ and 3/2, 1 for ½ and 1.
-pub(super) fn common(coefficients: impl Iterator<Item = Rational>) -> Rational {
+pub fn common(coefficients: impl Iterator<Item = Rational>) -> Rational {
     let (above, below) = coefficients
         .fold((0, 0), |(above, below), c| (divisor(*c.numer(), above), divisor(*c.denom(), below)));
     if above == 0 { Rational::one() } else { Rational::new(above, below) }
