@@ -71,7 +71,7 @@ fn what_is_wrong_is_refused() {
 #[test]
 fn random_changes_never_make_it_panic() {
     let (pool, systems) = (streams::pool(), [corpus("accepted"), corpus("refused")].concat());
-    rounds("changes", [300, 2_000, 200_000], |random| {
+    rounds("changes", [100, 2_000, 200_000], |random| {
         let mut input = tokens(&random.one_of(&systems));
         for _ in 0..=random.below(3) {
             input = streams::mutated(input, &pool, random);
@@ -83,7 +83,7 @@ fn random_changes_never_make_it_panic() {
 #[test]
 fn random_tokens_never_make_it_panic() {
     let pool = streams::pool();
-    rounds("tokens", [300, 2_000, 200_000], |random| {
+    rounds("tokens", [100, 2_000, 200_000], |random| {
         check(&streams::arbitrary(&pool, random));
     });
 }
@@ -92,7 +92,7 @@ fn random_tokens_never_make_it_panic() {
 #[test]
 fn random_forms_never_make_it_panic() {
     let (mut all, mut accepted) = (0, 0);
-    rounds("forms", [40, 200, 20_000], |random| {
+    rounds("forms", [10, 200, 20_000], |random| {
         all += 1;
         accepted += usize::from(!is_error(&check(&tokens(&grammar::system(random)))));
     });

@@ -41,6 +41,8 @@ pub(super) struct Atoms {
     sizes: Vec<u64>,
     /// Graph node of each sum.
     sources: FxHashMap<Atom, Id>,
+    /// The cosine of the angle of each sine, and the sine of that of each cosine.
+    pub(super) other_waves: FxHashMap<Atom, Atom>,
     /// Sums of which a definition is the root: powers of them are not multiplied out.
     pub(super) kept: FxHashSet<Atom>,
     /// Matrices and vectors of which products are recognized.

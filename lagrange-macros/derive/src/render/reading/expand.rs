@@ -32,6 +32,8 @@ pub(super) struct Expansion<'a> {
     pub(super) same: FxHashMap<Id, Id>,
     done: FxHashMap<Id, Option<Polynomial>>,
     work: usize,
+    /// What [`Page::polynomial`](super::super::page::Page) has read.
+    pub(super) read: FxHashMap<Vec<(Id, i128)>, Option<Polynomial>>,
 }
 
 impl<'a> Expansion<'a> {
@@ -40,7 +42,8 @@ impl<'a> Expansion<'a> {
         let (atoms, done) = (Atoms::default(), FxHashMap::default());
         let roots = FxHashMap::default();
         let same = FxHashMap::default();
-        let mut expansion = Self { graph, names, atoms, roots, entries, same, done, work: WORK };
+        let read = FxHashMap::default();
+        let mut expansion = Self { graph, names, atoms, roots, entries, same, done, work: WORK, read };
         // Registration order decides the sign taken out of a sum: φ₁ − φ₂ instead of φ₂ − φ₁.
         let n = problem.coordinates.len() + 3 * derived.turnings.all.len();
         let parameters = problem.parameters.by_field().into_iter().map(Variable::Parameter);

@@ -37,6 +37,7 @@ use crate::symbolic::{Id, Node, Rational};
 use crate::symbolic::{Monomial, Polynomial};
 use atoms::LIMIT;
 use collect::Collector;
+use expand::Expansion;
 pub(super) use expand::{Names, Reading, constants, readings};
 use vectors::VectorTerm;
 
@@ -293,9 +294,18 @@ impl Page<'_> {
         minus: &[Id],
     ) -> Option<Polynomial> {
         let mut expansion = expansion.borrow_mut();
-        let parts = plus.iter().copied().chain(minus.iter().map(|&id| (id, -1)));
+        let parts: Vec<_> = plus.iter().copied().chain(minus.iter().map(|&id| (id, -1))).collect();
+        if let Some(read) = expansion.read.get(&parts) {
+            return read.clone();
+        }
+        let read = self.sum(&mut expansion, &parts);
+        expansion.read.insert(parts, read.clone());
+        read
+    }
+
+    fn sum(&self, expansion: &mut Expansion, parts: &[(Id, i128)]) -> Option<Polynomial> {
         let mut sum = Polynomial::default();
-        for (id, sign) in parts {
+        for &(id, sign) in parts {
             sum.add(&expansion.of(id)?, Rational::from_integer(sign))?;
         }
         if sum.len() > LIMIT {
