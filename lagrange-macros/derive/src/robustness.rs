@@ -13,7 +13,7 @@ use std::path::Path;
 use proc_macro2::TokenStream;
 
 use crate::expand;
-use lagrange_random::rounds;
+use lagrange_random::{cases, rounds};
 
 fn tokens(text: &str) -> TokenStream {
     text.parse().expect("these are tokens")
@@ -55,8 +55,8 @@ fn is_error(expansion: &TokenStream) -> bool {
 
 #[test]
 fn the_systems_are_accepted_as_they_are() {
-    for system in corpus("accepted") {
-        let expansion = check(&tokens(&system));
+    for system in corpus("accepted").iter().step_by(cases([4, 1, 1])) {
+        let expansion = check(&tokens(system));
         assert!(!is_error(&expansion), "{system}: {expansion}");
     }
 }

@@ -73,8 +73,8 @@ fn what_the_joints_of_an_arm_have_in_common_is_emitted_once() {
         let parts = functions(expansion, "__accelerations_unchecked_").into_iter();
         parts.map(|part| part.into_iter().count()).sum::<usize>()
     };
-    let [short, long] = [16, 32].map(length);
-    assert!(long < short + short / 3, "{short} tokens for 16 joints, {long} for 32");
+    let [short, long] = [12, 24].map(length);
+    assert!(long < short + short / 3, "{short} tokens for 12 joints, {long} for 24");
 }
 
 #[test]

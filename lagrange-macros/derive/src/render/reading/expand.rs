@@ -31,6 +31,7 @@ pub(super) struct Expansion<'a> {
     /// Nodes equal to one that has a name, each with that one: entries of rotation matrices, and definitions.
     pub(super) same: FxHashMap<Id, Id>,
     done: FxHashMap<Id, Option<Polynomial>>,
+    powers: FxHashMap<(Id, Rational), Option<Polynomial>>,
     work: usize,
     /// What [`Page::polynomial`](super::super::page::Page) has read.
     pub(super) read: FxHashMap<Vec<(Id, i128)>, Option<Polynomial>>,
@@ -42,8 +43,9 @@ impl<'a> Expansion<'a> {
         let (atoms, done) = (Atoms::default(), FxHashMap::default());
         let roots = FxHashMap::default();
         let same = FxHashMap::default();
-        let read = FxHashMap::default();
-        let mut expansion = Self { graph, names, atoms, roots, entries, same, done, work: WORK, read };
+        let (powers, read) = (FxHashMap::default(), FxHashMap::default());
+        let mut expansion =
+            Self { graph, names, atoms, roots, entries, same, done, powers, work: WORK, read };
         // Registration order decides the sign taken out of a sum: φ₁ − φ₂ instead of φ₂ − φ₁.
         let n = problem.coordinates.len() + 3 * derived.turnings.all.len();
         let parameters = problem.parameters.by_field().into_iter().map(Variable::Parameter);
@@ -148,14 +150,23 @@ impl<'a> Expansion<'a> {
     fn product(&mut self, factors: &[(Id, Rational)]) -> Option<Polynomial> {
         let mut product = Polynomial::number(Rational::one());
         for &(factor, exponent) in factors {
-            let power = match self.graph.is_power_of_ten((factor, exponent)) {
-                // The digits of this power of ten do not fit into a coefficient.
-                true => self.atoms.power_of_ten(exponent),
-                false => self.atoms.power(&self.known(factor)?, exponent, factor)?,
-            };
+            let power = self.power(factor, exponent)?;
             product = self.atoms.product(&product, &power)?;
         }
         Some(product)
+    }
+
+    fn power(&mut self, base: Id, exponent: Rational) -> Option<Polynomial> {
+        if self.graph.is_power_of_ten((base, exponent)) {
+            // Its digits do not fit into a coefficient.
+            return Some(self.atoms.power_of_ten(exponent));
+        }
+        if let Some(power) = self.powers.get(&(base, exponent)) {
+            return power.clone();
+        }
+        let power = self.atoms.power(&self.known(base)?, exponent, base);
+        self.powers.insert((base, exponent), power.clone());
+        power
     }
 }
 

@@ -67,5 +67,5 @@ fn is_row(line: &str) -> bool {
 #[test]
 fn pages_come_apart() {
     pages().flatten().for_each(|form| check(form.each_ref().map(String::as_str)));
-    assert!(pages().count() > 450 / share(), "{} systems only", pages().count());
+    assert!(pages().count() > 250 / (2 * share()), "{} systems only", pages().count());
 }

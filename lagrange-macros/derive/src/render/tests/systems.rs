@@ -131,7 +131,7 @@ fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
     }
 }
 
-/// Number of systems of which one is checked.
+/// Number of files of which the systems of one are checked.
 pub(super) fn share() -> usize {
     cases([40, 8, 1])
 }
@@ -143,13 +143,12 @@ pub(super) struct Library {
 }
 
 impl Library {
-    /// Derives the systems without errors in these folders, one in [`share`], and checks each while other tests read
-    /// the pages.
+    /// Derives the systems without errors in these folders, those of one file in [`share`], and checks each while other
+    /// tests read the pages.
     pub(super) fn of(folders: &'static [&str], check: fn(&System)) -> Self {
         let (send, pages) = mpsc::channel();
         let work = move || {
-            let chosen = tokens(folders).into_iter().step_by(share());
-            let systems: Vec<System> = chosen.filter_map(System::new).collect();
+            let systems: Vec<System> = tokens(folders).into_iter().filter_map(System::new).collect();
             send.send(systems.iter().map(|system| system.forms.clone()).collect()).expect("a test");
             systems.iter().for_each(check);
         };
@@ -169,7 +168,7 @@ fn tokens(folders: &[&str]) -> Vec<TokenStream> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let (mut paths, mut found) = (Vec::new(), Vec::new());
     folders.iter().for_each(|folder| files(&root.join(folder), &mut paths));
-    for path in paths {
+    for path in paths.into_iter().step_by(share()) {
         let text = std::fs::read_to_string(path).expect("a text");
         sources(&text)
             .iter()

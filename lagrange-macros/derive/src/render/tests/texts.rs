@@ -5,6 +5,8 @@
 //! velocities replace the letters that a text introduces for them. Works that are not open are cited by chapter:
 //! editions number sections and equations differently.
 
+use lagrange_random::cases;
+
 use super::systems::System;
 
 /// Source, system, and lines that the text prints.
@@ -238,7 +240,7 @@ const LONGER: f64 = 1.5;
 #[test]
 fn texts_print_the_same_equations() {
     let mut missed = Vec::new();
-    for Entry { text, system, lines } in ENTRIES {
+    for Entry { text, system, lines } in ENTRIES.iter().step_by(cases([3, 1, 1])) {
         let system =
             System::new(system.parse().expect("tokens")).unwrap_or_else(|| panic!("{text}: {system}"));
         let printed: Vec<&str> =
