@@ -2,6 +2,7 @@
 
 #![allow(missing_docs, reason = "the documentation of a system says what its fields are")]
 
+mod bobs;
 mod floors;
 mod oscillators;
 mod pendulums;
@@ -9,6 +10,7 @@ mod planets;
 mod rolling;
 mod tops;
 
+pub use bobs::{DoubledRod, ShakenPendulum, TwoBobs};
 pub use floors::{Flying, LeaningRod, SlidingRod, Touching};
 pub use oscillators::{DrivenSpring, HenonHeiles, Spring, Sticking};
 pub use pendulums::{BeadOnHoop, DoublePendulum, Foucault, Pendulum, PolarPendulum, SphericalPendulum};
