@@ -5,10 +5,9 @@ use core::cell::Cell;
 use lagrange_core::motion::{Limits, PhaseVector, Polynomial, Step};
 use lagrange_core::{Ending, Method, Statistics, nalgebra::Const, prelude::*};
 
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 - x^2/2)]
-struct Spring;
+type Spring = lagrange_systems::Spring<f64>;
+
+const SPRING: Spring = Spring { m: 1.0, k: 1.0 };
 
 /// What a wrong method makes of the time.
 #[derive(Clone, Copy, Debug)]
@@ -80,7 +79,7 @@ fn a_step_that_leads_elsewhere_is_found_out() {
                 assert!((ending.time() - 0.3 * end).abs() < 1e-15, "{fault:?}: {ending}");
                 assert!(ending.to_string().contains("by the method"), "{ending}");
             };
-            let mut motion = Motion::new(Spring, State::at_rest([1.0]), Wrong(fault)).unwrap();
+            let mut motion = Motion::new(SPRING, State::at_rest([1.0]), Wrong(fault)).unwrap();
             is_found(&motion.advance_to(end).unwrap_err());
             assert!((motion.state().t - 0.3 * end).abs() < 1e-15);
             let (ending, steps) = ending_of(end, Wrong(fault));
@@ -91,7 +90,7 @@ fn a_step_that_leads_elsewhere_is_found_out() {
 }
 
 fn ending_of(end: f64, method: impl Method<Spring>) -> (Ending, usize) {
-    let path = Spring.motion(State::at_rest([1.0])).by(method).towards(end).expect("a start");
+    let path = SPRING.motion(State::at_rest([1.0])).by(method).towards(end).expect("a start");
     (path.ending().clone(), path.steps().count() - 1)
 }
 
@@ -158,7 +157,7 @@ impl Method<Spring> for Grudging {
 #[test]
 fn a_step_without_an_interpolant_is_taken_back() {
     let grudging = |takes_back| Grudging { failures: Cell::new(5), takes_back };
-    let path = Spring.integrate(State::at_rest([1.0]), 10.0, grudging(true)).unwrap();
+    let path = SPRING.integrate(State::at_rest([1.0]), 10.0, grudging(true)).unwrap();
     assert!(path.ending().is_complete() && path.statistics().rejected >= 5, "{}", path.ending());
     assert_eq!(path.steps().count(), path.statistics().accepted + 1);
     for sample in path.samples(100) {
@@ -168,7 +167,7 @@ fn a_step_without_an_interpolant_is_taken_back() {
     let (ending, steps) = ending_of(10.0, grudging(false));
     assert!(matches!(ending, Ending::Unsolved { time: 0.0, .. }) && steps == 0, "{ending}");
     // Nobody asks in a motion that keeps none.
-    let mut motion = Motion::new(Spring, State::at_rest([1.0]), grudging(true)).unwrap();
+    let mut motion = Motion::new(SPRING, State::at_rest([1.0]), grudging(true)).unwrap();
     motion.advance_to(10.0).unwrap();
     assert_eq!(motion.statistics().rejected, 0);
     assert!(motion.at(motion.state().t - 1e-3).is_err());

@@ -2,6 +2,7 @@
 
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{Method, TaylorSeries, prelude::*};
+use lagrange_systems::{KnifeEdge, ShakenPendulum};
 
 use crate::radau::off;
 
@@ -11,20 +12,6 @@ use crate::radau::off;
 #[lagrangian((r_dot^2 + r^2*a_dot^2)/2 + 9.81*r*cos(a) - 50*(r - 1)^2)]
 #[dissipation(r_dot^2/20)]
 struct Elastic;
-
-/// A bob on a rod whose pivot is shaken along the horizontal.
-#[derive(Clone, Lagrangian)]
-#[coordinates(r: [2])]
-#[lagrangian(dot(r_dot, r_dot)/2 - 9.81*r[1])]
-#[constraint(rod: (r[0] - sin(3*t)/50)^2 + r[1]^2 = 1)]
-struct Shaken;
-
-/// A blade on a slope.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y, theta)]
-#[lagrangian((x_dot^2 + y_dot^2 + theta_dot^2)/2 + x)]
-#[constraint(blade: x_dot*sin(theta) - y_dot*cos(theta) = 0)]
-struct Blade;
 
 /// A method with this tolerance and first step.
 type MethodOf<P> = fn(f64, f64) -> P;
@@ -92,17 +79,14 @@ fn is_of_order<L, P: Method<L>, const N: usize>(
 
 fn are_of_order<P>(order: f64, method: MethodOf<P>, end: f64)
 where
-    P: Method<Elastic> + Method<Shaken> + Method<Blade>,
+    P: Method<Elastic> + Method<ShakenPendulum<f64>> + Method<KnifeEdge<f64>>,
 {
+    let shaken = ShakenPendulum { m: 1.0, g: 9.81, l: 1.0, a: 0.02, w: 3.0 };
+    let edge = KnifeEdge { m: 1.0, inertia: 1.0, g: 1.0 };
+    let (hanging, _) = shaken.make_consistent(&State::at_rest([0.6, -0.8])).unwrap();
     is_of_order(order, "bob on a spring", method, (&Elastic, State::new([1.1, 1.0], [0.0, 0.3]), end));
-    is_of_order(order, "rod with a shaken pivot", method, (&Shaken, Shaken::start(), end));
-    is_of_order(order, "blade", method, (&Blade, State::new([0.0; 3], [1.0, 0.0, 1.5]), end));
-}
-
-impl Shaken {
-    fn start() -> State<f64, 2> {
-        Self.make_consistent(&State::at_rest([0.6, -0.8])).unwrap().0
-    }
+    is_of_order(order, "rod with a shaken pivot", method, (&shaken, hanging, end));
+    is_of_order(order, "blade", method, (&edge, State::new([0.0; 3], [1.0, 0.0, 1.5]), end));
 }
 
 #[test]
