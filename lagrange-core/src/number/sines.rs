@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn they_are_those_of_the_standard_library_to_the_last_place() {
         let mut state = 1_u64;
-        for _ in 0..200_000 {
+        for _ in 0..lagrange_random::cases([50_000, 200_000, 5_000_000]) {
             check(core::array::from_fn(|k| {
                 state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
                 let part = (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5;

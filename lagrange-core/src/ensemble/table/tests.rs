@@ -341,7 +341,8 @@ fn a_member_with_two_results_is_refused() {
 fn an_edited_table_is_read_or_refused() {
     let table = table();
     let (mut read, mut refused) = (0, 0);
-    for at in 0..table.len() {
+    let step = lagrange_random::cases([4, 1, 1]);
+    for at in (0..table.len()).step_by(step) {
         for edit in ["", "\"", ",", "[", "]", "{", "\\", "\\u", "\n", "1", "é"] {
             for until in [at, at + 1] {
                 let edited = format!("{}{edit}{}", &table[..at], &table[until..]);
@@ -358,5 +359,5 @@ fn an_edited_table_is_read_or_refused() {
             }
         }
     }
-    assert!(read > 1000 && refused > 1000, "{read} read, {refused} refused");
+    assert!(read.min(refused) > 1000 / step, "{read} read, {refused} refused");
 }
