@@ -1,8 +1,9 @@
 //! Events without a derivative, and what is wrong with what is asked for.
 
 use lagrange_core::{Dual, Ending, prelude::*};
+use lagrange_systems::{Flying, Touching};
 
-use crate::events::{Flying, Touching, method};
+use crate::events::method;
 
 #[test]
 fn what_grazes_has_no_derivative() {

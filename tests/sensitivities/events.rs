@@ -1,28 +1,11 @@
 //! Derivatives across events, by closed forms and by laws.
 
-use lagrange_core::nalgebra::DMatrix;
 use lagrange_core::prelude::*;
+use lagrange_systems::{DrivenSpring, Flying, Sticking, Touching};
 use num_dual::Dual64;
 
 pub(crate) fn method() -> Dop853 {
     Dop853::with_tolerance(1e-13).max_step(0.2)
-}
-
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-pub(crate) struct Flying {
-    pub(crate) m: f64,
-    pub(crate) g: f64,
-}
-
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-#[constraint(floor: y = 0)]
-pub(crate) struct Touching {
-    pub(crate) m: f64,
-    pub(crate) g: f64,
 }
 
 /// The height after three bounces: v₀eⁿ is the speed after impact n, 2v₀eⁿ/g until the next.
@@ -70,26 +53,6 @@ fn a_ball_after_three_bounces() {
     assert_eq!(by, flight.end().unwrap().q[(1, 4)]);
 }
 
-#[derive(Clone, Lagrangian)]
-#[coordinates(x)]
-#[lagrangian(m/2 * x_dot^2 - k/2 * x^2)]
-#[constraint(friction: x_dot - belt = 0)]
-struct Sticking {
-    m: f64,
-    k: f64,
-    belt: f64,
-}
-
-#[derive(Clone, Lagrangian)]
-#[coordinates(x)]
-#[lagrangian(m/2 * x_dot^2 - k/2 * x^2)]
-#[force(x: pull)]
-struct Slipping {
-    m: f64,
-    k: f64,
-    pull: f64,
-}
-
 /// Place and velocity of a block on a belt: it rides until the spring pulls with `hold`, swings about pull/k to the mirror
 /// image of that place, and is caught there.
 fn stick_slip(t: f64, [m, k, belt, pull, hold]: [Dual64; 5]) -> [Dual64; 2] {
@@ -109,7 +72,7 @@ fn stick_slip(t: f64, [m, k, belt, pull, hold]: [Dual64; 5]) -> [Dual64; 2] {
 #[test]
 fn stick_and_slip_from_system_to_system() {
     let values @ [m, k, belt, pull, hold] = [0.7, 3.0, 0.4, 1.1, 1.7];
-    let (sticking, slipping) = (Sticking { m, k, belt }, Slipping { m, k, pull });
+    let (sticking, slipping) = (Sticking { m, k, belt }, DrivenSpring { m, k, c: 0.0, a: pull, w: 0.0 });
     let mut gives = sticking
         .differentiable_event("gives", |s| Ok(s.multiplier("friction")? - s.number("hold", hold)))
         .rising()
@@ -119,7 +82,7 @@ fn stick_and_slip_from_system_to_system() {
         .rising()
         .terminal();
     let start = State::new([0.0], [belt]);
-    let start = sticking.sensitivity(&start, &["m", "k", "belt"]).unwrap().with(&["pull", "hold"]).unwrap();
+    let start = sticking.sensitivity(&start, &["m", "k", "belt"]).unwrap().with(&["a", "hold"]).unwrap();
     let method = Dop853::with_tolerance(1e-13);
     let ride = sticking.motion_with_derivatives(&start).by(method).event(&mut gives).towards(50.0).unwrap();
     let slip = slipping
@@ -156,48 +119,6 @@ fn stick_and_slip_from_system_to_system() {
     assert!(again.end().unwrap().v.column(2)[0] == 1.0 && again.end().unwrap().v.column(0)[0] == 0.0);
 }
 
-/// The map from one crossing of x = 0 to the next, at one energy, keeps areas of (y, ẏ).
-#[test]
-fn a_poincare_map_keeps_areas() {
-    #[derive(Lagrangian)]
-    #[coordinates(x, y)]
-    #[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
-    struct HenonHeiles;
-
-    let state = State::new([0.0, 0.1], [0.35, 0.1]);
-    let start = HenonHeiles.sensitivity(&state, &["y", "y_dot", "x_dot"]).unwrap();
-    let mut section = HenonHeiles.differentiable_event("section", |s| s.state().q[0]).rising().terminal_at(5);
-    let method = Dop853::with_tolerance(1e-13);
-    let motion =
-        HenonHeiles.motion_with_derivatives(&start).by(method).event(&mut section).towards(1e3).unwrap();
-    let end = motion.end().unwrap();
-    assert_eq!(motion.trajectory().crossings().len(), 5);
-    assert!(end.q.row(0).amax() < 1e-14 && end.t.amin() > 1e-3, "{end:?}");
-    // At x = 0 the energy is (ẋ² + ẏ² + y²)/2 − y³/3: with y and ẏ changes ẋ.
-    let by_x_dot = [-(0.1 - 0.01) / 0.35, -0.1 / 0.35];
-    let at = |row: &DMatrix<f64>, j: usize| row[(1, j)] + row[(1, 2)] * by_x_dot[j];
-    let area = at(&end.q, 0) * at(&end.v, 1) - at(&end.q, 1) * at(&end.v, 0);
-    assert!((area - 1.0).abs() < 1e-10, "{area}");
-}
-
-/// There and back again: a bounce undoes itself where time goes back.
-#[test]
-fn an_elastic_bounce_backwards() {
-    let (ball, floor) = (Flying { m: 1.0, g: 9.81 }, Touching { m: 1.0, g: 9.81 });
-    let mut lands = ball.differentiable_event("lands", |s| s.coordinate("y")).terminal();
-    let start = ball.sensitivity(&State::new([0.0, 1.0], [1.0, 0.5]), &["x", "y", "x_dot", "y_dot"]).unwrap();
-    let mut at = start.clone();
-    for time in [10.0, 0.7, -10.0, 0.0_f64] {
-        let flight = ball.motion_with_derivatives(&at).by(method()).event(&mut lands).towards(time).unwrap();
-        at = flight.end().unwrap().clone();
-        if time.abs() == 10.0 {
-            assert!(at.state.q[1].abs() < 1e-15 && at.t[1].abs() > 1e-2);
-            at = floor.impact_sensitivity(&at, "floor", ("e", 1.0)).unwrap();
-        }
-    }
-    assert!((&at.q - &start.q).amax() < 1e-13 && (&at.v - &start.v).amax() < 1e-12, "{at:?}");
-}
-
 /// Where the mass matrix is singular and constraints say the same twice, the general solve serves. Of the two ends of a lever,
 /// of which one has the mass, the other is stopped: ẋ⁺ = −e ẋ.
 #[test]
@@ -224,31 +145,4 @@ fn singular_and_dependent_systems_have_derivatives_of_impacts() {
     for (j, [x, z]) in expected.into_iter().enumerate() {
         assert!((after.v[(0, j)] - x).abs() < 1e-13 && (after.v[(1, j)] - z).abs() < 1e-13, "{}", after.v);
     }
-}
-
-/// As far as single precision goes.
-#[test]
-fn a_bounce_in_single_precision() {
-    #[derive(Lagrangian)]
-    #[coordinates(y)]
-    #[lagrangian(y_dot^2/2 - g*y)]
-    #[constraint(floor: y = 0)]
-    struct Resting {
-        g: f32,
-    }
-    #[derive(Lagrangian)]
-    #[coordinates(y)]
-    #[lagrangian(y_dot^2/2 - g*y)]
-    struct Falling {
-        g: f32,
-    }
-    let (ball, floor) = (Falling { g: 9.81 }, Resting { g: 9.81 });
-    let mut lands = ball.differentiable_event("lands", |s| s.coordinate("y")).falling().terminal();
-    let start = ball.sensitivity(&State::at_rest([1.0]), &["y", "g"]).unwrap().with(&["e"]).unwrap();
-    let method = Dop853::with_tolerance(1e-6);
-    let fall = ball.motion_with_derivatives(&start).by(method).event(&mut lands).towards(10.0).unwrap();
-    let bounce = floor.impact_sensitivity(fall.end().unwrap(), "floor", ("e", 0.8)).unwrap();
-    let flight = ball.motion_with_derivatives(&bounce).by(method).towards(0.6).unwrap();
-    let (v, fall) = (19.62_f32.sqrt(), (2.0_f32 / 9.81).sqrt());
-    assert!((flight.coordinate(0.6, "y", "e").unwrap() - v * (0.6 - fall)).abs() < 1e-5);
 }

@@ -1,11 +1,11 @@
-//! Derivatives of motions of a tree of rigid bodies with 20 joints, whose inertial forces are differentiated by composite
+//! Second derivatives of motions of a tree of rigid bodies with 20 joints, whose inertial forces are differentiated by composite
 //! bodies. Without optimization too, they fit the stack of a thread.
 
 use lagrange_core::linearized::DiscreteTime;
-use lagrange_core::nalgebra::{DMatrix, DVector, Matrix3};
+use lagrange_core::nalgebra::{DVector, Matrix3};
 use lagrange_core::{Scalar, StateDerivatives, prelude::*};
 
-use crate::differences::{difference, names};
+use crate::differences::difference;
 
 /// A hull on four legs of three joints, with a neck that slides and turns; springs and dampers at the joints.
 #[derive(Clone, Debug, Lagrangian)]
@@ -95,34 +95,4 @@ fn the_map_of_a_step_has_its_second_derivatives() {
         let gradient = [discrete.a(), discrete.b()].map(|matrix| matrix.tr_mul(&weight));
         DVector::from_iterator(2 * N + 2, gradient.iter().flatten().copied())
     });
-}
-
-/// Taylor's series take no derivatives of the tree. A product of triangular matrices has the products of their diagonals: what
-/// grows from one end of a part to the other are those of its flow.
-#[test]
-fn derivatives_by_series_are_those_of_differences_and_have_the_lyapunov_exponents() {
-    let (walker, start, end) = (walker(), start(), 0.2);
-    let mut names = names::<Walker<f64>>();
-    names.truncate(2 * N);
-    let names: Vec<&str> = names.iter().map(String::as_str).chain(["l", "centre[1]"]).collect();
-    let series = walker.integrate_sensitivities(start, end, Taylor::default().max_steps(50), &names).unwrap();
-    let flow = |t: f64| {
-        let at = series.at(t).unwrap();
-        DMatrix::from_fn(2 * N, names.len(), |i, j| if i < N { at.q[(i, j)] } else { at.v[(i - N, j)] })
-    };
-    check(&(flow(end) * change()), |by| {
-        let (walker, state) = changed(by);
-        let end = *walker.integrate(state, end, Taylor::default()).unwrap().end().state();
-        DVector::from_iterator(2 * N, end.q.iter().chain(&end.v).copied())
-    });
-    // The first of 21 parts does not count.
-    let first = end / 21.0;
-    let [before, after] = [first, end]
-        .map(|t| flow(t).columns(0, 2 * N).into_owned().qr().r().diagonal().map(|x| x.abs().ln()));
-    let mut expected: Vec<f64> = ((after - before) / (end - first)).iter().copied().collect();
-    expected.sort_by(|x, y| y.total_cmp(x));
-    let found = walker.lyapunov_spectrum(start, end, Dop853::with_tolerance(1e-12)).unwrap().exponents;
-    for (found, expected) in found.iter().zip(&expected) {
-        assert!((found - expected).abs() < 1e-10 * expected.abs().max(1.0), "{found} for {expected}");
-    }
 }
