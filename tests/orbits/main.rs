@@ -9,4 +9,9 @@ mod monodromy;
 mod printing;
 mod shooting;
 mod systems;
-mod windows;
+
+// Further systems, of which each takes the compiler seconds.
+#[cfg(feature = "thorough")]
+mod families;
+#[cfg(feature = "thorough")]
+mod stars;

@@ -3,13 +3,17 @@
 use lagrange_core::orbits::OrbitError;
 use lagrange_core::{Error, prelude::*};
 
-use crate::systems::{HenonHeiles, Pendulum};
+use lagrange_systems::HenonHeiles;
 
+use crate::systems::{DRIVEN, PENDULUM};
+
+/// Returns the error of a search that fails.
 #[track_caller]
-fn orbit_error<T: std::fmt::Debug>(found: Result<T, Error>) -> OrbitError {
-    match found.unwrap_err() {
-        Error::Orbit(error) => *error,
-        other => panic!("{other}"),
+pub(crate) fn orbit_error<T>(found: Result<T, Error>) -> OrbitError {
+    match found {
+        Err(Error::Orbit(error)) => *error,
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("an orbit or a family is found"),
     }
 }
 
@@ -25,13 +29,13 @@ fn start_at_an_equilibrium() {
         }
     }
     // Small motions about it are orbits.
-    let small = Pendulum.periodic_orbit(&State::at_rest([1e-9])).period_near(6.3).mirrored(&["theta_dot"]);
+    let small = PENDULUM.periodic_orbit(&State::at_rest([1e-9])).period_near(6.3).mirrored(&["theta_dot"]);
     assert!((small.find().unwrap().period - std::f64::consts::TAU).abs() < 1e-9);
 }
 
 #[test]
 fn energy_below_the_potential() {
-    let near = Pendulum.periodic_orbit(&State::at_rest([0.3])).period_near(6.3).energy(-1.5);
+    let near = PENDULUM.periodic_orbit(&State::at_rest([0.3])).period_near(6.3).energy(-1.5);
     for search in [near.clone(), near.mirrored(&["theta_dot"])] {
         let error = orbit_error(search.find());
         let OrbitError::TooLittleEnergy { energy, least } = error else { panic!("{error}") };
@@ -51,7 +55,7 @@ fn mirrors_that_are_none() {
     let error = orbit_error(search(&["x"]));
     assert!(matches!(error, OrbitError::NoMirror { are_named: false, .. }), "{error}");
     let error = orbit_error(
-        Pendulum
+        PENDULUM
             .periodic_orbit(&State::at_rest([0.3]))
             .period_near(6.3)
             .mirrored(&["theta", "theta_dot"])
@@ -66,17 +70,11 @@ fn mirrors_that_are_none() {
 
 #[test]
 fn counts_of_nothing() {
-    #[derive(Clone, Lagrangian)]
-    #[coordinates(x)]
-    #[lagrangian(x_dot^2/2 - x^2/2 + x*cos(omega*t))]
-    struct Driven {
-        omega: f64,
-    }
-    let none = Pendulum.periodic_orbit(&State::at_rest([0.3])).period_near(6.3).segments(0).find();
+    let none = PENDULUM.periodic_orbit(&State::at_rest([0.3])).period_near(6.3).segments(0).find();
     assert_eq!(
         none.unwrap_err().to_string(),
         "the number of segments of an orbit is 0: it must be positive and finite"
     );
-    let none = Driven { omega: 2.0 }.periodic_orbit(&State::at_rest([0.3])).driven_by("omega", 0).find();
+    let none = DRIVEN.periodic_orbit(&State::at_rest([0.3])).driven_by("w", 0).find();
     assert!(none.unwrap_err().to_string().starts_with("the number of turns of the drive is 0"));
 }

@@ -2,7 +2,9 @@
 
 use lagrange_core::prelude::*;
 
-use crate::systems::{HenonHeiles, Pendulum};
+use lagrange_systems::{DrivenSpring, HenonHeiles};
+
+use crate::systems::{DRIVEN, PENDULUM};
 
 /// Pairs, moduli, and no digits that are round-off.
 #[test]
@@ -24,32 +26,27 @@ fn printed_orbit() {
 
 #[test]
 fn printed_monodromies() {
-    #[derive(Clone, Lagrangian)]
-    #[coordinates(x)]
-    #[lagrangian(x_dot^2/2 + k*x^2/2)]
-    #[dissipation(c/2 * x_dot^2)]
-    struct Damped {
-        k: f64,
-        c: f64,
-    }
     let around = |k, c| {
         let method = Dop853::with_tolerance(1e-13);
-        Damped { k, c }.monodromy(&State::at_rest([0.0]), 1.0, method).unwrap().to_string()
+        DrivenSpring { k, c, a: 0.0, ..DRIVEN }
+            .monodromy(&State::at_rest([0.0]), 1.0, method)
+            .unwrap()
+            .to_string()
     };
     // e and 1/e, a decaying turn, and two real ones.
-    let text = around(1.0, 0.0);
+    let text = around(-1.0, 0.0);
     assert!(text.starts_with("monodromy over 1: symplectic, by an error of "), "{text}");
     assert!(text.ends_with("\nmultipliers 2.7182818285 and 0.36787944117, |λ| = 2.7182818285\n"), "{text}");
-    let text = around(-1.0, 0.2);
+    let text = around(1.0, 0.2);
     assert!(text.starts_with("monodromy over 1: not symplectic, by an error of "), "{text}");
     assert!(text.contains("\nmultipliers 0.49") && text.ends_with(" i, |λ| = 0.90483741804\n"), "{text}");
-    assert_eq!(around(1.0, 0.2).matches("\nmultiplier ").count(), 2);
+    assert_eq!(around(-1.0, 0.2).matches("\nmultiplier ").count(), 2);
 }
 
 /// A table says what its columns are, and which orbits it leaves out.
 #[test]
 fn printed_family() {
-    let search = Pendulum.periodic_orbit(&State::at_rest([0.5])).period_near(6.3).mirrored(&["theta_dot"]);
+    let search = PENDULUM.periodic_orbit(&State::at_rest([0.5])).period_near(6.3).mirrored(&["theta_dot"]);
     let family = search.family(&search.find().unwrap()).orbits(12).follow().unwrap();
     let text = family.to_string();
     let mut lines = text.lines();

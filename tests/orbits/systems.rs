@@ -1,55 +1,50 @@
 //! Systems of the tests, and the motions that are known of them.
 
 use lagrange_core::prelude::*;
-
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2)/2 + 1/sqrt(x^2 + y^2))]
-pub(crate) struct Planet;
-
-/// Three equal masses in a plane.
-#[derive(Clone, Lagrangian)]
-#[coordinates(a: [2], b: [2], c: [2])]
-#[lagrangian((dot(a_dot, a_dot) + dot(b_dot, b_dot) + dot(c_dot, c_dot))/2 + 1/norm(a - b) + 1/norm(b - c) + 1/norm(c - a))]
-pub(crate) struct ThreeMasses;
-
-/// The figure of eight (Chenciner and Montgomery, *Annals of Mathematics* 152, 2000): start and period by `recompute.py`, of which the
-/// first eight digits are those published.
-pub(crate) const EIGHT: [f64; 5] = [
-    0.970_004_36,
-    -0.243_087_538_924_877_45,
-    0.466_203_687_306_882_35,
-    0.432_365_726_412_457_87,
-    6.325_914_030_368_495,
-];
-
-pub(crate) fn eight() -> (State<f64, 6>, f64) {
-    let [x, y, vx, vy, period] = EIGHT;
-    (State::new([x, y, -x, -y, 0.0, 0.0], [vx, vy, vx, vy, -2.0 * vx, -2.0 * vy]), period)
-}
-
-/// A small body near Earth and Moon, in the frame that turns with them. Jacobi's constant is −2 times the energy.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y, z)]
-#[define(r1 = sqrt((x + mu)^2 + y^2 + z^2))]
-#[define(r2 = sqrt((x - 1 + mu)^2 + y^2 + z^2))]
-#[lagrangian(((x_dot - y)^2 + (y_dot + x)^2 + z_dot^2)/2 + (1 - mu)/r1 + mu/r2)]
-pub(crate) struct Moon {
-    pub(crate) mu: f64,
-}
-
-impl Moon {
-    pub(crate) const EARTHS: Self = Self { mu: 0.012_150_585_609_624_04 };
-}
+use lagrange_systems::{DrivenSpring, Pendulum};
 
 /// A pendulum of length 1 with g = 1.
-#[derive(Clone, Lagrangian)]
-#[coordinates(theta)]
-#[lagrangian(theta_dot^2/2 + cos(theta))]
-pub(crate) struct Pendulum;
+pub(crate) const PENDULUM: Pendulum<f64> = Pendulum { m: 1.0, l: 1.0, g: 1.0 };
 
-/// Motion of a star in the plane of a galaxy (Hénon and Heiles, *Astronomical Journal* 69, 1964).
+/// A spring with friction under a force of amplitude 1.
+pub(crate) const DRIVEN: DrivenSpring<f64> = DrivenSpring { m: 1.0, k: 1.0, c: 0.2, a: 1.0, w: 0.7 };
+
+/// Circular limit cycles of radius √ρ with a − b ρ + ρ² = 0, and an oscillator beside them.
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
-pub(crate) struct HenonHeiles;
+#[lagrangian((x_dot^2 + y_dot^2)/2 - x^2/2 - p*y^2/2 - y^4/4)]
+#[define(square = x^2 + x_dot^2)]
+#[force(x: -(a - b*square + square^2)*x_dot)]
+#[force(y: -c*y_dot)]
+pub(crate) struct Cycle {
+    pub(crate) a: f64,
+    pub(crate) b: f64,
+    pub(crate) p: f64,
+    pub(crate) c: f64,
+}
+
+pub(crate) const CYCLE: Cycle = Cycle { a: 0.1, b: 1.0, p: 3.0, c: 0.1 };
+
+/// A pendulum whose pivot is shaken up and down. At θ = 0, and at a = 0, the time has no effect.
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(theta_dot^2/2 + (delta + a*cos(omega*t))*cos(theta))]
+#[dissipation(c/2 * theta_dot^2)]
+pub(crate) struct Shaken {
+    pub(crate) delta: f64,
+    pub(crate) a: f64,
+    pub(crate) omega: f64,
+    pub(crate) c: f64,
+}
+
+/// A saddle beside a spring, both with friction, both driven.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 + h*x^2/2 - k*y^2/2 + a*cos(t)*(x + y))]
+#[dissipation(c*(x_dot^2/4 + y_dot^2/2))]
+pub(crate) struct Saddle {
+    pub(crate) h: f64,
+    pub(crate) k: f64,
+    pub(crate) a: f64,
+    pub(crate) c: f64,
+}
