@@ -65,7 +65,7 @@ fn written(number: u64, draft: &Draft, has_jacobians: bool) -> String {
         .map(|(name, x)| format!("(\"{name}\", {x:?})"))
         .collect();
     format!(
-        "//! System {number} of `.ci/long`: {count} frames.\n\n#![allow(unused_imports)]\n\nuse lagrange_core::nalgebra::{{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3}};
+        "//! System {number} of `.ci/long/run`: {count} frames.\n\n#![allow(unused_imports)]\n\nuse lagrange_core::nalgebra::{{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3}};
 use lagrange_core::prelude::*;\n\n{structs}#[derive(Lagrangian, Clone, Debug)]\n{parameter}{attributes}struct System<T> {{ {fields} }}\n
 pub(crate) fn check() -> Result<(), String> {{
     let system = System::<f64> {{ {made} }};
