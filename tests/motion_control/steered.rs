@@ -2,41 +2,13 @@
 
 use lagrange_core::motion::{Limits, VectorField};
 use lagrange_core::{Dual, Ending, Lanes, Method, Pack, RungeKutta4, prelude::*, runge_kutta_step};
+use lagrange_systems::{DrivenSpring, Spring};
 
-/// A cart with a motor and a brake.
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x)]
-#[lagrangian(m/2 * x_dot^2)]
-#[force(x: u)]
-#[dissipation(c/2 * x_dot^2)]
-struct Cart<T> {
-    m: T,
-    u: T,
-    c: T,
-}
+use crate::{ROD, spring_of, swinging};
 
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 - omega^2/2 * x^2)]
-struct Spring<T> {
-    omega: T,
-}
-
-/// Of a length that may change: too much for a state that is to stay.
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x, y)]
-#[lagrangian(1/2 * (x_dot^2 + y_dot^2) - g*y)]
-#[constraint(rod: 1/2 * (x^2 + y^2 - l^2) = 0)]
-#[observable(height = y)]
-struct Pendulum<T> {
-    g: T,
-    l: T,
-}
-
-const PENDULUM: Pendulum<f64> = Pendulum { g: 9.81, l: 1.0 };
-
-fn swinging() -> State<f64, 2> {
-    State::new([0.6, -0.8], [0.8, 0.6])
+/// A mass with a motor, whose force is `a`, and a brake.
+fn cart(m: f64, c: f64) -> DrivenSpring<f64> {
+    DrivenSpring { m, k: 0.0, c, a: 0.0, w: 0.0 }
 }
 
 /// The input of tick `k`.
@@ -51,12 +23,11 @@ fn held(state: (f64, f64), u: f64, c: f64, t: f64) -> (f64, f64) {
 }
 
 /// Two seconds at 100 inputs a second; how far from the solution, and the evaluations.
-fn driven<P: Method<Cart<f64>>>(method: P) -> (f64, usize) {
-    let cart = Cart { m: 1.0, u: 0.0, c: 0.7 };
-    let mut motion = Motion::new(cart, State::new([0.3], [1.0]), method).expect("a start");
+fn driven<P: Method<DrivenSpring<f64>>>(method: P) -> (f64, usize) {
+    let mut motion = Motion::new(cart(1.0, 0.7), State::new([0.3], [1.0]), method).expect("a start");
     let (mut expected, mut off) = ((0.3, 1.0), 0.0_f64);
     for k in 0..200 {
-        motion.system_mut().u = input(k);
+        motion.system_mut().a = input(k);
         motion.advance_to(0.01 * f64::from(k + 1)).expect("no end before");
         assert_eq!(motion.state().t, 0.01 * f64::from(k + 1));
         expected = held(expected, input(k), 0.7, 0.01);
@@ -68,42 +39,41 @@ fn driven<P: Method<Cart<f64>>>(method: P) -> (f64, usize) {
 
 #[test]
 fn inputs_are_held_from_tick_to_tick() {
-    // One evaluation at the start and one where a first step is sought; then a change and a step each tick.
-    let (off, evaluations) = driven(Dop853::default());
-    assert!(off < 1e-12 && evaluations == 2 + 200 * (1 + 12), "{off:e}, {evaluations} evaluations");
-    let (off, evaluations) = driven(Dopri5::with_tolerance(1e-6).fixed_step(0.01));
-    // The rates where a step of one size ends are evaluated after the change, and not before.
-    assert!(off < 1e-12 && evaluations == 1 + 200 * 6, "{off:e}, {evaluations} evaluations");
-    let (off, evaluations) = driven(Dop853::default().fixed_step(0.01));
-    assert!(off < 1e-12 && evaluations == 1 + 200 * 12, "{off:e}, {evaluations} evaluations");
-    let (off, evaluations) = driven(RungeKutta4::with_step(0.01));
-    assert!(off < 1e-9 && evaluations == 200 * 4, "{off:e}, {evaluations} evaluations");
+    // One evaluation at the start and one where a first step is sought; then a change and a step each tick. With steps of one
+    // size, the rates at the end of a step are evaluated after the change, and not before.
+    for ((off, found), bound, evaluations) in [
+        (driven(Dop853::default()), 1e-12, 2 + 200 * (1 + 12)),
+        (driven(Dopri5::with_tolerance(1e-6).fixed_step(0.01)), 1e-12, 1 + 200 * 6),
+        (driven(Dop853::default().fixed_step(0.01)), 1e-12, 1 + 200 * 12),
+        (driven(RungeKutta4::with_step(0.01)), 1e-9, 200 * 4),
+    ] {
+        assert!(off < bound && found == evaluations, "{off:e}, {found} evaluations, not {evaluations}");
+    }
 }
 
 #[test]
 fn several_changes_cost_one_evaluation_and_none_cost_none() {
-    let mut motion =
-        Motion::new(Cart { m: 1.0, u: 0.0, c: 0.0 }, State::at_rest([0.0]), Dopri5::default()).unwrap();
+    let mut motion = Motion::new(cart(1.0, 0.0), State::at_rest([0.0]), Dopri5::default()).unwrap();
     motion.advance_to(1.0).unwrap();
     let evaluations = |motion: &Motion<_, Dopri5>| motion.statistics().evaluations;
     let (before, accepted) = (evaluations(&motion), motion.statistics().accepted);
     motion.advance_to(1.0).unwrap();
     assert_eq!(evaluations(&motion), before);
-    motion.system_mut().u = 1.0;
+    motion.system_mut().a = 1.0;
     motion.system_mut().m = 2.0;
     motion.advance_to(1.0).unwrap();
     assert_eq!(evaluations(&motion), before + 1);
     motion.advance_by(2.0).unwrap();
     // The step is as long as it has grown to be, not sought again.
     assert_eq!((evaluations(&motion), motion.statistics().accepted), (before + 7, accepted + 1));
-    assert!((motion.state().q[0] - 0.25 * 4.0).abs() < 1e-14 && motion.system().u == 1.0);
+    assert!((motion.state().q[0] - 0.25 * 4.0).abs() < 1e-14 && motion.system().a == 1.0);
     assert_eq!(motion.into_system().m, 2.0);
 }
 
 /// The step to a time of the caller's choice says nothing about the steps after it.
 #[test]
 fn a_short_advance_does_not_make_the_next_steps_short() {
-    let mut motion = Motion::new(Spring { omega: 1.0 }, State::at_rest([1.0]), Dop853::default()).unwrap();
+    let mut motion = Motion::new(spring_of(1.0), State::at_rest([1.0]), Dop853::default()).unwrap();
     motion.advance_to(10.0).unwrap();
     let steps = |motion: &Motion<_, Dop853>| motion.statistics().accepted + motion.statistics().rejected;
     let before = steps(&motion);
@@ -117,8 +87,8 @@ fn a_short_advance_does_not_make_the_next_steps_short() {
 
 #[test]
 fn a_motion_left_alone_is_the_trajectory() {
-    let path = PENDULUM.integrate(swinging(), 5.0, Dop853::default()).unwrap();
-    let mut motion = Motion::new(PENDULUM, swinging(), Dop853::default()).unwrap();
+    let path = ROD.integrate(swinging(), 5.0, Dop853::default()).unwrap();
+    let mut motion = Motion::new(ROD, swinging(), Dop853::default()).unwrap();
     motion.advance_to(5.0).unwrap();
     assert_eq!(motion.state(), path.end().state());
     assert_eq!(motion.statistics().accepted, path.statistics().accepted);
@@ -127,7 +97,7 @@ fn a_motion_left_alone_is_the_trajectory() {
         motion.statistics().evaluations + 3 * path.statistics().accepted,
         path.statistics().evaluations
     );
-    let mut motion = Motion::new(&PENDULUM, swinging(), Dop853::default()).unwrap();
+    let mut motion = Motion::new(&ROD, swinging(), Dop853::default()).unwrap();
     let times = |k: u32| 0.05 * f64::from(k);
     let states = motion.states_at((0..=100).map(times));
     for (k, state) in (0..=100).zip(states) {
@@ -165,18 +135,18 @@ fn same_ends<L, P, F>(
 #[test]
 fn fixed_steps_are_the_same_whoever_asks_for_their_ends() {
     let (fifth, eighth) = (Dopri5::default().fixed_step(0.0625), Dop853::default().fixed_step(0.0625));
-    let spring = Spring { omega: 1.3 };
+    let spring = spring_of(1.3);
     let (rest, start) = (State::at_rest([1.0]), swinging());
     let path = spring.integrate(rest, 2.0, fifth).unwrap();
     same_ends(Motion::new(&spring, rest, fifth).unwrap(), &path, 0, (1, 1));
-    let path = PENDULUM.integrate(start, 2.0, fifth).unwrap();
-    same_ends(Motion::new(&PENDULUM, start, fifth).unwrap(), &path, 0, (1, 1));
-    let path = PENDULUM.integrate(start, 2.0, eighth).unwrap();
-    same_ends(Motion::new(&PENDULUM, start, eighth).unwrap(), &path, 3, (1, 1));
+    let path = ROD.integrate(start, 2.0, fifth).unwrap();
+    same_ends(Motion::new(&ROD, start, fifth).unwrap(), &path, 0, (1, 1));
+    let path = ROD.integrate(start, 2.0, eighth).unwrap();
+    same_ends(Motion::new(&ROD, start, eighth).unwrap(), &path, 3, (1, 1));
     // In momenta the velocity is one of the rates: nothing is left for later.
-    let start = PENDULUM.phase_state(&start);
-    let path = PENDULUM.motion_in_momenta(start).by(eighth).to(2.0).unwrap();
-    same_ends(Motion::in_momenta(&PENDULUM, start, eighth).unwrap(), &path, 3, (1, 0));
+    let start = ROD.phase_state(&start);
+    let path = ROD.motion_in_momenta(start).by(eighth).to(2.0).unwrap();
+    same_ends(Motion::in_momenta(&ROD, start, eighth).unwrap(), &path, 3, (1, 0));
 }
 
 /// A spring with a hole, in which the force is not a number.
@@ -184,18 +154,24 @@ fn fixed_steps_are_the_same_whoever_asks_for_their_ends() {
 #[coordinates(x)]
 #[lagrangian(x_dot^2/2 - x^2/2)]
 #[force(x: none*sqrt((x - hole)^2 - 1e-24))]
-struct Holed<T> {
+pub(crate) struct Holed<T> {
     none: T,
     hole: T,
+}
+
+/// A motion by steps of one size into the hole, which is at the state at t = 1/2: without the hole, with it, the start, that
+/// state, and the method.
+pub(crate) fn into_a_hole() -> ([Holed<f64>; 2], State<f64, 1>, State<f64, 1>, Dopri5) {
+    let whole = Holed { none: 0.0, hole: 1e3 };
+    let (start, method) = (State::at_rest([1.0]), Dopri5::default().fixed_step(0.125));
+    let at = *whole.integrate(start, 0.5, method).expect("a motion").end().state();
+    ([whole, Holed { hole: at.q[0], ..whole }], start, at, method)
 }
 
 /// Where the equations have no solution at the end of a step of one size, the next finds out, or what asks for its rates.
 #[test]
 fn a_step_into_a_hole_is_an_error_of_the_next() {
-    let whole = Holed { none: 0.0, hole: 1e3 };
-    let (start, method) = (State::at_rest([1.0]), Dopri5::default().fixed_step(0.125));
-    let at = *whole.integrate(start, 0.5, method).unwrap().end().state();
-    let holed = Holed { hole: at.q[0], ..whole };
+    let ([_, holed], start, at, method) = into_a_hole();
     let mut motion = Motion::new(holed, start, method).unwrap();
     motion.advance_to(0.5).unwrap();
     assert_eq!(*motion.state(), at);
@@ -213,33 +189,11 @@ fn a_step_into_a_hole_is_an_error_of_the_next() {
     assert!(matches!(path.ending(), Ending::NotFinite { time: 0.375, .. }), "{}", path.ending());
     assert_eq!((path.end().time(), path.statistics().accepted), (0.375, 3));
     assert!((path.at(0.3).unwrap().coordinate("x").unwrap() - 0.3_f64.cos()).abs() < 1e-6);
-    // On a lane as alone.
-    let both = |index: usize| (if index == 1 { holed } else { whole }, start);
-    let ensemble = || Ensemble::from_fn(5, both);
-    for (end, is_complete) in [(0.5, true), (1.0, false)] {
-        let on_lanes = ensemble().integrate_on_lanes(end, method).unwrap();
-        let one_by_one = ensemble().integrate(end, method).unwrap();
-        for (index, (lane, alone)) in on_lanes.members().iter().zip(one_by_one.members()).enumerate() {
-            assert_eq!(lane.result, alone.result);
-            let arrival = lane.arrival().unwrap();
-            assert_eq!(arrival.ending.is_complete(), index != 1 || is_complete, "{}", arrival.ending);
-            assert!(index != 1 || arrival.state == at);
-        }
-    }
-}
-
-#[test]
-fn momenta_are_steered_too() {
-    let start = PENDULUM.phase_state(&swinging());
-    let path = PENDULUM.motion_in_momenta(start).to(2.0).unwrap();
-    let mut motion = Motion::in_momenta(&PENDULUM, start, Dop853::default()).unwrap();
-    motion.advance_to(2.0).unwrap();
-    assert_eq!(motion.state(), path.end().state());
 }
 
 #[test]
 fn states_are_given_at_times_in_both_directions() {
-    let mut motion = Motion::new(Spring { omega: 1.0 }, State::at_rest([1.0]), Dopri5::default()).unwrap();
+    let mut motion = Motion::new(spring_of(1.0), State::at_rest([1.0]), Dopri5::default()).unwrap();
     for times in [[0.0, 0.5, 0.5, 3.0, 7.0], [7.0, 6.9, 0.0, -2.0, -9.0], [-9.0, -8.0, -8.0, 1.0, 2.0]] {
         let states: Result<Vec<_>, _> = motion.states_at(times).collect();
         for (state, t) in states.unwrap().into_iter().zip(times) {
@@ -258,11 +212,11 @@ fn states_are_given_at_times_in_both_directions() {
 
 #[test]
 fn the_last_step_can_be_looked_into() {
-    let mut motion = Motion::new(PENDULUM, swinging(), Dop853::with_tolerance(1e-6)).unwrap();
+    let mut motion = Motion::new(ROD, swinging(), Dop853::with_tolerance(1e-6)).unwrap();
     assert_eq!(motion.at(0.0).unwrap(), swinging());
     assert!(matches!(motion.at(0.1), Err(Error::OutsideTrajectory { start: 0.0, end: 0.0, .. })));
     motion.advance_to(0.1).unwrap();
-    let path = PENDULUM.integrate(swinging(), 0.1, Dop853::with_tolerance(1e-6)).unwrap();
+    let path = ROD.integrate(swinging(), 0.1, Dop853::with_tolerance(1e-6)).unwrap();
     let last = path.steps().map(|step| step.time()).nth(path.statistics().accepted - 1).unwrap();
     let evaluations = motion.statistics().evaluations;
     for k in 0..=10 {
@@ -278,37 +232,28 @@ fn the_last_step_can_be_looked_into() {
 
 #[test]
 fn a_state_is_set_and_gone_on_from() {
-    let mut motion = Motion::new(PENDULUM, swinging(), Dop853::default()).unwrap();
+    let mut motion = Motion::new(ROD, swinging(), Dop853::default()).unwrap();
     motion.advance_to(1.0).unwrap();
     motion.set_state(swinging().at_time(-3.0)).unwrap();
     assert_eq!(*motion.state(), swinging().at_time(-3.0));
     motion.advance_to(2.0).unwrap();
-    let path = PENDULUM.integrate(swinging().at_time(-3.0), 2.0, Dop853::default()).unwrap();
+    let path = ROD.integrate(swinging().at_time(-3.0), 2.0, Dop853::default()).unwrap();
     assert!((motion.state().q - path.end().state().q).norm() < 1e-7);
-    let here = *motion.state();
-    for wrong in [State::new([0.6, -0.9], [0.0, 0.0]), State::new([f64::NAN, 0.0], [0.0; 2])] {
-        assert!(motion.set_state(wrong).is_err());
-        assert_eq!(*motion.state(), here);
-    }
 }
 
 #[test]
 fn what_cannot_be_is_an_error_and_leaves_the_motion_where_it_was() {
-    let mut motion = Motion::new(PENDULUM, swinging(), Dop853::default()).unwrap();
+    let mut motion = Motion::new(ROD, swinging(), Dop853::default()).unwrap();
     motion.advance_to(0.5).unwrap();
     let here = *motion.state();
     // A rod of another length is not at this place.
-    motion.system_mut().l = 2.0;
+    motion.system_mut().square = 4.0;
     let ending = motion.advance_by(0.1).unwrap_err();
     assert!(ending.to_string().contains("`rod`"), "{ending}");
     assert_eq!(*motion.state(), here);
-    motion.system_mut().l = 1.0;
+    motion.system_mut().square = 1.0;
     motion.advance_by(0.1).unwrap();
     let here = *motion.state();
-    for nowhere in [f64::NAN, f64::INFINITY] {
-        assert!(matches!(motion.advance_to(nowhere), Err(Ending::Unsolved { .. })));
-        assert_eq!(*motion.state(), here);
-    }
     motion.system_mut().g = f64::NAN;
     let ending = motion.advance_by(0.1).unwrap_err();
     assert!(matches!(ending, Ending::NotFinite { .. }), "{ending}");
@@ -318,11 +263,11 @@ fn what_cannot_be_is_an_error_and_leaves_the_motion_where_it_was() {
 #[test]
 fn limits_are_those_of_one_advance() {
     let mut motion =
-        Motion::new(Spring { omega: 1.0 }, State::at_rest([1.0]), Dopri5::default().max_steps(100)).unwrap();
+        Motion::new(spring_of(1.0), State::at_rest([1.0]), Dopri5::default().max_steps(100)).unwrap();
     for k in 1..=50 {
         motion.advance_to(f64::from(k)).unwrap();
     }
-    assert!(motion.statistics().accepted > 200);
+    assert!(motion.statistics().accepted > 200 && Limits::default().max_steps == 100_000);
     let ending = motion.advance_by(1e6).unwrap_err();
     assert!(matches!(ending, Ending::StepLimit { steps: 100, .. }), "{ending}");
     let t = motion.state().t;
@@ -339,7 +284,7 @@ fn order(at: impl Fn(f64) -> (f64, f64)) -> (f64, f64) {
 
 #[test]
 fn the_classical_method_is_of_order_four() {
-    let spring = Spring { omega: 1.3 };
+    let spring = spring_of(1.3);
     let (end, between) = order(|h| {
         let path = spring.integrate(State::at_rest([1.0]), -6.0, RungeKutta4::with_step(h)).unwrap();
         assert_eq!(path.statistics().accepted, (6.0 / h).round() as usize);
@@ -351,14 +296,14 @@ fn the_classical_method_is_of_order_four() {
 
 #[test]
 fn the_classical_method_keeps_to_constraints_and_drifts_without_projection() {
-    let mut motion = Motion::new(PENDULUM, swinging(), RungeKutta4::with_step(0.01)).unwrap();
+    let mut motion = Motion::new(ROD, swinging(), RungeKutta4::with_step(0.01)).unwrap();
     motion.advance_to(20.0).unwrap();
     assert!((motion.state().q.norm() - 1.0).abs() < 1e-12);
-    let exact = PENDULUM.integrate(swinging(), 20.0, Dop853::with_tolerance(1e-12)).unwrap();
+    let exact = ROD.integrate(swinging(), 20.0, Dop853::with_tolerance(1e-12)).unwrap();
     assert!((motion.state().q - exact.end().state().q).norm() < 1e-3);
     let mut state = swinging();
     for _ in 0..2000 {
-        state = runge_kutta_step(&PENDULUM, &state, 0.01);
+        state = runge_kutta_step(&ROD, &state, 0.01);
     }
     let drift = (state.q.norm() - 1.0).abs();
     assert!((1e-10..1e-3).contains(&drift), "{drift:e}");
@@ -369,21 +314,21 @@ fn the_classical_method_runs_on_lanes_and_carries_derivatives() {
     let lanes: [f64; Lanes::COUNT] = std::array::from_fn(|lane| (lane + 1) as f64);
     // Each lane has a step of its own.
     let (omegas, steps) = (lanes.map(|k| 0.5 * k), lanes.map(|k| 0.01 * k));
-    let mut lanes = Spring { omega: omegas[0] }.pack();
+    let mut lanes = spring_of(omegas[0]).pack();
     for (lane, omega) in omegas.into_iter().enumerate() {
-        assert!(Spring { omega }.place(&mut lanes, lane));
+        assert!(spring_of(omega).place(&mut lanes, lane));
     }
     let one = Lanes::constant;
     let mut state = State { t: one(0.0), q: [one(1.0)].into(), v: [one(0.0)].into() };
     let mut alone = omegas.map(|_| State::at_rest([1.0]));
-    // ∂x/∂ω at ω = 1, through the steps.
-    let spring = Spring { omega: Dual { value: 1.0_f64, slope: 1.0 } };
+    // ∂x/∂k at k = 1, through the steps.
+    let stiffened = Spring { m: Dual::constant(1.0), k: Dual { value: 1.0_f64, slope: 1.0 } };
     let mut dual = State::at_rest([Dual::constant(1.0)]);
     for _ in 0..200 {
         state = runge_kutta_step(&lanes, &state, Lanes::from(steps));
-        dual = runge_kutta_step(&spring, &dual, Scalar::constant(0.02));
+        dual = runge_kutta_step(&stiffened, &dual, Scalar::constant(0.02));
         for (lane, alone) in alone.iter_mut().enumerate() {
-            *alone = runge_kutta_step(&Spring { omega: omegas[lane] }, alone, steps[lane]);
+            *alone = runge_kutta_step(&spring_of(omegas[lane]), alone, steps[lane]);
         }
     }
     for (lane, alone) in alone.iter().enumerate() {
@@ -391,7 +336,7 @@ fn the_classical_method_runs_on_lanes_and_carries_derivatives() {
         assert_eq!(state.t.to_array()[lane], alone.t);
     }
     assert!((dual.q[0].value - 4_f64.cos()).abs() < 1e-7);
-    assert!((dual.q[0].slope + 4.0 * 4_f64.sin()).abs() < 1e-6);
+    assert!((dual.q[0].slope + 2.0 * 4_f64.sin()).abs() < 5e-7);
 }
 
 /// Of −L the motion is that of L, but its mass matrix is none that the elimination vouches for, nor one with a coupling
@@ -415,8 +360,8 @@ fn the_classical_method_solves_in_general_where_it_can() {
 /// Its mass matrix is singular where the mass is nothing: in that lane, and in no other.
 #[test]
 fn the_classical_method_is_not_a_number_where_nobody_can_vouch() {
-    let mut lanes = Cart { m: 1.0, u: 0.0, c: 0.0 }.pack();
-    assert!(Cart { m: 0.0, u: 0.0, c: 0.0 }.place(&mut lanes, 2));
+    let mut lanes = cart(1.0, 0.0).pack();
+    assert!(cart(0.0, 0.0).place(&mut lanes, 2));
     let one = Lanes::constant;
     let state = State { t: one(0.0), q: [one(1.0)].into(), v: [one(1.0)].into() };
     let next = runge_kutta_step(&lanes, &state, one(0.1));
@@ -424,20 +369,11 @@ fn the_classical_method_is_not_a_number_where_nobody_can_vouch() {
     for lane in 0..Lanes::COUNT {
         assert_eq!((q[lane].is_nan(), v[lane].is_nan()), (lane == 2, lane == 2));
     }
-    let massless = Cart { m: 0.0_f64, u: 1.0, c: 0.0 };
+    let massless = DrivenSpring { a: 1.0, ..cart(0.0, 0.0) };
     assert!(runge_kutta_step(&massless, &State::at_rest([0.0]), 0.1).q[0].is_nan());
-    let mut motion =
-        Motion::new(Cart { m: 1.0, ..massless }, State::at_rest([0.0]), RungeKutta4::with_step(0.1)).unwrap();
+    let cart = DrivenSpring { m: 1.0, ..massless };
+    let mut motion = Motion::new(cart, State::at_rest([0.0]), RungeKutta4::with_step(0.1)).unwrap();
     motion.system_mut().m = 0.0;
     let ending = motion.advance_by(1.0).unwrap_err();
     assert!(matches!(ending, Ending::Singular { time: 0.0, .. }), "{ending}");
-}
-
-#[test]
-fn wrong_steps_are_refused() {
-    for step in [0.0, -0.1, f64::NAN, f64::INFINITY] {
-        let error = Motion::new(PENDULUM, swinging(), RungeKutta4::with_step(step)).unwrap_err();
-        assert!(matches!(error, Error::Setting { .. }), "{error}");
-    }
-    assert_eq!(Limits::default().max_steps, 100_000);
 }

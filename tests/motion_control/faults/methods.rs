@@ -1,5 +1,6 @@
-//! Runs a case by all methods that apply.
+//! Runs a case by all methods that apply, or by `Dop853` and Gauss's method of order 2 without the feature `thorough`.
 
+#[cfg(feature = "thorough")]
 use lagrange_core::motion::Composition::{KahanLi6, KahanLi8};
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{Lagrangian, Method, prelude::*};
@@ -35,8 +36,10 @@ where
     Lobatto<4>: Method<L>,
     DAlembert: Method<L>,
 {
-    let mut outcomes = run!(case, FixedSteps: ["Gauss 1", 0.01, Gauss::<1>::with_step]["Gauss 4", 0.05, Gauss::<4>::with_step];);
-    outcomes.extend(held(case));
+    let mut outcomes = held(case);
+    outcomes.extend(run!(case, FixedSteps: ["Gauss 1", 0.01, Gauss::<1>::with_step];));
+    #[cfg(feature = "thorough")]
+    outcomes.extend(run!(case, FixedSteps: ["Gauss 4", 0.05, Gauss::<4>::with_step];));
     outcomes
 }
 
@@ -51,7 +54,10 @@ where
     Lobatto<4>: Method<L>,
     DAlembert: Method<L>,
 {
-    run!(
+    #[cfg_attr(not(feature = "thorough"), expect(unused_mut))]
+    let mut outcomes = run!(case, StepControl: ["Dop853", 1e-9, Dop853::with_tolerance];);
+    #[cfg(feature = "thorough")]
+    outcomes.extend(run!(
         case,
         FixedSteps:
             ["Verlet", 0.01, Verlet::with_step]
@@ -62,9 +68,9 @@ where
             ["DAlembert, order 6", 0.05, |h| DAlembert::with_step(h).composed(KahanLi6)]
             ["RungeKutta4", 0.01, RungeKutta4::with_step];
         StepControl:
-            ["Dop853", 1e-9, Dop853::with_tolerance]
             ["Dopri5", 1e-6, Dopri5::with_tolerance]
             ["Taylor", 1e-12, Taylor::with_tolerance]
             ["Radau", 1e-6, Radau::with_tolerance];
-    )
+    ));
+    outcomes
 }

@@ -2,6 +2,7 @@
 
 use lagrange_core::prelude::*;
 
+use crate::Rod;
 use crate::faults::case::SetParameter;
 
 /// A particle on a spring.
@@ -27,20 +28,6 @@ pub(crate) struct Field {
     pub(crate) escape: f64,
 }
 
-/// A bob on a rod of the length √`square`, which shrinks to nothing at the time `square`/`shrinks`.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
-#[constraint(rod: x^2 + y^2 = square - shrinks*t)]
-pub(crate) struct Rod {
-    pub(crate) m: f64,
-    pub(crate) g: f64,
-    pub(crate) square: f64,
-    pub(crate) shrinks: f64,
-}
-
-pub(crate) const ROD: Rod = Rod { m: 1.0, g: 9.81, square: 1.0, shrinks: 0.0 };
-
 /// A bob on two rods, which are one for a = 1.
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
@@ -51,26 +38,15 @@ pub(crate) struct TwoRods {
     pub(crate) a: f64,
 }
 
-impl SetParameter for Spring {
-    fn set_first(&mut self, value: f64) {
-        self.k = value;
-    }
+/// Sets the first parameter of each.
+macro_rules! set_first {
+    ($($system:ty: $field:ident),*) => {$(
+        impl SetParameter for $system {
+            fn set_first(&mut self, value: f64) {
+                self.$field = value;
+            }
+        }
+    )*};
 }
 
-impl SetParameter for Field {
-    fn set_first(&mut self, value: f64) {
-        self.star = value;
-    }
-}
-
-impl SetParameter for Rod {
-    fn set_first(&mut self, value: f64) {
-        self.square = value;
-    }
-}
-
-impl SetParameter for TwoRods {
-    fn set_first(&mut self, value: f64) {
-        self.a = value;
-    }
-}
+set_first!(Spring: k, Field: star, Rod: square, TwoRods: a);

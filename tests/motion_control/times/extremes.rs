@@ -2,15 +2,8 @@
 
 use lagrange_core::{Ending, motion::Progress, prelude::*};
 
-use crate::times::{Spring, allowed, exact};
-
-/// A body that nothing pushes.
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x)]
-#[lagrangian(m*x_dot^2/2)]
-struct Free<T> {
-    m: T,
-}
+use crate::spring_of;
+use crate::times::{allowed, exact};
 
 #[test]
 fn spans_of_all_sizes_are_integrated() {
@@ -18,7 +11,7 @@ fn spans_of_all_sizes_are_integrated() {
     for exponent in [-150, -100, -12, 12, 100, 150] {
         let scale = 10_f64.powi(exponent);
         let (omega, end) = (1.0 / scale, 20.0 * scale);
-        let spring = Spring { omega };
+        let spring = spring_of(omega);
         let method = Dop853::default().absolute_tolerance(1e-9 * omega.min(1.0));
         let path = spring.integrate(State::at_rest([1.0]), end, method).unwrap();
         assert_eq!(*path.ending(), Ending::Complete { time: end });
@@ -32,7 +25,7 @@ fn spans_of_all_sizes_are_integrated() {
 fn spans_of_all_sizes_are_integrated_in_single_precision() {
     for scale in [1e-18_f32, 1e-15, 1e-9, 1e9, 1e15, 1e18] {
         let (omega, end) = (1.0 / scale, 20.0 * scale);
-        let spring = Spring { omega };
+        let spring = spring_of(omega);
         let method = Dop853::with_tolerance(1e-5).absolute_tolerance(1e-5 * f64::from(omega.min(1.0)));
         let path = spring.integrate(State::at_rest([1.0]), end, method).unwrap();
         assert!(path.ending().is_complete(), "{}", path.ending());
@@ -63,7 +56,7 @@ fn a_free_body_goes_anywhere_in_time() {
     ] {
         for v in [0.0, 1e-10, 1.0] {
             let start_state = State::new([1.0], [v]).at_time(start);
-            let free = Free { m: 1.0 };
+            let free = spring_of(0.0);
             let path = match free.integrate(start_state, end, Dop853::default()) {
                 // x overflows on the way
                 Err(Error::Unfinished(_)) if v == 1.0 && end - start > 1e307 => continue,
@@ -89,7 +82,7 @@ fn a_free_body_goes_anywhere_in_time() {
 #[test]
 fn nothing_but_the_start_is_left_of_no_span() {
     for t in [0.0, -0.0, 1.7e9, f64::MAX, f64::MIN, 5e-324] {
-        let spring = Spring { omega: 1.0 };
+        let spring = spring_of(1.0);
         for method in
             [Dop853::default(), Dop853::default().max_step(1e-30), Dop853::default().fixed_step(1.0)]
         {
@@ -105,7 +98,7 @@ fn nothing_but_the_start_is_left_of_no_span() {
 #[test]
 fn an_end_that_is_never_reached_does_no_harm() {
     for end in [1e17, 1e100, 1e300, f64::MAX] {
-        let spring = Spring { omega: 1.0 };
+        let spring = spring_of(1.0);
         for method in [Dop853::default(), Dop853::default().max_step(0.5), Dop853::default().first_step(1e3)]
         {
             let watch = |progress: Progress| match progress.time > 20.0 {
@@ -124,7 +117,7 @@ fn an_end_that_is_never_reached_does_no_harm() {
 /// What a setting in `f64` becomes in `f32` may be nothing.
 #[test]
 fn settings_too_small_for_single_precision_are_no_steps_of_no_length() {
-    let spring = Spring { omega: 1.0_f32 };
+    let spring = spring_of(1.0_f32);
     let start = State::at_rest([1.0]);
     for method in [Dop853::default().max_step(1e-50), Dop853::default().fixed_step(1e-50)] {
         let path = spring.motion(start).by(method).towards(1.0).unwrap();

@@ -2,10 +2,11 @@
 
 use lagrange_core::{Ending, Sample, prelude::*};
 
-use crate::times::{Spring, allowed, exact};
+use crate::spring_of;
+use crate::times::{allowed, exact};
 
 /// The start, ω and the end.
-const FAR: [(f64, f64, f64); 5] = [
+pub(crate) const FAR: [(f64, f64, f64); 5] = [
     (1.7e9, 1e3, 1.7e9 + 0.1),
     (1.7e9, 1e5, 1.7e9 + 1e-3),
     (100.0, 1e13, 100.0 + 1e-11),
@@ -13,15 +14,15 @@ const FAR: [(f64, f64, f64); 5] = [
     (1e14, 1.0, 1e14 + 64.0),
 ];
 
-const TOLERANCE: f64 = 1e-9;
+pub(crate) const TOLERANCE: f64 = 1e-9;
 
 /// What is checked of a trajectory, whatever its equations.
-struct Motion {
-    ending: Ending,
-    accepted: usize,
-    steps: Vec<(f64, f64)>,
-    samples: Vec<(f64, f64)>,
-    energy: lagrange_core::trajectory::Deviation<f64>,
+pub(crate) struct Motion {
+    pub(crate) ending: Ending,
+    pub(crate) accepted: usize,
+    pub(crate) steps: Vec<(f64, f64)>,
+    pub(crate) samples: Vec<(f64, f64)>,
+    pub(crate) energy: lagrange_core::trajectory::Deviation<f64>,
 }
 
 macro_rules! motion {
@@ -38,7 +39,7 @@ macro_rules! motion {
     }};
 }
 
-fn check((start, omega, end): (f64, f64, f64), motion: &Motion) {
+pub(crate) fn check((start, omega, end): (f64, f64, f64), motion: &Motion) {
     assert_eq!(motion.ending, Ending::Complete { time: end });
     let off = |places: &[(f64, f64)]| {
         places.iter().map(|(t, x)| (x - exact(omega, start, *t)).abs()).fold(0.0, f64::max)
@@ -52,11 +53,14 @@ fn check((start, omega, end): (f64, f64, f64), motion: &Motion) {
     assert!(motion.energy.largest / motion.energy.start <= bound, "{:?}", motion.energy);
 }
 
+#[cfg(feature = "thorough")]
+pub(crate) use motion;
+
 #[test]
 fn a_motion_far_from_zero_is_that_from_zero() {
     for case in FAR {
         let (start, omega, end) = case;
-        let (spring, from) = (Spring { omega }, State::at_rest([1.0]).at_time(start));
+        let (spring, from) = (spring_of(omega), State::at_rest([1.0]).at_time(start));
         check(case, &motion!(spring.integrate(from, end, Dop853::default())));
         if start != 100.0 {
             check(case, &motion!(spring.integrate(from, end, Dopri5::default())));
@@ -64,42 +68,11 @@ fn a_motion_far_from_zero_is_that_from_zero() {
     }
 }
 
-#[test]
-fn so_it_is_in_momenta() {
-    for case in FAR {
-        let (start, omega, end) = case;
-        let (spring, from) = (Spring { omega }, PhaseState::new([1.0], [0.0]).at_time(start));
-        check(case, &motion!(spring.motion_in_momenta(from).to(end)));
-    }
-}
-
-/// Members that start at different times.
-#[test]
-fn so_it_is_on_lanes() {
-    let end = 1.7e9 + 1e-3;
-    let member = |index: usize| {
-        let start = 1.7e9 + 1e-4 * (index % 7) as f64;
-        (Spring { omega: 1e3 * (1 + 9 * index) as f64 }, State::at_rest([1.0]).at_time(start))
-    };
-    let ensemble = || Ensemble::from_fn(12, member);
-    let outcome = ensemble().integrate_on_lanes(end, Dop853::default()).unwrap();
-    let alone = ensemble().integrate(end, Dop853::default()).unwrap();
-    // Their fingerprints say which of the two they are.
-    assert!(outcome.members().iter().map(|x| &x.result).eq(alone.members().iter().map(|x| &x.result)));
-    assert_eq!(outcome.completed().count(), 12);
-    for arrived in outcome.members() {
-        let (Spring { omega }, start) = member(arrived.index);
-        let arrival = arrived.arrival().unwrap();
-        let off = arrival.state.q[0] - exact(omega, start.t, end);
-        assert!(off.abs() <= allowed(arrival.statistics.accepted, TOLERANCE), "{arrived}: off by {off:e}");
-    }
-}
-
 /// A motion in single precision with as many steps as there are numbers in a few of its seconds.
 #[test]
 fn single_precision_far_from_zero_is_that_near_zero() {
     let off = |start: f32, tolerance: f64| {
-        let spring = Spring { omega: 1.0_f32 };
+        let spring = spring_of(1.0_f32);
         let path = spring
             .integrate(State::at_rest([1.0]).at_time(start), start + 100.0, Dop853::with_tolerance(tolerance))
             .unwrap();
@@ -115,21 +88,18 @@ fn single_precision_far_from_zero_is_that_near_zero() {
 /// Where numbers near the time are too far apart for the motion, that is said.
 #[test]
 fn what_times_cannot_resolve_ends_the_motion() {
-    let spring = Spring { omega: 1e9 };
+    let spring = spring_of(1e9);
     let start = State::at_rest([1.0]).at_time(1.7e9);
     let path = spring.motion(start).towards(1.7e9 + 1.0).unwrap();
     assert!(matches!(path.ending(), Ending::StepTooSmall { time: 1.7e9, .. }), "{}", path.ending());
     // In a step of the fifth order ωt may grow by a twentieth, and from one number to the next it grows by a seventh.
     let far = State::at_rest([1.0]).at_time(100.0);
-    let spring = Spring { omega: 1e13 };
+    let spring = spring_of(1e13);
     let path = spring.motion(far).by(Dopri5::default()).towards(100.0 + 1e-11).unwrap();
     assert!(matches!(path.ending(), Ending::StepTooSmall { time: 100.0, .. }), "{}", path.ending());
-    let spring = Spring { omega: 1.0 };
+    let spring = spring_of(1.0);
     for method in [Dop853::default().max_step(1e-8), Dop853::default().fixed_step(1e-8)] {
         let path = spring.motion(start).by(method).towards(1.7e9 + 1.0).unwrap();
         assert_eq!(*path.ending(), Ending::TimeTooCoarse { time: 1.7e9, step: 1e-8 });
-        let one = [(spring, start)];
-        let outcome = Ensemble::new(&one).integrate_on_lanes(1.7e9 + 1.0, method).unwrap();
-        assert_eq!(outcome.get(0).unwrap().arrival().unwrap().ending, *path.ending());
     }
 }

@@ -2,21 +2,11 @@
 
 mod backwards;
 mod extremes;
-mod far;
+pub(crate) mod far;
 mod steps;
 
-use lagrange_core::prelude::*;
-
-/// From (1, 0) at t₀: x = cos ω(t − t₀).
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 - omega^2/2 * x^2)]
-struct Spring<T> {
-    omega: T,
-}
-
-/// cos ω(t − start), the rounding of the product taken into account.
-fn exact(omega: f64, start: f64, t: f64) -> f64 {
+/// cos ω(t − start), the motion of a spring from (1, 0), the rounding of the product taken into account.
+pub(crate) fn exact(omega: f64, start: f64, t: f64) -> f64 {
     let elapsed = t - start;
     assert_eq!(elapsed + start, t, "the test needs a difference without rounding");
     let phase = omega * elapsed;
@@ -26,6 +16,6 @@ fn exact(omega: f64, start: f64, t: f64) -> f64 {
 
 /// What so many steps may be off. The norm of the error of each is kept below 1, so that (x, v/ω) is off by at most
 /// √2 · `tolerance` · (1 + 1); ten times that, as it is an estimate.
-fn allowed(steps: usize, tolerance: f64) -> f64 {
+pub(crate) fn allowed(steps: usize, tolerance: f64) -> f64 {
     10.0 * 2.0 * 2_f64.sqrt() * tolerance * steps as f64
 }
