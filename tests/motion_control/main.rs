@@ -11,6 +11,8 @@ mod times;
 mod allocations_of_runs;
 #[cfg(feature = "thorough")]
 mod both_ways;
+#[cfg(feature = "thorough")]
+mod classical;
 
 use lagrange_core::prelude::*;
 use lagrange_systems::Spring;

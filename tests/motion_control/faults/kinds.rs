@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use lagrange_core::prelude::*;
 
-use crate::faults::case::{Ask, Case, Outcome, Scope};
+use crate::faults::case::{Ask, Case, Outcome};
 use crate::faults::methods::{free, held};
 use crate::faults::systems::*;
 use crate::{ROD, Rod};
@@ -13,15 +13,15 @@ const NAN: f64 = f64::NAN;
 const INFINITY: f64 = f64::INFINITY;
 
 /// Beginnings of the names of methods, and a part of the text of their errors.
-type Says<'a> = (&'a [&'a str], &'a str);
+pub(super) type Says<'a> = (&'a [&'a str], &'a str);
 
-const ALL: &[&str] = &[""];
-const STEP_CONTROL: &[&str] = &["Dop853", "Dopri5", "Taylor", "Radau"];
+pub(super) const ALL: &[&str] = &[""];
+pub(super) const STEP_CONTROL: &[&str] = &["Dop853", "Dopri5", "Taylor", "Radau"];
 const IMPLICIT: &[&str] = &["Gauss", "Lobatto", "DAlembert"];
 
 /// Asserts that the text of each outcome contains what the first entry for its method states. An entry is for a method whose
 /// name begins with one of its names.
-fn check(kind: &str, outcomes: &[Outcome], says: &[Says]) {
+pub(super) fn check(kind: &str, outcomes: &[Outcome], says: &[Says]) {
     println!("{kind}");
     for Outcome { method, text, .. } in outcomes {
         println!("    {method}: {text}");
@@ -32,7 +32,7 @@ fn check(kind: &str, outcomes: &[Outcome], says: &[Says]) {
 }
 
 /// Asserts that the texts of all outcomes contain this.
-fn all(kind: &str, outcomes: &[Outcome], part: &str) {
+pub(super) fn all(kind: &str, outcomes: &[Outcome], part: &str) {
     check(kind, outcomes, &[(ALL, part)]);
 }
 
@@ -50,11 +50,11 @@ fn swinging() -> State<f64, 2> {
     State::new([0.5, 0.2], [0.0, 0.3])
 }
 
-fn hanging() -> State<f64, 2> {
+pub(super) fn hanging() -> State<f64, 2> {
     State::at_rest([0.6, -0.8])
 }
 
-fn spring() -> Case<Spring> {
+pub(super) fn spring() -> Case<Spring> {
     Case::of(SPRING, swinging(), 1.0)
 }
 
@@ -68,12 +68,8 @@ fn swung(t: f64) -> [f64; 2] {
     [0.5 * t.cos(), 0.2 * t.cos() + 0.3 * t.sin()]
 }
 
-fn rod() -> Case<Rod> {
+pub(super) fn rod() -> Case<Rod> {
     Case::of(ROD, hanging(), 1.0)
-}
-
-fn field(star: f64, cliff: f64, escape: f64, start: State<f64, 2>) -> Case<Field> {
-    Case::of(Field { star, cliff, escape }, start, 10.0)
 }
 
 #[test]
@@ -138,16 +134,6 @@ fn starts() {
     let system = Rod { square: 0.0, ..ROD };
     let text = "the gradient of constraint `rod` vanishes at t = 0, where it holds";
     all("rod of length zero", &held(&Case::of(system, State::at_rest([0.0; 2]), 1.0)), text);
-    check(
-        "one rod twice",
-        &held(&Case::of(TwoRods { a: 1.0 }, hanging(), 1.0)),
-        &[
-            (&["RungeKutta4", "Dop853", "Dopri5", "Taylor", "Radau"], "reached the end"),
-            (ALL, "if constraints depend on one another, `Dop853`"),
-        ],
-    );
-    let text = "constraints `rod`, `again` depend on one another at t = 0 to first order";
-    all("two rods that touch", &held(&Case::of(TwoRods { a: 2.0 }, State::at_rest([0.0, -1.0]), 1.0)), text);
 }
 
 #[test]
@@ -216,53 +202,6 @@ fn limits() {
     let text = "stopped at t = 0 by the limit on wall time; raise it with `wall_time`";
     all("no time", &free(&Case { wall_time: Some(Duration::ZERO), ..far() }), text);
     all("progress that cancels", &free(&far().asking(Ask::Cancelled)), "cancelled at t = ");
-}
-
-#[test]
-fn forces() {
-    let row = "the equations are not finite at t = 0; row of coordinate `x`: check the parameters, and whether the state is at a pole";
-    all("start at a pole", &free(&field(1.0, 0.0, 0.0, State::at_rest([0.0; 2]))), row);
-    all("start where a root is imaginary", &free(&field(0.0, 1.0, 0.0, State::at_rest([2.5, 0.0]))), row);
-    all("forces that overflow at the start", &free(&field(0.0, 0.0, 1.0, State::at_rest([1e200, 0.0]))), row);
-    let row = "the equations are not finite in the row of coordinate `x`; check the parameters, whether the motion runs into a pole";
-    let outcomes = free(&field(0.0, 1.0, 0.0, State::new([1.0, 0.0], [0.5, 0.0])));
-    all("root that ends on the way", &outcomes, row);
-    // Up to a step before the end of the root.
-    assert!(outcomes.iter().all(|outcome| outcome.state.unwrap().q[0] > 1.95));
-    all(
-        "fall on a star",
-        &free(&Case { scope: Scope::StepControl, ..field(1.0, 0.0, 0.0, State::at_rest([1.0, 0.0])) }),
-        "demands a step too small to advance the time; the motion is singular nearby",
-    );
-    check(
-        "rod that shrinks to nothing",
-        &held(&Case {
-            system: Rod { shrinks: 1.0, ..ROD },
-            start: State::new([0.6, -0.8], [-0.3, 0.4]),
-            end: 2.0,
-            ..rod()
-        }),
-        &[
-            (&["Radau"], "the iteration of a step does not converge, however short it is"),
-            (STEP_CONTROL, "demands a step too small to advance the time; the motion is singular nearby"),
-            (&["RungeKutta4"], "constraint `rod` has residual"),
-            (ALL, "the iteration of a step does not converge; take shorter steps"),
-        ],
-    );
-    let stiff = Case { system: Spring { k: 1e6, ..SPRING }, end: 10.0, ..spring() };
-    check(
-        "oscillations shorter than a step",
-        &free(&stiff),
-        &[
-            (
-                &["Gauss", "Lobatto 4", "DAlembert, order 6"],
-                "the iteration of a step does not converge; take shorter steps",
-            ),
-            (&["Taylor"], "reached the end"),
-            (STEP_CONTROL, "after 20000 steps, the limit, where the next is"),
-            (ALL, "with steps of one length, whether shorter ones are stable"),
-        ],
-    );
 }
 
 #[test]
