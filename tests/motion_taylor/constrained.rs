@@ -1,17 +1,9 @@
 //! Motions on constraints: there and back, between the steps, constraints too many, inputs that change.
 
 use lagrange_core::{TaylorSeries, prelude::*};
+use lagrange_systems::{DoublePendulum, SphericalPendulum};
 
-#[derive(Lagrangian)]
-#[coordinates(x, y, z)]
-#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 - g*z)]
-#[constraint(rod: (x^2 + y^2 + z^2 - l^2)/2 = 0)]
-struct Spherical {
-    g: f64,
-    l: f64,
-}
-
-const SPHERICAL: Spherical = Spherical { g: 9.81, l: 1.0 };
+const SPHERICAL: SphericalPendulum<f64> = SphericalPendulum { m: 1.0, g: 9.81, l: 1.0 };
 
 fn thrown() -> State<f64, 3> {
     State::new([0.6, 0.0, -0.8], [0.0, 1.3, 0.0])
@@ -85,14 +77,15 @@ fn a_constraint_too_many_shares_its_force() -> Result<(), Error> {
     Ok(())
 }
 
-#[derive(Lagrangian)]
+/// A bead on a ring, pushed along it.
+#[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
 #[lagrangian((x_dot^2 + y_dot^2)/2)]
 #[force(x: -u*y)]
 #[force(y: u*x)]
 #[constraint(ring: x^2 + y^2 = 1)]
-struct Bead {
-    u: f64,
+pub(crate) struct Bead<T> {
+    pub(crate) u: T,
 }
 
 /// A force along the ring is an angular acceleration: between changes the angle is a parabola.
@@ -136,21 +129,12 @@ carried!(Squares, above - l ^ 2, below - l ^ 2);
 carried!(Lengths, sqrt(above) - l, sqrt(below) - l);
 carried!(Mixed, above - l ^ 2, sqrt(below) - l);
 
-/// Seen from the support.
-#[derive(Lagrangian)]
-#[coordinates(theta, phi)]
-#[define(kinetic = 3*theta_dot^2/2 + phi_dot^2 + 2*theta_dot*phi_dot*cos(theta - phi))]
-#[lagrangian(l^2*kinetic + g*l*(3*cos(theta) + 2*cos(phi)))]
-struct ByAngles {
-    g: f64,
-    l: f64,
-}
-
 /// A constraint of second degree is expanded two orders ahead, and takes fewer sums; what is a length is not.
 #[test]
 fn constraints_in_other_words_lead_to_one_motion() -> Result<(), Error> {
     let (g, u, l, [theta, phi]) = (9.81, 1.7, 0.8, [1.1_f64, 0.4_f64]);
-    let unconstrained = ByAngles { g, l };
+    // Seen from the support.
+    let unconstrained = DoublePendulum { m: [1.0, 2.0], l: [l; 2], g };
     let by_angles = unconstrained.integrate(State::at_rest([theta, phi]), 5.0, Taylor::default())?;
     let place = |q: [f64; 2]| [q[0].sin(), -q[0].cos(), q[0].sin() + q[1].sin(), -q[0].cos() - q[1].cos()];
     let start = State::new(place([theta, phi]).map(|x| l * x), [u, 0.0, u, 0.0]);

@@ -5,13 +5,11 @@ use std::f64::consts::PI;
 use lagrange_core::nalgebra::{Const, Vector2};
 use lagrange_core::{Crossing, prelude::*};
 use lagrange_random::cases;
+use lagrange_systems::{HenonHeiles, Spring};
+
+use super::{SPRING, spherical};
 
 type Result<T> = std::result::Result<T, Error>;
-
-#[derive(Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
-struct HenonHeiles;
 
 /// On x = 0, with the energy 1/12, where motions are regular.
 const START: State<f64, 2> =
@@ -73,21 +71,16 @@ fn backwards_they_are_the_same() -> Result<()> {
     Ok(())
 }
 
-#[derive(Lagrangian)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 - x^2/2)]
-struct Spring;
-
 /// −cos t is at a level near 1 twice about each odd multiple of π, within one of the steps, which are about 2.5 long.
 /// They are two without being asked for, and in pieces that are shorter than what is between them.
 #[test]
 fn two_zeros_within_a_step_are_two() -> Result<()> {
     for (apart, pieces) in [(0.5, None), (0.13, None), (0.02, None), (0.02, Some(128))] {
         let level = (apart / 2.0_f64).cos();
-        let event = Spring.event("level", move |sample| sample.state().q[0] - level);
+        let event = SPRING.event("level", move |sample| sample.state().q[0] - level);
         let mut event = if let Some(pieces) = pieces { event.subdivide(pieces) } else { event };
         let method = Taylor::default();
-        let path = Spring.motion(State::at_rest([-1.0])).by(method).event(&mut event).towards(60.0)?;
+        let path = SPRING.motion(State::at_rest([-1.0])).by(method).event(&mut event).towards(60.0)?;
         assert!(path.statistics().accepted < 70 && path.crossings().len() == 20, "{apart}");
         for (crossing, k) in path.crossings().iter().zip(0..) {
             let turn = PI * f64::from(k / 2 * 2 + 1);
@@ -103,14 +96,11 @@ fn two_zeros_within_a_step_are_two() -> Result<()> {
 /// A free body: its series is itself, so that steps may end where they like.
 #[test]
 fn a_zero_at_the_end_of_a_step_is_one() -> Result<()> {
-    #[derive(Lagrangian)]
-    #[coordinates(x)]
-    #[lagrangian(x_dot^2/2)]
-    struct Free;
+    let free = Spring { m: 1.0, k: 0.0 };
     let times = |start: f64, end: f64, at: f64| -> Result<Vec<f64>> {
-        let mut event = Free.event("there", move |sample| sample.state().q[0] - at);
+        let mut event = free.event("there", move |sample| sample.state().q[0] - at);
         let start = State { t: start, ..State::new([start], [1.0]) };
-        let path = Free.motion(start).by(Taylor::default().max_step(0.25)).event(&mut event).towards(end)?;
+        let path = free.motion(start).by(Taylor::default().max_step(0.25)).event(&mut event).towards(end)?;
         assert_eq!(path.statistics().accepted, ((end - start.t).abs() * 4.0) as usize);
         Ok(path.crossings().iter().map(|crossing| crossing.state.t).collect())
     };
@@ -124,18 +114,13 @@ fn a_zero_at_the_end_of_a_step_is_one() -> Result<()> {
     Ok(())
 }
 
-#[derive(Lagrangian)]
-#[coordinates(x, y, z)]
-#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2)]
-#[constraint(rod: (x^2 + y^2 + z^2 - 1)/2 = 0)]
-struct Sphere;
-
 /// Around a great circle, z = 0.8 sin t.
 #[test]
 fn zeros_lie_on_the_constraint() -> Result<()> {
-    let mut event = Sphere.event("equator", |sample| sample.state().q[2]);
+    let sphere = spherical(0.0);
+    let mut event = sphere.event("equator", |sample| sample.state().q[2]);
     let start = State::new([1.0, 0.0, 0.0], [0.0, 0.6, 0.8]);
-    let path = Sphere.motion(start).by(Taylor::default()).event(&mut event).towards(200.0)?;
+    let path = sphere.motion(start).by(Taylor::default()).event(&mut event).towards(200.0)?;
     assert_eq!(path.crossings().len(), 63);
     for (crossing, k) in path.crossings().iter().zip(1..) {
         let State { t, q, .. } = crossing.state;

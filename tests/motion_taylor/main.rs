@@ -1,18 +1,37 @@
 //! Taylor's method against closed solutions, published values, conservation laws and another method.
 
 mod classics;
-mod constrained;
 mod control;
-mod drift;
 mod events;
 mod functions;
-mod short_ranged;
-mod singular;
-mod supplied;
 mod systems;
+
+// Random walks of rounding errors, numbers of all sizes, motions on lanes and at singular poses, bodies in
+// frames, functions that are supplied.
+#[cfg(feature = "thorough")]
+mod bodies;
+#[cfg(feature = "thorough")]
+mod constrained;
+#[cfg(feature = "thorough")]
+mod drift;
+#[cfg(feature = "thorough")]
+mod short_ranged;
+#[cfg(feature = "thorough")]
+mod singular;
+#[cfg(feature = "thorough")]
+mod supplied;
+#[cfg(feature = "thorough")]
 mod units;
 
 use lagrange_core::{Method, StateOf, TaylorSeries, nalgebra::Const, prelude::*};
+use lagrange_systems::{SphericalPendulum, Spring};
+
+const SPRING: Spring<f64> = Spring { m: 1.0, k: 1.0 };
+
+/// A bob on a rod in space, with this gravity.
+fn spherical(g: f64) -> SphericalPendulum<f64> {
+    SphericalPendulum { m: 1.0, g, l: 1.0 }
+}
 
 /// The state at the end, by Taylor's method to round-off.
 fn end<L>(system: &L, start: StateOf<L>, end: f64) -> Result<StateOf<L>, Error>

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use lagrange_core::nalgebra::{Const, SVector};
 use lagrange_core::{TaylorSeries, prelude::*};
+use lagrange_systems::Pendulum;
 
 /// Windows: verticals about (i, 0), between which couplers hang; rods of length and mass 1, by their ends. When all rods are
 /// level the couplers' constraints depend on the others', and each corner could stay behind.
@@ -23,15 +24,6 @@ macro_rules! windows {
 }
 windows!(Window, 1, 2);
 windows!(TwoWindows, 2, 3);
-
-/// The same with the couplers level by themselves: n + 1 rods about their ends, and n masses at these.
-#[derive(Lagrangian)]
-#[coordinates(theta)]
-#[lagrangian(((n + 1)/3 + n)*theta_dot^2/2 - ((n + 1)/2 + n)*g*sin(theta))]
-struct Reduced {
-    n: f64,
-    g: f64,
-}
 
 /// Four bars, of 4, 1, 2 and 3, by the angles of three: they fold flat.
 #[derive(Lagrangian)]
@@ -59,14 +51,16 @@ where
 {
     let upright = core::array::from_fn(|i| if i <= n { i as f64 } else { 1.0 });
     let start = State::new(upright, core::array::from_fn(|i| if i <= n { 1.0 } else { 0.0 }));
-    let upright = State::new([core::f64::consts::FRAC_PI_2], [-1.0]);
-    let reduced = Reduced { n: n as f64, g };
+    // The couplers stay level by themselves: n + 1 rods turn about their ends, and carry n masses at the others.
+    let (number, upright) = (n as f64, State::new([PI], [-1.0]));
+    let [inertia, weight] = [(number + 1.0) / 3.0 + number, (number + 1.0) / 2.0 + number];
+    let reduced = Pendulum { m: inertia, l: 1.0, g: weight * g / inertia };
     let pendulum = reduced.integrate(upright, END, Dop853::with_tolerance(1e-14))?;
     let each = TOLERANCES.map(|tolerance| {
         let path = windows.motion(start).by(Taylor::with_tolerance(tolerance)).towards(END)?;
         let (time, end) = (path.ending().time(), *path.end().state());
-        let (sine, cosine) = pendulum.at(time)?.state().q[0].sin_cos();
-        let expected = |i: usize| if i <= n { i as f64 + cosine } else { sine };
+        let (cosine, down) = pendulum.at(time)?.state().q[0].sin_cos();
+        let expected = |i: usize| if i <= n { i as f64 + cosine } else { -down };
         let off = (0..N).map(|i| (end.q[i] - expected(i)).abs()).fold(0.0, f64::max);
         println!("{g}, {tolerance:e}: to {time}, {off:e} off, {} steps", path.statistics().accepted);
         Ok((time, off))
