@@ -1,8 +1,9 @@
-//! Rest, steps that are too long, and steps of other lengths. Broken input of all kinds is in `tests/faults`.
+//! Rest, steps that are too long, and steps of other lengths. Broken input of all kinds is in `motion_control/faults`.
 
 use lagrange_core::motion::Composition::KahanLi6;
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{Ending, Lagrangian, Method, prelude::*};
+use lagrange_systems::{Pendulum, Spring};
 
 use crate::{IS_LONG, systems::*};
 
@@ -130,21 +131,15 @@ fn iterations_that_diverge_are_refused() {
     }
 }
 
-#[derive(Clone, Lagrangian)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 + k*cos(x))]
-struct Angle<T> {
-    k: T,
-}
-
 /// What is refused at an angle is refused a thousand turns on, where rounding moves momenta by more.
 #[test]
 fn far_angles_are_no_excuse() {
+    let pendulum = Pendulum { m: 1.0, l: 1.0, g: 1.0 };
     for (turns, k) in [0.0, 1e3, 1e4, 1e6].into_iter().flat_map(|turns| (0..100).map(move |k| (turns, k))) {
         let angle = 1.2774 + 0.02 * f64::from(k);
         let start = State::new([turns * std::f64::consts::TAU + angle], [-1.368]);
         for h in [2.2, 2.6, 3.0, 3.214] {
-            let path = Angle { k: 1.0 }.motion(start).by(Gauss::<1>::with_step(h)).towards(h).unwrap();
+            let path = pendulum.motion(start).by(Gauss::<1>::with_step(h)).towards(h).unwrap();
             let Ending::Complete { .. } = path.ending() else { continue };
             let last = path.end();
             let middle = f64::midpoint(start.q[0], last.state().q[0]);
@@ -156,22 +151,13 @@ fn far_angles_are_no_excuse() {
     }
 }
 
-#[derive(Clone, Lagrangian)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 - k*x^2/2)]
-struct Oscillator<T> {
-    k: T,
-}
-
 /// The midpoint rule keeps the energy of a spring, but for the round-off of 10⁴ steps.
 #[test]
 fn single_precision_is_iterated_to_the_end() {
+    let spring = Spring { m: 1.0_f32, k: 1.0 };
     for h in [0.5, 1.0, 1.5, 1.75] {
-        let path = Oscillator { k: 1.0_f32 }
-            .motion(State::new([1.0_f32], [0.3]))
-            .by(Gauss::<1>::with_step(h))
-            .towards(1e4 * h as f32)
-            .unwrap();
+        let motion = spring.motion(State::new([1.0_f32], [0.3])).by(Gauss::<1>::with_step(h));
+        let path = motion.towards(1e4 * h as f32).unwrap();
         let ratio = path.end().energy() / path.start().energy();
         assert!(!path.ending().is_complete() || (ratio - 1.0).abs() < 0.05, "{h}: {ratio}");
     }

@@ -5,9 +5,8 @@
 
 mod applicability;
 mod dense_output;
-mod far_from_zero;
+mod derivatives;
 mod faults;
-mod long_steps;
 mod long_time;
 mod nonholonomic;
 mod orders;

@@ -2,19 +2,25 @@
 
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{Lagrangian, prelude::*};
+pub(crate) use lagrange_systems::{
+    ChaplyginSleigh, DoublePendulum, Planet, ShakenPendulum, SphericalPendulum, TwoBobs,
+};
 
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2)/2 + mu/sqrt(x^2 + y^2))]
-pub(crate) struct Kepler<T> {
-    mu: T,
+/// A system with the consistent state near this one.
+pub(crate) fn on_constraints<L, const N: usize>(system: L, start: State<f64, N>) -> (L, State<f64, N>)
+where
+    L: Lagrangian<N = Const<N>, Scalar = f64>,
+{
+    let (start, _) = system.make_consistent(&start).unwrap();
+    (system, start)
 }
 
 /// An ellipse of eccentricity 0.5, from its pericentre.
-pub(crate) fn kepler() -> (Kepler<f64>, State<f64, 2>) {
-    (Kepler { mu: 1.0 }, State::new([0.5, 0.0], [0.0, 3.0_f64.sqrt()]))
+pub(crate) fn kepler() -> (Planet<f64>, State<f64, 2>) {
+    (Planet { mu: 1.0 }, State::new([0.5, 0.0], [0.0, 3.0_f64.sqrt()]))
 }
 
+/// Hénon and Heiles's potential, with a number type that derivatives of motions need.
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
 #[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - c*(x^2*y - y^3/3))]
@@ -26,80 +32,24 @@ pub(crate) fn henon_heiles() -> (HenonHeiles<f64>, State<f64, 2>) {
     (HenonHeiles { c: 1.0 }, State::new([0.1, 0.1], [0.3, 0.2]))
 }
 
-/// A Toda lattice of three particles on a ring.
-#[derive(Clone, Lagrangian)]
-#[coordinates(q: [3])]
-#[lagrangian(dot(q_dot, q_dot)/2 - k*(exp(q[0] - q[1]) + exp(q[1] - q[2]) + exp(q[2] - q[0])))]
-pub(crate) struct Toda<T> {
-    k: T,
-}
-
-pub(crate) fn toda() -> (Toda<f64>, State<f64, 3>) {
-    (Toda { k: 1.0 }, State::new([0.3, -0.2, 0.4], [0.1, 0.5, -0.6]))
-}
-
-/// A bob on a rod, in space.
-#[derive(Clone, Lagrangian)]
-#[coordinates(r: [3])]
-#[lagrangian(m/2*dot(r_dot, r_dot) - m*g*r[2])]
-#[constraint(rod: dot(r, r) = l^2)]
-pub(crate) struct Spherical<T> {
-    m: T,
-    g: T,
-    l: T,
-}
-
 /// From 60° above the lowest point, with the velocity 1.5 sin 60° along the horizontal.
-pub(crate) fn spherical() -> (Spherical<f64>, State<f64, 3>) {
+pub(crate) fn spherical() -> (SphericalPendulum<f64>, State<f64, 3>) {
     let sine = 3.0_f64.sqrt() / 2.0;
-    let system = Spherical { m: 1.0, g: 9.81, l: 1.0 };
-    (
-        system.clone(),
-        system.make_consistent(&State::new([sine, 0.0, -0.5], [0.0, 1.5 * sine, 0.0])).unwrap().0,
-    )
-}
-
-/// Two bobs on rods in a plane.
-#[derive(Clone, Lagrangian)]
-#[coordinates(r: [2], s: [2])]
-#[lagrangian(m/2*(dot(r_dot, r_dot) + dot(s_dot, s_dot)) - m*g*(r[1] + s[1]))]
-#[constraint(upper: dot(r, r) = 1)]
-#[constraint(lower: dot(s - r, s - r) = 1)]
-pub(crate) struct TwoBobs<T> {
-    m: T,
-    g: T,
+    let system = SphericalPendulum { m: 1.0, g: 9.81, l: 1.0 };
+    on_constraints(system, State::new([sine, 0.0, -0.5], [0.0, 1.5 * sine, 0.0]))
 }
 
 pub(crate) fn two_bobs() -> (TwoBobs<f64>, State<f64, 4>) {
     (TwoBobs { m: 1.0, g: 9.81 }, State::at_rest([0.6, -0.8, 1.6, -0.8]))
 }
 
-/// A pendulum whose pivot swings along the horizontal.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
-#[constraint(rod: (x - a*sin(2*t))^2 + y^2 = 1)]
-pub(crate) struct Shaken<T> {
-    m: T,
-    g: T,
-    a: T,
-}
-
-pub(crate) fn shaken() -> (Shaken<f64>, State<f64, 2>) {
-    let system = Shaken { m: 1.0, g: 9.81, a: 0.2 };
-    (system.clone(), system.make_consistent(&State::at_rest([0.6, -0.8])).unwrap().0)
-}
-
-/// Two pendulums in angles, one below the other.
-#[derive(Clone, Lagrangian)]
-#[coordinates(a, b)]
-#[lagrangian(a_dot^2 + b_dot^2/2 + a_dot*b_dot*cos(a - b) + g*(2*cos(a) + cos(b)))]
-pub(crate) struct DoublePendulum<T> {
-    g: T,
+pub(crate) fn shaken() -> (ShakenPendulum<f64>, State<f64, 2>) {
+    let system = ShakenPendulum { m: 1.0, g: 9.81, l: 1.0, a: 0.2, w: 2.0 };
+    on_constraints(system, State::at_rest([0.6, -0.8]))
 }
 
 pub(crate) fn double_pendulum() -> (DoublePendulum<f64>, State<f64, 2>) {
-    (DoublePendulum { g: 9.81 }, State::new([1.0, 0.5], [0.0, 0.3]))
+    (DoublePendulum { m: [1.0; 2], l: [1.0; 2], g: 9.81 }, State::new([1.0, 0.5], [0.0, 0.3]))
 }
 
 /// A charge in a magnetic field that grows with x, and a spring.
@@ -142,18 +92,20 @@ pub(crate) fn bowl() -> (Bowl<f64>, State<f64, 3>) {
     (Bowl { omega: 0.7, g: 9.81 }, State::new([0.8, 0.0, 0.32], [0.5, 1.1, 0.4]))
 }
 
-/// The particle of Rosenberg: ż = y ẋ.
+/// The particle of Rosenberg: ż = y ẋ. With two springs: Cortés and Martínez, *Nonlinearity* 14, 2001.
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y, z)]
-#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2)]
+#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 - k/2*(x^2 + y^2))]
 #[constraint(turn: z_dot - y*x_dot = 0)]
-pub(crate) struct Particle;
-
-pub(crate) fn particle() -> (Particle, State<f64, 3>) {
-    (Particle, State::new([0.0, 0.5, 0.0], [1.0, 0.7, 0.5]))
+pub(crate) struct Particle {
+    pub(crate) k: f64,
 }
 
-/// Its state at a time: ẋ √(1 + y²) is constant.
+pub(crate) fn particle() -> (Particle, State<f64, 3>) {
+    (Particle { k: 0.0 }, State::new([0.0, 0.5, 0.0], [1.0, 0.7, 0.5]))
+}
+
+/// Its state at a time, without springs: ẋ √(1 + y²) is constant.
 pub(crate) fn particle_at(t: f64) -> State<f64, 3> {
     let (_, start) = particle();
     let (from, rate) = (start.q[1], start.v[1]);
@@ -164,19 +116,8 @@ pub(crate) fn particle_at(t: f64) -> State<f64, 3> {
     State::new(q, [x_dot, rate, y * x_dot]).at_time(t)
 }
 
-/// Chaplygin's sleigh: a blade at (x, y), and the centre of mass beside it.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y, theta)]
-#[lagrangian(m/2*((x_dot - a*theta_dot*sin(theta))^2 + (y_dot + a*theta_dot*cos(theta))^2) + i/2*theta_dot^2)]
-#[constraint(blade: x_dot*sin(theta) - y_dot*cos(theta) = 0)]
-pub(crate) struct Sleigh<T> {
-    m: T,
-    i: T,
-    a: T,
-}
-
-pub(crate) fn sleigh() -> (Sleigh<f64>, State<f64, 3>) {
-    (Sleigh { m: 2.0, i: 0.3, a: 0.25 }, State::new([0.0, 0.0, 0.0], [1.0, 0.0, 1.5]))
+pub(crate) fn sleigh() -> (ChaplyginSleigh<f64>, State<f64, 3>) {
+    (ChaplyginSleigh { m: 2.0, inertia: 0.3, a: 0.25 }, State::new([0.0, 0.0, 0.0], [1.0, 0.0, 1.5]))
 }
 
 /// A wheel that stands upright and rolls on an inclined plane, with a spring that steers it and a holonomic coupling.
@@ -191,9 +132,7 @@ pub(crate) struct Wheel<T> {
 }
 
 pub(crate) fn wheel() -> (Wheel<f64>, State<f64, 5>) {
-    let start = State::new([0.0, 0.0, 0.5, 0.0, 0.0], [0.0, 0.0, 0.3, 1.0, 0.0]);
-    let system = Wheel { g: 1.0 };
-    (system.clone(), system.make_consistent(&start).unwrap().0)
+    on_constraints(Wheel { g: 1.0 }, State::new([0.0, 0.0, 0.5, 0.0, 0.0], [0.0, 0.0, 0.3, 1.0, 0.0]))
 }
 
 /// A heavy top by a unit quaternion, whose length has no inertia.
@@ -212,8 +151,7 @@ pub(crate) struct Top<T> {
 pub(crate) fn top() -> (Top<f64>, State<f64, 4>) {
     let (sine, cosine) = 0.3_f64.sin_cos();
     let start = State::new([cosine, sine, 0.0, 0.0], [0.0, 0.2 * cosine, -2.0 * sine, 2.0 * cosine]);
-    let system = Top { a: 0.4, c: 0.25, mgl: 2.0 };
-    (system.clone(), system.make_consistent(&start).unwrap().0)
+    on_constraints(Top { a: 0.4, c: 0.25, mgl: 2.0 }, start)
 }
 
 /// A weight without inertia, at the place (x, y), on a wheel that a spring holds.
@@ -229,8 +167,7 @@ pub(crate) struct Weight<T> {
 }
 
 pub(crate) fn weight() -> (Weight<f64>, State<f64, 3>) {
-    let system = Weight { i: 0.5, k: 1.0, w: 3.0 };
-    (system.clone(), system.make_consistent(&State::new([0.7, 0.0, 0.0], [0.4, 0.0, 0.0])).unwrap().0)
+    on_constraints(Weight { i: 0.5, k: 1.0, w: 3.0 }, State::new([0.7, 0.0, 0.0], [0.4, 0.0, 0.0]))
 }
 
 /// A ball, by a quaternion, that rolls on a turntable, drawn to its centre by a spring.
@@ -250,9 +187,8 @@ pub(crate) struct Ball<T> {
 }
 
 pub(crate) fn ball() -> (Ball<f64>, State<f64, 6>) {
-    let system = Ball { m: 1.0, j: 0.1, a: 0.5, k: 2.0, spin: 0.8 };
     let start = State::new([0.5, 0.0, 0.8, 0.0, 0.6, 0.0], [0.1, 0.7, 0.3, 0.5, -0.4, 0.2]);
-    (system.clone(), system.make_consistent(&start).unwrap().0)
+    on_constraints(Ball { m: 1.0, j: 0.1, a: 0.5, k: 2.0, spin: 0.8 }, start)
 }
 
 /// The motion by an independent method, to about 10⁻¹³.
@@ -289,7 +225,7 @@ pub(crate) fn outer_solar_system() -> (OuterSolarSystem, State<f64, 18>) {
         0.000_051_775_913_844_9,
         1.0 / 1.3e8,
     ];
-    let table = include_str!("../reference_problems/reference_motions/values/outer_solar_system.txt");
+    let table = include_str!("../reference_problems/values/outer_solar_system.txt");
     let first = |name: &str| -> [f64; 18] {
         let line = table.lines().find_map(|line| line.strip_prefix(name)).unwrap();
         let numbers: Vec<f64> = line.split_whitespace().map(|number| number.parse().unwrap()).collect();
