@@ -3,15 +3,8 @@
 use lagrange_core::{StateOf, nalgebra::Const, prelude::*};
 
 use crate::{Potential, Random, agree, gradient};
-
-#[derive(Lagrangian)]
-#[coordinates(theta, phi)]
-#[lagrangian(m*l^2/2 * (theta_dot^2 + sin(theta)^2 * phi_dot^2) + m*g*l*cos(theta))]
-pub(crate) struct Polar {
-    pub(crate) m: f64,
-    pub(crate) l: f64,
-    pub(crate) g: f64,
-}
+use lagrange_random::cases;
+use lagrange_systems::{DrivenSpring, PolarPendulum, random_state};
 
 /// A relativistic particle: nothing but the rest energy is quadratic in the momenta.
 #[derive(Lagrangian)]
@@ -55,8 +48,8 @@ fn check_equations<L: Hamiltonian<N = Const<N>, M = Const<0>, Scalar = f64>, con
 fn coupled_coordinates_with_gyroscopic_terms() {
     let mut random = Random(1);
     let system = Coupled { k: 0.8, b: 0.7 };
-    for _ in 0..200 {
-        let state = State::new(random.vector(), random.vector()).at_time(random.number());
+    for _ in 0..cases([50, 200, 10_000]) {
+        let state = random_state(&mut random);
         check_round_trip(&system, &state);
         check_equations(&system, &system.phase_state(&state));
     }
@@ -66,9 +59,9 @@ fn coupled_coordinates_with_gyroscopic_terms() {
 #[test]
 fn pendulum_in_polar_coordinates() {
     let mut random = Random(2);
-    let system = Polar { m: 1.3, l: 0.8, g: 9.81 };
-    let Polar { m, l, g } = system;
-    for _ in 0..200 {
+    let system = PolarPendulum { m: 1.3, l: 0.8, g: 9.81 };
+    let PolarPendulum { m, l, g } = system;
+    for _ in 0..cases([50, 200, 10_000]) {
         let q = [1.5 + random.number(), 3.0 * random.number()];
         let phase = PhaseState::new(q, random.vector());
         let ([theta, _], [p_theta, p_phi]) = (q, phase.p.into());
@@ -112,18 +105,7 @@ fn relativistic_particle() {
 /// A generalized force enters ṗ and not H.
 #[test]
 fn forces_enter_the_rates_of_the_momenta() {
-    #[derive(Lagrangian)]
-    #[coordinates(x)]
-    #[lagrangian(m/2 * x_dot^2 - k/2 * x^2)]
-    #[force(x: f*cos(t))]
-    #[dissipation(c/2 * x_dot^2)]
-    struct Driven {
-        m: f64,
-        k: f64,
-        f: f64,
-        c: f64,
-    }
-    let system = Driven { m: 2.0, k: 3.0, f: 0.5, c: 0.25 };
+    let system = DrivenSpring { m: 2.0, k: 3.0, c: 0.25, a: 0.5, w: 1.0 };
     let phase = PhaseState::new([0.4], [1.2]).at_time(0.3);
     agree(&[system.hamiltonian(&phase).unwrap()], &[1.44 / 4.0 + 1.5 * 0.16], 1e-14);
     let p_dot = -3.0 * 0.4 + 0.5 * 0.3_f64.cos() - 0.25 * 0.6;
@@ -180,7 +162,7 @@ fn roots_and_powers_are_printed_in_closed_form() {
     let mut random = Random(11);
     let (charged, quartic) =
         (Charged { m: 1.3, c: 2.0, e: 0.7, B: 0.9, E: 0.4 }, Quartic { a: 1.7, w: 0.6, k: 0.8 });
-    for _ in 0..200 {
+    for _ in 0..cases([50, 200, 10_000]) {
         let phase = PhaseState::new(random.vector::<2>(), random.vector::<2>());
         let Charged { m, c, e, B, E } = charged;
         let ([x, y], [p_x, p_y]): ([f64; 2], [f64; 2]) = (phase.q.into(), phase.p.into());

@@ -9,6 +9,10 @@ mod legendre;
 mod motion;
 mod rotating_frame;
 
+// Motions of systems that differ in the form of L and of constraints.
+#[cfg(feature = "thorough")]
+mod motions;
+
 use lagrange_core::{Function, nalgebra::Const, prelude::*};
 use lagrange_random::Random;
 
