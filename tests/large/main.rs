@@ -1,4 +1,4 @@
 //! Systems so large that the compiler takes a minute for each.
 
 mod long_functions;
-mod sizes;
+mod stack;

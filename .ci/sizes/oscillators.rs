@@ -1,5 +1,5 @@
-//! N oscillators of which the first M are held, and all that the runtime does with a system, on one of them. Also compiled by
-//! `.ci/sizes`, for every N.
+//! N oscillators of which the first M are held, and all that the runtime does with a system, on one of them. `.ci/sizes/run`
+//! compiles it for every N.
 
 use lagrange_core::{Real, nalgebra::Const, prelude::*};
 
