@@ -116,7 +116,6 @@ fn derivatives_far_from_zero_are_those_of_other_methods() {
         system.integrate_sensitivities(start, 1e8 + 10.0, Taylor::default(), &names),
     ] {
         let off = (end(found.unwrap()) - &exact).amax();
-        println!("{off:e}");
         assert!(off < 1e-6, "{off:e}");
     }
 }

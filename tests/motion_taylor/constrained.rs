@@ -16,7 +16,6 @@ fn there_and_back() -> Result<(), Error> {
     let path = SPHERICAL.integrate(there, 0.0, Taylor::default())?;
     let back = *path.end().state();
     let off = (back.q - thrown().q).amax().max((back.v - thrown().v).amax());
-    println!("{off:e} after {} steps", path.statistics().accepted);
     assert!(off < 1e-13 && (there.q - thrown().q).amax() > 0.1, "{off:e} {there:?}");
     Ok(())
 }
@@ -40,9 +39,9 @@ fn constraints_hold_between_the_steps() -> Result<(), Error> {
         }
         assert_eq!(state, sampled);
     }
-    println!("{worst:?}");
     // In units of l² and of l·max|v|, which is 4.
-    assert!(worst[0] <= 16.0 * f64::EPSILON && worst[1] <= 4.0 * 16.0 * f64::EPSILON && worst[2] < 1e-13);
+    let most = [16.0 * f64::EPSILON, 64.0 * f64::EPSILON, 1e-13];
+    assert!(worst.iter().zip(most).all(|(off, most)| *off <= most), "{worst:?}");
     Ok(())
 }
 
@@ -103,7 +102,6 @@ fn inputs_change_every_ten_milliseconds() -> Result<(), Error> {
         let off = [q[0] - angle.cos(), q[1] - angle.sin(), v[0] + rate * q[1], v[1] - rate * q[0]];
         assert!(off.iter().all(|off| off.abs() < 2e-13), "{k}: {off:?}");
     }
-    println!("{} steps, angle {angle}", bead.statistics().accepted);
     Ok(())
 }
 
@@ -151,8 +149,7 @@ fn constraints_in_other_words_lead_to_one_motion() -> Result<(), Error> {
                 worst = (0..4).map(|i| (q[i] - l * expected[i] - moved[i]).abs()).fold(worst, f64::max);
             }
             let steps = path.statistics().accepted;
-            println!("{}: {worst:e} in {steps} steps, {} by angles", stringify!($name), by_angles.statistics().accepted);
-            assert!(worst < 1e-13 && steps < 150, "{worst:e} {steps}");
+            assert!(worst < 1e-13 && steps < 150, "{}: {worst:e} in {steps} steps", stringify!($name));
         )*};
     }
     check!(Squares: 8, Mixed: 24, Lengths: 36);

@@ -44,7 +44,6 @@ fn every_crossing_is_found() -> Result<()> {
     let found = section(&mut motion, 1e6, count)?;
     for (k, time) in KNOWN.into_iter().filter(|&(k, _)| k <= count) {
         let off = found[k - 1].state.t - time;
-        println!("crossing {k} at {time}: {off:e}");
         assert!(off.abs() < 1e-14 * time, "{k}: {off:e}");
     }
     for (pair, k) in found.windows(2).zip(0..) {
@@ -52,7 +51,6 @@ fn every_crossing_is_found() -> Result<()> {
         assert!(2.45 < apart && apart < 4.0 && pair[0].rising == (k % 2 == 1), "{k}: {apart}");
     }
     let most = found.iter().map(|crossing| crossing.state.q[0].abs()).fold(0.0, f64::max);
-    println!("{} crossings, x = 0 to {most:e}, {} steps", found.len(), motion.statistics().accepted);
     assert!(found.len() == count && most <= 1e-14, "{most:e}");
     Ok(())
 }

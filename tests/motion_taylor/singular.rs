@@ -83,7 +83,6 @@ fn assert_goes_on(
             through_coarse += usize::from(time == END && tolerance > 1e-11);
         }
     }
-    println!("{through} and {through_coarse}");
     assert!(through >= at_least && through_coarse >= 3 * GRAVITIES.len() - 1, "{through}, {through_coarse}");
     Ok(())
 }

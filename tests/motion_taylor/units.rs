@@ -2,7 +2,7 @@
 //! roots at their branch points.
 
 use lagrange_core::{Ending, prelude::*};
-use lagrange_systems::{DoubledRod, DrivenSpring, Pendulum, Spring};
+use lagrange_systems::{DoubledRod, DrivenSpring, Pendulum, Spring, Thrown};
 
 use super::SPRING;
 
@@ -165,14 +165,6 @@ fn what_rests_at_a_branch_point_stays_there() -> Result<(), Error> {
 /// m v̇ = −m g − c v √v² upwards and down: v = w tan(φ₀ − g t/w) to the top, then −w tanh(g t/w), with w = √(m g/c).
 #[test]
 fn drag_by_the_root_of_a_square_turns_with_the_velocity() -> Result<(), Error> {
-    #[derive(Lagrangian)]
-    #[coordinates(x)]
-    #[lagrangian(x_dot^2/2 - g*x)]
-    #[force(x: -c * x_dot * sqrt(x_dot^2))]
-    struct Thrown {
-        g: f64,
-        c: f64,
-    }
     let (g, c, v) = (9.81, 0.7, 3.0_f64);
     let terminal = (g / c).sqrt();
     let up = terminal / g * (v / terminal).atan();

@@ -43,3 +43,13 @@ pub struct LeaningRod<T> {
     pub a: T,
     pub g: T,
 }
+
+/// Body thrown upwards, with drag by the square of its speed.
+#[derive(Clone, Copy, Debug, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - g*x)]
+#[force(x: -c*x_dot*sqrt(x_dot^2))]
+pub struct Thrown<T> {
+    pub g: T,
+    pub c: T,
+}

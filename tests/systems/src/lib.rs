@@ -11,7 +11,7 @@ mod rolling;
 mod tops;
 
 pub use bobs::{DoubledRod, ShakenPendulum, TwoBobs};
-pub use floors::{Flying, LeaningRod, SlidingRod, Touching};
+pub use floors::{Flying, LeaningRod, SlidingRod, Thrown, Touching};
 pub use oscillators::{DrivenSpring, HenonHeiles, Spring, Sticking};
 pub use pendulums::{BeadOnHoop, DoublePendulum, Foucault, Pendulum, PolarPendulum, SphericalPendulum};
 pub use planets::{Planet, ThreeBodies};
