@@ -7,7 +7,7 @@
 //! | `State` | samples | all | yes | all |
 //! | `PhaseState` | all steps, samples | as `State` | as `State` | pairs; not `Taylor`, whose series are those of Lagrange's equations, nor `Radau` and the methods of fixed steps (does not compile) |
 //! | `StateSensitivity` | all steps, samples | all; events that can be differentiated, others do not compile | no: what it sets depends on the state by a function that is not differentiated (does not compile) | pairs, `RungeKutta4` and `Radau`; `Taylor`, `Verlet`, `Gauss`, `Lobatto` and `DAlembert` where the number type is a parameter |
-//! | member of an `Ensemble` | samples | all; progress is `observe` | yes | all |
+//! | member of an `Ensemble`, see `tests/ensembles` | samples | all; progress is `observe` | yes | all |
 //! | the same on lanes | samples | all; progress is `observe` | yes | pairs, `Taylor` |
 //!
 //! What does not compile stands in `tests/rustc/cases`: `motions_that_cannot_be_asked_for.rs`.
@@ -307,55 +307,4 @@ fn samples_that_cannot_be_taken_are_refused() {
     assert!(matches!(fine, Error::Setting { name: "interval of the samples", .. }), "{fine}");
     // Nothing to integrate: the start alone.
     assert_eq!(motion().to(0.0).expect("a motion").samples.len(), 1);
-}
-
-/// A member of an ensemble, alone and on lanes, is asked for the same as a motion, and gives the same.
-#[cfg(feature = "thorough")]
-#[test]
-fn members_of_an_ensemble_are_asked_for_everything() {
-    let start = State::at_rest([1.0]);
-    let controller = |spring: &mut Spring<f64>, state: &State<f64, 1>| {
-        spring.k = 1.0 + state.q[0] * state.q[0];
-        Ok::<_, String>(())
-    };
-    for end in [10.0, -10.0] {
-        let third = || SPRING.event("third", |s| s.coordinate("x")).terminal_at(3);
-        let asked = SPRING.motion(start).event(third()).every(0.25).quantity("k", |s| s.system().k);
-        let alone = asked.controlled(0.5, controller).to(end).expect("a motion");
-        assert!(matches!(alone.ending, Ending::Event { event: "third", .. }) && alone.samples.len() > 10);
-        let springs = || {
-            let springs = Ensemble::from_fn(5, |_| (SPRING, start)).event(third()).every(0.25);
-            let springs = springs.quantity("k", |s| s.system().k);
-            springs.controlled(0.5, move |_, spring, state| controller(spring, state))
-        };
-        for outcome in [
-            springs().integrate(end, Dop853::default()),
-            springs().integrate_on_lanes(end, Dop853::default()),
-        ] {
-            for member in outcome.expect("an ensemble").members() {
-                let arrival = member.arrival().expect("a motion");
-                assert_eq!(
-                    (arrival.samples.len(), arrival.values.len()),
-                    (alone.samples.len(), alone.values.len())
-                );
-                let pairs = arrival.samples.iter().zip(&alone.samples);
-                let pairs = pairs.chain([(&arrival.state, &alone.state)]);
-                for (one, other) in pairs {
-                    assert!((one.t - other.t).abs() < 1e-12 && (one.q[0] - other.q[0]).abs() < 1e-12);
-                }
-                assert_eq!(arrival.crossings.len(), 3);
-            }
-        }
-        // Member by member the numbers are those of a motion alone.
-        let same = springs().integrate(end, Dop853::default()).expect("an ensemble");
-        assert_eq!(same.members()[3].arrival(), Some(&alone));
-        let cancelled = springs().observe(|_, state| match state.t.abs() < 1.0 {
-            true => ControlFlow::Continue(()),
-            false => ControlFlow::Break(()),
-        });
-        let cancelled = cancelled.integrate_on_lanes(end, Dop853::default()).expect("an ensemble");
-        let endings =
-            cancelled.members().iter().map(|member| member.arrival().expect("a motion").ending.clone());
-        assert!(endings.into_iter().all(|ending| matches!(ending, Ending::Cancelled { .. })));
-    }
 }
