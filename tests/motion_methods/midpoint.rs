@@ -97,6 +97,7 @@ fn it_has_events_samples_progress_and_a_controller() {
     assert_near(&steered.to(END).expect("a motion").state, &exact(3.0, END), 1e-3);
 }
 
+#[cfg(feature = "thorough")]
 #[test]
 fn it_has_sensitivities_and_exponents() {
     let given = BEAD.sensitivity(&start(), &["k"]).expect("a name");
@@ -111,6 +112,7 @@ fn it_has_sensitivities_and_exponents() {
     }
 }
 
+#[cfg(feature = "thorough")]
 #[test]
 fn it_integrates_ensembles_alone_and_on_lanes() {
     let beads = || Ensemble::from_fn(9, |n| (Bead { k: n as f64 }, start())).every(0.5);
