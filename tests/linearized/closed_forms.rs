@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use lagrange_core::nalgebra::{Complex, DMatrix, dmatrix};
 use lagrange_core::{linearized::Stability, prelude::*};
+use lagrange_systems::{DoublePendulum, DrivenSpring};
 
 use crate::{TOLERANCE, assert_close, assert_spectrum, oscillations};
 
@@ -75,18 +76,6 @@ theta_dot  8.163e-3
 const BALANCE: Balance =
     Balance { cart: 10.0, m: 80.0, inertia: 100.0, l: 1.0, c: 0.1, gamma: 0.01, g: 9.8, force: 0.0 };
 
-/// Two unlike pendulums, one below the other.
-#[derive(Lagrangian)]
-#[coordinates(a: [2])]
-#[define(kinetic = (m[0] + m[1])/2*l[0]^2*a_dot[0]^2 + m[1]/2*l[1]^2*a_dot[1]^2
-    + m[1]*l[0]*l[1]*a_dot[0]*a_dot[1]*cos(a[0] - a[1]))]
-#[lagrangian(kinetic + (m[0] + m[1])*g*l[0]*cos(a[0]) + m[1]*g*l[1]*cos(a[1]))]
-struct DoublePendulum {
-    m: [f64; 2],
-    l: [f64; 2],
-    g: f64,
-}
-
 /// l₀ l₁ s⁴ + μ (l₀ + l₁) g s² + μ g² = 0 with μ = 1 + m₁/m₀; for equal rods and masses s² = −(2 ± √2) g/l.
 #[test]
 fn the_normal_modes_of_a_double_pendulum() {
@@ -105,34 +94,6 @@ fn the_normal_modes_of_a_double_pendulum() {
     let expected = modes.iter().flat_map(|&w| [Complex::from(w), Complex::from(-w)]).collect::<Vec<_>>();
     assert_spectrum(&upright.eigenvalues().unwrap(), &expected, TOLERANCE);
     assert!(upright.natural_frequencies().unwrap().is_empty());
-}
-
-/// A bead on a hoop that turns about its vertical diameter.
-#[derive(Clone, Lagrangian)]
-#[coordinates(theta)]
-#[lagrangian(m*r^2/2*(theta_dot^2 + omega^2*sin(theta)^2) + m*g*r*cos(theta))]
-struct BeadOnHoop {
-    m: f64,
-    r: f64,
-    g: f64,
-    omega: f64,
-}
-
-#[test]
-fn the_bead_on_a_hoop_leaves_the_bottom_where_the_hoop_turns_fast() {
-    let (g, r) = (9.81, 0.4);
-    let critical = (g / r).sqrt();
-    for (part, stability) in [(0.99, Stability::Undecided), (1.01, Stability::Unstable)] {
-        let bead = BeadOnHoop { m: 0.2, r, g, omega: part * critical };
-        let near = bead.linearize(&State::at_rest([0.0]), &[]).unwrap();
-        assert_eq!(near.stability(), Ok(stability), "at {part} of the critical rate");
-    }
-    let bead = BeadOnHoop { m: 0.2, r, g, omega: 1.5 * critical };
-    let found = bead.equilibrium(&State::at_rest([0.8]), &[]).unwrap();
-    let theta = found.state.q[0];
-    assert!((theta.cos() - 1.0 / 2.25).abs() < 1e-15, "{theta}");
-    let frequency = bead.linearize(&found.state, &[]).unwrap().natural_frequencies().unwrap()[0];
-    assert!((frequency - bead.omega * theta.sin()).abs() < 1e-14);
 }
 
 /// A symmetric top on its tip, tilted about x by α, then about y by β, spinning by ψ about its axis: regular upright.
@@ -171,34 +132,13 @@ fn a_top_sleeps_where_it_spins_fast() {
     }
 }
 
-/// Foucault's pendulum in its plane, as seen in a frame that turns.
-#[derive(Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian(((x_dot - omega*y)^2 + (y_dot + omega*x)^2 - k*(x^2 + y^2))/2)]
-struct Foucault {
-    omega: f64,
-    k: f64,
-}
-
-#[test]
-fn a_turning_frame_splits_the_frequency() {
-    let near = Foucault { omega: 0.3, k: 4.0 }.linearize(&State::at_rest([0.0; 2]), &[]).unwrap();
-    assert_spectrum(&near.eigenvalues().unwrap(), &oscillations(&[1.7, 2.3]), TOLERANCE);
-}
-
-/// Underdamped, critically damped, overdamped, driven apart: ẍ + 2δẋ + k x = 0.
-#[derive(Lagrangian)]
-#[coordinates(x)]
-#[lagrangian((x_dot^2 - k*x^2)/2)]
-#[dissipation(delta*x_dot^2)]
-struct Oscillator {
-    k: f64,
-    delta: f64,
-}
-
+/// Underdamped, overdamped, driven apart: ẍ + 2δẋ + k x = 0.
 #[test]
 fn damping_decides_the_stability() {
-    let near = |k, delta| Oscillator { k, delta }.linearize(&State::at_rest([0.0]), &[]).unwrap();
+    let near = |k, delta| {
+        let spring = DrivenSpring { m: 1.0, k, c: 2.0 * delta, a: 0.0, w: 0.0 };
+        spring.linearize(&State::at_rest([0.0]), &[]).unwrap()
+    };
     let damped = near(4.0, 0.1);
     assert_eq!(damped.stability(), Ok(Stability::AsymptoticallyStable));
     let decay = Complex::new(-0.1, 3.99_f64.sqrt());
@@ -211,21 +151,14 @@ fn damping_decides_the_stability() {
     assert_eq!(near(0.0, 0.0).stability(), Ok(Stability::Undecided));
 }
 
-/// Two equal oscillators and a spring between them: ω² = k and 3k.
-#[derive(Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2 - k*(x^2 + y^2 + (x - y)^2))/2)]
-struct Coupled {
-    k: f64,
-}
-
-/// However far the unit of time is from a period.
+/// However far the unit of time is from a period: for equal rods and masses s² = −(2 ± √2) g/l.
 #[test]
 fn fast_and_slow_oscillations_are_found_alike() {
-    for k in [1e-200, 1e-20, 1e-14, 1.0, 1e14, 1e20, 1e200] {
-        let near = Coupled { k }.linearize(&State::at_rest([0.0; 2]), &[]).unwrap();
-        assert_eq!(near.stability(), Ok(Stability::Undecided), "k = {k:e}");
-        let expected = oscillations(&[k.sqrt(), (3.0 * k).sqrt()]);
+    for g in [1e-200, 1e-20, 1e-14, 1.0, 1e14, 1e20, 1e200] {
+        let system = DoublePendulum { m: [1.0; 2], l: [1.0; 2], g };
+        let near = system.linearize(&State::at_rest([0.0; 2]), &[]).unwrap();
+        assert_eq!(near.stability(), Ok(Stability::Undecided), "g = {g:e}");
+        let expected = oscillations(&[2.0 - 2.0_f64.sqrt(), 2.0 + 2.0_f64.sqrt()].map(|s| (s * g).sqrt()));
         assert_spectrum(&near.eigenvalues().unwrap(), &expected, TOLERANCE);
     }
 }

@@ -1,8 +1,8 @@
 //! Local coordinates: rotations in the place of quaternions.
 
-use lagrange_core::linearized::DiscreteTime;
 use lagrange_core::nalgebra::{DMatrix, DVector, Quaternion, UnitQuaternion, Vector3, Vector4};
 use lagrange_core::prelude::*;
+use lagrange_systems::DrivenSpring;
 
 /// A body that floats, with a motor, two links, and another body on a ball joint.
 #[derive(Clone, Lagrangian)]
@@ -19,18 +19,18 @@ use lagrange_core::prelude::*;
 )]
 #[dissipation(c/2*(q_dot[0]^2 + q_dot[1]^2))]
 #[force(q: torque)]
-struct Walker {
+pub(crate) struct Walker {
     m: f64,
     g: f64,
     c: f64,
     torque: [f64; 2],
 }
 
-const WALKER: Walker = Walker { m: 3.0, g: 9.81, c: 0.2, torque: [0.5, -1.0] };
+pub(crate) const WALKER: Walker = Walker { m: 3.0, g: 9.81, c: 0.2, torque: [0.5, -1.0] };
 
 /// Places in local coordinates, with the orientations themselves.
 #[derive(Clone, Copy)]
-struct Pose {
+pub(crate) struct Pose {
     place: Vector3<f64>,
     turn: UnitQuaternion<f64>,
     q: [f64; 2],
@@ -44,7 +44,7 @@ fn wxyz(q: &Quaternion<f64>) -> [f64; 4] {
 }
 
 impl Pose {
-    fn state(&self) -> State<f64, 13> {
+    pub(crate) fn state(&self) -> State<f64, 13> {
         let of = |first: usize| Vector3::from_column_slice(&self.rates[first..first + 3]);
         let rate = |turn: &UnitQuaternion<f64>, omega: Vector3<f64>| {
             wxyz(&(turn.into_inner() * Quaternion::from_imag(omega * 0.5)))
@@ -94,7 +94,7 @@ impl Pose {
     }
 }
 
-fn pose() -> Pose {
+pub(crate) fn pose() -> Pose {
     let turn =
         |x: f64, y: f64, z: f64, w: f64| UnitQuaternion::from_quaternion(Vector4::new(x, y, z, w).into());
     Pose {
@@ -156,28 +156,6 @@ fn accelerations_change_as_those_of_states_that_are_turned() {
     }
 }
 
-/// A is the rate at which changes of the moving state grow: that of the map to times shortly before and after.
-#[test]
-fn changes_of_a_moving_state_grow_by_it() {
-    let state = pose().state();
-    let near = WALKER.linearize_locally(&state, &["torque"]).unwrap();
-    let here = WALKER.local_coordinates(&state).unwrap();
-    let map = |h: f64| {
-        let mut walker = DiscreteTime::new(WALKER, Dop853::with_tolerance(1e-14), &["torque"]).unwrap();
-        walker.advance(&state, h).unwrap();
-        let there = WALKER.local_coordinates(walker.state()).unwrap();
-        (there.inverse() * walker.a() * here.basis(), there.inverse() * walker.b())
-    };
-    let steps = [(1.0, 0.75), (2.0, -0.15), (3.0, 1.0 / 60.0)].map(|(k, c)| (k * 2e-3, c / 2e-3));
-    let rate = |of: &dyn Fn(f64) -> DMatrix<f64>| {
-        steps.into_iter().map(|(h, c)| (of(h) - of(-h)) * c).reduce(|a, b| a + b).unwrap()
-    };
-    let off = (rate(&|h| map(h).0) - &near.a).amax();
-    assert!(off < 1e-8 * near.a.amax(), "A is off by {off:e} of {:e}", near.a.amax());
-    let off = (rate(&|h| map(h).1) - &near.b).amax();
-    assert!(off < 1e-8 * near.b.amax(), "B is off by {off:e} of {:e}", near.b.amax());
-}
-
 #[test]
 fn basis_and_inverse_belong_together() {
     let local = WALKER.local_coordinates(&pose().state()).unwrap();
@@ -191,7 +169,7 @@ fn basis_and_inverse_belong_together() {
     let error = WALKER.linearize_locally(&pose().state(), &["pull"]).unwrap_err().to_string();
     assert!(error.contains("`pull`"), "{error}");
     // Without quaternions it is the linear system as before.
-    let springs = Spring { k: 2.0 };
+    let springs = DrivenSpring { m: 1.0, k: 2.0, c: 0.0, a: 0.0, w: 0.0 };
     let state = State::new([0.3], [0.1]);
     let (local, plain) =
         (springs.linearize_locally(&state, &["k"]).unwrap(), springs.linearize(&state, &["k"]).unwrap());
@@ -243,11 +221,4 @@ fn changes_are_rotations_of_any_size() {
     let mut long = state;
     long.q[3] += 1e-3;
     assert!(WALKER.local_change(&state, &long).is_err() && WALKER.local_change(&long, &state).is_err());
-}
-
-#[derive(Lagrangian)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 - k*x^4)]
-struct Spring {
-    k: f64,
 }

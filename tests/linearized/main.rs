@@ -8,15 +8,32 @@ mod constrained;
 mod equilibria;
 mod errors;
 mod inverse;
-mod large_fields;
 mod local;
 mod numbers;
-mod ranks;
 mod regressor;
 mod steady;
 
+// Further systems, of which each takes the compiler a second.
+#[cfg(feature = "thorough")]
+mod inverse_mechanisms;
+#[cfg(feature = "thorough")]
+mod large_fields;
+#[cfg(feature = "thorough")]
+mod mechanisms;
+#[cfg(feature = "thorough")]
+mod number_types;
+#[cfg(feature = "thorough")]
+mod puma;
+#[cfg(feature = "thorough")]
+mod ranks;
+#[cfg(feature = "thorough")]
+mod refused;
+#[cfg(feature = "thorough")]
+mod steady_mechanisms;
+
 use lagrange_core::nalgebra::{Complex, DMatrix};
 use lagrange_core::prelude::*;
+use lagrange_systems::HeavyTop;
 
 /// Largest deviation of eigenvalues that are known exactly, in units of the largest.
 const TOLERANCE: f64 = 1e-13;
@@ -44,17 +61,19 @@ fn oscillations(frequencies: &[f64]) -> Vec<Complex<f64>> {
     frequencies.iter().flat_map(|&w| [Complex::new(0.0, w), Complex::new(0.0, -w)]).collect()
 }
 
-/// A heavy symmetric top in Euler angles.
+const TOP: HeavyTop<f64> = HeavyTop { i1: 0.3, i3: 0.1, mgl: 1.2 * 9.81 * 0.25 };
+
+/// A pendulum on a rod whose length is said again to be an input.
 #[derive(Clone, Lagrangian)]
-#[coordinates(phi, theta, psi)]
-#[lagrangian(i1/2*(theta_dot^2 + phi_dot^2*sin(theta)^2) + i3/2*(psi_dot + phi_dot*cos(theta))^2
-    - m*g*l*cos(theta))]
-struct Top {
-    i1: f64,
-    i3: f64,
+#[coordinates(x, y)]
+#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
+#[constraint(rod: x^2 + y^2 = l^2)]
+#[force(x: push)]
+struct Pendulum<'a> {
     m: f64,
-    g: f64,
+    g: &'a f64,
     l: f64,
+    push: f64,
 }
 
-const TOP: Top = Top { i1: 0.3, i3: 0.1, m: 1.2, g: 9.81, l: 0.25 };
+const PENDULUM: Pendulum<'_> = Pendulum { m: 1.0, g: &9.81, l: 2.0, push: 0.0 };
