@@ -7,7 +7,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::reference::{BAR, Errors, IS_LONG, Moment, Problem, Scale, assert_relative};
+use crate::reference::{BAR, IS_LONG, Problem, assert_relative, table};
 
 /// Bodies are numbered from 0. The constant torque of the motor on β is a term of the potential.
 #[derive(Lagrangian)]
@@ -31,7 +31,7 @@ use crate::reference::{BAR, Errors, IS_LONG, Moment, Problem, Scale, assert_rela
 #[constraint(fifth: crank = [e*sin(phi + delta) + zt*cos(delta) + xa, zt*sin(delta) - e*cos(phi + delta) + ya])]
 #[constraint(seventh: crank = [zf*cos(omega + epsilon) + u*sin(epsilon) + xa,
     zf*sin(omega + epsilon) - u*cos(epsilon) + ya])]
-pub(crate) struct Squeezer {
+struct Squeezer {
     m: [f64; 7],
     inertia: [f64; 7],
     xa: f64,
@@ -97,65 +97,21 @@ const SQUEEZER: Squeezer = Squeezer {
     fa: 0.014_21,
 };
 
-/// Angles at rest, θ = 0, that satisfy the constraints to 10⁻³¹.
-const START: [f64; 7] = [
-    -0.061_713_890_014_276_45,
-    0.0,
-    0.455_279_819_163_070_37,
-    0.222_668_390_165_885_88,
-    0.487_364_979_543_842_56,
-    -0.222_668_390_165_885_88,
-    1.230_547_444_549_821_2,
-];
-
-const END: Moment<7, 6> = Moment {
-    t: 0.03,
-    q: [
-        15.810_771_195_153_707,
-        -15.756_371_058_411_839,
-        0.040_822_240_119_645_8,
-        -0.534_730_116_342_079_6,
-        0.524_409_965_879_954,
-        0.534_730_116_342_079_6,
-        1.048_080_741_041_938,
-    ],
-    v: [
-        1_139.920_302_259_106_2,
-        -1_424.379_295_177_540_1,
-        11.032_911_910_618_594,
-        19.293_374_105_032_04,
-        0.573_569_914_829_502_5,
-        -19.293_374_105_032_04,
-        0.323_179_149_249_130_9,
-    ],
-    // The test set has M q̈ = f − Gᵀλ, the opposite sign.
-    lambda: Some([
-        -199.175_348_104_538_64,
-        29.755_309_974_971_762,
-        -23.066_543_611_622_15,
-        -31.452_725_275_771_137,
-        -22.642_494_786_394_38,
-        -11.617_392_352_611_256,
-    ]),
-};
-
 /// T + V without the motor's share −motor·β at β = 0.
 const ENERGY: f64 = 1.437_832_957_532_139_8;
 
-pub(crate) fn squeezer() -> Problem<Squeezer, 7, 6> {
-    Problem {
-        name: "Andrews' squeezer",
-        system: SQUEEZER,
-        start: State::at_rest(START),
-        moments: vec![END],
-        scale: Scale::Run,
-        bar: BAR,
-    }
+fn squeezer() -> Problem<Squeezer, 7, 6> {
+    Problem { name: "Andrews' squeezer", system: SQUEEZER, known: table!("andrews") }
+}
+
+/// At rest, where the constraints hold to 10⁻³¹.
+fn start() -> State<f64, 7> {
+    State::at_rest(squeezer().known[0].q)
 }
 
 #[test]
 fn the_squeezer_starts_with_the_published_accelerations_and_forces() {
-    let start = State::at_rest(START);
+    let start = start();
     let solution = SQUEEZER.solve(&start).unwrap();
     let expected = [14_222.443_919_954_114, -10_666.832_939_965_585];
     assert_relative("β̈", solution.accelerations[0], expected[0], 1e-12);
@@ -171,54 +127,20 @@ fn the_squeezer_starts_with_the_published_accelerations_and_forces() {
 #[test]
 fn the_squeezer_reaches_its_reference() {
     let squeezer = squeezer();
-    squeezer.run("Taylor 2⁻⁵²", Taylor::default()).reaches_bar();
-    squeezer.run("Dop853 1e-13", Dop853::with_tolerance(1e-13)).reaches_bar();
+    squeezer.check(&[BAR, BAR, BAR]);
     if IS_LONG {
-        squeezer.run("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches_bar();
-        squeezer.run("Lobatto 4 1e-5 s", Lobatto::<4>::with_step(1e-5)).reaches_bar();
-        squeezer.run("Dopri5 1e-13", Dopri5::with_tolerance(1e-13)).reaches_bar();
-        squeezer.run("RungeKutta4 1e-7 s", RungeKutta4::with_step(1e-7).max_steps(1_000_000)).reaches_bar();
+        squeezer.row("Radau 1e-12", Radau::with_tolerance(1e-12)).reaches(BAR);
+        squeezer.row("Lobatto 4 1e-5 s", Lobatto::<4>::with_step(1e-5)).reaches(BAR);
+        squeezer.row("RungeKutta4 1e-7 s", RungeKutta4::with_step(1e-7).max_steps(1_000_000)).reaches(BAR);
     }
 }
 
 /// The published values are wrong beyond the 10th, 7th and 6th digit: a run that agreed with them would be less accurate.
 #[test]
 fn the_published_values_have_fewer_digits_than_are_printed() {
-    let published = Moment {
-        q: [
-            15.810_771_196_299_04,
-            -15.756_371_059_842_98,
-            0.040_822_240_130_731_01,
-            -0.534_730_116_322_694_8,
-            0.524_409_965_880_530_4,
-            0.534_730_116_322_694_8,
-            1.048_080_741_042_263,
-        ],
-        v: [
-            1_139.920_302_151_208,
-            -1_424.379_294_994_111,
-            11.032_912_219_371_34,
-            19.293_374_644_213_85,
-            0.573_569_928_479_080_8,
-            -19.293_374_644_213_85,
-            0.323_179_165_802_695_5,
-        ],
-        lambda: Some([
-            -199.175_333_373_191,
-            29.755_312_280_150_52,
-            -23.066_541_190_982_4,
-            -31.452_713_654_759_27,
-            -22.642_492_320_827_39,
-            -11.617_407_000_196_73,
-        ]),
-        ..END
-    };
-    let Errors { q, v, lambda } =
-        Problem { name: "the same, published", moments: vec![published], ..squeezer() }
-            .run("Taylor 2⁻⁵²", Taylor::default())
-            .outcome
-            .unwrap();
-    for (error, least, most) in [(q, 1e-11, 1e-9), (v, 1e-11, 1e-7), (lambda.unwrap(), 1e-8, 1e-5)] {
+    let published = Problem { name: "the same, published", known: table!("andrews_published"), ..squeezer() };
+    let errors = published.row("Taylor 2⁻⁵²", Taylor::default()).errors;
+    for (error, (least, most)) in errors.into_iter().zip([(1e-11, 1e-9), (1e-11, 1e-7), (1e-8, 1e-5)]) {
         assert!(least < error && error < most, "{error:e}");
     }
 }
@@ -227,7 +149,7 @@ fn the_published_values_have_fewer_digits_than_are_printed() {
 /// each other: ω = −φ at all times.
 #[test]
 fn the_squeezer_keeps_its_energy_and_symmetry() {
-    let path = SQUEEZER.integrate(State::at_rest(START), 0.05, Taylor::default()).unwrap();
+    let path = SQUEEZER.integrate(start(), 0.05, Taylor::default()).unwrap();
     let largest = |quantity: fn(&State<f64, 7>) -> f64| {
         path.samples(501).map(|sample| quantity(sample.state()).abs()).fold(0.0, f64::max)
     };

@@ -10,7 +10,7 @@
 use lagrange_core::nalgebra::{Complex, Const, Matrix2, Matrix2x4, Matrix3, Matrix4, SMatrix, Vector3};
 use lagrange_core::prelude::*;
 
-use crate::reference::assert_relative;
+use crate::reference::{Known, assert_relative, table};
 
 /// Declares the parameters of the benchmark for a model of this name.
 macro_rules! bicycle {
@@ -247,76 +247,6 @@ fn lean_and_steer_have_the_masses_of_the_benchmark() {
     }
 }
 
-/// Eigenvalues at 0, 1, …, 10 m/s.
-const SPECTRA: [[[f64; 2]; 4]; 11] = [
-    [
-        [-5.530_943_717_653_934, 0.0],
-        [-3.131_643_247_906_555_7, 0.0],
-        [3.131_643_247_906_555_7, 0.0],
-        [5.530_943_717_653_934, 0.0],
-    ],
-    [
-        [-7.110_080_146_374_408, 0.0],
-        [-3.134_231_250_665_784_3, 0.0],
-        [3.526_961_709_900_694_2, -0.807_740_275_199_31],
-        [3.526_961_709_900_694_2, 0.807_740_275_199_31],
-    ],
-    [
-        [-8.673_879_848_317_371, 0.0],
-        [-3.071_586_456_415_142_5, 0.0],
-        [2.682_345_175_127_453_6, -1.680_662_965_906_757_8],
-        [2.682_345_175_127_453_6, 1.680_662_965_906_757_8],
-    ],
-    [
-        [-10.351_014_672_459_229, 0.0],
-        [-2.633_661_372_536_653, 0.0],
-        [1.706_756_056_639_735, -2.315_824_473_843_243_4],
-        [1.706_756_056_639_735, 2.315_824_473_843_243_4],
-    ],
-    [
-        [-12.158_614_265_764_44, 0.0],
-        [-1.429_444_273_613_257_5, 0.0],
-        [0.413_253_315_211_241_3, -3.079_108_186_032_053_5],
-        [0.413_253_315_211_241_3, 3.079_108_186_032_053_5],
-    ],
-    [
-        [-14.078_389_692_798_247, 0.0],
-        [-0.775_341_882_195_841_9, -4.464_867_713_788_225],
-        [-0.775_341_882_195_841_9, 4.464_867_713_788_225],
-        [-0.322_866_429_004_087_1, 0.0],
-    ],
-    [
-        [-16.085_371_230_980_282, 0.0],
-        [-1.526_444_865_841_417_1, -5.876_730_605_987_084],
-        [-1.526_444_865_841_417_1, 5.876_730_605_987_084],
-        [-0.004_066_900_769_703_363, 0.0],
-    ],
-    [
-        [-18.157_884_661_252_02, 0.0],
-        [-2.138_756_442_583_634, -7.195_259_133_298_043],
-        [-2.138_756_442_583_634, 7.195_259_133_298_043],
-        [0.102_681_705_747_664_16, 0.0],
-    ],
-    [
-        [-20.279_408_943_945_66, 0.0],
-        [-2.693_486_835_810_947_6, -8.460_379_713_969_337],
-        [-2.693_486_835_810_947_6, 8.460_379_713_969_337],
-        [0.143_278_797_657_129_5, 0.0],
-    ],
-    [
-        [-22.437_885_590_408_59, 0.0],
-        [-3.216_754_022_524_907_6, -9.693_773_515_317_822],
-        [-3.216_754_022_524_907_6, 9.693_773_515_317_822],
-        [0.157_901_840_309_172_98, 0.0],
-    ],
-    [
-        [-24.624_596_350_174, 0.0],
-        [-3.720_168_404_372_875_8, -10.906_811_394_762_881],
-        [-3.720_168_404_372_875_8, 10.906_811_394_762_881],
-        [0.161_053_386_531_715_55, 0.0],
-    ],
-];
-
 fn eigenvalues(speed: f64) -> Vec<Complex<f64>> {
     system_matrix(&ByFrames::benchmark(), speed).complex_eigenvalues().iter().copied().collect()
 }
@@ -324,9 +254,10 @@ fn eigenvalues(speed: f64) -> Vec<Complex<f64>> {
 #[test]
 fn the_eigenvalues_from_0_to_10_metres_per_second() {
     let mut largest = 0.0_f64;
-    for (speed, expected) in (0..).map(f64::from).zip(SPECTRA) {
+    let spectra: Vec<Known<4, 0>> = table!("bicycle");
+    for Known { t: speed, q, v, .. } in spectra {
         let mut found = eigenvalues(speed);
-        for [re, im] in expected {
+        for (re, im) in q.into_iter().zip(v) {
             let expected = Complex::new(re, im);
             let off = |i: usize| (found[i] - expected).norm();
             let nearest = (0..found.len()).min_by(|&i, &j| off(i).total_cmp(&off(j))).unwrap();
@@ -336,47 +267,6 @@ fn the_eigenvalues_from_0_to_10_metres_per_second() {
         }
     }
     println!("eigenvalues off by {largest:.1e}");
-}
-
-/// The zero of a function between two numbers, by regula falsi (the Illinois variant).
-fn zero(function: impl Fn(f64) -> f64, [mut a, mut b]: [f64; 2]) -> f64 {
-    let [mut at_a, mut at_b] = [a, b].map(&function);
-    assert!(at_a * at_b < 0.0, "{at_a} {at_b}");
-    for _ in 0..60 {
-        let next = b - at_b * (b - a) / (at_b - at_a);
-        let at_next = function(next);
-        if at_next == 0.0 || (next - b).abs() < 1e-15 {
-            return next;
-        }
-        if at_next * at_b < 0.0 {
-            (a, at_a) = (b, at_b);
-        } else {
-            at_a /= 2.0;
-        }
-        (b, at_b) = (next, at_next);
-    }
-    b
-}
-
-#[test]
-fn weave_capsize_and_the_double_root_are_at_the_speeds_of_the_benchmark() {
-    // The pair of complex eigenvalues comes to rest at the weave speed.
-    let weave = |speed: f64| eigenvalues(speed).iter().find(|s| s.im.abs() > 1.0).unwrap().re;
-    assert_relative("weave speed", zero(weave, [4.0, 4.6]), 4.292_382_536_341_104, 1e-9);
-    let pair = eigenvalues(4.292_382_536_341_104);
-    let fastest = pair.iter().map(|s| s.im).fold(0.0, f64::max);
-    assert_relative("rate of the weave", fastest, 3.435_033_848_661_44, 1e-9);
-    // A real eigenvalue is zero at the capsize speed: the determinant changes its sign.
-    let capsize = |speed: f64| system_matrix(&ByFrames::benchmark(), speed).determinant();
-    assert_relative("capsize speed", zero(capsize, [5.5, 6.5]), 6.024_262_015_388_359, 1e-9);
-    // Two real eigenvalues become a pair where the square of their difference changes its sign.
-    let apart = |speed: f64| {
-        let mut all = eigenvalues(speed);
-        all.sort_by(|s, t| s.re.total_cmp(&t.re));
-        let difference = all[3] - all[2];
-        (difference * difference).re
-    };
-    assert_relative("speed of the double root", zero(apart, [0.6, 0.8]), 0.684_283_078_892_455_8, 1e-9);
 }
 
 /// A state off the straight ride, on the constraints: leaning, steered and yawing.

@@ -7,7 +7,7 @@
 
 use lagrange_core::prelude::*;
 
-use crate::reference_motions::reference::{ARE_SPANS_WHOLE, BAR, Known, Problem, table};
+use crate::reference::{BAR, IS_LONG, Problem, table};
 
 #[derive(Lagrangian)]
 #[coordinates(p: [20, 3])]
@@ -18,34 +18,17 @@ struct Fekete {
     alpha: f64,
 }
 
-#[test]
-fn fekete_points() {
-    let problem =
-        Problem { name: "Fekete's points, t = 3", system: Fekete { alpha: 0.5 }, known: table!("fekete") };
-    problem.until(3.0).check(&[("Taylor", [1e-13, 1e-12, 1e-14]), ("Dop853", [1e-11, 1e-10, 1e-13])]);
-}
-
-#[test]
-fn fekete_points_come_nearly_to_rest() {
-    if ARE_SPANS_WHOLE {
-        let known = table!("fekete");
-        let problem = Problem { name: "Fekete's points, t = 20", system: Fekete { alpha: 0.5 }, known };
-        problem.check(&[("Taylor", [1e-12, 1e-12, 1e-14]), ("Dop853", BAR)]);
-    }
-}
-
-/// The published positions have eleven correct digits: `Taylor` and `Dop853` differ less from each other than from them.
+/// The published positions at t = 1000 have eleven correct digits: `Taylor` and `Dop853` differ less from each other than from them.
 #[test]
 fn fekete_points_come_to_rest() {
-    if ARE_SPANS_WHOLE {
-        let mut known: Vec<Known<60, 20>> = table!("fekete");
-        known.truncate(1);
-        known.append(&mut table!("fekete_published"));
-        let problem = Problem { name: "Fekete's points, t = 1000", system: Fekete { alpha: 0.5 }, known };
-        problem.check(&[
-            ("Taylor", [1e-10, 1e-13, 1e-14]),
-            ("Dop853", [1e-10, 1e-11, 1e-14]),
-            ("Dopri5", BAR),
-        ]);
+    let problem = |name, known| Problem { name, system: Fekete { alpha: 0.5 }, known };
+    let begins = problem("Fekete's points, t = 3", table!("fekete")).until(3.0);
+    begins.check(&[[1e-13, 1e-12, 1e-14], [1e-11, 1e-10, 1e-13]]);
+    if IS_LONG {
+        let nearly = problem("Fekete's points, t = 20", table!("fekete"));
+        nearly.check(&[[1e-12, 1e-12, 1e-14], BAR]);
+        let known = [&nearly.known[..1], &table!("fekete_published")].concat();
+        let ends = problem("Fekete's points, t = 1000", known);
+        ends.check(&[[1e-10, 1e-13, 1e-14], [1e-10, 1e-11, 1e-14], BAR]);
     }
 }

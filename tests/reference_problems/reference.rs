@@ -1,208 +1,217 @@
-//! Errors of motions against reference values.
-//!
-//! The error of a quantity is the largest |error| of its components, each relative to the largest magnitude of the component on
-//! the run. Coordinates, velocities and multipliers are separate quantities.
+//! Problems whose motion is known, and the errors of methods on them.
 
 use std::fmt::{self, Display, Formatter};
-use std::sync::Once;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use lagrange_core::nalgebra::{Const, SVector};
-use lagrange_core::{Method, prelude::*};
+use lagrange_core::nalgebra::Const;
+use lagrange_core::{Method, Sample, TaylorSeries, prelude::*};
 
-/// Number of evenly spaced samples of a run that scale the errors, beside the reference moments.
-const SCALING_SAMPLES: usize = 101;
+/// Largest errors of coordinates, velocities and multipliers on a run, as fractions.
+///
+/// Each component is measured by its largest magnitude on the run. A component that vanishes at all times but for round-off is
+/// measured by the largest magnitude of all components.
+pub(crate) type Errors = [f64; 3];
+
+/// Errors that every problem is solved to unless it states others.
+pub(crate) const BAR: Errors = [1e-9, 1e-9, 1e-8];
 
 /// Part of the largest component below which a component vanishes but for round-off.
 const VANISHING: f64 = 1e-12;
 
-/// Reference values at a time.
+/// Coordinates and velocities at a time, and multipliers if they are known.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Moment<const N: usize, const M: usize> {
+pub(crate) struct Known<const N: usize, const M: usize> {
     pub(crate) t: f64,
     pub(crate) q: [f64; N],
     pub(crate) v: [f64; N],
-    /// `None` if the constraints do not determine the multipliers.
     pub(crate) lambda: Option<[f64; M]>,
 }
 
-/// Samples that determine the largest magnitudes of the components.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Scale {
-    /// Evenly spaced samples of the run, and the reference moments.
-    Run,
-    /// The reference moments alone: on the run, multipliers grow beyond all bounds.
-    Moments,
+/// Reads a table with the lines `t`, `q`, `v` and, for M > 0, `lambda` for each time; the start may leave out `lambda`. Another number
+/// that is missing is NaN, from which every method has an error of NaN.
+macro_rules! table {
+    ($name:literal) => {
+        $crate::reference::parse(include_str!(concat!("values/", $name, ".txt")))
+    };
 }
+pub(crate) use table;
 
-/// Errors of coordinates, velocities and multipliers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Errors {
-    pub(crate) q: f64,
-    pub(crate) v: f64,
-    /// `None` without multipliers, or if nothing determines them.
-    pub(crate) lambda: Option<f64>,
-}
-
-/// Largest errors allowed unless a problem states others.
-pub(crate) const BAR: Errors = Errors { q: 1e-9, v: 1e-9, lambda: Some(1e-8) };
-
-impl Errors {
-    /// True if all errors that have a reference are within the bar.
-    fn are_within(&self, bar: Self) -> bool {
-        let multipliers = self.lambda.zip(bar.lambda).is_none_or(|(error, bar)| error <= bar);
-        self.q <= bar.q && self.v <= bar.v && multipliers
+pub(crate) fn parse<const N: usize, const M: usize>(text: &str) -> Vec<Known<N, M>> {
+    let mut known: Vec<Known<N, M>> = Vec::new();
+    for line in text.lines().filter(|line| !line.starts_with('#')) {
+        let (name, numbers) = line.split_once(' ').unwrap();
+        let numbers: Vec<f64> = numbers.split(' ').map(|number| number.parse().unwrap()).collect();
+        if name == "t" {
+            let lambda = (M == 0 || !known.is_empty()).then_some([f64::NAN; M]);
+            known.push(Known { t: numbers[0], q: [f64::NAN; N], v: [f64::NAN; N], lambda });
+            continue;
+        }
+        let last = known.last_mut().unwrap();
+        match name {
+            "q" => last.q = numbers.try_into().unwrap(),
+            "v" => last.v = numbers.try_into().unwrap(),
+            "lambda" => last.lambda = Some(numbers.try_into().unwrap()),
+            _ => panic!("a line `{name}` in a table"),
+        }
     }
+    known
 }
 
-/// A system with its start and reference values at later times. The motion ends at the last of them.
+/// A system and its motion at some times, in their order. The first is the start.
+#[derive(Debug)]
 pub(crate) struct Problem<L, const N: usize, const M: usize> {
     pub(crate) name: &'static str,
     pub(crate) system: L,
-    pub(crate) start: State<f64, N>,
-    pub(crate) moments: Vec<Moment<N, M>>,
-    pub(crate) scale: Scale,
-    pub(crate) bar: Errors,
+    pub(crate) known: Vec<Known<N, M>>,
 }
 
-/// A method on a problem: its setting, the errors or the reason why the motion ended early, and the cost.
+/// A row of the table: errors and cost of a method on a problem.
 #[must_use]
 pub(crate) struct Row {
     problem: &'static str,
     method: String,
-    pub(crate) outcome: Result<Errors, String>,
-    bar: Errors,
-    pub(crate) steps: usize,
-    time: Duration,
+    /// Infinite if the motion does not reach its end.
+    pub(crate) errors: Errors,
+    steps: usize,
+    milliseconds: f64,
+}
+
+impl Row {
+    /// Asserts that the errors are within these.
+    #[track_caller]
+    pub(crate) fn reaches(&self, limits: Errors) {
+        assert!(self.is_within(limits), "{self}\nallowed: {limits:?}");
+    }
+
+    pub(crate) fn is_within(&self, limits: Errors) -> bool {
+        self.errors.into_iter().zip(limits).all(|(error, limit)| error <= limit)
+    }
+}
+
+impl Display for Row {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { problem, method, errors: [q, v, lambda], steps, milliseconds } = self;
+        let reaches = if self.is_within(BAR) { "reaches the bar" } else { "" };
+        write!(f, "{problem:<46} {method:<26} {q:>6.0e} {v:>6.0e} {lambda:>6.0e}")?;
+        write!(f, " {steps:>6} steps {milliseconds:>9.2} ms {reaches}")
+    }
 }
 
 impl<L, const N: usize, const M: usize> Problem<L, N, M>
 where
     L: Lagrangian<N = Const<N>, M = Const<M>, Scalar = f64>,
 {
-    /// Integrates by a method, prints the row of the table, and returns it.
-    pub(crate) fn run<P: Method<L>>(&self, method: &str, by: P) -> Row {
-        let Self { name, system, start, moments, bar, .. } = self;
-        let begun = Instant::now();
-        let run = system.motion(*start).by(by).towards(moments.last().unwrap().t);
-        let time = begun.elapsed();
-        let (steps, outcome) = match run {
-            Err(error) => (0, Err(error.to_string())),
-            Ok(path) => {
-                let steps = path.statistics().accepted;
-                match path.finished() {
-                    Err(error) => (steps, Err(error.to_string())),
-                    Ok(path) => (steps, self.errors(&path).map_err(|error| error.to_string())),
-                }
-            }
-        };
-        let row = Row { problem: name, method: method.to_owned(), outcome, bar: *bar, steps, time };
-        row.print();
+    /// Drops the known values after this time, for a quick run.
+    pub(crate) fn until(mut self, t: f64) -> Self {
+        self.known.retain(|known| known.t <= t);
+        self
+    }
+
+    /// Asserts that `Taylor`, `Dop853` and, in long runs, `Dopri5` do not exceed these errors.
+    #[track_caller]
+    pub(crate) fn check(&self, limits: &[Errors])
+    where
+        L: TaylorSeries,
+    {
+        self.row("Taylor 2⁻⁵²", Taylor::default()).reaches(limits[0]);
+        self.row("Dop853 1e-13", Dop853::with_tolerance(1e-13)).reaches(limits[1]);
+        if let (true, Some(limits)) = (IS_LONG, limits.get(2)) {
+            self.row("Dopri5 1e-11", Dopri5::with_tolerance(1e-11)).reaches(*limits);
+        }
+    }
+
+    /// Runs a method and prints its row. The name contains the setting, a tolerance or a step.
+    pub(crate) fn row<P: Method<L>>(&self, method: &str, settings: P) -> Row {
+        self.measured(method, settings, true)
+    }
+
+    /// A row whose errors are measured by the known values alone: on the run, multipliers grow beyond all bounds.
+    pub(crate) fn row_by_known<P: Method<L>>(&self, method: &str, settings: P) -> Row {
+        self.measured(method, settings, false)
+    }
+
+    fn measured<P: Method<L>>(&self, method: &str, settings: P, by_run: bool) -> Row {
+        let (method, problem, begun) = (method.to_owned(), self.name, Instant::now());
+        let (errors, steps) = self.run(settings, by_run).unwrap_or_else(|error| {
+            println!("{problem}, {method}: {error}");
+            ([f64::INFINITY; 3], 0)
+        });
+        let row = Row { problem, method, errors, steps, milliseconds: 1e3 * begun.elapsed().as_secs_f64() };
+        println!("{row}");
         row
     }
 
-    fn errors(&self, path: &Trajectory<&L>) -> Result<Errors, Error> {
-        let mut largest = [Largest::default(), Largest::default(), Largest::default()];
-        for moment in &self.moments {
-            let sample = path.at(moment.t)?;
-            let (state, lambda) = (sample.state(), sample.solution()?.multipliers);
-            largest[0].compare(&state.q, &moment.q);
-            largest[1].compare(&state.v, &moment.v);
-            if let Some(expected) = &moment.lambda {
-                largest[2].compare(&lambda, expected);
+    /// Errors and number of steps.
+    fn run<P: Method<L>>(&self, settings: P, by_run: bool) -> Result<(Errors, usize), Error> {
+        let (first, last) = (&self.known[0], &self.known[self.known.len() - 1]);
+        assert!(first.t < last.t, "{}: nothing is known after the start", self.name);
+        let start = State::new(first.q, first.v).at_time(first.t);
+        let path = self.system.integrate(start, last.t, settings)?;
+        let mut components: [Vec<Component>; 3] =
+            [N, N, M].map(|count| (0..count).map(|_| Component::default()).collect());
+        for sample in path.steps().filter(|_| by_run) {
+            for (component, value) in components.iter_mut().zip(Self::values(&sample)?) {
+                component.iter_mut().zip(value).for_each(|(component, value)| component.reached(value));
             }
         }
-        if self.scale == Scale::Run {
-            for sample in path.samples(SCALING_SAMPLES) {
-                largest[0].scale(&sample.state().q);
-                largest[1].scale(&sample.state().v);
-                largest[2].scale(&sample.solution()?.multipliers);
+        for known in &self.known {
+            let lambda = known.lambda.map_or(Vec::new(), Vec::from);
+            let expected = [known.q.to_vec(), known.v.to_vec(), lambda];
+            let found = Self::values(&path.at(known.t)?)?;
+            for ((component, found), expected) in components.iter_mut().zip(found).zip(expected) {
+                for ((component, found), expected) in component.iter_mut().zip(found).zip(expected) {
+                    component.compare(found, expected);
+                }
             }
         }
-        let [q, v, lambda] = largest.map(|largest| largest.relative());
-        // A motion without coordinates has no error, and would be within every bar.
-        Ok(Errors { q: q.unwrap(), v: v.unwrap(), lambda })
+        Ok((components.map(|components| error(&components)), path.statistics().accepted))
+    }
+
+    /// Coordinates, velocities and multipliers.
+    fn values(sample: &Sample<&L>) -> Result<[Vec<f64>; 3], Error> {
+        let state = sample.state();
+        let lambda = if M == 0 { Vec::new() } else { sample.solution()?.multipliers.as_slice().to_vec() };
+        Ok([state.q.as_slice().to_vec(), state.v.as_slice().to_vec(), lambda])
     }
 }
 
-/// Largest error and largest magnitude of each component.
+/// Largest magnitude and largest error of one component of q, q̇ or λ on a run.
 #[derive(Default)]
-struct Largest {
-    errors: Vec<f64>,
-    magnitudes: Vec<f64>,
+struct Component {
+    magnitude: f64,
+    is_nonzero: bool,
+    off: f64,
 }
 
-impl Largest {
-    fn compare<const K: usize>(&mut self, found: &SVector<f64, K>, expected: &[f64; K]) {
-        self.errors.resize(K, 0.0);
-        for ((error, found), expected) in self.errors.iter_mut().zip(found).zip(expected) {
-            *error = larger(*error, (found - expected).abs());
-        }
-        self.scale(&SVector::from(*expected));
+impl Component {
+    fn reached(&mut self, value: f64) {
+        self.magnitude = largest([self.magnitude, value.abs()]);
     }
 
-    fn scale<const K: usize>(&mut self, values: &SVector<f64, K>) {
-        self.magnitudes.resize(K, 0.0);
-        for (magnitude, value) in self.magnitudes.iter_mut().zip(values) {
-            *magnitude = magnitude.max(value.abs());
-        }
-    }
-
-    /// The largest relative error; `None` if nothing was compared. A component that vanishes to round-off is compared with the
-    /// largest of the others.
-    fn relative(&self) -> Option<f64> {
-        let largest = self.magnitudes.iter().copied().fold(0.0, f64::max);
-        let relative = |(error, magnitude): (&f64, &f64)| {
-            let scale = if *magnitude < VANISHING * largest { largest } else { *magnitude };
-            if *error == 0.0 { 0.0 } else { error / scale }
-        };
-        self.errors.iter().zip(&self.magnitudes).map(relative).reduce(larger)
+    fn compare(&mut self, found: f64, expected: f64) {
+        self.reached(expected);
+        self.is_nonzero |= expected != 0.0;
+        self.off = largest([self.off, (found - expected).abs()]);
     }
 }
 
-/// The larger of two numbers; NaN if one is NaN.
-fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
+/// The largest error of the components of a quantity.
+fn error(components: &[Component]) -> f64 {
+    let whole = largest(components.iter().map(|component| component.magnitude));
+    largest(components.iter().map(|component| {
+        let vanishes = !component.is_nonzero || component.magnitude < VANISHING * whole;
+        let scale = if vanishes { whole } else { component.magnitude };
+        if component.off == 0.0 { 0.0 } else { component.off / scale }
+    }))
 }
 
-impl Row {
-    /// Asserts that the motion is within the bar of its problem.
-    #[track_caller]
-    pub(crate) fn reaches_bar(&self) {
-        assert!(self.is_within_bar(), "{self}\nallowed: {:?}", self.bar);
-    }
-
-    pub(crate) fn is_within_bar(&self) -> bool {
-        self.outcome.as_ref().is_ok_and(|errors| errors.are_within(self.bar))
-    }
-
-    fn print(&self) {
-        static HEAD: Once = Once::new();
-        HEAD.call_once(|| {
-            println!("| problem | method | q | q̇ | λ | reaches the bar | steps | ms |");
-            println!("|---|---|---:|---:|---:|---|---:|---:|");
-        });
-        println!("{self}");
-    }
+/// The largest of some magnitudes; NaN if one of them is NaN.
+fn largest(magnitudes: impl IntoIterator<Item = f64>) -> f64 {
+    magnitudes.into_iter().fold(0.0, |largest, x| if x > largest || x.is_nan() { x } else { largest })
 }
 
-impl Display for Row {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { problem, method, outcome, steps, time, .. } = self;
-        write!(f, "| {problem} | {method} | ")?;
-        match outcome {
-            Ok(Errors { q, v, lambda }) => {
-                let lambda = lambda.map_or_else(|| "—".to_owned(), |lambda| format!("{lambda:.1e}"));
-                write!(f, "{q:.1e} | {v:.1e} | {lambda}")?;
-            }
-            Err(reason) => write!(f, "{reason} | | ")?,
-        }
-        let reached = if self.is_within_bar() { "yes" } else { "no" };
-        write!(f, " | {reached} | {steps} | {:.1} |", 1e3 * time.as_secs_f64())
-    }
-}
-
-/// True if long motions and costly methods are asked for. A constant, so that what they need is compiled only then.
+/// True if whole spans of the literature and costly methods are asked for, at the level `full`. A constant, so that what they need
+/// is compiled only then.
 pub(crate) const IS_LONG: bool = lagrange_random::is_full(option_env!("LAGRANGE_CASES"));
 
 /// Asserts that a number is another to a relative error.

@@ -330,10 +330,10 @@ def foucault():
     def multiplier(state):
         force = forces(state)
         r, v = state[:3], state[3:]
-        return -(sum(a * b for a, b in zip(r, force)) + sum(a * a for a in v)) / (2 * sum(a * a for a in r))
+        return -(sum(a * b for a, b in zip(r, force)) + sum(a * a for a in v)) / sum(a * a for a in r)
 
     def rate(state):
-        pull = 2 * multiplier(state)
+        pull = multiplier(state)
         return state[3:] + [f + pull * a for f, a in zip(forces(state), state[:3])]
 
     def start(change):
@@ -341,7 +341,7 @@ def foucault():
         return [east, ZERO, -(length * length - east * east).sqrt(), ZERO, ZERO, ZERO]
 
     text = """Pendulum of 67 m at 48.846222° north in the frame of an Earth that turns by 7.292115e-5 rad/s, let go 3 m to the
-east: x east, y north, z up. λ of r² − 67² = 0."""
+east: x east, y north, z up. λ of (r² − 67²)/2 = 0."""
     return Problem(text, [100, 1000, 3600], rate, start, lambda s: (s[:3], s[3:], [multiplier(s)]))
 
 
