@@ -1,7 +1,8 @@
-//! Frames, a prescribed motion, a long chain, and a coordinate without mass.
+//! Frames, prescribed motions, a long chain, and a coordinate without mass.
 
 use lagrange_core::nalgebra::{Matrix3, Vector3};
 use lagrange_core::prelude::*;
+use lagrange_systems::ShakenPendulum;
 
 use super::{difference, end};
 
@@ -64,5 +65,12 @@ struct Massless;
 fn a_track_that_is_lifted() -> Result<(), Error> {
     let start = State::new([0.5, 0.125, 0.0], [0.3, 0.15 + 0.25, 0.25]);
     assert!(difference(&Massless, start, 2.0)? < 1e-11);
+    Ok(())
+}
+
+#[test]
+fn a_hoop_that_is_shaken() -> Result<(), Error> {
+    let start = State::new([1.0, 0.0], [0.6, 0.0]);
+    assert!(difference(&ShakenPendulum { m: 2.0, g: 9.81, l: 1.0, a: 0.2, w: 3.0 }, start, 2.0)? < 1e-11);
     Ok(())
 }

@@ -1,7 +1,6 @@
-//! What a series has to go through: forces, dissipation, explicit time, every kind of constraint.
+//! What a series has to go through: forces, dissipation, explicit time, a constraint on velocities.
 
 use lagrange_core::prelude::*;
-use lagrange_systems::ShakenPendulum;
 
 use super::difference;
 
@@ -22,12 +21,5 @@ fn everything_at_once() -> Result<(), Error> {
     let system = Rich { a: 0.7, c: 0.3 };
     let start = State::new([0.3, -0.2, 0.5], [0.4, 1.0 / 3.0 + 0.3 * 0.6, 0.6]);
     assert!(difference(&system, start, 3.0)? < 1e-12);
-    Ok(())
-}
-
-#[test]
-fn a_hoop_that_is_shaken() -> Result<(), Error> {
-    let start = State::new([1.0, 0.0], [0.6, 0.0]);
-    assert!(difference(&ShakenPendulum { m: 2.0, g: 9.81, l: 1.0, a: 0.2, w: 3.0 }, start, 2.0)? < 1e-11);
     Ok(())
 }

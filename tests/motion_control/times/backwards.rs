@@ -54,6 +54,7 @@ fn queries_of_a_path_backwards_are_in_its_order() {
     assert_eq!(path.csv(5).to_string().lines().count(), 6);
 }
 
+#[cfg(feature = "thorough")]
 #[test]
 fn single_precision_goes_back() {
     let spring = spring_of(1.0_f32);
