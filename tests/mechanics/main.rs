@@ -9,13 +9,13 @@ mod conservation;
 mod constants;
 mod constrained;
 mod expressions;
-mod fields;
 mod functions;
 mod jacobian;
 mod matrices;
-mod origin;
 mod particles;
 mod pendulums;
-mod quaternions;
-mod trees;
 mod vectors;
+
+// Trees of bodies over five types of numbers, which take long to compile.
+#[cfg(feature = "thorough")]
+mod trees;

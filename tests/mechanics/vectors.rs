@@ -88,16 +88,12 @@ fn squares_of_lengths_have_a_rate_at_rest_and_at_the_origin() {
 }
 
 #[test]
-fn the_literal_zero_is_the_zero_vector() {
+fn vectors_take_numbers_and_signs_and_the_literal_zero() {
     let (kit, state) = (kit(), state());
     assert_eq!(kit.plus_zero(&state), Vector3::new(1.0, 2.0, 3.0));
     assert_eq!(kit.zero_minus(&state), -Vector3::new(1.0, 2.0, 3.0));
     assert_eq!(kit.zero_cross(&state), 0.0);
-}
-
-#[test]
-fn vectors_take_numbers_and_signs() {
-    let (kit, state, r) = (kit(), state(), Vector3::new(1.0, 2.0, 3.0));
+    let r = Vector3::new(1.0, 2.0, 3.0);
     assert_eq!(kit.half(&state), r / 2.0);
     assert_eq!(kit.opposite(&state), -r);
     assert_eq!(kit.left(&state), r * 3.0);
@@ -116,7 +112,7 @@ fn a_slice_is_a_vector_of_some_elements() {
 }
 
 #[test]
-fn arguments_bring_their_shapes_to_each_call() {
+fn arguments_bring_their_shapes_to_each_call_and_have_rates() {
     let (kit, state) = (kit(), state());
     assert_eq!(kit.of_scalar(&state), -4.0);
     assert_eq!(kit.of_vector(&state), Vector3::new(2.0, 4.0, 6.0));
@@ -124,19 +120,9 @@ fn arguments_bring_their_shapes_to_each_call() {
     assert_eq!(kit.of_matrix(&state), Vector2::new(26.0, 58.0));
     assert_eq!(kit.length_of_two(&state), 13.0);
     assert_eq!(kit.length_of_three(&state), 14.0);
-}
-
-#[test]
-fn an_argument_has_a_rate() {
-    let (kit, state) = (kit(), state());
     // (x³)˙ = 3 x² ẋ and (x r)˙ = ẋ r + x ṙ
     assert_eq!(kit.rate_of_scalar(&state), 60.0);
     assert_eq!(kit.rate_of_vector(&state), Vector3::new(5.0 - 4.0, 10.0 + 2.0, 15.0 - 2.0));
-}
-
-#[test]
-fn families_of_vectors_have_two_indices() {
-    let (kit, state) = (kit(), state());
     // p[i] = (xⁱ, rᵢ, i)
     assert_eq!(kit.middle(&state), -2.0 + 3.0);
     assert_eq!(kit.whole(&state), Vector3::new(4.0, 3.0, 2.0));

@@ -8,3 +8,7 @@ mod integrability;
 mod said;
 mod structure;
 mod symmetries;
+
+// Forces that are zero at all random states.
+#[cfg(feature = "thorough")]
+mod unseen;
