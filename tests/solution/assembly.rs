@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use lagrange_core::prelude::*;
+use lagrange_random::{Random, cases};
 
 /// A chain of four rods from the origin to the point (d, 0).
 #[derive(Lagrangian)]
@@ -17,20 +18,11 @@ struct Chain {
     d: f64,
 }
 
-/// A deterministic sequence of numbers in −1 … 1.
-fn numbers() -> impl FnMut() -> f64 {
-    let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
-    move || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
 #[test]
 fn chains_are_assembled_from_any_guess() {
-    let (chain, mut number) = (Chain { d: 2.5 }, numbers());
-    for _ in 0..300 {
-        let guess = State::at_rest([(); 6].map(|()| 5.0 * number()));
+    let (chain, random) = (Chain { d: 2.5 }, &mut Random(1));
+    for _ in 0..cases([50, 300, 10_000]) {
+        let guess = State::at_rest(random.vector().map(|x: f64| 5.0 * x));
         let assembly = chain.assemble(&guess).unwrap_or_else(|error| panic!("{guess:?}: {error}"));
         chain.check_consistent(&assembly.state).unwrap();
         assert_eq!((assembly.rank, assembly.degrees_of_freedom), (4, 2));
@@ -41,9 +33,9 @@ fn chains_are_assembled_from_any_guess() {
 
 #[test]
 fn chains_that_are_too_short_name_their_rods() {
-    let (chain, mut number) = (Chain { d: 6.0 }, numbers());
+    let (chain, random) = (Chain { d: 6.0 }, &mut Random(2));
     for _ in 0..30 {
-        let guess = State::at_rest([(); 6].map(|()| 3.0 * number()));
+        let guess = State::at_rest(random.vector().map(|x: f64| 3.0 * x));
         match chain.assemble(&guess).unwrap_err() {
             Error::Conflicting { constraints, distance, .. } => {
                 assert_eq!(constraints.as_slice(), ["first", "second", "third", "last"]);

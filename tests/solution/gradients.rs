@@ -4,6 +4,7 @@
 
 use std::f64::consts::PI;
 
+use lagrange_core::nalgebra::Vector3;
 use lagrange_core::prelude::*;
 use lagrange_random::{Random, cases};
 
@@ -48,18 +49,16 @@ struct Links {
 
 /// Cases of each kind.
 fn count() -> u64 {
-    cases([100, 300, 30_000]) as u64
+    cases([40, 300, 30_000]) as u64
 }
 
 /// A number of either sign and any size from 0.001 to 1,000, or now and then zero.
 fn number(random: &mut Random) -> f64 {
-    let sign = [-1.0, 1.0, -1.0, 1.0, 0.0][random.below(5)];
-    sign * random.size(1e-3, 1e3)
+    random.one_of(&[-1.0, 1.0, -1.0, 1.0, 0.0]) * random.size(1e-3, 1e3)
 }
 
 fn coefficients(random: &mut Random) -> [f64; 3] {
-    let sign = |random: &mut Random| if random.below(2) == 0 { 1.0 } else { -1.0 };
-    std::array::from_fn(|_| sign(random) * random.size(0.1, 10.0))
+    std::array::from_fn(|_| random.one_of(&[-1.0, 1.0]) * random.size(0.1, 10.0))
 }
 
 /// A point on a·q = l to round-off, and a velocity in the plane, or none.
@@ -72,16 +71,14 @@ fn in_plane(random: &mut Random, a: [f64; 3], l: f64) -> State<f64, 3> {
 
 /// The same on the sphere about `a` of radius `l`; now and then one whose coordinates are those of the centre, but for one.
 fn on_sphere(random: &mut Random, a: [f64; 3], l: f64) -> State<f64, 3> {
-    let mut n = coefficients(random).map(|x| if x.abs() < 0.3 { 0.0 } else { x });
-    if n == [0.0; 3] {
+    let mut n = Vector3::from(coefficients(random)).map(|x| if x.abs() < 0.3 { 0.0 } else { x });
+    if n.amax() == 0.0 {
         n[random.below(3)] = 1.0;
     }
-    let size = n.iter().map(|x| x * x).sum::<f64>().sqrt();
-    n = n.map(|x| x / size);
-    let w = coefficients(random);
-    let across = [n[1] * w[2] - n[2] * w[1], n[2] * w[0] - n[0] * w[2], n[0] * w[1] - n[1] * w[0]];
-    let q = std::array::from_fn(|i| a[i] + l * n[i]);
-    State::new(q, if random.below(2) == 0 { [0.0; 3] } else { across })
+    n.normalize_mut();
+    let across = n.cross(&Vector3::from(coefficients(random)));
+    let q: [f64; 3] = std::array::from_fn(|i| a[i] + l * n[i]);
+    State::new(q, if random.below(2) == 0 { [0.0; 3] } else { across.into() })
 }
 
 /// Whether no coordinate is so small beside what is taken from it that a difference is rounded by more than the coordinate's own
@@ -114,8 +111,6 @@ fn constraints_without_a_gradient_are_refused() {
             of_angle.check_consistent(&angle),
             of_plane.check_consistent(&plane),
             of_sphere.check_consistent(&sphere),
-            of_angle.integrate(angle, 1.0, Dop853::default()).map(drop),
-            of_plane.integrate(plane, 1.0, Taylor::default()).map(drop),
             of_sphere.make_consistent(&sphere).map(drop),
         ];
         for (kind, found) in found.into_iter().enumerate() {
