@@ -21,9 +21,9 @@ struct Levers<T> {
     k: T,
 }
 
-/// Runs this on a thread of its own.
-fn on_a_thread(work: impl FnOnce() + Send + 'static) {
-    on_a_thread_of(2048, work);
+/// Runs this on a thread of its own, with this start.
+fn on_a_thread<S: 'static>(start: fn() -> S, work: impl FnOnce(S) + Send + 'static) {
+    on_a_thread_of(2048, move || work(start()));
 }
 
 fn on_a_thread_of(kibibytes: usize, work: impl FnOnce() + Send + 'static) {
@@ -38,20 +38,17 @@ fn springs() -> (Springs, State<f64, 1000>) {
 /// Goes on from rest by this method, the path stored, looked into and searched for an event; and step by step.
 fn move_springs(method: impl Method<Springs> + Copy + Send + 'static) {
     let is_close = |x: f64, t: f64| (x - (2.0 * t).cos()).abs() < 1e-6;
-    on_a_thread(move || {
-        let (springs, start) = springs();
+    on_a_thread(springs, move |(springs, start)| {
         let path = springs.integrate(start, 0.5, method).expect("a motion");
         assert!(is_close(path.end().state().q[999], 0.5));
         assert!(is_close(path.at(0.3).expect("a time").state().q[500], 0.3));
     });
-    on_a_thread(move || {
-        let (springs, start) = springs();
+    on_a_thread(springs, move |(springs, start)| {
         let mut half = springs.event("half", |sample| sample.state().q[7] - 0.6_f64.cos());
         let path = springs.motion(start).by(method).event(&mut half).towards(0.5).expect("a motion");
         assert!((path.crossings()[0].state.t - 0.3).abs() < 1e-6);
     });
-    on_a_thread(move || {
-        let (springs, start) = springs();
+    on_a_thread(springs, move |(springs, start)| {
         let mut motion = Motion::new(springs, start, method).expect("a start");
         motion.advance_to(0.4).expect("no end before");
         motion.advance_to(0.5).expect("no end before");
@@ -66,8 +63,7 @@ fn a_thousand_coordinates_move_by_every_method() {
     move_springs(Dopri5::default());
     move_springs(RungeKutta4::with_step(0.01));
     move_springs(Taylor::default());
-    on_a_thread(|| {
-        let (springs, start) = springs();
+    on_a_thread(springs, |(springs, start)| {
         let phase = springs.phase_state(&start);
         let path = springs.motion_in_momenta(phase).to(0.5).expect("a motion");
         assert!((path.end().state().q[0] - 1.0_f64.cos()).abs() < 1e-6);
@@ -84,26 +80,22 @@ const SLOPE: f64 = -2.0 * 3.0 / 1.25;
 
 #[test]
 fn the_derivatives_of_a_hundred_coordinates_on_fifty_constraints() {
-    on_a_thread(|| {
-        let (levers, state) = levers();
+    on_a_thread(levers, |(levers, state)| {
         let jacobian = levers.jacobian(&state).expect("a Jacobian");
         assert!((jacobian.accelerations.q[(7, 7)] - SLOPE).abs() < 1e-12);
         assert!((jacobian.accelerations.parameters[(7, 0)] + 1.0 / 1.25).abs() < 1e-12);
     });
-    on_a_thread(|| {
-        let (levers, state) = levers();
+    on_a_thread(levers, |(levers, state)| {
         let jacobian = levers.state_jacobian(&state).expect("a Jacobian");
         assert!((jacobian.accelerations.q[(49, 49)] - SLOPE).abs() < 1e-12);
     });
-    on_a_thread(|| {
-        let (levers, state) = levers();
+    on_a_thread(levers, |(levers, state)| {
         let by = levers.jacobian_by(&state, &["x[3]", "k"]).expect("a Jacobian");
         assert!((by.accelerations[(3, 0)] - SLOPE).abs() < 1e-12);
         let inputs = levers.inputs_for(&state, &by.solution.accelerations, &["k"]).expect("inputs");
         assert!((inputs.inputs[0] - 2.0).abs() < 1e-12);
     });
-    on_a_thread(|| {
-        let (levers, state) = levers();
+    on_a_thread(levers, |(levers, state)| {
         let near = levers.linearize(&state, &["k"]).expect("a linear system");
         assert_eq!((near.a.nrows(), near.b.ncols()), (100, 1));
     });
@@ -112,8 +104,7 @@ fn the_derivatives_of_a_hundred_coordinates_on_fifty_constraints() {
 #[test]
 fn the_derivatives_of_a_motion_of_a_hundred_coordinates_on_fifty_constraints() {
     fn sensitivities(method: impl DifferentiableMethod<Levers<f64>> + Copy + Send + 'static) {
-        on_a_thread(move || {
-            let (levers, state) = levers();
+        on_a_thread(levers, move |(levers, state)| {
             let motion =
                 levers.integrate_sensitivities(state, 0.1, method, &["x[3]", "k"]).expect("a motion");
             // For small times δx = (1 + SLOPE t²/2) along the constraint, of which x has four fifths.
