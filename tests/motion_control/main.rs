@@ -14,6 +14,8 @@ mod both_ways;
 #[cfg(feature = "thorough")]
 mod classical;
 
+use core::ops::ControlFlow;
+
 use lagrange_core::prelude::*;
 use lagrange_systems::Spring;
 
@@ -42,4 +44,9 @@ fn swinging() -> State<f64, 2> {
 /// A spring with this angular frequency.
 fn spring_of<T: Scalar>(omega: T) -> Spring<T> {
     Spring { m: T::constant(1.0), k: omega * omega }
+}
+
+/// What progress that cancels a motion returns.
+fn stop_if(stops: bool) -> ControlFlow<()> {
+    if stops { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

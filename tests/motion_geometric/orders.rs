@@ -82,30 +82,36 @@ fn compositions() -> Vec<Composition> {
     }
 }
 
-/// `Verlet` and all of its compositions.
-macro_rules! verlet {
-    ($($problem:ident),*) => {$(
-        check(stringify!($problem), (&$problem(), reference(&$problem(), 4.0)), range(2), Verlet::with_step);
+/// A method of order 2 and all of its compositions, against a reference or this motion.
+macro_rules! composed {
+    ($method:ident: $problem:ident) => {
+        composed!($method: $problem, reference(&$problem(), 4.0))
+    };
+    ($method:ident: $problem:ident, $exact:expr) => {{
+        let (problem, exact) = ($problem(), $exact);
+        check(stringify!($problem), (&problem, exact), range(2), $method::with_step);
         for composition in compositions() {
             let name = format!("{} {composition:?}", stringify!($problem));
-            check(&name, (&$problem(), reference(&$problem(), 4.0)), range(composition.order()), |h| Verlet::with_step(h).composed(composition));
+            let method = |h| $method::with_step(h).composed(composition);
+            check(&name, (&problem, exact), range(composition.order()), method);
         }
-    )*};
+    }};
 }
 
 #[test]
 fn verlet_without_constraints() {
-    verlet!(kepler);
+    composed!(Verlet: kepler);
     if IS_LONG {
-        verlet!(henon_heiles);
+        composed!(Verlet: henon_heiles);
     }
 }
 
 #[test]
 fn rattle() {
-    verlet!(shaken);
+    composed!(Verlet: shaken);
     if IS_LONG {
-        verlet!(spherical, two_bobs);
+        composed!(Verlet: spherical);
+        composed!(Verlet: two_bobs);
     }
 }
 
@@ -144,18 +150,10 @@ fn lobatto_where_masses_are_zero() {
 
 #[test]
 fn dalembert() {
-    macro_rules! dalembert {
-        ($($problem:ident: $exact:expr),*) => {$(
-            check(stringify!($problem), (&$problem(), $exact), range(2), DAlembert::with_step);
-            for composition in compositions() {
-                let name = format!("{} {composition:?}", stringify!($problem));
-                let method = |h| DAlembert::with_step(h).composed(composition);
-                check(&name, (&$problem(), $exact), range(composition.order()), method);
-            }
-        )*};
-    }
-    dalembert!(particle: particle_at(4.0), ball: reference(&ball(), 4.0));
+    composed!(DAlembert: particle, particle_at(4.0));
+    composed!(DAlembert: ball);
     if IS_LONG {
-        dalembert!(sleigh: reference(&sleigh(), 4.0), wheel: reference(&wheel(), 4.0));
+        composed!(DAlembert: sleigh);
+        composed!(DAlembert: wheel);
     }
 }

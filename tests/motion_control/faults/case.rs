@@ -1,6 +1,5 @@
 //! One broken motion, and what becomes of it by one method.
 
-use core::ops::ControlFlow;
 use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
@@ -116,11 +115,7 @@ where
                 motion.event(self.system.event("bell", |sample| sample.coordinate("z"))).towards(self.end)
             }
             Ask::Cancelled => {
-                let look = |progress: lagrange_core::motion::Progress| match progress.steps {
-                    3.. => ControlFlow::Break(()),
-                    _ => ControlFlow::Continue(()),
-                };
-                motion.on_progress(look).towards(self.end)
+                motion.on_progress(|progress| crate::stop_if(progress.steps >= 3)).towards(self.end)
             }
             _ => motion.towards(self.end),
         }?;

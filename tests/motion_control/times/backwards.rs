@@ -3,8 +3,8 @@
 use lagrange_core::{Ending, Method, motion::Progress, prelude::*};
 use lagrange_systems::Spring;
 
-use crate::spring_of;
 use crate::times::{allowed, exact};
+use crate::{spring_of, stop_if};
 
 fn checked_backwards(method: impl Method<Spring<f64>> + Copy, bound: impl Fn(usize) -> f64) {
     for (start, omega, end) in
@@ -72,10 +72,7 @@ fn what_stops_a_motion_stops_it_backwards() {
         "{}",
         path.ending()
     );
-    let watch = |progress: Progress| match progress.time < -20.0 {
-        true => core::ops::ControlFlow::Break(()),
-        false => core::ops::ControlFlow::Continue(()),
-    };
+    let watch = |progress: Progress| stop_if(progress.time < -20.0);
     let path = spring.motion(State::at_rest([1.0])).on_progress(watch).to(-1e300).unwrap();
     assert!(matches!(path.ending(), Ending::Cancelled { .. }), "{}", path.ending());
     let off = path.end().state().q[0] - path.end().time().cos();
