@@ -7,3 +7,9 @@ mod members;
 mod pictures;
 mod shapes;
 mod tables;
+
+// Expressions that take long to derive, and long motions.
+#[cfg(feature = "thorough")]
+mod deep;
+#[cfg(feature = "thorough")]
+mod tabulated;

@@ -1,10 +1,8 @@
-//! Frames: each word of their language against poses multiplied by hand, systems against the same systems without frames, and
-//! a bicycle.
+//! Frames: each word of their language against poses multiplied by hand, systems against the same systems without frames.
 
 // What helps tests may panic as they do.
 #![allow(clippy::unwrap_used)]
 
-mod bicycle;
 mod growing;
 mod moving;
 mod poses;
