@@ -1,8 +1,8 @@
-//! Methods written against the public interface alone: a pair, an implicit one, and ones that go wrong; Radau; and what all
-//! methods can be asked for.
+//! Methods written against the public interface alone: a pair, one with an interpolant of its own, and ones that go wrong;
+//! Radau; and what all methods can be asked for.
 
 mod combinations;
+mod heun;
 mod midpoint;
 mod radau;
-mod rosenbrock;
 mod wrong;
