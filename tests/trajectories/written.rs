@@ -9,6 +9,8 @@ use lagrange_core::{
 };
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 
+use crate::{BlowUp, START};
+
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
 #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
@@ -103,13 +105,7 @@ fn endings_are_written_with_their_names() {
     let pace = json!({ "step": pace.step.unwrap(), "stiffness": null, "time_apart": null });
     let limit = json!({ "ending": "StepLimit", "time": time, "steps": 3, "pace": pace });
     assert_eq!(to_value(short.ending()).unwrap(), limit);
-
-    /// x = 1/(1 − t)².
-    #[derive(Lagrangian)]
-    #[coordinates(x)]
-    #[lagrangian(x_dot^2/2 + 2*x^3)]
-    struct BlowUp;
-    let path = BlowUp.motion(State::new([1.0], [2.0])).towards(3.0).unwrap();
+    let path = BlowUp.motion(START).towards(3.0).unwrap();
     let written = to_value(path.ending()).unwrap();
     assert_eq!((&written["ending"], &written["entry"]), (&json!("StepTooSmall"), &json!("x_dot")));
     let error = Error::NotProjected { constraint: "rod", residual: 1.0, iterations: 3, time: 2.0 };
