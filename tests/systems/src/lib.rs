@@ -2,19 +2,25 @@
 
 #![allow(missing_docs, reason = "the documentation of a system says what its fields are")]
 
+mod balls;
+mod blocks;
 mod bobs;
 mod floors;
 mod oscillators;
 mod pendulums;
 mod planets;
+mod rods;
 mod rolling;
 mod tops;
 
+pub use balls::{Ball, Shaken, Slot, Walled};
+pub use blocks::{Belt, Block, Puck, Stack};
 pub use bobs::{DoubledRod, ShakenPendulum, TwoBobs};
 pub use floors::{Flying, LeaningRod, SlidingRod, Thrown, Touching};
-pub use oscillators::{DrivenSpring, HenonHeiles, Spring, Sticking};
+pub use oscillators::{DrivenSpring, HenonHeiles, PushedSpring, Spring, Sticking};
 pub use pendulums::{BeadOnHoop, DoublePendulum, Foucault, Pendulum, PolarPendulum, SphericalPendulum};
 pub use planets::{Planet, ThreeBodies};
+pub use rods::{PoissonRod, Rod, Sphere};
 pub use rolling::{BallInAngles, ChaplyginSleigh, KnifeEdge, TiedParticle};
 pub use tops::HeavyTop;
 

@@ -11,6 +11,21 @@ pub struct Spring<T> {
     pub k: T,
 }
 
+/// Mass on a spring, pushed by a force; without a spring it is free, or falls.
+#[derive(Clone, Copy, Debug, Default, Lagrangian)]
+#[coordinates(x)]
+#[lagrangian(m/2 * x_dot^2 - k/2 * x^2)]
+#[force(x: u)]
+pub struct PushedSpring<T> {
+    pub m: T,
+    pub k: T,
+    pub u: T,
+    /// What a test notes of it.
+    pub mark: [T; 2],
+    /// What all lanes share.
+    pub label: u8,
+}
+
 /// Mass on a spring, with friction and a periodic force. With `w = 0` the force is constant.
 #[derive(Clone, Copy, Debug, Lagrangian)]
 #[coordinates(x)]
