@@ -1,10 +1,12 @@
 //! Random events whose zeros are known: none lost, none invented, none twice.
 //! A failure says the number of its case.
 
-use lagrange_core::{Method, Sample, StateOf, prelude::*};
+use lagrange_core::{Sample, StateOf, prelude::*};
 
-use crate::{Free, Spring};
 use lagrange_random::{Random, cases};
+use lagrange_systems::PushedSpring;
+
+use crate::{FREE, Plane, SPRING};
 
 /// A quarter of `few` cases for `cargo test`, `few` for `.ci/run`, 100,000 for `.ci/full`.
 fn count(few: usize) -> u64 {
@@ -17,28 +19,27 @@ fn any_length(random: &mut Random) -> f64 {
 }
 
 /// Times and directions of the crossings from `start` to `end`.
-fn found<L, G>(system: L, start: StateOf<L>, end: f64, method: usize, g: G) -> Vec<(f64, bool)>
+fn found<L>(
+    system: L,
+    start: StateOf<L>,
+    end: f64,
+    method: usize,
+    g: &dyn Fn(&Sample<&L>) -> f64,
+) -> Vec<(f64, bool)>
 where
     L: Lagrangian<Scalar = f64> + Copy + lagrange_core::TaylorSeries,
-    G: Fn(&Sample<&L>) -> f64,
 {
-    fn by<L, G>(system: L, start: StateOf<L>, end: f64, method: impl Method<L>, g: G) -> Vec<(f64, bool)>
-    where
-        L: Lagrangian<Scalar = f64>,
-        G: Fn(&Sample<&L>) -> f64,
-    {
-        let mut event = system.event("g", g);
-        let path = system.motion(start).by(method).event(&mut event).towards(end).expect("a start");
-        assert!(path.ending().is_complete(), "{}", path.ending());
-        path.crossings().iter().map(|crossing| (crossing.state.t, crossing.rising)).collect()
-    }
-    match method {
-        0 => by(system, start, end, Taylor::default(), g),
-        1 => by(system, start, end, Dop853::default(), g),
-        2 => by(system, start, end, Dopri5::default(), g),
-        3 => by(system, start, end, Dop853::with_tolerance(1e-9).max_step(1.5), g),
-        _ => by(system, start, end, RungeKutta4::with_step(0.05), g),
-    }
+    let (mut event, motion) = (system.event("g", g), system.motion(start));
+    let path = match method {
+        0 => motion.by(Taylor::default()).event(&mut event).towards(end),
+        1 => motion.by(Dop853::default()).event(&mut event).towards(end),
+        2 => motion.by(Dopri5::default()).event(&mut event).towards(end),
+        3 => motion.by(Dop853::with_tolerance(1e-9).max_step(1.5)).event(&mut event).towards(end),
+        _ => motion.by(RungeKutta4::with_step(0.05)).event(&mut event).towards(end),
+    };
+    let path = path.expect("a start");
+    assert!(path.ending().is_complete(), "{}", path.ending());
+    path.crossings().iter().map(|crossing| (crossing.state.t, crossing.rising)).collect()
 }
 
 /// What is wrong with the crossings of a function with these zeros, if anything is.
@@ -97,12 +98,12 @@ fn polynomials() {
         let (start, end) = if backwards { (length, 0.0) } else { (0.0, length) };
         let (method, factor) =
             (random.below(5), random.between(0.1, 3.0) * if random.below(2) == 0 { 1.0 } else { -1.0 });
-        let g = |sample: &Sample<&Free>| {
+        let g = |sample: &Sample<&PushedSpring<f64>>| {
             let t = if of_time { sample.time() } else { sample.state().q[0] };
             zeros.iter().fold(factor, |product, zero| product * (t - zero))
         };
         let at_start = zeros.iter().fold(factor, |product, zero| product * (start - zero));
-        let found = found(Free, State::new([start], [1.0]).at_time(start), end, method, g);
+        let found = found(FREE, State::new([start], [1.0]).at_time(start), end, method, &g);
         fault(&found, &zeros, at_start < 0.0, 1e-13 * length)
     });
 }
@@ -132,8 +133,10 @@ fn sines() {
             sorted.reverse();
         }
         let (start, end) = if backwards { (length, 0.0) } else { (0.0, length) };
-        let g = |sample: &Sample<&Free>| value(if of_time { sample.time() } else { sample.state().q[0] });
-        let found = found(Free, State::new([start], [1.0]).at_time(start), end, method, g);
+        let g = |sample: &Sample<&PushedSpring<f64>>| {
+            value(if of_time { sample.time() } else { sample.state().q[0] })
+        };
+        let found = found(FREE, State::new([start], [1.0]).at_time(start), end, method, &g);
         fault(&found, &sorted, value(start) < 0.0, 1e-13 * length)
     });
 }
@@ -167,7 +170,7 @@ fn levels() {
         zeros.sort_by(|a, b| (a * direction).total_cmp(&(b * direction)));
         let start = State::new([amplitude * phase.cos()], [amplitude * phase.sin()]);
         let value = |x: f64| levels.iter().fold(1.0, |product, level| product * (x - level));
-        let found = found(Spring, start, direction * length, method, |sample| value(sample.state().q[0]));
+        let found = found(SPRING, start, direction * length, method, &|sample| value(sample.state().q[0]));
         fault(&found, &zeros, value(start.q[0]) < 0.0, 1e-4)
     });
 }
@@ -206,7 +209,7 @@ fn starts_on_a_zero() {
         let of_state = |sample: &Sample<&Plane>| value(sample.state().q[0], sample.state().q[1]);
         let expected: Vec<f64> = zeros.iter().map(|zero| time + direction * zero).collect();
         let end = time + direction * length;
-        let found = found(Plane, start, end, method, of_state);
+        let found = found(Plane { g: 0.0 }, start, end, method, &of_state);
         fault(&found, &expected, zeros.len() % 2 == 1, 1e-12 * length + 4.0 * f64::EPSILON * time)
     });
 }
@@ -219,12 +222,12 @@ fn dips() {
         let [width, depth] =
             [0.15 * 27_f64.powf(random.between(0.0, 1.0)), 10_f64.powf(random.between(-6.0, 0.5))];
         let (middle, half) = (direction * random.between(15.0, 25.0), width * depth.ln_1p().sqrt());
-        let g = |sample: &Sample<&Free>| {
+        let g = |sample: &Sample<&PushedSpring<f64>>| {
             1.0 - (1.0 + depth) * (-((sample.time() / step - middle) / width).powi(2)).exp()
         };
-        let mut event = Free.event("dip", g);
+        let mut event = FREE.event("dip", g);
         let (start, method) = (State::new([0.0], [1.0]), RungeKutta4::with_step(step));
-        let path = Free
+        let path = FREE
             .motion(start)
             .by(method)
             .event(&mut event)
@@ -236,9 +239,3 @@ fn dips() {
         fault(&found, &zeros, false, 1e-14 * (width * width / half + middle.abs()))
     });
 }
-
-/// A free particle in a plane.
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2)/2)]
-struct Plane;

@@ -2,16 +2,7 @@
 
 use lagrange_core::{Crossing, Dop853, prelude::*};
 
-/// A uniform rod in the plane with its lower end on the ground.
-#[derive(Lagrangian)]
-#[coordinates(x, y, theta)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*a^2/6 * theta_dot^2 - m*g*y)]
-#[constraint(ground: y - a*sin(theta) = 0)]
-struct Rod {
-    m: f64,
-    a: f64,
-    g: f64,
-}
+use crate::Rod;
 
 /// Of the rod alone: 1/m* = 1/m + a² cos²θ / (m a²/3) is what its end weighs upwards, and Λ = −(1 + e) m* ẏ_end.
 #[test]

@@ -2,21 +2,12 @@
 
 use lagrange_core::{Dop853, Ending, prelude::*};
 
-use crate::{Ball, Spring};
+use lagrange_systems::LeaningRod;
+
+use crate::SPRING;
 
 /// A uniform ladder of length 2a between a smooth wall and a smooth floor; x and y are its middle.
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x, y, theta)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*a^2/6 * theta_dot^2 - m*g*y)]
-#[constraint(wall: x - a*cos(theta) = 0)]
-#[constraint(floor: y - a*sin(theta) = 0)]
-pub(crate) struct Ladder {
-    pub(crate) m: f64,
-    pub(crate) a: f64,
-    pub(crate) g: f64,
-}
-
-pub(crate) const LADDER: Ladder = Ladder { m: 3.0, a: 2.5, g: 9.81 };
+pub(crate) const LADDER: LeaningRod<f64> = LeaningRod { m: 3.0, a: 2.5, g: 9.81 };
 
 pub(crate) fn leaning(theta: f64) -> State<f64, 3> {
     State::at_rest([2.5 * theta.cos(), 2.5 * theta.sin(), theta])
@@ -88,9 +79,9 @@ fn a_bead_leaves_the_sphere_where_its_push_ends() {
 fn runs_record_count_and_end() {
     let method = Dop853::with_tolerance(1e-12);
     let start = State::at_rest([1.0]);
-    let mut zero = Spring.event("zero", |s| s.state().q[0]);
-    let mut turn = Spring.event("turn", |s| s.velocity("x")).falling().terminal_at(5);
-    let path = Spring.motion(start).by(method).event(&mut zero).event(&mut turn).towards(100.0).unwrap();
+    let mut zero = SPRING.event("zero", |s| s.state().q[0]);
+    let mut turn = SPRING.event("turn", |s| s.velocity("x")).falling().terminal_at(5);
+    let path = SPRING.motion(start).by(method).event(&mut zero).event(&mut turn).towards(100.0).unwrap();
     // ẋ = −sin t falls through 0 at 2π, 4π, …: the start is at one.
     assert_eq!((zero.count(), turn.count()), (10, 5));
     assert!((path.ending().time() - 10.0 * std::f64::consts::PI).abs() < 1e-9);
@@ -105,40 +96,18 @@ fn runs_record_count_and_end() {
     assert_eq!(path.steps().last().unwrap().time(), path.ending().time());
     assert_eq!(path.into_owned().crossings().len(), 15);
     // Without an end by an event, all is as without events.
-    let mut zero = Spring.event("zero", |s| s.state().q[0]);
-    let path = Spring.motion(start).by(method).event(&mut zero).towards(100.0).unwrap();
-    let plain = Spring.integrate(start, 100.0, method).unwrap();
+    let mut zero = SPRING.event("zero", |s| s.state().q[0]);
+    let path = SPRING.motion(start).by(method).event(&mut zero).towards(100.0).unwrap();
+    let plain = SPRING.integrate(start, 100.0, method).unwrap();
     assert!(path.ending().is_complete() && path.crossings().len() == 32);
     assert_eq!((path.end().state(), path.statistics()), (plain.end().state(), plain.statistics()));
-}
-
-/// Each bounce a run of its own, with the same event.
-#[test]
-fn bounces_that_accumulate_end_the_run_that_they_do_so_in() {
-    let (ball, e) = (Ball { g: 9.81 }, 0.5);
-    let mut lands = ball.event("lands", |s| s.coordinate("height")).falling().terminal();
-    let (mut state, mut landings) = (State::at_rest([1.0]), 0);
-    let ending = loop {
-        let path = ball.motion(state).event(&mut lands).towards(100.0).unwrap();
-        state = *path.end().state();
-        landings += lands.count();
-        match path.ending() {
-            Ending::Event { .. } => state.v *= -e,
-            ending => break ending.clone(),
-        }
-    };
-    let rest = (2.0_f64 / 9.81).sqrt() * (1.0 + 2.0 * e / (1.0 - e));
-    assert!(
-        matches!(ending, Ending::EventsAccumulate { event: "lands", time } if (time - rest).abs() < 1e-6)
-    );
-    assert!(ending.is_failure() && (25..40).contains(&landings), "{landings}");
 }
 
 /// Who puts the motion back after each crossing comes no farther.
 #[test]
 fn a_storm_of_events_has_an_end() {
-    let mut crosses = Spring.event("crosses", |s| s.state().q[0]).falling();
-    let mut motion = Motion::new(Spring, State::at_rest([1.0]), Dop853::default()).unwrap();
+    let mut crosses = SPRING.event("crosses", |s| s.state().q[0]).falling();
+    let mut motion = Motion::new(&SPRING, State::at_rest([1.0]), Dop853::default()).unwrap();
     let ending = loop {
         match motion.advance_to_event(1e6, &mut [&mut crosses]) {
             Ok(Some(crossing)) => {
@@ -155,27 +124,27 @@ fn a_storm_of_events_has_an_end() {
 #[test]
 fn what_is_wrong_with_a_function_is_told_and_the_way_there_kept() {
     let start = State::at_rest([1.0]);
-    let mut root = Spring.event("root", |s| s.state().q[0].sqrt());
-    let path = Spring.motion(start).event(&mut root).towards(10.0).unwrap();
+    let mut root = SPRING.event("root", |s| s.state().q[0].sqrt());
+    let path = SPRING.motion(start).event(&mut root).towards(10.0).unwrap();
     assert!(matches!(path.ending(), Ending::EventNotFinite { event: "root", .. }));
     assert!(path.end().coordinate("x").unwrap() > 0.0 && path.end().time() > 0.5);
     assert!(path.at(0.5).is_ok() && path.crossings().is_empty());
     let error = path.finished().unwrap_err();
     assert!(matches!(&error, Error::Unfinished(_)), "{error}");
 
-    let mut event = Spring.event("never", |_| f64::NAN);
-    let error = Spring.motion(start).event(&mut event).towards(1.0).unwrap_err();
+    let mut event = SPRING.event("never", |_| f64::NAN);
+    let error = SPRING.motion(start).event(&mut event).towards(1.0).unwrap_err();
     assert!(matches!(error, Error::EventNotFinite { event: "never", time: 0.0 }), "{error}");
-    let mut event = Spring.event("typo", |s| s.velocity("x_dot"));
-    let error = Spring.motion(start).event(&mut event).towards(1.0).unwrap_err();
+    let mut event = SPRING.event("typo", |s| s.velocity("x_dot"));
+    let error = SPRING.motion(start).event(&mut event).towards(1.0).unwrap_err();
     assert!(matches!(error, Error::UnknownName { .. }), "{error}");
 }
 
 /// Where a function jumps there is a crossing, and it is found to the last bit of the time.
 #[test]
 fn jumps_are_crossings() {
-    let mut jumps = Spring.event("jumps", |s| if s.time() < 2.25 + 1e-3 { -1.0 } else { 1e9 });
-    let path = Spring.motion(State::at_rest([1.0])).event(&mut jumps).towards(10.0);
+    let mut jumps = SPRING.event("jumps", |s| if s.time() < 2.25 + 1e-3 { -1.0 } else { 1e9 });
+    let path = SPRING.motion(State::at_rest([1.0])).event(&mut jumps).towards(10.0);
     let path = path.unwrap();
     assert_eq!(path.crossings().len(), 1);
     assert!((path.crossings()[0].state.t - 2.251).abs() <= 2.0 * f64::EPSILON * 2.251);
@@ -185,10 +154,10 @@ fn jumps_are_crossings() {
 #[test]
 fn an_event_counts_anew_in_each_run() {
     let method = Dop853::with_tolerance(1e-12);
-    let mut turn = Spring.event("turn", |s| s.velocity("x")).falling().terminal_at(2);
+    let mut turn = SPRING.event("turn", |s| s.velocity("x")).falling().terminal_at(2);
     let mut start = State::at_rest([1.0]);
     for again in [State::at_rest([2.0]), State::at_rest([1.0]).at_time(0.5), State::at_rest([1.0])] {
-        let path = Spring.motion(start).by(method).event(&mut turn).towards(100.0).unwrap();
+        let path = SPRING.motion(start).by(method).event(&mut turn).towards(100.0).unwrap();
         assert_eq!((turn.count(), path.crossings().len()), (2, 2));
         assert!(
             (path.ending().time() - start.t - 4.0 * std::f64::consts::PI).abs() < 1e-9,
@@ -197,13 +166,13 @@ fn an_event_counts_anew_in_each_run() {
         );
         start = again;
     }
-    let mut zero = Spring.event("zero", |s| s.state().q[0]);
-    let first = Spring.motion(start).by(method).event(&mut zero).towards(5.0).unwrap();
+    let mut zero = SPRING.event("zero", |s| s.state().q[0]);
+    let first = SPRING.motion(start).by(method).event(&mut zero).towards(5.0).unwrap();
     assert_eq!(zero.count(), 2);
     let leg = *first.end().state();
-    Spring.motion(leg).by(method).event(&mut zero).towards(10.0).unwrap();
+    SPRING.motion(leg).by(method).event(&mut zero).towards(10.0).unwrap();
     assert_eq!(zero.count(), 1);
-    let mut motion = Motion::new(Spring, State::at_rest([1.0]), method).unwrap();
+    let mut motion = Motion::new(&SPRING, State::at_rest([1.0]), method).unwrap();
     let crossing = motion.advance_to_event(9.0, &mut [&mut zero]).unwrap().unwrap();
     assert_eq!((crossing.count, zero.count()), (1, 1));
 }
