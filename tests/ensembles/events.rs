@@ -1,23 +1,13 @@
 //! Events of members, lane by lane.
 
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lagrange_core::motion::{Adaptive, AnyEvent, Pair};
-use lagrange_core::{
-    Crossing, Ending, Sample, StateOf,
-    ensemble::{Arrival, MemberEnding, MemberTable, Outcome},
-    generic::Length,
-    nalgebra::Const,
-    prelude::*,
-};
+use lagrange_core::{Crossing, Ending, Sample, StateOf, ensemble::Arrival, nalgebra::Const, prelude::*};
 
-use crate::{COUNT, DoublePendulum, END, ensemble, member, on_threads};
+use lagrange_systems::PushedSpring;
 
-fn arrival<N: Length>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
-    outcome.get(index).and_then(|member| member.arrival()).expect("a motion")
-}
+use crate::{COUNT, Pendulum, Runaway, arrival, ensemble, member, on_threads, some, steps};
 
 /// A run alone has these crossings, ending and last state, bit for bit.
 fn assert_alone<L, P>(
@@ -33,8 +23,7 @@ fn assert_alone<L, P>(
     let path = system.motion(start).by(method).events(events).towards(end).expect("a start");
     assert_eq!(arrival.crossings, path.crossings());
     assert_eq!((&arrival.state, &arrival.ending), (path.end().state(), path.ending()));
-    let steps = |statistics: &lagrange_core::Statistics| (statistics.accepted, statistics.rejected);
-    assert_eq!(steps(&arrival.statistics), steps(path.statistics()));
+    assert_eq!(steps(arrival), [path.statistics().accepted, path.statistics().rejected]);
 }
 
 #[test]
@@ -47,7 +36,7 @@ fn one_by_one_events_are_those_of_a_run() {
     let ended =
         outcome.members().iter().filter(|m| matches!(m.arrival().unwrap().ending, Ending::Event { .. }));
     assert!((5..COUNT).contains(&ended.count()) && outcome.failures().count() == 0);
-    for index in 0..COUNT {
+    for index in some() {
         let (mut upper, mut lower) = (upper(), lower());
         assert_alone(arrival(&outcome, index), member(index), end, method, &mut [&mut upper, &mut lower]);
     }
@@ -67,7 +56,7 @@ fn neighbours_and_threads_change_no_bit_of_an_event() {
     let all: Vec<usize> = (0..COUNT).collect();
     let whole = run(&all, 1);
     assert_eq!(whole, run(&all, 4));
-    for index in 0..COUNT {
+    for index in some() {
         assert_eq!(run(&[index], 1).members(), &whole.members()[index..=index]);
         let (system, start) = member(index);
         let mut upper = any.event("upper", |s| s.state().q[0]).terminal_at(2);
@@ -91,26 +80,17 @@ fn neighbours_and_threads_change_no_bit_of_an_event() {
     }
 }
 
-/// x = cos t. What its event is about depends on the member.
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 - k/2*x^2)]
-struct Spring<T> {
-    k: T,
-    kind: T,
-    level: T,
-}
-
 const KINDS: usize = 8;
 
-fn spring(index: usize) -> (Spring<f64>, State<f64, 1>) {
-    let (kind, level) = ((index % KINDS) as f64, -0.9 + 0.2 * (index / KINDS) as f64);
-    (Spring { k: 1.0, kind, level }, State::at_rest([1.0]))
+/// x = cos t, with the kind of event that a member is about and the level of that.
+fn spring(index: usize) -> (PushedSpring<f64>, State<f64, 1>) {
+    let mark = [(index % KINDS) as f64, -0.9 + 0.2 * (index / KINDS) as f64];
+    (PushedSpring { m: 1.0, k: 1.0, mark, ..PushedSpring::default() }, State::at_rest([1.0]))
 }
 
 /// What each kind of member crosses; a one where it is about something else.
-fn about(sample: &Sample<&Spring<f64>>, event: f64) -> f64 {
-    let (Spring { kind, level, .. }, State { t, q, v }) = (**sample.system(), *sample.state());
+fn about(sample: &Sample<&PushedSpring<f64>>, event: f64) -> f64 {
+    let (PushedSpring { mark: [kind, level], .. }, State { t, q, v }) = (**sample.system(), *sample.state());
     match (kind as usize, event as usize) {
         // Ends where x falls through the level, each at another time.
         (0, 0) => q[0] - level,
@@ -145,7 +125,7 @@ fn different_events_of_sixty_four_members_are_found_as_the_rule_says() {
         let events: &mut [&mut dyn AnyEvent<_>] = &mut [&mut ends, &mut counted, &mut kept];
         let found = arrival(&outcome, index);
         assert_alone(found, spring(index), end, method, events);
-        let (Spring { kind, level, .. }, _) = spring(index);
+        let [kind, level] = spring(index).0.mark;
         let times: Vec<f64> = found.crossings.iter().map(|crossing| crossing.state.t).collect();
         let (expected, ending): (Vec<f64>, _) = match kind as usize {
             0 => (vec![level.acos()], "ends"),
@@ -190,14 +170,6 @@ fn events_at_one_time_come_in_the_order_given() {
     }
 }
 
-/// ẍ = 6x² from x = 1, ẋ = 2 is x = (1 − t)⁻².
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 + k*x^3/3)]
-struct Runaway<T> {
-    k: T,
-}
-
 /// sin ln x crosses zero ever faster on the way to t = 1: 1 − t falls by the same factor each time.
 #[test]
 fn a_storm_of_events_ends_its_member_alone() {
@@ -226,35 +198,25 @@ fn a_storm_of_events_ends_its_member_alone() {
     }
 }
 
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x, y)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-#[constraint(sphere: (x^2 + y^2 - a^2)/2 = 0)]
-struct Bead<T> {
-    m: T,
-    g: T,
-    a: T,
-}
-
 /// From the top with the speed v, a bead leaves the sphere where cos θ = (2 + v²/(g a))/3.
 #[test]
 fn beads_leave_their_spheres_on_the_constraint() {
     let bead = |index: usize| {
         let a = 0.5 + 0.25 * index as f64;
-        (Bead { m: 2.0, g: 9.81, a }, State::new([0.0, a], [0.1 + 0.05 * index as f64, 0.0]))
+        (Pendulum { m: 2.0, g: 9.81, l: a, u: 0.0 }, State::new([0.0, a], [0.1 + 0.05 * index as f64, 0.0]))
     };
-    let leaves = || bead(0).0.event("leaves", |s| s.multiplier("sphere")).falling().terminal();
+    let leaves = || bead(0).0.event("leaves", |s| s.multiplier("rod")).falling().terminal();
     let method = Dop853::with_tolerance(1e-13);
     let outcome = Ensemble::from_fn(10, bead).event(leaves()).integrate_on_lanes(10.0, method).unwrap();
     for index in 0..10 {
         let (found, (system, start), mut leaves) = (arrival(&outcome, index), bead(index), leaves());
         assert_alone(found, (system, start), 10.0, method, &mut [&mut leaves]);
         let State { q, v, .. } = found.state;
-        let off = (q.norm() / system.a - 1.0).abs().max(q.normalize().dot(&v.normalize()).abs());
+        let off = (q.norm() / system.l - 1.0).abs().max(q.normalize().dot(&v.normalize()).abs());
         // Half of it is the rounding of what is measured here: lengths, quotients, products.
         assert!(off < 8.0 * f64::EPSILON, "{off:e}");
-        let expected = (2.0 + start.v[0].powi(2) / (system.g * system.a)) / 3.0;
-        let angle = (q[1] / system.a).acos();
+        let expected = (2.0 + start.v[0].powi(2) / (system.g * system.l)) / 3.0;
+        let angle = (q[1] / system.l).acos();
         assert!((angle - expected.acos()).abs() < 1e-11, "{angle} instead of {}", expected.acos());
         assert!(found.crossings[0].state == found.state && found.crossings.len() == 1);
     }
@@ -285,59 +247,5 @@ fn members_begin_anew_and_wrong_functions_are_told() {
         Ensemble::from_fn(3, spring).event(typo).integrate(1.0, Dop853::default()).unwrap().members()
     {
         assert!(matches!(member.result, Err(Error::UnknownName { .. })), "{member}");
-    }
-}
-
-/// A member that an event ended has arrived: a table says so, and it is not done again.
-#[test]
-fn members_ended_by_an_event_are_taken_over_from_a_table() {
-    let name = "\"up\", again";
-    let upper = || member(0).0.event(name, |s| s.coordinate("a")).terminal_at(2);
-    let run = || ensemble().event(upper()).tag("up");
-    let whole = run().integrate_on_lanes(2.0, Dop853::default()).unwrap();
-    let ended = MemberEnding::Event(name.into());
-    let table = MemberTable::read::<DoublePendulum<f64>>(&whole.csv().to_string()).unwrap();
-    assert_eq!(table.to_string(), whole.csv().to_string());
-    assert!(table.rows().iter().filter(|row| row.ending == ended).count() >= 5);
-    assert!(table.rows().iter().all(|row| !row.has_failed()));
-    let begun = AtomicUsize::new(0);
-    let counted = run().resume_from(table).unwrap().observe(|_, _| {
-        begun.fetch_add(1, Ordering::Relaxed);
-        ControlFlow::Continue(())
-    });
-    let taken = counted.integrate_on_lanes(2.0, Dop853::default()).unwrap();
-    assert_eq!(begun.into_inner(), 0);
-    for (taken, member) in taken.members().iter().zip(whole.members()) {
-        let (taken, arrival) = (taken.arrival().unwrap(), member.arrival().unwrap());
-        assert_eq!((&taken.state, &taken.ending), (&arrival.state, &arrival.ending));
-    }
-}
-
-/// Runs with another event, or with another setting of one, are other runs.
-#[test]
-fn events_tell_runs_apart() {
-    let any = member(0).0;
-    let run = |name, count| {
-        let event = any.event(name, |s| s.state().q[0]).terminal_at(count);
-        ensemble().event(event).integrate_on_lanes(END, Dop853::default()).unwrap()
-    };
-    assert!(run("a", 1).merge(run("a", 1)).is_ok());
-    assert!(run("a", 1).merge(run("a", 2)).is_err() && run("a", 1).merge(run("b", 1)).is_err());
-}
-
-#[test]
-fn single_precision_has_events_too() {
-    #[derive(Lagrangian, Clone, Copy)]
-    #[coordinates(x)]
-    #[lagrangian(x_dot^2/2 - k/2*x^2)]
-    struct Single {
-        k: f32,
-    }
-    let zero = Single { k: 1.0 }.event("zero", |s| s.state().q[0]).terminal();
-    let members = [1.0_f32, 4.0, 9.0].map(|k| (Single { k }, State::at_rest([1.0_f32])));
-    let outcome = Ensemble::new(&members).event(zero).integrate(9.0, Dopri5::with_tolerance(1e-5)).unwrap();
-    for member in outcome.members() {
-        let t = member.arrival().unwrap().ending.time() * (member.index as f64 + 1.0);
-        assert!((t - PI / 2.0).abs() < 1e-3, "{member}");
     }
 }

@@ -2,33 +2,26 @@
 
 use std::ops::ControlFlow;
 
-use lagrange_core::{
-    Lanes, Method, Pack,
-    ensemble::{Arrival, Outcome},
-    generic::Length,
-    nalgebra::Const,
-    prelude::*,
-};
+use lagrange_core::{Lanes, Method, Pack, ensemble::Outcome, nalgebra::Const, prelude::*};
+use lagrange_random::cases;
 
-use crate::{COUNT, END, ensemble, member, on_threads};
+use crate::{COUNT, END, Pendulum, Redundant, Runaway, arrival, ensemble, far, member, some, steps};
 
 const TIMES: [f64; 9] = [0.0, 1e-9, 0.1, 0.1, 0.125, 0.5, 0.75, 0.999, END];
-
-fn arrival<N: Length>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
-    outcome.get(index).and_then(|member| member.arrival()).expect("a motion")
-}
 
 #[test]
 fn one_by_one_samples_are_those_of_a_trajectory() {
     alone_and_sampled(Dop853::default());
+    #[cfg(feature = "thorough")]
     alone_and_sampled(Dopri5::with_tolerance(1e-6));
+    #[cfg(feature = "thorough")]
     alone_and_sampled(lagrange_core::RungeKutta4::with_step(0.01));
 }
 
 fn alone_and_sampled<P: Method<crate::DoublePendulum<f64>> + Copy + Sync>(method: P) {
     let plain = ensemble().integrate(END, method).expect("a motion");
     let sampled = ensemble().samples_at(TIMES).integrate(END, method).expect("a motion");
-    for index in 0..COUNT {
+    for index in some() {
         let (system, start) = member(index);
         let path = system.integrate(start, END, method).expect("a motion");
         let expected = TIMES.map(|t| *path.at(t).expect("a motion").state());
@@ -44,14 +37,12 @@ fn samples_on_lanes_change_no_bit_of_the_end_and_follow_the_motion() {
     let method = Dop853::with_tolerance(1e-12);
     let plain = ensemble().integrate_on_lanes(END, method).unwrap();
     let sampled = ensemble().samples_at(TIMES).integrate_on_lanes(END, method).unwrap();
-    for index in 0..COUNT {
+    for index in some() {
         let (system, start) = member(index);
         let path = system.integrate(start, END, method).unwrap();
         let (plain, sampled) = (arrival(&plain, index), arrival(&sampled, index));
         assert_eq!((sampled.state, sampled.samples.last()), (plain.state, Some(&plain.state)));
         assert_eq!((sampled.samples[0], sampled.samples[2]), (start, sampled.samples[3]));
-        let steps =
-            |arrival: &Arrival<f64, Const<2>>| (arrival.statistics.accepted, arrival.statistics.rejected);
         assert_eq!(steps(sampled), steps(plain));
         // Three evaluations more for each step that has a sample within.
         let more = sampled.statistics.evaluations - plain.statistics.evaluations;
@@ -64,49 +55,6 @@ fn samples_on_lanes_change_no_bit_of_the_end_and_follow_the_motion() {
     }
 }
 
-/// Bit for bit, whoever is beside a member.
-#[test]
-fn neighbours_threads_and_order_change_no_bit_of_a_sample() {
-    let times = || (0..=100).map(|k| f64::from(k) / 100.0);
-    let method = Dop853::default();
-    let whole = on_threads(1, || ensemble().samples_at(times()).integrate_on_lanes(END, method).unwrap());
-    let threads = on_threads(5, || ensemble().samples_at(times()).integrate_on_lanes(END, method).unwrap());
-    assert_eq!(whole, threads);
-    for index in 0..COUNT {
-        let alone = ensemble().samples_at(times()).members([index]).integrate_on_lanes(END, method).unwrap();
-        assert_eq!(alone.members(), &whole.members()[index..=index]);
-    }
-    let backwards = Ensemble::from_fn(COUNT, |index| member(COUNT - 1 - index));
-    let backwards = backwards.samples_at(times()).integrate_on_lanes(END, method).unwrap();
-    for (a, b) in whole.members().iter().zip(backwards.members().iter().rev()) {
-        assert_eq!((&a.result, 101), (&b.result, a.arrival().unwrap().samples.len()));
-    }
-}
-
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x, y)]
-#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
-#[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
-#[constraint(rod_again: c*(x^2 + y^2 - l^2)*(2 + x^2) = 0)]
-#[observable(pull = l*(lambda(rod) + 2*c*(2 + x^2)*lambda(rod_again)))]
-struct Redundant<T> {
-    m: T,
-    g: T,
-    l: T,
-    c: T,
-}
-
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x, y)]
-#[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
-#[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
-#[observable(pull = l*lambda(rod))]
-struct Pendulum<T> {
-    m: T,
-    g: T,
-    l: T,
-}
-
 /// Samples are on the constraint; the energy is kept, and the pull that keeps a bob on its circle is
 /// m v²/l − m g·r/l. Where constraints are not independent each step is taken alone.
 #[test]
@@ -115,7 +63,7 @@ fn samples_are_on_the_constraints_and_have_quantities() {
     let start = |index: usize| State::at_rest([l(index) * 0.6, -l(index) * 0.8]);
     let times = || (0..60).map(|k| 0.03 * f64::from(k));
     let (m, g) = (2.0, 9.81);
-    let single = Ensemble::from_fn(7, |k| (Pendulum { m, g, l: l(k) }, start(k)))
+    let single = Ensemble::from_fn(7, |k| (Pendulum { m, g, l: l(k), u: 0.0 }, start(k)))
         .samples_at(times())
         .quantity("pull", |s| s.observable("pull"))
         .quantity("energy", |s| s.energy());
@@ -152,15 +100,8 @@ fn samples_are_on_the_constraints_and_have_quantities() {
 /// Steps with sines of such angles are taken alone, and so is what lies within.
 #[test]
 fn what_the_lanes_cannot_do_is_done_alone_within_steps_too() {
-    let far = |index: usize| {
-        let (system, start) = member(index);
-        (
-            system,
-            State::at_rest(start.q.add_scalar(if index == 2 { 2e9 * std::f64::consts::PI } else { 0.0 })),
-        )
-    };
-    let (end, method) = (0.1, Dop853::with_tolerance(1e-10));
-    let times = [0.011, 0.05, 0.09];
+    let (end, method) = (0.02 * cases([1, 5, 5]) as f64, Dop853::with_tolerance(1e-10));
+    let times = [0.11, 0.5, 0.9].map(|part| part * end);
     let near = Ensemble::from_fn(4, member).samples_at(times).integrate_on_lanes(end, method).unwrap();
     let turned = Ensemble::from_fn(4, far).samples_at(times).integrate_on_lanes(end, method).unwrap();
     for index in [0, 1, 3] {
@@ -168,15 +109,8 @@ fn what_the_lanes_cannot_do_is_done_alone_within_steps_too() {
     }
     let (system, start) = far(2);
     let path = system.integrate(start, end, method).unwrap();
+    assert_eq!(&arrival(&turned, 2).state, path.end().state());
     assert_eq!(arrival(&turned, 2).samples, times.map(|t| *path.at(t).unwrap().state()));
-}
-
-/// ẍ = 6x² from x = 1, ẋ = 2 is x = (1 − t)⁻².
-#[derive(Lagrangian)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 + k*x^3/3)]
-struct Runaway<T> {
-    k: T,
 }
 
 fn either<L>(
@@ -294,17 +228,4 @@ fn a_quantity_that_cannot_be_had_ends_its_member() {
         assert_eq!((values, arrival.ending.is_complete()), if index == 7 { (5, false) } else { (10, true) });
         assert!(index != 7 || (arrival.state.t, arrival.ending.time()) == (0.5, 0.5));
     }
-}
-
-/// Rows of other samples are of another run.
-#[test]
-fn samples_tell_runs_apart() {
-    let run = |times: &[f64]| {
-        ensemble().samples_at(times.iter().copied()).integrate_on_lanes(END, Dop853::default()).unwrap()
-    };
-    let (plain, sampled) = (ensemble().integrate_on_lanes(END, Dop853::default()).unwrap(), run(&[0.5]));
-    assert!(plain.clone().merge(sampled.clone()).is_err() && run(&[0.25]).merge(sampled.clone()).is_err());
-    let again = ensemble().samples_at([0.25]).resume(&sampled.csv().to_string()).unwrap();
-    let error = again.integrate_on_lanes(END, Dop853::default()).unwrap_err();
-    assert!(error.to_string().contains("a sample, a quantity"), "{error}");
 }

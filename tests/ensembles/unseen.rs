@@ -5,8 +5,10 @@ use std::ops::ControlFlow;
 use lagrange_core::ensemble::EnsembleError;
 use lagrange_core::prelude::*;
 
+use lagrange_systems::DoublePendulum;
+
 use crate::fields::trapped;
-use crate::{COUNT, DoublePendulum, END, ensemble, member};
+use crate::{COUNT, END, ensemble, member};
 
 type Runs<'a> = Ensemble<'a, DoublePendulum<f64>, true>;
 
