@@ -1,5 +1,7 @@
 //! Steps: how they are chosen, what lies within, where they end, and what goes wrong.
 
+use std::f64::consts::TAU;
+
 use lagrange_core::{Method, prelude::*};
 use lagrange_systems::{DrivenSpring, Planet, Spring};
 
@@ -104,5 +106,39 @@ fn a_root_that_comes_down_to_zero_twice_in_a_step_is_seen() -> Result<(), Error>
         let off = (path.end().velocity("x")? - expected).abs();
         assert!(off < 4e-14, "{d}: {off:e} {:?} {:?}", path.ending(), path.statistics());
     }
+    Ok(())
+}
+
+/// A pulse in time.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x)]
+#[lagrangian(x_dot^2/2 - k*x^2/2)]
+#[force(x: a*exp(-(t - c)^2/(2*w^2)))]
+pub(crate) struct Pulse<T> {
+    pub(crate) k: T,
+    pub(crate) a: T,
+    pub(crate) c: T,
+    pub(crate) w: T,
+}
+
+/// No step passes over a force that is nothing where it begins: the acceleration at the start is 3.5·10⁻¹⁹⁶.
+#[test]
+fn a_start_far_before_a_pulse() -> Result<(), Error> {
+    let pulse = Pulse { k: 0.0, a: 1.0, c: 1.5, w: 0.05 };
+    let path = pulse.integrate(State::at_rest([0.0]), 3.0, Taylor::default())?;
+    assert!((path.end().state().v[0] / (0.05 * TAU.sqrt()) - 1.0).abs() < 1e-12);
+    Ok(())
+}
+
+/// A motion that is taken up again step by step sees it too: what the last step saw counts.
+#[test]
+fn a_pulse_after_many_short_steps() -> Result<(), Error> {
+    let mut motion =
+        Motion::new(Pulse { k: 0.0, a: 1.0, c: 9.0, w: 0.05 }, State::at_rest([0.0]), Taylor::default())?;
+    for k in 1..=100 {
+        assert_eq!(motion.advance_to(f64::from(k) * 0.01), Ok(()));
+    }
+    assert_eq!(motion.advance_to(12.0), Ok(()));
+    assert!((motion.state().v[0] / (0.05 * TAU.sqrt()) - 1.0).abs() < 1e-9, "{}", motion.state());
     Ok(())
 }

@@ -3,10 +3,11 @@
 //! A failure says the number of its case.
 
 use std::f64::consts::PI;
-
 use lagrange_core::{Lanes, Pack, TaylorSeries, nalgebra::Const, prelude::*};
 
 use lagrange_random::{Random, cases};
+
+use super::control::Pulse;
 
 const END: f64 = 12.0;
 const TOLERANCES: [f64; 4] = [f64::EPSILON, 1e-12, 1e-9, 1e-6];
@@ -16,18 +17,6 @@ const TOLERANCES: [f64; 4] = [f64::EPSILON, 1e-12, 1e-9, 1e-6];
 #[coordinates(x)]
 #[lagrangian(x_dot^2/2 - k*x^2/2 - a/2*(1 + tanh((x - c)/w)))]
 struct Step<T> {
-    k: T,
-    a: T,
-    c: T,
-    w: T,
-}
-
-/// A pulse in time.
-#[derive(Lagrangian, Clone)]
-#[coordinates(x)]
-#[lagrangian(x_dot^2/2 - k*x^2/2)]
-#[force(x: a*exp(-(t - c)^2/(2*w^2)))]
-struct Pulse<T> {
     k: T,
     a: T,
     c: T,
@@ -173,26 +162,4 @@ fn scatterers() -> Result<(), Error> {
         let effect = far(&without).max(1e-3);
         (system, start, Box::new(move |_, end| far(end) / effect))
     })
-}
-
-/// The acceleration at the start is 3.5·10⁻¹⁹⁶.
-#[test]
-fn a_start_far_before_a_pulse() -> Result<(), Error> {
-    let pulse = Pulse { k: 0.0, a: 1.0, c: 1.5, w: 0.05 };
-    let path = pulse.integrate(State::at_rest([0.0]), 3.0, Taylor::default())?;
-    assert!((path.end().state().v[0] / (0.05 * (2.0 * PI).sqrt()) - 1.0).abs() < 1e-12);
-    Ok(())
-}
-
-/// So does a motion that is taken up again step by step: what the last step saw counts.
-#[test]
-fn a_pulse_after_many_short_steps() -> Result<(), Error> {
-    let mut motion =
-        Motion::new(Pulse { k: 0.0, a: 1.0, c: 9.0, w: 0.05 }, State::at_rest([0.0]), Taylor::default())?;
-    for k in 1..=100 {
-        assert_eq!(motion.advance_to(f64::from(k) * 0.01), Ok(()));
-    }
-    assert_eq!(motion.advance_to(END), Ok(()));
-    assert!((motion.state().v[0] / (0.05 * (2.0 * PI).sqrt()) - 1.0).abs() < 1e-9, "{}", motion.state());
-    Ok(())
 }
