@@ -2,8 +2,8 @@
 //!
 //! A failure says the number of its case.
 
-use std::f64::consts::PI;
 use lagrange_core::{Lanes, Pack, TaylorSeries, nalgebra::Const, prelude::*};
+use std::f64::consts::PI;
 
 use lagrange_random::{Random, cases};
 
