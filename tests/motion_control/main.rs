@@ -6,13 +6,15 @@ mod saturation;
 mod steered;
 mod times;
 
-// The same on lanes, in momenta and across contacts.
+// The same on lanes, in momenta, across contacts and in single precision.
 #[cfg(feature = "thorough")]
 mod allocations_of_runs;
 #[cfg(feature = "thorough")]
 mod both_ways;
 #[cfg(feature = "thorough")]
 mod classical;
+#[cfg(feature = "thorough")]
+mod single_precision;
 
 use core::ops::ControlFlow;
 

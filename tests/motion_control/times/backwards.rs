@@ -54,14 +54,6 @@ fn queries_of_a_path_backwards_are_in_its_order() {
     assert_eq!(path.csv(5).to_string().lines().count(), 6);
 }
 
-#[cfg(feature = "thorough")]
-#[test]
-fn single_precision_goes_back() {
-    let spring = spring_of(1.0_f32);
-    let path = spring.integrate(State::at_rest([1.0]), -10.0, Dopri5::with_tolerance(1e-6)).unwrap();
-    assert!((path.end().state().q[0] - 10_f32.cos()).abs() < 1e-4);
-}
-
 #[test]
 fn what_stops_a_motion_stops_it_backwards() {
     let spring = spring_of(1.0);

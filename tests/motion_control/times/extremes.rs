@@ -108,17 +108,3 @@ fn an_end_that_is_never_reached_does_no_harm() {
         }
     }
 }
-
-/// What a setting in `f64` becomes in `f32` may be nothing.
-#[test]
-fn settings_too_small_for_single_precision_are_no_steps_of_no_length() {
-    let spring = spring_of(1.0_f32);
-    let start = State::at_rest([1.0]);
-    for method in [Dop853::default().max_step(1e-50), Dop853::default().fixed_step(1e-50)] {
-        let path = spring.motion(start).by(method).towards(1.0).unwrap();
-        assert!(matches!(path.ending(), Ending::TimeTooCoarse { time: 0.0, .. }), "{}", path.ending());
-        assert!(path.drift().iter().all(|quantity| quantity.largest == 0.0));
-    }
-    let path = spring.integrate(start, 1.0, Dop853::default().first_step(1e-50)).unwrap();
-    assert!(path.ending().is_complete() && (path.end().state().q[0] - 1_f32.cos()).abs() < 1e-5);
-}

@@ -68,23 +68,6 @@ fn a_motion_far_from_zero_is_that_from_zero() {
     }
 }
 
-/// A motion in single precision with as many steps as there are numbers in a few of its seconds.
-#[test]
-fn single_precision_far_from_zero_is_that_near_zero() {
-    let off = |start: f32, tolerance: f64| {
-        let spring = spring_of(1.0_f32);
-        let path = spring
-            .integrate(State::at_rest([1.0]).at_time(start), start + 100.0, Dop853::with_tolerance(tolerance))
-            .unwrap();
-        assert!(path.ending().is_complete(), "{}", path.ending());
-        f64::from(path.end().coordinate("x").unwrap()) - 100_f64.cos()
-    };
-    for start in [0.0, 1e4, 1e5, 1e6] {
-        let off = off(start, 1e-6);
-        assert!(off.abs() < 1e-4, "from {start}: off by {off:e}");
-    }
-}
-
 /// Where numbers near the time are too far apart for the motion, that is said.
 #[test]
 fn what_times_cannot_resolve_ends_the_motion() {
