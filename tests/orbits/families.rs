@@ -4,12 +4,25 @@ use std::f64::consts::{PI, TAU};
 
 use lagrange_core::linearized::Stability;
 use lagrange_core::nalgebra::Complex;
-use lagrange_core::orbits::{BifurcationKind, FamilyEnding};
+use lagrange_core::orbits::{BifurcationKind, FamilyEnding, OrbitError};
 use lagrange_core::prelude::*;
 use lagrange_random::cases;
 
 use crate::bifurcations::around;
-use crate::systems::{CYCLE, DRIVEN, Saddle, Shaken};
+use crate::messages::orbit_error;
+use crate::systems::{CYCLE, DRIVEN, Saddle};
+
+/// A pendulum whose pivot is shaken up and down. At θ = 0, and at a = 0, the time has no effect.
+#[derive(Clone, Lagrangian)]
+#[coordinates(theta)]
+#[lagrangian(theta_dot^2/2 + (delta + a*cos(omega*t))*cos(theta))]
+#[dissipation(c/2 * theta_dot^2)]
+struct Shaken {
+    delta: f64,
+    a: f64,
+    omega: f64,
+    c: f64,
+}
 
 /// The pendulum of Taylor, *Classical Mechanics*, chapter 12.
 #[derive(Clone, Lagrangian)]
@@ -163,6 +176,20 @@ fn windows_of_mathieus_swing() {
             assert!((found.value - exact).abs() < 1e-10, "{k}: {:e}", found.value - exact);
         }
     }
+}
+
+/// The time counts wherever it occurs, whatever the guess: no multiplier is split off, and no other period is found.
+#[test]
+fn clock_that_rests_at_the_guess() {
+    let shaken = Shaken { delta: 1.0, a: 0.5, omega: 2.0, c: 0.1 };
+    let guess = State::new([0.0], [2.0]);
+    let orbit = shaken.periodic_orbit(&guess).driven_by("omega", 2).find().unwrap();
+    let exact = shaken.monodromy(&orbit.start, orbit.period, Dop853::with_tolerance(1e-13)).unwrap();
+    for (found, exact) in orbit.multipliers().unwrap().iter().zip(exact.multipliers().unwrap()) {
+        assert!((found - exact).norm() < 1e-9, "{found} for {exact}");
+    }
+    let error = orbit_error(shaken.periodic_orbit(&guess).period_near(6.3).find());
+    assert!(matches!(error, OrbitError::Clock { .. }), "{error}");
 }
 
 /// The product of the multipliers is e^{−c T} along a branch that leaves at θ = 0.

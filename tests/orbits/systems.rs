@@ -25,18 +25,6 @@ pub(crate) struct Cycle {
 
 pub(crate) const CYCLE: Cycle = Cycle { a: 0.1, b: 1.0, p: 3.0, c: 0.1 };
 
-/// A pendulum whose pivot is shaken up and down. At θ = 0, and at a = 0, the time has no effect.
-#[derive(Clone, Lagrangian)]
-#[coordinates(theta)]
-#[lagrangian(theta_dot^2/2 + (delta + a*cos(omega*t))*cos(theta))]
-#[dissipation(c/2 * theta_dot^2)]
-pub(crate) struct Shaken {
-    pub(crate) delta: f64,
-    pub(crate) a: f64,
-    pub(crate) omega: f64,
-    pub(crate) c: f64,
-}
-
 /// A saddle beside a spring, both with friction, both driven.
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]

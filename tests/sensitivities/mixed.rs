@@ -12,6 +12,11 @@ use crate::stiff::is_as_alone;
 use crate::{BEAD, DAMPED, bead_start, method};
 
 #[test]
+fn driven_pendulum() {
+    check_each(&DAMPED, State::new([1.0], [0.5]).at_time(1.0), 4.0);
+}
+
+#[test]
 fn double_pendulum() {
     let system = DoublePendulum { m: [1.0, 0.7], l: [0.8, 1.1], g: 9.81 };
     check_each(&system, State::new([0.9, -0.4], [0.3, 1.0]), 2.0);
