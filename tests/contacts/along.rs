@@ -5,22 +5,11 @@ use core::ops::ControlFlow;
 
 use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::{Ending, prelude::*};
+use lagrange_systems::Ball;
 
-/// A ball over a floor.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-#[force(y: thrust)]
-#[contact(floor: y >= 0, restitution: e)]
-struct Ball {
-    m: f64,
-    g: f64,
-    e: f64,
-    thrust: f64,
-    floor: Contact,
-}
+use crate::{impacts, method};
 
-const BALL: Ball = Ball { m: 0.2, g: 9.81, e: 0.8, thrust: 0.0, floor: Contact::Open };
+const BALL: Ball = Ball { m: 0.2, g: 9.81, r: 0.0, e: 0.8, thrust: 0.0, floor: Contact::Open };
 
 fn start() -> State<f64, 2> {
     State::new([0.0, 1.0], [0.5, 0.0])
@@ -47,20 +36,12 @@ fn bouncing(t: f64) -> [f64; 2] {
     }
 }
 
-fn impacts<T: Copy>(transitions: &[Transition<T>]) -> Vec<T> {
-    let times = transitions.iter().filter_map(|transition| match transition {
-        Transition::Impact { time, .. } => Some(*time),
-        _ => None,
-    });
-    times.collect()
-}
-
 #[test]
 fn events_are_counted_across_impacts() {
     let apex = || BALL.event("apex", |sample| sample.state().v[1]).falling();
     let post = || BALL.event("post", |sample| sample.state().q[0] - 0.3);
     for is_first in [true, false] {
-        let motion = BALL.motion(start()).by(Dop853::with_tolerance(1e-13));
+        let motion = BALL.motion(start()).by(method());
         let path = match is_first {
             true => motion.event(apex()).event(post()).with_contacts().to(3.0),
             false => motion.with_contacts().event(apex()).event(post()).to(3.0),
@@ -123,8 +104,7 @@ fn terminal_events_end_motions_before_the_impact() {
     for (function, is_at_impact) in [((|y, _| y) as fn(f64, f64) -> f64, true), (|_, v| v, false)] {
         let event = BALL.event("ends", |sample| function(sample.state().q[1], sample.state().v[1]));
         let event = event.falling().terminal_at(4);
-        let method = Dop853::with_tolerance(1e-13);
-        let path = BALL.motion(start()).by(method).event(event).with_contacts().to(3.0).unwrap();
+        let path = BALL.motion(start()).by(method()).event(event).with_contacts().to(3.0).unwrap();
         let expected = if is_at_impact { impact(3) } else { (impact(3) + impact(4)) / 2.0 };
         assert!(matches!(path.ending(), Ending::Event { event: "ends", .. }));
         assert!((path.end().t - expected).abs() < 1e-12, "{}", path.end().t);
@@ -172,9 +152,9 @@ fn samples_are_taken_across_impacts() {
 /// Between calls, a block is lifted with 12 m from t = 0.3 to 0.6; its weight is 10 m.
 #[test]
 fn a_controller_lifts_a_block_off_its_floor() {
-    let block = Ball { m: 1.0, g: 10.0, e: 0.0, thrust: 0.0, floor: Contact::Open };
+    let block = Ball { m: 1.0, g: 10.0, e: 0.0, ..BALL };
     let (calls, closed) = (Cell::new(0), RefCell::new(Vec::new()));
-    for method in [Dop853::with_tolerance(1e-13), Dop853::with_tolerance(1e-9)] {
+    for method in [method(), Dop853::with_tolerance(1e-9)] {
         calls.set(0);
         closed.borrow_mut().clear();
         let motion = block.motion(State::at_rest([0.0, 0.0])).by(method).with_contacts();

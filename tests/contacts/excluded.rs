@@ -10,6 +10,8 @@ use lagrange_core::{Error, Method, StateOf, Statistics, prelude::*};
 
 use lagrange_random::Random;
 
+use crate::kinds;
+
 /// A method without bounds on multipliers, so that all events of contacts are searched in every step.
 #[derive(Clone, Copy)]
 struct Searching<P>(P);
@@ -68,26 +70,19 @@ impl<L: Lagrangian<Scalar = f64>, P: Method<L>> Method<L> for Searching<P> {
 }
 
 /// A block on a rough floor, on a spring, that is pulled to and fro, under a load that swings, has a pulse in time and a bump in
-/// space: the force of the floor goes to zero though no acceleration tells of it.
+/// space: the force of the floor goes to zero though no acceleration tells of it. Of pulse and bump: size, place, width.
 #[derive(Clone, Lagrangian)]
 #[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2)/2 - k*x^2/2 + pull*x*sin(rate*t) - load*y)]
-#[define(load = g + swing*sin(fast*t + phase) - pulse*exp(-((t - t0)/width)^2) - bump*exp(-((x - x0)/size)^2))]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - k*x^2/2 + pull[0]*x*sin(pull[1]*t) - load*y)]
+#[define(pulsed = pulse[0]*exp(-((t - pulse[1])/pulse[2])^2) + bump[0]*exp(-((x - bump[1])/bump[2])^2))]
+#[define(load = 1 + swing[0]*sin(swing[1]*t + swing[2]) - pulsed)]
 #[contact(floor: y >= 0, restitution: 0.3, friction(mu): x_dot)]
 struct Block {
-    g: f64,
     k: f64,
-    pull: f64,
-    rate: f64,
-    swing: f64,
-    fast: f64,
-    phase: f64,
-    pulse: f64,
-    t0: f64,
-    width: f64,
-    bump: f64,
-    x0: f64,
-    size: f64,
+    pull: [f64; 2],
+    swing: [f64; 3],
+    pulse: [f64; 3],
+    bump: [f64; 3],
     mu: f64,
     floor: Contact,
 }
@@ -97,19 +92,11 @@ impl Block {
         let mut sometimes = |most: f64| if random.below(2) == 0 { 0.0 } else { random.between(0.0, most) };
         let [pull, swing, pulse, bump] = [3.0, 1.1, 1.5, 1.5].map(&mut sometimes);
         Self {
-            g: 1.0,
             k: random.between(0.0, 2.0),
-            pull,
-            rate: random.size(0.1, 10.0),
-            swing,
-            fast: random.size(0.1, 30.0),
-            phase: random.between(0.0, 6.3),
-            pulse,
-            t0: random.between(0.0, 5.0),
-            width: random.size(0.1, 3.0),
-            bump,
-            x0: random.between(-1.0, 1.0),
-            size: random.size(0.1, 3.0),
+            pull: [pull, random.size(0.1, 10.0)],
+            swing: [swing, random.size(0.1, 30.0), random.between(0.0, 6.3)],
+            pulse: [pulse, random.between(0.0, 5.0), random.size(0.1, 3.0)],
+            bump: [bump, random.between(-1.0, 1.0), random.size(0.1, 3.0)],
             mu: random.size(0.1, 2.0),
             floor: Contact::Closed,
         }
@@ -126,18 +113,10 @@ fn moved(
     motion.towards(6.0).map_err(|error| error.to_string())
 }
 
-/// Its transitions: time and kind.
+/// Its transitions: time and kind, with what they are of.
 fn transitions(path: &ContactTrajectory<Block>) -> Vec<(f64, String)> {
-    let kind = |transition: &Transition<f64>| match transition {
-        Transition::Impact { .. } => "impact",
-        Transition::Rests { .. } => "rests",
-        Transition::Closes { .. } => "closes",
-        Transition::Opens { .. } => "opens",
-        Transition::Sticks { .. } => "sticks",
-        Transition::Slips { .. } => "slips",
-        Transition::Reverses { .. } => "reverses",
-    };
-    path.transitions().iter().map(|transition| (transition.time(), kind(transition).to_string())).collect()
+    let times = path.transitions().iter().map(Transition::time);
+    times.zip(kinds(path)).collect()
 }
 
 /// Part of the step at this time in which the force of the floor is nearer to its least than to its value at most times; 1.67

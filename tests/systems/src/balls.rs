@@ -3,11 +3,10 @@
 use lagrange_core::contact::Contact;
 use lagrange_core::prelude::*;
 
-/// A ball over a floor at the height r, with a thrust upwards.
+/// A ball over a floor at the height r, whose weight a thrust lightens.
 #[derive(Clone, Copy, Debug, Default, Lagrangian)]
 #[coordinates(x, y)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-#[force(y: thrust)]
+#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*(g - thrust)*y)]
 #[contact(floor: y >= r, restitution: e)]
 #[observable(height = 2*y)]
 pub struct Ball {
