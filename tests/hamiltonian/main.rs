@@ -7,11 +7,12 @@ mod closed_forms;
 mod constrained;
 mod legendre;
 mod motion;
-mod rotating_frame;
 
 // Motions of systems that differ in the form of L and of constraints.
 #[cfg(feature = "thorough")]
 mod motions;
+#[cfg(feature = "thorough")]
+mod rotating_frame;
 
 use lagrange_core::{Function, nalgebra::Const, prelude::*};
 use lagrange_random::Random;

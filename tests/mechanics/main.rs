@@ -13,9 +13,10 @@ mod functions;
 mod jacobian;
 mod matrices;
 mod particles;
-mod pendulums;
 mod vectors;
 
-// Trees of bodies over five types of numbers, which take long to compile.
+// Chains of bodies, and trees over five types of numbers, which take long to compile.
+#[cfg(feature = "thorough")]
+mod pendulums;
 #[cfg(feature = "thorough")]
 mod trees;

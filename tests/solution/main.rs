@@ -1,7 +1,6 @@
 //! Accelerations and multipliers at a state: units, dependent constraints, elimination, consistent states.
 
 mod assembly;
-mod cancelled_gradients;
 mod completion;
 mod dependence;
 mod elimination;
@@ -9,11 +8,14 @@ mod factor;
 mod gradients;
 mod scales;
 mod switched_constraints;
-mod undetermined;
 
-// Every method, and all that is computed along motions.
+// Many systems, every method, and all that is computed along motions.
+#[cfg(feature = "thorough")]
+mod cancelled_gradients;
 #[cfg(feature = "thorough")]
 mod motions;
+#[cfg(feature = "thorough")]
+mod undetermined;
 
 use lagrange_core::{SolutionOf, nalgebra::Const, nalgebra::SVector, prelude::*};
 use lagrange_random::Random;

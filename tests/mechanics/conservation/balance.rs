@@ -10,7 +10,7 @@ use lagrange_core::prelude::*;
 #[lagrangian(m*l^2/2*theta_dot^2 + m*(g + a*omega^2*cos(omega*t))*l*cos(theta))]
 #[dissipation(c/2*theta_dot^2)]
 #[force(theta: torque*sin(3*t))]
-struct Driven {
+pub(super) struct Driven {
     m: f64,
     l: f64,
     g: f64,
@@ -50,13 +50,13 @@ struct Turntable {
 #[coordinates(x)]
 #[lagrangian(m/2*x_dot^2 - k/2*x^2)]
 #[friction(belt: x_dot - speed, limit: hold, sliding: pull)]
-struct Block {
-    m: f64,
-    k: f64,
-    speed: f64,
-    hold: f64,
-    pull: f64,
-    belt: Friction,
+pub(super) struct Block {
+    pub(super) m: f64,
+    pub(super) k: f64,
+    pub(super) speed: f64,
+    pub(super) hold: f64,
+    pub(super) pull: f64,
+    pub(super) belt: Friction,
 }
 
 /// A block thrown along a floor: sliding friction is a multiple of the floor's multiplier.
@@ -64,11 +64,11 @@ struct Block {
 #[coordinates(x, y)]
 #[lagrangian(m/2*(x_dot^2 + y_dot^2) - m*g*y)]
 #[contact(floor: y >= 0, friction(mu): x_dot)]
-struct Thrown {
-    m: f64,
-    g: f64,
-    mu: f64,
-    floor: Contact,
+pub(super) struct Thrown {
+    pub(super) m: f64,
+    pub(super) g: f64,
+    pub(super) mu: f64,
+    pub(super) floor: Contact,
 }
 
 /// Compares the rate with the difference of the energies shortly before and after, which the accelerations lead to.
@@ -92,7 +92,7 @@ pub(super) fn check_rate<L: Lagrangian<Scalar = f64>>(system: &L, guess: impl In
     assert!(rate.abs() > 0.01, "nothing to see: {rate}");
 }
 
-fn driven() -> Driven {
+pub(super) fn driven() -> Driven {
     Driven { m: 1.2, l: 0.7, g: 9.81, a: 0.1, omega: 5.0, c: 0.3, torque: 0.4 }
 }
 
@@ -136,47 +136,4 @@ fn the_energy_less_its_work_is_conserved() {
     check_balance(&driven(), State::new([0.8], [1.3]));
     check_balance(&shaken(), State::new([0.4, -0.5], [0.3, 0.1]));
     check_balance(&turntable(), State::new([0.4, -0.5, 0.0, 0.0, 0.0], [0.3, 0.1, 0.2, -0.4, 1.0]));
-}
-
-/// A ball is thrown onto a floor that it bounces from and slides along, and a block sticks to a belt and slips.
-#[test]
-fn the_energy_is_balanced_across_contacts() {
-    let thrown = Thrown { m: 2.0, g: 10.0, mu: 0.3, floor: Contact::Open };
-    let motion = thrown.motion(State::new([0.0, 0.5], [2.0, 0.0])).by(Dop853::with_tolerance(1e-12));
-    let path = motion.with_contacts().to(3.0).expect("a motion");
-    let balance = *path.drift().get("energy - work").expect("a balance");
-    assert!(balance.largest < 1e-9 && thrown.energy(path.end()) < 1e-9, "{balance:?}");
-    let block = Block { m: 1.1, k: 4.0, speed: 0.2, hold: 2.0, pull: 1.0, belt: Friction::Sticks };
-    let motion = block.motion(State::new([0.0], [0.2])).by(Dop853::with_tolerance(1e-12));
-    let path = motion.with_contacts().to(10.0).expect("a motion");
-    let balance = *path.drift().get("energy - work").expect("a balance");
-    assert!(balance.largest < 1e-9 && path.transitions().len() >= 3, "{balance:?}");
-    // The table has the balance in the place of the energy.
-    let (said, name) = (path.drift().to_string(), "energy - work");
-    assert!(
-        said.lines().count() == 2 && said.lines().nth(1).is_some_and(|line| line.starts_with(name)),
-        "{said}"
-    );
-}
-
-/// `Taylor` is accurate to round-off in long steps. Each adds a few roundings of the energy.
-#[test]
-fn long_steps_are_balanced_to_round_off() {
-    let driven = driven();
-    let path = driven.integrate(State::new([0.8], [1.3]), 5.0, Taylor::default()).expect("a motion");
-    let balance = *path.drift().get("energy - work").expect("a balance");
-    let roundings = 8.0 * path.statistics().accepted as f64;
-    assert!(balance.largest < roundings * f64::EPSILON * balance.start.abs(), "{balance:?}, {roundings}");
-}
-
-/// A motion with large steps has a balance that is as inaccurate.
-#[test]
-fn an_inaccurate_motion_shows_in_the_balance() {
-    let of = |step: f64| {
-        let driven = driven();
-        let path = driven.integrate(State::new([0.8], [1.3]), 5.0, RungeKutta4::with_step(step));
-        path.expect("a motion").drift().get("energy - work").expect("a balance").largest
-    };
-    let ratio = of(0.02) / of(0.01);
-    assert!((8.0..32.0).contains(&ratio), "{ratio}");
 }

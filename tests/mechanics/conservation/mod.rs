@@ -9,6 +9,8 @@ mod said;
 mod structure;
 mod symmetries;
 
-// Forces that are zero at all random states.
+// Motions by other methods, and forces that are zero at all random states.
+#[cfg(feature = "thorough")]
+mod balanced;
 #[cfg(feature = "thorough")]
 mod unseen;
