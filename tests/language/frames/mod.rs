@@ -6,6 +6,10 @@
 mod growing;
 mod moving;
 mod poses;
-mod powers;
-mod same;
 mod vocabulary;
+
+// Systems twice, in frames and without.
+#[cfg(feature = "thorough")]
+mod powers;
+#[cfg(feature = "thorough")]
+mod same;

@@ -202,10 +202,11 @@ fn kinds_of_constraints_are_as_promised() {
 fn pointers_and_lanes_have_the_markers_of_their_system() {
     fn all<L: ConstantMassMatrix + VelocityFreeForces + HolonomicConstraints + Unconstrained>(_: L) {}
     let ball = || Ball { m: 1.0, g: 9.81, k: 2.0, l: 0.5 };
-    all(&ball());
+    let one = ball();
+    all(&one);
     all(Box::new(ball()));
     all(Rc::new(ball()));
     all(Arc::new(ball()));
-    let packed: Ball<Lanes> = ball().pack();
+    let packed: Ball<Lanes> = one.pack();
     all(packed);
 }
