@@ -5,10 +5,14 @@
 //! Chains of n links: planar in angles (dense mass matrix), and in Cartesian coordinates with a rod as a constraint
 //! each (sparse); the spherical pendulum with its multiplier. Each evaluation is of another of 64 random states.
 
+#[macro_use]
+mod rods;
+
 use std::hint::black_box;
 
 use criterion::Criterion;
 use lagrange_core::{nalgebra::Const, prelude::*};
+use lagrange_systems::SphericalPendulum;
 
 macro_rules! planar {
     ($name:ident, $n:literal) => {
@@ -29,40 +33,12 @@ macro_rules! planar {
     };
 }
 
-macro_rules! rods {
-    ($name:ident, $n:literal) => {
-        #[derive(Lagrangian)]
-        #[coordinates(x: [$n], y: [$n])]
-        #[lagrangian(sum(i in 0..$n, m[i]/2*(x_dot[i]^2 + y_dot[i]^2) - m[i]*g*y[i]))]
-        #[constraint(rod[0]: (x[0]^2 + y[0]^2 - l[0]^2)/2 = 0)]
-        #[constraint(rod[i in 1..$n]: ((x[i]-x[i-1])^2 + (y[i]-y[i-1])^2 - l[i]^2)/2 = 0)]
-        struct $name {
-            m: [f64; $n],
-            l: [f64; $n],
-            g: f64,
-        }
-    };
-}
-
 planar!(Planar2, 2);
 planar!(Planar3, 3);
 planar!(Planar5, 5);
 planar!(Planar10, 10);
 planar!(Planar20, 20);
-rods!(Rods5, 5);
-rods!(Rods10, 10);
-rods!(Rods20, 20);
-rods!(Rods50, 50);
-
-#[derive(Lagrangian)]
-#[coordinates(x, y, z)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2) - m*g*z)]
-#[constraint(string: (x^2 + y^2 + z^2 - l^2)/2 = 0)]
-struct Spherical {
-    m: f64,
-    g: f64,
-    l: f64,
-}
+rods!(Rods5 5, Rods10 10, Rods20 20, Rods50 50);
 
 fn states<const N: usize>() -> Vec<State<f64, N>> {
     let mut seed = 1_u64;
@@ -96,7 +72,7 @@ fn accelerations(criterion: &mut Criterion) {
     }
     chains!("planar" Planar2 2, "planar" Planar3 3, "planar" Planar5 5, "planar" Planar10 10, "planar" Planar20 20);
     chains!("rods" Rods5 5, "rods" Rods10 10, "rods" Rods20 20, "rods" Rods50 50);
-    evaluate(criterion, "spherical pendulum", &Spherical { m: 1.0, g: 9.81, l: 1.0 });
+    evaluate(criterion, "spherical pendulum", &SphericalPendulum { m: 1.0, g: 9.81, l: 1.0 });
 }
 
 fn main() {

@@ -10,19 +10,7 @@ use std::time::Instant;
 use lagrange_core::motion::{Adaptive, Pair};
 use lagrange_core::prelude::*;
 use lagrange_core::{Lanes, Pack, nalgebra::Const};
-
-/// Two bobs on two rods, the angles from the vertical.
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(a, b)]
-#[lagrangian(
-    (m[0] + m[1])/2*l[0]^2*a_dot^2 + m[1]/2*l[1]^2*b_dot^2 + m[1]*l[0]*l[1]*a_dot*b_dot*cos(a - b)
-        + (m[0] + m[1])*g*l[0]*cos(a) + m[1]*g*l[1]*cos(b)
-)]
-struct DoublePendulum<T> {
-    m: [T; 2],
-    l: [T; 2],
-    g: T,
-}
+use lagrange_systems::DoublePendulum;
 
 const PENDULUM: DoublePendulum<f64> = DoublePendulum { m: [1.0; 2], l: [1.0; 2], g: 9.81 };
 

@@ -8,11 +8,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use lagrange_core::{Crossing, StateOf, nalgebra::Const, prelude::*};
-
-#[derive(Lagrangian, Clone, Copy)]
-#[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3)]
-struct HenonHeiles;
+use lagrange_systems::HenonHeiles;
 
 /// A pendulum in Cartesian coordinates.
 #[derive(Lagrangian, Clone, Copy)]

@@ -5,6 +5,9 @@
 //! PART is `rods`, `lanes` or `quaternions`. What is compared is timed in turn, so that what disturbs one disturbs the
 //! other; of 21 rounds each the least time counts. "called" is the emitted function behind a call that is not inlined.
 
+#[macro_use]
+mod rods;
+
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -34,19 +37,8 @@ fn called<L: Lagrangian>(system: &L, state: &StateOf<L>) -> SolutionOf<L> {
     system.accelerations_unchecked(state)
 }
 
-macro_rules! rods {
+macro_rules! starts {
     ($($name:ident $n:literal),*) => {$(
-        #[derive(Lagrangian, Clone, Copy)]
-        #[coordinates(x: [$n], y: [$n])]
-        #[lagrangian(sum(i in 0..$n, m[i]/2*(x_dot[i]^2 + y_dot[i]^2) - m[i]*g*y[i]))]
-        #[constraint(rod[0]: (x[0]^2 + y[0]^2 - l[0]^2)/2 = 0)]
-        #[constraint(rod[i in 1..$n]: ((x[i]-x[i-1])^2 + (y[i]-y[i-1])^2 - l[i]^2)/2 = 0)]
-        struct $name<T> {
-            m: [T; $n],
-            l: [T; $n],
-            g: T,
-        }
-
         impl $name<f64> {
             const NEW: Self = Self { m: [1.0; $n], l: [1.0; $n], g: 9.81 };
 
@@ -61,6 +53,7 @@ macro_rules! rods {
 }
 
 rods!(Rods5 5, Rods10 10, Rods20 20, Rods50 50, Rods100 100, Rods200 200);
+starts!(Rods5 5, Rods10 10, Rods20 20, Rods50 50, Rods100 100, Rods200 200);
 
 /// Wall time an evaluation of a motion, over one of the emitted function; the cost of a step.
 fn rods_of<L>(system: L, start: StateOf<L>, time: f64) -> f64

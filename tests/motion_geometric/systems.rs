@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{Lagrangian, prelude::*};
 pub(crate) use lagrange_systems::{
-    ChaplyginSleigh, DoublePendulum, Planet, ShakenPendulum, SphericalPendulum, TwoBobs,
+    ChaplyginSleigh, DoublePendulum, OuterSolarSystem, Planet, ShakenPendulum, SphericalPendulum, TwoBobs,
 };
 
 /// A system with the consistent state near this one.
@@ -204,17 +204,8 @@ pub(crate) fn error<const N: usize>(state: &State<f64, N>, exact: &State<f64, N>
     (state.q - exact.q).amax().max((state.v - exact.v).amax())
 }
 
-/// The sun with the inner planets, Jupiter, Saturn, Uranus, Neptune and Pluto, in astronomical units and days.
-#[derive(Clone, Lagrangian)]
-#[coordinates(r: [6, 3])]
-#[lagrangian(sum(i in 0..6, m[i]/2*dot(r_dot[i], r_dot[i]) + sum(j in 0..i, G*m[i]*m[j]/norm(r[i] - r[j]))))]
-#[allow(non_snake_case)]
-pub(crate) struct OuterSolarSystem {
-    m: [f64; 6],
-    G: f64,
-}
-
-/// Hairer, Lubich and Wanner, *Geometric Numerical Integration*, I.2.4, about the centre of mass: the published frame moves
+/// The sun with the inner planets, Jupiter, Saturn, Uranus, Neptune and Pluto, in astronomical units and days: Hairer, Lubich
+/// and Wanner, *Geometric Numerical Integration*, I.2.4, about the centre of mass: the published frame moves
 /// against it by 20,000 units in a million turns of Jupiter, and coordinates of this size would lose their last digits.
 pub(crate) fn outer_solar_system() -> (OuterSolarSystem, State<f64, 18>) {
     let m = [

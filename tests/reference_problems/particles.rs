@@ -1,6 +1,7 @@
 //! Particles that attract or repel each other: stars, planets, lattices.
 
 use lagrange_core::prelude::*;
+use lagrange_systems::OuterSolarSystem;
 
 use crate::reference::{BAR, IS_LONG, Problem, table};
 
@@ -18,16 +19,6 @@ fn pleiades() {
     let system = Pleiades { m: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0] };
     let problem = Problem { name: "Pleiades", system, known: table!("pleiades") };
     problem.check(&[[1e-11, 1e-11, 0.0], [1e-10, 1e-10, 0.0]]);
-}
-
-/// The sun with the inner planets, and the outer planets with Pluto.
-#[derive(Lagrangian)]
-#[coordinates(r: [6, 3])]
-#[lagrangian(sum(i in 0..6, m[i]/2*dot(r_dot[i], r_dot[i]) + sum(j in 0..i, G*m[i]*m[j]/norm(r[i] - r[j]))))]
-#[allow(non_snake_case)]
-struct OuterSolarSystem {
-    m: [f64; 6],
-    G: f64,
 }
 
 /// Hairer, Lubich and Wanner, *Geometric Numerical Integration*, I.2.4.

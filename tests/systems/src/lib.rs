@@ -19,7 +19,7 @@ pub use bobs::{DoubledRod, ShakenPendulum, TwoBobs};
 pub use floors::{Flying, LeaningRod, SlidingRod, Thrown, Touching};
 pub use oscillators::{DrivenSpring, HenonHeiles, PushedSpring, Spring, Sticking};
 pub use pendulums::{BeadOnHoop, DoublePendulum, Foucault, Pendulum, PolarPendulum, SphericalPendulum};
-pub use planets::{Planet, ThreeBodies};
+pub use planets::{OuterSolarSystem, Planet, ThreeBodies};
 pub use rods::{PoissonRod, Rod, Sphere};
 pub use rolling::{BallInAngles, ChaplyginSleigh, KnifeEdge, TiedParticle};
 pub use tops::HeavyTop;

@@ -19,3 +19,13 @@ pub struct Planet<T> {
 pub struct ThreeBodies<T> {
     pub mu: T,
 }
+
+/// The sun with the inner planets, and five outer bodies, by Newton's law of gravity.
+#[derive(Clone, Debug, Lagrangian)]
+#[coordinates(r: [6, 3])]
+#[lagrangian(sum(i in 0..6, m[i]/2*dot(r_dot[i], r_dot[i]) + sum(j in 0..i, G*m[i]*m[j]/norm(r[i] - r[j]))))]
+#[allow(non_snake_case)]
+pub struct OuterSolarSystem {
+    pub m: [f64; 6],
+    pub G: f64,
+}
