@@ -282,8 +282,8 @@ where
             };
             State {
                 t: lane(&|state| state.t),
-                q: nalgebra::SVector::from_fn(|i, _| lane(&|state| state.q[i])),
-                v: nalgebra::SVector::from_fn(|i, _| lane(&|state| state.v[i])),
+                q: lagrange_core::nalgebra::SVector::from_fn(|i, _| lane(&|state| state.q[i])),
+                v: lagrange_core::nalgebra::SVector::from_fn(|i, _| lane(&|state| state.v[i])),
             }
         })
         .collect();
