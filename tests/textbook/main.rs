@@ -6,6 +6,7 @@
 mod ball;
 mod frames;
 mod functions;
+mod particles;
 mod polar;
 mod rolling_bodies;
 mod spherical_pendulum;

@@ -1,6 +1,6 @@
 //! Rewrites equations as a person would print them. Nothing is computed with this form.
 //!
-//! An expression is expanded into a [polynomial] in [atoms], whose like terms are collected and cancel exactly. Sines
+//! An expression is expanded into a polynomial in [atoms], whose like terms are collected and cancel exactly. Sines
 //! and cosines are [merged](angles), quaternions of bodies are put on the unit [sphere], a [row] is divided by the common
 //! factor of its terms, and common factors are [taken out](group) where that is shorter. This is done with definitions
 //! by name and with definitions written out. The [shortest](mod@super::length) form is taken; the form used in the
