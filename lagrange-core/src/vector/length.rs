@@ -95,8 +95,8 @@ where
 {
 }
 
-/// Returns the array without entries, for K = 0. Other arrays are filled in a loop, because `core::array::from_fn` is
-/// seven functions to compile for each function that fills one.
+/// Returns the array without entries; K must be 0. Arrays with entries are filled in a loop instead: the compiler has one
+/// function to translate for each closure, and with `core::array::from_fn` seven.
 fn none<T, const K: usize>() -> [T; K] {
     core::array::from_fn(|_| unreachable!("the array has no entries"))
 }

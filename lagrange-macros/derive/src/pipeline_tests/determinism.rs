@@ -35,7 +35,7 @@ fn one_process_expands_alike() {
     }
 }
 
-/// Test that the child process runs.
+/// What the second process runs: it prints the expansions for the first to read.
 #[test]
 fn prints_its_expansions() {
     for expansion in &*EXPANSIONS {

@@ -83,7 +83,7 @@ fn sums_cost_what_recursions_cost() {
     }
 }
 
-/// Accelerations at five points by the last form, which takes the fewest operations.
+/// Accelerations at five states. Of the forms in which the equations are solved, the last takes the fewest operations.
 fn accelerations(source: &str, n: usize) -> Vec<Vec<f64>> {
     let (graph, problem, equations) = equations(source);
     let at = |point: u64| {

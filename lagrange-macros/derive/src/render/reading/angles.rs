@@ -3,8 +3,7 @@
 use num_traits::{One, Signed};
 
 use super::atoms::{Atoms, Meaning};
-use crate::symbolic::{self, Function, Rational};
-use crate::symbolic::{Atom, Monomial, Polynomial};
+use crate::symbolic::{self, Atom, Function, Monomial, Polynomial, Rational};
 
 /// A sine or cosine in a monomial.
 #[derive(Clone, Copy)]

@@ -8,8 +8,9 @@ use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
 use super::super::formula::Formula;
 use super::turned::Tensors;
-use crate::symbolic::{Atom, Monomial, Polynomial};
-use crate::symbolic::{External, Function, Id, Parity, Rational, power, square_root};
+use crate::symbolic::{
+    Atom, External, Function, Id, Monomial, Parity, Polynomial, Rational, power, square_root,
+};
 use crate::variables::Variable;
 
 /// Meaning of an atom. Equal meanings share one atom.

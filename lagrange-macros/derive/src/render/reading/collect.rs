@@ -15,8 +15,7 @@ use super::atoms::Meaning;
 use super::dependence::is_velocity;
 use super::expand::Expansion;
 use super::group::Group;
-use crate::symbolic::{self, Id, Rational, Scaled};
-use crate::symbolic::{Atom, Monomial, Polynomial};
+use crate::symbolic::{self, Atom, Id, Monomial, Polynomial, Rational, Scaled};
 use crate::variables::Variable;
 
 /// Writes polynomials as formulas.

@@ -4,8 +4,7 @@ use num_traits::{One, Signed};
 
 use super::atoms::Meaning;
 use super::collect::Collector;
-use crate::symbolic::{self, Rational};
-use crate::symbolic::{Atom, Monomial, Polynomial};
+use crate::symbolic::{self, Atom, Monomial, Polynomial, Rational};
 use crate::variables::Variable;
 
 impl Collector<'_, '_> {

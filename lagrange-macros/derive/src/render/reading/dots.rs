@@ -8,8 +8,7 @@ use super::super::formula::Formula;
 use super::atoms::Meaning;
 use super::collect::Collector;
 use super::vectors::{Components, Vector, VectorTerm};
-use crate::symbolic::{self, Rational};
-use crate::symbolic::{Monomial, Polynomial};
+use crate::symbolic::{self, Monomial, Polynomial, Rational};
 use crate::variables::Variable;
 
 /// Sum of products of components, with a coefficient for each product.

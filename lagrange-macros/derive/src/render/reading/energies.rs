@@ -5,8 +5,7 @@ use super::atoms::Meaning;
 use super::collect::{Collector, TermOrder};
 use super::dependence::is_velocity;
 use super::group::Group;
-use crate::symbolic::Rational;
-use crate::symbolic::{Atom, Monomial, Polynomial};
+use crate::symbolic::{Atom, Monomial, Polynomial, Rational};
 
 impl Collector<'_, '_> {
     /// Sum of the terms of an energy, from the highest degree in the velocities or momenta down. Only squares, such as

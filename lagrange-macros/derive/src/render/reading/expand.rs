@@ -11,8 +11,7 @@ use super::super::roots::NamedRoot;
 use super::atoms::{Atoms, Meaning};
 use crate::mechanics::Derived;
 use crate::resolve::Problem;
-use crate::symbolic::{Atom, Monomial, Polynomial};
-use crate::symbolic::{External, Graph, Id, Node, Rational};
+use crate::symbolic::{Atom, External, Graph, Id, Monomial, Node, Polynomial, Rational};
 use crate::variables::Variable;
 
 /// Maximum total number of terms in all expanded polynomials. Nodes beyond it are not expanded.

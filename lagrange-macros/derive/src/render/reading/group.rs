@@ -8,8 +8,7 @@ use super::super::formula::Formula;
 use super::atoms::Meaning;
 use super::collect::Collector;
 use super::dependence::is_velocity;
-use crate::symbolic::{self, Rational};
-use crate::symbolic::{Atom, Monomial, Polynomial};
+use crate::symbolic::{self, Atom, Monomial, Polynomial, Rational};
 use crate::variables::Variable;
 
 /// Product number · monomial · quotient, or number · monomial · quotient², that equals the `members`, which are terms of a

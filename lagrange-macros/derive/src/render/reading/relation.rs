@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use num_traits::Zero;
 
-use crate::symbolic::Rational;
-use crate::symbolic::{Monomial, Polynomial};
+use crate::symbolic::{Monomial, Polynomial, Rational};
 
 /// A sum of terms that equals another sum. The coefficients are 1, −1 or, in `sum`, 0.
 pub(super) struct Relation {

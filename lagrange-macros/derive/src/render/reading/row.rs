@@ -9,8 +9,7 @@ use super::super::length::length;
 use super::atoms::Meaning;
 use super::collect::Collector;
 use super::dependence::is_velocity;
-use crate::symbolic::{self, Rational};
-use crate::symbolic::{Atom, Monomial, Polynomial, common};
+use crate::symbolic::{self, Atom, Monomial, Polynomial, Rational, common};
 use crate::variables::Variable;
 
 /// Maps an atom to the index of its variable if the variable is of a certain kind, such as an acceleration.

@@ -4,8 +4,7 @@ use num_traits::{One, Zero};
 
 use super::atoms::{Atoms, Meaning};
 use super::relation::{Relation, reduce};
-use crate::symbolic::Rational;
-use crate::symbolic::{Monomial, Polynomial};
+use crate::symbolic::{Monomial, Polynomial, Rational};
 use crate::variables::Variable;
 
 impl Atoms {

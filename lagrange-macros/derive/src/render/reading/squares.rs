@@ -9,8 +9,7 @@ use super::collect::{Collector, TermOrder};
 use super::dependence::is_velocity;
 use super::group::Group;
 use super::vectors::VectorTerm;
-use crate::symbolic::{self, Rational, square_root};
-use crate::symbolic::{Monomial, Polynomial, common};
+use crate::symbolic::{self, Monomial, Polynomial, Rational, common, square_root};
 use crate::variables::Variable;
 
 impl Collector<'_, '_> {

@@ -9,8 +9,7 @@ use rustc_hash::FxHashMap;
 use super::super::formula::Formula;
 use super::atoms::{Atoms, Meaning};
 use super::relation::{Relation, reduce};
-use crate::symbolic::Rational;
-use crate::symbolic::{Atom, Monomial, Polynomial};
+use crate::symbolic::{Atom, Monomial, Polynomial, Rational};
 use crate::variables::Variable;
 
 /// Matrices, the vectors of three that they may multiply, and the products found so far.

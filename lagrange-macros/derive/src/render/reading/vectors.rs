@@ -8,8 +8,7 @@ use super::super::formula::Formula;
 use super::arms::joined;
 use super::atoms::Meaning;
 use super::collect::Collector;
-use crate::symbolic::Rational;
-use crate::symbolic::{Atom, Monomial, Polynomial};
+use crate::symbolic::{Atom, Monomial, Polynomial, Rational};
 use crate::variables::Variable;
 
 /// A vector as written, and the variable of its first component.

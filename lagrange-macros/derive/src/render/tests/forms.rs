@@ -623,9 +623,8 @@ const ENTRIES: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// Checks that pages have these lines, as far as their remarks, and no line that is too long. Each page is read at several states,
-/// where H must be the energy and Hamilton's equations must give the velocities whose momenta they contain. At the level `test`,
-/// one in three is checked.
+/// Checks that each system has these lines on its page, not counting remarks, and none that is too long. At the level
+/// `test`, one system in three is checked. `everywhere` compares the values of the lines.
 pub(super) fn check_forms(entries: &[(&str, &[&str])]) {
     let mut missed = Vec::new();
     for (source, lines) in entries.iter().step_by(cases([3, 1, 1])) {

@@ -19,7 +19,8 @@ const STATES: u64 = 40;
 /// Tolerance relative to the greatest of the compared values.
 const CLOSE: f64 = 1e-8;
 
-/// Number of states to compare at. One distinguishes two formulas; more reach more branches.
+/// Number of states at which printed lines are compared with computed values. One state tells two different formulas
+/// apart; at more states, functions such as `max` take more of their branches.
 fn wanted() -> usize {
     cases([1, 1, 8])
 }
