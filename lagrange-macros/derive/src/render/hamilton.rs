@@ -16,9 +16,8 @@ const LONG: usize = 100;
 const MANY: usize = 8;
 
 impl Page<'_> {
-    /// Lines p = ∂L/∂q̇ of the momenta that are not listed as conserved.
-    pub(super) fn momenta(&self) -> Vec<Line> {
-        let has_hamiltonian = self.legible().is_ok();
+    /// Lines p = ∂L/∂q̇ of the momenta that are not listed as conserved: all of them beside a Hamiltonian, or short ones.
+    pub(super) fn momenta(&self, has_hamiltonian: bool) -> Vec<Line> {
         if !has_hamiltonian && self.derived.equations.momentum.len() > MANY {
             return Vec::new();
         }
@@ -43,13 +42,12 @@ impl Page<'_> {
         rows.clone().all(|i| self.derived.facts.conserved.iter().any(is_it(i)))
     }
 
-    /// Line of the Hamiltonian H(t, q, p).
-    pub(super) fn hamiltonian(&self) -> Vec<Line> {
-        let written = self.legible().ok().and_then(|hamilton| self.written_out(hamilton));
-        written
-            .map(|written| Line::known(self.letters.name(PageQuantity::Hamiltonian), Ok(written)))
-            .into_iter()
-            .collect()
+    /// Line of the Hamiltonian H(t, q, p), if it is short enough for a reader.
+    pub(super) fn hamiltonian(&self) -> Result<Line, NoHamiltonian> {
+        let hamilton = self.derived.hamilton.as_ref().map_err(|why| *why)?;
+        let written = self.written_out(hamilton).filter(|written| length(written) <= LONG);
+        let name = self.letters.name(PageQuantity::Hamiltonian);
+        written.map(|written| Line::known(name, Ok(written))).ok_or(NoHamiltonian::Long)
     }
 
     /// Formula of H: T + U, with squares (p − b)² where L has terms linear in the velocities; its terms by their degree in
@@ -64,35 +62,24 @@ impl Page<'_> {
     }
 
     /// Explains why H is not written out.
-    pub(super) fn why_no_hamiltonian(&self) -> Option<String> {
-        let why = match self.legible().err()? {
+    pub(super) fn why_no_hamiltonian(&self, why: NoHamiltonian) -> String {
+        let why = match why {
             NoHamiltonian::NotSolved => "no closed form of the velocities by the momenta is known",
             NoHamiltonian::Singular if self.problem.constraints.is_empty() => {
-                return Some(
-                    "there is none: the mass matrix is singular, and velocities do not follow from momenta"
-                        .into(),
-                );
+                return "there is none: the mass matrix is singular, and velocities do not follow from momenta"
+                    .into();
             }
             NoHamiltonian::Singular => {
                 "the mass matrix is singular, and constraints decide on the velocities"
             }
             NoHamiltonian::Long => "it is too long to be read",
         };
-        Some(format!("not written out, as {why}: `hamiltonian` computes it"))
-    }
-
-    /// Hamilton's equations, if H is short enough for a reader.
-    fn legible(&self) -> Result<&Hamilton, NoHamiltonian> {
-        let hamilton = self.derived.hamilton.as_ref().map_err(|why| *why)?;
-        match self.written_out(hamilton) {
-            Some(written) if length(&written) <= LONG => Ok(hamilton),
-            _ => Err(NoHamiltonian::Long),
-        }
+        format!("not written out, as {why}: `hamiltonian` computes it")
     }
 
     /// Hamilton's equations q̇ = ∂H/∂p, ṗ = −∂H/∂q + Q + Fᵀλ.
     pub(super) fn canonical(&self) -> Vec<Line> {
-        let Ok(hamilton) = self.legible() else { return Vec::new() };
+        let Ok(hamilton) = &self.derived.hamilton else { return Vec::new() };
         let velocities = self.by_coordinate(&hamilton.velocities, |text| Formula::labelled(text, 1));
         let rates = self.by_coordinate(&hamilton.rates, |text| self.momentum_name(text, 1));
         velocities.into_iter().chain(rates).collect()

@@ -91,7 +91,7 @@ impl Page<'_> {
         let Self { problem, derived, .. } = *self;
         let term = |formula| Line::of(Equation::Term(formula));
         let section = |heading, lines| Section { heading, lines, note: None };
-        let mut sections = [
+        let mut sections = vec![
             section("Lagrangian", self.lagrangian()),
             Section {
                 note: derived.equations.integrability.integrals.and_then(kinds::note),
@@ -104,14 +104,20 @@ impl Page<'_> {
             section("Constraint forces", self.constraint_forces()),
             section("Conserved", self.conserved()),
             section("Energy", self.changing_energy()),
-            section("Momenta", self.momenta()),
-            Section { note: self.why_no_hamiltonian(), ..section("Hamiltonian", self.hamiltonian()) },
-            section("Hamilton's equations", self.canonical()),
+        ];
+        let (hamiltonian, canonical, why_none) = match self.hamiltonian() {
+            Ok(line) => (vec![line], self.canonical(), None),
+            Err(why) => (Vec::new(), Vec::new(), Some(self.why_no_hamiltonian(why))),
+        };
+        sections.extend([
+            section("Momenta", self.momenta(why_none.is_none())),
+            Section { note: why_none, ..section("Hamiltonian", hamiltonian) },
+            section("Hamilton's equations", canonical),
             section(
                 "Total time derivatives in the Lagrangian",
                 self.total_derivatives().into_iter().map(term).collect(),
             ),
-        ];
+        ]);
         // The Lagrangian and the constraints are as the user wrote them.
         for section in &mut sections[2..] {
             section.lines.iter_mut().for_each(|line| line.map(|formula| self.as_written(formula)));

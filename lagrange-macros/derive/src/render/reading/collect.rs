@@ -24,7 +24,10 @@ pub(super) struct Collector<'a, 'p> {
     pub(super) expansion: &'a Expansion<'a>,
     /// Definitions that depend on neither time nor state.
     pub(super) constants: &'a FxHashSet<Id>,
-    pub(super) written: RefCell<FxHashMap<Atom, Formula>>,
+    /// Powers of atoms that were written before.
+    pub(super) powers: RefCell<FxHashMap<(Atom, Rational), Formula>>,
+    /// Whether the user wrote these sums, or their negatives.
+    pub(super) directions: RefCell<FxHashMap<Polynomial, Option<bool>>>,
 }
 
 /// Sort key of a term in a sum: multipliers last, plus signs before minus signs, higher degree in the velocities first
@@ -197,6 +200,15 @@ impl Collector<'_, '_> {
     /// as in
     /// |r|³.
     pub(super) fn unnamed(&self, atom: Atom, exponent: Rational) -> Formula {
+        if let Some(known) = self.powers.borrow().get(&(atom, exponent)) {
+            return known.clone();
+        }
+        let power = self.new_power(atom, exponent);
+        self.powers.borrow_mut().insert((atom, exponent), power.clone());
+        power
+    }
+
+    fn new_power(&self, atom: Atom, exponent: Rational) -> Formula {
         if let Meaning::Sum(sum) = self.expansion.atoms.meaning(atom)
             && let Some(norm) = self.squared_norm(sum)
             && let Some(exponent) = symbolic::times(exponent, Rational::from_integer(2))
@@ -215,15 +227,6 @@ impl Collector<'_, '_> {
     }
 
     pub(super) fn atom(&self, atom: Atom) -> Formula {
-        if let Some(known) = self.written.borrow().get(&atom) {
-            return known.clone();
-        }
-        let formula = self.new_atom(atom);
-        self.written.borrow_mut().insert(atom, formula.clone());
-        formula
-    }
-
-    fn new_atom(&self, atom: Atom) -> Formula {
         let page = self.page;
         match self.expansion.atoms.meaning(atom) {
             Meaning::Variable(variable) => page.variable(*variable),

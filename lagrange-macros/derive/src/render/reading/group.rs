@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use num_traits::{One, Signed};
 
-use super::super::formula::Formula;
 use super::atoms::Meaning;
 use super::collect::Collector;
 use super::dependence::is_velocity;
@@ -214,22 +213,27 @@ impl Collector<'_, '_> {
         degrees.len() > 1 && quotient.terms().all(|(monomial, _)| !monomial.is_one())
     }
 
-    /// A sum that the user wrote, or the negative of one, and whether it is.
-    fn as_known(&self, quotient: &Polynomial) -> Option<(bool, Vec<Formula>)> {
-        let may_be = self.page.sums.iter().any(|sum| sum.len() == quotient.len());
-        let terms =
-            || quotient.terms().map(|(monomial, &c)| self.product(c, monomial, &[])).collect::<Vec<_>>();
-        may_be.then(|| self.page.directed(&terms())).flatten()
+    /// Whether a sum is the negative of one that the user wrote; `None` if the user wrote neither.
+    fn direction(&self, sum: &Polynomial) -> Option<bool> {
+        if let Some(known) = self.directions.borrow().get(sum) {
+            return *known;
+        }
+        let may_be = self.page.sums.iter().any(|written| written.len() == sum.len());
+        let terms = || sum.terms().map(|(monomial, &c)| self.product(c, monomial, &[])).collect::<Vec<_>>();
+        let direction =
+            may_be.then(|| self.page.directed(&terms())).flatten().map(|(is_turned, _)| is_turned);
+        self.directions.borrow_mut().insert(sum.clone(), direction);
+        direction
     }
 
     fn is_known(&self, quotient: &Polynomial) -> bool {
-        self.as_known(quotient).is_some()
+        self.direction(quotient).is_some()
     }
 
     /// True for the negative of a sum that the user wrote, and for x − l in other cases: a coordinate with a minus sign, and
     /// constants beside it.
     pub(super) fn is_turned(&self, quotient: &Polynomial) -> bool {
-        if let Some((is_turned, _)) = self.as_known(quotient) {
+        if let Some(is_turned) = self.direction(quotient) {
             return is_turned;
         }
         let is_coordinate = |monomial: &Monomial| match monomial.factors() {

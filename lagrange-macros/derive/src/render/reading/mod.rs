@@ -328,8 +328,13 @@ impl Page<'_> {
         write: impl Fn(&Collector) -> Option<T>,
     ) -> Option<T> {
         let expansion = &expansion.borrow();
-        let written = RefCell::new(FxHashMap::default());
-        write(&Collector { page: self, expansion, constants: &self.constants, written })
+        write(&Collector {
+            page: self,
+            expansion,
+            constants: &self.constants,
+            powers: RefCell::default(),
+            directions: RefCell::default(),
+        })
     }
 }
 
