@@ -10,9 +10,6 @@
     reason = "made for one user, `lagrange-derive`: documented is what its names do not say"
 )]
 
-#[cfg(test)]
-extern crate self as lagrange_symbolic;
-
 mod antiderivative;
 mod combined;
 mod differentiate;
@@ -30,8 +27,6 @@ mod rounded;
 mod sample;
 mod scaled;
 mod simplify;
-#[cfg(test)]
-mod tests;
 mod wave;
 mod wide;
 mod zero;

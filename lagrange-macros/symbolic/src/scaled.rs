@@ -72,7 +72,7 @@ impl Scaled {
     }
 
     /// Sum; `None` if its digits do not fit: 1 + 10⁻⁵⁰ has too many.
-    pub(super) fn plus(self, other: Self) -> Option<Self> {
+    pub fn plus(self, other: Self) -> Option<Self> {
         if let Some(sum) = self.of_fractions(other, plus) {
             return Some(sum);
         }

@@ -4,6 +4,8 @@
 use std::process::Command;
 use std::sync::LazyLock;
 
+use lagrange_random::cases;
+
 use super::{systems, tokens};
 use crate::expand;
 
@@ -15,7 +17,7 @@ fn sources() -> [String; 6] {
         systems::PENDULUM.to_owned(),
         systems::SPHERE.to_owned(),
         systems::chain(5),
-        systems::chain(20),
+        systems::chain(cases([10, 20, 20])),
         systems::rods(4),
         systems::TOP.to_owned(),
     ]

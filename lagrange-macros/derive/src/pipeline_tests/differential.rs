@@ -7,7 +7,7 @@
 //! test, `LAGRANGE_FUZZ_SEED` the first seed.
 
 #[expect(dead_code, reason = "a module of lagrange-symbolic, which has more uses for it")]
-#[path = "../../../symbolic/src/tests/double.rs"]
+#[path = "../../tests/symbolic/double.rs"]
 mod double;
 mod draft;
 mod drawing;

@@ -8,7 +8,7 @@ use crate::codegen::schedule::Schedule;
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
 
-#[path = "../../../../symbolic/src/tests/functions.rs"]
+#[path = "../../../tests/symbolic/functions.rs"]
 pub(crate) mod functions;
 
 impl Operation<f64> {

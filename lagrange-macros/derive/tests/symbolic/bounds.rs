@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::super::{Function, Graph, Id};
 use super::tree::{points, rational_trees, trees};
 use super::{Outcome, at, double, for_all, graph, rational, symbol};
+use lagrange_symbolic::{Function, Graph, Id};
 
 /// Compares values of an expression and of its derivatives with values in twice the precision.
 #[test]

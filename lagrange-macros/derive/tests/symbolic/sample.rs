@@ -1,6 +1,6 @@
 //! Projection of random points onto surfaces.
 
-use crate::{Function, Graph, Id, Rational, Sample};
+use lagrange_symbolic::{Function, Graph, Id, Rational, Sample};
 
 use super::{symbol, within};
 

@@ -1,4 +1,7 @@
-//! Properties of the graph on random expressions, each checked against an independent computation.
+//! `lagrange-symbolic`: properties of the graph on random expressions, each checked against an independent computation.
+//!
+//! The tests stand here since all that stands in the package itself is optimised, which takes them half a minute more to
+//! compile.
 
 mod antiderivative;
 mod bounds;
@@ -6,6 +9,7 @@ mod canonical;
 mod combined;
 mod derivatives;
 mod double;
+mod elimination;
 mod external;
 mod faults;
 mod fractions;
@@ -27,7 +31,7 @@ use lagrange_random::cases;
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 
-use super::{Approximate, Graph, Id, Rational, Symbol, drawn};
+use lagrange_symbolic::{Approximate, Graph, Id, Rational, Symbol, drawn};
 
 /// Draws the value of each symbol from this range.
 fn within(range: (f64, f64)) -> impl Fn(Symbol, u64) -> Approximate {

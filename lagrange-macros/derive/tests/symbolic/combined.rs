@@ -3,9 +3,9 @@
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use super::super::{Fault, Graph, Id, Node, Rational};
 use super::tree::{points, trees};
 use super::{Outcome, at, for_all, symbol};
+use lagrange_symbolic::{Fault, Graph, Id, Node, Rational};
 
 fn symbols<const N: usize>(graph: &mut Graph) -> [Id; N] {
     std::array::from_fn(|k| graph.symbol(symbol(k)))

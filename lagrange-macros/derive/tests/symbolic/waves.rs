@@ -1,8 +1,8 @@
 //! Random functions that stand in for user-supplied ones: they are consistent with their derivatives.
 
 use super::{graph, symbol};
-use crate::evaluate::Approximate;
-use crate::{External, Graph, Id};
+use lagrange_symbolic::Approximate;
+use lagrange_symbolic::{External, Graph, Id};
 
 fn unknown(graph: &mut Graph, output: u32, arguments: [Id; 2]) -> Id {
     graph.external(External { function: 0, output, derivatives: Box::new([]), arguments: arguments.into() })

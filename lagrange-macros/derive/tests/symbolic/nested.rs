@@ -3,9 +3,9 @@
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use super::super::{Graph, Id, Node};
 use super::tree::{points, trees};
 use super::{Outcome, at, for_all, symbol};
+use lagrange_symbolic::{Graph, Id, Node};
 
 /// Σ (Σ of the terms in a set)² over the sets, each given by the bits of a mask.
 fn squares(graph: &mut Graph, terms: &[Id], sets: &[u32]) -> Id {

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 
-use super::super::{Fault, Forward, Function, Graph, Id, Rational};
 use super::{Outcome, for_all, graph, rational, symbol, value, within};
+use lagrange_symbolic::{Fault, Forward, Function, Graph, Id, Rational};
 
 const EXTREMES: [i128; 12] = [
     0,

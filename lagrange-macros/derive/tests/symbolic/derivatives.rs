@@ -2,9 +2,9 @@
 
 use num_dual::{Dual64, HyperDual64};
 
-use super::super::{Forward, Graph, Id};
 use super::tree::{Reference, SYMBOLS, Tree, points, trees};
 use super::{Outcome, at, for_all, graph, rational, symbol};
+use lagrange_symbolic::{Forward, Graph, Id};
 
 type Point = [f64; SYMBOLS];
 
@@ -149,8 +149,8 @@ fn forward_remembers_across_roots_and_new_nodes() {
 fn derivatives_keep_boundaries() {
     let (mut graph, [x, y, _]) = graph();
     let inner = graph.mul(x, y);
-    let sine = graph.function(super::super::Function::Sin, inner);
+    let sine = graph.function(lagrange_symbolic::Function::Sin, inner);
     let defined = graph.defined(sine);
     let slope = Forward::along([(symbol(0), Id::ONE)]).of(&mut graph, defined);
-    assert!(matches!(graph.node(slope), super::super::Node::Defined(_)));
+    assert!(matches!(graph.node(slope), lagrange_symbolic::Node::Defined(_)));
 }

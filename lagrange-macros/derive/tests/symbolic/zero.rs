@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::super::{Function, Graph, Id, Verdict};
 use super::tree::{Tree, trees};
 use super::{Outcome, for_all, graph, rational, symbol, within};
+use lagrange_symbolic::{Function, Graph, Id, Verdict};
 
 fn verdict(graph: &mut Graph, root: Id) -> Verdict {
     graph.is_zero(root, within((-1.25, 1.75)))

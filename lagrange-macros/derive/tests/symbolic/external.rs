@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::super::{External, Forward, Function, Graph, Id, Node, Verdict};
 use super::tree::trees;
 use super::{Outcome, for_all, graph, rational, symbol, within};
+use lagrange_symbolic::{External, Forward, Function, Graph, Id, Node, Verdict};
 
 /// Partial derivative of result `output` of function 0 by the positions `derivatives`.
 fn partial(graph: &mut Graph, output: u32, derivatives: &[u32], arguments: &[Id]) -> Id {

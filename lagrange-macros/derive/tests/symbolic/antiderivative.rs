@@ -1,6 +1,6 @@
 //! Antiderivatives: their derivatives, by central differences, equal the integrands.
 
-use crate::{Function, Graph, Id, Rational};
+use lagrange_symbolic::{Function, Graph, Id, Rational};
 
 use super::symbol;
 

@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::super::{Function, Graph, Id, Node};
 use super::tree::{Tree, trees};
 use super::{Outcome, for_all, graph, rational};
+use lagrange_symbolic::{Function, Graph, Id, Node};
 
 /// Operands in two random orders.
 fn shuffled(operand: impl Strategy<Value = Tree>) -> impl Strategy<Value = (Vec<Tree>, Vec<Tree>)> {

@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::super::{Function, Graph, Id, Polynomials};
 use super::tree::trees;
 use super::{Outcome, at, for_all, graph, rational};
+use lagrange_symbolic::{Function, Graph, Id, Polynomials};
 
 fn is_zero(graph: &mut Graph, root: Id) -> bool {
     let mut ring = Polynomials::default();

@@ -2,10 +2,10 @@
 
 use proptest::prelude::*;
 
-use super::super::{Graph, Id, Rational, Scaled, Verdict, parse_decimal};
 use super::double::{self, Double};
 use super::{Outcome, at, for_all, graph, rational, value, within};
 use lagrange_random::Random;
+use lagrange_symbolic::{Graph, Id, Rational, Scaled, Verdict, parse_decimal};
 
 /// Decimal digits of a number, least significant first.
 fn digits(mut value: u64) -> Vec<u32> {

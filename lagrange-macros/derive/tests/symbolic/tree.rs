@@ -9,11 +9,11 @@ use proptest::prelude::*;
 use proptest::strategy::Union;
 use proptest::test_runner::TestCaseError;
 
-use super::super::Function as F;
-use super::super::evaluate::Approximate;
-use super::super::{Function, Graph, Id, Rational};
 use super::functions::apply;
 use super::{Outcome, rational, symbol};
+use lagrange_symbolic::Approximate;
+use lagrange_symbolic::Function as F;
+use lagrange_symbolic::{Function, Graph, Id, Rational};
 
 pub(super) const SYMBOLS: usize = 3;
 

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 
-use super::super::{Graph, Id, Rational, Scaled, parse_decimal, to_f64};
 use super::{Outcome, for_all, graph, rational, value};
+use lagrange_symbolic::{Graph, Id, Rational, Scaled, parse_decimal, to_f64};
 
 /// Decimals such as `12_345.678e9`, without sign, as tokens have none.
 fn decimals(exponent: std::ops::Range<i32>) -> impl Strategy<Value = String> {

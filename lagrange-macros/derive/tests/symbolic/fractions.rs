@@ -1,9 +1,14 @@
 //! Sums, products, powers and roots of fractions of all magnitudes, compared with arithmetic modulo primes, which
 //! never overflows.
 
-use super::super::rational::{fits, plus, power, square_root, times};
-use super::super::{Rational, Scaled, finite_decimal, parse_decimal, to_f64};
 use lagrange_random::{Random, rounds};
+use lagrange_symbolic::{Rational, Scaled, finite_decimal, parse_decimal, to_f64};
+use lagrange_symbolic::{plus, power, square_root, times};
+
+/// True for what the graph can hold: the negative and the reciprocal of i128::MIN overflow.
+fn fits(x: &Rational) -> bool {
+    *x.numer() != i128::MIN
+}
 
 /// Largest primes below 2⁶², 2⁶¹ and 2³¹. Two different numbers below 2¹⁰⁰⁰ have the same residues in only one of 10³⁰
 /// cases.

@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 
-use super::super::Graph;
 use super::tree::{points, trees};
 use super::{Outcome, at, for_all};
+use lagrange_symbolic::Graph;
 
 #[test]
 fn the_graph_has_the_value_of_the_tree() {
