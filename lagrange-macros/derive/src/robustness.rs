@@ -55,7 +55,7 @@ fn is_error(expansion: &TokenStream) -> bool {
 
 #[test]
 fn the_systems_are_accepted_as_they_are() {
-    for system in corpus("accepted").iter().step_by(cases([4, 1, 1])) {
+    for system in corpus("accepted").iter().step_by(cases([4, 2, 1])) {
         let expansion = check(&tokens(system));
         assert!(!is_error(&expansion), "{system}: {expansion}");
     }
@@ -83,7 +83,7 @@ fn random_changes_never_make_it_panic() {
 #[test]
 fn random_tokens_never_make_it_panic() {
     let pool = streams::pool();
-    rounds("tokens", [50, 2_000, 200_000], |random| {
+    rounds("tokens", [50, 500, 200_000], |random| {
         check(&streams::arbitrary(&pool, random));
     });
 }
@@ -92,12 +92,12 @@ fn random_tokens_never_make_it_panic() {
 #[test]
 fn random_forms_never_make_it_panic() {
     let (mut all, mut accepted) = (0, 0);
-    rounds("forms", [5, 60, 20_000], |random| {
+    rounds("forms", [5, 20, 20_000], |random| {
         all += 1;
         accepted += usize::from(!is_error(&check(&tokens(&grammar::system(random)))));
     });
     println!("{accepted} of {all} systems are accepted");
-    assert!(all < 60 || 40 * accepted > all, "{accepted} of {all} are accepted");
+    assert!(all < 20 || 40 * accepted > all, "{accepted} of {all} are accepted");
 }
 
 /// A Lagrangian of `begin`, then `unit` of every number from 1 to `count`, then `end`.

@@ -50,8 +50,8 @@ fn is_of_order<L, P: Method<L>, const N: usize>(
 {
     let exact = *system.integrate(start, end, Taylor::default()).unwrap().end().state();
     let (mut points, mut least_power) = (Vec::new(), 4);
-    for k in 15.. {
-        let count = 2.0_f64.powf(0.15 * f64::from(k)).round();
+    for k in 11.. {
+        let count = 2.0_f64.powf(0.2 * f64::from(k)).round();
         // Few steps are accepted at no tolerance.
         if let Some((power, error)) =
             in_equal_steps((count as u32, least_power), method, (system, start, &exact))

@@ -92,7 +92,7 @@ fn formulas() -> impl Strategy<Value = Formula> {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: cases([250, 2_000, 20_000]) as u32,
+        cases: cases([250, 500, 20_000]) as u32,
         failure_persistence: None,
         rng_seed: RngSeed::Fixed(1687),
         ..ProptestConfig::default()
