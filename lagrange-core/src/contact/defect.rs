@@ -276,7 +276,7 @@ mod tests {
     }
 
     fn number_of_cases() -> u64 {
-        cases([50, 1_000, 50_000]) as u64
+        cases([50, 300, 50_000]) as u64
     }
 
     /// Where forces are not found, the motion ends with a name.

@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn random_contacts_with_friction_are_decided() {
         let mut seed = 11;
-        for case in 0..lagrange_random::cases([10_000, 100_000, 1_000_000]) {
+        for case in 0..lagrange_random::cases([10_000, 30_000, 1_000_000]) {
             let (contacts, motions) = (1 + case % 4, 2 + case / 4 % 5);
             let problem = with_friction(contacts, motions, [0.0, 0.1, 0.3, 1.0][case % 7 % 4], &mut seed);
             // Impacts with friction always have a solution.

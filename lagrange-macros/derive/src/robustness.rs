@@ -71,7 +71,7 @@ fn what_is_wrong_is_refused() {
 #[test]
 fn random_changes_never_make_it_panic() {
     let (pool, systems) = (streams::pool(), [corpus("accepted"), corpus("refused")].concat());
-    rounds("changes", [50, 500, 200_000], |random| {
+    rounds("changes", [50, 300, 200_000], |random| {
         let mut input = tokens(&random.one_of(&systems));
         for _ in 0..=random.below(3) {
             input = streams::mutated(input, &pool, random);
@@ -92,7 +92,7 @@ fn random_tokens_never_make_it_panic() {
 #[test]
 fn random_forms_never_make_it_panic() {
     let (mut all, mut accepted) = (0, 0);
-    rounds("forms", [5, 20, 20_000], |random| {
+    rounds("forms", [5, 12, 20_000], |random| {
         all += 1;
         accepted += usize::from(!is_error(&check(&tokens(&grammar::system(random)))));
     });
@@ -109,8 +109,8 @@ fn long(begin: &str, count: usize, unit: impl Fn(usize) -> String, end: &str) ->
 #[test]
 fn long_input_ends_in_an_answer() {
     let same = |text: &'static str| move |_: usize| text.to_owned();
-    assert!(!is_error(&expand(long("", cases([5_000, 20_000, 20_000]), same("+ x"), ""))));
-    assert!(!is_error(&expand(long("", cases([200, 1_000, 1_000]), |i| format!("+ sin({i}*x)"), ""))));
+    assert!(!is_error(&expand(long("", cases([5_000, 10_000, 20_000]), same("+ x"), ""))));
+    assert!(!is_error(&expand(long("", cases([200, 500, 1_000]), |i| format!("+ sin({i}*x)"), ""))));
     assert!(is_error(&expand(long("", 20_000, |i| format!("+ sin({i}*x)"), ""))));
     assert!(is_error(&expand(long("* x", 20_000, same("* (x + 1)"), ""))));
     assert!(is_error(&expand(long("+ sum(i in 0..100000, sum(j in 0..100000, x", 1, same("))"), ""))));
