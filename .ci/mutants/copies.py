@@ -19,7 +19,7 @@ FORMS = {
     "statement": ("if crate::mutant::is({}) {{ {} }} else {{ ", " }"),
     "return": ("if crate::mutant::is({}) {{ {} }} ", ""),
 }
-CARGO = {"CARGO_INCREMENTAL": "0", "CARGO_PROFILE_DEV_DEBUG": "0"}
+CARGO = {"CARGO_INCREMENTAL": "0"}
 DAY = 86400
 # Longest time without output, beyond the limit of processor time, in seconds.
 WAITING = 1800
