@@ -94,3 +94,33 @@ fn names_and_places_of_all_sorts_compute() {
     assert_eq!(capitals.Vec(&state, &solution)[1].to_bits(), solution.accelerations[0].to_bits());
     assert_eq!(capitals.Energy2(&state).to_bits(), 0.0_f64.to_bits());
 }
+
+/// The function of its accelerations is compiled in parts, whose modules stand within the function. L is the kinetic energy of
+/// masses in a plane, whose accelerations have no component along any coordinate: Σ m r̈·∂r/∂θ = 0.
+#[test]
+#[allow(clippy::cast_precision_loss)]
+fn a_long_system_within_a_function_computes() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(theta: [16])]
+    #[lagrangian(sum(i in 0..16, m[i]/2 * (sum(j in 0..i+1, (i + j + 1)*l[j]*cos(theta[j])*theta_dot[j])^2
+        + sum(j in 0..i+1, (i + j + 1)*l[j]*sin(theta[j])*theta_dot[j])^2)))]
+    struct Flat<'a, T> {
+        m: &'a [T; 16],
+        l: [T; 16],
+    }
+    let m = std::array::from_fn(|i| 1.0 + i as f64);
+    let flat = Flat { m: &m, l: std::array::from_fn(|j| 0.1_f64.mul_add(j as f64, 1.0)) };
+    let state = State::new(std::array::from_fn(|j| 2.0 * (j as f64).sin()), [1.0; 16]);
+    let accelerations = flat.solve(&state).expect("a regular mass matrix").accelerations;
+    let arm = |i: usize, j: usize| (i + j + 1) as f64 * flat.l[j];
+    for k in 0..16 {
+        let (mut sum, mut size) = (0.0, 0.0);
+        for (i, j) in (k..16).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+            let (sin, cos) = (state.q[j] - state.q[k]).sin_cos();
+            let weight = m[i] * arm(i, k) * arm(i, j);
+            sum += weight * cos.mul_add(accelerations[j], -sin * state.v[j].powi(2));
+            size += weight * state.v[j].mul_add(state.v[j], accelerations[j].abs());
+        }
+        assert!(sum.abs() < 1e-12 * size, "{k}: {sum:e} of {size:e}");
+    }
+}

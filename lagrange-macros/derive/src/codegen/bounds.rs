@@ -9,6 +9,7 @@ use syn::spanned::Spanned;
 
 use super::emitter::{Emitter, runtime};
 use super::operation::Call;
+use super::style::FunctionContext;
 use crate::resolve::Supplied;
 use crate::symbolic::{Id, Node};
 use crate::syntax::Declaration;
@@ -87,21 +88,25 @@ pub(super) fn orders_of<'c, X: 'c>(
     })
 }
 
-/// Emits a call of a user-supplied function on numbers of type `scalar`.
-pub(super) fn call_of<X>(
-    supplied: &Supplied,
-    call: &Call<X>,
-    scalar: &TokenStream,
-    argument: impl FnMut(&X) -> TokenStream,
-) -> TokenStream {
-    let Supplied { field, is_reference, inputs, outputs, .. } = supplied;
-    let field = if *is_reference { quote!(self.#field) } else { quote!(&self.#field) };
-    let arguments = call.arguments.iter().map(argument);
-    let by = call.derivatives.iter().map(|&i| Literal::u32_unsuffixed(i));
-    let by = (!call.derivatives.is_empty()).then(|| quote!(, [#(#by),*]));
-    let (capability, method) = capability(call.derivatives.len());
-    let (capability, method) = (format_ident!("{capability}"), format_ident!("{method}"));
-    quote!(__lagrange::function::#capability::<#scalar, #inputs, #outputs>::#method(#field, [#(#arguments),*] #by))
+impl FunctionContext<'_> {
+    /// Emits a call of a user-supplied function on numbers of type `scalar`.
+    pub(super) fn call_on<X>(
+        &self,
+        scalar: &TokenStream,
+        call: &Call<X>,
+        argument: impl FnMut(&X) -> TokenStream,
+    ) -> TokenStream {
+        let Supplied { field, is_reference, inputs, outputs, .. } =
+            &self.problem.functions[call.function as usize];
+        let system = &self.system;
+        let field = if *is_reference { quote!(#system.#field) } else { quote!(&#system.#field) };
+        let arguments = call.arguments.iter().map(argument);
+        let by = call.derivatives.iter().map(|&i| Literal::u32_unsuffixed(i));
+        let by = (!call.derivatives.is_empty()).then(|| quote!(, [#(#by),*]));
+        let (capability, method) = capability(call.derivatives.len());
+        let (capability, method) = (format_ident!("{capability}"), format_ident!("{method}"));
+        quote!(__lagrange::function::#capability::<#scalar, #inputs, #outputs>::#method(#field, [#(#arguments),*] #by))
+    }
 }
 
 /// Generics of the struct. A scalar that is a type parameter gets the bound `Scalar`.

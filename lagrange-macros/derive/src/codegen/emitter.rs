@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::count::OPERATION_LIMIT;
-use super::kernel::Kernel;
+use super::kernel::{Kernel, Part};
 use super::solving::Solving;
 use super::style::FunctionContext;
 use crate::facts::Facts;
@@ -26,21 +26,43 @@ pub(super) struct Emitter<'a> {
 }
 
 impl Emitter<'_> {
-    /// Emits the helper methods that long functions call. `None` if there are none.
-    pub(super) fn parts_of(&self, kernels: &[Kernel], generics: &syn::Generics) -> Option<TokenStream> {
-        let parts: Vec<_> = kernels.iter().flat_map(|kernel| &kernel.parts).collect();
+    /// Emits the parts that long functions call: modules, to stand beside the struct, and methods.
+    ///
+    /// rustc compiles a method in the unit of the module that has its type. All that is emitted for the struct would be one
+    /// unit, so each part is a method of a type in a module of its own. The module names nothing of the user's, as it could not
+    /// within a function.
+    pub(super) fn parts_of<'k>(
+        &self,
+        kernels: impl Iterator<Item = &'k Kernel>,
+        generics: &syn::Generics,
+    ) -> [TokenStream; 2] {
         let (impl_generics, _, where_clause) = generics.split_for_impl();
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let ident = &self.declaration.ident;
-        (!parts.is_empty()).then(|| {
-            quote! {
+        let parts = kernels.flat_map(|kernel| &kernel.parts).map(|part| {
+            let Part { module, name, doc, generics, arguments, body } = part;
+            let of_type = quote! {
+                #[allow(dead_code, non_snake_case)]
+                mod #module {
+                    pub(super) struct Part<S>(::core::marker::PhantomData<S>);
+                }
+            };
+            let method = quote! {
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics #ident #type_generics #where_clause {
-                    #(#parts)*
+                impl #impl_generics #module::Part<#ident #type_generics> #where_clause {
+                    #[doc = #doc]
+                    #[inline(never)]
+                    #[allow(unused_variables)]
+                    fn #name #generics(system: &#ident #type_generics, #arguments) {
+                        #body
+                    }
                 }
-            }
-        })
+            };
+            (of_type, method)
+        });
+        let (modules, methods) = parts.unzip();
+        [modules, methods]
     }
 }
 

@@ -61,7 +61,7 @@ impl FunctionContext<'_> {
 
     /// Reads a number of a field. In a loop, `varying` is the index that depends on the iteration.
     pub(super) fn number_of_rounds(&self, entry: Entry, varying: Option<&Varying>) -> TokenStream {
-        let of_member = self.number_of_member(&quote!(self), entry, varying);
+        let of_member = self.number_of_member(&self.system, entry, varying);
         of_member.unwrap_or_else(|| self.place(entry, varying))
     }
 
@@ -76,13 +76,13 @@ impl FunctionContext<'_> {
     /// Place expression of a number of a field without members.
     fn place(&self, Entry { field, number }: Entry, varying: Option<&Varying>) -> TokenStream {
         let field = &self.problem.parameters.fields[field];
-        let ident = &field.ident;
-        let Ok(FieldShape { layout, is_reference, .. }) = &field.shape else { return quote!(self.#ident) };
+        let (system, ident) = (&self.system, &field.ident);
+        let Ok(FieldShape { layout, is_reference, .. }) = &field.shape else { return quote!(#system.#ident) };
         let indices = layout.indices(number);
         let (arrays, inside) = indices.split_at(layout.arrays());
         let literal = |k: &usize| Literal::usize_unsuffixed(*k);
         let arrays = Varying::indices(varying, arrays);
-        let place = quote!(self.#ident #([#arrays])*);
+        let place = quote!(#system.#ident #([#arrays])*);
         match inside {
             [k] => {
                 let k = literal(&((k + 3) % 4));

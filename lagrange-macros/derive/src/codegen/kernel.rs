@@ -22,10 +22,22 @@ pub(super) struct Kernel {
     pub(super) results: Vec<TokenStream>,
     /// Doc comment that states the operation count.
     pub(super) doc: String,
-    /// Methods that the statements call, the chunks of a long function.
-    pub(super) parts: Vec<TokenStream>,
+    /// What the statements of a long function call.
+    pub(super) parts: Vec<Part>,
     /// Operation count of a function that exceeds [`OPERATION_LIMIT`]. The other fields are then empty.
     pub(super) refused: Option<Count>,
+}
+
+/// Function that computes one chunk of a long function.
+pub(super) struct Part {
+    /// Name of the module of its type.
+    pub(super) module: Ident,
+    pub(super) name: Ident,
+    pub(super) doc: String,
+    pub(super) generics: Option<TokenStream>,
+    /// Arguments beside the system.
+    pub(super) arguments: TokenStream,
+    pub(super) body: TokenStream,
 }
 
 impl FunctionContext<'_> {
@@ -55,37 +67,37 @@ impl FunctionContext<'_> {
         Kernel { name: name.to_owned(), statements, results, doc, parts, refused: None }
     }
 
-    /// Emits the statements of a single chunk; for several chunks, their calls and the called methods.
+    /// Emits the statements of a single chunk; for several chunks, their calls and the called parts.
     fn parts(
         &self,
         name: &str,
         mut parts: Vec<Chunk>,
         waiting: usize,
         arrays: &ResultArrays,
-    ) -> (TokenStream, Vec<TokenStream>) {
+    ) -> (TokenStream, Vec<Part>) {
         if parts.len() == 1 {
             return (parts.drain(..).map(|part| self.statements(part, arrays)).collect(), Vec::new());
         }
-        let (zero, count) = (self.constant(0.0), parts.len());
+        let (zero, count, context) = (self.constant(0.0), parts.len(), self.of_parts());
         let parts = parts.into_iter().enumerate().map(|(k, part)| {
             let rounds =
                 part.rounds.as_ref().map_or_else(String::new, |rounds| format!(", {} rounds", rounds.count));
             let doc = format!("Chunk {} of {count} of `{name}`{rounds}.", k + 1);
-            self.part(&format_ident!("__{name}_{k}"), &doc, part, waiting, arrays)
+            context.part(format_ident!("__{name}_{k}"), doc, part, waiting, arrays)
         });
-        let (calls, methods): (Vec<_>, Vec<_>) = parts.unzip();
-        (quote! { let mut waiting = [#zero; #waiting]; #(#calls)* }, methods)
+        let (calls, parts): (Vec<_>, Vec<_>) = parts.unzip();
+        (quote! { let mut waiting = [#zero; #waiting]; #(#calls)* }, parts)
     }
 
-    /// Emits one chunk of a long function: its call, and its method.
+    /// Emits one chunk of a long function: its call, and the called part.
     fn part(
         &self,
-        method: &Ident,
-        doc: &str,
+        name: Ident,
+        doc: String,
         part: Chunk,
         waiting: usize,
         arrays: &ResultArrays,
-    ) -> (TokenStream, TokenStream) {
+    ) -> (TokenStream, Part) {
         let is_read = |argument: &Argument| part.reads().any(|symbol| source(symbol) == *argument);
         let read = [
             Argument::State,
@@ -106,24 +118,19 @@ impl FunctionContext<'_> {
             .filter(is_read)
             .map(|argument| (format_ident!("{}", argument.name()), self.argument(argument)))
             .unzip();
-        let scalar = self.types.scalar;
-        let (names, array_types, generics) = (&arrays.names, arrays.types(scalar), self.generics());
-        let body = self.statements(part, arrays);
-        let call = quote! { self.#method(#(#arguments,)* &mut waiting, #(&mut #names),*); };
-        let method = quote! {
-            #[doc = #doc]
-            #[inline(never)]
-            #[allow(unused_variables)]
-            fn #method #generics(&self, #(#types,)* waiting: &mut [#scalar; #waiting], #(#names: &mut #array_types),*) {
-                #body
-            }
+        let (scalar, module) = (self.types.scalar, format_ident!("__{}{name}", self.ident));
+        let (names, array_types) = (&arrays.names, arrays.types(scalar));
+        let call = quote! {
+            #module::Part::<Self>::#name(self, #(#arguments,)* &mut waiting, #(&mut #names),*);
         };
-        (call, method)
+        let arguments = quote!(#(#types,)* waiting: &mut [#scalar; #waiting], #(#names: &mut #array_types),*);
+        let (generics, body) = (self.generics(), self.statements(part, arrays));
+        (call, Part { module, name, doc, generics, arguments, body })
     }
 }
 
 impl FunctionContext<'_> {
-    /// Declares an argument of a chunk, which is an inherent method.
+    /// Declares an argument of a part.
     fn argument(&self, argument: Argument) -> TokenStream {
         let factor = &self.factor;
         match argument {

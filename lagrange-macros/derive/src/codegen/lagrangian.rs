@@ -55,7 +55,7 @@ impl Emitter<'_> {
         let of_contacts = contacts.iter().flat_map(|contacts| &contacts.kernels);
         let kernels = || methods.kernels.iter().chain(&inherent.kernels).chain(of_contacts.clone());
         self.report_refused(kernels(), diagnostics);
-        let parts = kernels().flat_map(|kernel| &kernel.parts);
+        let [modules, parts] = self.parts_of(kernels(), &generics);
         let (methods, inherent) = (&methods.tokens, &inherent.tokens);
         let (equations, visit_parameters, visit_defects) =
             (self.equations(), self.visit_parameters(), self.visit_defects());
@@ -79,6 +79,8 @@ impl Emitter<'_> {
             }
         });
         quote! {
+            #modules
+
             const _: () = {
                 // Import a single name that users will not choose.
                 use #runtime as __lagrange;
@@ -117,8 +119,9 @@ impl Emitter<'_> {
                 impl #impl_generics #ident #type_generics #where_clause {
                     #equations
                     #inherent
-                    #(#parts)*
                 }
+
+                #parts
 
                 #(#contacts)*
                 #markers

@@ -99,10 +99,12 @@ impl Emitter<'_> {
             Some(_) => quote!((#slopes, __lagrange::linearized::MotionGradients<#scalar, Self::N>)),
             None => slopes,
         };
-        let parts = self.parts_of(&kernels, &generics);
+        let [modules, parts] = self.parts_of(kernels.iter(), &generics);
         let by_field = self.problem.parameters.by_field();
         let names = by_field.iter().map(|&k| self.problem.parameters.name(k));
         Some(quote! {
+            #modules
+
             const _: () = {
                 use #runtime as __lagrange;
 

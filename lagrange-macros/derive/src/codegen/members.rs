@@ -52,7 +52,7 @@ impl FunctionContext<'_> {
     }
 
     pub(super) fn set_number_of_member(&self, entry: Entry, value: &TokenStream) -> Option<TokenStream> {
-        let MemberNumber { span, of, shape, number } = self.member(&quote!(self), entry, None)?;
+        let MemberNumber { span, of, shape, number } = self.member(&self.system, entry, None)?;
         let scalar = &self.problem.scalar;
         Some(quote_spanned! {span=>
             if !__lagrange::generated::FieldMember::<#scalar, #shape>::set(&mut #of, #number, #value) {

@@ -73,7 +73,7 @@ pub(crate) fn implementation(
         changing.as_ref().map_or(0, Changing::slopes).max(series.as_ref().map_or(0, TaylorPrograms::slopes));
     let numbers = solving.as_ref().map(|solving| solving.factor.results.len());
     let sums = series.as_ref().map_or([0; 2], |series| [series.sums, series.terms]);
-    let style = FunctionContext::new(graph, problem, numbers, slopes, sums);
+    let style = FunctionContext::new(graph, (&declaration.ident, problem), numbers, slopes, sums);
     let emitter = Emitter { declaration, problem, derived, rendered, facts, solving, style };
     if emitter.solving.is_none() && !problem.frictions.is_empty() {
         diagnostics.error(

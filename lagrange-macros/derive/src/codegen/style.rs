@@ -17,6 +17,10 @@ use crate::variables::Variable;
 pub(super) struct FunctionContext<'a> {
     pub(super) graph: &'a Graph,
     pub(super) problem: &'a Problem,
+    /// Name of the struct.
+    pub(super) ident: &'a Ident,
+    /// Expression for the system: `self`, or the argument of a [part](super::kernel::Part).
+    pub(super) system: TokenStream,
     pub(super) types: Types<'a>,
     /// Type that holds the factorization of the KKT matrix.
     pub(super) factor: TokenStream,
@@ -41,7 +45,7 @@ impl<'a> FunctionContext<'a> {
     /// `sums` and `terms` are upper bounds on the numbers of these inputs.
     pub(super) fn new(
         graph: &'a Graph,
-        problem: &'a Problem,
+        (ident, problem): (&'a Ident, &'a Problem),
         numbers: Option<usize>,
         slopes: usize,
         [sums, terms]: [usize; 2],
@@ -66,6 +70,7 @@ impl<'a> FunctionContext<'a> {
                 "bias",
                 "index",
                 "self",
+                "system",
                 "waiting",
                 "round",
             ]
@@ -132,6 +137,8 @@ impl<'a> FunctionContext<'a> {
         Self {
             graph,
             problem,
+            ident,
+            system: quote!(self),
             types,
             factor,
             narrow: None,
@@ -156,7 +163,12 @@ impl<'a> FunctionContext<'a> {
         FunctionContext { slopes, ..self.clone() }
     }
 
-    /// Generic parameters of a helper method.
+    /// Context of the parts of a long function, which have the system as an argument.
+    pub(super) fn of_parts(&self) -> Self {
+        FunctionContext { system: quote!(system), ..self.clone() }
+    }
+
+    /// Generic parameters of a part.
     pub(super) fn generics(&self) -> Option<TokenStream> {
         self.narrow.map(|scalar| Types { scalar, ..self.types }.over())
     }

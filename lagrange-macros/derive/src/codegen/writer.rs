@@ -4,7 +4,6 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use super::body::{Chunk, Local, Operand, SineAndCosine, Slot, SlotSequence, Statement};
-use super::bounds::call_of;
 use super::operation::{Call, Operation};
 use super::rounds::waiting;
 use super::shape::ResultArrays;
@@ -146,8 +145,8 @@ impl FunctionContext<'_> {
     }
 
     fn call(&self, call: &Call<Operand>) -> TokenStream {
-        let (function, scalar) = (&self.problem.functions[call.function as usize], self.types.scalar);
-        call_of(function, call, &quote!(#scalar), |argument| self.operand(argument.clone()))
+        let scalar = self.types.scalar;
+        self.call_on(&quote!(#scalar), call, |argument| self.operand(argument.clone()))
     }
 
     /// Name of a local: that of its definition, else `r12`, `angle4` or `call3_0`.

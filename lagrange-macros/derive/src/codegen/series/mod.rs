@@ -134,7 +134,7 @@ impl Emitter<'_> {
         };
         let Written { tokens, kernels } = TAYLOR_SERIES.iter().map(write).collect();
         let generics = self.generics_on_series(&series.slopes, &series.calls);
-        let parts = self.parts_of(&kernels, &generics);
+        let [modules, parts] = self.parts_of(kernels.iter(), &generics);
         let (impl_generics, _, where_clause) = generics.split_for_impl();
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let (runtime, ident, scalar) =
@@ -145,6 +145,8 @@ impl Emitter<'_> {
         let steep = places("STEEP", &series.steep);
         let functions = self.series_functions(&series.calls);
         quote! {
+            #modules
+
             const _: () = {
                 use #runtime as __lagrange;
 

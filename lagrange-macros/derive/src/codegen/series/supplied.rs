@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::coefficients::{Recurrences, STAGES, SeriesQuantity, Stage, Sum};
-use crate::codegen::bounds::{FUNCTION_ORDER, call_of, orders_of};
+use crate::codegen::bounds::{FUNCTION_ORDER, orders_of};
 use crate::codegen::emitter::Emitter;
 use crate::codegen::operation::{Call, Operation, Register};
 use crate::codegen::passes::Program;
@@ -113,15 +113,15 @@ impl Emitter<'_> {
     }
 
     fn call_on_series(&self, CallOnSeries { call, results }: &CallOnSeries) -> TokenStream {
-        let (function, scalar) = (&self.problem.functions[call.function as usize], self.style.types.scalar);
-        let values =
-            call_of(function, call, &quote!(__lagrange::PowerSeries<#scalar>), |argument| match argument {
-                CallArgument::Constant(bits) => {
-                    let value = Literal::f64_unsuffixed(f64::from_bits(*bits));
-                    quote!(__lagrange::Scalar::constant(#value))
-                }
-                CallArgument::Kept(place) => quote!(arguments[#place]),
-            });
+        let scalar = self.style.types.scalar;
+        let series = quote!(__lagrange::PowerSeries<#scalar>);
+        let values = self.style.call_on(&series, call, |argument| match argument {
+            CallArgument::Constant(bits) => {
+                let value = Literal::f64_unsuffixed(f64::from_bits(*bits));
+                quote!(__lagrange::Scalar::constant(#value))
+            }
+            CallArgument::Kept(place) => quote!(arguments[#place]),
+        });
         let puts = results.iter().map(|&(output, place)| {
             let output = output as usize;
             quote!(sums[#place] = values[#output].coefficient(order);)
