@@ -132,6 +132,20 @@ fn a_top_sleeps_where_it_spins_fast() {
     }
 }
 
+/// Two springs, of which the slower one is damped: |s| = √k of both.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - x^2/2 - 2*y^2)]
+#[dissipation(x_dot^2/10)]
+struct Springs;
+
+#[test]
+fn natural_frequencies_ascend_whatever_decays_first() {
+    let near = Springs.linearize(&State::at_rest([0.0; 2]), &[]).unwrap();
+    let found = near.natural_frequencies().unwrap();
+    assert!((found[0] - 1.0).abs() < 1e-14 && (found[1] - 2.0).abs() < 1e-14, "{found:?}");
+}
+
 /// Underdamped, overdamped, driven apart: ẍ + 2δẋ + k x = 0.
 #[test]
 fn damping_decides_the_stability() {

@@ -5,14 +5,18 @@
 
 mod applicability;
 mod dense_output;
-mod derivatives;
 mod faults;
-mod long_time;
-mod nonholonomic;
 mod orders;
 mod own_scheme;
 mod symplectic;
 mod systems;
+
+#[cfg(feature = "thorough")]
+mod derivatives;
+#[cfg(feature = "thorough")]
+mod long_time;
+#[cfg(feature = "thorough")]
+mod nonholonomic;
 
 /// Whether problems are taken that compile for long and move for long, by all methods.
 const IS_LONG: bool = lagrange_random::is_full(option_env!("LAGRANGE_CASES"));

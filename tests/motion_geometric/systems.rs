@@ -3,7 +3,7 @@
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{Lagrangian, prelude::*};
 pub(crate) use lagrange_systems::{
-    ChaplyginSleigh, DoublePendulum, OuterSolarSystem, Planet, ShakenPendulum, SphericalPendulum, TwoBobs,
+    ChaplyginSleigh, DoublePendulum, Planet, ShakenPendulum, SphericalPendulum, TwoBobs,
 };
 
 /// A system with the consistent state near this one.
@@ -202,26 +202,4 @@ where
 /// Largest error of an entry of the state.
 pub(crate) fn error<const N: usize>(state: &State<f64, N>, exact: &State<f64, N>) -> f64 {
     (state.q - exact.q).amax().max((state.v - exact.v).amax())
-}
-
-/// The sun with the inner planets, Jupiter, Saturn, Uranus, Neptune and Pluto, in astronomical units and days: Hairer, Lubich
-/// and Wanner, *Geometric Numerical Integration*, I.2.4, about the centre of mass: the published frame moves
-/// against it by 20,000 units in a million turns of Jupiter, and coordinates of this size would lose their last digits.
-pub(crate) fn outer_solar_system() -> (OuterSolarSystem, State<f64, 18>) {
-    let m = [
-        1.000_005_976_82,
-        0.000_954_786_104_043,
-        0.000_285_583_733_151,
-        0.000_043_727_316_454_6,
-        0.000_051_775_913_844_9,
-        1.0 / 1.3e8,
-    ];
-    let table = include_str!("../reference_problems/values/outer_solar_system.txt");
-    let first = |name: &str| -> [f64; 18] {
-        let line = table.lines().find_map(|line| line.strip_prefix(name)).unwrap();
-        let numbers: Vec<f64> = line.split_whitespace().map(|number| number.parse().unwrap()).collect();
-        let mean = |k: usize| (0..6).map(|i| m[i] * numbers[3 * i + k]).sum::<f64>() / m.iter().sum::<f64>();
-        std::array::from_fn(|i| numbers[i] - mean(i % 3))
-    };
-    (OuterSolarSystem { m, G: 2.959_122_082_86e-4 }, State::new(first("q "), first("v ")))
 }

@@ -124,4 +124,15 @@ mod tests {
         };
         assert_eq!([hash(""), hash("a"), hash("foobar")], [0x811c_9dc5, 0xe40c_292c, 0xbf9c_f968]);
     }
+
+    /// What comes first in one text and what ends the other are told apart.
+    #[test]
+    fn texts_end_where_they_end() {
+        let hash = |texts: [&str; 2]| {
+            let mut hash = Hash::new();
+            texts.into_iter().for_each(|text| hash.text(text));
+            hash.0
+        };
+        assert_ne!(hash(["a", "bc"]), hash(["ab", "c"]));
+    }
 }

@@ -96,3 +96,22 @@ fn extrapolated<T: Real>(difference: impl Fn(T) -> Vec<T>, size: T) -> Vec<T> {
     }
     best
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Derivatives of x⁵, sin x and eˣ at 1, of each component on its own.
+    #[test]
+    fn differences_are_extrapolated_to_the_derivatives() {
+        let values = |x: f64| [x.powi(5), x.sin(), x.exp()];
+        let difference = |h: f64| {
+            let [ahead, behind] = [1.0 + h, 1.0 - h].map(values);
+            (0..3).map(|i| (ahead[i] - behind[i]) / (2.0 * h)).collect()
+        };
+        let found = extrapolated(difference, 1.0);
+        for (found, expected) in found.iter().zip([5.0, 1.0_f64.cos(), core::f64::consts::E]) {
+            assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        }
+    }
+}
