@@ -156,6 +156,8 @@ println!("{}", path.csv(50).energy());
 extern crate alloc;
 extern crate self as lagrange_core;
 
+#[cfg(all(test, feature = "alloc"))]
+mod cone;
 pub mod contact;
 pub mod embedded;
 #[cfg(feature = "std")]

@@ -1,0 +1,117 @@
+//! Whether reactions satisfy the law.
+//!
+//! What counts is the velocities. The natural map p − proj(p − u/g) says nothing where g p is much larger than u, since their difference
+//! then has none of the digits of u; so each block is asked for the rates that its reaction does not allow: |min(g r_n, u_n)| of a gap, |u_T|
+//! where friction sticks, and what u_T has across the reaction, or along it, where it slides. These are compared with 10⁻¹² of the terms
+//! |J| |x| + |q| of their rows and with the round-off of q.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::qr::PivotedQr;
+use super::{Set, Solver, dot, length, sqrt};
+
+/// Part of its terms by which a rate may be off the law.
+pub(super) const ACCURACY: f64 = 1e-12;
+/// Round-off of the sum x = Jᵀ r, in units of ε of its terms: up to 60 occur in sums over 120 rows.
+const BALANCE: f64 = 64.0;
+/// Change of the velocities that this round-off may hide, as a part of the largest rate.
+const HIDDEN: f64 = 1e-6;
+/// Reactions, as multiples of the largest rate, above which energy is looked at.
+const PRESSED: f64 = 1e3;
+/// Part of its energy that a motion may gain there.
+const GAIN: f64 = 1e-9;
+
+/// The rate of friction that a reaction `p` within this limit does not allow.
+fn slip(p: [f64; 2], u: [f64; 2], limit: f64, g: f64) -> f64 {
+    let (size, speed) = (length(p), length(u));
+    if size == 0.0 || size < limit * (1.0 - 8.0 * f64::EPSILON) {
+        let pulled = [0, 1].map(|c| p[c] - u[c] / g);
+        let far = length(pulled);
+        let over = if far > limit { limit / far } else { 1.0 };
+        return if over < 1.0 { g * length([0, 1].map(|c| over * pulled[c] - p[c])) } else { speed };
+    }
+    let along = (p[0] * u[0] + p[1] * u[1]) / size;
+    if along > 0.0 {
+        return speed;
+    }
+    let across = length([0, 1].map(|c| u[c] - along * p[c] / size));
+    limit * across / length([size - along / g, across / g])
+}
+
+impl Solver {
+    /// Whether the reactions satisfy the law, with the velocities that they change.
+    pub(super) fn obeys(&self) -> bool {
+        let unit = self.speed();
+        self.balances(unit) && !self.gains(unit) && (0..self.blocks.len()).all(|k| self.is_lawful(k, unit))
+    }
+
+    /// Largest rate without reactions, as a velocity of unit mass.
+    fn speed(&self) -> f64 {
+        let of = |(q, g): (&f64, &f64)| q.abs() / sqrt(*g);
+        self.q.iter().zip(&self.compliance).map(of).fold(0.0, f64::max)
+    }
+
+    /// Terms |J|ᵀ |r| of the sum x = Jᵀ r, and the sum.
+    fn sums(&self) -> [Vec<f64>; 2] {
+        let [mut sizes, mut sums] = [(); 2].map(|()| vec![0.0; self.n]);
+        for (i, r) in self.r.iter().enumerate() {
+            for (c, j) in self.row(i).iter().enumerate() {
+                sums[c] += j * r;
+                sizes[c] += (j * r).abs();
+            }
+        }
+        [sizes, sums]
+    }
+
+    /// Whether x is Jᵀ r within the round-off of that sum, which may not be much.
+    fn balances(&self, unit: f64) -> bool {
+        let [sizes, sums] = self.sums();
+        let length = sqrt(dot(&self.x, &self.x));
+        (0..self.n).all(|c| {
+            let round_off = BALANCE * f64::EPSILON * sizes[c] + ACCURACY * length;
+            (sums[c] - self.x[c]).abs() <= round_off && round_off <= HIDDEN * unit
+        })
+    }
+
+    /// Whether the least motion v with J v = q would gain energy, |v + x| > |v|. Asked where reactions are so large that the defects of
+    /// rates say nothing of it. No set but a ray allows that.
+    fn gains(&self, unit: f64) -> bool {
+        let has_rays = self.blocks.iter().any(|block| matches!(block.set, Set::Ray { .. }));
+        if has_rays || self.sums()[0].iter().all(|size| *size <= PRESSED * unit) {
+            return false;
+        }
+        let range = PivotedQr::new(self.j.clone(), [self.n, self.m], super::faces::RANKS[0]);
+        let (v, x) = (range.coordinates(&self.q), range.components(&self.x));
+        2.0 * dot(&x, &v) + dot(&self.x, &self.x) > GAIN * dot(&v, &v)
+    }
+
+    /// Whether the rates of a block are those that its reaction allows.
+    fn is_lawful(&self, k: usize, unit: f64) -> bool {
+        let (block, [normal, tangent]) = (self.blocks[k], self.responses[k]);
+        let allowed = |rows: core::ops::Range<usize>, g: f64| {
+            let terms = |i: usize| {
+                self.row(i).iter().zip(&self.x).fold(self.q[i].abs(), |sum, (j, x)| sum + (j * x).abs())
+            };
+            rows.fold(ACCURACY * unit * sqrt(g), |sum, i| sum + self.noise[i] + ACCURACY * terms(i))
+        };
+        let of_gap = |i: usize| match block.set {
+            Set::Line => self.rate(i).abs(),
+            _ => (normal * self.r[i]).min(self.rate(i)).abs(),
+        };
+        let of_friction = |limit: f64| {
+            let of = |value: &dyn Fn(usize) -> f64| {
+                let mut rows = block.tangent().map(value);
+                [rows.next().unwrap_or(0.0), rows.next().unwrap_or(0.0)]
+            };
+            slip(of(&|i| self.r[i]), of(&|i| self.rate(i)), limit, tangent)
+                <= allowed(block.tangent(), tangent)
+        };
+        block.normal().is_none_or(|i| of_gap(i) <= allowed(i..i + 1, normal))
+            && match block.set {
+                Set::Cone { mu } => of_friction(mu * self.r[block.first].max(0.0)),
+                Set::Disc { radius } => of_friction(radius),
+                _ => true,
+            }
+    }
+}

@@ -1,0 +1,257 @@
+//! From guessed faces to reactions that satisfy the law.
+//!
+//! On given faces the law is a set of equations: rates that stay zero, and friction at its limit. They are solved in the space of
+//! velocities, by a QR decomposition of the rows that stay still: its condition is that of J, and not that of J Jᵀ, which leaves eight more
+//! digits in a wedge. Where rows depend on one another, Σ y J = 0, reactions are shared as springs of equal compliance would,
+//! Σ y g r = 0, or else as near as can be to those so far.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::qr::PivotedQr;
+use super::{Face, Set, Solver, dot, length, sqrt};
+
+/// Parts of the largest pivot below which rows depend on one another: rounding leaves 10⁻¹⁶ to 10⁻¹⁵ of those that do. Where faces with
+/// the first do not satisfy the law, the second is tried.
+pub(super) const RANKS: [f64; 2] = [1e-13, 1e-10];
+/// Newton steps on fixed faces. One friction along one velocity needs one, along two velocities 3 to 6.
+const STEPS: usize = 15;
+/// Distance from natural reactions, as a part of the reactions, up to which faces that disagree may be a tie.
+const TIE: f64 = 1e-7;
+/// Changes of all blocks that disagree with their faces, and then of the one that disagrees most.
+const CHANGES: [usize; 2] = [6, 20];
+
+/// What the equations of faces lead to.
+enum OnFaces {
+    Singular,
+    /// One step leaves the faces for these.
+    Leaves(Vec<Face>),
+    /// Reactions that solve the equations, and the faces on which they lie after the first step.
+    Stays(Vec<Face>),
+}
+
+/// The equations of faces.
+struct Equations {
+    /// Rows whose reactions are unknown, and what each of these changes velocities by.
+    unknowns: Vec<usize>,
+    columns: Vec<Vec<f64>>,
+    /// Place of each row among the unknowns.
+    places: Vec<usize>,
+    /// Rows whose rates stay zero, and their span.
+    still: Vec<usize>,
+    span: PivotedQr,
+    /// Coefficients, for each row, of the sums that shared reactions make zero.
+    shares: Vec<Vec<f64>>,
+    /// Blocks whose friction is at its limit, with its direction.
+    limits: Vec<(usize, [f64; 2])>,
+    /// Number of equations, and the matrix by columns of those that do not change in a step.
+    height: usize,
+    fixed: Vec<f64>,
+}
+
+impl Equations {
+    fn new(solver: &Solver, faces: &[Face], (tolerance, with_shares): (f64, bool)) -> Self {
+        let (mut unknowns, mut columns, mut still, mut limits) = (vec![], vec![], vec![], vec![]);
+        for (k, (&face, block)) in faces.iter().zip(&solver.blocks).enumerate() {
+            match (face, block.set) {
+                (Face::Open, _) => continue,
+                (_, Set::Ray { force }) => {
+                    let mut column = solver.row(block.first).to_vec();
+                    for (i, force) in block.tangent().zip(force) {
+                        column.iter_mut().zip(solver.row(i)).for_each(|(sum, j)| *sum += force * j);
+                    }
+                    unknowns.push(block.first);
+                    columns.push(column);
+                    still.push(block.first);
+                    continue;
+                }
+                (Face::Slide(direction), _) => {
+                    still.extend(block.normal());
+                    limits.push((k, direction));
+                }
+                (Face::Stick, _) => still.extend(block.rows()),
+            }
+            unknowns.extend(block.rows());
+            columns.extend(block.rows().map(|i| solver.row(i).to_vec()));
+        }
+        let rows = still.iter().flat_map(|&i| solver.row(i).iter().copied()).collect();
+        let span = PivotedQr::new(rows, [solver.n, still.len()], tolerance);
+        let share = |y: Vec<f64>| {
+            let mut all = vec![0.0; solver.m];
+            still.iter().zip(y).for_each(|(&i, y)| all[i] = y * solver.compliance[i]);
+            all
+        };
+        let shares: Vec<_> = if with_shares { span.null() } else { vec![] }.into_iter().map(share).collect();
+        let mut places = vec![usize::MAX; solver.m];
+        unknowns.iter().enumerate().for_each(|(place, &i)| places[i] = place);
+        let of_limits: usize = limits.iter().map(|&(k, _)| solver.blocks[k].tangent().len()).sum();
+        let height = span.rank + shares.len() + of_limits;
+        let mut fixed = vec![0.0; height * unknowns.len()];
+        for ((&i, column), to) in unknowns.iter().zip(&columns).zip(fixed.chunks_exact_mut(height.max(1))) {
+            to[..span.rank].copy_from_slice(&span.components(column));
+            shares.iter().zip(&mut to[span.rank..]).for_each(|(share, to)| *to = share[i]);
+        }
+        Self { unknowns, columns, places, still, span, shares, limits, height, fixed }
+    }
+
+    /// x of these reactions.
+    fn combine(&self, r: &[f64], x: &mut [f64]) {
+        x.fill(0.0);
+        for (&i, column) in self.unknowns.iter().zip(&self.columns) {
+            x.iter_mut().zip(column).for_each(|(x, j)| *x += r[i] * j);
+        }
+    }
+
+    /// The equations of a Newton step: matrix by columns, and right-hand side. The third is true if no step changes them.
+    fn linearized(&self, solver: &Solver) -> (Vec<f64>, Vec<f64>, bool) {
+        let rates: Vec<f64> = self.still.iter().map(|&i| solver.rate(i)).collect();
+        let mut right: Vec<f64> = self.span.coordinates(&rates).iter().map(|x| -x).collect();
+        right.extend(self.shares.iter().map(|share| -dot(share, &solver.r)));
+        let (mut matrix, mut is_linear) = (self.fixed.clone(), true);
+        for &(k, known) in &self.limits {
+            let (block, g) = (solver.blocks[k], solver.responses[k][1]);
+            let (limit, mu) = match block.set {
+                Set::Cone { mu } => (mu * solver.r[block.first], mu),
+                Set::Disc { radius } => (radius, 0.0),
+                _ => continue,
+            };
+            let (mut direction, mut turn) = (known, 0.0);
+            if block.tangent().len() == 2 {
+                is_linear = false;
+                let (pulled, far) = (solver.pulled(k), length(solver.pulled(k)));
+                if far > 0.0 {
+                    (direction, turn) = (pulled.map(|x| x / far), limit / far);
+                }
+            }
+            for (c, i) in block.tangent().enumerate() {
+                let row = right.len();
+                right.push(limit * direction[c] - solver.r[i]);
+                let mut add = |place: usize, by: f64| matrix[place * self.height + row] += by;
+                add(self.places[i], 1.0);
+                block.normal().into_iter().for_each(|i| add(self.places[i], -mu * direction[c]));
+                for (d, l) in block.tangent().enumerate() {
+                    let across = turn * (f64::from(u8::from(c == d)) - direction[c] * direction[d]);
+                    if across != 0.0 {
+                        add(self.places[l], -across);
+                        let response = |column: &Vec<f64>| across / g * dot(solver.row(l), column);
+                        self.columns.iter().enumerate().for_each(|(at, column)| add(at, response(column)));
+                    }
+                }
+            }
+        }
+        (matrix, right, is_linear)
+    }
+}
+
+impl Solver {
+    /// From the faces of the reactions so far to reactions that satisfy the law. Leaves the reactions as they were if none are found.
+    pub(super) fn settle(&mut self, with_shares: bool) -> bool {
+        let before = self.r.clone();
+        for tolerance in RANKS {
+            if self.settle_with(tolerance, with_shares) {
+                return true;
+            }
+            self.r.copy_from_slice(&before);
+            self.refresh();
+        }
+        false
+    }
+
+    fn settle_with(&mut self, tolerance: f64, with_shares: bool) -> bool {
+        let mut faces = self.faces();
+        let mut seen: Vec<Vec<u8>> = vec![];
+        for change in 0..CHANGES[0] + CHANGES[1] {
+            let is_patient = change >= CHANGES[0];
+            let next = match self.solve_on(&faces, (tolerance, with_shares), is_patient) {
+                OnFaces::Singular => return false,
+                OnFaces::Leaves(next) => next,
+                OnFaces::Stays(next) => {
+                    let x = self.x.clone();
+                    self.clip(Some(&faces));
+                    self.x = x;
+                    if self.obeys() {
+                        return true;
+                    }
+                    self.refresh();
+                    if is_patient { self.faces() } else { next }
+                }
+            };
+            let [was, is] = [&faces, &next].map(|faces| self.kinds(faces));
+            let worst = (0..faces.len())
+                .filter(|&k| was[k] != is[k])
+                .max_by(|&one, &other| self.defect(one).total_cmp(&self.defect(other)));
+            let Some(worst) = worst else { return false };
+            if !is_patient {
+                faces = next;
+                continue;
+            }
+            if seen.contains(&was) {
+                return false;
+            }
+            seen.push(was);
+            faces[worst] = next[worst];
+        }
+        false
+    }
+
+    /// Solves the equations of faces, with shared reactions or with those nearest to the reactions so far. An impatient call gives up after a
+    /// step that leaves the faces, unless it is a tie.
+    fn solve_on(&mut self, faces: &[Face], ranks: (f64, bool), is_patient: bool) -> OnFaces {
+        self.solved += 1;
+        let equations = Equations::new(self, faces, ranks);
+        let size = equations.unknowns.len();
+        (0..self.m).filter(|&i| equations.places[i] == usize::MAX).for_each(|i| self.r[i] = 0.0);
+        let (mut solver, mut before, mut next) = (None, f64::INFINITY, vec![]);
+        for step in 0..STEPS {
+            equations.combine(&self.r, &mut self.x);
+            let (matrix, right, is_linear) = equations.linearized(self);
+            if solver.is_none() || !is_linear {
+                solver = Some(PivotedQr::new(matrix, [equations.height, size], RANKS[0]));
+            }
+            let change = solver.as_ref().map_or_else(Vec::new, |solver| solver.least_norm(&right));
+            let norm = sqrt(dot(&change, &change));
+            if !norm.is_finite() {
+                return OnFaces::Singular;
+            }
+            equations.unknowns.iter().zip(&change).for_each(|(&i, by)| self.r[i] += by);
+            if step == 0 {
+                let r = self.r.clone();
+                self.clip(Some(faces));
+                next = self.faces();
+                let is_tie = self.defects() <= TIE * TIE * dot(&self.r, &self.r);
+                if !is_patient && !is_tie && self.kinds(faces) != self.kinds(&next) {
+                    return OnFaces::Leaves(next);
+                }
+                self.r = r;
+            }
+            let all = sqrt(equations.unknowns.iter().fold(0.0, |sum, &i| sum + self.r[i] * self.r[i]));
+            let has_stalled = step > 2 && norm <= 1e-10 * all && norm >= 0.5 * before;
+            if norm <= 2.0 * f64::EPSILON * all || has_stalled || (is_linear && step == 1) {
+                break;
+            }
+            before = norm;
+        }
+        self.stop(&equations);
+        OnFaces::Stays(next)
+    }
+
+    /// Takes the last bits of the rates that stay zero: velocities are better known than large reactions.
+    fn stop(&mut self, equations: &Equations) {
+        equations.combine(&self.r, &mut self.x);
+        for _ in 0..2 {
+            let rates: Vec<f64> = equations.still.iter().map(|&i| self.rate(i)).collect();
+            let by = equations.span.combination(&equations.span.coordinates(&rates));
+            self.x.iter_mut().zip(by).for_each(|(x, by)| *x -= by);
+        }
+    }
+
+    /// Faces without the directions of friction along two velocities.
+    fn kinds(&self, faces: &[Face]) -> Vec<u8> {
+        let kind = |(face, block): (&Face, &super::Block)| match face {
+            Face::Open => 0,
+            Face::Stick => 1,
+            Face::Slide([x, _]) => 2 + u8::from(*x > 0.0 && block.tangent().len() == 1),
+        };
+        faces.iter().zip(&self.blocks).map(kind).collect()
+    }
+}

@@ -1,0 +1,242 @@
+//! Guesses of faces from inside all sets. With a multiplier λ ≥ |u_T| of each friction, r_n u_n = σ and (R, r_T) ∘ (λ, u_T) = σ e, where R
+//! is the limit of friction and ∘ the product of second-order cones, are smooth equations, which σ → 0 leads to the law. The path is
+//! that of Coulomb's law itself, which is not convex: it may end, where another one begins elsewhere.
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::compliant::eliminate;
+use super::{Block, Set, Solver, dot, length, sqrt};
+
+/// Sizes of the reactions that the path begins with, as multiples of the largest rate.
+const SIZES: [f64; 3] = [1.0, 100.0, 0.01];
+/// Newton steps along the path. It ends after 20 to 40.
+const STEPS: usize = 60;
+/// Factor by which σ falls until faces are solved again.
+const AGAIN: f64 = 1e-2;
+/// Mean of r u, as a part of the square of the largest rate, beyond which it is round-off.
+const END: f64 = 1e-20;
+
+/// Unknowns beside the reactions.
+struct Path {
+    /// λ of each block.
+    lambda: Vec<f64>,
+    /// What stands for u_n of each block, positive along the path.
+    slack: Vec<f64>,
+    /// Part of the mean of r u that the next step aims at.
+    aim: f64,
+}
+
+/// Equations of a Newton step in the changes of r, λ and x: with J, as those with J Jᵀ lose half of the digits where rows nearly depend on
+/// one another.
+struct Equations {
+    size: usize,
+    a: Vec<f64>,
+    b: Vec<f64>,
+}
+
+/// Largest step up to 1 that keeps |b + s db| ≤ a + s da.
+fn to_boundary([a, da]: [f64; 2], b: [f64; 2], db: [f64; 2]) -> f64 {
+    // The least positive root of p s² + 2 q s + r.
+    let (p, q, r) = (da * da - dot(&db, &db), a * da - dot(&b, &db), a * a - dot(&b, &b));
+    let discriminant = q * q - p * r;
+    let mut step = 1.0_f64;
+    if discriminant >= 0.0 {
+        let root = sqrt(discriminant);
+        for candidate in [r / (root - q), -r / (root + q)] {
+            if candidate > 0.0 {
+                step = step.min(candidate);
+            }
+        }
+    }
+    if da < 0.0 { step.min(-a / da) } else { step }
+}
+
+impl Solver {
+    /// Follows the path, and solves the equations of the faces that it comes near.
+    pub(super) fn by_interior_points(&mut self) -> bool {
+        SIZES.into_iter().any(|size| self.follow(size * self.unit()))
+    }
+
+    /// From reactions of this size. Leaves the reactions as they were if the path does not lead to any that satisfy the law.
+    fn follow(&mut self, size: f64) -> bool {
+        let (before, unit) = (self.r.clone(), self.unit());
+        if unit == 0.0 {
+            return false;
+        }
+        let mut path = self.enter(size);
+        let mut next = f64::INFINITY;
+        for _ in 0..STEPS {
+            let mean = self.mean(&path);
+            if mean <= next.min(1e-4 * unit * unit) {
+                next = mean * AGAIN;
+                if self.settle(false) {
+                    return true;
+                }
+            }
+            if mean <= END * unit * unit || !self.advance(&mut path, mean) {
+                break;
+            }
+        }
+        self.r = before;
+        self.refresh();
+        false
+    }
+
+    /// The limit of friction of a block, and by how much it grows with the reaction of the gap; `None` where there is none.
+    fn limit(&self, block: &Block) -> Option<(f64, f64)> {
+        match block.set {
+            Set::Cone { mu } if mu > 0.0 => Some((mu * self.r[block.first], mu)),
+            Set::Disc { radius } if radius > 0.0 => Some((radius, 0.0)),
+            _ => None,
+        }
+    }
+
+    /// Puts all reactions inside their sets.
+    fn enter(&mut self, size: f64) -> Path {
+        self.r.fill(0.0);
+        for block in self.blocks.iter().filter(|block| block.may_open()) {
+            self.r[block.first] = size;
+            if let Set::Ray { force } = block.set {
+                block.tangent().zip(force).for_each(|(i, force)| self.r[i] = force * size);
+            }
+        }
+        self.refresh();
+        let slack = |block: &Block| block.normal().map_or(size, |i| self.rate(i).max(size));
+        let lambda = |block: &Block| 1.1 * length(self.two(block, &|i| self.rate(i))) + size;
+        let (lambda, slack) =
+            (self.blocks.iter().map(lambda).collect(), self.blocks.iter().map(slack).collect());
+        Path { lambda, slack, aim: 0.3 }
+    }
+
+    /// Values of the tangential rows, of which there are up to two.
+    fn two(&self, block: &Block, value: &dyn Fn(usize) -> f64) -> [f64; 2] {
+        let mut rows = block.tangent().map(value);
+        [rows.next().unwrap_or(0.0), rows.next().unwrap_or(0.0)]
+    }
+
+    /// Mean of the products that are σ on the path; zero if there are none.
+    fn mean(&self, path: &Path) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (k, block) in self.blocks.iter().enumerate() {
+            if block.may_open() {
+                (sum, count) = (sum + self.r[block.first] * path.slack[k], count + 1.0);
+            }
+            if let Some((limit, _)) = self.limit(block) {
+                let power = block.tangent().map(|i| self.r[i] * self.rate(i)).sum::<f64>();
+                (sum, count) = (sum + limit * path.lambda[k] + power, count + 1.0);
+            }
+        }
+        if count > 0.0 { sum / count } else { 0.0 }
+    }
+
+    /// Takes a step towards a smaller σ. False if it cannot be computed.
+    fn advance(&mut self, path: &mut Path, mean: f64) -> bool {
+        let mut equations = Equations::new(self);
+        let sigma = path.aim * mean;
+        (0..self.blocks.len()).for_each(|k| equations.add_block(self, (k, path), sigma));
+        if !eliminate(&mut equations.a, &mut equations.b) {
+            return false;
+        }
+        let (m, count) = (self.m, self.blocks.len());
+        let (dr, rest) = equations.b.split_at(m);
+        let (dl, dx) = rest.split_at(count);
+        let du: Vec<f64> = (0..m).map(|i| dot(self.row(i), dx)).collect();
+        let ds: Vec<f64> = (0..count)
+            .map(|k| self.blocks[k].normal().map_or(0.0, |i| du[i] + self.rate(i) - path.slack[k]))
+            .collect();
+        let longest = self.longest(path, [dr, dl, &du, &ds]);
+        let step = if longest < 1.0 { longest * (1.0 - 0.1 * path.aim.max(0.01)) } else { 1.0 - 1e-3 };
+        self.r.iter_mut().zip(dr).for_each(|(r, by)| *r += step * by);
+        self.x.iter_mut().zip(dx).for_each(|(x, by)| *x += step * by);
+        path.lambda.iter_mut().zip(dl).for_each(|(lambda, by)| *lambda += step * by);
+        path.slack.iter_mut().zip(&ds).for_each(|(slack, by)| *slack += step * by);
+        path.aim = ((1.0 - step) * (1.0 - step)).clamp(0.02, 0.8);
+        true
+    }
+
+    /// Longest step up to 1 that stays inside all sets.
+    fn longest(&self, path: &Path, [dr, dl, du, ds]: [&[f64]; 4]) -> f64 {
+        let mut step = 1.0_f64;
+        for (k, block) in self.blocks.iter().enumerate() {
+            if block.may_open() {
+                for (value, by) in [(self.r[block.first], dr[block.first]), (path.slack[k], ds[k])] {
+                    step = if by < 0.0 { step.min(-value / by) } else { step };
+                }
+            }
+            if let Some((limit, mu)) = self.limit(block) {
+                let by = block.normal().map_or(0.0, |i| mu * dr[i]);
+                let two = |of: &dyn Fn(usize) -> f64| self.two(block, of);
+                step = step.min(to_boundary([limit, by], two(&|i| self.r[i]), two(&|i| dr[i])));
+                step =
+                    step.min(to_boundary([path.lambda[k], dl[k]], two(&|i| self.rate(i)), two(&|i| du[i])));
+            }
+        }
+        step
+    }
+}
+
+impl Equations {
+    /// With the rows of dx = Jᵀ dr.
+    fn new(solver: &Solver) -> Self {
+        let (m, count) = (solver.m, solver.blocks.len());
+        let size = m + count + solver.n;
+        let mut equations = Self { size, a: vec![0.0; size * size], b: vec![0.0; size] };
+        for c in 0..solver.n {
+            let row = m + count + c;
+            *equations.entry(row, row) = 1.0;
+            equations.b[row] = -solver.x[c];
+            for i in 0..m {
+                *equations.entry(row, i) = -solver.row(i)[c];
+                equations.b[row] += solver.row(i)[c] * solver.r[i];
+            }
+        }
+        equations
+    }
+
+    fn entry(&mut self, row: usize, column: usize) -> &mut f64 {
+        &mut self.a[row * self.size + column]
+    }
+
+    /// Adds a multiple of the change of a rate to a row.
+    fn add_rate(&mut self, row: usize, (solver, i): (&Solver, usize), factor: f64) {
+        let first = row * self.size + solver.m + solver.blocks.len();
+        self.a[first..first + solver.n].iter_mut().zip(solver.row(i)).for_each(|(a, j)| *a += factor * j);
+    }
+
+    fn add_block(&mut self, solver: &Solver, (k, path): (usize, &Path), sigma: f64) {
+        let block = solver.blocks[k];
+        let (r, u, of_lambda) = (&solver.r, |i: usize| solver.rate(i), solver.m + k);
+        if let Some(i) = block.normal() {
+            let factor = if block.may_open() { r[i] } else { 1.0 };
+            self.b[i] = if block.may_open() { sigma - r[i] * u(i) } else { -u(i) };
+            self.add_rate(i, (solver, i), factor);
+            // Where rows depend on one another, reactions of equality constraints have to be determined all the same.
+            *self.entry(i, i) += if block.may_open() { path.slack[k] } else { 1e-14 };
+        }
+        let Some((limit, mu)) = solver.limit(&block) else {
+            *self.entry(of_lambda, of_lambda) = 1.0;
+            let force = if let Set::Ray { force } = block.set { force } else { [0.0; 2] };
+            for (i, force) in block.tangent().zip(force) {
+                self.b[i] = block.normal().map_or(0.0, |normal| force * r[normal]) - r[i];
+                *self.entry(i, i) = 1.0;
+                block.normal().into_iter().for_each(|normal| *self.entry(i, normal) -= force);
+            }
+            return;
+        };
+        let lambda = path.lambda[k];
+        self.b[of_lambda] = sigma - limit * lambda;
+        *self.entry(of_lambda, of_lambda) = limit;
+        for i in block.tangent() {
+            self.b[of_lambda] -= r[i] * u(i);
+            *self.entry(of_lambda, i) += u(i);
+            self.add_rate(of_lambda, (solver, i), r[i]);
+            self.b[i] = -(limit * u(i) + lambda * r[i]);
+            self.add_rate(i, (solver, i), limit);
+            *self.entry(i, i) += lambda;
+            *self.entry(i, of_lambda) += r[i];
+            block.normal().into_iter().for_each(|normal| *self.entry(i, normal) += mu * u(i));
+        }
+        block.normal().into_iter().for_each(|normal| *self.entry(of_lambda, normal) += mu * lambda);
+    }
+}

@@ -1,0 +1,362 @@
+//! What contacts, friction and equality constraints do at one instant: one problem, solved to a certificate.
+//!
+//! Bodies have velocities in ℝⁿ, in coordinates in which |x|² is twice the kinetic energy. Rows J give the rates u = J x + q of gaps,
+//! of velocities of friction and of constraints, where q are the rates without reactions and x = Jᵀ r is what the reactions r change.
+//! The law of all of them is De Saxcé's (*Mechanics of Structures and Machines* 26, 1998; Acary, Brémond and Huber, *Advanced Topics
+//! in Nonsmooth Dynamics*, 2018):
+//!
+//! K* ∋ u + μ |u_T| n ⊥ r ∈ K,
+//!
+//! with K a product of the [sets](Set). It holds for impulses and velocities, for forces and accelerations, and for a step in time.
+//!
+//! What is guaranteed: reactions that are [found](Decision::is_found) lie in their sets, and [satisfy](certificate) the law to 10⁻¹² of the
+//! terms of each rate, |J| |x| + |q|. The same problem has the same answer, and blocks that are alike in it share what they have in
+//! common alike.
+//!
+//! How they are found:
+//!
+//! 1. [Contacts that give way](compliant): Newton's method with a compliance, which becomes smaller, guesses the [faces](Face).
+//! 2. [Faces](faces): their equations are solved to round-off by a rank-revealing QR of J. If the law does not hold there, blocks change
+//!    their faces.
+//! 3. Else the same from [sweeps](sweeps), from [inside](interior) all sets, and from other reactions.
+
+mod certificate;
+mod compliant;
+mod faces;
+mod interior;
+mod qr;
+mod sweeps;
+#[cfg(test)]
+mod tests;
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+/// What the reactions of a block may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Set {
+    /// An equality constraint: u = 0.
+    Line,
+    /// A gap: 0 ≤ u ⊥ r ≥ 0.
+    HalfLine,
+    /// A gap with Coulomb's friction along one or two velocities, |r_T| ≤ μ r_n.
+    Cone { mu: f64 },
+    /// Dry friction along one or two velocities, |r_T| ≤ `radius`.
+    Disc { radius: f64 },
+    /// A gap whose friction slides in a known direction, r_T = `force` r_n.
+    Ray { force: [f64; 2] },
+}
+
+/// Rows that belong together: the gap first if there is one, then the velocities of friction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Block {
+    pub(crate) first: usize,
+    pub(crate) count: usize,
+    pub(crate) set: Set,
+}
+
+impl Block {
+    fn rows(&self) -> Range<usize> {
+        self.first..self.first + self.count
+    }
+
+    /// The row of the gap or of the constraint.
+    fn normal(&self) -> Option<usize> {
+        (!matches!(self.set, Set::Disc { .. })).then_some(self.first)
+    }
+
+    /// Rows of friction.
+    fn tangent(&self) -> Range<usize> {
+        self.first + usize::from(self.normal().is_some())..self.first + self.count
+    }
+
+    /// Whether it has a gap, which may open.
+    fn may_open(&self) -> bool {
+        matches!(self.set, Set::HalfLine | Set::Cone { .. } | Set::Ray { .. })
+    }
+}
+
+/// The part of its set on which the reaction of a block lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Face {
+    /// No reaction.
+    Open,
+    /// No rates.
+    Stick,
+    /// Friction at its limit, in this direction of its force.
+    Slide([f64; 2]),
+}
+
+/// What is known of a problem.
+#[derive(Clone, Debug)]
+pub(crate) struct Decision {
+    /// Whether the reactions satisfy the law. Else no faces were found on which reactions do, or reactions would be needed that are so
+    /// much larger than the rates that their round-off decides.
+    pub(crate) is_found: bool,
+    /// Reaction of each row.
+    pub(crate) reactions: Vec<f64>,
+    /// Rate of each row.
+    pub(crate) rates: Vec<f64>,
+    /// Face of each block.
+    pub(crate) faces: Vec<Face>,
+    /// Change of the velocities.
+    pub(crate) change: Vec<f64>,
+}
+
+/// A problem, with what is known of its reactions so far. Rows are scaled by powers of two, which rounds nothing, to responses near 1:
+/// reactions and rates then have one unit, the root of an energy.
+pub(crate) struct Solver {
+    n: usize,
+    m: usize,
+    j: Vec<f64>,
+    /// J Jᵀ, for guesses alone.
+    w: Vec<f64>,
+    q: Vec<f64>,
+    /// Round-off of q.
+    noise: Vec<f64>,
+    blocks: Vec<Block>,
+    /// Responses of the normal row and of the tangential rows of each block.
+    responses: Vec<[f64; 2]>,
+    /// Response of each row.
+    compliance: Vec<f64>,
+    scale: Vec<f64>,
+    r: Vec<f64>,
+    x: Vec<f64>,
+    /// Equations of faces solved so far.
+    solved: usize,
+}
+
+/// Solved equations of faces, times the number of rows, after which no other reactions are tried to begin with: a stack of 40 contacts took
+/// half a minute without this limit, and was not decided.
+const WORK: usize = 40_000;
+/// Other reactions that are tried to begin with. Half as many leave twice as many contacts undecided that face each other.
+const STARTS: usize = 24;
+
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).fold(0.0, |sum, (x, y)| sum + x * y)
+}
+
+fn sqrt(x: f64) -> f64 {
+    crate::number::Scalar::sqrt(x)
+}
+
+fn length(x: [f64; 2]) -> f64 {
+    sqrt(x[0] * x[0] + x[1] * x[1])
+}
+
+/// The power of two next to √x below it, 1 for 0.
+fn power_of_two_near_root(x: f64) -> f64 {
+    let exponent = (x.to_bits() >> 52) as i64 - 1023;
+    if x > 0.0 { f64::from_bits(((exponent.div_euclid(2) + 1023) as u64) << 52) } else { 1.0 }
+}
+
+impl Solver {
+    /// `j` has rows of length `n`; `noise` is the round-off of `q`.
+    pub(crate) fn new(n: usize, j: Vec<f64>, [q, noise]: [Vec<f64>; 2], blocks: Vec<Block>) -> Self {
+        let m = q.len();
+        let zeros = || vec![0.0; m];
+        let mut solver = Self {
+            n,
+            m,
+            j,
+            w: vec![0.0; m * m],
+            q,
+            noise,
+            blocks,
+            responses: Vec::new(),
+            compliance: zeros(),
+            scale: vec![1.0; m],
+            r: zeros(),
+            x: vec![0.0; n],
+            solved: 0,
+        };
+        (0..solver.blocks.len()).for_each(|k| solver.scale_block(k));
+        for (a, b) in (0..m).flat_map(|a| (0..=a).map(move |b| (a, b))) {
+            let entry = dot(solver.row(a), solver.row(b));
+            (solver.w[a * m + b], solver.w[b * m + a]) = (entry, entry);
+        }
+        solver.responses = solver.blocks.iter().map(|block| solver.responses_of(block)).collect();
+        for (block, [normal, tangent]) in solver.blocks.iter().zip(&solver.responses) {
+            block.normal().into_iter().for_each(|i| solver.compliance[i] = *normal);
+            block.tangent().for_each(|i| solver.compliance[i] = *tangent);
+        }
+        solver
+    }
+
+    /// Divides gap and friction of a block by a power of two each.
+    fn scale_block(&mut self, k: usize) {
+        let block = self.blocks[k];
+        let [normal, tangent] = [block.first..block.tangent().start, block.tangent()].map(|rows| {
+            let squares = rows.clone().map(|i| dot(self.row(i), self.row(i)));
+            let by = power_of_two_near_root(squares.fold(0.0, f64::max));
+            for i in rows {
+                self.j[i * self.n..][..self.n].iter_mut().for_each(|x| *x /= by);
+                (self.q[i], self.noise[i], self.scale[i]) = (self.q[i] / by, self.noise[i] / by, by);
+            }
+            by
+        });
+        let set = &mut self.blocks[k].set;
+        *set = match *set {
+            Set::Cone { mu } => Set::Cone { mu: mu * (tangent / normal) },
+            Set::Disc { radius } => Set::Disc { radius: radius * tangent },
+            Set::Ray { force } => Set::Ray { force: force.map(|x| x * (tangent / normal)) },
+            other => other,
+        };
+    }
+
+    /// Response of the gap, and the largest one of friction in any direction; 1 for rows of zeros.
+    fn responses_of(&self, block: &Block) -> [f64; 2] {
+        let w = |a: usize, b: usize| self.w[a * self.m + b];
+        let tangent = block.tangent();
+        let of_friction = match tangent.len() {
+            0 => 1.0,
+            1 => w(tangent.start, tangent.start),
+            _ => {
+                let (i, k) = (tangent.start, tangent.start + 1);
+                (w(i, i) + w(k, k)) / 2.0 + length([(w(i, i) - w(k, k)) / 2.0, w(i, k)])
+            }
+        };
+        let normal = block.normal().map_or(1.0, |i| w(i, i));
+        [normal, of_friction].map(|x| if x > 0.0 { x } else { 1.0 })
+    }
+
+    fn row(&self, i: usize) -> &[f64] {
+        &self.j[i * self.n..][..self.n]
+    }
+
+    fn rate(&self, i: usize) -> f64 {
+        dot(self.row(i), &self.x) + self.q[i]
+    }
+
+    /// Largest rate without reactions, the unit of reactions and rates.
+    fn unit(&self) -> f64 {
+        self.q.iter().fold(0.0, |most, q| f64::max(most, q.abs()))
+    }
+
+    /// x = Jᵀ r.
+    fn refresh(&mut self) {
+        let mut x = core::mem::take(&mut self.x);
+        x.fill(0.0);
+        for i in (0..self.m).filter(|&i| self.r[i] != 0.0) {
+            x.iter_mut().zip(self.row(i)).for_each(|(x, j)| *x += self.r[i] * j);
+        }
+        self.x = x;
+    }
+
+    /// What the friction of a block at its limit is near: the nearest vector within the limit to r_T − u_T/g, and its face.
+    fn friction(&self, k: usize, limit: f64) -> ([f64; 2], Face) {
+        let tries = self.pulled(k);
+        let far = length(tries);
+        if far <= limit {
+            return (tries, Face::Stick);
+        }
+        (tries.map(|x| x * (limit / far)), Face::Slide(tries.map(|x| x / far)))
+    }
+
+    /// r_T − u_T/g of the friction of a block.
+    fn pulled(&self, k: usize) -> [f64; 2] {
+        let (rows, g) = (self.blocks[k].tangent(), self.responses[k][1]);
+        let of = |c: usize| rows.clone().nth(c).map_or(0.0, |i| self.r[i] - self.rate(i) / g);
+        [of(0), of(1)]
+    }
+
+    /// The reaction nearest to r − u/g that its set allows, and its face. Reactions that are so themselves satisfy the law.
+    fn natural(&self, k: usize) -> ([f64; 3], Face) {
+        let block = self.blocks[k];
+        let push = block.normal().map_or(0.0, |i| self.r[i] - self.rate(i) / self.responses[k][0]);
+        match block.set {
+            Set::Line => ([push, 0.0, 0.0], Face::Stick),
+            Set::Disc { radius } => {
+                let ([x, y], face) = self.friction(k, radius);
+                ([x, y, 0.0], face)
+            }
+            _ if push <= 0.0 => ([0.0; 3], Face::Open),
+            Set::HalfLine => ([push, 0.0, 0.0], Face::Stick),
+            Set::Ray { force: [x, y] } => ([push, x * push, y * push], Face::Stick),
+            Set::Cone { mu } => {
+                let ([x, y], face) = self.friction(k, mu * push);
+                ([push, x, y], face)
+            }
+        }
+    }
+
+    fn faces(&self) -> Vec<Face> {
+        (0..self.blocks.len()).map(|k| self.natural(k).1).collect()
+    }
+
+    /// Squared distance of the reactions of a block from its natural ones.
+    fn defect(&self, k: usize) -> f64 {
+        let (natural, block) = (self.natural(k).0, self.blocks[k]);
+        block.rows().zip(natural).fold(0.0, |sum, (i, to)| sum + (to - self.r[i]) * (to - self.r[i]))
+    }
+
+    fn defects(&self) -> f64 {
+        (0..self.blocks.len()).fold(0.0, |sum, k| sum + self.defect(k))
+    }
+
+    /// Moves reactions into their sets; what is open on these faces is zero.
+    fn clip(&mut self, faces: Option<&[Face]>) {
+        for (k, block) in self.blocks.iter().enumerate() {
+            let r = &mut self.r;
+            if faces.is_some_and(|faces| faces[k] == Face::Open) {
+                r[block.rows()].fill(0.0);
+            }
+            if block.may_open() {
+                r[block.first] = r[block.first].max(0.0);
+            }
+            let limit = match block.set {
+                Set::Line | Set::HalfLine => continue,
+                Set::Disc { radius } => radius,
+                Set::Cone { mu } => mu * r[block.first],
+                Set::Ray { force } => {
+                    block.tangent().zip(force).for_each(|(i, force)| r[i] = force * r[block.first]);
+                    continue;
+                }
+            };
+            let rows = block.tangent();
+            let size = sqrt(dot(&r[rows.clone()], &r[rows.clone()]));
+            if size > limit {
+                r[rows].iter_mut().for_each(|x| *x *= limit / size);
+            }
+        }
+        self.refresh();
+    }
+
+    /// Finds reactions that satisfy the law.
+    pub(crate) fn decide(&mut self) -> Decision {
+        self.solved = 0;
+        let is_found =
+            self.by_compliance() || self.by_sweeps() || self.by_interior_points() || self.by_other_starts();
+        if !is_found {
+            self.clip(None);
+        }
+        Decision {
+            is_found,
+            reactions: self.r.iter().zip(&self.scale).map(|(r, scale)| r / scale).collect(),
+            rates: (0..self.m).map(|i| self.rate(i) * self.scale[i]).collect(),
+            faces: self.faces(),
+            change: self.x.clone(),
+        }
+    }
+
+    /// From reactions spread over sizes from the largest rate to 10⁷ times it, by multiples of the golden ratio.
+    fn by_other_starts(&mut self) -> bool {
+        let unit = self.unit();
+        for number in 0..STARTS {
+            if self.solved * self.m > WORK {
+                break;
+            }
+            let size = (0..number % 8).fold(unit, |size, _| 10.0 * size);
+            for (i, r) in self.r.iter_mut().enumerate() {
+                let part = (number * self.m + i + 1) as f64 * 0.618_033_988_749_895;
+                *r = size * (2.0 * (part - part as u64 as f64) - 1.0);
+            }
+            self.clip(None);
+            if self.by_sweeps() {
+                return true;
+            }
+        }
+        false
+    }
+}
