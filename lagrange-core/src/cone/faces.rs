@@ -166,10 +166,7 @@ impl Solver {
                 OnFaces::Singular => return false,
                 OnFaces::Leaves(next) => next,
                 OnFaces::Stays(next) => {
-                    let x = self.x.clone();
-                    self.clip(Some(&faces));
-                    self.x = x;
-                    if self.obeys() {
+                    if self.obeys_clipped(&faces) {
                         return true;
                     }
                     self.refresh();
@@ -192,6 +189,19 @@ impl Solver {
             faces[worst] = next[worst];
         }
         false
+    }
+
+    /// Whether reactions on these faces satisfy the law.
+    pub(super) fn obeys_on(&mut self, faces: &[Face], ranks: (f64, bool)) -> bool {
+        matches!(self.solve_on(faces, ranks, true), OnFaces::Stays(_)) && self.obeys_clipped(faces)
+    }
+
+    /// Whether the reactions satisfy the law once round-off has been taken off those that have left their sets.
+    fn obeys_clipped(&mut self, faces: &[Face]) -> bool {
+        let x = self.x.clone();
+        self.clip(Some(faces));
+        self.x = x;
+        self.obeys()
     }
 
     /// Solves the equations of faces, with shared reactions or with those nearest to the reactions so far. An impatient call gives up after a

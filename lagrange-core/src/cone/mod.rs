@@ -28,6 +28,7 @@ mod qr;
 mod sweeps;
 #[cfg(test)]
 mod tests;
+mod trials;
 
 use alloc::vec;
 use alloc::vec::Vec;

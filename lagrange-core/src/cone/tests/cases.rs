@@ -106,6 +106,19 @@ impl Case {
         case
     }
 
+    /// Accelerations of Painlevé's rod, of length 2 and mass 1, which slides on its lower end.
+    pub(super) fn rod(angle: f64, mu: f64, turns: f64) -> Self {
+        let ((s, c), root) = (angle.sin_cos(), (1.0_f64 / 3.0).sqrt());
+        let rows = vec![vec![0.0, 1.0, -c / root], vec![1.0, 0.0, s / root]];
+        let blocks = vec![Block { first: 0, count: 2, set: Set::Ray { force: [mu, 0.0] } }];
+        let mut case = Self::impact(rows, vec![0.0, -1.0, 0.0], blocks);
+        case.motion.clear();
+        // The lower end turns about the centre.
+        case.q[0] += turns * turns * s;
+        case.q[1] += turns * turns * c;
+        case
+    }
+
     /// Blocks of all sets but rays; every fourth row depends on two before it.
     pub(super) fn of_all_sets(seed: u64) -> Self {
         let mut random = Random(!seed);

@@ -90,6 +90,31 @@ fn contacts_that_slide_already_are_decided() {
     }
 }
 
+/// The gap responds to its own force by a = W_nn + μ W_nT: there is one solution where that is positive, and where it is not, none if the
+/// rod falls without a force, and two if it rises, with a force and without one.
+#[test]
+fn painleves_rod_has_none_one_or_two_solutions() {
+    let mut seen = [0; 3];
+    for seed in 0..cases([300, 3_000, 100_000]) as u64 {
+        let mut random = Random(seed);
+        let mu = random.between(0.0, 4.0);
+        let case = Case::rod(random.between(0.05, 1.5), mu, random.between(-2.0, 2.0));
+        let (a, free) =
+            (dot(&case.rows[0], &case.rows[0]) + mu * dot(&case.rows[0], &case.rows[1]), case.q[0]);
+        if a.abs() < 1e-6 || free.abs() < 1e-6 {
+            continue;
+        }
+        let expected = if a > 0.0 { 1 } else { 2 * usize::from(free > 0.0) };
+        seen[expected] += 1;
+        let (found, solutions) = (case.decision(), case.solver().solutions(1_000).expect("two trials"));
+        assert_eq!((solutions.len(), found.is_found), (expected, expected > 0), "seed {seed}");
+        for r in &solutions {
+            assert!(r[0] == 0.0 || (r[0] + free / a).abs() < 1e-12 * r[0], "seed {seed}");
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 20), "{seen:?}");
+}
+
 #[test]
 fn all_sets_are_decided_together() {
     check("all sets", 1, cases([300, 2_000, 100_000]), Case::of_all_sets);

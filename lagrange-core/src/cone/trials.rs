@@ -1,0 +1,55 @@
+//! Trials of all faces: whether the law has no solution, one or several, where few blocks make that a finite question. Friction that slides
+//! may press bodies together, so that forces need not exist, nor be the only ones (Painlevé, *Comptes rendus* 121, 1895).
+
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::faces::RANKS;
+use super::{Face, Set, Solver};
+
+/// Directions that friction along two velocities is tried in to begin with.
+const DIRECTIONS: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+/// Part of the largest reaction by which solutions differ.
+const APART: f64 = 1e-8;
+
+impl Solver {
+    /// All solutions on faces of which there are at most so many combinations, `None` if there are more. A solution that is not
+    /// isolated, as the shares of four legs, counts once. None are missed but those whose reactions cannot be told from round-off, and some
+    /// of friction along two velocities.
+    pub(crate) fn solutions(&mut self, most: usize) -> Option<Vec<Vec<f64>>> {
+        let choices: Vec<Vec<Face>> = (0..self.blocks.len()).map(|k| self.choices(k)).collect();
+        let combinations = choices.iter().try_fold(1_usize, |all, of| all.checked_mul(of.len()));
+        let mut found: Vec<Vec<f64>> = vec![];
+        for number in 0..combinations.filter(|&count| count <= most)? {
+            let mut rest = number;
+            let choose = |of: &Vec<Face>| {
+                let face = of[rest % of.len()];
+                rest /= of.len();
+                face
+            };
+            let faces: Vec<Face> = choices.iter().map(choose).collect();
+            self.r.fill(0.0);
+            self.refresh();
+            if self.obeys_on(&faces, (RANKS[0], false)) {
+                let size = self.r.iter().fold(0.0, |most, r| f64::max(most, r.abs()));
+                let is_near = |(one, other): (&f64, &f64)| (one - other).abs() <= APART * size;
+                if !found.iter().any(|known| known.iter().zip(&self.r).all(is_near)) {
+                    found.push(self.r.clone());
+                }
+            }
+        }
+        let unscaled = |r: Vec<f64>| r.iter().zip(&self.scale).map(|(r, scale)| r / scale).collect();
+        Some(found.into_iter().map(unscaled).collect())
+    }
+
+    fn choices(&self, k: usize) -> Vec<Face> {
+        let block = self.blocks[k];
+        let mut faces = vec![Face::Stick];
+        faces.extend(block.may_open().then_some(Face::Open));
+        if matches!(block.set, Set::Cone { .. } | Set::Disc { .. }) {
+            let along_one = block.tangent().len() == 1;
+            faces.extend(DIRECTIONS.iter().filter(|[_, y]| *y == 0.0 || !along_one).map(|d| Face::Slide(*d)));
+        }
+        faces
+    }
+}
