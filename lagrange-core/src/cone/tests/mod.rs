@@ -1,6 +1,7 @@
 //! Decisions of random problems against the law as it is stated, and against closed solutions.
 
 mod cases;
+mod exact;
 
 use lagrange_random::{Random, cases};
 
