@@ -106,6 +106,17 @@ impl Case {
         case
     }
 
+    /// Balls of equal mass in a row that touch and have any velocities.
+    pub(super) fn balls(seed: u64) -> Self {
+        let mut random = Random(seed);
+        let count = 2 + random.below(6);
+        let motion: Vec<f64> = (0..count).map(|_| random.number()).collect();
+        let row =
+            |k: usize| (0..count).map(|i| f64::from(i32::from(i == k + 1) - i32::from(i == k))).collect();
+        let blocks = (0..count - 1).map(|k| Block { first: k, count: 1, set: Set::HalfLine }).collect();
+        Self::impact((0..count - 1).map(row).collect(), motion, blocks)
+    }
+
     /// Accelerations of Painlevé's rod, of length 2 and mass 1, which slides on its lower end.
     pub(super) fn rod(angle: f64, mu: f64, turns: f64) -> Self {
         let ((s, c), root) = (angle.sin_cos(), (1.0_f64 / 3.0).sqrt());

@@ -164,17 +164,11 @@ fn legs_that_are_alike_share_alike() {
 #[test]
 fn balls_in_a_row_that_meet_go_on_together() {
     for seed in 0..cases([200, 2_000, 100_000]) as u64 {
-        let mut random = Random(seed);
-        let count = 2 + random.below(6);
-        let motion: Vec<f64> = (0..count).map(|_| random.number()).collect();
-        let row =
-            |k: usize| (0..count).map(|i| f64::from(i32::from(i == k + 1) - i32::from(i == k))).collect();
-        let blocks = (0..count - 1).map(|k| Block { first: k, count: 1, set: Set::HalfLine }).collect();
-        let case = Case::impact((0..count - 1).map(row).collect(), motion.clone(), blocks);
+        let case = Case::balls(seed);
         let found = case.decision();
         // The least change to ascending velocities, by pooling of neighbours (Ayer and others 1955).
         let mut pools: Vec<(f64, usize)> = vec![];
-        for v in motion {
+        for &v in &case.motion {
             pools.push((v, 1));
             while let [.., (u, a), (v, b)] = pools[..]
                 && u > v
