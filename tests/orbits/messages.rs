@@ -78,3 +78,18 @@ fn counts_of_nothing() {
     let none = DRIVEN.periodic_orbit(&State::at_rest([0.3])).driven_by("w", 0).find();
     assert!(none.unwrap_err().to_string().starts_with("the number of turns of the drive is 0"));
 }
+
+/// A mass on a spring, and one that falls.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, z)]
+#[lagrangian((x_dot^2 + z_dot^2)/2 - x^2/2 - 10*z)]
+struct Falling;
+
+/// What falls does not come back, and is named with its gap: in a period its velocity changes by 10 · 2π.
+#[test]
+fn an_orbit_that_does_not_close_names_what_is_farthest_off() {
+    let start = State::new([1.0, 0.0], [0.0, 0.0]);
+    let error = orbit_error(Falling.periodic_orbit(&start).period(std::f64::consts::TAU).find());
+    let OrbitError::NotClosed { entry, gap, .. } = &error else { panic!("{error}") };
+    assert!(entry.to_string().starts_with('z') && gap.abs() > 1.0, "{error}");
+}
