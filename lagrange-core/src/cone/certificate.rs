@@ -9,7 +9,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::qr::PivotedQr;
-use super::{Set, Solver, dot, length, sqrt};
+use super::{ConeSolver, Set, dot, length, sqrt};
 
 /// Part of its terms by which a rate may be off the law.
 pub(super) const ACCURACY: f64 = 1e-12;
@@ -39,7 +39,7 @@ fn slip(p: [f64; 2], u: [f64; 2], limit: f64, g: f64) -> f64 {
     limit * across / length([size - along / g, across / g])
 }
 
-impl Solver {
+impl ConeSolver {
     /// Whether the reactions satisfy the law, with the velocities that they change.
     pub(super) fn obeys(&self) -> bool {
         let unit = self.speed();

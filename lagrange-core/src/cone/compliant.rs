@@ -9,7 +9,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::{Face, Set, Solver, length};
+use super::{ConeSolver, Face, Set, length};
 
 /// Number of compliances, from 1 on, each a tenth of the one before. With steps of a hundredth twice as many problems are left to other
 /// guesses; without the last two, five times as many of those whose rows nearly depend on one another.
@@ -22,13 +22,13 @@ const STEPS: usize = 8;
 const SETTLED: f64 = 1e-9;
 
 /// Linear equations A δr = b of a Newton step.
-struct Equations {
+struct CompliantStep {
     m: usize,
     a: Vec<f64>,
     b: Vec<f64>,
 }
 
-impl Solver {
+impl ConeSolver {
     /// Guesses faces by contacts that give way, and solves their equations: with shares as of equal springs, or else with the nearest.
     pub(super) fn by_compliance(&mut self) -> bool {
         self.r.fill(0.0);
@@ -67,7 +67,8 @@ impl Solver {
     /// Takes Newton steps with one weight; `see` is called after each.
     fn newton(&mut self, weight: f64, center: &[f64], see: &mut dyn FnMut(&Self)) {
         for _ in 0..STEPS {
-            let mut equations = Equations { m: self.m, a: vec![0.0; self.m * self.m], b: vec![0.0; self.m] };
+            let mut equations =
+                CompliantStep { m: self.m, a: vec![0.0; self.m * self.m], b: vec![0.0; self.m] };
             (0..self.blocks.len()).for_each(|k| self.linearize(k, (weight, center), &mut equations));
             if !equations.solve() {
                 return;
@@ -84,10 +85,10 @@ impl Solver {
     }
 
     /// Writes the rows of a block.
-    fn linearize(&self, k: usize, (weight, center): (f64, &[f64]), to: &mut Equations) {
+    fn linearize(&self, k: usize, (weight, center): (f64, &[f64]), to: &mut CompliantStep) {
         let (block, [normal, tangent]) = (self.blocks[k], self.responses[k]);
         let face = self.natural(k).1;
-        let keep = |i: usize, g: f64, to: &mut Equations| {
+        let keep = |i: usize, g: f64, to: &mut CompliantStep| {
             to.b[i] = -self.rate(i) / g - weight * (self.r[i] - center[i]);
             to.add_response(i, (self.w_row(i), 1.0 / g));
             to.add(i, i, weight);
@@ -110,7 +111,7 @@ impl Solver {
     }
 
     /// Rows of friction at its limit, r_T = limit · c/|c| with c = r_T − u_T/g.
-    fn slide(&self, k: usize, direction: [f64; 2], to: &mut Equations) {
+    fn slide(&self, k: usize, direction: [f64; 2], to: &mut CompliantStep) {
         let (block, g) = (self.blocks[k], self.responses[k][1]);
         let (limit, mu) = match block.set {
             Set::Cone { mu } => (mu * self.r[block.first], mu),
@@ -136,7 +137,7 @@ impl Solver {
     }
 }
 
-impl Equations {
+impl CompliantStep {
     fn add(&mut self, row: usize, column: usize, by: f64) {
         self.a[row * self.m + column] += by;
     }

@@ -9,7 +9,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::qr::PivotedQr;
-use super::{Face, Set, Solver, dot, length, sqrt};
+use super::{ConeSolver, Face, Set, dot, length, sqrt};
 
 /// Parts of the largest pivot below which rows depend on one another: rounding leaves 10⁻¹⁶ to 10⁻¹⁵ of those that do. Where faces with
 /// the first do not satisfy the law, the second is tried.
@@ -31,7 +31,7 @@ enum OnFaces {
 }
 
 /// The equations of faces.
-struct Equations {
+struct FaceEquations {
     /// Rows whose reactions are unknown, and what each of these changes velocities by.
     unknowns: Vec<usize>,
     columns: Vec<Vec<f64>>,
@@ -49,8 +49,8 @@ struct Equations {
     fixed: Vec<f64>,
 }
 
-impl Equations {
-    fn new(solver: &Solver, faces: &[Face], (tolerance, with_shares): (f64, bool)) -> Self {
+impl FaceEquations {
+    fn new(solver: &ConeSolver, faces: &[Face], (tolerance, with_shares): (f64, bool)) -> Self {
         let (mut unknowns, mut columns, mut still, mut limits) = (vec![], vec![], vec![], vec![]);
         for (k, (&face, block)) in faces.iter().zip(&solver.blocks).enumerate() {
             match (face, block.set) {
@@ -103,7 +103,7 @@ impl Equations {
     }
 
     /// The equations of a Newton step: matrix by columns, and right-hand side. The third is true if no step changes them.
-    fn linearized(&self, solver: &Solver) -> (Vec<f64>, Vec<f64>, bool) {
+    fn linearized(&self, solver: &ConeSolver) -> (Vec<f64>, Vec<f64>, bool) {
         let rates: Vec<f64> = self.still.iter().map(|&i| solver.rate(i)).collect();
         let mut right: Vec<f64> = self.span.coordinates(&rates).iter().map(|x| -x).collect();
         right.extend(self.shares.iter().map(|share| -dot(share, &solver.r)));
@@ -143,7 +143,7 @@ impl Equations {
     }
 }
 
-impl Solver {
+impl ConeSolver {
     /// From the faces of the reactions so far to reactions that satisfy the law. Leaves the reactions as they were if none are found.
     pub(super) fn settle(&mut self, with_shares: bool) -> bool {
         let before = self.r.clone();
@@ -208,7 +208,7 @@ impl Solver {
     /// step that leaves the faces, unless it is a tie.
     fn solve_on(&mut self, faces: &[Face], ranks: (f64, bool), is_patient: bool) -> OnFaces {
         self.solved += 1;
-        let equations = Equations::new(self, faces, ranks);
+        let equations = FaceEquations::new(self, faces, ranks);
         let size = equations.unknowns.len();
         (0..self.m).filter(|&i| equations.places[i] == usize::MAX).for_each(|i| self.r[i] = 0.0);
         let (mut solver, mut before, mut next) = (None, f64::INFINITY, vec![]);
@@ -246,7 +246,7 @@ impl Solver {
     }
 
     /// Takes the last bits of the rates that stay zero: velocities are better known than large reactions.
-    fn stop(&mut self, equations: &Equations) {
+    fn stop(&mut self, equations: &FaceEquations) {
         equations.combine(&self.r, &mut self.x);
         for _ in 0..2 {
             let rates: Vec<f64> = equations.still.iter().map(|&i| self.rate(i)).collect();

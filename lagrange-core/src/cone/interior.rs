@@ -6,7 +6,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::compliant::eliminate;
-use super::{Block, Set, Solver, dot, length, sqrt};
+use super::{Block, ConeSolver, Set, dot, length, sqrt};
 
 /// Sizes of the reactions that the path begins with, as multiples of the largest rate.
 const SIZES: [f64; 3] = [1.0, 100.0, 0.01];
@@ -18,7 +18,7 @@ const AGAIN: f64 = 1e-2;
 const END: f64 = 1e-20;
 
 /// Unknowns beside the reactions.
-struct Path {
+struct CentralPath {
     /// λ of each block.
     lambda: Vec<f64>,
     /// What stands for u_n of each block, positive along the path.
@@ -27,9 +27,9 @@ struct Path {
     aim: f64,
 }
 
-/// Equations of a Newton step in the changes of r, λ and x: with J, as those with J Jᵀ lose half of the digits where rows nearly depend on
+/// PathStep of a Newton step in the changes of r, λ and x: with J, as those with J Jᵀ lose half of the digits where rows nearly depend on
 /// one another.
-struct Equations {
+struct PathStep {
     size: usize,
     a: Vec<f64>,
     b: Vec<f64>,
@@ -52,7 +52,7 @@ fn to_boundary([a, da]: [f64; 2], b: [f64; 2], db: [f64; 2]) -> f64 {
     if da < 0.0 { step.min(-a / da) } else { step }
 }
 
-impl Solver {
+impl ConeSolver {
     /// Follows the path, and solves the equations of the faces that it comes near.
     pub(super) fn by_interior_points(&mut self) -> bool {
         SIZES.into_iter().any(|size| self.follow(size * self.unit()))
@@ -93,7 +93,7 @@ impl Solver {
     }
 
     /// Puts all reactions inside their sets.
-    fn enter(&mut self, size: f64) -> Path {
+    fn enter(&mut self, size: f64) -> CentralPath {
         self.r.fill(0.0);
         for block in self.blocks.iter().filter(|block| block.may_open()) {
             self.r[block.first] = size;
@@ -106,7 +106,7 @@ impl Solver {
         let lambda = |block: &Block| 1.1 * length(self.two(block, &|i| self.rate(i))) + size;
         let (lambda, slack) =
             (self.blocks.iter().map(lambda).collect(), self.blocks.iter().map(slack).collect());
-        Path { lambda, slack, aim: 0.3 }
+        CentralPath { lambda, slack, aim: 0.3 }
     }
 
     /// Values of the tangential rows, of which there are up to two.
@@ -116,7 +116,7 @@ impl Solver {
     }
 
     /// Mean of the products that are σ on the path; zero if there are none.
-    fn mean(&self, path: &Path) -> f64 {
+    fn mean(&self, path: &CentralPath) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
         for (k, block) in self.blocks.iter().enumerate() {
             if block.may_open() {
@@ -131,8 +131,8 @@ impl Solver {
     }
 
     /// Takes a step towards a smaller σ. False if it cannot be computed.
-    fn advance(&mut self, path: &mut Path, mean: f64) -> bool {
-        let mut equations = Equations::new(self);
+    fn advance(&mut self, path: &mut CentralPath, mean: f64) -> bool {
+        let mut equations = PathStep::new(self);
         let sigma = path.aim * mean;
         (0..self.blocks.len()).for_each(|k| equations.add_block(self, (k, path), sigma));
         if !eliminate(&mut equations.a, &mut equations.b) {
@@ -156,7 +156,7 @@ impl Solver {
     }
 
     /// Longest step up to 1 that stays inside all sets.
-    fn longest(&self, path: &Path, [dr, dl, du, ds]: [&[f64]; 4]) -> f64 {
+    fn longest(&self, path: &CentralPath, [dr, dl, du, ds]: [&[f64]; 4]) -> f64 {
         let mut step = 1.0_f64;
         for (k, block) in self.blocks.iter().enumerate() {
             if block.may_open() {
@@ -176,9 +176,9 @@ impl Solver {
     }
 }
 
-impl Equations {
+impl PathStep {
     /// With the rows of dx = Jᵀ dr.
-    fn new(solver: &Solver) -> Self {
+    fn new(solver: &ConeSolver) -> Self {
         let (m, count) = (solver.m, solver.blocks.len());
         let size = m + count + solver.n;
         let mut equations = Self { size, a: vec![0.0; size * size], b: vec![0.0; size] };
@@ -199,12 +199,12 @@ impl Equations {
     }
 
     /// Adds a multiple of the change of a rate to a row.
-    fn add_rate(&mut self, row: usize, (solver, i): (&Solver, usize), factor: f64) {
+    fn add_rate(&mut self, row: usize, (solver, i): (&ConeSolver, usize), factor: f64) {
         let first = row * self.size + solver.m + solver.blocks.len();
         self.a[first..first + solver.n].iter_mut().zip(solver.row(i)).for_each(|(a, j)| *a += factor * j);
     }
 
-    fn add_block(&mut self, solver: &Solver, (k, path): (usize, &Path), sigma: f64) {
+    fn add_block(&mut self, solver: &ConeSolver, (k, path): (usize, &CentralPath), sigma: f64) {
         let block = solver.blocks[k];
         let (r, u, of_lambda) = (&solver.r, |i: usize| solver.rate(i), solver.m + k);
         if let Some(i) = block.normal() {

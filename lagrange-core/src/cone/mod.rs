@@ -9,7 +9,7 @@
 //!
 //! with K a product of the [sets](Set). It holds for impulses and velocities, for forces and accelerations, and for a step in time.
 //!
-//! What is guaranteed: reactions that are [found](Decision::is_found) lie in their sets, and [satisfy](certificate) the law to 10⁻¹² of the
+//! What is guaranteed: reactions that are [found](ConeDecision::is_found) lie in their sets, and [satisfy](certificate) the law to 10⁻¹² of the
 //! terms of each rate, |J| |x| + |q|. The same problem has the same answer, and blocks that are alike in it share what they have in
 //! common alike.
 //!
@@ -91,7 +91,7 @@ pub(crate) enum Face {
 
 /// What is known of a problem.
 #[derive(Clone, Debug)]
-pub(crate) struct Decision {
+pub(crate) struct ConeDecision {
     /// Whether the reactions satisfy the law. Else no faces were found on which reactions do, or reactions would be needed that are so
     /// much larger than the rates that their round-off decides.
     pub(crate) is_found: bool,
@@ -107,7 +107,7 @@ pub(crate) struct Decision {
 
 /// A problem, with what is known of its reactions so far. Rows are scaled by powers of two, which rounds nothing, to responses near 1:
 /// reactions and rates then have one unit, the root of an energy.
-pub(crate) struct Solver {
+pub(crate) struct ConeSolver {
     n: usize,
     m: usize,
     j: Vec<f64>,
@@ -152,7 +152,7 @@ fn power_of_two_near_root(x: f64) -> f64 {
     if x > 0.0 { f64::from_bits(((exponent.div_euclid(2) + 1023) as u64) << 52) } else { 1.0 }
 }
 
-impl Solver {
+impl ConeSolver {
     /// `j` has rows of length `n`; `noise` is the round-off of `q`.
     pub(crate) fn new(n: usize, j: Vec<f64>, [q, noise]: [Vec<f64>; 2], blocks: Vec<Block>) -> Self {
         let m = q.len();
@@ -325,14 +325,14 @@ impl Solver {
     }
 
     /// Finds reactions that satisfy the law.
-    pub(crate) fn decide(&mut self) -> Decision {
+    pub(crate) fn decide(&mut self) -> ConeDecision {
         self.solved = 0;
         let is_found =
             self.by_compliance() || self.by_sweeps() || self.by_interior_points() || self.by_other_starts();
         if !is_found {
             self.clip(None);
         }
-        Decision {
+        ConeDecision {
             is_found,
             reactions: self.r.iter().zip(&self.scale).map(|(r, scale)| r / scale).collect(),
             rates: (0..self.m).map(|i| self.rate(i) * self.scale[i]).collect(),

@@ -1,9 +1,9 @@
 //! Guesses of faces by sweeps: each block in turn takes its natural reaction, there and back, so that none comes first (projected
 //! Gauss–Seidel; Jourdan, Alart and Jean, *Computer Methods in Applied Mechanics and Engineering* 155, 1998).
 
-use super::{Set, Solver, length};
+use super::{ConeSolver, Set, length};
 
-impl Solver {
+impl ConeSolver {
     /// Guesses faces by sweeps from the reactions so far, then by Newton steps from there, and solves their equations.
     pub(super) fn by_sweeps(&mut self) -> bool {
         (0..4 + self.m / 2).for_each(|turn| self.sweep(turn % 2 == 1));

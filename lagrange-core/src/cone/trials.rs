@@ -5,14 +5,14 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::faces::RANKS;
-use super::{Face, Set, Solver};
+use super::{ConeSolver, Face, Set};
 
 /// Directions that friction along two velocities is tried in to begin with.
 const DIRECTIONS: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
 /// Part of the largest reaction by which solutions differ.
 const APART: f64 = 1e-8;
 
-impl Solver {
+impl ConeSolver {
     /// All solutions on faces of which there are at most so many combinations, `None` if there are more. A solution that is not
     /// isolated, as the shares of four legs, counts once. None are missed but those whose reactions cannot be told from round-off, and some
     /// of friction along two velocities.

@@ -2,7 +2,7 @@
 
 use lagrange_random::Random;
 
-use crate::cone::{Block, Decision, Set, Solver};
+use crate::cone::{Block, ConeDecision, ConeSolver, Set};
 
 /// How the rows of an impact depend on one another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,11 +45,11 @@ impl Case {
         Self { n: motion.len(), rows, q, noise, blocks, motion }
     }
 
-    pub(super) fn solver(&self) -> Solver {
-        Solver::new(self.n, self.rows.concat(), [self.q.clone(), self.noise.clone()], self.blocks.clone())
+    pub(super) fn solver(&self) -> ConeSolver {
+        ConeSolver::new(self.n, self.rows.concat(), [self.q.clone(), self.noise.clone()], self.blocks.clone())
     }
 
-    pub(super) fn decision(&self) -> Decision {
+    pub(super) fn decision(&self) -> ConeDecision {
         self.solver().decide()
     }
 

@@ -5,7 +5,7 @@ use num_integer::Integer;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::cases::{Case, Rows};
-use crate::cone::{Decision, Face, Set};
+use crate::cone::{ConeDecision, Face, Set};
 
 /// A rational number, with a positive denominator.
 #[derive(Clone, Debug)]
@@ -74,7 +74,7 @@ fn solve(mut a: Vec<Vec<Rational>>, mut b: Vec<Rational>) -> Option<Vec<Rational
 
 /// The reactions and the change of velocities on the faces of a decision, with friction along one velocity; `None` if more than one solve
 /// the equations.
-fn exactly(case: &Case, found: &Decision) -> Option<[Vec<f64>; 2]> {
+fn exactly(case: &Case, found: &ConeDecision) -> Option<[Vec<f64>; 2]> {
     let rows: Vec<Vec<Rational>> =
         case.rows.iter().map(|row| row.iter().map(|x| Rational::of(*x)).collect()).collect();
     // What each unknown reaction comes with: rows, each with a factor.

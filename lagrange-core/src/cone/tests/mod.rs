@@ -5,11 +5,11 @@ mod exact;
 
 use lagrange_random::{Random, cases};
 
-use super::{Block, Decision, Face, Set};
+use super::{Block, ConeDecision, Face, Set};
 use cases::{ALL_ROWS, Case, dot};
 
 /// By how much reactions are off the law as it is stated, as a multiple of what is guaranteed; none of it by scaled rows.
-fn off(case: &Case, found: &Decision) -> f64 {
+fn off(case: &Case, found: &ConeDecision) -> f64 {
     let (r, x) = (&found.reactions, &found.change);
     let g = |i: usize| dot(&case.rows[i], &case.rows[i]);
     let unit = (0..r.len()).map(|i| case.q[i].abs() / g(i).sqrt()).fold(0.0, f64::max);
@@ -129,7 +129,7 @@ fn tables_are_decided() {
 }
 
 /// A block of mass 1 with a gap and one or two velocities.
-fn block(rates: [f64; 3], mu: f64) -> Decision {
+fn block(rates: [f64; 3], mu: f64) -> ConeDecision {
     let rows = (0..3).map(|i| (0..3).map(|c| f64::from(u8::from(i == c))).collect()).collect();
     let blocks = vec![Block { first: 0, count: 3, set: Set::Cone { mu } }];
     Case::impact(rows, rates.to_vec(), blocks).decision()
