@@ -102,8 +102,7 @@ pub enum EnergyForm {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Facts {
-    /// Cyclic coordinates: the Lagrangian, the forces and the constraints contain at most their velocities, and
-    /// no force or constraint acts along them.
+    /// Cyclic coordinates: the Lagrangian contains at most their velocities, and no force or constraint acts along them.
     pub cyclic: &'static [&'static str],
     /// Conserved quantities, in the order of [`Lagrangian::conserved`](crate::Lagrangian::conserved): momenta,
     /// the energy, and those given in `#[conserved(…)]`.

@@ -37,8 +37,7 @@ use crate::resolve::Problem;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Facts {
-    /// Cyclic coordinates: the Lagrangian, the forces and the constraints contain at most their velocities, and no
-    /// force or constraint acts along them.
+    /// Cyclic coordinates: the Lagrangian contains at most their velocities, and no force or constraint acts along them.
     pub cyclic: Vec<String>,
     /// Conserved quantities: momenta, the energy, and those given in `#[conserved(…)]`.
     pub conserved: Vec<Conserved>,

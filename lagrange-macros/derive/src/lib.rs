@@ -16,6 +16,8 @@
 //! # Ok::<(), lagrange_derive::Refusal>(())
 //! ```
 //!
+//! It is not published yet: `cargo add --path ../lagrange/lagrange-macros/derive` adds it to a project beside the repository.
+//!
 //! Nothing is read from or written to files, and nothing depends on the time: the crate also runs in a browser
 //! (`wasm32-unknown-unknown`). `lagrange_core::language` documents the language of the attributes. The emitted code needs
 //! `lagrange-core`; this crate does not.
@@ -50,7 +52,7 @@ mod variables;
 use diagnostics::{Diagnostics, Place};
 use facts::Facts;
 use lagrange_symbolic as symbolic;
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Span, TokenStream, TokenTree};
 pub use refusal::{Diagnostic, Location, Refusal};
 use syntax::Declaration;
 pub use system::{Constraint, Equations, System};
@@ -69,7 +71,7 @@ pub use system::{Constraint, Equations, System};
 /// assert!(emitted.to_string().contains("compile_error"));
 /// ```
 pub fn expand(input: TokenStream) -> TokenStream {
-    match run(input) {
+    match run(input, false) {
         Ok(system) => system.into_tokens(),
         Err(failure) => failure.into_tokens(),
     }
@@ -81,16 +83,36 @@ struct Failure {
     errors: Vec<syn::Error>,
 }
 
-/// Runs the whole pipeline.
-fn run(input: TokenStream) -> Result<System, Failure> {
+/// Runs the whole pipeline. Outside of a compiler it is alone, and refuses attributes that nobody knows.
+fn run(input: TokenStream, is_alone: bool) -> Result<System, Failure> {
     if let Some(span) = syntax::too_deep(input.clone()) {
         return Err(nests_too_deep(input, span));
     }
-    let input = syn::parse2(input).map_err(|error| Failure { declaration: None, errors: vec![error] })?;
+    let fail = |error| Failure { declaration: None, errors: vec![error] };
+    no_struct(&input).map_or(Ok(()), Err).map_err(fail)?;
+    let input = syn::parse2(input).map_err(fail)?;
     let mut diagnostics = Diagnostics::default();
+    if is_alone {
+        syntax::refuse_unknown(&input, &mut diagnostics);
+    }
     let declaration = syntax::declaration(input, &mut diagnostics);
     derive(&declaration, &mut diagnostics)
         .ok_or_else(|| Failure { declaration: Some(declaration.into()), errors: diagnostics.into_errors() })
+}
+
+/// Returns an error at the last token if none begins a struct, or what is told to be none.
+fn no_struct(input: &TokenStream) -> Option<syn::Error> {
+    let begins =
+        |token: &TokenTree| ["struct", "enum", "union"].iter().any(|word| token.to_string() == *word);
+    let mut last = Span::call_site();
+    for token in input.clone() {
+        if begins(&token) {
+            return None;
+        }
+        last = token.span();
+    }
+    let message = "a system is a struct, after its attributes: `#[coordinates(x)] #[lagrangian(m/2 * x_dot^2)] struct Particle { m: f64 }`";
+    Some(syn::Error::new(last, message))
 }
 
 /// Returns an error at `span`. Input nested this deep would overflow the stack of a recursive parser.

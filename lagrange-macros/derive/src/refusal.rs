@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
 use proc_macro2::{LexError, Span};
+use unicode_normalization::char::is_combining_mark;
 
 /// Errors of a declaration: at least one, and all that can be found together.
 ///
@@ -59,6 +60,22 @@ pub struct Location {
     pub text: String,
 }
 
+const OPENING: [char; 3] = ['(', '[', '{'];
+const CLOSING: [char; 3] = [')', ']', '}'];
+
+/// Signs of mathematics, with advice.
+const SIGNS: [(&str, &str); 9] = [
+    ("²", "write `^2`"),
+    ("³", "write `^3`"),
+    ("½", "write `1/2*`"),
+    ("−–—", "write `-`"),
+    ("×⋅∙", "write `*`"),
+    ("÷∕⁄", "write `/`"),
+    ("√", "write `sqrt(…)`"),
+    ("≥", "write `>=`"),
+    ("'’′", "write `x_dot` for the velocity of a coordinate `x`"),
+];
+
 impl Refusal {
     /// Returns the errors, in the order in which they were found.
     pub fn diagnostics(&self) -> &[Diagnostic] {
@@ -73,14 +90,20 @@ impl Refusal {
     /// Refusal of a text that is no sequence of tokens.
     pub(crate) fn of_text(source: &str, error: &LexError) -> Self {
         let start = error.span().byte_range().start;
-        let message = match source[start..].chars().next() {
-            Some('(' | '[' | '{') => "this is never closed",
-            Some(')' | ']' | '}') => "this closes nothing that is open",
-            _ => "no token of Rust begins here",
+        let found = source[start..].chars().next();
+        let diagnostics = match found {
+            Some('(' | '[' | '{') => {
+                vec![Diagnostic::in_text(source, start, "this is never closed".to_owned())]
+            }
+            Some(sign @ (')' | ']' | '}')) => vec![Diagnostic::of_delimiter(source, start, sign)],
+            _ => match Diagnostic::of_signs(source) {
+                signs if signs.is_empty() => {
+                    vec![Diagnostic::in_text(source, start, "no token of Rust begins here".to_owned())]
+                }
+                signs => signs,
+            },
         };
-        let location = Some(Location::in_text(source, start));
-        let diagnostic = Diagnostic { message: message.to_owned(), location, notes: Vec::new() };
-        Self { diagnostics: vec![diagnostic], source: Some(source.to_owned()) }
+        Self { diagnostics, source: Some(source.to_owned()) }
     }
 }
 
@@ -98,6 +121,38 @@ impl Diagnostic {
     /// Returns notes at related places, such as the first of two definitions of a name.
     pub fn notes(&self) -> &[Self] {
         &self.notes
+    }
+
+    fn in_text(source: &str, start: usize, message: String) -> Self {
+        Self { message, location: Some(Location::in_text(source, start)), notes: Vec::new() }
+    }
+
+    /// A delimiter that closes nothing, or not what was opened last.
+    fn of_delimiter(source: &str, start: usize, sign: char) -> Self {
+        let mut open = Vec::new();
+        for (at, c) in source[..start].char_indices() {
+            match c {
+                '(' | '[' | '{' => open.push((at, c)),
+                ')' | ']' | '}' => _ = open.pop(),
+                _ => {}
+            }
+        }
+        let Some((at, opening)) = open.pop() else {
+            return Self::in_text(source, start, "this closes nothing that is open".to_owned());
+        };
+        let closing = CLOSING[OPENING.iter().position(|c| *c == opening).unwrap_or(0)];
+        let message = format!("either a `{closing}` is missing before this `{sign}`, or it is one too many");
+        let note = Self::in_text(source, at, format!("this `{opening}` is open until then"));
+        Self { notes: vec![note], ..Self::in_text(source, start, message) }
+    }
+
+    /// All signs of mathematics that are no tokens, each with what is written for it.
+    fn of_signs(source: &str) -> Vec<Self> {
+        let signs = source.char_indices().filter_map(|(at, c)| {
+            let (_, instead) = SIGNS.iter().find(|(signs, _)| signs.contains(c))?;
+            Some(Self::in_text(source, at, format!("instead of `{c}`, {instead}")))
+        });
+        signs.collect()
     }
 
     fn new(error: syn::Error) -> Self {
@@ -134,11 +189,14 @@ impl Location {
     fn underline(&self, source: &str, f: &mut Formatter<'_>) -> fmt::Result {
         let line = source.lines().nth(self.line - 1).unwrap_or_default();
         write!(f, "\n{line}\n")?;
-        for c in line.chars().take(self.column - 1) {
+        // A mark above a letter takes no place of its own.
+        let letters = |text: &str| text.chars().filter(|&c| !is_combining_mark(c)).collect::<Vec<_>>();
+        let before: String = line.chars().take(self.column - 1).collect();
+        for c in letters(&before) {
             f.write_str(if c == '\t' { "\t" } else { " " })?;
         }
         let mut lines = self.text.lines();
-        let carets = lines.next().map_or(0, |line| line.chars().count()).max(1);
+        let carets = lines.next().map_or(0, |line| letters(line).len()).max(1);
         write!(f, "{}{}", "^".repeat(carets), if lines.next().is_some() { " …" } else { "" })
     }
 }

@@ -63,8 +63,8 @@ pub struct Constraint {
 }
 
 impl System {
-    /// Derives a system from the text of a struct with its attributes. `#[derive(Lagrangian)]` and other attributes may
-    /// be among them, and are ignored.
+    /// Derives a system from the text of a struct with its attributes. `#[derive(Lagrangian)]` and attributes that Rust or serde know
+    /// may be among them; other ones are errors.
     ///
     /// # Errors
     ///
@@ -87,7 +87,7 @@ impl System {
     /// ```
     pub fn parse(text: &str) -> Result<Self, Refusal> {
         let tokens = text.parse().map_err(|error| Refusal::of_text(text, &error))?;
-        crate::run(tokens).map_err(|failure| Refusal::new(failure.errors, Some(text)))
+        crate::run(tokens, true).map_err(|failure| Refusal::new(failure.errors, Some(text)))
     }
 
     /// Derives a system from the tokens of a struct with its attributes.
@@ -110,7 +110,7 @@ impl System {
     /// # Ok::<(), lagrange_derive::Refusal>(())
     /// ```
     pub fn derive(tokens: TokenStream) -> Result<Self, Refusal> {
-        crate::run(tokens).map_err(|failure| Refusal::new(failure.errors, None))
+        crate::run(tokens, true).map_err(|failure| Refusal::new(failure.errors, None))
     }
 
     pub(crate) fn new(
@@ -215,7 +215,8 @@ impl Debug for System {
 
 /// Readable equations of a system, as text, LaTeX and MathML.
 ///
-/// The methods have the names and the results of those of `lagrange_core::facts::Equations`.
+/// The methods have the names and the results of those of `lagrange_core::facts::Equations`, which has parts of the text too: the
+/// equations of motion, say, without the rest.
 ///
 /// ```
 /// use lagrange_derive::System;

@@ -45,6 +45,39 @@ fn shown(text: &str) -> String {
     System::parse(text).expect_err(text).to_string()
 }
 
+/// A compiler knows no such attributes either.
+#[test]
+fn attributes_that_nobody_knows_are_refused() {
+    let text = "#[coordinates(x)]\n#[lagrangian(x_dot^2/2)]\n#[dissipaton(x_dot^2/2)]\n#[damping(c)]\n#[serde(default)]\n#[derive(Clone)]\nstruct S;";
+    let refusal = System::parse(text).expect_err("two slips");
+    let [near, other] = refusal.diagnostics() else { panic!("{refusal}") };
+    assert_eq!(near.to_string(), "3:3: no attribute is called `dissipaton`: did you mean `dissipation`?");
+    assert!(
+        other.message().starts_with("no attribute is called `damping`: there are `coordinates`, "),
+        "{other}"
+    );
+    let known = text.replace("#[dissipaton(x_dot^2/2)]", "").replace("#[damping(c)]", "");
+    assert!(System::parse(&known).is_ok());
+}
+
+#[test]
+fn text_without_a_struct_is_told_what_a_system_is() {
+    for (text, place) in [("", ""), ("m/2*x_dot^2 - m*g*x", "1:19: "), ("fn main() {}", "1:11: ")] {
+        let refusal = System::parse(text).expect_err(text);
+        let wanted = format!("{place}a system is a struct, after its attributes: `#[coordinates(x)]");
+        assert!(refusal.to_string().starts_with(&wanted), "{refusal}");
+    }
+}
+
+#[test]
+fn a_constraint_with_an_error_is_not_told_to_be_missing() {
+    let refusal = System::parse(
+        "#[coordinates(x, y)]\n#[lagrangian(x_dot^2/2 + y_dot^2/2)]\n#[constraint(along: x = q)]\n#[observable(pull = lambda(along))]\nstruct S;",
+    );
+    let refusal = refusal.expect_err("no q");
+    assert_eq!(refusal.diagnostics().len(), 1, "{refusal}");
+}
+
 #[test]
 fn text_that_is_no_rust_is_refused_where_it_ends_to_be() {
     for (text, wanted) in [
@@ -52,9 +85,17 @@ fn text_that_is_no_rust_is_refused_where_it_ends_to_be() {
         ("#[coordinates(x)\nstruct S;", "1:2: this is never closed\n#[coordinates(x)\n ^"),
         (
             "#[coordinates(x))]\nstruct S;",
-            "1:17: this closes nothing that is open\n#[coordinates(x))]\n                ^",
+            "1:17: either a `]` is missing before this `)`, or it is one too many\n#[coordinates(x))]\n                ^\n\n1:2: this `[` is open until then\n#[coordinates(x))]\n ^",
         ),
         ("struct S;\n\t}", "2:2: this closes nothing that is open\n\t}\n\t^"),
+        (
+            "#[lagrangian(sin(x)]\nstruct S;",
+            "1:20: either a `)` is missing before this `]`, or it is one too many\n#[lagrangian(sin(x)]\n                   ^\n\n1:13: this `(` is open until then\n#[lagrangian(sin(x)]\n            ^",
+        ),
+        (
+            "#[lagrangian(φ̇² − ½*x)]\nstruct S;",
+            "1:16: instead of `²`, write `^2`\n#[lagrangian(φ̇² − ½*x)]\n              ^\n\n1:18: instead of `−`, write `-`\n#[lagrangian(φ̇² − ½*x)]\n                ^\n\n1:20: instead of `½`, write `1/2*`\n#[lagrangian(φ̇² − ½*x)]\n                  ^",
+        ),
         ("/* struct S;", "1:1: no token of Rust begins here\n/* struct S;\n^"),
         ("struct \"S", "1:8: no token of Rust begins here\nstruct \"S\n       ^"),
     ] {

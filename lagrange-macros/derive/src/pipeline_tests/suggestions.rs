@@ -55,6 +55,8 @@ fn other_names_for_the_same() {
         ("vphi", "phi_dot"),
         ("v_phi", "phi_dot"),
         ("theta_d", "theta_dot"),
+        ("theta_dt", "theta_dot"),
+        ("phi_do", "phi_dot"),
         ("phi_prime", "phi_dot"),
         ("theta_dot_dot", "theta_ddot"),
         ("thetaddot", "theta_ddot"),
@@ -65,6 +67,8 @@ fn other_names_for_the_same() {
     }
     for (term, advice) in [
         ("cos(time)", "the time is `t`"),
+        ("mass·g", "a product is written `mass*g`"),
+        ("mass·g·sin(theta)", "a product is written `mass*g*sin`"),
         ("exp1", "a parameter is a field of the struct, and the exponential function is `exp(x)`"),
         ("30*deg", "a degree is `pi/180`"),
         ("Sin*theta", "functions are written `sin(x)`"),

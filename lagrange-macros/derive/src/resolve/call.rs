@@ -239,6 +239,9 @@ impl Lowering<'_> {
 
     /// Multiplier of a constraint: the first indices select an element of the family, the rest index into its value.
     fn multiplier(&mut self, constraint: &Name, indices: &[i128]) -> Option<Value> {
+        if self.failed_constraints.contains(&constraint.text) {
+            return None;
+        }
         let Some(group) = self.multipliers.iter().find(|group| group.name == constraint.text) else {
             let names = || self.multipliers.iter().map(|group| group.name.as_str());
             let advice =

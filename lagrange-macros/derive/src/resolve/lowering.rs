@@ -84,6 +84,8 @@ pub(super) struct Lowering<'a> {
     pub(super) definitions: Vec<Definition>,
     pub(super) progress: Progress,
     pub(super) multipliers: Vec<MultiplierGroup>,
+    /// Names of constraints with errors, which have been reported.
+    pub(super) failed_constraints: Vec<String>,
     /// Switch of each constraint that has one.
     pub(super) switches: Vec<Option<Id>>,
     pub(super) contacts: Vec<ContactRow>,
@@ -141,6 +143,7 @@ impl<'a> Lowering<'a> {
             definitions: defines.iter().map(|_| Definition::Pending).collect(),
             progress: Progress::default(),
             multipliers: Vec::new(),
+            failed_constraints: Vec::new(),
             switches: Vec::new(),
             contacts: Vec::new(),
             frictions: Vec::new(),

@@ -119,7 +119,10 @@ impl Lowering<'_> {
     ) {
         let indices = &constraint.target.indices;
         let residual = self.with_indices(indices, element, |lowering| lowering.residual(constraint));
-        let Some(residual) = residual else { return };
+        let Some(residual) = residual else {
+            self.failed_constraints.push(constraint.target.name.text.clone());
+            return;
+        };
         if constraint.is_implied && (!self.is_of_frame(&residual) || self.is_among(&residual, rows)) {
             return;
         }

@@ -91,7 +91,7 @@ const CALLS: [(&str, &str); 31] = [
 
 /// Suffixes for velocities and accelerations in other tools, longest first, and the suffix used here.
 const RATE_SUFFIXES: [(&str, &str); 2] =
-    [("_dot_dot _dotdot dotdot _ddot ddot", "_ddot"), ("_dot dot _prime _d _t", "_dot")];
+    [("_dot_dot _dotdot dotdot _ddot ddot", "_ddot"), ("_dot dot _prime _dt _do _d _t", "_dot")];
 const RATE_PREFIXES: [(&str, &str); 2] = [("dd d2", "_ddot"), ("dot_ d v_ v", "_dot")];
 
 /// Pairs every word of a table with the advice beside it.
@@ -111,8 +111,8 @@ impl Scope {
             return error;
         }
         let candidates = self.known().chain(CONSTANTS).chain(more.iter().map(String::as_str));
-        let advice = listed(&NAMES, text)
-            .map(String::from)
+        let advice = product(text)
+            .or_else(|| listed(&NAMES, text).map(String::from))
             .or_else(|| is_function(text))
             .or_else(|| self.element(text))
             .or_else(|| self.velocity(text))
@@ -129,7 +129,7 @@ impl Scope {
             return error;
         }
         let callable: Vec<&str> = functions().filter(|&function| function != "in").collect();
-        let advice = listed(&CALLS, text).map(String::from);
+        let advice = product(text).or_else(|| listed(&CALLS, text).map(String::from));
         let advice = advice.or_else(|| nearest(text, self.known().chain(callable)).map(did_you_mean));
         let advice = advice.unwrap_or_else(|| {
             format!("define it with `#[define({text}(x) = …)]`, or supply it as a field named in `#[function({text}(x))]`")
@@ -205,6 +205,11 @@ impl Scope {
     fn known(&self) -> impl Iterator<Item = &str> {
         self.entities.keys().map(String::as_str)
     }
+}
+
+/// Advice for names with a dot between factors, which Rust takes for a letter.
+fn product(text: &str) -> Option<String> {
+    text.contains('·').then(|| format!("a product is written `{}`", text.replace('·', "*")))
 }
 
 fn did_you_mean(name: &str) -> String {

@@ -84,6 +84,47 @@ fn fields(input: &DeriveInput, diagnostics: &mut Diagnostics) -> Vec<Field> {
         .collect()
 }
 
+/// Attributes of a struct that Rust knows, and common ones of other derives.
+const OF_OTHERS: [&str; 18] = [
+    "allow",
+    "automatically_derived",
+    "cfg",
+    "cfg_attr",
+    "default",
+    "deny",
+    "deprecated",
+    "derive",
+    "doc",
+    "expect",
+    "forbid",
+    "inline",
+    "must_use",
+    "non_exhaustive",
+    "repr",
+    "serde",
+    "track_caller",
+    "warn",
+];
+
+/// Reports attributes that nobody knows. A compiler does so itself; elsewhere a slip such as `#[constrain(…)]` would leave
+/// out what it says.
+pub(crate) fn refuse_unknown(input: &DeriveInput, diagnostics: &mut Diagnostics) {
+    let is_unknown = |attribute: &&Attribute| {
+        let word = attribute.path().get_ident().map(ToString::to_string);
+        own(attribute).is_none() && word.is_some_and(|word| !OF_OTHERS.contains(&&*word))
+    };
+    for attribute in input.attrs.iter().filter(is_unknown) {
+        let word = attribute.path().get_ident().map_or_else(String::new, ToString::to_string);
+        let distance = |known: &str| strsim::damerau_levenshtein(&word, known);
+        let near = FORMS.into_iter().map(|(known, _)| known).min_by_key(|known| distance(known));
+        let advice = match near.filter(|known| distance(known) <= 2) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there are {}", FORMS.map(|(known, _)| format!("`{known}`")).join(", ")),
+        };
+        diagnostics.error(Place::of(attribute.path()), format!("no attribute is called `{word}`: {advice}"));
+    }
+}
+
 /// Returns the name of an attribute that belongs to this derive.
 fn own(attribute: &Attribute) -> Option<&'static str> {
     FORMS.into_iter().map(|(word, _)| word).find(|word| attribute.path().is_ident(word))

@@ -18,7 +18,7 @@ mod structure;
 mod target;
 mod unread;
 
-pub(crate) use attribute::declaration;
+pub(crate) use attribute::{declaration, refuse_unknown};
 pub(crate) use cursor::{NESTING_LIMIT, shallow, too_deep};
 pub(crate) use declaration::{
     Constraint, Coordinate, Declaration, Define, Fact, Force, FrameDeclaration, FunctionDeclaration,
