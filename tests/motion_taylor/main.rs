@@ -5,8 +5,9 @@ mod control;
 mod events;
 mod functions;
 mod systems;
+mod units;
 
-// Random walks of rounding errors, numbers of all sizes, motions on lanes and at singular poses, bodies in
+// Random walks of rounding errors, motions on lanes and at singular poses, bodies in
 // frames, functions that are supplied.
 #[cfg(feature = "thorough")]
 mod bodies;
@@ -20,8 +21,6 @@ mod short_ranged;
 mod singular;
 #[cfg(feature = "thorough")]
 mod supplied;
-#[cfg(feature = "thorough")]
-mod units;
 
 use lagrange_core::{Method, StateOf, TaylorSeries, nalgebra::Const, prelude::*};
 use lagrange_systems::{SphericalPendulum, Spring};

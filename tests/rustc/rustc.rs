@@ -104,10 +104,15 @@ fn a_long_system_within_a_function_computes() {
     #[coordinates(theta: [16])]
     #[lagrangian(sum(i in 0..16, m[i]/2 * (sum(j in 0..i+1, (i + j + 1)*l[j]*cos(theta[j])*theta_dot[j])^2
         + sum(j in 0..i+1, (i + j + 1)*l[j]*sin(theta[j])*theta_dot[j])^2)))]
-    struct Flat<'a, T> {
+    struct Flat<'a, T>
+    where
+        Self: Sized,
+    {
         m: &'a [T; 16],
         l: [T; 16],
     }
+    #[allow(dead_code, non_upper_case_globals)]
+    const system: u8 = 0;
     let m = std::array::from_fn(|i| 1.0 + i as f64);
     let flat = Flat { m: &m, l: std::array::from_fn(|j| 0.1_f64.mul_add(j as f64, 1.0)) };
     let state = State::new(std::array::from_fn(|j| 2.0 * (j as f64).sin()), [1.0; 16]);

@@ -81,7 +81,10 @@ fn singular_values_are_those_that_a_matrix_is_made_with() {
         let a = orthogonal(&mut random, n)
             * DMatrix::from_diagonal(&values.clone().into())
             * orthogonal(&mut random, n);
-        let mut found = Singular::of(&a).expect("a decomposition").values;
+        let found = Singular::of(&a).expect("a decomposition");
+        let largest = values.iter().copied().fold(0.0, f64::max);
+        assert!((found.norm() - largest).abs() < 1e-14, "{} for {largest}", found.norm());
+        let mut found = found.values;
         values.sort_by(f64::total_cmp);
         found.sort_by(f64::total_cmp);
         for (found, expected) in found.iter().zip(&values) {

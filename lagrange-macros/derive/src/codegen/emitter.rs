@@ -1,6 +1,6 @@
 //! Context of the emission of one system, shared by all emitted traits.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Group, TokenStream, TokenTree};
 use quote::quote;
 
 use super::count::OPERATION_LIMIT;
@@ -36,25 +36,28 @@ impl Emitter<'_> {
         kernels: impl Iterator<Item = &'k Kernel>,
         generics: &syn::Generics,
     ) -> [TokenStream; 2] {
-        let (impl_generics, _, where_clause) = generics.split_for_impl();
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let ident = &self.declaration.ident;
+        let system = quote!(#ident #type_generics);
+        let (impl_generics, _, where_clause) = generics.split_for_impl();
+        let [impl_generics, where_clause] =
+            [quote!(#impl_generics), quote!(#where_clause)].map(|tokens| without_self(tokens, &system));
         let parts = kernels.flat_map(|kernel| &kernel.parts).map(|part| {
             let Part { module, name, doc, generics, arguments, body } = part;
             let of_type = quote! {
                 #[allow(dead_code, non_snake_case)]
                 mod #module {
-                    pub(super) struct Part<S>(::core::marker::PhantomData<S>);
+                    pub(super) struct Part<S: ?Sized>(::core::marker::PhantomData<S>);
                 }
             };
             let method = quote! {
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics #module::Part<#ident #type_generics> #where_clause {
+                impl #impl_generics #module::Part<#system> #where_clause {
                     #[doc = #doc]
                     #[inline(never)]
                     #[allow(unused_variables)]
-                    fn #name #generics(system: &#ident #type_generics, #arguments) {
+                    fn #name #generics(__system: &#system, #arguments) {
                         #body
                     }
                 }
@@ -64,6 +67,19 @@ impl Emitter<'_> {
         let (modules, methods) = parts.unzip();
         [modules, methods]
     }
+}
+
+/// Replaces `Self` by the type of the system.
+fn without_self(tokens: TokenStream, system: &TokenStream) -> TokenStream {
+    let replaced = |token| match token {
+        TokenTree::Ident(word) if word == "Self" => system.clone(),
+        TokenTree::Group(group) => {
+            let inner = without_self(group.stream(), system);
+            TokenTree::Group(Group::new(group.delimiter(), inner)).into()
+        }
+        other => other.into(),
+    };
+    tokens.into_iter().map(replaced).collect()
 }
 
 /// Emitted methods, with their kernels.

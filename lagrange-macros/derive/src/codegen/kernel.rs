@@ -89,6 +89,13 @@ impl FunctionContext<'_> {
         (quote! { let mut waiting = [#zero; #waiting]; #(#calls)* }, parts)
     }
 
+    /// Name of the module of a part. The length of the struct's name keeps modules of structs apart whose names continue one another.
+    fn module_of(&self, part: &Ident) -> Ident {
+        let ident = self.ident.to_string();
+        let name = ident.trim_start_matches("r#");
+        format_ident!("__{}_{name}{part}", name.len())
+    }
+
     /// Emits one chunk of a long function: its call, and the called part.
     fn part(
         &self,
@@ -118,7 +125,7 @@ impl FunctionContext<'_> {
             .filter(is_read)
             .map(|argument| (format_ident!("{}", argument.name()), self.argument(argument)))
             .unzip();
-        let (scalar, module) = (self.types.scalar, format_ident!("__{}{name}", self.ident));
+        let (scalar, module) = (self.types.scalar, self.module_of(&name));
         let (names, array_types) = (&arrays.names, arrays.types(scalar));
         let call = quote! {
             #module::Part::<Self>::#name(self, #(#arguments,)* &mut waiting, #(&mut #names),*);

@@ -70,7 +70,6 @@ impl<'a> FunctionContext<'a> {
                 "bias",
                 "index",
                 "self",
-                "system",
                 "waiting",
                 "round",
             ]
@@ -165,7 +164,7 @@ impl<'a> FunctionContext<'a> {
 
     /// Context of the parts of a long function, which have the system as an argument.
     pub(super) fn of_parts(&self) -> Self {
-        FunctionContext { system: quote!(system), ..self.clone() }
+        FunctionContext { system: quote!(__system), ..self.clone() }
     }
 
     /// Generic parameters of a part.
