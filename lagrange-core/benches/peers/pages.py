@@ -47,7 +47,7 @@ there is AVX-512, ours has eight lanes.
 
 {ensemble}
 
-Compile times beyond an empty crate, all functions in use; functions of more than 4,000 operations are compiled in parts, what they compute over and over in loops:
+Compile times beyond an empty crate, all functions in use; functions of more than 4,000 operations are compiled in parts side by side, what they compute over and over in loops:
 
 {growth}
 """
