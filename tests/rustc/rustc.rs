@@ -111,7 +111,7 @@ fn a_long_system_within_a_function_computes() {
         m: &'a [T; 16],
         l: [T; 16],
     }
-    #[allow(dead_code, non_upper_case_globals)]
+    #[allow(dead_code, non_upper_case_globals, reason = "its name must not meet those of the emitted code")]
     const system: u8 = 0;
     let m = std::array::from_fn(|i| 1.0 + i as f64);
     let flat = Flat { m: &m, l: std::array::from_fn(|j| 0.1_f64.mul_add(j as f64, 1.0)) };

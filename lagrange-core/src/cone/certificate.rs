@@ -13,7 +13,7 @@ use super::{ConeSolver, Set, dot, length, sqrt};
 
 /// Part of its terms by which a rate may be off the law.
 pub(super) const ACCURACY: f64 = 1e-12;
-/// Round-off of the sum x = Jᵀ r, in units of ε of its terms: up to 60 occur in sums over 120 rows.
+/// Round-off that the sum x = Jᵀ r may have, in units of ε of its terms.
 const BALANCE: f64 = 64.0;
 /// Change of the velocities that this round-off may hide, as a part of the largest rate.
 const HIDDEN: f64 = 1e-6;
@@ -46,7 +46,7 @@ impl ConeSolver {
         self.balances(unit) && !self.gains(unit) && (0..self.blocks.len()).all(|k| self.is_lawful(k, unit))
     }
 
-    /// Largest rate without reactions, as a velocity of unit mass.
+    /// The largest rate without reactions, divided by the length of its row: a velocity in coordinates of unit mass.
     fn speed(&self) -> f64 {
         let of = |(q, g): (&f64, &f64)| q.abs() / sqrt(*g);
         self.q.iter().zip(&self.compliance).map(of).fold(0.0, f64::max)

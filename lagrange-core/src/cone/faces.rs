@@ -14,7 +14,7 @@ use super::{ConeSolver, Face, Set, dot, length, sqrt};
 /// Parts of the largest pivot below which rows depend on one another: rounding leaves 10⁻¹⁶ to 10⁻¹⁵ of those that do. Where faces with
 /// the first do not satisfy the law, the second is tried.
 pub(super) const RANKS: [f64; 2] = [1e-13, 1e-10];
-/// Newton steps on fixed faces. One friction along one velocity needs one, along two velocities 3 to 6.
+/// Most Newton steps on fixed faces. The equations are linear, and need one, unless friction slides along two velocities.
 const STEPS: usize = 15;
 /// Distance from natural reactions, as a part of the reactions, up to which faces that disagree may be a tie.
 const TIE: f64 = 1e-7;

@@ -1,6 +1,7 @@
-//! Guesses of faces from inside all sets. With a multiplier λ ≥ |u_T| of each friction, r_n u_n = σ and (R, r_T) ∘ (λ, u_T) = σ e, where R
-//! is the limit of friction and ∘ the product of second-order cones, are smooth equations, which σ → 0 leads to the law. The path is
-//! that of Coulomb's law itself, which is not convex: it may end, where another one begins elsewhere.
+//! Guesses of faces from reactions inside all sets. Each friction gets a multiplier λ ≥ |u_T|, and the products that the law makes zero are
+//! made σ > 0: r_n u_n = σ for a gap, and (R, r_T) ∘ (λ, u_T) = σ e for friction with the limit R, where ∘ is the product of second-order
+//! cones. These equations are smooth. Their solutions for smaller and smaller σ are a path to the law, which may break off, since Coulomb's
+//! law is not convex; another one then begins elsewhere.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -10,7 +11,7 @@ use super::{Block, ConeSolver, Set, dot, length, sqrt};
 
 /// Sizes of the reactions that the path begins with, as multiples of the largest rate.
 const SIZES: [f64; 3] = [1.0, 100.0, 0.01];
-/// Newton steps along the path. It ends after 20 to 40.
+/// Most Newton steps along the path.
 const STEPS: usize = 60;
 /// Factor by which σ falls until faces are solved again.
 const AGAIN: f64 = 1e-2;

@@ -128,10 +128,10 @@ pub(crate) struct ConeSolver {
     solved: usize,
 }
 
-/// Solved equations of faces, times the number of rows, after which no other reactions are tried to begin with: a stack of 40 contacts took
-/// half a minute without this limit, and was not decided.
+/// Solved equations of faces, times the number of rows, after which no other reactions are tried to begin with: one stack of 40 contacts took
+/// half a minute without this limit.
 const WORK: usize = 40_000;
-/// Other reactions that are tried to begin with. Half as many leave twice as many contacts undecided that face each other.
+/// Most other reactions that are tried to begin with.
 const STARTS: usize = 24;
 
 fn dot(x: &[f64], y: &[f64]) -> f64 {
@@ -206,7 +206,7 @@ impl ConeSolver {
         };
     }
 
-    /// Response of the gap, and the largest one of friction in any direction; 1 for rows of zeros.
+    /// By how much a reaction of 1 changes its own rate: of the gap, and of friction in the direction where that is most. 1 for rows of zeros.
     fn responses_of(&self, block: &Block) -> [f64; 2] {
         let w = |a: usize, b: usize| self.w[a * self.m + b];
         let tangent = block.tangent();

@@ -45,7 +45,7 @@ impl Emitter<'_> {
         let parts = kernels.flat_map(|kernel| &kernel.parts).map(|part| {
             let Part { module, name, doc, generics, arguments, body } = part;
             let of_type = quote! {
-                #[allow(dead_code, non_snake_case)]
+                #[allow(dead_code, non_snake_case, reason = "the type only has methods, and the name is that of the part")]
                 mod #module {
                     pub(super) struct Part<S: ?Sized>(::core::marker::PhantomData<S>);
                 }
