@@ -156,7 +156,7 @@ println!("{}", path.csv(50).energy());
 extern crate alloc;
 extern crate self as lagrange_core;
 
-#[cfg(all(test, feature = "alloc"))]
+#[cfg(feature = "alloc")]
 mod cone;
 pub mod contact;
 pub mod embedded;

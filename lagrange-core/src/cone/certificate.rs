@@ -9,7 +9,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::qr::PivotedQr;
-use super::{ConeSolver, Set, dot, length, sqrt};
+use super::{Block, ConeSolver, Set, dot, length, sqrt};
 
 /// Part of its terms by which a rate may be off the law.
 pub(super) const ACCURACY: f64 = 1e-12;
@@ -46,10 +46,16 @@ impl ConeSolver {
         self.balances(unit) && !self.gains(unit) && (0..self.blocks.len()).all(|k| self.is_lawful(k, unit))
     }
 
+    /// Response of each row: that of its block.
+    pub(super) fn compliance(&self) -> Vec<f64> {
+        let of = |(block, g): (&Block, &f64)| core::iter::repeat_n(*g, block.count);
+        self.blocks.iter().zip(&self.responses).flat_map(of).collect()
+    }
+
     /// The largest rate without reactions, divided by the length of its row: a velocity in coordinates of unit mass.
     fn speed(&self) -> f64 {
-        let of = |(q, g): (&f64, &f64)| q.abs() / sqrt(*g);
-        self.q.iter().zip(&self.compliance).map(of).fold(0.0, f64::max)
+        let of = |(q, g): (&f64, f64)| q.abs() / sqrt(g);
+        self.q.iter().zip(self.compliance()).map(of).fold(0.0, f64::max)
     }
 
     /// Terms |J|ᵀ |r| of the sum x = Jᵀ r, and the sum.
@@ -88,30 +94,20 @@ impl ConeSolver {
 
     /// Whether the rates of a block are those that its reaction allows.
     fn is_lawful(&self, k: usize, unit: f64) -> bool {
-        let (block, [normal, tangent]) = (self.blocks[k], self.responses[k]);
-        let allowed = |rows: core::ops::Range<usize>, g: f64| {
-            let terms = |i: usize| {
-                self.row(i).iter().zip(&self.x).fold(self.q[i].abs(), |sum, (j, x)| sum + (j * x).abs())
-            };
-            rows.fold(ACCURACY * unit * sqrt(g), |sum, i| sum + self.noise[i] + ACCURACY * terms(i))
+        let (block, g) = (self.blocks[k], self.responses[k]);
+        let terms = |i: usize| {
+            self.row(i).iter().zip(&self.x).fold(self.q[i].abs(), |sum, (j, x)| sum + (j * x).abs())
         };
-        let of_gap = |i: usize| match block.set {
-            Set::Line => self.rate(i).abs(),
-            _ => (normal * self.r[i]).min(self.rate(i)).abs(),
-        };
-        let of_friction = |limit: f64| {
-            let of = |value: &dyn Fn(usize) -> f64| {
-                let mut rows = block.tangent().map(value);
-                [rows.next().unwrap_or(0.0), rows.next().unwrap_or(0.0)]
-            };
-            slip(of(&|i| self.r[i]), of(&|i| self.rate(i)), limit, tangent)
-                <= allowed(block.tangent(), tangent)
-        };
-        block.normal().is_none_or(|i| of_gap(i) <= allowed(i..i + 1, normal))
-            && match block.set {
-                Set::Cone { mu } => of_friction(mu * self.r[block.first].max(0.0)),
-                Set::Disc { radius } => of_friction(radius),
-                _ => true,
+        let off = match block.set {
+            Set::Line => self.rate(block.first).abs(),
+            Set::HalfLine => (g * self.r[block.first]).min(self.rate(block.first)).abs(),
+            Set::Disc(limit) => {
+                slip(self.two(k, |i| self.r[i]), self.two(k, |i| self.rate(i)), self.limit(&limit).0, g)
             }
+            Set::Ray { .. } => return true,
+        };
+        off <= block
+            .rows()
+            .fold(ACCURACY * unit * sqrt(g), |sum, i| sum + self.noise[i] + ACCURACY * terms(i))
     }
 }

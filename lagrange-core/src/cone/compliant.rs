@@ -9,7 +9,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::{ConeSolver, Face, Set, length};
+use super::{ConeSolver, Face, Limit, Set, length};
 
 /// Number of compliances, from 1 on, each a tenth of the one before. Steps of a hundredth or a thousandth leave 1.4 to 3 times as many problems to
 /// other guesses; ending at 10⁻⁷, five times as many of those whose rows nearly depend on one another.
@@ -86,45 +86,35 @@ impl ConeSolver {
 
     /// Writes the rows of a block.
     fn linearize(&self, k: usize, (weight, center): (f64, &[f64]), to: &mut CompliantStep) {
-        let (block, [normal, tangent]) = (self.blocks[k], self.responses[k]);
-        let face = self.natural(k).1;
-        let keep = |i: usize, g: f64, to: &mut CompliantStep| {
-            to.b[i] = -self.rate(i) / g - weight * (self.r[i] - center[i]);
-            to.add_response(i, (self.w_row(i), 1.0 / g));
-            to.add(i, i, weight);
-        };
-        if face == Face::Open {
-            block.rows().for_each(|i| to.set(i, -self.r[i]));
-            return;
-        }
-        block.normal().into_iter().for_each(|i| keep(i, normal, to));
-        match (block.set, face) {
-            (Set::Ray { force }, _) => {
-                for (i, force) in block.tangent().zip(force) {
-                    to.set(i, force * self.r[block.first] - self.r[i]);
-                    to.add(i, block.first, -force);
+        let (block, g) = (self.blocks[k], self.responses[k]);
+        match (block.set, self.natural(k).1) {
+            (Set::Ray { force, gap }, _) => {
+                let push = self.blocks[gap].first;
+                for (i, force) in block.rows().zip(force) {
+                    to.set(i, force * self.r[push] - self.r[i]);
+                    to.add(i, push, -force);
                 }
             }
-            (_, Face::Slide(direction)) => self.slide(k, direction, to),
-            _ => block.tangent().for_each(|i| keep(i, tangent, to)),
+            (_, Face::Open) => block.rows().for_each(|i| to.set(i, -self.r[i])),
+            (Set::Disc(limit), Face::Slide(direction)) => self.slide(k, (limit, direction), to),
+            _ => {
+                for i in block.rows() {
+                    to.b[i] = -self.rate(i) / g - weight * (self.r[i] - center[i]);
+                    to.add_response(i, (self.w_row(i), 1.0 / g));
+                    to.add(i, i, weight);
+                }
+            }
         }
     }
 
-    /// Rows of friction at its limit, r_T = limit · c/|c| with c = r_T − u_T/g.
-    fn slide(&self, k: usize, direction: [f64; 2], to: &mut CompliantStep) {
-        let (block, g) = (self.blocks[k], self.responses[k][1]);
-        let (limit, mu) = match block.set {
-            Set::Cone { mu } => (mu * self.r[block.first], mu),
-            Set::Disc { radius } => (radius, 0.0),
-            _ => return,
-        };
-        let turn = if block.tangent().len() == 2 { limit / length(self.pulled(k)) } else { 0.0 };
-        for (c, i) in block.tangent().enumerate() {
+    /// Rows of friction at its limit, r = limit · c/|c| with c = r − u/g.
+    fn slide(&self, k: usize, (limit, direction): (Limit, [f64; 2]), to: &mut CompliantStep) {
+        let (block, g, (limit, gap)) = (self.blocks[k], self.responses[k], self.limit(&limit));
+        let turn = if block.count == 2 { limit / length(self.pulled(k)) } else { 0.0 };
+        for (c, i) in block.rows().enumerate() {
             to.set(i, limit * direction[c] - self.r[i]);
-            if mu != 0.0 {
-                to.add(i, block.first, -mu * direction[c]);
-            }
-            for (d, l) in block.tangent().enumerate() {
+            gap.into_iter().for_each(|(push, mu)| to.add(i, push, -mu * direction[c]));
+            for (d, l) in block.rows().enumerate() {
                 let across = turn * (f64::from(u8::from(c == d)) - direction[c] * direction[d]);
                 to.add(i, l, -across);
                 to.add_response(i, (self.w_row(l), across / g));

@@ -9,7 +9,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::qr::PivotedQr;
-use super::{ConeSolver, Face, Set, dot, length, sqrt};
+use super::{Block, ConeSolver, Face, Limit, Set, dot, length, sqrt};
 
 /// Parts of the largest pivot below which rows depend on one another: rounding leaves 10⁻¹⁶ to 10⁻¹⁵ of those that do. Where faces with
 /// the first do not satisfy the law, the second is tried.
@@ -28,6 +28,10 @@ enum OnFaces {
     Leaves(Vec<Face>),
     /// Reactions that solve the equations, and the faces on which they lie after the first step.
     Stays(Vec<Face>),
+}
+
+fn add_multiple(sum: &mut [f64], of: &[f64], factor: f64) {
+    sum.iter_mut().zip(of).for_each(|(sum, x)| *sum += factor * x);
 }
 
 /// The equations of faces.
@@ -51,40 +55,41 @@ struct FaceEquations {
 
 impl FaceEquations {
     fn new(solver: &ConeSolver, faces: &[Face], (tolerance, with_shares): (f64, bool)) -> Self {
-        let (mut unknowns, mut columns, mut still, mut limits) = (vec![], vec![], vec![], vec![]);
+        let (mut unknowns, mut columns, mut still, mut limits) =
+            (vec![], Vec::<Vec<f64>>::new(), vec![], vec![]);
         for (k, (&face, block)) in faces.iter().zip(&solver.blocks).enumerate() {
-            match (face, block.set) {
-                (Face::Open, _) => continue,
-                (_, Set::Ray { force }) => {
-                    let mut column = solver.row(block.first).to_vec();
-                    for (i, force) in block.tangent().zip(force) {
-                        column.iter_mut().zip(solver.row(i)).for_each(|(sum, j)| *sum += force * j);
+            let stays = match (block.set, face) {
+                (_, Face::Open) => continue,
+                (Set::Ray { force, gap }, _) => {
+                    let gap = unknowns.iter().position(|&i| i == solver.blocks[gap].first);
+                    let Some(column) = gap.map(|place| &mut columns[place]) else { continue };
+                    for (i, force) in block.rows().zip(force) {
+                        add_multiple(column, solver.row(i), force);
                     }
-                    unknowns.push(block.first);
-                    columns.push(column);
-                    still.push(block.first);
                     continue;
                 }
-                (Face::Slide(direction), _) => {
-                    still.extend(block.normal());
+                (_, Face::Slide(direction)) => {
                     limits.push((k, direction));
+                    0
                 }
-                (Face::Stick, _) => still.extend(block.rows()),
-            }
+                (_, Face::Stick) => block.count,
+            };
+            still.extend(block.rows().take(stays));
             unknowns.extend(block.rows());
             columns.extend(block.rows().map(|i| solver.row(i).to_vec()));
         }
         let rows = still.iter().flat_map(|&i| solver.row(i).iter().copied()).collect();
         let span = PivotedQr::new(rows, [solver.n, still.len()], tolerance);
+        let compliance = solver.compliance();
         let share = |y: Vec<f64>| {
             let mut all = vec![0.0; solver.m];
-            still.iter().zip(y).for_each(|(&i, y)| all[i] = y * solver.compliance[i]);
+            still.iter().zip(y).for_each(|(&i, y)| all[i] = y * compliance[i]);
             all
         };
         let shares: Vec<_> = if with_shares { span.null() } else { vec![] }.into_iter().map(share).collect();
         let mut places = vec![usize::MAX; solver.m];
         unknowns.iter().enumerate().for_each(|(place, &i)| places[i] = place);
-        let of_limits: usize = limits.iter().map(|&(k, _)| solver.blocks[k].tangent().len()).sum();
+        let of_limits: usize = limits.iter().map(|&(k, _)| solver.blocks[k].count).sum();
         let height = span.rank + shares.len() + of_limits;
         let mut fixed = vec![0.0; height * unknowns.len()];
         for ((&i, column), to) in unknowns.iter().zip(&columns).zip(fixed.chunks_exact_mut(height.max(1))) {
@@ -98,7 +103,7 @@ impl FaceEquations {
     fn combine(&self, r: &[f64], x: &mut [f64]) {
         x.fill(0.0);
         for (&i, column) in self.unknowns.iter().zip(&self.columns) {
-            x.iter_mut().zip(column).for_each(|(x, j)| *x += r[i] * j);
+            add_multiple(x, column, r[i]);
         }
     }
 
@@ -109,27 +114,25 @@ impl FaceEquations {
         right.extend(self.shares.iter().map(|share| -dot(share, &solver.r)));
         let (mut matrix, mut is_linear) = (self.fixed.clone(), true);
         for &(k, known) in &self.limits {
-            let (block, g) = (solver.blocks[k], solver.responses[k][1]);
-            let (limit, mu) = match block.set {
-                Set::Cone { mu } => (mu * solver.r[block.first], mu),
-                Set::Disc { radius } => (radius, 0.0),
-                _ => continue,
-            };
+            let (block, g) = (solver.blocks[k], solver.responses[k]);
+            let Set::Disc(limit) = block.set else { continue };
+            let (limit, gap) = solver.limit(&limit);
             let (mut direction, mut turn) = (known, 0.0);
-            if block.tangent().len() == 2 {
+            if block.count == 2 {
                 is_linear = false;
                 let (pulled, far) = (solver.pulled(k), length(solver.pulled(k)));
                 if far > 0.0 {
                     (direction, turn) = (pulled.map(|x| x / far), limit / far);
                 }
             }
-            for (c, i) in block.tangent().enumerate() {
+            for (c, i) in block.rows().enumerate() {
                 let row = right.len();
                 right.push(limit * direction[c] - solver.r[i]);
                 let mut add = |place: usize, by: f64| matrix[place * self.height + row] += by;
                 add(self.places[i], 1.0);
-                block.normal().into_iter().for_each(|i| add(self.places[i], -mu * direction[c]));
-                for (d, l) in block.tangent().enumerate() {
+                let pressed = gap.filter(|(push, _)| self.places[*push] != usize::MAX);
+                pressed.into_iter().for_each(|(push, mu)| add(self.places[push], -mu * direction[c]));
+                for (d, l) in block.rows().enumerate() {
                     let across = turn * (f64::from(u8::from(c == d)) - direction[c] * direction[d]);
                     if across != 0.0 {
                         add(self.places[l], -across);
@@ -174,9 +177,13 @@ impl ConeSolver {
                 }
             };
             let [was, is] = [&faces, &next].map(|faces| self.kinds(faces));
+            let defect = |k: usize| {
+                (0..faces.len()).filter(|&l| self.pressing(l) == k).map(|l| self.defect(l)).sum::<f64>()
+            };
             let worst = (0..faces.len())
                 .filter(|&k| was[k] != is[k])
-                .max_by(|&one, &other| self.defect(one).total_cmp(&self.defect(other)));
+                .map(|k| self.pressing(k))
+                .max_by(|&one, &other| defect(one).total_cmp(&defect(other)));
             let Some(worst) = worst else { return false };
             if !is_patient {
                 faces = next;
@@ -186,9 +193,27 @@ impl ConeSolver {
                 return false;
             }
             seen.push(was);
-            faces[worst] = next[worst];
+            (0..faces.len()).filter(|&k| self.pressing(k) == worst).for_each(|k| faces[k] = next[k]);
         }
         false
+    }
+
+    /// The gap that presses a friction, or the block itself: they change their faces together.
+    pub(super) fn pressing(&self, k: usize) -> usize {
+        match self.blocks[k].set {
+            Set::Ray { gap, .. } | Set::Disc(Limit { gap: Some(gap), .. }) => gap,
+            _ => k,
+        }
+    }
+
+    /// Faces with none for friction whose gap is open, unless it has a limit of its own.
+    pub(super) fn without_idle(&self, faces: &[Face]) -> Vec<Face> {
+        let of = |k: usize| match self.blocks[k].set {
+            Set::Disc(Limit { radius, .. }) if radius > 0.0 => faces[k],
+            _ if faces[self.pressing(k)] == Face::Open => Face::Open,
+            _ => faces[k],
+        };
+        (0..faces.len()).map(of).collect()
     }
 
     /// Whether reactions on these faces satisfy the law.
@@ -208,6 +233,7 @@ impl ConeSolver {
     /// step that leaves the faces, unless it is a tie.
     fn solve_on(&mut self, faces: &[Face], ranks: (f64, bool), is_patient: bool) -> OnFaces {
         self.solved += 1;
+        let faces = &self.without_idle(faces)[..];
         let equations = FaceEquations::new(self, faces, ranks);
         let size = equations.unknowns.len();
         (0..self.m).filter(|&i| equations.places[i] == usize::MAX).for_each(|i| self.r[i] = 0.0);
@@ -257,10 +283,10 @@ impl ConeSolver {
 
     /// Faces without the directions of friction along two velocities.
     fn kinds(&self, faces: &[Face]) -> Vec<u8> {
-        let kind = |(face, block): (&Face, &super::Block)| match face {
+        let kind = |(face, block): (&Face, &Block)| match face {
             Face::Open => 0,
             Face::Stick => 1,
-            Face::Slide([x, _]) => 2 + u8::from(*x > 0.0 && block.tangent().len() == 1),
+            Face::Slide([x, _]) => 2 + u8::from(*x > 0.0 && block.count == 1),
         };
         faces.iter().zip(&self.blocks).map(kind).collect()
     }

@@ -84,47 +84,35 @@ impl ConeSolver {
         false
     }
 
-    /// The limit of friction of a block, and by how much it grows with the reaction of the gap; `None` where there is none.
-    fn limit(&self, block: &Block) -> Option<(f64, f64)> {
-        match block.set {
-            Set::Cone { mu } if mu > 0.0 => Some((mu * self.r[block.first], mu)),
-            Set::Disc { radius } if radius > 0.0 => Some((radius, 0.0)),
-            _ => None,
-        }
+    /// The limit of a friction that has one, and by how much it grows with the reaction of which row.
+    fn positive_limit(&self, k: usize) -> Option<(f64, Option<(usize, f64)>)> {
+        let Set::Disc(limit) = self.blocks[k].set else { return None };
+        Some(self.limit(&limit)).filter(|(_, gap)| limit.radius > 0.0 || gap.is_some())
     }
 
     /// Puts all reactions inside their sets.
     fn enter(&mut self, size: f64) -> CentralPath {
         self.r.fill(0.0);
-        for block in self.blocks.iter().filter(|block| block.may_open()) {
+        for block in self.blocks.iter().filter(|block| block.set == Set::HalfLine) {
             self.r[block.first] = size;
-            if let Set::Ray { force } = block.set {
-                block.tangent().zip(force).for_each(|(i, force)| self.r[i] = force * size);
-            }
         }
-        self.refresh();
-        let slack = |block: &Block| block.normal().map_or(size, |i| self.rate(i).max(size));
-        let lambda = |block: &Block| 1.1 * length(self.two(block, &|i| self.rate(i))) + size;
+        self.clip(None);
+        let slack = |block: &Block| self.rate(block.first).max(size);
+        let lambda = |k: usize| 1.1 * length(self.two(k, |i| self.rate(i))) + size;
         let (lambda, slack) =
-            (self.blocks.iter().map(lambda).collect(), self.blocks.iter().map(slack).collect());
+            ((0..self.blocks.len()).map(lambda).collect(), self.blocks.iter().map(slack).collect());
         CentralPath { lambda, slack, aim: 0.3 }
-    }
-
-    /// Values of the tangential rows, of which there are up to two.
-    fn two(&self, block: &Block, value: &dyn Fn(usize) -> f64) -> [f64; 2] {
-        let mut rows = block.tangent().map(value);
-        [rows.next().unwrap_or(0.0), rows.next().unwrap_or(0.0)]
     }
 
     /// Mean of the products that are σ on the path; zero if there are none.
     fn mean(&self, path: &CentralPath) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
         for (k, block) in self.blocks.iter().enumerate() {
-            if block.may_open() {
+            if block.set == Set::HalfLine {
                 (sum, count) = (sum + self.r[block.first] * path.slack[k], count + 1.0);
             }
-            if let Some((limit, _)) = self.limit(block) {
-                let power = block.tangent().map(|i| self.r[i] * self.rate(i)).sum::<f64>();
+            if let Some((limit, _)) = self.positive_limit(k) {
+                let power = block.rows().map(|i| self.r[i] * self.rate(i)).sum::<f64>();
                 (sum, count) = (sum + limit * path.lambda[k] + power, count + 1.0);
             }
         }
@@ -144,7 +132,7 @@ impl ConeSolver {
         let (dl, dx) = rest.split_at(count);
         let du: Vec<f64> = (0..m).map(|i| dot(self.row(i), dx)).collect();
         let ds: Vec<f64> = (0..count)
-            .map(|k| self.blocks[k].normal().map_or(0.0, |i| du[i] + self.rate(i) - path.slack[k]))
+            .map(|k| du[self.blocks[k].first] + self.rate(self.blocks[k].first) - path.slack[k])
             .collect();
         let longest = self.longest(path, [dr, dl, &du, &ds]);
         let step = if longest < 1.0 { longest * (1.0 - 0.1 * path.aim.max(0.01)) } else { 1.0 - 1e-3 };
@@ -160,17 +148,20 @@ impl ConeSolver {
     fn longest(&self, path: &CentralPath, [dr, dl, du, ds]: [&[f64]; 4]) -> f64 {
         let mut step = 1.0_f64;
         for (k, block) in self.blocks.iter().enumerate() {
-            if block.may_open() {
+            if block.set == Set::HalfLine {
                 for (value, by) in [(self.r[block.first], dr[block.first]), (path.slack[k], ds[k])] {
                     step = if by < 0.0 { step.min(-value / by) } else { step };
                 }
             }
-            if let Some((limit, mu)) = self.limit(block) {
-                let by = block.normal().map_or(0.0, |i| mu * dr[i]);
-                let two = |of: &dyn Fn(usize) -> f64| self.two(block, of);
-                step = step.min(to_boundary([limit, by], two(&|i| self.r[i]), two(&|i| dr[i])));
-                step =
-                    step.min(to_boundary([path.lambda[k], dl[k]], two(&|i| self.rate(i)), two(&|i| du[i])));
+            if let Some((limit, gap)) = self.positive_limit(k) {
+                let by = gap.map_or(0.0, |(push, mu)| mu * dr[push]);
+                let [r, dr] = [self.two(k, |i| self.r[i]), self.two(k, |i| dr[i])];
+                let [u, du] = [self.two(k, |i| self.rate(i)), self.two(k, |i| du[i])];
+                step = step.min(to_boundary([limit, by], r, dr)).min(to_boundary(
+                    [path.lambda[k], dl[k]],
+                    u,
+                    du,
+                ));
             }
         }
         step
@@ -208,36 +199,54 @@ impl PathStep {
     fn add_block(&mut self, solver: &ConeSolver, (k, path): (usize, &CentralPath), sigma: f64) {
         let block = solver.blocks[k];
         let (r, u, of_lambda) = (&solver.r, |i: usize| solver.rate(i), solver.m + k);
-        if let Some(i) = block.normal() {
-            let factor = if block.may_open() { r[i] } else { 1.0 };
-            self.b[i] = if block.may_open() { sigma - r[i] * u(i) } else { -u(i) };
-            self.add_rate(i, (solver, i), factor);
-            // Where rows depend on one another, reactions of equality constraints have to be determined all the same.
-            *self.entry(i, i) += if block.may_open() { path.slack[k] } else { 1e-14 };
+        *self.entry(of_lambda, of_lambda) = 1.0;
+        match block.set {
+            Set::Line => {
+                self.b[block.first] = -u(block.first);
+                self.add_rate(block.first, (solver, block.first), 1.0);
+                // Where rows depend on one another, reactions of equality constraints have to be determined all the same.
+                *self.entry(block.first, block.first) += 1e-14;
+            }
+            Set::HalfLine => {
+                let i = block.first;
+                self.b[i] = sigma - r[i] * u(i);
+                self.add_rate(i, (solver, i), r[i]);
+                *self.entry(i, i) += path.slack[k];
+            }
+            Set::Ray { force, gap } => {
+                let push = solver.blocks[gap].first;
+                for (i, force) in block.rows().zip(force) {
+                    self.b[i] = force * r[push] - r[i];
+                    *self.entry(i, i) = 1.0;
+                    *self.entry(i, push) -= force;
+                }
+            }
+            Set::Disc(_) => self.add_friction(solver, (k, path.lambda[k]), sigma),
         }
-        let Some((limit, mu)) = solver.limit(&block) else {
-            *self.entry(of_lambda, of_lambda) = 1.0;
-            let force = if let Set::Ray { force } = block.set { force } else { [0.0; 2] };
-            for (i, force) in block.tangent().zip(force) {
-                self.b[i] = block.normal().map_or(0.0, |normal| force * r[normal]) - r[i];
+    }
+
+    fn add_friction(&mut self, solver: &ConeSolver, (k, lambda): (usize, f64), sigma: f64) {
+        let (block, r, of_lambda) = (solver.blocks[k], &solver.r, solver.m + k);
+        let Some((limit, gap)) = solver.positive_limit(k) else {
+            for i in block.rows() {
+                self.b[i] = -r[i];
                 *self.entry(i, i) = 1.0;
-                block.normal().into_iter().for_each(|normal| *self.entry(i, normal) -= force);
             }
             return;
         };
-        let lambda = path.lambda[k];
         self.b[of_lambda] = sigma - limit * lambda;
         *self.entry(of_lambda, of_lambda) = limit;
-        for i in block.tangent() {
-            self.b[of_lambda] -= r[i] * u(i);
-            *self.entry(of_lambda, i) += u(i);
+        for i in block.rows() {
+            let u = solver.rate(i);
+            self.b[of_lambda] -= r[i] * u;
+            *self.entry(of_lambda, i) += u;
             self.add_rate(of_lambda, (solver, i), r[i]);
-            self.b[i] = -(limit * u(i) + lambda * r[i]);
+            self.b[i] = -(limit * u + lambda * r[i]);
             self.add_rate(i, (solver, i), limit);
             *self.entry(i, i) += lambda;
             *self.entry(i, of_lambda) += r[i];
-            block.normal().into_iter().for_each(|normal| *self.entry(i, normal) += mu * u(i));
+            gap.into_iter().for_each(|(push, mu)| *self.entry(i, push) += mu * u);
         }
-        block.normal().into_iter().for_each(|normal| *self.entry(of_lambda, normal) += mu * lambda);
+        gap.into_iter().for_each(|(push, mu)| *self.entry(of_lambda, push) += mu * lambda);
     }
 }

@@ -41,15 +41,21 @@ pub(crate) enum Set {
     Line,
     /// A gap: 0 ≤ u ⊥ r ≥ 0.
     HalfLine,
-    /// A gap with Coulomb's friction along one or two velocities, |r_T| ≤ μ r_n.
-    Cone { mu: f64 },
-    /// Dry friction along one or two velocities, |r_T| ≤ `radius`.
-    Disc { radius: f64 },
-    /// A gap whose friction slides in a known direction, r_T = `force` r_n.
-    Ray { force: [f64; 2] },
+    /// Friction along one or two velocities, with |r| up to the limit.
+    Disc(Limit),
+    /// Friction that slides in a known direction, r = `force` times the reaction of the block `gap`, which comes before it.
+    Ray { force: [f64; 2], gap: usize },
 }
 
-/// Rows that belong together: the gap first if there is one, then the velocities of friction.
+/// The limit of friction: `radius`, and μ times the reaction of the block `gap`, which comes before it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Limit {
+    pub(crate) radius: f64,
+    pub(crate) mu: f64,
+    pub(crate) gap: Option<usize>,
+}
+
+/// Rows that belong together: one, or the two velocities of a friction in a plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     pub(crate) first: usize,
@@ -61,29 +67,14 @@ impl Block {
     fn rows(&self) -> Range<usize> {
         self.first..self.first + self.count
     }
-
-    /// The row of the gap or of the constraint.
-    fn normal(&self) -> Option<usize> {
-        (!matches!(self.set, Set::Disc { .. })).then_some(self.first)
-    }
-
-    /// Rows of friction.
-    fn tangent(&self) -> Range<usize> {
-        self.first + usize::from(self.normal().is_some())..self.first + self.count
-    }
-
-    /// Whether it has a gap, which may open.
-    fn may_open(&self) -> bool {
-        matches!(self.set, Set::HalfLine | Set::Cone { .. } | Set::Ray { .. })
-    }
 }
 
 /// The part of its set on which the reaction of a block lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Face {
-    /// No reaction.
+    /// No reaction: a gap that is open, or friction whose limit is zero.
     Open,
-    /// No rates.
+    /// No rates, or for a ray those that its force leads to.
     Stick,
     /// Friction at its limit, in this direction of its force.
     Slide([f64; 2]),
@@ -117,10 +108,8 @@ pub(crate) struct ConeSolver {
     /// Round-off of q.
     noise: Vec<f64>,
     blocks: Vec<Block>,
-    /// Responses of the normal row and of the tangential rows of each block.
-    responses: Vec<[f64; 2]>,
-    /// Response of each row.
-    compliance: Vec<f64>,
+    /// By how much a reaction of 1 of each block changes its own rate, in the direction where that is most; 1 for rows of zeros.
+    responses: Vec<f64>,
     scale: Vec<f64>,
     r: Vec<f64>,
     x: Vec<f64>,
@@ -166,7 +155,6 @@ impl ConeSolver {
             noise,
             blocks,
             responses: Vec::new(),
-            compliance: zeros(),
             scale: vec![1.0; m],
             r: zeros(),
             x: vec![0.0; n],
@@ -177,49 +165,48 @@ impl ConeSolver {
             let entry = dot(solver.row(a), solver.row(b));
             (solver.w[a * m + b], solver.w[b * m + a]) = (entry, entry);
         }
-        solver.responses = solver.blocks.iter().map(|block| solver.responses_of(block)).collect();
-        for (block, [normal, tangent]) in solver.blocks.iter().zip(&solver.responses) {
-            block.normal().into_iter().for_each(|i| solver.compliance[i] = *normal);
-            block.tangent().for_each(|i| solver.compliance[i] = *tangent);
-        }
+        solver.responses = solver.blocks.iter().map(|block| solver.response_of(block)).collect();
         solver
     }
 
-    /// Divides gap and friction of a block by a power of two each.
+    /// Divides the rows of a block by a power of two.
     fn scale_block(&mut self, k: usize) {
-        let block = self.blocks[k];
-        let [normal, tangent] = [block.first..block.tangent().start, block.tangent()].map(|rows| {
-            let squares = rows.clone().map(|i| dot(self.row(i), self.row(i)));
-            let by = power_of_two_near_root(squares.fold(0.0, f64::max));
-            for i in rows {
-                self.j[i * self.n..][..self.n].iter_mut().for_each(|x| *x /= by);
-                (self.q[i], self.noise[i], self.scale[i]) = (self.q[i] / by, self.noise[i] / by, by);
+        let Block { first, count, set } = self.blocks[k];
+        let squares = (first..first + count).map(|i| dot(self.row(i), self.row(i)));
+        let by = power_of_two_near_root(squares.fold(0.0, f64::max));
+        for i in first..first + count {
+            self.j[i * self.n..][..self.n].iter_mut().for_each(|x| *x /= by);
+            (self.q[i], self.noise[i], self.scale[i]) = (self.q[i] / by, self.noise[i] / by, by);
+        }
+        let of_gap = |gap: usize| by / self.scale[self.blocks[gap].first];
+        self.blocks[k].set = match set {
+            Set::Disc(Limit { radius, mu, gap }) => {
+                Set::Disc(Limit { radius: radius * by, mu: gap.map_or(0.0, |gap| mu * of_gap(gap)), gap })
             }
-            by
-        });
-        let set = &mut self.blocks[k].set;
-        *set = match *set {
-            Set::Cone { mu } => Set::Cone { mu: mu * (tangent / normal) },
-            Set::Disc { radius } => Set::Disc { radius: radius * tangent },
-            Set::Ray { force } => Set::Ray { force: force.map(|x| x * (tangent / normal)) },
-            other => other,
+            Set::Ray { force, gap } => Set::Ray { force: force.map(|x| x * of_gap(gap)), gap },
+            set => set,
         };
     }
 
-    /// By how much a reaction of 1 changes its own rate: of the gap, and of friction in the direction where that is most. 1 for rows of zeros.
-    fn responses_of(&self, block: &Block) -> [f64; 2] {
+    fn response_of(&self, block: &Block) -> f64 {
         let w = |a: usize, b: usize| self.w[a * self.m + b];
-        let tangent = block.tangent();
-        let of_friction = match tangent.len() {
-            0 => 1.0,
-            1 => w(tangent.start, tangent.start),
-            _ => {
-                let (i, k) = (tangent.start, tangent.start + 1);
-                (w(i, i) + w(k, k)) / 2.0 + length([(w(i, i) - w(k, k)) / 2.0, w(i, k)])
-            }
-        };
-        let normal = block.normal().map_or(1.0, |i| w(i, i));
-        [normal, of_friction].map(|x| if x > 0.0 { x } else { 1.0 })
+        let (i, k) = (block.first, block.first + block.count - 1);
+        let most = (w(i, i) + w(k, k)) / 2.0
+            + length([(w(i, i) - w(k, k)) / 2.0, if i < k { w(i, k) } else { 0.0 }]);
+        if most > 0.0 { most } else { 1.0 }
+    }
+
+    /// The row of the gap that presses a friction.
+    fn gap_row(&self, gap: Option<usize>) -> Option<usize> {
+        gap.map(|gap| self.blocks[gap].first)
+    }
+
+    /// The limit of a friction with the reactions so far, and by how much it grows with the reaction of which row.
+    fn limit(&self, Limit { radius, mu, gap }: &Limit) -> (f64, Option<(usize, f64)>) {
+        match self.gap_row(*gap).filter(|_| *mu > 0.0) {
+            Some(i) => (radius + mu * self.r[i], Some((i, *mu))),
+            None => (*radius, None),
+        }
     }
 
     fn row(&self, i: usize) -> &[f64] {
@@ -245,40 +232,40 @@ impl ConeSolver {
         self.x = x;
     }
 
-    /// What the friction of a block at its limit is near: the nearest vector within the limit to r_T − u_T/g, and its face.
-    fn friction(&self, k: usize, limit: f64) -> ([f64; 2], Face) {
+    /// The vector within a limit that is nearest to r − u/g of a friction, and its face.
+    fn within(&self, k: usize, limit: f64) -> ([f64; 2], Face) {
         let tries = self.pulled(k);
         let far = length(tries);
+        if limit <= 0.0 {
+            return ([0.0; 2], Face::Open);
+        }
         if far <= limit {
             return (tries, Face::Stick);
         }
         (tries.map(|x| x * (limit / far)), Face::Slide(tries.map(|x| x / far)))
     }
 
-    /// r_T − u_T/g of the friction of a block.
+    /// Two entries of the rows of a block, the second zero if there is one row.
+    fn two(&self, k: usize, value: impl Fn(usize) -> f64) -> [f64; 2] {
+        let Block { first, count, .. } = self.blocks[k];
+        [value(first), if count > 1 { value(first + 1) } else { 0.0 }]
+    }
+
+    /// r − u/g of a block.
     fn pulled(&self, k: usize) -> [f64; 2] {
-        let (rows, g) = (self.blocks[k].tangent(), self.responses[k][1]);
-        let of = |c: usize| rows.clone().nth(c).map_or(0.0, |i| self.r[i] - self.rate(i) / g);
-        [of(0), of(1)]
+        self.two(k, |i| self.r[i] - self.rate(i) / self.responses[k])
     }
 
     /// The reaction nearest to r − u/g that its set allows, and its face. Reactions that are so themselves satisfy the law.
-    fn natural(&self, k: usize) -> ([f64; 3], Face) {
-        let block = self.blocks[k];
-        let push = block.normal().map_or(0.0, |i| self.r[i] - self.rate(i) / self.responses[k][0]);
-        match block.set {
-            Set::Line => ([push, 0.0, 0.0], Face::Stick),
-            Set::Disc { radius } => {
-                let ([x, y], face) = self.friction(k, radius);
-                ([x, y, 0.0], face)
+    fn natural(&self, k: usize) -> ([f64; 2], Face) {
+        let push = |k: usize| self.pulled(k)[0].max(0.0);
+        match self.blocks[k].set {
+            Set::Line => (self.pulled(k), Face::Stick),
+            Set::HalfLine => ([push(k), 0.0], if push(k) > 0.0 { Face::Stick } else { Face::Open }),
+            Set::Disc(Limit { radius, mu, gap }) => {
+                self.within(k, radius + gap.map_or(0.0, |gap| mu * push(gap)))
             }
-            _ if push <= 0.0 => ([0.0; 3], Face::Open),
-            Set::HalfLine => ([push, 0.0, 0.0], Face::Stick),
-            Set::Ray { force: [x, y] } => ([push, x * push, y * push], Face::Stick),
-            Set::Cone { mu } => {
-                let ([x, y], face) = self.friction(k, mu * push);
-                ([push, x, y], face)
-            }
+            Set::Ray { force, gap } => (force.map(|x| x * push(gap)), self.natural(gap).1),
         }
     }
 
@@ -288,8 +275,9 @@ impl ConeSolver {
 
     /// Squared distance of the reactions of a block from its natural ones.
     fn defect(&self, k: usize) -> f64 {
-        let (natural, block) = (self.natural(k).0, self.blocks[k]);
-        block.rows().zip(natural).fold(0.0, |sum, (i, to)| sum + (to - self.r[i]) * (to - self.r[i]))
+        let (natural, [x, y]) = (self.natural(k).0, self.two(k, |i| self.r[i]));
+        let off = [natural[0] - x, natural[1] - y];
+        dot(&off, &off)
     }
 
     fn defects(&self) -> f64 {
@@ -298,27 +286,25 @@ impl ConeSolver {
 
     /// Moves reactions into their sets; what is open on these faces is zero.
     fn clip(&mut self, faces: Option<&[Face]>) {
-        for (k, block) in self.blocks.iter().enumerate() {
-            let r = &mut self.r;
+        for k in 0..self.blocks.len() {
+            let block = self.blocks[k];
             if faces.is_some_and(|faces| faces[k] == Face::Open) {
-                r[block.rows()].fill(0.0);
+                self.r[block.rows()].fill(0.0);
             }
-            if block.may_open() {
-                r[block.first] = r[block.first].max(0.0);
-            }
-            let limit = match block.set {
-                Set::Line | Set::HalfLine => continue,
-                Set::Disc { radius } => radius,
-                Set::Cone { mu } => mu * r[block.first],
-                Set::Ray { force } => {
-                    block.tangent().zip(force).for_each(|(i, force)| r[i] = force * r[block.first]);
-                    continue;
+            match block.set {
+                Set::Line => {}
+                Set::HalfLine => self.r[block.first] = self.r[block.first].max(0.0),
+                Set::Disc(limit) => {
+                    let (limit, _) = self.limit(&limit);
+                    let size = length(self.two(k, |i| self.r[i]));
+                    if size > limit {
+                        self.r[block.rows()].iter_mut().for_each(|x| *x *= limit / size);
+                    }
                 }
-            };
-            let rows = block.tangent();
-            let size = sqrt(dot(&r[rows.clone()], &r[rows.clone()]));
-            if size > limit {
-                r[rows].iter_mut().for_each(|x| *x *= limit / size);
+                Set::Ray { force, gap } => {
+                    let push = self.r[self.blocks[gap].first];
+                    block.rows().zip(force).for_each(|(i, force)| self.r[i] = force * push);
+                }
             }
         }
         self.refresh();

@@ -1,7 +1,7 @@
 //! Guesses of faces by sweeps: each block in turn takes its natural reaction, there and back, so that none comes first (projected
 //! Gauss–Seidel; Jourdan, Alart and Jean, *Computer Methods in Applied Mechanics and Engineering* 155, 1998).
 
-use super::{ConeSolver, Set, length};
+use super::{ConeSolver, Set};
 
 impl ConeSolver {
     /// Guesses faces by sweeps from the reactions so far, then by Newton steps from there, and solves their equations.
@@ -15,20 +15,18 @@ impl ConeSolver {
         self.settle(false)
     }
 
-    /// Gaps first within a block, then its friction with the new reaction of the gap.
+    /// The limit of a friction is that of the new reaction of its gap.
     fn sweep(&mut self, is_back: bool) {
         let count = self.blocks.len();
         for at in 0..count {
             let k = if is_back { count - 1 - at } else { at };
-            let (block, natural) = (self.blocks[k], self.natural(k).0);
-            let Set::Cone { mu } = block.set else {
-                block.rows().zip(natural).for_each(|(i, to)| self.put(i, to));
-                continue;
+            let block = self.blocks[k];
+            let to = match block.set {
+                Set::Disc(limit) => self.within(k, self.limit(&limit).0).0,
+                Set::Ray { force, gap } => force.map(|x| x * self.r[self.blocks[gap].first]),
+                _ => self.natural(k).0,
             };
-            self.put(block.first, natural[0]);
-            let (tries, limit) = (self.pulled(k), mu * natural[0]);
-            let part = if length(tries) > limit { limit / length(tries) } else { 1.0 };
-            block.tangent().zip(tries).for_each(|(i, to)| self.put(i, part * to));
+            block.rows().zip(to).for_each(|(i, to)| self.put(i, to));
         }
     }
 

@@ -5,7 +5,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::faces::RANKS;
-use super::{ConeSolver, Face, Set};
+use super::{Block, ConeSolver, Face, Set};
 
 /// Directions that friction along two velocities is tried in to begin with.
 const DIRECTIONS: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
@@ -28,6 +28,11 @@ impl ConeSolver {
                 face
             };
             let faces: Vec<Face> = choices.iter().map(choose).collect();
+            // Friction of an open gap has one face.
+            let used = self.without_idle(&faces);
+            if (0..faces.len()).any(|k| used[k] == Face::Open && matches!(faces[k], Face::Slide(_))) {
+                continue;
+            }
             self.r.fill(0.0);
             self.refresh();
             if self.obeys_on(&faces, (RANKS[0], false)) {
@@ -43,13 +48,14 @@ impl ConeSolver {
     }
 
     fn choices(&self, k: usize) -> Vec<Face> {
-        let block = self.blocks[k];
-        let mut faces = vec![Face::Stick];
-        faces.extend(block.may_open().then_some(Face::Open));
-        if matches!(block.set, Set::Cone { .. } | Set::Disc { .. }) {
-            let along_one = block.tangent().len() == 1;
-            faces.extend(DIRECTIONS.iter().filter(|[_, y]| *y == 0.0 || !along_one).map(|d| Face::Slide(*d)));
+        let Block { count, set, .. } = self.blocks[k];
+        match set {
+            Set::Line | Set::Ray { .. } => vec![Face::Stick],
+            Set::HalfLine => vec![Face::Stick, Face::Open],
+            Set::Disc(_) => {
+                let directions = DIRECTIONS.iter().filter(|[_, y]| *y == 0.0 || count == 2);
+                core::iter::once(Face::Stick).chain(directions.map(|d| Face::Slide(*d))).collect()
+            }
         }
-        faces
     }
 }

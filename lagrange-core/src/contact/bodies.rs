@@ -2,21 +2,21 @@
 
 use alloc::vec::Vec;
 
+use super::rows::TouchingRows;
+use super::states::{FrictionState, States};
 use super::{Contact, Contacts, Friction};
 use crate::error::Error;
 use crate::motion::Simulate;
 use crate::names::name;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::consistent::gradient;
-use crate::solution::kkt::Rank;
-use crate::solution::pivot::is_trustworthy;
-use crate::solution::solve::{solve_in_general, solve_near};
+use crate::solution::solve::solve_near;
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Array, Length, Vector, vector, zeros};
+use crate::vector::{Array, Length, Vector, vector};
 
 /// Round-off of gaps and rates, in units of the round-off of the sums Σ |Wᵢ qᵢ| and Σ |Wᵢ q̇ᵢ| over the largest entries so
 /// far. A gap comes from a projection to 4 units and a location to one unit of time; a rate from a solve.
-const UNITS: f64 = 8.0;
+pub(super) const UNITS: f64 = 8.0;
 
 /// Gap, relative to its sum Σ |Wᵢ qᵢ|, below which a contact is not closed but crossed.
 const CROSSED: f64 = 1e-9;
@@ -41,21 +41,6 @@ pub(super) struct Bodies<L: Lagrangian> {
     pub(super) span: L::Scalar,
 }
 
-/// Responses of gaps to impulses, and the changes of velocities for an impulse of each contact.
-pub(super) type Delassus<L> =
-    (Vec<Vec<<L as Lagrangian>::Scalar>>, Vec<Vector<<L as Lagrangian>::Scalar, <L as Lagrangian>::N>>);
-
-/// States of the contacts and of friction.
-#[derive(Clone, Debug)]
-pub(super) struct States {
-    pub(super) is_closed: Vec<bool>,
-    /// Those of open contacts have no meaning.
-    pub(super) frictions: Vec<Friction>,
-}
-
-/// Friction that does not act.
-pub(super) const OFF: Friction = Friction::Slides([0.0; 2]);
-
 /// A gap or a velocity of friction at a state, with its rate and round-off.
 pub(super) struct Measured<T> {
     pub(super) gap: T,
@@ -72,10 +57,13 @@ pub(crate) fn impulse_changes<L: Contacts<Scalar: Real> + Clone>(
     impulses: &[(usize, L::Scalar)],
     state: &StateOf<L>,
 ) -> Result<L::Scalar, Error> {
-    let rows: Vec<usize> = core::iter::once(k).chain(impulses.iter().map(|&(row, _)| row)).collect();
-    let (responses, _) = Bodies::new(system).delassus(&rows, state)?;
-    let changes = responses[0][1..].iter().zip(impulses).map(|(&g, &(_, impulse))| Scalar::abs(g * impulse));
-    Ok(changes.fold(L::Scalar::constant(0.0), |sum, change| sum + change))
+    let bodies = Bodies::new(system);
+    let rows = bodies.rows((0..L::CONTACTS.len()).collect(), state)?;
+    let place = |row: usize| rows.all.iter().position(|&of| of == row).unwrap_or(0);
+    let change = |&(row, impulse): &(usize, L::Scalar)| {
+        Scalar::abs(impulse) * L::Scalar::constant(rows.response(place(k), place(row)).abs())
+    };
+    Ok(impulses.iter().map(change).fold(L::Scalar::constant(0.0), |sum, change| sum + change))
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
@@ -91,7 +79,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             system
         };
         let largest = [Array::filled(L::Scalar::constant(0.0)); 2];
-        let (open, closed) = (all(Contact::Open, OFF), all(Contact::Closed, Friction::Sticks));
+        let open = all(Contact::Open, FrictionState::OFF.friction);
+        let closed = all(Contact::Closed, Friction::Sticks);
         Self { open, closed, largest, span: L::Scalar::constant(0.0) }
     }
 
@@ -102,23 +91,25 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// The system with contacts and friction in these states.
-    pub(super) fn with(&self, States { is_closed, frictions }: &States) -> L {
+    pub(super) fn with(&self, states: &States) -> L {
         let mut system = self.open.clone();
-        for (k, &is_closed) in is_closed.iter().enumerate() {
-            system.set_contact(k, if is_closed { Contact::Closed } else { Contact::Open });
+        for (k, of) in states.contacts.iter().enumerate() {
+            system.set_contact(k, if of.is_closed { Contact::Closed } else { Contact::Open });
         }
-        for (f, &friction) in frictions.iter().enumerate() {
-            if L::FRICTIONS[f].contact.is_none_or(|k| is_closed[k]) {
-                system.set_friction(f, friction);
-            }
+        for f in (0..states.frictions.len()).filter(|&f| states.is_pressed::<L>(f)) {
+            system.set_friction(f, states.frictions[f].friction);
         }
         system
     }
 
     /// Fails if the gap of a contact that is closed is not zero, or another constraint does not hold. Friction does not count:
     /// velocities say whether it sticks.
-    pub(super) fn check_closed(&self, is_closed: &[bool], state: &StateOf<L>) -> Result<(), Error> {
-        self.without_friction(is_closed).check_consistent(state).map_err(|error| match error {
+    pub(super) fn check_closed(
+        &self,
+        is_closed: impl Fn(usize) -> bool,
+        state: &StateOf<L>,
+    ) -> Result<(), Error> {
+        self.with(&States::closed::<L>(is_closed)).check_consistent(state).map_err(|error| match error {
             Error::Inconsistent { constraint: contact, rate, residual, time }
                 if (0..L::CONTACTS.len()).any(|k| self.name(k) == contact) =>
             {
@@ -126,12 +117,6 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             }
             error => error,
         })
-    }
-
-    /// The system with these contacts closed, and no friction.
-    pub(super) fn without_friction(&self, is_closed: &[bool]) -> L {
-        let frictions = alloc::vec![OFF; L::FRICTIONS.len()];
-        self.with(&States { is_closed: is_closed.to_vec(), frictions })
     }
 
     pub(super) fn gap(&self, k: usize, state: &StateOf<L>) -> L::Scalar {
@@ -147,13 +132,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
 
     /// Takes note of what impulses change the velocities by. The round-off of a velocity that they all but stop is that of
     /// the changes.
-    pub(super) fn strikes<'r>(
-        &mut self,
-        impulses: impl Iterator<Item = (L::Scalar, &'r Vector<L::Scalar, L::N>)>,
-    ) {
+    pub(super) fn strikes(&mut self, impulses: impl Iterator<Item = Vector<L::Scalar, L::N>>) {
         let mut changes = Array::<_, L::N>::filled(L::Scalar::constant(0.0));
-        for (impulse, response) in impulses {
-            changes = Array::from_fn(|i| changes[i] + Scalar::abs(response[i] * impulse));
+        for change in impulses {
+            changes = Array::from_fn(|i| changes[i] + Scalar::abs(change[i]));
         }
         let [_, largest] = &mut self.largest;
         *largest = Array::from_fn(|i| larger(largest[i], changes[i]));
@@ -204,6 +186,15 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         }
     }
 
+    /// Rates of the rows of contacts and friction, and their round-off.
+    pub(super) fn measured_rates(&self, rows: &TouchingRows<L>, state: &StateOf<L>) -> (Vec<f64>, Vec<f64>) {
+        let of = |&a: &usize| {
+            let Measured { rate, noise, .. } = self.measured_at(a, state);
+            (rate.to_f64(), noise[1].to_f64())
+        };
+        rows.all[..rows.count].iter().map(of).unzip()
+    }
+
     /// Gap up to which the bodies of a contact touch.
     pub(super) fn touching(&self, k: usize, state: &StateOf<L>) -> L::Scalar {
         self.measured(k, state).noise[0] * L::Scalar::constant(TOUCHING)
@@ -211,10 +202,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
 
     /// Open contact that is crossed at a state, its gap being negative. The gap of a closed one is a constraint, zero but for
     /// round-off, which no entry need exceed where they are all zero.
-    pub(super) fn crossed(&self, is_closed: &[bool], state: &StateOf<L>) -> Option<Error> {
+    pub(super) fn crossed(&self, is_kept: impl Fn(usize) -> bool, state: &StateOf<L>) -> Option<Error> {
         let gaps = self.closed.constraint_residual(state);
         let is_positive = |k: usize| gaps[L::CONTACTS[k]] >= L::Scalar::constant(0.0);
-        (0..L::CONTACTS.len()).filter(|&k| !is_closed[k] && !is_positive(k)).find_map(|k| {
+        (0..L::CONTACTS.len()).filter(|&k| !is_kept(k) && !is_positive(k)).find_map(|k| {
             let Measured { gap, noise: [noise, _], .. } = self.measured(k, state);
             let least = -(noise * L::Scalar::constant(CROSSED / (L::Scalar::EPSILON * UNITS)));
             let is_open = gap >= least || (gap + noise >= L::Scalar::constant(0.0));
@@ -227,69 +218,39 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         name(L::CONSTRAINTS, L::CONTACTS[k])
     }
 
-    /// Accelerations W q̈ + γ of constraints without forces of contacts and friction, and their round-off.
-    pub(super) fn pressing(&self, rows: &[usize], state: &StateOf<L>) -> Result<Vec<[L::Scalar; 2]>, Error> {
+    /// Accelerations W q̈ + γ of the rows without forces of contacts and friction, and their round-off.
+    pub(super) fn pressing(
+        &self,
+        rows: &TouchingRows<L>,
+        state: &StateOf<L>,
+    ) -> Result<(Vec<f64>, Vec<f64>), Error> {
         let free = solve_near(&self.open, state, None, |solution, _| solution.accelerations)?;
-        let (bias, unit) =
-            (self.closed.constraint_bias(state), L::Scalar::constant(L::Scalar::EPSILON * UNITS));
+        let bias = self.closed.constraint_bias(state);
         let of = |&a: &usize| {
             let (row, bias) = (self.row(a, state), bias[a]);
             let terms = || (0..<L::N>::COUNT).map(|i| row[i] * free[i]).chain([bias]);
             let size = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + Scalar::abs(term));
-            [terms().fold(L::Scalar::constant(0.0), |sum, term| sum + term), unit * size]
+            let sum = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + term);
+            (sum.to_f64(), L::Scalar::EPSILON * UNITS * size.to_f64())
         };
-        Ok(rows.iter().map(of).collect())
+        Ok(rows.all[..rows.count].iter().map(of).unzip())
     }
 
-    /// Whether a gap that is zero remains so but for round-off: its rate is none, or a bounce would rise by none.
-    /// `of_motion` is the round-off of the rate that the motion of all bodies has, see [`motion_noise`](Self::motion_noise).
-    pub(super) fn rests(
-        &self,
-        k: usize,
-        (acceleration, of_motion): (L::Scalar, L::Scalar),
-        state: &StateOf<L>,
-    ) -> bool {
-        let Measured { rate, noise: [of_gap, of_rate], .. } = self.measured(k, state);
+    /// Whether a gap that is zero remains so but for round-off: its rate is none, or a bounce would rise by none. The first value is its
+    /// acceleration; the second is the round-off of the rate that the motion of all bodies has, see [`motion_noise`](Self::motion_noise).
+    pub(super) fn rests(&self, k: usize, values: [f64; 2], state: &StateOf<L>) -> bool {
+        let ([acceleration, of_motion], Measured { rate, noise: [of_gap, of_rate], .. }) =
+            (values.map(L::Scalar::constant), self.measured(k, state));
         let low = L::Scalar::constant(2.0 * LOW) * of_gap * larger(-acceleration, L::Scalar::constant(0.0));
         Scalar::abs(rate) <= larger(of_rate, of_motion) || rate * rate <= low
     }
 
-    /// Round-off that the motion of all bodies leaves in rates: |W q̇| ≤ √(W K⁻¹ Wᵀ) √(q̇ᵀM q̇), in any coordinates. Those of a
-    /// wedge and a block on it have no other size.
-    pub(super) fn motion_noise(&self, responses: &[Vec<L::Scalar>], state: &StateOf<L>) -> Vec<L::Scalar> {
-        let mass = self.open.mass_matrix(state);
-        let entries = (0..<L::N>::COUNT).flat_map(|i| (0..<L::N>::COUNT).map(move |j| (i, j)));
-        let zero = L::Scalar::constant(0.0);
-        let twice = entries.fold(zero, |sum, (i, j)| sum + mass[(i, j)] * state.v[i] * state.v[j]);
-        let unit = L::Scalar::constant(L::Scalar::EPSILON * UNITS);
-        let of = |(k, row): (usize, &Vec<L::Scalar>)| unit * Scalar::sqrt(Scalar::abs(row[k] * twice));
-        responses.iter().enumerate().map(of).collect()
-    }
-
-    /// Responses W K⁻¹ Wᵀ of the rates of constraints to impulses, and K⁻¹ Wᵀ, the changes of the velocities.
-    pub(super) fn delassus(&self, rows: &[usize], state: &StateOf<L>) -> Result<Delassus<L>, Error> {
-        let rows: Vec<Vector<L::Scalar, L::N>> = rows.iter().map(|&a| self.row(a, state)).collect();
-        let none = zeros();
-        let factor = self.open.factor(state);
-        let respond = |row: &Vector<L::Scalar, L::N>| {
-            let fast = self.open.solve_with(&factor, row, &none);
-            if is_trustworthy(&fast) {
-                return Ok(fast.accelerations);
-            }
-            let all = Array::filled(true);
-            let solved = solve_in_general(&self.open, state, (*row, none), &all, Rank::on_constraints())?;
-            Ok(solved.0.accelerations)
-        };
-        let responses: Vec<Vector<L::Scalar, L::N>> =
-            rows.iter().map(respond).collect::<Result<_, Error>>()?;
-        let matrix = rows.iter().map(|row| responses.iter().map(|change| row.dot(change)).collect());
-        Ok((matrix.collect(), responses))
-    }
-
     /// Fails if the gap of a touching contact has no gradient, along which a force could keep it.
     pub(super) fn check_gradients(&self, touching: &[usize], state: &StateOf<L>) -> Result<(), Error> {
-        let is_closed: Vec<bool> = (0..L::CONTACTS.len()).map(|k| touching.contains(&k)).collect();
-        if touching.is_empty() { Ok(()) } else { gradient::check(&self.without_friction(&is_closed), state) }
+        match touching {
+            [] => Ok(()),
+            _ => gradient::check(&self.with(&States::closed::<L>(|k| touching.contains(&k))), state),
+        }
     }
 
     pub(super) fn restitution(&self, k: usize, state: &StateOf<L>) -> Result<L::Scalar, Error> {

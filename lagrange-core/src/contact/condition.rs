@@ -1,7 +1,7 @@
 //! Conditions under which a leg goes on, and steps within which bounds on the multipliers say that they hold.
 
-use super::bodies::States;
 use super::friction::bounds;
+use super::states::States;
 use super::{Contacts, FrictionRows};
 use crate::error::Error;
 use crate::motion::MultiplierBounds;
@@ -28,7 +28,7 @@ impl<T: Real> LegCondition<T> {
         state: &StateOf<L>,
     ) -> Result<Self, Error> {
         let FrictionRows { row, count, contact, has_constant_limit } = L::FRICTIONS[f];
-        if !has_constant_limit || !states.frictions[f].is_at_rest() {
+        if !has_constant_limit || !states.frictions[f].friction.is_at_rest() {
             return Ok(Self::Motion);
         }
         let [limit, _] = bounds(closed, f, state)?;

@@ -3,19 +3,20 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use super::bodies::{Bodies, States};
-use super::instant::{Changed, Decided};
+use super::bodies::Bodies;
+use super::instant::{Decided, LegEnd};
 use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
 use super::lifting::Lifting;
+use super::states::States;
 use super::trajectory::Transition;
-use super::watched::{BEYOND, SharedValues, held, of_contacts, of_friction, round_off};
-use super::{Contact, Contacts, Friction, FrictionRows};
+use super::watched::{SharedValues, of_contacts, of_friction};
+use super::{Contact, Contacts};
 use crate::error::{Ending, Error};
 use crate::motion::event::EventSearch;
 use crate::motion::progress::{OnProgress, report};
 use crate::motion::run::{Run, Watchdog};
-use crate::motion::{DynEvent, Method, Simulate};
-use crate::number::{Real, Scalar};
+use crate::motion::{DynEvent, Method};
+use crate::number::Real;
 use crate::solution::crossing::Crossing;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, StateOf};
@@ -60,13 +61,13 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     pub(super) fn begin(system: &L, mut state: StateOf<L>, end: L::Scalar, kept: K) -> Result<Self, Error> {
         let (mut bodies, mut transitions) = (Bodies::new(system), Vec::new());
         bodies.passes(&state);
-        let is_closed: Vec<bool> =
-            (0..L::CONTACTS.len()).map(|k| system.contact(k) != Some(Contact::Open)).collect();
-        bodies.check_closed(&is_closed, &state)?;
+        let is_closed = |k| system.contact(k) != Some(Contact::Open);
+        bodies.check_closed(is_closed, &state)?;
         bodies.reaches(&state, end - state.t)?;
-        bodies.crossed(&is_closed, &state).map_or(Ok(()), Err)?;
-        let (times, was) = ([state.t, end], States { is_closed, frictions: Vec::new() });
-        let decided = bodies.settle(&mut state, (&was, &Changed::default()), &mut transitions)?;
+        bodies.crossed(is_closed, &state).map_or(Ok(()), Err)?;
+        let (times, was) =
+            ([state.t, end], States { frictions: Vec::new(), ..States::closed::<L>(is_closed) });
+        let decided = bodies.settle(&mut state, (&was, None), &mut transitions)?;
         let (crossings, statistics, accept) =
             (Vec::new(), Statistics::default(), Box::new(|_: &_, _| Ok(())));
         let arrived = None;
@@ -154,9 +155,9 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     /// Decides which contacts are closed, and which friction sticks, after a change of parameters.
     fn settle_anew(&mut self) -> Result<Decided<L::Scalar>, Error> {
         let was = &self.decided.states;
-        self.bodies.check_closed(&was.is_closed, &self.state)?;
-        self.bodies.crossed(&was.is_closed, &self.state).map_or(Ok(()), Err)?;
-        self.bodies.settle(&mut self.state, (was, &Changed::default()), &mut self.transitions)
+        self.bodies.check_closed(|k| was.is_closed(k), &self.state)?;
+        self.bodies.crossed(|k| was.is_closed(k), &self.state).map_or(Ok(()), Err)?;
+        self.bodies.settle(&mut self.state, (was, None), &mut self.transitions)
     }
 
     /// Moves until the next gap closes, the next multiplier becomes zero, or friction begins to slide or stops.
@@ -175,7 +176,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let state = &{ run.state };
         let sizes = bodies.sizes(state);
         EventSearch::begin_leg(given, &system, [state, &sizes], self.statistics.accepted == 0)?;
-        let (shared, lifting) = (SharedValues::of(&closed), Lifting::of(decided));
+        let (shared, lifting) = (SharedValues::of(&closed), Lifting::of(&decided.states));
         let mut own = of_contacts((&system, bodies), (&shared, &lifting), decided, state)?;
         own.extend(of_friction(&system, &shared, decided, state)?);
         let (own, conditions): (Vec<_>, Vec<_>) = own.into_iter().unzip();
@@ -186,10 +187,10 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let bounce = decided.bounce.take().map(|bounce| state.t + bounce);
         let goal = self.kept.goal().unwrap_or(self.times[1]);
         let goal = bounce.filter(|&bounce| state.t < bounce && bounce < goal).unwrap_or(goal);
-        let is_closed = &decided.states.is_closed[..];
+        let states = &decided.states;
         let watch = LegWatch {
             bodies,
-            is_closed,
+            states,
             lifting: &lifting,
             accept: &mut self.accept,
             first,
@@ -237,68 +238,24 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
 
     /// Decides what follows at the event of this contact or friction.
     fn transition(&mut self, event: &str) -> Result<(), Error> {
-        let changed = self.changed(event)?;
+        let end = self.leg_end(event);
         self.bodies.reaches(&self.state, self.bodies.span)?;
         let was = &self.decided.states;
-        self.decided = self.bodies.settle(&mut self.state, (was, &changed), &mut self.transitions)?;
+        self.decided = self.bodies.settle(&mut self.state, (was, Some(end)), &mut self.transitions)?;
         Ok(())
     }
 
     /// What an event says about the contact or the friction of its name.
-    fn changed(&self, event: &str) -> Result<Changed, Error> {
-        let Self { bodies, decided, state, .. } = self;
-        let implied = decided.is_implied.clone();
-        let mut changed = Changed { ends_leg: true, implied, ..Changed::default() };
-        if let Some(k) = L::CONTACTS.iter().position(|&row| L::CONSTRAINTS[row] == event) {
-            let is = |closed| (decided.states.is_closed[k] == closed).then_some(k);
-            (changed.closes, changed.opens) = (is(false), is(true));
-        }
-        let Some(f) = L::FRICTIONS.iter().position(|friction| L::CONSTRAINTS[friction.row] == event) else {
-            return Ok(changed);
-        };
-        match decided.states.frictions[f] {
-            // The velocity may only have turned.
-            Friction::Slides(_) => changed.stops = bodies.is_stopped(f, state).then_some(f),
-            Friction::Sticks | Friction::Shares(_) => changed.slips = self.slips(f)?,
-        }
-        Ok(changed)
-    }
-
-    /// Friction that begins to slide where this one reaches its limit: all at their limits if they share their forces, and none
-    /// if another one that shares them has some of its limit left. Along two velocities the shares are decided anew.
-    fn slips(&self, f: usize) -> Result<Vec<(usize, [f64; 2])>, Error> {
+    fn leg_end(&self, event: &str) -> LegEnd {
         let Self { bodies, decided: Decided { states, .. }, state, .. } = self;
-        let solution = bodies.with(states).solve(state)?;
-        let (mut slips, mut powerless, mut is_left) = (Vec::new(), Vec::new(), false);
-        let is_shared = states.frictions.iter().any(|friction| matches!(friction, Friction::Shares(_)));
-        if is_shared && L::FRICTIONS[f].count == 2 {
-            return Ok(Vec::new());
+        if let Some(k) = L::CONTACTS.iter().position(|&row| L::CONSTRAINTS[row] == event) {
+            return if states.is_closed(k) { LegEnd::Opens(k) } else { LegEnd::Closes(k) };
         }
-        for (other, &FrictionRows { row, count, contact, .. }) in L::FRICTIONS.iter().enumerate() {
-            let is_pressed = contact.is_none_or(|k| states.is_closed[k]);
-            let friction = states.frictions[other];
-            if other != f && !(is_shared && is_pressed && friction.is_at_rest()) {
-                continue;
-            }
-            let [limit, force] = held(&bodies.closed, other, state, &solution)?;
-            // Without a limit it has no force that says where to.
-            if other != f && limit <= round_off::<L>(&solution) {
-                powerless.push(other);
-                continue;
-            }
-            if other != f && force < (L::Scalar::constant(1.0 - BEYOND)) * limit {
-                is_left |= (0..count).any(|c| friction.keeps(c));
-                continue;
-            }
-            let part =
-                |c: usize| if c < count { -(solution.multipliers[row + c] / force).to_f64() } else { 0.0 };
-            if force > L::Scalar::constant(0.0) {
-                slips.push((other, [part(0), part(1)]));
-            }
+        match L::FRICTIONS.iter().position(|friction| L::CONSTRAINTS[friction.row] == event) {
+            Some(f) if states.frictions[f].friction.is_at_rest() => LegEnd::Leaves,
+            Some(f) if bodies.is_stopped(f, state) => LegEnd::Stops(f),
+            _ => LegEnd::Turns,
         }
-        let along = slips.iter().find(|(of, _)| *of == f).map_or([1.0, 0.0], |&(_, along)| along);
-        slips.extend(powerless.into_iter().map(|other| (other, along)));
-        Ok(if is_left { Vec::new() } else { slips })
     }
 }
 

@@ -1,233 +1,235 @@
-//! Forces at one instant: which of the contacts at rest push, and which friction sticks.
+//! A decision at one instant: which of the contacts at rest push, and which friction sticks.
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::bodies::{Bodies, OFF, States};
-use super::complementarity::Complementarity;
-use super::friction::{BEGIN, TouchNames, TouchingRows};
-use super::instant::{Changed, Decided};
-use super::law::{ContactForces, Grip, Law, Touch};
-use super::watched::BEYOND;
+use super::bodies::Bodies;
+use super::friction::{BEGIN, bounds};
+use super::instant::LegEnd;
+use super::rows::TouchingRows;
+use super::states::{ContactState, FrictionState, States};
 use super::{Contacts, Friction};
 use crate::error::Error;
-use crate::number::{Real, Scalar};
+use crate::number::Real;
 use crate::system::StateOf;
+use crate::vector::Length;
+
+/// Halvings up to which is known what is left of the limits of friction: 2⁻⁴⁰ = 10⁻¹², the accuracy of forces.
+const HALVINGS: i32 = 40;
+
+/// Halvings of what limits are lowered by where friction leaves them: 2⁻²⁴ = 6·10⁻⁸. The direction of sliding is off by that, and by
+/// round-off divided by it.
+const LOWERED: i32 = 24;
+
+/// 1 after so many halvings.
+fn halved(halvings: i32) -> f64 {
+    (0..halvings).fold(1.0, |part, _| 0.5 * part)
+}
 
 /// A decision under way.
 pub(super) struct Decision<'a, L: Contacts<Scalar: Real>> {
-    bodies: &'a Bodies<L>,
-    rows: &'a TouchingRows<L>,
-    /// Rates of the rows without forces, with their round-off.
-    pressing: &'a [[L::Scalar; 2]],
-    /// The contact that has just ceased to push.
-    opens: Option<usize>,
-    /// The contacts that were closed in the leg that ends here, if none of them opens and no other one closes.
-    were_closed: Option<&'a [bool]>,
+    pub(super) bodies: &'a Bodies<L>,
+    pub(super) rows: &'a TouchingRows<L>,
+    /// Rates of the rows without forces, and their round-off.
+    pub(super) pressing: &'a (Vec<f64>, Vec<f64>),
+    /// Limit and sliding force of each friction.
+    pub(super) bounds: Vec<[f64; 2]>,
+    /// The states before, and what ended them.
+    pub(super) was: &'a States,
+    end: Option<LegEnd>,
     /// Which of the touching contacts are at rest.
     pub(super) resting: Vec<bool>,
     /// Direction in which each friction slides; none if it is at rest.
-    pub(super) slips: Vec<Option<[L::Scalar; 2]>>,
-    /// Friction that has left its limit from rest, with its direction.
-    begun: Vec<(usize, [L::Scalar; 2])>,
-    /// Friction that has left its limit, but is held back.
+    pub(super) slips: Vec<Option<[f64; 2]>>,
+    /// Friction that has fallen from its limit to a smaller force of sliding, with its direction.
+    fallen: Vec<(usize, [f64; 2])>,
+    /// Friction that has fallen, but is held back.
     held: Vec<usize>,
+    /// Part of the limits of friction at rest that may be used: less than 1 where friction has left them, on the contacts that carry the
+    /// bodies then.
+    part: f64,
+    pub(super) carries: Option<Vec<bool>>,
 }
 
-/// Forces that satisfy the laws, and the touches that they belong to.
-pub(super) struct Gripped<T> {
-    pub(super) forces: ContactForces<T>,
-    pub(super) touches: Vec<Touch<T>>,
-    pub(super) names: TouchNames,
-    /// Which of the touching contacts may push.
-    plays: Vec<bool>,
+/// Forces that satisfy the law.
+pub(super) struct Gripped {
+    pub(super) forces: Vec<f64>,
+    pub(super) rates: Vec<f64>,
+    /// Whether each touching contact stays closed.
+    pub(super) pushes: Vec<bool>,
+    /// What each friction does, if it acts.
+    pub(super) grips: Vec<Option<Friction>>,
+    /// Which of the touching contacts may push, without those that others make needless.
+    pub(super) carries: Vec<bool>,
 }
 
 impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
     pub(super) fn new(
         bodies: &'a Bodies<L>,
-        (rows, pressing): (&'a TouchingRows<L>, &'a [[L::Scalar; 2]]),
+        (rows, pressing): (&'a TouchingRows<L>, &'a (Vec<f64>, Vec<f64>)),
         resting: Vec<bool>,
         state: &StateOf<L>,
-        (was, changed): (&'a States, &Changed),
-    ) -> Self {
+        (was, end): (&'a States, Option<LegEnd>),
+    ) -> Result<Self, Error> {
         // What has the same velocity as another friction stops with it.
-        let units = if changed.stops.is_some() { BEGIN } else { 1.0 };
-        let has_stuck = |f: usize| {
-            let is_pressed = L::FRICTIONS[f].contact.is_none_or(|k| was.is_closed[k]);
-            changed.ends_leg && is_pressed && was.frictions.get(f).is_some_and(Friction::is_at_rest)
-        };
-        let is_at_rest = |f| changed.stops == Some(f) || has_stuck(f);
+        let units = if matches!(end, Some(LegEnd::Stops(_))) { BEGIN } else { 1.0 };
+        let is_at_rest = |f| end == Some(LegEnd::Stops(f)) || (end.is_some() && was.is_at_rest::<L>(f));
         let slip = |f| if is_at_rest(f) { None } else { bodies.slip(f, state, units) };
-        let slips = (0..L::FRICTIONS.len()).map(slip).collect();
-        let begun = changed.slips.iter().map(|&(f, direction)| (f, direction.map(L::Scalar::constant)));
-        let (begun, held) = (begun.collect(), Vec::new());
-        let goes_on = changed.ends_leg && changed.opens.is_none() && changed.closes.is_none();
-        let were_closed = goes_on.then_some(&was.is_closed[..]);
-        Self { bodies, rows, pressing, opens: changed.opens, were_closed, resting, slips, begun, held }
+        let slips = (0..L::FRICTIONS.len()).map(|f| slip(f).map(|along| along.map(Real::to_f64))).collect();
+        let mut of_friction = vec![[0.0; 2]; L::FRICTIONS.len()];
+        for &(f, _) in &rows.frictions {
+            of_friction[f] = bounds(&bodies.closed, f, state)?.map(Real::to_f64);
+        }
+        let (bounds, fallen, held, part, carries) = (of_friction, Vec::new(), Vec::new(), 1.0, None);
+        Ok(Self { bodies, rows, pressing, bounds, was, end, resting, slips, fallen, held, part, carries })
     }
 
     /// Finds forces after which nothing else comes to rest or begins to slide.
-    pub(super) fn settle(&mut self, state: &StateOf<L>) -> Result<Gripped<L::Scalar>, Error> {
+    pub(super) fn settle(&mut self, state: &StateOf<L>) -> Result<Gripped, Error> {
+        if self.end == Some(LegEnd::Leaves) {
+            self.leave(state)?;
+        }
         loop {
-            let gripped = self.forces(state)?;
+            let gripped = self.with_reserve(self.forces(self.part, state)?, state);
             if !self.joins(&gripped, state) && !self.is_held(&gripped) && !self.falls(&gripped) {
                 return Ok(gripped);
             }
         }
     }
 
-    fn forces(&self, state: &StateOf<L>) -> Result<Gripped<L::Scalar>, Error> {
+    /// Lets friction slide that does so with somewhat lower limits, on the contacts that push then.
+    fn leave(&mut self, state: &StateOf<L>) -> Result<(), Error> {
+        let gripped = self.forces(1.0 - halved(HALVINGS), state)?;
+        if !self.rests(&gripped) {
+            (self.part, self.carries) = (1.0 - halved(LOWERED), Some(gripped.carries));
+        }
+        Ok(())
+    }
+
+    /// Where friction at rest shares its forces, those with the largest part of all limits left, but for a factor of 2: they last longest as
+    /// loads grow.
+    fn with_reserve(&self, gripped: Gripped, state: &StateOf<L>) -> Gripped {
+        if !self.rests(&gripped) || !self.is_shared(&gripped) {
+            return gripped;
+        }
+        let mut rests = gripped;
+        // Halvings with which friction is known to slide, and to rest.
+        let [mut low, mut high] = [0, HALVINGS + 1];
+        while low + 1 < high {
+            let halvings = (low + high) / 2;
+            match self.forces(1.0 - halved(halvings), state) {
+                Ok(found) if self.rests(&found) => (high, rests) = (halvings, found),
+                _ => low = halvings,
+            }
+        }
+        rests
+    }
+
+    /// Which of the touching contacts may push.
+    pub(super) fn plays(&self) -> Vec<bool> {
         let touching = self.rows.touching.iter().zip(&self.resting);
-        let plays: Vec<bool> = touching.map(|(&k, &rests)| rests && self.opens != Some(k)).collect();
-        if let Some(gripped) = self.by_those_before(&plays, state) {
-            return Ok(gripped);
-        }
-        self.of_playing(plays, state)
+        touching.map(|(&k, &rests)| rests && self.end != Some(LegEnd::Opens(k))).collect()
     }
 
-    /// Forces of the contacts that were closed before, if they hold the bodies at rest without others that touch.
-    fn by_those_before(&self, plays: &[bool], state: &StateOf<L>) -> Option<Gripped<L::Scalar>> {
-        let were_closed = self.were_closed?;
-        let of_those = |(&plays, &k): (&bool, &usize)| plays && were_closed[k];
-        let those: Vec<bool> = plays.iter().zip(&self.rows.touching).map(of_those).collect();
-        if those == plays {
-            return None;
-        }
-        let gripped = self.of_playing(those, state).ok()?;
-        let stays_apart = |place: usize| {
-            gripped.forces.rates[place] >= -self.rows.noise(place, self.pressing, &gripped.forces)
-        };
-        let others = (0..plays.len()).filter(|&place| plays[place] && !gripped.plays[place]);
-        let holds = gripped.forces.motion.is_none() && others.clone().all(stays_apart);
-        holds.then(|| Gripped { plays: plays.to_vec(), ..gripped })
+    /// What is known of the friction `f`: the direction in which it slides, if it does.
+    pub(super) fn direction(&self, f: usize) -> Option<[f64; 2]> {
+        let fallen = self.fallen.iter().find(|(of, _)| *of == f).map(|(_, direction)| *direction);
+        fallen.or(self.slips[f])
     }
 
-    fn of_playing(&self, plays: Vec<bool>, state: &StateOf<L>) -> Result<Gripped<L::Scalar>, Error> {
-        let grip = |f: usize| {
-            let begun = self.begun.iter().find(|(of, _)| *of == f).map(|(_, direction)| *direction);
-            let undecided = if L::FRICTIONS[f].count == 1 { Grip::Open } else { Grip::Sticks };
-            Some(begun.or(self.slips[f]).map_or(undecided, Grip::Slides))
-        };
-        let (touches, names) = self.bodies.touches(self.rows, &plays, state, grip)?;
-        let (rates, noise) = self.pressing.iter().map(|&[rate, noise]| (rate, noise)).unzip();
-        let (matrix, touching) = (&self.rows.delassus.0, touches.clone());
-        let law = Law { matrix, rates, noise, touches: touching, accuracy: BEYOND };
-        let forces = law.decide().map_err(|why| self.bodies.jams(why, &names, state))?;
-        Ok(Gripped { forces, touches, names, plays })
+    /// Direction in which a friction at rest begins to slide.
+    fn begins(&self, f: usize, gripped: &Gripped) -> Option<[f64; 2]> {
+        match (gripped.grips[f], self.direction(f)) {
+            (Some(Friction::Slides(direction)), None) => Some(direction),
+            _ => None,
+        }
+    }
+
+    /// Whether nothing begins to slide.
+    pub(super) fn rests(&self, gripped: &Gripped) -> bool {
+        (0..L::FRICTIONS.len()).all(|f| self.begins(f, gripped).is_none())
+    }
+
+    /// Round-off of the rate of a row with these forces.
+    pub(super) fn noise(&self, place: usize, forces: &[f64]) -> f64 {
+        self.pressing.1[place] + L::Scalar::EPSILON * BEGIN * self.rows.size(place, forces)
     }
 
     /// Whether the forces press another contact together, whose bounces are then low: it counts as at rest from now on.
-    fn joins(&mut self, gripped: &Gripped<L::Scalar>, state: &StateOf<L>) -> bool {
-        let noise = self.bodies.motion_noise(&self.rows.delassus.0, state);
+    fn joins(&mut self, gripped: &Gripped, state: &StateOf<L>) -> bool {
+        let noise = self.rows.motion_noise(state);
         let joins = |&place: &usize| {
-            let (k, rate) = (self.rows.touching[place], gripped.forces.rates[place]);
-            !self.resting[place] && self.bodies.rests(k, (rate, noise[place]), state)
+            let rate = [gripped.rates[place], noise[place]];
+            !self.resting[place] && self.bodies.rests(self.rows.touching[place], rate, state)
         };
         let joining = (0..self.resting.len()).find(joins);
-        joining.into_iter().for_each(|place| self.resting[place] = true);
+        if let Some(place) = joining {
+            (self.resting[place], self.carries) = (true, None);
+        }
         joining.is_some()
     }
 
-    /// Whether friction that has left its limit would slide back: its force is then decided anew.
-    fn is_held(&mut self, gripped: &Gripped<L::Scalar>) -> bool {
-        let is_back = |&(f, direction): &(usize, [L::Scalar; 2])| {
+    /// Whether another friction begins to slide with a force below its limit.
+    fn falls(&mut self, gripped: &Gripped) -> bool {
+        let falls = |f: &usize| self.bounds[*f][1] < self.bounds[*f][0];
+        let begins = |f: usize| self.begins(f, gripped).map(|direction| (f, direction));
+        let fallen = (0..L::FRICTIONS.len()).filter(falls).find_map(begins);
+        self.fallen.extend(fallen);
+        fallen.is_some()
+    }
+
+    /// Whether friction that has fallen would slide back: its force is then decided anew.
+    fn is_held(&mut self, gripped: &Gripped) -> bool {
+        let is_back = |&(f, direction): &(usize, [f64; 2])| {
             let Some(&(_, place)) = self.rows.frictions.iter().find(|(of, _)| *of == f) else { return false };
-            let zero = L::Scalar::constant(0.0);
-            let [along, noise] = (0..L::FRICTIONS[f].count).fold([zero; 2], |[sum, noise], c| {
-                let round_off = self.rows.noise(place + c, self.pressing, &gripped.forces);
-                let part = direction[c] * gripped.forces.rates[place + c];
-                [sum + part, noise + Scalar::abs(direction[c]) * round_off]
+            let [along, noise] = (0..L::FRICTIONS[f].count).fold([0.0; 2], |[sum, noise], c| {
+                let round_off = self.noise(place + c, &gripped.forces);
+                [sum + direction[c] * gripped.rates[place + c], noise + direction[c].abs() * round_off]
             });
             along < -noise
         };
-        let held = self.begun.iter().position(|begun| !self.held.contains(&begun.0) && is_back(begun));
-        held.map(|k| self.held.push(self.begun.remove(k).0)).is_some()
+        let held = self.fallen.iter().position(|fallen| !self.held.contains(&fallen.0) && is_back(fallen));
+        held.map(|k| self.held.push(self.fallen.remove(k).0)).is_some()
     }
 
-    /// Whether another friction begins to slide with a force below its limit.
-    fn falls(&mut self, gripped: &Gripped<L::Scalar>) -> bool {
-        let begins = |k: usize| {
-            let (friction, f) = (gripped.touches[k].friction?, gripped.names[k].1?);
-            let Grip::Slides(direction) = gripped.forces.grips[k]? else { return None };
-            let is_new = self.slips[f].is_none() && !self.begun.iter().any(|(of, _)| *of == f);
-            (is_new && friction.bounds[1] < friction.bounds[0]).then_some((f, direction))
-        };
-        let begun = (0..gripped.touches.len()).find_map(begins);
-        self.begun.extend(begun);
-        begun.is_some()
-    }
-}
-
-impl<L: Contacts<Scalar: Real> + Clone> TouchingRows<L> {
-    /// Round-off of the rate of a row with these forces.
-    fn noise(
-        &self,
-        place: usize,
-        pressing: &[[L::Scalar; 2]],
-        forces: &ContactForces<L::Scalar>,
-    ) -> L::Scalar {
-        let parts = self.delassus.0[place].iter().zip(&forces.forces);
-        let size = parts.fold(L::Scalar::constant(0.0), |sum, (&g, &f)| sum + Scalar::abs(g * f));
-        pressing[place][1] + L::Scalar::constant(L::Scalar::EPSILON * BEGIN) * size
-    }
-
-    /// Rows that stay at rest: closed gaps, and velocities of friction that sticks.
-    pub(super) fn active(&self, states: &States) -> Vec<usize> {
-        let gaps = (0..self.touching.len()).filter(|&place| states.is_closed[self.touching[place]]);
-        let sticks = self.frictions.iter().flat_map(|&(f, place)| {
-            let is_pressed = L::FRICTIONS[f].contact.is_none_or(|k| states.is_closed[k]);
-            let is_kept = move |c: &usize| is_pressed && states.frictions[f].keeps(*c);
-            (0..L::FRICTIONS[f].count).filter(is_kept).map(move |c| place + c)
-        });
-        gaps.chain(sticks).collect()
-    }
-
-    /// The matrix G over all rows, to decide which depend on others.
-    pub(super) fn problem(&self) -> Complementarity<L::Scalar> {
-        let none = vec![L::Scalar::constant(0.0); self.all.len()];
-        Complementarity { matrix: self.delassus.0.clone(), constant: none.clone(), noise: none }
-    }
-}
-
-impl<T: Real> Gripped<T> {
-    /// States of contacts and friction, and which of them those determine.
-    pub(super) fn decided<L: Contacts<Scalar = T> + Clone>(
-        &self,
-        rows: &TouchingRows<L>,
-        pressing: &[[T; 2]],
-        slips: &[Option<[T; 2]>],
-    ) -> Decided<T> {
-        let mut decided = Decided::none::<L>(vec![OFF; L::FRICTIONS.len()]);
-        self.mark(&mut decided);
-        let problem = rows.problem();
-        self.share(rows, &problem, slips, &mut decided);
-        let active = rows.active(&decided.states);
-        for place in (0..self.plays.len()).filter(|&place| self.plays[place]) {
-            let k = rows.touching[place];
-            decided.is_resting[k] = true;
-            // Forces at the limits of friction are off by what is left of these.
-            let is_still = self.forces.motion.is_some()
-                || Scalar::abs(self.forces.rates[place]) <= rows.noise(place, pressing, &self.forces);
-            decided.is_implied[k] =
-                !decided.states.is_closed[k] && is_still && problem.depends(place, &active);
+    /// States of contacts and friction from here on.
+    pub(super) fn states(&self, gripped: &Gripped) -> States {
+        let mut states = States::closed::<L>(|k| self.rows.gap(k).is_some_and(|gap| gripped.pushes[gap]));
+        for &(f, _) in &self.rows.frictions {
+            let friction = gripped.grips[f].unwrap_or(FrictionState::OFF.friction);
+            states.frictions[f] =
+                FrictionState { friction, from_rest: self.slips[f].is_none(), is_implied: false };
         }
-        decided
+        self.share(gripped, &mut states);
+        let (span, plays) = (self.rows.span(self.rows.active(&states)), self.plays());
+        for (place, &k) in self.rows.touching.iter().enumerate() {
+            let ContactState { is_closed, .. } = states.contacts[k];
+            let is_still = gripped.rates[place].abs() <= self.noise(place, &gripped.forces);
+            let is_implied = plays[place] && !is_closed && is_still && span.depends(place);
+            // A contact that parts ever faster is watched as one that rests, since it may start below zero by its round-off. So is one whose
+            // multiplier has just become zero, as its gap begins to open without an acceleration.
+            let is_resting = self.resting[place] || gripped.rates[place] >= 0.0;
+            states.contacts[k] = ContactState { is_closed, is_implied, is_resting };
+        }
+        states
     }
 
-    /// Marks what is closed, and what sticks or slides.
-    fn mark(&self, decided: &mut Decided<T>) {
-        for (k, &(contact, friction)) in self.names.iter().enumerate() {
-            if let Some(contact) = contact {
-                decided.states.is_closed[contact] = self.forces.pushes[k];
+    /// Acceleration towards each closed contact without its own forces, while the others that are closed stay so.
+    pub(super) fn towards(&self, gripped: &Gripped, states: &States) -> Vec<f64> {
+        let (mut towards, active) = (vec![0.0; L::CONTACTS.len()], self.rows.active(states));
+        for (place, &k) in self.rows.touching.iter().enumerate().filter(|(_, k)| states.is_closed(**k)) {
+            let of_friction =
+                self.rows.frictions.iter().filter(|&&(f, _)| L::FRICTIONS[f].contact == Some(k));
+            let of_friction = of_friction.flat_map(|&(f, first)| first..first + L::FRICTIONS[f].count);
+            let own: Vec<usize> = of_friction.chain([place]).collect();
+            let mut by = vec![0.0; <L::N>::COUNT];
+            for &of in &own {
+                by.iter_mut().zip(self.rows.row(of)).for_each(|(x, j)| *x += gripped.forces[of] * j);
             }
-            if let (Some(f), Some(grip)) = (friction, self.forces.grips[k]) {
-                decided.states.frictions[f] = match grip {
-                    Grip::Slides(direction) => Friction::Slides(direction.map(Real::to_f64)),
-                    Grip::Idle => OFF,
-                    Grip::Open | Grip::Sticks => Friction::Sticks,
-                };
-            }
+            let others = active.iter().copied().filter(|of| !own.contains(of));
+            let by = self.rows.span(others).rest(by);
+            towards[k] = by.iter().zip(self.rows.row(place)).map(|(x, j)| x * j).sum();
         }
+        towards
     }
 }

@@ -3,95 +3,102 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::bodies::{Bodies, Measured};
-use super::complementarity::{Complementarity, ComplementarySolution};
-use super::defect::FOUND;
-use super::friction::{BEGIN, TouchingRows};
-use super::law::{Grip, Law, NoForces, Touch};
+use super::bodies::Bodies;
+use super::friction::{BEGIN, bounds};
+use super::rows::{NoForces, Problem, Reactions, TouchingRows};
 use super::trajectory::Transition;
-use super::{Contacts, FrictionRows, ImpactLaw};
+use super::{Contacts, ImpactLaw};
+use crate::cone::{Limit, Set};
 use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
-use crate::vector::{Array, vector};
+use crate::vector::Entrywise;
 
 /// Halvings of the restitution of an impact that would gain energy.
 const HALVINGS: usize = 60;
 
 /// An impact under way: the rows of the bodies that touch, and the laws of their contacts.
-struct StagedImpact<'a, T> {
-    matrix: &'a [Vec<T>],
+struct StagedImpact<'a, L> {
+    rows: &'a TouchingRows<L>,
     /// Rates before the impact, with their round-off.
-    measured: &'a [Measured<T>],
-    touches: Vec<Touch<T>>,
+    rates: Vec<f64>,
+    noise: Vec<f64>,
+    /// Which of the touching contacts take part.
+    plays: Vec<bool>,
+    /// Friction of these: places of its velocities and of its gap, and the limit as a multiple of the impulse of that. Dry friction has no
+    /// impulse.
+    frictions: Vec<(core::ops::Range<usize>, usize, f64)>,
     /// e γ of the contacts with Newton's law, with the rate γ before.
-    returned: Vec<T>,
+    returned: Vec<f64>,
     /// Poisson's coefficient of restitution of each row, zero for those of other laws.
-    expansion: Vec<T>,
+    expansion: Vec<f64>,
 }
 
-/// Impulses of all rows, and rates after them.
-struct StagedImpulses<T> {
-    forces: Vec<T>,
-    rates: Vec<T>,
-}
-
-impl<T: Real> StagedImpact<'_, T> {
+impl<L: Contacts<Scalar: Real>> StagedImpact<'_, L> {
     /// Impulses with the part given of all restitutions. The compression is an impact without Poisson's restitution; in
     /// the expansion, a contact pushes at least with e times its impulse Λ of the compression (Pfeiffer and Glocker,
     /// *Multibody Dynamics with Unilateral Contacts*, 1996, chapter 8).
-    fn impulses(&self, part: T) -> Result<StagedImpulses<T>, NoForces> {
-        let rates = self.measured.iter().zip(&self.returned);
-        let rates = rates.map(|(measured, &returned)| measured.rate + part * returned).collect();
-        let mut impulses = self.stage(rates, self.touches.clone())?;
-        let mut touches = self.touches.clone();
-        for touch in &mut touches {
-            touch.least = touch.gap.map_or(touch.least, |k| part * self.expansion[k] * impulses.forces[k]);
-        }
-        if touches.iter().any(|touch| touch.least > T::constant(0.0)) {
-            let expansion = self.stage(impulses.rates, touches)?;
+    fn impulses(&self, part: f64) -> Result<Reactions, NoForces> {
+        let rates = self.rates.iter().zip(&self.returned).map(|(rate, returned)| rate + part * returned);
+        let mut impulses = self.stage(rates.collect(), &vec![0.0; self.rates.len()])?;
+        let least = |(e, impulse): (&f64, &f64)| part * e * impulse;
+        let least: Vec<f64> = self.expansion.iter().zip(&impulses.forces).map(least).collect();
+        if least.iter().any(|least| *least > 0.0) {
+            let expansion = self.stage(impulses.rates, &least)?;
             impulses.rates = expansion.rates;
             impulses.forces.iter_mut().zip(expansion.forces).for_each(|(sum, more)| *sum += more);
+            impulses.change.iter_mut().zip(expansion.change).for_each(|(sum, more)| *sum += more);
         }
-        for (rate, &returned) in impulses.rates.iter_mut().zip(&self.returned) {
+        for (rate, returned) in impulses.rates.iter_mut().zip(&self.returned) {
             *rate -= part * returned;
         }
         Ok(impulses)
     }
 
-    fn stage(&self, rates: Vec<T>, touches: Vec<Touch<T>>) -> Result<StagedImpulses<T>, NoForces> {
-        let noise = self.measured.iter().map(|measured| measured.noise[1]).collect();
-        let outcome = Law { matrix: self.matrix, rates, noise, touches, accuracy: FOUND }.decide()?;
-        Ok(StagedImpulses { forces: outcome.forces, rates: outcome.rates })
+    /// Impulses, of which those of gaps are at least these.
+    fn stage(&self, rates: Vec<f64>, least: &[f64]) -> Result<Reactions, NoForces> {
+        let mut problem = Problem::new(self.rows, rates, &self.noise);
+        let mut gaps = vec![None; self.plays.len()];
+        for gap in (0..self.plays.len()).filter(|&gap| self.plays[gap]) {
+            problem.know(gap, least[gap]);
+            gaps[gap] = Some(problem.push(gap..gap + 1, Set::HalfLine));
+        }
+        for (places, gap, mu) in &self.frictions {
+            let limit = Limit { radius: mu * least[*gap], mu: *mu, gap: gaps[*gap] };
+            problem.push(places.clone(), Set::Disc(limit));
+        }
+        problem.decide()
     }
 
     /// Impulses with the restitutions as stated, or lowered in proportion to where they gain no energy.
-    fn without_gain(&self) -> Result<StagedImpulses<T>, NoForces> {
-        let [mut low, mut high] = [0.0, 1.0].map(T::constant);
-        let whole = self.impulses(high)?;
+    fn without_gain(&self) -> Result<Reactions, NoForces> {
+        let whole = self.impulses(1.0)?;
         if !self.gains(&whole) {
             return Ok(whole);
         }
+        let [mut low, mut high] = [0.0, 1.0];
         for _ in 0..HALVINGS {
-            let part = (low + high) * T::constant(0.5);
+            let part = (low + high) * 0.5;
             *if self.gains(&self.impulses(part)?) { &mut high } else { &mut low } = part;
         }
         self.impulses(low)
     }
 
     /// Whether the impulses work, by the mean of the rates before and after, more than their round-off.
-    fn gains(&self, impulses: &StagedImpulses<T>) -> bool {
-        let rows = self.measured.iter().zip(&impulses.rates).zip(&impulses.forces);
-        let [sum, size] = rows.fold([T::constant(0.0); 2], |[sum, size], ((before, &after), &force)| {
-            let work = force * (before.rate + after);
-            [sum + work, size + Scalar::abs(work)]
+    fn gains(&self, impulses: &Reactions) -> bool {
+        let rows = self.rates.iter().zip(&impulses.rates).zip(&impulses.forces);
+        let [sum, size] = rows.fold([0.0; 2], |[sum, size], ((before, after), force)| {
+            let work = force * (before + after);
+            [sum + work, size + work.abs()]
         });
-        sum > T::constant(T::EPSILON * BEGIN) * size
+        sum > L::Scalar::EPSILON * BEGIN * size
     }
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
-    /// An impact: the contacts that approach or rest push.
+    /// An impact: the contacts that approach or rest push. Those that part take part in the next impact, if this one makes them approach.
+    /// Newton's law can gain energy with friction (Kane and Levinson, *Dynamics*, 1985), and so can both laws in one impact: the
+    /// restitutions are then lowered to where they gain none.
     pub(super) fn impact(
         &mut self,
         rows: &TouchingRows<L>,
@@ -99,104 +106,45 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         state: &mut StateOf<L>,
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<(), Error> {
-        match L::FRICTIONS.is_empty() && !L::IMPACT_LAWS.contains(&ImpactLaw::Poisson) {
-            true => self.impact_by_newton(rows, resting, state, transitions),
-            false => self.impact_in_stages(rows, resting, state, transitions),
-        }
-    }
-
-    /// An impact by Newton's law without friction, which never gains energy: each contact that pushes works by
-    /// Λ (1 − e) γ/2 with its rate γ ≤ 0 before.
-    fn impact_by_newton(
-        &mut self,
-        TouchingRows { touching, delassus: (matrix, responses), .. }: &TouchingRows<L>,
-        resting: &[bool],
-        state: &mut StateOf<L>,
-        transitions: &mut Vec<Transition<L::Scalar>>,
-    ) -> Result<(), Error> {
-        let zero = L::Scalar::constant(0.0);
-        let measured: Vec<Measured<L::Scalar>> = touching.iter().map(|&k| self.measured(k, state)).collect();
-        // Those that part take part in the next impact, if this one makes them approach.
-        let takes_part = |place: &usize| resting[*place] || measured[*place].rate < zero;
-        let places: Vec<usize> = (0..touching.len()).filter(takes_part).collect();
-        let mut returned = Vec::with_capacity(places.len());
-        for &place in &places {
-            let restitution = self.restitution(touching[place], state)?;
-            returned.push(if resting[place] { zero } else { restitution * measured[place].rate });
-        }
-        let rates = |state: &StateOf<L>| {
-            let of = |(&place, &returned): (&usize, &L::Scalar)| {
-                self.measured(touching[place], state).rate + returned
-            };
-            places.iter().zip(&returned).map(of).collect::<Vec<_>>()
-        };
-        let problem = Complementarity {
-            matrix: places.iter().map(|&j| places.iter().map(|&k| matrix[j][k]).collect()).collect(),
-            noise: places.iter().map(|&place| measured[place].noise[1]).collect(),
-            constant: rates(state),
-        };
-        let ComplementarySolution { z: mut impulses, is_active, .. } =
-            problem.solve().ok_or_else(|| self.contradiction(touching, state))?;
-        let push = |state: &mut StateOf<L>, impulses: &[L::Scalar]| {
-            for (&place, &impulse) in places.iter().zip(impulses) {
-                state.v = vector(Array::from_fn(|i| state.v[i] + responses[place][i] * impulse));
-            }
-        };
-        push(state, &impulses);
-        // What is left by the round-off of the matrix would take or give energy at each impact, always of one sign.
-        let active: Vec<usize> = (0..places.len()).filter(|&place| is_active[place]).collect();
-        let more = Complementarity { constant: rates(state), ..problem }.equality(&active);
-        push(state, &more);
-        impulses.iter_mut().zip(more).for_each(|(impulse, more)| *impulse += more);
-        self.strikes(places.iter().zip(&impulses).map(|(&place, &impulse)| (impulse, &responses[place])));
-        let pushes = places.iter().zip(&impulses).filter(|(_, impulse)| **impulse > zero);
-        let impulses = pushes.map(|(&place, &impulse)| (self.name(touching[place]), impulse)).collect();
-        transitions.push(Transition::Impact { time: state.t, impulses });
+        let hit = self.staged(rows, resting, state)?;
+        let Reactions { forces, change, .. } =
+            hit.without_gain().map_err(|why| self.jams(why, (rows, &hit.plays), state))?;
+        state.v = state.v.plus(&rows.velocities(&change));
+        let acting = (0..forces.len()).filter(|&place| forces[place] != 0.0);
+        self.strikes(acting.map(|place| rows.change(place, forces[place])));
+        let acts = |&place: &usize| (rows.response(place, place) * forces[place]).abs() > hit.noise[place];
+        let acting = (0..forces.len()).filter(acts);
+        let impulse = |place: usize| (L::CONSTRAINTS[rows.all[place]], L::Scalar::constant(forces[place]));
+        transitions.push(Transition::Impact { time: state.t, impulses: acting.map(impulse).collect() });
         Ok(())
     }
 
-    /// An impact with friction or by Poisson's law. Newton's law can gain energy with friction (Kane and Levinson, *Dynamics*,
-    /// 1985), and so can both laws in one impact: the restitutions are then lowered to where they gain none.
-    fn impact_in_stages(
-        &mut self,
-        rows: &TouchingRows<L>,
+    fn staged<'a>(
+        &self,
+        rows: &'a TouchingRows<L>,
         resting: &[bool],
-        state: &mut StateOf<L>,
-        transitions: &mut Vec<Transition<L::Scalar>>,
-    ) -> Result<(), Error> {
-        let zero = L::Scalar::constant(0.0);
-        let measured: Vec<_> = rows.all.iter().map(|&a| self.measured_at(a, state)).collect();
+        state: &StateOf<L>,
+    ) -> Result<StagedImpact<'a, L>, Error> {
+        let (rates, noise) = self.measured_rates(rows, state);
         let plays: Vec<bool> =
-            (0..rows.touching.len()).map(|place| resting[place] || measured[place].rate < zero).collect();
-        let (touches, names) = self.touches(rows, &plays, state, undecided::<L>)?;
-        let [mut returned, mut expansion] = [0; 2].map(|_| vec![zero; rows.all.len()]);
+            resting.iter().zip(&rates).map(|(&is_resting, rate)| is_resting || *rate < 0.0).collect();
+        let [mut returned, mut expansion] = [(); 2].map(|()| vec![0.0; rows.count]);
         for place in (0..plays.len()).filter(|&place| plays[place]) {
-            let restitution = self.restitution(rows.touching[place], state)?;
+            let restitution = self.restitution(rows.touching[place], state)?.to_f64();
             match L::IMPACT_LAWS[rows.touching[place]] {
                 ImpactLaw::Poisson => expansion[place] = restitution,
-                ImpactLaw::Newton if !resting[place] => returned[place] = restitution * measured[place].rate,
+                ImpactLaw::Newton if !resting[place] => returned[place] = restitution * rates[place],
                 ImpactLaw::Newton => {}
             }
         }
-        let hit =
-            StagedImpact { matrix: &rows.delassus.0, measured: &measured, touches, returned, expansion };
-        let StagedImpulses { forces, .. } =
-            hit.without_gain().map_err(|why| self.jams(why, &names, state))?;
-        for (&impulse, response) in forces.iter().zip(&rows.delassus.1) {
-            state.v = vector(Array::from_fn(|i| state.v[i] + response[i] * impulse));
+        let mut frictions = Vec::new();
+        for &(f, place) in &rows.frictions {
+            let gap = L::FRICTIONS[f].contact.and_then(|k| rows.gap(k));
+            if let Some(gap) = gap.filter(|&gap| plays[gap]) {
+                let [limit, _] = bounds(&self.closed, f, state)?;
+                frictions.push((place..place + L::FRICTIONS[f].count, gap, limit.to_f64()));
+            }
         }
-        self.strikes(forces.iter().copied().zip(&rows.delassus.1));
-        let acts =
-            |&row: &usize| Scalar::abs(rows.delassus.0[row][row] * forces[row]) > measured[row].noise[1];
-        let acting = (0..forces.len()).filter(acts);
-        let impulses = acting.map(|row| (L::CONSTRAINTS[rows.all[row]], forces[row])).collect();
-        transitions.push(Transition::Impact { time: state.t, impulses });
-        Ok(())
+        Ok(StagedImpact { rows, rates, noise, plays, frictions, returned, expansion })
     }
-}
-
-/// Friction of an impact, which is to be decided. Dry friction has no impulse.
-fn undecided<L: Contacts>(f: usize) -> Option<Grip<L::Scalar>> {
-    let FrictionRows { contact, count, .. } = L::FRICTIONS[f];
-    contact.map(|_| if count == 1 { Grip::Open } else { Grip::Sticks })
 }

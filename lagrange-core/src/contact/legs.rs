@@ -8,6 +8,7 @@ use super::Contacts;
 use super::bodies::Bodies;
 use super::condition::LegCondition;
 use super::lifting::Lifting;
+use super::states::States;
 use crate::error::{Ending, Error};
 use crate::motion::event::{AnyEvent, DenseStep, EventSearch};
 use crate::motion::record::Record;
@@ -89,7 +90,7 @@ where
 /// Looks at each step of a leg: at conditions of contacts, at its entries, at gaps that are crossed, and for the progress callback.
 pub(super) struct LegWatch<'l, 'w, L: Lagrangian> {
     pub(super) bodies: &'l mut Bodies<L>,
-    pub(super) is_closed: &'l [bool],
+    pub(super) states: &'l States,
     pub(super) lifting: &'l Lifting<L::Scalar>,
     pub(super) accept: &'l mut Accept<'w, L>,
     /// Number of the events before those of contacts.
@@ -128,7 +129,9 @@ impl<L: Contacts<Scalar: Real> + Clone> LegWatch<'_, '_, L> {
     fn look(&mut self, state: &StateOf<L>, steps: usize) -> Result<(), Ending> {
         self.bodies.passes(state);
         self.lifting.pass(|k| self.bodies.gap(k, state) > self.bodies.touching(k, state));
-        match self.bodies.crossed(self.is_closed, state) {
+        let of = |k: usize| self.states.contacts[k];
+        let is_kept = |k| of(k).is_closed || of(k).is_implied || self.lifting.is_at_rest(k);
+        match self.bodies.crossed(is_kept, state) {
             Some(error) => Err(Ending::of(error, state.t.to_f64())),
             None => (self.accept)(state, steps),
         }

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::cell::Cell;
 
-use super::instant::Decided;
+use super::states::{ContactState, States};
 use crate::number::Real;
 
 /// The contacts that opened at the start of a leg, of two bodies at rest, and whose gaps have stayed zero to round-off at the end of
@@ -26,13 +26,12 @@ enum Rise<T> {
 
 impl<T: Real> Lifting<T> {
     /// Those that are open and at rest at the start of a leg.
-    pub(super) fn of(decided: &Decided<T>) -> Self {
-        let rests = decided.is_resting.iter().zip(&decided.states.is_closed);
-        let rise = |(is_resting, is_closed): (&bool, &bool)| match *is_resting && !is_closed {
+    pub(super) fn of(states: &States) -> Self {
+        let rise = |of: &ContactState| match of.is_resting && !of.is_closed {
             true => Rise::Always,
             false => Rise::None,
         };
-        Self(rests.map(rise).map(Cell::new).collect())
+        Self(states.contacts.iter().map(rise).map(Cell::new).collect())
     }
 
     /// Whether this contact opens at rest.

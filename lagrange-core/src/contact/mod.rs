@@ -269,17 +269,13 @@ mod bodies;
 #[cfg(feature = "alloc")]
 mod builder;
 #[cfg(feature = "alloc")]
-mod complementarity;
-#[cfg(feature = "alloc")]
 mod condition;
 #[cfg(feature = "alloc")]
 mod cones;
 #[cfg(feature = "alloc")]
-mod defect;
-#[cfg(feature = "alloc")]
 mod driver;
 #[cfg(feature = "alloc")]
-mod enumeration;
+mod forces;
 #[cfg(feature = "alloc")]
 mod friction;
 #[cfg(feature = "alloc")]
@@ -291,25 +287,21 @@ mod instant;
 #[cfg(feature = "alloc")]
 mod last_value;
 #[cfg(feature = "alloc")]
-mod law;
-#[cfg(feature = "alloc")]
 mod legs;
-#[cfg(feature = "alloc")]
-mod lemke;
 #[cfg(feature = "alloc")]
 mod lifting;
 #[cfg(feature = "alloc")]
 mod newton;
 #[cfg(feature = "alloc")]
-mod reserve;
+mod rows;
 #[cfg(feature = "alloc")]
 mod sharing;
+#[cfg(feature = "alloc")]
+mod states;
 #[cfg(feature = "alloc")]
 mod stepping;
 #[cfg(feature = "alloc")]
 mod trajectory;
-#[cfg(feature = "alloc")]
-mod unknowns;
 #[cfg(feature = "alloc")]
 mod watched;
 

@@ -9,6 +9,7 @@ use super::friction::bounds;
 use super::instant::Decided;
 use super::last_value::LastValue;
 use super::lifting::Lifting;
+use super::states::FrictionState;
 use super::{Contacts, Friction, FrictionRows};
 use crate::error::Error;
 use crate::motion::event::noise;
@@ -66,7 +67,7 @@ where
     let zero = L::Scalar::constant(0.0);
     let watches = |(k, &row): (usize, &usize)| -> Result<ConditionEvent<'w, L>, Error> {
         let name = name(L::CONSTRAINTS, row);
-        if decided.states.is_closed[k] {
+        if decided.states.is_closed(k) {
             let force = move |sample: &Sample<&L>| Ok(shared.solution(sample)?.multipliers[row]);
             check_push(system, state, name, force)?;
             // One that begins at zero may have no round-off of its own.
@@ -77,7 +78,7 @@ where
             return Ok((Box::new(event.condition().terminal()), LegCondition::Pushes { row }));
         }
         let gap = move |sample: &Sample<&L>| shared.gap(row, sample);
-        if !decided.is_resting[k] {
+        if !decided.states.contacts[k].is_resting {
             return Ok((Box::new(system.event(name, gap).falling().terminal()), LegCondition::Motion));
         }
         let parts = move |sample: &Sample<&L>| shared.acceleration(row, sample);
@@ -94,7 +95,7 @@ where
         let event = system.event(name, move |sample| Ok(gap(sample)? + margin));
         Ok((Box::new(event.falling().terminal()), LegCondition::Motion))
     };
-    let contacts = L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.is_implied[*k]);
+    let contacts = L::CONTACTS.iter().enumerate().filter(|(k, _)| !decided.states.contacts[*k].is_implied);
     contacts.map(watches).collect()
 }
 
@@ -126,7 +127,7 @@ const AT_LIMIT: f64 = 64.0;
 /// Part of the largest force by which friction at rest may exceed its limit, or a contact may pull, at the start of a leg. It may be off
 /// by as much more before the leg ends, so that forces are off their law by 10⁻⁶. The solver of dependent contacts shares forces by
 /// their least norm, which need not be within the limits.
-pub(super) const BEYOND: f64 = 5e-7;
+const BEYOND: f64 = 5e-7;
 
 /// The events that friction reaches its limit, or stops the bodies, with the conditions that they watch.
 pub(super) fn of_friction<'w, L>(
@@ -139,11 +140,11 @@ where
     L: Contacts<Scalar: Real> + Clone + 'w,
 {
     let (closed, zero, mut events) = (shared.closed, L::Scalar::constant(0.0), Vec::new());
-    for (f, &FrictionRows { row, contact, .. }) in L::FRICTIONS.iter().enumerate() {
-        if contact.is_some_and(|k| !decided.states.is_closed[k]) {
+    for (f, &FrictionRows { row, .. }) in L::FRICTIONS.iter().enumerate() {
+        if !decided.states.is_pressed::<L>(f) {
             continue;
         }
-        let (friction, is_implied) = (decided.states.frictions[f], decided.slip_is_implied[f]);
+        let FrictionState { friction, is_implied, .. } = decided.states.frictions[f];
         let [limit, force] =
             if friction.is_at_rest() { check_held(system, (closed, f), state)? } else { [zero; 2] };
         // A force that is a part of that of sliding, and of a velocity that others keep zero, stays where it is.
@@ -178,7 +179,7 @@ where
 }
 
 /// What round-off leaves of a force of contact or friction beside the largest of them.
-pub(super) fn round_off<L: Contacts<Scalar: Real>>(solution: &SolutionOf<L>) -> L::Scalar {
+fn round_off<L: Contacts<Scalar: Real>>(solution: &SolutionOf<L>) -> L::Scalar {
     L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * largest::<L>(solution)
 }
 

@@ -2,7 +2,7 @@
 
 use lagrange_random::Random;
 
-use crate::cone::{Block, ConeDecision, ConeSolver, Set};
+use crate::cone::{Block, ConeDecision, ConeSolver, Limit, Set};
 
 /// How the rows of an impact depend on one another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +34,12 @@ pub(super) struct Case {
 
 pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+/// A contact whose gap is block `k` and row `first`, followed by `count` rows of friction.
+pub(super) fn contact(k: usize, first: usize, count: usize, mu: f64) -> [Block; 2] {
+    let friction = Set::Disc(Limit { radius: 0.0, mu, gap: Some(k) });
+    [Block { first, count: 1, set: Set::HalfLine }, Block { first: first + 1, count, set: friction }]
 }
 
 impl Case {
@@ -77,9 +83,8 @@ impl Case {
                 rows[last + c][i] = a * rows[c][i] + b * rows[second + c][i] + apart * random.number();
             }
         }
-        let set = Set::Cone { mu };
-        let block = |k| Block { first: k * (1 + count), count: 1 + count, set };
-        Self::impact(rows, motion, (0..contacts).map(block).collect())
+        let blocks = (0..contacts).flat_map(|k| contact(2 * k, k * (1 + count), count, mu));
+        Self::impact(rows, motion, blocks.collect())
     }
 
     /// Contacts that are open, stick or slide already along one velocity, with rates for which reactions exist.
@@ -87,16 +92,16 @@ impl Case {
         let (mut case, mut random) = (Self::contacts(seed, kind), Random(!seed));
         let (mut r, mut u) = (vec![0.0; case.q.len()], vec![0.0; case.q.len()]);
         for block in &mut case.blocks {
+            let Set::Disc(Limit { mu, gap: Some(gap), .. }) = block.set else { continue };
             let [push, grip, part] = random.vector();
-            let Set::Cone { mu } = block.set else { continue };
-            let unit = dot(&case.rows[block.first], &case.rows[block.first]).sqrt();
-            (r[block.first], u[block.first]) =
-                if push > 0.0 { (push / unit, 0.0) } else { (0.0, -push * unit) };
-            let rests = grip.abs() < 0.5 && block.count == 2;
+            let normal = block.first - 1;
+            let unit = dot(&case.rows[normal], &case.rows[normal]).sqrt();
+            (r[normal], u[normal]) = if push > 0.0 { (push / unit, 0.0) } else { (0.0, -push * unit) };
+            let rests = grip.abs() < 0.5 && block.count == 1;
             let part = if rests { part } else { -grip.signum() };
-            r[block.first + 1] = part * mu * r[block.first];
+            r[block.first] = part * mu * r[normal];
             if !rests {
-                block.set = Set::Ray { force: [part * mu, 0.0] };
+                block.set = Set::Ray { force: [part * mu, 0.0], gap };
             }
         }
         let x: Vec<f64> =
@@ -121,7 +126,9 @@ impl Case {
     pub(super) fn rod(angle: f64, mu: f64, turns: f64) -> Self {
         let ((s, c), root) = (angle.sin_cos(), (1.0_f64 / 3.0).sqrt());
         let rows = vec![vec![0.0, 1.0, -c / root], vec![1.0, 0.0, s / root]];
-        let blocks = vec![Block { first: 0, count: 2, set: Set::Ray { force: [mu, 0.0] } }];
+        let slides = Set::Ray { force: [mu, 0.0], gap: 0 };
+        let blocks =
+            vec![Block { first: 0, count: 1, set: Set::HalfLine }, Block { first: 1, count: 1, set: slides }];
         let mut case = Self::impact(rows, vec![0.0, -1.0, 0.0], blocks);
         case.motion.clear();
         // The lower end turns about the centre.
@@ -136,14 +143,22 @@ impl Case {
         let (n, count) = (3 + random.below(6), 2 + random.below(5));
         let (mut rows, mut blocks): (Vec<Vec<f64>>, Vec<Block>) = (vec![], vec![]);
         for _ in 0..count {
-            let frictions = 1 + random.below(2);
-            let (count, set) = match random.below(5) {
-                0 => (1, Set::Line),
-                1 => (1, Set::HalfLine),
-                2 => (frictions, Set::Disc { radius: random.between(0.0, 1.0) }),
-                _ => (1 + frictions, Set::Cone { mu: random.between(0.0, 1.0) }),
-            };
-            blocks.push(Block { first: rows.len(), count, set });
+            let count = 1 + random.below(2);
+            let radius = random.between(0.0, 1.0);
+            let friction = |gap: Option<usize>| Set::Disc(Limit { radius, mu: 0.5, gap });
+            let (first, gap) = (rows.len(), blocks.len());
+            match random.below(6) {
+                0 => blocks.push(Block { first, count: 1, set: Set::Line }),
+                1 => blocks.push(Block { first, count: 1, set: Set::HalfLine }),
+                2 => blocks.push(Block { first, count, set: friction(None) }),
+                // As in the expansion of an impact, whose least impulses friction has in its limit.
+                3 => blocks.extend([
+                    Block { first, count: 1, set: Set::HalfLine },
+                    Block { first: first + 1, count, set: friction(Some(gap)) },
+                ]),
+                _ => blocks.extend(contact(gap, first, count, radius)),
+            }
+            let count = blocks[gap..].iter().map(|block| block.count).sum::<usize>();
             for _ in 0..count {
                 let is_dependent = rows.len() > 2 && random.once_in(4);
                 let [a, b] = [(); 2].map(|()| random.below(rows.len().max(1)));
@@ -168,8 +183,8 @@ impl Case {
         };
         let rows = points.iter().flat_map(|(point, axes)| axes.map(|axis| row(*point, axis))).collect();
         let scaled = (0..6).map(|i| if i < 3 { motion[i] } else { motion[i] * inertia[i - 3].sqrt() });
-        let block = |k| Block { first: 3 * k, count: 3, set: Set::Cone { mu } };
-        Self::impact(rows, scaled.collect(), (0..points.len()).map(block).collect())
+        let blocks = (0..points.len()).flat_map(|k| contact(2 * k, 3 * k, 2, mu));
+        Self::impact(rows, scaled.collect(), blocks.collect())
     }
 
     /// A table on legs at these corners, which is pushed down, along and about.

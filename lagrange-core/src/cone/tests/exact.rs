@@ -5,7 +5,7 @@ use num_integer::Integer;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 use super::cases::{Case, Rows};
-use crate::cone::{ConeDecision, Face, Set};
+use crate::cone::{ConeDecision, Face, Limit, Set};
 
 /// A rational number, with a positive denominator.
 #[derive(Clone, Debug)]
@@ -79,13 +79,16 @@ fn exactly(case: &Case, found: &ConeDecision) -> Option<[Vec<f64>; 2]> {
         case.rows.iter().map(|row| row.iter().map(|x| Rational::of(*x)).collect()).collect();
     // What each unknown reaction comes with: rows, each with a factor.
     let mut unknowns: Vec<Vec<(usize, f64)>> = vec![];
-    for (face, block) in found.faces.iter().zip(&case.blocks) {
-        let Set::Cone { mu } = block.set else { panic!("contacts alone") };
-        let i = block.first;
-        match face {
-            Face::Open => {}
-            Face::Stick => unknowns.extend([vec![(i, 1.0)], vec![(i + 1, 1.0)]]),
-            Face::Slide([along, _]) => unknowns.push(vec![(i, 1.0), (i + 1, along.signum() * mu)]),
+    for (faces, blocks) in found.faces.chunks(2).zip(case.blocks.chunks(2)) {
+        let (i, Set::Disc(Limit { mu, .. })) = (blocks[0].first, blocks[1].set) else {
+            panic!("contacts alone")
+        };
+        match faces {
+            [Face::Open, _] => {}
+            [_, Face::Open] => unknowns.push(vec![(i, 1.0)]),
+            [_, Face::Stick] => unknowns.extend([vec![(i, 1.0)], vec![(i + 1, 1.0)]]),
+            [_, Face::Slide([along, _])] => unknowns.push(vec![(i, 1.0), (i + 1, along.signum() * mu)]),
+            _ => unreachable!(),
         }
     }
     let column = |unknown: &Vec<(usize, f64)>| -> Vec<Rational> {
@@ -109,10 +112,10 @@ fn exactly(case: &Case, found: &ConeDecision) -> Option<[Vec<f64>; 2]> {
     Some([r, (0..case.n).map(|c| of(c).to_f64()).collect()])
 }
 
-/// The largest error of velocities, as a part of them, where rows face each other so that reactions are larger than rates by up to 10⁸: ε of
-/// the reactions.
+/// The largest error of velocities, as a part of them. Equations whose rows face or repeat one another but for 10⁻⁸ have solutions to
+/// 10⁸ ε.
 fn allowed(kind: Rows) -> f64 {
-    if kind == Rows::Opposed { 1e-7 } else { 1e-12 }
+    if matches!(kind, Rows::NearlyDependent | Rows::Opposed) { 1e-7 } else { 1e-12 }
 }
 
 #[test]
@@ -125,7 +128,7 @@ fn rational_numbers_agree() {
         for seed in 0..lagrange_random::cases([60, 200, 4_000]) as u64 {
             let case = Case::contacts(seed, kind);
             let found = case.decision();
-            if !found.is_found || case.blocks[0].count != 2 {
+            if !found.is_found || case.blocks[1].count != 1 {
                 continue;
             }
             let Some([r, x]) = exactly(&case, &found) else { continue };
@@ -136,10 +139,8 @@ fn rational_numbers_agree() {
             assert!(part <= allowed(kind), "{kind:?}, seed {seed}: velocities are off by {part:e}");
             let unit = size(&r).max(f64::MIN_POSITIVE);
             for block in &case.blocks {
-                let (Set::Cone { mu }, [push, drag]) = (block.set, [r[block.first], r[block.first + 1]])
-                else {
-                    continue;
-                };
+                let Set::Disc(Limit { mu, .. }) = block.set else { continue };
+                let [push, drag] = [r[block.first - 1], r[block.first]];
                 let over = (drag.abs() - mu * push).max(-push);
                 assert!(
                     over <= 1e-12 * unit,

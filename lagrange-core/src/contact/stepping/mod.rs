@@ -243,10 +243,9 @@ fn begin<L: Contacts<Scalar: Real> + Clone>(
     solve(&bodies.open, state)?;
     bodies.passes(state);
     bodies.reaches(state, end - state.t)?;
-    let is_closed: Vec<bool> =
-        (0..L::CONTACTS.len()).map(|k| system.contact(k) != Some(Contact::Open)).collect();
-    bodies.check_closed(&is_closed, state)?;
-    bodies.crossed(&is_closed, state).map_or(Ok(()), Err)?;
+    let is_closed = |k| system.contact(k) != Some(Contact::Open);
+    bodies.check_closed(is_closed, state)?;
+    bodies.crossed(is_closed, state).map_or(Ok(()), Err)?;
     Ok(bodies)
 }
 
