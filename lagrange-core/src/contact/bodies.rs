@@ -179,10 +179,11 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         });
         let of_bodies = (0..<L::N>::COUNT).fold(rate, |rest, i| rest - row[i] * state.v[i]);
         let in_time = (Scalar::abs(rate) + Scalar::abs(of_bodies)) * Scalar::abs(state.t);
+        let rate_in_time = Scalar::abs(self.closed.constraint_bias(state)[a] * state.t);
         Measured {
             gap: self.closed.constraint_residual(state)[a],
             rate,
-            noise: [unit * (of_gap + in_time), unit * of_rate],
+            noise: [unit * (of_gap + in_time), unit * (of_rate + rate_in_time)],
         }
     }
 

@@ -106,7 +106,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         })
     }
 
-    /// Velocities with which bodies begin to slide along two: a multiple of their accelerations, as those of one body go together.
+    /// Velocities with which bodies begin to slide: zero along one; along two, which have no direction at rest, a multiple of their
+    /// accelerations, as those of one body go together.
     pub(super) fn starts(
         &self,
         rows: &TouchingRows<L>,
@@ -116,10 +117,15 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let begins = |&&(f, _): &&(usize, usize)| {
             let FrictionState { friction, from_rest, is_implied } = states.frictions[f];
             let slides = matches!(friction, Friction::Slides(along) if along != [0.0; 2]);
-            from_rest && !is_implied && slides && L::FRICTIONS[f].count == 2
+            from_rest && !is_implied && slides
         };
-        let begun = || rows.frictions.iter().filter(begins).map(|&(_, place)| [place, place + 1]);
-        let time = begun().fold(0.0_f64, |time, both| {
+        let begun = |count: usize| {
+            let begun =
+                rows.frictions.iter().filter(begins).filter(move |&&(f, _)| L::FRICTIONS[f].count == count);
+            begun.map(|&(_, place)| place)
+        };
+        let time = begun(2).fold(0.0_f64, |time, place| {
+            let both = [place, place + 1];
             let changes = both.map(|row| (rows.response(row, row) * gripped.forces[row]).abs());
             let (speed, acceleration) = (
                 self.start(both.map(|row| rows.all[row]), changes, state),
@@ -127,7 +133,9 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             );
             if acceleration > 0.0 { time.max(speed / acceleration) } else { time }
         });
-        begun().flatten().map(|row| (row, gripped.rates[row] * time)).collect()
+        let along_two =
+            begun(2).flat_map(|place| [place, place + 1]).map(|row| (row, gripped.rates[row] * time));
+        along_two.chain(begun(1).map(|row| (row, 0.0))).collect()
     }
 
     /// Speed with which bodies begin to slide: round-off of it, and what the force of friction changes it within the round-off
