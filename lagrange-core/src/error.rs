@@ -362,8 +362,7 @@ pub enum Error {
         time: f64,
     },
     /// Friction that slides leaves no acceleration with a force that presses the bodies together: the contact digs in, or the
-    /// force grows without bound (Painlevé's paradox). For up to four contacts with friction along one velocity, all that they may do
-    /// was tried; for others, Lemke's method found no forces.
+    /// force grows without bound (Painlevé's paradox). All that the contacts may do was tried.
     FrictionJams {
         /// Name of the friction.
         friction: &'static str,

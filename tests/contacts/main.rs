@@ -10,6 +10,7 @@ mod frictionless;
 mod rest;
 mod restitution;
 mod sensitivities;
+mod shaken;
 mod stepping;
 
 // Costly to compile or to run: more systems and methods for what the modules above test.

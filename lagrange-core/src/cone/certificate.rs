@@ -13,6 +13,8 @@ use super::{Block, ConeSolver, Set, dot, length, sqrt};
 
 /// Part of its terms by which a rate may be off the law.
 pub(super) const ACCURACY: f64 = 1e-12;
+/// Part of the change of velocities by which reactions may be off it.
+const OFF: f64 = 4e-13;
 /// Round-off that the sum x = Jᵀ r may have, in units of ε of its terms.
 const BALANCE: f64 = 64.0;
 /// Change of the velocities that this round-off may hide, as a part of the largest rate.
@@ -75,7 +77,7 @@ impl ConeSolver {
         let [sizes, sums] = self.sums();
         let length = sqrt(dot(&self.x, &self.x));
         (0..self.n).all(|c| {
-            let round_off = BALANCE * f64::EPSILON * sizes[c] + ACCURACY * length;
+            let round_off = BALANCE * f64::EPSILON * sizes[c] + OFF * length;
             (sums[c] - self.x[c]).abs() <= round_off && round_off <= HIDDEN * unit
         })
     }

@@ -68,14 +68,17 @@ impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
     }
 
     /// Keeps gaps closed that neither need a force nor open, if those that push do not determine them: a body whose weight is on
-    /// two of its four feet would else be turned about these by the round-off of friction.
+    /// two of its four feet would else be turned about these by the round-off of friction. Where a contact opens, others that were open do
+    /// not take its place without a force: the body tips.
     fn close_idle(&self, gripped: &mut Gripped) {
         let pushing: Vec<usize> = (0..gripped.pushes.len()).filter(|&gap| gripped.pushes[gap]).collect();
         if pushing.is_empty() || self.rows.frictions.is_empty() {
             return;
         }
         let (mut span, plays) = (self.rows.span(pushing), self.plays());
-        for gap in (0..plays.len()).filter(|&gap| plays[gap]) {
+        let may_close =
+            |&gap: &usize| plays[gap] && (!self.opens() || self.was.is_closed(self.rows.touching[gap]));
+        for gap in (0..plays.len()).filter(may_close) {
             let is_still = gripped.rates[gap].abs() <= self.noise(gap, &gripped.forces);
             if !gripped.pushes[gap] && is_still && span.add(gap) {
                 gripped.pushes[gap] = true;

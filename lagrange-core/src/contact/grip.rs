@@ -15,7 +15,7 @@ use crate::system::StateOf;
 use crate::vector::Length;
 
 /// Halvings up to which is known what is left of the limits of friction: 2⁻⁴⁰ = 10⁻¹², the accuracy of forces.
-const HALVINGS: i32 = 40;
+const HALVINGS: i32 = 38;
 
 /// Halvings of what limits are lowered by where friction leaves them: 2⁻²⁴ = 6·10⁻⁸. The direction of sliding is off by that, and by
 /// round-off divided by it.
@@ -129,6 +129,11 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
     pub(super) fn plays(&self) -> Vec<bool> {
         let touching = self.rows.touching.iter().zip(&self.resting);
         touching.map(|(&k, &rests)| rests && self.end != Some(LegEnd::Opens(k))).collect()
+    }
+
+    /// Whether a contact has ceased to push.
+    pub(super) fn opens(&self) -> bool {
+        matches!(self.end, Some(LegEnd::Opens(_)))
     }
 
     /// What is known of the friction `f`: the direction in which it slides, if it does.
