@@ -124,7 +124,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
         (gaps, frictions): (&[Option<usize>], &[Option<usize>]),
     ) -> Gripped {
         let Reactions { forces, rates, faces, .. } = found;
-        let pushes = gaps.iter().map(|gap| gap.is_some_and(|gap| faces[gap] != Face::Open)).collect();
+        // A force that only takes the round-off of a rate is none.
+        let is_force = |gap: usize| self.rows.response(gap, gap) * forces[gap] > self.pressing.1[gap];
+        let pushes = |gap: usize| gaps[gap].is_some_and(|block| faces[block] != Face::Open) && is_force(gap);
+        let pushes = (0..gaps.len()).map(pushes).collect();
         let mut grips = vec![None; L::FRICTIONS.len()];
         for &(f, place) in &self.rows.frictions {
             let moves = || self.moves(f, place, (&forces, &rates));
