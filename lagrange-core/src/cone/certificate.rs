@@ -9,7 +9,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::qr::PivotedQr;
-use super::{Block, ConeSolver, Set, dot, length, sqrt};
+use super::{Block, ConeSolver, Face, Set, dot, length, sqrt};
 
 /// Part of its terms by which a rate may be off the law.
 pub(super) const ACCURACY: f64 = 1e-12;
@@ -94,12 +94,43 @@ impl ConeSolver {
         2.0 * dot(&x, &v) + dot(&self.x, &self.x) > GAIN * dot(&v, &v)
     }
 
+    /// Terms of a rate.
+    fn terms(&self, i: usize) -> f64 {
+        self.row(i).iter().zip(&self.x).fold(self.q[i].abs(), |sum, (j, x)| sum + (j * x).abs())
+    }
+
+    /// The face of a block by its reaction and its rates. The natural map does not tell it where reactions are much larger than rates.
+    pub(super) fn face(&self, k: usize) -> Face {
+        let block = self.blocks[k];
+        match block.set {
+            Set::Line => Face::Stick,
+            Set::HalfLine => {
+                if self.r[block.first] > 0.0 {
+                    Face::Stick
+                } else {
+                    Face::Open
+                }
+            }
+            Set::Ray { gap, .. } => self.face(gap),
+            Set::Disc(limit) => {
+                let (limit, r, u) =
+                    (self.limit(&limit).0, self.two(k, |i| self.r[i]), self.two(k, |i| self.rate(i)));
+                let round_off = block.rows().map(|i| BALANCE * f64::EPSILON * self.terms(i)).sum::<f64>();
+                let size = length(r);
+                match limit > 0.0 {
+                    false => Face::Open,
+                    true if size < limit * (1.0 - 8.0 * f64::EPSILON) || length(u) <= round_off => {
+                        Face::Stick
+                    }
+                    true => Face::Slide(r.map(|x| x / size)),
+                }
+            }
+        }
+    }
+
     /// Whether the rates of a block are those that its reaction allows.
     fn is_lawful(&self, k: usize, unit: f64) -> bool {
         let (block, g) = (self.blocks[k], self.responses[k]);
-        let terms = |i: usize| {
-            self.row(i).iter().zip(&self.x).fold(self.q[i].abs(), |sum, (j, x)| sum + (j * x).abs())
-        };
         let off = match block.set {
             Set::Line => self.rate(block.first).abs(),
             Set::HalfLine => (g * self.r[block.first]).min(self.rate(block.first)).abs(),
@@ -110,6 +141,6 @@ impl ConeSolver {
         };
         off <= block
             .rows()
-            .fold(ACCURACY * unit * sqrt(g), |sum, i| sum + self.noise[i] + ACCURACY * terms(i))
+            .fold(ACCURACY * unit * sqrt(g), |sum, i| sum + self.noise[i] + ACCURACY * self.terms(i))
     }
 }

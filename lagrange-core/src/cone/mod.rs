@@ -16,9 +16,9 @@
 //! How they are found:
 //!
 //! 1. [Contacts that give way](compliant): Newton's method with a compliance, which becomes smaller, guesses the [faces](Face).
-//! 2. [Faces](faces): their equations are solved to round-off by a rank-revealing QR of J. If the law does not hold there, blocks change
+//! 2. [The faces](faces): their equations are solved to round-off by a rank-revealing QR of J. If the law does not hold there, blocks change
 //!    their faces.
-//! 3. Else the same from [sweeps](sweeps), from [inside](interior) all sets, and from other reactions.
+//! 3. Else the same from [sweeps], from [inside](interior) all sets, and from other reactions.
 
 mod certificate;
 mod compliant;
@@ -322,7 +322,7 @@ impl ConeSolver {
             is_found,
             reactions: self.r.iter().zip(&self.scale).map(|(r, scale)| r / scale).collect(),
             rates: (0..self.m).map(|i| self.rate(i) * self.scale[i]).collect(),
-            faces: self.faces(),
+            faces: (0..self.blocks.len()).map(|k| self.face(k)).collect(),
             change: self.x.clone(),
         }
     }

@@ -238,7 +238,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// Whether a gap that is zero remains so but for round-off: its rate is none, or a bounce would rise by none. The first value is its
-    /// acceleration; the second is the round-off of the rate that the motion of all bodies has, see [`motion_noise`](Self::motion_noise).
+    /// acceleration; the second is the round-off of the rate that the motion of all bodies has, see [`TouchingRows::motion_noise`].
     pub(super) fn rests(&self, k: usize, values: [f64; 2], state: &StateOf<L>) -> bool {
         let ([acceleration, of_motion], Measured { rate, noise: [of_gap, of_rate], .. }) =
             (values.map(L::Scalar::constant), self.measured(k, state));
