@@ -123,15 +123,23 @@ const WORK: usize = 40_000;
 /// Most other reactions that are tried to begin with.
 const STARTS: usize = 24;
 
-fn dot(x: &[f64], y: &[f64]) -> f64 {
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).fold(0.0, |sum, (x, y)| sum + x * y)
 }
 
-fn sqrt(x: f64) -> f64 {
+#[cfg(any(feature = "std", feature = "libm"))]
+pub(crate) fn sqrt(x: f64) -> f64 {
     crate::number::Scalar::sqrt(x)
 }
 
-fn length(x: [f64; 2]) -> f64 {
+/// Without a library of functions, by Heron's method from the power of two below.
+#[cfg(not(any(feature = "std", feature = "libm")))]
+pub(crate) fn sqrt(x: f64) -> f64 {
+    let start = if x > 0.0 && x.is_finite() { power_of_two_near_root(x) } else { return x.max(0.0) };
+    (0..6).fold(start, |root, _| 0.5 * (root + x / root))
+}
+
+pub(crate) fn length(x: [f64; 2]) -> f64 {
     sqrt(x[0] * x[0] + x[1] * x[1])
 }
 

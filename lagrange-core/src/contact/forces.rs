@@ -3,11 +3,10 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::cones::length;
 use super::grip::{Decision, Gripped};
 use super::rows::{NoForces, Problem, Reactions};
 use super::{Contacts, Friction};
-use crate::cone::{Face, Limit, Set};
+use crate::cone::{Face, Limit, Set, length};
 use crate::error::Error;
 use crate::number::Real;
 use crate::system::StateOf;

@@ -10,6 +10,7 @@ use super::rows::{NoForces, TouchingRows};
 use super::states::{FrictionState, States};
 use super::trajectory::Transition;
 use super::{Contacts, Friction, FrictionRows};
+use crate::cone;
 use crate::error::Error;
 use crate::number::{Real, Scalar, larger};
 use crate::system::StateOf;
@@ -129,7 +130,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let changes = both.map(|row| (rows.response(row, row) * gripped.forces[row]).abs());
             let (speed, acceleration) = (
                 self.start(both.map(|row| rows.all[row]), changes, state),
-                length(both.map(|row| gripped.rates[row])),
+                cone::length(both.map(|row| gripped.rates[row])),
             );
             if acceleration > 0.0 { time.max(speed / acceleration) } else { time }
         });

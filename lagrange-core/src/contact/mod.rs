@@ -278,6 +278,8 @@ mod impact;
 #[cfg(feature = "alloc")]
 mod instant;
 #[cfg(feature = "alloc")]
+mod kinetic;
+#[cfg(feature = "alloc")]
 mod last_value;
 #[cfg(feature = "alloc")]
 mod legs;

@@ -5,13 +5,13 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 use core::ops::Range;
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
-
 use super::Contacts;
 use super::bodies::{Bodies, UNITS};
+use super::kinetic::KineticFactor;
 use super::states::States;
-use crate::cone::{Block, ConeDecision, ConeSolver, Face, Set};
+use crate::cone::{Block, ConeDecision, ConeSolver, Face, Set, dot, sqrt};
 use crate::error::Error;
+use crate::names::Names;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve;
 use crate::system::StateOf;
@@ -32,14 +32,11 @@ pub(super) struct TouchingRows<L> {
     pub(super) frictions: Vec<(usize, usize)>,
     /// Number of rows of contacts and friction.
     pub(super) count: usize,
-    /// J, each row as a column.
-    j: DMatrix<f64>,
-    mass: Cholesky<f64, Dyn>,
+    /// J by rows, of n entries each.
+    j: Vec<f64>,
+    n: usize,
+    mass: KineticFactor,
     system: PhantomData<fn(&L)>,
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).fold(0.0, |sum, (x, y)| sum + x * y)
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
@@ -58,7 +55,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             |a: &usize| !L::CONTACTS.contains(a) && !L::FRICTIONS.iter().any(|of| of.rows().contains(a));
         all.extend((0..<L::M>::COUNT).filter(is_free));
         let (j, mass) = self.kinetic(&all, count, state)?;
-        Ok(TouchingRows { all, touching, frictions, count, j, mass, system: PhantomData })
+        let n = <L::N>::COUNT;
+        Ok(TouchingRows { all, touching, frictions, count, j, n, mass, system: PhantomData })
     }
 
     /// Rows in the coordinates of kinetic energy. Coordinates without mass have constraints that move them: a least mass along these rows
@@ -68,42 +66,44 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         all: &[usize],
         count: usize,
         state: &StateOf<L>,
-    ) -> Result<(DMatrix<f64>, Cholesky<f64, Dyn>), Error> {
+    ) -> Result<(Vec<f64>, KineticFactor), Error> {
         let n = <L::N>::COUNT;
         let (jacobian, of_constraints) =
             (self.closed.constraint_jacobian(state), self.open.constraint_jacobian(state));
-        let entry = |i: usize, place: usize| match place < count {
+        let entry = |place: usize, i: usize| match place < count {
             true => jacobian[(all[place], i)].to_f64(),
             false => of_constraints[(all[place], i)].to_f64(),
         };
-        let mut j = DMatrix::from_fn(n, all.len(), entry);
+        let mut j: Vec<f64> = (0..all.len())
+            .flat_map(|place| (0..n).map(move |i| (place, i)))
+            .map(|(place, i)| entry(place, i))
+            .collect();
         let masses = self.open.mass_matrix(state);
-        let mut mass = DMatrix::from_fn(n, n, |i, k| masses[(i, k)].to_f64());
-        let largest = mass.diagonal().amax();
-        for row in j.column_iter().skip(count) {
-            let along = |i: usize| mass[(i, i)] / (row[i] * row[i]);
-            let least = (0..n)
-                .map(along)
-                .filter(|along| *along > 0.0 && along.is_finite())
-                .fold(f64::INFINITY, f64::min);
+        let mut mass: Vec<f64> =
+            (0..n).flat_map(|i| (0..n).map(move |k| (i, k))).map(|(i, k)| masses[(i, k)].to_f64()).collect();
+        let largest = (0..n).fold(0.0, |most, i| f64::max(most, mass[i * n + i].abs()));
+        for row in j.chunks_exact(n.max(1)).skip(count) {
+            let along = |i: usize| mass[i * n + i] / (row[i] * row[i]);
+            let along = (0..n).map(along).filter(|along| *along > 0.0 && along.is_finite());
+            let least = along.fold(f64::INFINITY, f64::min);
             let least = if least.is_finite() { least } else { largest };
-            mass += least * row * row.transpose();
+            for (i, of) in row.iter().enumerate() {
+                mass[i * n..][..n].iter_mut().zip(row).for_each(|(m, w)| *m += least * of * w);
+            }
         }
-        match mass.cholesky() {
-            Some(mass) if mass.l_dirty().solve_lower_triangular_mut(&mut j) => Ok((j, mass)),
-            // Says which coordinates have no mass.
-            _ => Err(match solve(&self.open, state) {
-                Err(error) => error,
-                Ok(_) => Error::Singular { coordinates: Default::default(), time: state.t.to_f64() },
-            }),
-        }
+        // The general solver says which coordinates have no mass.
+        let Some(mass) = KineticFactor::of(mass, n) else {
+            solve(&self.open, state)?;
+            return Err(Error::Singular { coordinates: Names::default(), time: state.t.to_f64() });
+        };
+        j.chunks_exact_mut(n.max(1)).for_each(|row| mass.solve_lower(row));
+        Ok((j, mass))
     }
 }
 
 impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
     pub(super) fn row(&self, place: usize) -> &[f64] {
-        let n = self.j.nrows();
-        &self.j.as_slice()[place * n..][..n]
+        &self.j[place * self.n..][..self.n]
     }
 
     /// By how much a reaction of 1 of one row changes the rate of another one.
@@ -113,8 +113,8 @@ impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
 
     /// Change of the velocities q̇ by this one of x.
     pub(super) fn velocities(&self, x: &[f64]) -> Vector<L::Scalar, L::N> {
-        let mut v = DVector::from_column_slice(x);
-        self.mass.l_dirty().tr_solve_lower_triangular_mut(&mut v);
+        let mut v = x.to_vec();
+        self.mass.solve_upper(&mut v);
         vector(Array::from_fn(|i| L::Scalar::constant(v[i])))
     }
 
@@ -133,11 +133,9 @@ impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
     /// Round-off that the motion of all bodies leaves in rates: |J x| ≤ |J| |x|, in any coordinates. Those of a wedge and a block on it
     /// have no other size.
     pub(super) fn motion_noise(&self, state: &StateOf<L>) -> Vec<f64> {
-        let v = DVector::from_fn(self.j.nrows(), |i, _| state.v[i].to_f64());
-        let x = self.mass.l_dirty().lower_triangle().tr_mul(&v).norm();
-        (0..self.count)
-            .map(|place| L::Scalar::EPSILON * UNITS * x * Scalar::sqrt(self.response(place, place)))
-            .collect()
+        let v: Vec<f64> = (0..self.n).map(|i| state.v[i].to_f64()).collect();
+        let speed = L::Scalar::EPSILON * UNITS * self.mass.speed(&v);
+        (0..self.count).map(|place| speed * sqrt(self.response(place, place))).collect()
     }
 
     /// Rows that stay at rest: closed gaps, and velocities of friction that sticks.
@@ -158,7 +156,7 @@ impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
 
     /// The span of rows.
     pub(super) fn span(&self, places: impl IntoIterator<Item = usize>) -> RowSpan<'_, L> {
-        let mut span = RowSpan { rows: self, basis: Vec::new(), change: vec![0.0; self.j.nrows()] };
+        let mut span = RowSpan { rows: self, basis: Vec::new(), change: vec![0.0; self.n] };
         (self.count..self.all.len()).chain(places).for_each(|place| {
             span.add(place);
         });
@@ -216,7 +214,7 @@ impl<L: Contacts<Scalar: Real>> RowSpan<'_, L> {
     /// Whether a row depends on those of the span.
     pub(super) fn depends(&self, place: usize) -> bool {
         let (row, rest) = (self.rows.row(place), self.rest(self.rows.row(place).to_vec()));
-        let least = f64::max(DEPENDENT, Scalar::sqrt(L::Scalar::EPSILON));
+        let least = f64::max(DEPENDENT, sqrt(L::Scalar::EPSILON));
         dot(&rest, &rest) <= least * least * dot(row, row)
     }
 
@@ -226,7 +224,7 @@ impl<L: Contacts<Scalar: Real>> RowSpan<'_, L> {
             return false;
         }
         let rest = self.rest(self.rows.row(place).to_vec());
-        let size = Scalar::sqrt(dot(&rest, &rest));
+        let size = sqrt(dot(&rest, &rest));
         self.basis.push(rest.into_iter().map(|x| x / size).collect());
         true
     }
@@ -313,7 +311,7 @@ impl<'a, L: Contacts<Scalar: Real>> Problem<'a, L> {
         let of =
             |all: &[f64]| self.places.iter().map(|&place| all.get(place).copied().unwrap_or(0.0)).collect();
         let j = self.places.iter().flat_map(|&place| self.rows.row(place)).copied().collect();
-        ConeSolver::new(self.rows.j.nrows(), j, [of(&self.rates), of(self.noise)], self.blocks.clone())
+        ConeSolver::new(self.rows.n, j, [of(&self.rates), of(self.noise)], self.blocks.clone())
     }
 
     fn reactions(&self, found: ConeDecision) -> Reactions {

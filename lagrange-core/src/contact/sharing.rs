@@ -2,10 +2,10 @@
 
 use alloc::vec::Vec;
 
-use super::cones::length;
 use super::grip::{Decision, Gripped};
 use super::states::States;
 use super::{Contacts, Friction};
+use crate::cone::length;
 use crate::number::Real;
 
 /// Friction at rest.
