@@ -149,3 +149,28 @@ fn systems_behind_pointers_have_their_contacts() {
     }
     assert_eq!([of(&BALL), of(&&BALL), of(&Box::new(BALL))], [(true, 1.0); 3]);
 }
+
+/// A rope without mass carries a bob over a floor: its length s has no mass of its own, and a constraint that moves it.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y, s)]
+#[lagrangian(m/2 * y_dot^2 - m*g*y)]
+#[constraint(rope: y + s = l)]
+#[contact(floor: y >= 0, restitution: e)]
+struct Hoist {
+    m: f64,
+    g: f64,
+    l: f64,
+    e: f64,
+    floor: Contact,
+}
+
+#[test]
+fn a_coordinate_without_mass_meets_the_floor() {
+    let hoist = Hoist { m: 2.0, g: 9.81, l: 3.0, e: 0.5, floor: Contact::Open };
+    let path = hoist.motion(State::at_rest([1.0, 2.0])).with_contacts().to(0.6).unwrap();
+    let fall = (2.0 / 9.81_f64).sqrt();
+    assert!((impacts(path.transitions())[0] - fall).abs() < 1e-14);
+    let since = 0.6 - fall;
+    let height = 0.5 * (2.0 * 9.81_f64).sqrt() * since - 9.81 / 2.0 * since * since;
+    assert!((path.end().q[0] - height).abs() < 1e-13 && (path.end().q[1] - 3.0 + height).abs() < 1e-13);
+}

@@ -9,7 +9,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::qr::PivotedQr;
-use super::{Block, ConeSolver, Face, Set, dot, length, sqrt};
+use super::{ConeSolver, Face, RowBlock, Set, dot, length, sqrt};
 
 /// Part of its terms by which a rate may be off the law.
 pub(super) const ACCURACY: f64 = 1e-12;
@@ -50,7 +50,7 @@ impl ConeSolver {
 
     /// Response of each row: that of its block.
     pub(super) fn compliance(&self) -> Vec<f64> {
-        let of = |(block, g): (&Block, &f64)| core::iter::repeat_n(*g, block.count);
+        let of = |(block, g): (&RowBlock, &f64)| core::iter::repeat_n(*g, block.count);
         self.blocks.iter().zip(&self.responses).flat_map(of).collect()
     }
 

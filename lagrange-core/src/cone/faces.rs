@@ -9,7 +9,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::qr::PivotedQr;
-use super::{Block, ConeSolver, Face, Limit, Set, dot, length, sqrt};
+use super::{ConeSolver, Face, Limit, RowBlock, Set, dot, length, sqrt};
 
 /// Parts of the largest pivot below which rows depend on one another: rounding leaves 10⁻¹⁶ to 10⁻¹⁵ of those that do. Where faces with
 /// the first do not satisfy the law, the second is tried.
@@ -283,7 +283,7 @@ impl ConeSolver {
 
     /// Faces without the directions of friction along two velocities.
     fn kinds(&self, faces: &[Face]) -> Vec<u8> {
-        let kind = |(face, block): (&Face, &Block)| match face {
+        let kind = |(face, block): (&Face, &RowBlock)| match face {
             Face::Open => 0,
             Face::Stick => 1,
             Face::Slide([x, _]) => 2 + u8::from(*x > 0.0 && block.count == 1),

@@ -7,7 +7,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::compliant::eliminate;
-use super::{Block, ConeSolver, Set, dot, length, sqrt};
+use super::{ConeSolver, RowBlock, Set, dot, length, sqrt};
 
 /// Sizes of the reactions that the path begins with, as multiples of the largest rate.
 const SIZES: [f64; 3] = [1.0, 100.0, 0.01];
@@ -97,7 +97,7 @@ impl ConeSolver {
             self.r[block.first] = size;
         }
         self.clip(None);
-        let slack = |block: &Block| self.rate(block.first).max(size);
+        let slack = |block: &RowBlock| self.rate(block.first).max(size);
         let lambda = |k: usize| 1.1 * length(self.two(k, |i| self.rate(i))) + size;
         let (lambda, slack) =
             ((0..self.blocks.len()).map(lambda).collect(), self.blocks.iter().map(slack).collect());

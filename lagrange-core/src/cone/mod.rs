@@ -57,13 +57,13 @@ pub(crate) struct Limit {
 
 /// Rows that belong together: one, or the two velocities of a friction in a plane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Block {
+pub(crate) struct RowBlock {
     pub(crate) first: usize,
     pub(crate) count: usize,
     pub(crate) set: Set,
 }
 
-impl Block {
+impl RowBlock {
     fn rows(&self) -> Range<usize> {
         self.first..self.first + self.count
     }
@@ -107,7 +107,7 @@ pub(crate) struct ConeSolver {
     q: Vec<f64>,
     /// Round-off of q.
     noise: Vec<f64>,
-    blocks: Vec<Block>,
+    blocks: Vec<RowBlock>,
     /// By how much a reaction of 1 of each block changes its own rate, in the direction where that is most; 1 for rows of zeros.
     responses: Vec<f64>,
     scale: Vec<f64>,
@@ -132,9 +132,12 @@ pub(crate) fn sqrt(x: f64) -> f64 {
     crate::number::Scalar::sqrt(x)
 }
 
-/// Without a library of functions, by Heron's method from the power of two below.
 #[cfg(not(any(feature = "std", feature = "libm")))]
-pub(crate) fn sqrt(x: f64) -> f64 {
+pub(crate) use root_by_heron as sqrt;
+
+/// Without a library of functions, by Heron's method from the power of two below.
+#[cfg(any(test, not(any(feature = "std", feature = "libm"))))]
+pub(crate) fn root_by_heron(x: f64) -> f64 {
     let start = if x > 0.0 && x.is_finite() { power_of_two_near_root(x) } else { return x.max(0.0) };
     (0..6).fold(start, |root, _| 0.5 * (root + x / root))
 }
@@ -151,7 +154,7 @@ fn power_of_two_near_root(x: f64) -> f64 {
 
 impl ConeSolver {
     /// `j` has rows of length `n`; `noise` is the round-off of `q`.
-    pub(crate) fn new(n: usize, j: Vec<f64>, [q, noise]: [Vec<f64>; 2], blocks: Vec<Block>) -> Self {
+    pub(crate) fn new(n: usize, j: Vec<f64>, [q, noise]: [Vec<f64>; 2], blocks: Vec<RowBlock>) -> Self {
         let m = q.len();
         let zeros = || vec![0.0; m];
         let mut solver = Self {
@@ -179,7 +182,7 @@ impl ConeSolver {
 
     /// Divides the rows of a block by a power of two.
     fn scale_block(&mut self, k: usize) {
-        let Block { first, count, set } = self.blocks[k];
+        let RowBlock { first, count, set } = self.blocks[k];
         let squares = (first..first + count).map(|i| dot(self.row(i), self.row(i)));
         let by = power_of_two_near_root(squares.fold(0.0, f64::max));
         for i in first..first + count {
@@ -196,7 +199,7 @@ impl ConeSolver {
         };
     }
 
-    fn response_of(&self, block: &Block) -> f64 {
+    fn response_of(&self, block: &RowBlock) -> f64 {
         let w = |a: usize, b: usize| self.w[a * self.m + b];
         let (i, k) = (block.first, block.first + block.count - 1);
         let most = (w(i, i) + w(k, k)) / 2.0
@@ -255,7 +258,7 @@ impl ConeSolver {
 
     /// Two entries of the rows of a block, the second zero if there is one row.
     fn two(&self, k: usize, value: impl Fn(usize) -> f64) -> [f64; 2] {
-        let Block { first, count, .. } = self.blocks[k];
+        let RowBlock { first, count, .. } = self.blocks[k];
         [value(first), if count > 1 { value(first + 1) } else { 0.0 }]
     }
 

@@ -5,7 +5,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::faces::RANKS;
-use super::{Block, ConeSolver, Face, Set};
+use super::{ConeSolver, Face, RowBlock, Set};
 
 /// Directions that friction along two velocities is tried in to begin with.
 const DIRECTIONS: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
@@ -48,7 +48,7 @@ impl ConeSolver {
     }
 
     fn choices(&self, k: usize) -> Vec<Face> {
-        let Block { count, set, .. } = self.blocks[k];
+        let RowBlock { count, set, .. } = self.blocks[k];
         match set {
             Set::Line | Set::Ray { .. } => vec![Face::Stick],
             Set::HalfLine => vec![Face::Stick, Face::Open],

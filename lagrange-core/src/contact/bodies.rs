@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::rows::TouchingRows;
-use super::states::{FrictionState, States};
+use super::states::{LegFriction, LegStates};
 use super::{Contact, Contacts, Friction};
 use crate::error::Error;
 use crate::motion::Simulate;
@@ -79,7 +79,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             system
         };
         let largest = [Array::filled(L::Scalar::constant(0.0)); 2];
-        let open = all(Contact::Open, FrictionState::OFF.friction);
+        let open = all(Contact::Open, LegFriction::OFF.friction);
         let closed = all(Contact::Closed, Friction::Sticks);
         Self { open, closed, largest, span: L::Scalar::constant(0.0) }
     }
@@ -91,7 +91,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// The system with contacts and friction in these states.
-    pub(super) fn with(&self, states: &States) -> L {
+    pub(super) fn with(&self, states: &LegStates) -> L {
         let mut system = self.open.clone();
         for (k, of) in states.contacts.iter().enumerate() {
             system.set_contact(k, if of.is_closed { Contact::Closed } else { Contact::Open });
@@ -109,7 +109,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         is_closed: impl Fn(usize) -> bool,
         state: &StateOf<L>,
     ) -> Result<(), Error> {
-        self.with(&States::closed::<L>(is_closed)).check_consistent(state).map_err(|error| match error {
+        self.with(&LegStates::closed::<L>(is_closed)).check_consistent(state).map_err(|error| match error {
             Error::Inconsistent { constraint: contact, rate, residual, time }
                 if (0..L::CONTACTS.len()).any(|k| self.name(k) == contact) =>
             {
@@ -250,7 +250,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     pub(super) fn check_gradients(&self, touching: &[usize], state: &StateOf<L>) -> Result<(), Error> {
         match touching {
             [] => Ok(()),
-            _ => gradient::check(&self.with(&States::closed::<L>(|k| touching.contains(&k))), state),
+            _ => gradient::check(&self.with(&LegStates::closed::<L>(|k| touching.contains(&k))), state),
         }
     }
 

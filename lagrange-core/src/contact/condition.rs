@@ -1,7 +1,7 @@
 //! Conditions under which a leg goes on, and steps within which bounds on the multipliers say that they hold.
 
 use super::friction::bounds;
-use super::states::States;
+use super::states::LegStates;
 use super::{Contacts, FrictionRows};
 use crate::error::Error;
 use crate::motion::MultiplierBounds;
@@ -24,7 +24,7 @@ impl<T: Real> LegCondition<T> {
     /// Condition of friction `f` in these states.
     pub(super) fn of_friction<L: Contacts<Scalar = T>>(
         (closed, f): (&L, usize),
-        states: &States,
+        states: &LegStates,
         state: &StateOf<L>,
     ) -> Result<Self, Error> {
         let FrictionRows { row, count, contact, has_constant_limit } = L::FRICTIONS[f];

@@ -7,7 +7,7 @@ use super::bodies::Bodies;
 use super::instant::{Decided, LegEnd};
 use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
 use super::lifting::Lifting;
-use super::states::States;
+use super::states::LegStates;
 use super::trajectory::Transition;
 use super::watched::{SharedValues, of_contacts, of_friction};
 use super::{Contact, Contacts};
@@ -34,7 +34,7 @@ pub(super) struct Journey<'w, L: Lagrangian, K> {
     statistics: Statistics,
     accept: Accept<'w, L>,
     /// State, contacts and number of transitions at the end of the last leg.
-    arrived: Option<(StateOf<L>, States, usize)>,
+    arrived: Option<(StateOf<L>, LegStates, usize)>,
 }
 
 /// A motion that has ended.
@@ -66,7 +66,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         bodies.reaches(&state, end - state.t)?;
         bodies.crossed(is_closed, &state).map_or(Ok(()), Err)?;
         let (times, was) =
-            ([state.t, end], States { frictions: Vec::new(), ..States::closed::<L>(is_closed) });
+            ([state.t, end], LegStates { frictions: Vec::new(), ..LegStates::closed::<L>(is_closed) });
         let decided = bodies.settle(&mut state, (&was, None), &mut transitions)?;
         let (crossings, statistics, accept) =
             (Vec::new(), Statistics::default(), Box::new(|_: &_, _| Ok(())));

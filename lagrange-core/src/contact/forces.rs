@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::grip::{Decision, Gripped};
-use super::rows::{NoForces, Problem, Reactions};
+use super::reactions::{NoForces, ReactionProblem, Reactions};
 use super::{Contacts, Friction};
 use crate::cone::{Face, Limit, Set, length};
 use crate::error::Error;
@@ -88,7 +88,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
     /// Forces of the contacts that `plays` marks, and of their friction and dry friction.
     fn of_playing(&self, part: f64, plays: &[bool]) -> Result<Gripped, NoForces> {
         let (rates, noise) = self.pressing;
-        let mut problem = Problem::new(self.rows, rates.clone(), noise);
+        let mut problem = ReactionProblem::new(self.rows, rates.clone(), noise);
         let mut gaps = vec![None; plays.len()];
         for gap in (0..plays.len()).filter(|&gap| plays[gap]) {
             gaps[gap] = Some(problem.push(gap..gap + 1, Set::HalfLine));

@@ -6,8 +6,9 @@ use core::ops::Range;
 use super::bodies::Bodies;
 use super::cones::length;
 use super::grip::Gripped;
-use super::rows::{NoForces, TouchingRows};
-use super::states::{FrictionState, States};
+use super::reactions::NoForces;
+use super::rows::TouchingRows;
+use super::states::{LegFriction, LegStates};
 use super::trajectory::Transition;
 use super::{Contacts, Friction, FrictionRows};
 use crate::cone;
@@ -94,9 +95,9 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     }
 
     /// Whether a velocity is against the direction in which it slides: what was left of the rates of contacts at rest has turned it.
-    pub(super) fn slides_back(&self, states: &States, state: &StateOf<L>) -> bool {
+    pub(super) fn slides_back(&self, states: &LegStates, state: &StateOf<L>) -> bool {
         (0..L::FRICTIONS.len()).any(|f| {
-            let FrictionState { friction: Friction::Slides(direction), is_implied: false, .. } =
+            let LegFriction { friction: Friction::Slides(direction), is_implied: false, .. } =
                 states.frictions[f]
             else {
                 return false;
@@ -112,11 +113,11 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     pub(super) fn starts(
         &self,
         rows: &TouchingRows<L>,
-        (states, gripped): (&States, &Gripped),
+        (states, gripped): (&LegStates, &Gripped),
         state: &StateOf<L>,
     ) -> Vec<(usize, f64)> {
         let begins = |&&(f, _): &&(usize, usize)| {
-            let FrictionState { friction, from_rest, is_implied } = states.frictions[f];
+            let LegFriction { friction, from_rest, is_implied } = states.frictions[f];
             let slides = matches!(friction, Friction::Slides(along) if along != [0.0; 2]);
             from_rest && !is_implied && slides
         };
@@ -150,8 +151,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Reports the friction that begins to stick or to slide, or slides back, while its contact stays closed.
     pub(super) fn report_friction(
         &self,
-        was: &States,
-        is: &States,
+        was: &LegStates,
+        is: &LegStates,
         state: &StateOf<L>,
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) {

@@ -7,14 +7,14 @@ use super::bodies::Bodies;
 use super::friction::{BEGIN, bounds};
 use super::instant::LegEnd;
 use super::rows::TouchingRows;
-use super::states::{ContactState, FrictionState, States};
+use super::states::{LegContact, LegFriction, LegStates};
 use super::{Contacts, Friction};
 use crate::error::Error;
 use crate::number::Real;
 use crate::system::StateOf;
 use crate::vector::Length;
 
-/// Halvings up to which is known what is left of the limits of friction: 2⁻⁴⁰ = 10⁻¹², the accuracy of forces.
+/// Halvings up to which is known what is left of the limits of friction: 2⁻³⁸ = 4·10⁻¹², four times the accuracy of forces.
 const HALVINGS: i32 = 38;
 
 /// Halvings of what limits are lowered by where friction leaves them: 2⁻²⁴ = 6·10⁻⁸. The direction of sliding is off by that, and by
@@ -35,7 +35,7 @@ pub(super) struct Decision<'a, L: Contacts<Scalar: Real>> {
     /// Limit and sliding force of each friction.
     pub(super) bounds: Vec<[f64; 2]>,
     /// The states before, and what ended them.
-    pub(super) was: &'a States,
+    pub(super) was: &'a LegStates,
     end: Option<LegEnd>,
     /// Which of the touching contacts are at rest.
     pub(super) resting: Vec<bool>,
@@ -69,7 +69,7 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
         (rows, pressing): (&'a TouchingRows<L>, &'a (Vec<f64>, Vec<f64>)),
         resting: Vec<bool>,
         state: &StateOf<L>,
-        (was, end): (&'a States, Option<LegEnd>),
+        (was, end): (&'a LegStates, Option<LegEnd>),
     ) -> Result<Self, Error> {
         // What has the same velocity as another friction stops with it.
         let units = if matches!(end, Some(LegEnd::Stops(_))) { BEGIN } else { 1.0 };
@@ -197,30 +197,30 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
         held.map(|k| self.held.push(self.fallen.remove(k).0)).is_some()
     }
 
-    /// States of contacts and friction from here on.
-    pub(super) fn states(&self, gripped: &Gripped) -> States {
-        let mut states = States::closed::<L>(|k| self.rows.gap(k).is_some_and(|gap| gripped.pushes[gap]));
+    /// LegStates of contacts and friction from here on.
+    pub(super) fn states(&self, gripped: &Gripped) -> LegStates {
+        let mut states = LegStates::closed::<L>(|k| self.rows.gap(k).is_some_and(|gap| gripped.pushes[gap]));
         for &(f, _) in &self.rows.frictions {
-            let friction = gripped.grips[f].unwrap_or(FrictionState::OFF.friction);
+            let friction = gripped.grips[f].unwrap_or(LegFriction::OFF.friction);
             states.frictions[f] =
-                FrictionState { friction, from_rest: self.slips[f].is_none(), is_implied: false };
+                LegFriction { friction, from_rest: self.slips[f].is_none(), is_implied: false };
         }
         self.share(gripped, &mut states);
         let (span, plays) = (self.rows.span(self.rows.active(&states)), self.plays());
         for (place, &k) in self.rows.touching.iter().enumerate() {
-            let ContactState { is_closed, .. } = states.contacts[k];
+            let LegContact { is_closed, .. } = states.contacts[k];
             let is_still = gripped.rates[place].abs() <= self.noise(place, &gripped.forces);
             let is_implied = plays[place] && !is_closed && is_still && span.depends(place);
             // A contact that parts ever faster is watched as one that rests, since it may start below zero by its round-off. So is one whose
             // multiplier has just become zero, as its gap begins to open without an acceleration.
             let is_resting = self.resting[place] || gripped.rates[place] >= 0.0;
-            states.contacts[k] = ContactState { is_closed, is_implied, is_resting };
+            states.contacts[k] = LegContact { is_closed, is_implied, is_resting };
         }
         states
     }
 
     /// Acceleration towards each closed contact without its own forces, while the others that are closed stay so.
-    pub(super) fn towards(&self, gripped: &Gripped, states: &States) -> Vec<f64> {
+    pub(super) fn towards(&self, gripped: &Gripped, states: &LegStates) -> Vec<f64> {
         let (mut towards, active) = (vec![0.0; L::CONTACTS.len()], self.rows.active(states));
         for (place, &k) in self.rows.touching.iter().enumerate().filter(|(_, k)| states.is_closed(**k)) {
             let of_friction =

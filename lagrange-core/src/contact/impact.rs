@@ -5,7 +5,8 @@ use alloc::vec::Vec;
 
 use super::bodies::Bodies;
 use super::friction::{BEGIN, bounds};
-use super::rows::{NoForces, Problem, Reactions, TouchingRows};
+use super::reactions::{NoForces, ReactionProblem, Reactions};
+use super::rows::TouchingRows;
 use super::trajectory::Transition;
 use super::{Contacts, ImpactLaw};
 use crate::cone::{Limit, Set};
@@ -57,7 +58,7 @@ impl<L: Contacts<Scalar: Real>> StagedImpact<'_, L> {
 
     /// Impulses, of which those of gaps are at least these.
     fn stage(&self, rates: Vec<f64>, least: &[f64]) -> Result<Reactions, NoForces> {
-        let mut problem = Problem::new(self.rows, rates, &self.noise);
+        let mut problem = ReactionProblem::new(self.rows, rates, &self.noise);
         let mut gaps = vec![None; self.plays.len()];
         for gap in (0..self.plays.len()).filter(|&gap| self.plays[gap]) {
             problem.know(gap, least[gap]);

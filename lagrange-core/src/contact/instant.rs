@@ -6,7 +6,7 @@ use super::Contacts;
 use super::bodies::{Bodies, Measured};
 use super::grip::{Decision, Gripped};
 use super::rows::TouchingRows;
-use super::states::States;
+use super::states::LegStates;
 use super::trajectory::Transition;
 use crate::error::Error;
 use crate::names::name;
@@ -42,14 +42,14 @@ pub(super) enum LegEnd {
 
 /// Contacts and friction after an instant.
 pub(super) struct Decided<T> {
-    pub(super) states: States,
+    pub(super) states: LegStates,
     /// Time within which the next bounce ends, if one begins.
     pub(super) bounce: Option<T>,
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Contacts that are closed, or whose gaps are zero.
-    fn all_touching(&self, was: &States, end: Option<LegEnd>, state: &StateOf<L>) -> Vec<usize> {
+    fn all_touching(&self, was: &LegStates, end: Option<LegEnd>, state: &StateOf<L>) -> Vec<usize> {
         let is_touching = |k: usize| {
             was.is_closed(k)
                 || end == Some(LegEnd::Closes(k))
@@ -64,7 +64,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     pub(super) fn settle(
         &mut self,
         state: &mut StateOf<L>,
-        (was, mut end): (&States, Option<LegEnd>),
+        (was, mut end): (&LegStates, Option<LegEnd>),
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<Decided<L::Scalar>, Error> {
         let touching = self.all_touching(was, end, state);
@@ -98,7 +98,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         (rows, pressing): (&TouchingRows<L>, &(Vec<f64>, Vec<f64>)),
         resting: Vec<bool>,
         state: &mut StateOf<L>,
-        (was, end): (&States, Option<LegEnd>),
+        (was, end): (&LegStates, Option<LegEnd>),
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<Decided<L::Scalar>, Error> {
         let before = *state;
@@ -121,7 +121,12 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
 
     /// Takes the rates, all but zero, of what stays at rest: closed gaps, and friction that sticks. No other gap at rest closes. What begins
     /// to slide along two velocities gets a speed.
-    fn halt(&self, rows: &TouchingRows<L>, (states, gripped): (&States, &Gripped), state: &mut StateOf<L>) {
+    fn halt(
+        &self,
+        rows: &TouchingRows<L>,
+        (states, gripped): (&LegStates, &Gripped),
+        state: &mut StateOf<L>,
+    ) {
         let (rates, _) = self.measured_rates(rows, state);
         let mut span = rows.span([]);
         for place in rows.active(states) {
@@ -161,7 +166,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         &self,
         towards: &[f64],
         state: &StateOf<L>,
-        (was, is): (&States, &States),
+        (was, is): (&LegStates, &LegStates),
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<(), Error> {
         let [zero, one, two] = [0.0, 1.0, 2.0].map(L::Scalar::constant);

@@ -8,7 +8,7 @@ use super::Contacts;
 use super::bodies::Bodies;
 use super::condition::LegCondition;
 use super::lifting::Lifting;
-use super::states::States;
+use super::states::LegStates;
 use crate::error::{Ending, Error};
 use crate::motion::event::{AnyEvent, DenseStep, EventSearch};
 use crate::motion::record::Record;
@@ -90,7 +90,7 @@ where
 /// Looks at each step of a leg: at conditions of contacts, at its entries, at gaps that are crossed, and for the progress callback.
 pub(super) struct LegWatch<'l, 'w, L: Lagrangian> {
     pub(super) bodies: &'l mut Bodies<L>,
-    pub(super) states: &'l States,
+    pub(super) states: &'l LegStates,
     pub(super) lifting: &'l Lifting<L::Scalar>,
     pub(super) accept: &'l mut Accept<'w, L>,
     /// Number of the events before those of contacts.

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::cell::Cell;
 
-use super::states::{ContactState, States};
+use super::states::{LegContact, LegStates};
 use crate::number::Real;
 
 /// The contacts that opened at the start of a leg, of two bodies at rest, and whose gaps have stayed zero to round-off at the end of
@@ -26,8 +26,8 @@ enum Rise<T> {
 
 impl<T: Real> Lifting<T> {
     /// Those that are open and at rest at the start of a leg.
-    pub(super) fn of(states: &States) -> Self {
-        let rise = |of: &ContactState| match of.is_resting && !of.is_closed {
+    pub(super) fn of(states: &LegStates) -> Self {
+        let rise = |of: &LegContact| match of.is_resting && !of.is_closed {
             true => Rise::Always,
             false => Rise::None,
         };

@@ -288,9 +288,13 @@ mod lifting;
 #[cfg(feature = "alloc")]
 mod newton;
 #[cfg(feature = "alloc")]
+mod reactions;
+#[cfg(feature = "alloc")]
 mod rows;
 #[cfg(feature = "alloc")]
 mod sharing;
+#[cfg(feature = "alloc")]
+mod span;
 #[cfg(feature = "alloc")]
 mod states;
 #[cfg(feature = "alloc")]

@@ -1,25 +1,20 @@
-//! The rows of bodies that touch, and problems of their reactions.
+//! The rows of bodies that touch.
 
-use alloc::vec;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
-use core::ops::Range;
 
 use super::Contacts;
 use super::bodies::{Bodies, UNITS};
 use super::kinetic::KineticFactor;
-use super::states::States;
-use crate::cone::{Block, ConeDecision, ConeSolver, Face, Set, dot, sqrt};
+use super::span::RowSpan;
+use super::states::LegStates;
+use crate::cone::{dot, sqrt};
 use crate::error::Error;
 use crate::names::Names;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve;
 use crate::system::StateOf;
 use crate::vector::{Array, Length, Vector, vector};
-
-/// Part of a row that others leave of it below which it depends on them: the elimination of a leg works with the squares of such parts,
-/// and has no digits of smaller ones.
-const DEPENDENT: f64 = 1e-7;
 
 /// Rows W of gaps, velocities of friction and constraints, in coordinates x = Lᵀ q̇ with M = L Lᵀ, in which |x|² is twice the kinetic
 /// energy: J = W L⁻ᵀ. Reactions r change the velocities by x = Jᵀ r.
@@ -34,7 +29,7 @@ pub(super) struct TouchingRows<L> {
     pub(super) count: usize,
     /// J by rows, of n entries each.
     j: Vec<f64>,
-    n: usize,
+    pub(super) n: usize,
     mass: KineticFactor,
     system: PhantomData<fn(&L)>,
 }
@@ -139,7 +134,7 @@ impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
     }
 
     /// Rows that stay at rest: closed gaps, and velocities of friction that sticks.
-    pub(super) fn active(&self, states: &States) -> Vec<usize> {
+    pub(super) fn active(&self, states: &LegStates) -> Vec<usize> {
         let gaps = (0..self.touching.len()).filter(|&place| states.is_closed(self.touching[place]));
         let sticks = self.frictions.iter().flat_map(|&(f, place)| {
             let is_kept =
@@ -156,175 +151,6 @@ impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
 
     /// The span of rows.
     pub(super) fn span(&self, places: impl IntoIterator<Item = usize>) -> RowSpan<'_, L> {
-        let mut span = RowSpan { rows: self, basis: Vec::new(), change: vec![0.0; self.n] };
-        (self.count..self.all.len()).chain(places).for_each(|place| {
-            span.add(place);
-        });
-        span
-    }
-}
-
-/// The span of the rows of constraints and of others, by an orthonormal basis.
-pub(super) struct RowSpan<'a, L> {
-    rows: &'a TouchingRows<L>,
-    basis: Vec<Vec<f64>>,
-    /// The least change of x with the changes of rates that were asked for.
-    pub(super) change: Vec<f64>,
-}
-
-impl<L: Contacts<Scalar: Real>> RowSpan<'_, L> {
-    /// What the span leaves of a vector.
-    pub(super) fn rest(&self, mut x: Vec<f64>) -> Vec<f64> {
-        // Twice, since the first time leaves round-off of the whole.
-        for _ in 0..2 {
-            for of in &self.basis {
-                let along = dot(of, &x);
-                x.iter_mut().zip(of).for_each(|(x, y)| *x -= along * y);
-            }
-        }
-        x
-    }
-
-    /// Adds a row, if it does not depend on the others, and changes its rate by this, but not those of the others.
-    pub(super) fn add_change(&mut self, place: usize, by: f64) {
-        if !self.add(place) {
-            return;
-        }
-        let (row, Some(along)) = (self.rows.row(place), self.basis.last()) else { return };
-        let rest = by - dot(row, &self.change);
-        let factor = rest / dot(row, along);
-        self.change.iter_mut().zip(along).for_each(|(x, y)| *x += factor * y);
-    }
-
-    /// What the change does to the rate of a row.
-    pub(super) fn rate(&self, place: usize) -> f64 {
-        dot(self.rows.row(place), &self.change)
-    }
-
-    /// Number of independent rows.
-    pub(super) fn size(&self) -> usize {
-        self.basis.len()
-    }
-
-    /// Takes out the rows beyond this number.
-    pub(super) fn truncate(&mut self, size: usize) {
-        self.basis.truncate(size);
-    }
-
-    /// Whether a row depends on those of the span.
-    pub(super) fn depends(&self, place: usize) -> bool {
-        let (row, rest) = (self.rows.row(place), self.rest(self.rows.row(place).to_vec()));
-        let least = f64::max(DEPENDENT, sqrt(L::Scalar::EPSILON));
-        dot(&rest, &rest) <= least * least * dot(row, row)
-    }
-
-    /// Adds a row, if it does not depend on the others. Returns whether it does not.
-    pub(super) fn add(&mut self, place: usize) -> bool {
-        if self.depends(place) {
-            return false;
-        }
-        let rest = self.rest(self.rows.row(place).to_vec());
-        let size = sqrt(dot(&rest, &rest));
-        self.basis.push(rest.into_iter().map(|x| x / size).collect());
-        true
-    }
-}
-
-/// The reactions of some rows, of which the others have none.
-pub(super) struct Problem<'a, L> {
-    rows: &'a TouchingRows<L>,
-    /// Rates without unknown reactions, and their round-off.
-    rates: Vec<f64>,
-    noise: &'a [f64],
-    /// Reactions that are known.
-    known: Vec<f64>,
-    /// Place of each row of the problem, and what its reactions may be.
-    places: Vec<usize>,
-    blocks: Vec<Block>,
-}
-
-/// Reactions of all rows, the rates with them, and what they change x by.
-#[derive(Clone)]
-pub(super) struct Reactions {
-    pub(super) forces: Vec<f64>,
-    pub(super) rates: Vec<f64>,
-    pub(super) change: Vec<f64>,
-    /// Face of each block, as far as the problem has been decided.
-    pub(super) faces: Vec<Face>,
-}
-
-/// Why no reactions are known.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum NoForces {
-    /// None satisfy the law.
-    Jammed,
-    /// Several may, or none were found.
-    Undecided,
-}
-
-/// Largest number of trials to find out whether there are any reactions.
-const TRIALS: usize = 1_000;
-
-impl<'a, L: Contacts<Scalar: Real>> Problem<'a, L> {
-    /// Without reactions, but those of constraints, which keep the rates that they have.
-    pub(super) fn new(rows: &'a TouchingRows<L>, mut rates: Vec<f64>, noise: &'a [f64]) -> Self {
-        rates.resize(rows.all.len(), 0.0);
-        let known = vec![0.0; rows.count];
-        let mut problem = Self { rows, rates, noise, known, places: vec![], blocks: vec![] };
-        (rows.count..rows.all.len()).for_each(|place| {
-            problem.push(place..place + 1, Set::Line);
-        });
-        problem
-    }
-
-    /// Adds rows whose reactions are in this set. Returns the number of their block.
-    pub(super) fn push(&mut self, places: Range<usize>, set: Set) -> usize {
-        let (first, count) = (self.places.len(), places.len());
-        self.places.extend(places);
-        self.blocks.push(Block { first, count, set });
-        self.blocks.len() - 1
-    }
-
-    /// Lets a row have a reaction that is known, or more of one.
-    pub(super) fn know(&mut self, place: usize, reaction: f64) {
-        self.known[place] += reaction;
-        for of in 0..self.rates.len() {
-            self.rates[of] += self.rows.response(of, place) * reaction;
-        }
-    }
-
-    /// Finds the reactions.
-    pub(super) fn decide(&self) -> Result<Reactions, NoForces> {
-        let mut solver = self.solver();
-        let found = solver.decide();
-        if found.is_found {
-            return Ok(self.reactions(found));
-        }
-        let slides = self.blocks.iter().any(|block| matches!(block.set, Set::Ray { .. }));
-        match slides.then(|| solver.solutions(TRIALS)).flatten() {
-            Some(solutions) if solutions.is_empty() => Err(NoForces::Jammed),
-            _ => Err(NoForces::Undecided),
-        }
-    }
-
-    fn solver(&self) -> ConeSolver {
-        let of =
-            |all: &[f64]| self.places.iter().map(|&place| all.get(place).copied().unwrap_or(0.0)).collect();
-        let j = self.places.iter().flat_map(|&place| self.rows.row(place)).copied().collect();
-        ConeSolver::new(self.rows.n, j, [of(&self.rates), of(self.noise)], self.blocks.clone())
-    }
-
-    fn reactions(&self, found: ConeDecision) -> Reactions {
-        let ConeDecision { reactions, mut change, faces, .. } = found;
-        let rate = |place: usize| self.rates[place] + dot(self.rows.row(place), &change);
-        let mut rates: Vec<f64> = (0..self.rows.count).map(rate).collect();
-        let mut forces = self.known.clone();
-        for (known, place) in self.known.iter().zip(0..) {
-            change.iter_mut().zip(self.rows.row(place)).for_each(|(x, j)| *x += known * j);
-        }
-        for (k, &place) in self.places.iter().enumerate().filter(|(_, place)| **place < self.rows.count) {
-            (forces[place], rates[place]) = (forces[place] + reactions[k], found.rates[k]);
-        }
-        Reactions { forces, rates, change, faces }
+        RowSpan::of(self, places)
     }
 }

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 
 use super::grip::{Decision, Gripped};
-use super::states::States;
+use super::states::LegStates;
 use super::{Contacts, Friction};
 use crate::cone::length;
 use crate::number::Real;
@@ -31,7 +31,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
 
     /// Lets friction at rest whose velocity depends on others at rest act with the part of the force of sliding that was found:
     /// the rows that are left are independent, and their forces unique. Those that are furthest from their limits are left.
-    pub(super) fn share(&self, gripped: &Gripped, states: &mut States) {
+    pub(super) fn share(&self, gripped: &Gripped, states: &mut LegStates) {
         let gaps = (0..self.rows.touching.len()).filter(|&place| states.is_closed(self.rows.touching[place]));
         let mut span = self.rows.span(gaps.collect::<Vec<_>>());
         for RestingFriction { f, place, slides, sliding, .. } in self.at_rest(gripped, states) {
@@ -54,7 +54,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
     }
 
     /// Friction at rest, that which sticks first, in the order of what is left of its limit.
-    fn at_rest(&self, gripped: &Gripped, states: &States) -> Vec<RestingFriction> {
+    fn at_rest(&self, gripped: &Gripped, states: &LegStates) -> Vec<RestingFriction> {
         let of = |&(f, place): &(usize, usize)| {
             if self.slips[f].is_some() || !states.is_pressed::<L>(f) {
                 return None;

@@ -6,7 +6,7 @@ use super::{Contacts, Friction};
 
 /// A contact between two instants.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ContactState {
+pub(super) struct LegContact {
     pub(super) is_closed: bool,
     /// It is open, but its gap remains zero because of what is closed.
     pub(super) is_implied: bool,
@@ -16,7 +16,7 @@ pub(super) struct ContactState {
 
 /// A friction between two instants. That of an open contact has no meaning.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FrictionState {
+pub(super) struct LegFriction {
     pub(super) friction: Friction,
     /// Its velocities were zero before.
     pub(super) from_rest: bool,
@@ -24,7 +24,7 @@ pub(super) struct FrictionState {
     pub(super) is_implied: bool,
 }
 
-impl FrictionState {
+impl LegFriction {
     /// Friction that does not act.
     pub(super) const OFF: Self =
         Self { friction: Friction::Slides([0.0; 2]), from_rest: false, is_implied: false };
@@ -32,18 +32,18 @@ impl FrictionState {
 
 /// All contacts and frictions between two instants. Before a motion starts, nothing is known of friction.
 #[derive(Clone, Debug)]
-pub(super) struct States {
-    pub(super) contacts: Vec<ContactState>,
-    pub(super) frictions: Vec<FrictionState>,
+pub(super) struct LegStates {
+    pub(super) contacts: Vec<LegContact>,
+    pub(super) frictions: Vec<LegFriction>,
 }
 
-impl States {
+impl LegStates {
     /// Some contacts closed, and no friction.
     pub(super) fn closed<L: Contacts>(is_closed: impl Fn(usize) -> bool) -> Self {
-        let of = |k| ContactState { is_closed: is_closed(k), ..ContactState::default() };
+        let of = |k| LegContact { is_closed: is_closed(k), ..LegContact::default() };
         Self {
             contacts: (0..L::CONTACTS.len()).map(of).collect(),
-            frictions: L::FRICTIONS.iter().map(|_| FrictionState::OFF).collect(),
+            frictions: L::FRICTIONS.iter().map(|_| LegFriction::OFF).collect(),
         }
     }
 

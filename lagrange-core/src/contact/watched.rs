@@ -9,7 +9,7 @@ use super::friction::bounds;
 use super::instant::Decided;
 use super::last_value::LastValue;
 use super::lifting::Lifting;
-use super::states::FrictionState;
+use super::states::LegFriction;
 use super::{Contacts, Friction, FrictionRows};
 use crate::error::Error;
 use crate::motion::event::noise;
@@ -144,7 +144,7 @@ where
         if !decided.states.is_pressed::<L>(f) {
             continue;
         }
-        let FrictionState { friction, is_implied, .. } = decided.states.frictions[f];
+        let LegFriction { friction, is_implied, .. } = decided.states.frictions[f];
         let [limit, force] =
             if friction.is_at_rest() { check_held(system, (closed, f), state)? } else { [zero; 2] };
         // A force that is a part of that of sliding, and of a velocity that others keep zero, stays where it is.

@@ -2,7 +2,7 @@
 
 use lagrange_random::Random;
 
-use crate::cone::{Block, ConeDecision, ConeSolver, Limit, Set};
+use crate::cone::{ConeDecision, ConeSolver, Limit, RowBlock, Set};
 
 /// How the rows of an impact depend on one another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub(super) struct Case {
     pub(super) rows: Vec<Vec<f64>>,
     pub(super) q: Vec<f64>,
     pub(super) noise: Vec<f64>,
-    pub(super) blocks: Vec<Block>,
+    pub(super) blocks: Vec<RowBlock>,
     /// Velocities before an impact, whose rates are q; none if it is not an impact.
     pub(super) motion: Vec<f64>,
 }
@@ -37,14 +37,14 @@ pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// A contact whose gap is block `k` and row `first`, followed by `count` rows of friction.
-pub(super) fn contact(k: usize, first: usize, count: usize, mu: f64) -> [Block; 2] {
+pub(super) fn contact(k: usize, first: usize, count: usize, mu: f64) -> [RowBlock; 2] {
     let friction = Set::Disc(Limit { radius: 0.0, mu, gap: Some(k) });
-    [Block { first, count: 1, set: Set::HalfLine }, Block { first: first + 1, count, set: friction }]
+    [RowBlock { first, count: 1, set: Set::HalfLine }, RowBlock { first: first + 1, count, set: friction }]
 }
 
 impl Case {
     /// An impact without restitution of bodies with these velocities.
-    pub(super) fn impact(rows: Vec<Vec<f64>>, motion: Vec<f64>, blocks: Vec<Block>) -> Self {
+    pub(super) fn impact(rows: Vec<Vec<f64>>, motion: Vec<f64>, blocks: Vec<RowBlock>) -> Self {
         let q = rows.iter().map(|row| dot(row, &motion)).collect();
         let size = |row: &Vec<f64>| row.iter().zip(&motion).map(|(x, y)| (x * y).abs()).sum::<f64>();
         let noise = rows.iter().map(|row| 8.0 * f64::EPSILON * size(row)).collect();
@@ -118,7 +118,7 @@ impl Case {
         let motion: Vec<f64> = (0..count).map(|_| random.number()).collect();
         let row =
             |k: usize| (0..count).map(|i| f64::from(i32::from(i == k + 1) - i32::from(i == k))).collect();
-        let blocks = (0..count - 1).map(|k| Block { first: k, count: 1, set: Set::HalfLine }).collect();
+        let blocks = (0..count - 1).map(|k| RowBlock { first: k, count: 1, set: Set::HalfLine }).collect();
         Self::impact((0..count - 1).map(row).collect(), motion, blocks)
     }
 
@@ -127,8 +127,10 @@ impl Case {
         let ((s, c), root) = (angle.sin_cos(), (1.0_f64 / 3.0).sqrt());
         let rows = vec![vec![0.0, 1.0, -c / root], vec![1.0, 0.0, s / root]];
         let slides = Set::Ray { force: [mu, 0.0], gap: 0 };
-        let blocks =
-            vec![Block { first: 0, count: 1, set: Set::HalfLine }, Block { first: 1, count: 1, set: slides }];
+        let blocks = vec![
+            RowBlock { first: 0, count: 1, set: Set::HalfLine },
+            RowBlock { first: 1, count: 1, set: slides },
+        ];
         let mut case = Self::impact(rows, vec![0.0, -1.0, 0.0], blocks);
         case.motion.clear();
         // The lower end turns about the centre.
@@ -141,20 +143,20 @@ impl Case {
     pub(super) fn of_all_sets(seed: u64) -> Self {
         let mut random = Random(!seed);
         let (n, count) = (3 + random.below(6), 2 + random.below(5));
-        let (mut rows, mut blocks): (Vec<Vec<f64>>, Vec<Block>) = (vec![], vec![]);
+        let (mut rows, mut blocks): (Vec<Vec<f64>>, Vec<RowBlock>) = (vec![], vec![]);
         for _ in 0..count {
             let count = 1 + random.below(2);
             let radius = random.between(0.0, 1.0);
             let friction = |gap: Option<usize>| Set::Disc(Limit { radius, mu: 0.5, gap });
             let (first, gap) = (rows.len(), blocks.len());
             match random.below(6) {
-                0 => blocks.push(Block { first, count: 1, set: Set::Line }),
-                1 => blocks.push(Block { first, count: 1, set: Set::HalfLine }),
-                2 => blocks.push(Block { first, count, set: friction(None) }),
+                0 => blocks.push(RowBlock { first, count: 1, set: Set::Line }),
+                1 => blocks.push(RowBlock { first, count: 1, set: Set::HalfLine }),
+                2 => blocks.push(RowBlock { first, count, set: friction(None) }),
                 // As in the expansion of an impact, whose least impulses friction has in its limit.
                 3 => blocks.extend([
-                    Block { first, count: 1, set: Set::HalfLine },
-                    Block { first: first + 1, count, set: friction(Some(gap)) },
+                    RowBlock { first, count: 1, set: Set::HalfLine },
+                    RowBlock { first: first + 1, count, set: friction(Some(gap)) },
                 ]),
                 _ => blocks.extend(contact(gap, first, count, radius)),
             }

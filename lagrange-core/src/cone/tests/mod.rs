@@ -5,8 +5,17 @@ mod exact;
 
 use lagrange_random::{Random, cases};
 
-use super::{Block, ConeDecision, Face, Limit, Set};
+use super::{ConeDecision, Face, Limit, RowBlock, Set};
 use cases::{ALL_ROWS, Case, dot};
+
+#[test]
+fn roots_need_no_library() {
+    for x in [0.0, f64::MIN_POSITIVE, 1e-200, 0.3, 1.0, 2.0, 3.999_999, 4.0, 1e17, f64::MAX, f64::INFINITY] {
+        let root = super::root_by_heron(x);
+        assert!(root == x.sqrt() || (root / x.sqrt() - 1.0).abs() <= f64::EPSILON, "{x:e} {root:e}");
+    }
+    assert_eq!(super::root_by_heron(-1.0), 0.0);
+}
 
 /// By how much reactions are off the law as it is stated, as a multiple of what is guaranteed; none of it by scaled rows.
 fn off(case: &Case, found: &ConeDecision) -> f64 {
@@ -157,7 +166,7 @@ fn a_block_sticks_slides_and_parts() {
 fn legs_that_are_alike_share_alike() {
     let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
     let rows = corners.iter().map(|[x, y]| vec![1.0, *x, *y]).collect();
-    let blocks = (0..4).map(|k| Block { first: k, count: 1, set: Set::HalfLine }).collect();
+    let blocks = (0..4).map(|k| RowBlock { first: k, count: 1, set: Set::HalfLine }).collect();
     let found = Case::impact(rows, vec![-1.0, 0.0, 0.0], blocks).decision();
     assert!(found.is_found && found.rates == [0.0; 4]);
     assert!(found.reactions.iter().all(|r| (r - 0.25).abs() < 1e-15), "{:?}", found.reactions);
