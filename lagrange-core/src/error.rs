@@ -385,14 +385,20 @@ pub enum Error {
         /// The time of the state.
         time: f64,
     },
-    /// Sweeps over the contacts of a [time step](crate::contact::MoreauJean) leave a residual above the tolerance: they need more
-    /// of them, or there are no impulses that satisfy the law of the contacts.
+    /// No impulses of friction and the contacts beside it were found in a [time step](crate::contact::MoreauJean).
     ImpulsesNotFound {
-        /// Relative residual of the impulses.
-        residual: f64,
-        /// Sweeps done.
-        iterations: usize,
+        /// Name of the friction.
+        friction: &'static str,
         /// Time at which the impulses act.
+        time: f64,
+    },
+    /// Forces change too much within a [time step](crate::contact::MoreauJean).
+    StepTooLong {
+        /// What the balance of momentum is off by, as a part of its largest term.
+        residual: f64,
+        /// How often impulses were found.
+        iterations: usize,
+        /// Time at the start of the step.
         time: f64,
     },
     /// The part θ of a [time step](crate::contact::MoreauJean::theta) is below ½ or above 1.

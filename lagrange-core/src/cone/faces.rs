@@ -151,7 +151,7 @@ impl ConeSolver {
     pub(super) fn settle(&mut self, with_shares: bool) -> bool {
         let before = self.r.clone();
         for tolerance in RANKS {
-            if self.settle_with(tolerance, with_shares) {
+            if self.settle_from(self.faces(), (tolerance, with_shares), CHANGES[0] + CHANGES[1]) {
                 return true;
             }
             self.r.copy_from_slice(&before);
@@ -160,12 +160,23 @@ impl ConeSolver {
         false
     }
 
-    fn settle_with(&mut self, tolerance: f64, with_shares: bool) -> bool {
-        let mut faces = self.faces();
+    /// From these faces to reactions that satisfy the law, with shares as of equal springs and few changes of faces. Leaves the reactions as they
+    /// were if none are found.
+    pub(super) fn settle_near(&mut self, faces: Vec<Face>) -> bool {
+        let before = self.r.clone();
+        let is_found = self.settle_from(faces, (RANKS[0], true), CHANGES[0]);
+        if !is_found {
+            self.r = before;
+            self.refresh();
+        }
+        is_found
+    }
+
+    fn settle_from(&mut self, mut faces: Vec<Face>, ranks: (f64, bool), changes: usize) -> bool {
         let mut seen: Vec<Vec<u8>> = vec![];
-        for change in 0..CHANGES[0] + CHANGES[1] {
+        for change in 0..changes {
             let is_patient = change >= CHANGES[0];
-            let next = match self.solve_on(&faces, (tolerance, with_shares), is_patient) {
+            let next = match self.solve_on(&faces, ranks, is_patient) {
                 OnFaces::Singular => return false,
                 OnFaces::Leaves(next) => next,
                 OnFaces::Stays(next) => {

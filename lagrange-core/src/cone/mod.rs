@@ -15,15 +15,21 @@
 //!
 //! How they are found:
 //!
-//! 1. [Contacts that give way](compliant): Newton's method with a compliance, which becomes smaller, guesses the [faces](Face).
-//! 2. [The faces](faces): their equations are solved to round-off by a rank-revealing QR of J. If the law does not hold there, blocks change
+//! 1. [Islands](islands): blocks that change no velocity in common are problems of their own.
+//! 2. [Contacts that give way](compliant): Newton's method with a compliance, which becomes smaller, guesses the [faces](Face).
+//! 3. [The faces](faces): their equations are solved to round-off by a rank-revealing QR of J. If the law does not hold there, blocks change
 //!    their faces.
-//! 3. Else the same from [sweeps], from [inside](interior) all sets, and from other reactions.
+//! 4. Else the same from [sweeps], from [inside](interior) all sets, and from other reactions.
+//!
+//! A time step [looks](ConeSearch) at the faces of the last one first, and is content with the reactions of 2, brought nearer to the law up to a
+//! tolerance, where their faces do not satisfy it.
 
 mod certificate;
 mod compliant;
 mod faces;
 mod interior;
+mod islands;
+mod natural;
 mod qr;
 mod sweeps;
 #[cfg(test)]
@@ -33,6 +39,8 @@ mod trials;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
+
+pub(crate) use islands::ConeProblem;
 
 /// What the reactions of a block may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +72,7 @@ pub(crate) struct RowBlock {
 }
 
 impl RowBlock {
-    fn rows(&self) -> Range<usize> {
+    pub(crate) fn rows(&self) -> Range<usize> {
         self.first..self.first + self.count
     }
 }
@@ -80,12 +88,23 @@ pub(crate) enum Face {
     Slide([f64; 2]),
 }
 
+/// How reactions are looked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum ConeSearch<'a> {
+    /// They satisfy the law.
+    Law,
+    /// They satisfy the law on these faces or others of few changes; or else they may be off it by a residual up to the tolerance.
+    Near { faces: &'a [Face], tolerance: f64 },
+}
+
 /// What is known of a problem.
 #[derive(Clone, Debug)]
 pub(crate) struct ConeDecision {
-    /// Whether the reactions satisfy the law. Else no faces were found on which reactions do, or reactions would be needed that are so
+    /// Whether the reactions satisfy the law, or come near enough to it. Else no faces were found on which reactions do, or reactions would be needed that are so
     /// much larger than the rates that their round-off decides.
     pub(crate) is_found: bool,
+    /// Zero if the reactions satisfy the law; else their largest distance from natural ones, as a part of the largest rate without them.
+    pub(crate) residual: f64,
     /// Reaction of each row.
     pub(crate) reactions: Vec<f64>,
     /// Rate of each row.
@@ -123,8 +142,17 @@ const WORK: usize = 40_000;
 /// Most other reactions that are tried to begin with.
 const STARTS: usize = 24;
 
+/// x·y, as four sums of every fourth product: one sum would wait for each addition.
+#[inline]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).fold(0.0, |sum, (x, y)| sum + x * y)
+    debug_assert_eq!(x.len(), y.len());
+    let (x_parts, y_parts) = (x.chunks_exact(4), y.chunks_exact(4));
+    let rest = x_parts.remainder().iter().zip(y_parts.remainder()).fold(0.0, |sum, (x, y)| sum + x * y);
+    let mut sums = [0.0; 4];
+    for (x, y) in x_parts.zip(y_parts) {
+        (0..4).for_each(|k| sums[k] += x[k] * y[k]);
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(any(feature = "std", feature = "libm"))]
@@ -243,99 +271,45 @@ impl ConeSolver {
         self.x = x;
     }
 
-    /// The vector within a limit that is nearest to r − u/g of a friction, and its face.
-    fn within(&self, k: usize, limit: f64) -> ([f64; 2], Face) {
-        let tries = self.pulled(k);
-        let far = length(tries);
-        if limit <= 0.0 {
-            return ([0.0; 2], Face::Open);
-        }
-        if far <= limit {
-            return (tries, Face::Stick);
-        }
-        (tries.map(|x| x * (limit / far)), Face::Slide(tries.map(|x| x / far)))
-    }
-
-    /// Two entries of the rows of a block, the second zero if there is one row.
-    fn two(&self, k: usize, value: impl Fn(usize) -> f64) -> [f64; 2] {
-        let RowBlock { first, count, .. } = self.blocks[k];
-        [value(first), if count > 1 { value(first + 1) } else { 0.0 }]
-    }
-
-    /// r − u/g of a block.
-    fn pulled(&self, k: usize) -> [f64; 2] {
-        self.two(k, |i| self.r[i] - self.rate(i) / self.responses[k])
-    }
-
-    /// The reaction nearest to r − u/g that its set allows, and its face. Reactions that are so themselves satisfy the law.
-    fn natural(&self, k: usize) -> ([f64; 2], Face) {
-        let push = |k: usize| self.pulled(k)[0].max(0.0);
-        match self.blocks[k].set {
-            Set::Line => (self.pulled(k), Face::Stick),
-            Set::HalfLine => ([push(k), 0.0], if push(k) > 0.0 { Face::Stick } else { Face::Open }),
-            Set::Disc(Limit { radius, mu, gap }) => {
-                self.within(k, radius + gap.map_or(0.0, |gap| mu * push(gap)))
-            }
-            Set::Ray { force, gap } => (force.map(|x| x * push(gap)), self.natural(gap).1),
-        }
-    }
-
-    fn faces(&self) -> Vec<Face> {
-        (0..self.blocks.len()).map(|k| self.natural(k).1).collect()
-    }
-
-    /// Squared distance of the reactions of a block from its natural ones.
-    fn defect(&self, k: usize) -> f64 {
-        let (natural, [x, y]) = (self.natural(k).0, self.two(k, |i| self.r[i]));
-        let off = [natural[0] - x, natural[1] - y];
-        dot(&off, &off)
-    }
-
-    fn defects(&self) -> f64 {
-        (0..self.blocks.len()).fold(0.0, |sum, k| sum + self.defect(k))
-    }
-
-    /// Moves reactions into their sets; what is open on these faces is zero.
-    fn clip(&mut self, faces: Option<&[Face]>) {
-        for k in 0..self.blocks.len() {
-            let block = self.blocks[k];
-            if faces.is_some_and(|faces| faces[k] == Face::Open) {
-                self.r[block.rows()].fill(0.0);
-            }
-            match block.set {
-                Set::Line => {}
-                Set::HalfLine => self.r[block.first] = self.r[block.first].max(0.0),
-                Set::Disc(limit) => {
-                    let (limit, _) = self.limit(&limit);
-                    let size = length(self.two(k, |i| self.r[i]));
-                    if size > limit {
-                        self.r[block.rows()].iter_mut().for_each(|x| *x *= limit / size);
-                    }
-                }
-                Set::Ray { force, gap } => {
-                    let push = self.r[self.blocks[gap].first];
-                    block.rows().zip(force).for_each(|(i, force)| self.r[i] = force * push);
+    /// Finds reactions, and tells which part of them is off the law; `None` if none are found.
+    fn find(&mut self, search: ConeSearch) -> Option<f64> {
+        let is_lawful = match search {
+            ConeSearch::Law => self.by_compliance(),
+            ConeSearch::Near { faces, .. } => {
+                self.settle_near(faces.to_vec()) || {
+                    self.stiffen();
+                    self.settle_near(self.faces())
                 }
             }
+        };
+        match search {
+            ConeSearch::Near { tolerance, .. } if !is_lawful && self.approaches(tolerance) => {
+                Some(self.residual())
+            }
+            _ => (is_lawful || self.by_other_guesses()).then_some(0.0),
         }
-        self.refresh();
     }
 
-    /// Finds reactions that satisfy the law.
-    pub(crate) fn decide(&mut self) -> ConeDecision {
+    fn decide(&mut self, search: ConeSearch) -> ConeDecision {
         self.solved = 0;
-        let is_found =
-            self.by_compliance() || self.by_sweeps() || self.by_interior_points() || self.by_other_starts();
-        if !is_found {
+        let found = self.find(search);
+        if found != Some(0.0) {
             self.clip(None);
         }
         ConeDecision {
-            is_found,
+            is_found: found.is_some(),
+            residual: found.unwrap_or_else(|| self.residual()),
             reactions: self.r.iter().zip(&self.scale).map(|(r, scale)| r / scale).collect(),
             rates: (0..self.m).map(|i| self.rate(i) * self.scale[i]).collect(),
             faces: (0..self.blocks.len()).map(|k| self.face(k)).collect(),
             change: self.x.clone(),
         }
+    }
+
+    fn by_other_guesses(&mut self) -> bool {
+        self.r.fill(0.0);
+        self.refresh();
+        self.by_sweeps() || self.by_interior_points() || self.by_other_starts()
     }
 
     /// From reactions spread over sizes from the largest rate to 10⁷ times it, by multiples of the golden ratio.

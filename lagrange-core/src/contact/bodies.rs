@@ -19,7 +19,7 @@ use crate::vector::{Array, Length, Vector, vector};
 pub(super) const UNITS: f64 = 8.0;
 
 /// Gap, relative to its sum Σ |Wᵢ qᵢ|, below which a contact is not closed but crossed.
-const CROSSED: f64 = 1e-9;
+pub(super) const CROSSED: f64 = 1e-9;
 
 /// Gap, in units of its round-off, up to which bodies touch: twice the round-off that events estimate, below which they do not
 /// see a gap close.

@@ -122,15 +122,16 @@ impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
         plays: &[bool],
         (gaps, frictions): (&[Option<usize>], &[Option<usize>]),
     ) -> Gripped {
-        let Reactions { forces, rates, faces, .. } = found;
+        let Reactions { mut forces, rates, faces, .. } = found;
+        forces.truncate(self.rows.count);
         // A force that only takes the round-off of a rate is none.
         let is_force = |gap: usize| self.rows.response(gap, gap) * forces[gap] > self.pressing.1[gap];
-        let pushes = |gap: usize| gaps[gap].is_some_and(|block| faces[block] != Face::Open) && is_force(gap);
+        let pushes = |gap: usize| gaps[gap].is_some() && faces[gap] != Face::Open && is_force(gap);
         let pushes = (0..gaps.len()).map(pushes).collect();
         let mut grips = vec![None; L::FRICTIONS.len()];
         for &(f, place) in &self.rows.frictions {
             let moves = || self.moves(f, place, (&forces, &rates));
-            grips[f] = match (self.direction(f), frictions[f].map(|block| faces[block])) {
+            grips[f] = match (self.direction(f), frictions[f].map(|_| faces[place])) {
                 (Some(direction), _) => Some(Friction::Slides(direction)),
                 (None, Some(Face::Slide(force))) if moves().is_some() => {
                     Some(Friction::Slides(force.map(|x| -x)))

@@ -4,7 +4,6 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use super::bodies::Bodies;
-use super::cones::length;
 use super::grip::Gripped;
 use super::reactions::NoForces;
 use super::rows::TouchingRows;
@@ -18,6 +17,11 @@ use crate::system::StateOf;
 
 /// Speed, in units of its round-off, with which bodies begin to slide along two velocities: friction has no direction at rest.
 pub(super) const BEGIN: f64 = 64.0;
+
+/// Length of a vector in a plane.
+fn length<T: Real>([x, y]: [T; 2]) -> T {
+    Scalar::sqrt(x * x + y * y)
+}
 
 impl FrictionRows {
     /// Indices of its velocities among the constraints.

@@ -2,6 +2,7 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use super::bodies::Bodies;
 use super::friction::{BEGIN, bounds};
@@ -9,7 +10,7 @@ use super::reactions::{NoForces, ReactionProblem, Reactions};
 use super::rows::TouchingRows;
 use super::trajectory::Transition;
 use super::{Contacts, ImpactLaw};
-use crate::cone::{Limit, Set};
+use crate::cone::{ConeSearch, Limit, Set};
 use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
@@ -18,21 +19,32 @@ use crate::vector::Entrywise;
 /// Halvings of the restitution of an impact that would gain energy.
 const HALVINGS: usize = 60;
 
-/// An impact under way: the rows of the bodies that touch, and the laws of their contacts.
-struct StagedImpact<'a, L> {
-    rows: &'a TouchingRows<L>,
-    /// Rates before the impact, with their round-off.
-    rates: Vec<f64>,
-    noise: Vec<f64>,
+/// An impact under way, or the kick of a time step: the rows of the bodies that touch, and the laws of their contacts.
+pub(super) struct StagedImpact<'a, L> {
+    pub(super) rows: &'a TouchingRows<L>,
+    /// Rates before, and those without impulses; the same at an impact.
+    pub(super) before: Vec<f64>,
+    pub(super) rates: Vec<f64>,
+    /// Round-off of the rates.
+    pub(super) noise: Vec<f64>,
     /// Which of the touching contacts take part.
-    plays: Vec<bool>,
-    /// Friction of these: places of its velocities and of its gap, and the limit as a multiple of the impulse of that. Dry friction has no
-    /// impulse.
-    frictions: Vec<(core::ops::Range<usize>, usize, f64)>,
+    pub(super) plays: Vec<bool>,
+    pub(super) frictions: Vec<StagedFriction>,
     /// e γ of the contacts with Newton's law, with the rate γ before.
-    returned: Vec<f64>,
+    pub(super) returned: Vec<f64>,
     /// Poisson's coefficient of restitution of each row, zero for those of other laws.
-    expansion: Vec<f64>,
+    pub(super) expansion: Vec<f64>,
+    /// How impulses are looked for, with faces by constraints.
+    pub(super) search: ConeSearch<'a>,
+}
+
+/// Friction that takes part in an impact.
+pub(super) struct StagedFriction {
+    /// Places of its velocities and of its gap, if it has one.
+    pub(super) places: Range<usize>,
+    pub(super) gap: Option<usize>,
+    /// The limit, as a multiple of the impulse of the gap if it has one.
+    pub(super) limit: f64,
 }
 
 impl<L: Contacts<Scalar: Real>> StagedImpact<'_, L> {
@@ -40,8 +52,9 @@ impl<L: Contacts<Scalar: Real>> StagedImpact<'_, L> {
     /// the expansion, a contact pushes at least with e times its impulse Λ of the compression (Pfeiffer and Glocker,
     /// *Multibody Dynamics with Unilateral Contacts*, 1996, chapter 8).
     fn impulses(&self, part: f64) -> Result<Reactions, NoForces> {
-        let rates = self.rates.iter().zip(&self.returned).map(|(rate, returned)| rate + part * returned);
-        let mut impulses = self.stage(rates.collect(), &vec![0.0; self.rates.len()])?;
+        let mut rates = self.rates.clone();
+        rates.iter_mut().zip(&self.returned).for_each(|(rate, returned)| *rate += part * returned);
+        let mut impulses = self.stage(rates, &vec![0.0; self.plays.len()])?;
         let least = |(e, impulse): (&f64, &f64)| part * e * impulse;
         let least: Vec<f64> = self.expansion.iter().zip(&impulses.forces).map(least).collect();
         if least.iter().any(|least| *least > 0.0) {
@@ -58,21 +71,26 @@ impl<L: Contacts<Scalar: Real>> StagedImpact<'_, L> {
 
     /// Impulses, of which those of gaps are at least these.
     fn stage(&self, rates: Vec<f64>, least: &[f64]) -> Result<Reactions, NoForces> {
-        let mut problem = ReactionProblem::new(self.rows, rates, &self.noise);
+        let mut problem = ReactionProblem::new(self.rows, rates, &self.noise).by(self.search);
         let mut gaps = vec![None; self.plays.len()];
         for gap in (0..self.plays.len()).filter(|&gap| self.plays[gap]) {
-            problem.know(gap, least[gap]);
+            if least[gap] > 0.0 {
+                problem.know(gap, least[gap]);
+            }
             gaps[gap] = Some(problem.push(gap..gap + 1, Set::HalfLine));
         }
-        for (places, gap, mu) in &self.frictions {
-            let limit = Limit { radius: mu * least[*gap], mu: *mu, gap: gaps[*gap] };
+        for &StagedFriction { ref places, gap, limit } in &self.frictions {
+            let limit = match gap {
+                Some(place) => Limit { radius: limit * least[place], mu: limit, gap: gaps[place] },
+                None => Limit { radius: limit, mu: 0.0, gap },
+            };
             problem.push(places.clone(), Set::Disc(limit));
         }
         problem.decide()
     }
 
     /// Impulses with the restitutions as stated, or lowered in proportion to where they gain no energy.
-    fn without_gain(&self) -> Result<Reactions, NoForces> {
+    pub(super) fn without_gain(&self) -> Result<Reactions, NoForces> {
         let whole = self.impulses(1.0)?;
         if !self.gains(&whole) {
             return Ok(whole);
@@ -85,14 +103,15 @@ impl<L: Contacts<Scalar: Real>> StagedImpact<'_, L> {
         self.impulses(low)
     }
 
-    /// Whether the impulses work, by the mean of the rates before and after, more than their round-off.
+    /// Whether a contact bounces, and the impulses work, by the mean of the rates before and after, more than their round-off.
     fn gains(&self, impulses: &Reactions) -> bool {
-        let rows = self.rates.iter().zip(&impulses.rates).zip(&impulses.forces);
+        let rows = self.before.iter().zip(&impulses.rates).zip(&impulses.forces);
         let [sum, size] = rows.fold([0.0; 2], |[sum, size], ((before, after), force)| {
             let work = force * (before + after);
             [sum + work, size + work.abs()]
         });
-        sum > L::Scalar::EPSILON * BEGIN * size
+        let bounces = self.returned.iter().chain(&self.expansion).any(|x| *x != 0.0);
+        bounces && sum > L::Scalar::EPSILON * BEGIN * size
     }
 }
 
@@ -111,10 +130,10 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let Reactions { forces, change, .. } =
             hit.without_gain().map_err(|why| self.jams(why, (rows, &hit.plays), state))?;
         state.v = state.v.plus(&rows.velocities(&change));
-        let acting = (0..forces.len()).filter(|&place| forces[place] != 0.0);
+        let acting = (0..rows.count).filter(|&place| forces[place] != 0.0);
         self.strikes(acting.map(|place| rows.change(place, forces[place])));
         let acts = |&place: &usize| (rows.response(place, place) * forces[place]).abs() > hit.noise[place];
-        let acting = (0..forces.len()).filter(acts);
+        let acting = (0..rows.count).filter(acts);
         let impulse = |place: usize| (L::CONSTRAINTS[rows.all[place]], L::Scalar::constant(forces[place]));
         transitions.push(Transition::Impact { time: state.t, impulses: acting.map(impulse).collect() });
         Ok(())
@@ -143,9 +162,21 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let gap = L::FRICTIONS[f].contact.and_then(|k| rows.gap(k));
             if let Some(gap) = gap.filter(|&gap| plays[gap]) {
                 let [limit, _] = bounds(&self.closed, f, state)?;
-                frictions.push((place..place + L::FRICTIONS[f].count, gap, limit.to_f64()));
+                let places = place..place + L::FRICTIONS[f].count;
+                frictions.push(StagedFriction { places, gap: Some(gap), limit: limit.to_f64() });
             }
         }
-        Ok(StagedImpact { rows, rates, noise, plays, frictions, returned, expansion })
+        let before = rates.clone();
+        Ok(StagedImpact {
+            rows,
+            before,
+            rates,
+            noise,
+            plays,
+            frictions,
+            returned,
+            expansion,
+            search: ConeSearch::Law,
+        })
     }
 }

@@ -154,8 +154,8 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! - Friction that has stuck up to the end of a leg is at rest there, unless an impact follows.
 //! - Impulses and forces are compared with their law before they are believed: no rate is off it by more than 10⁻¹² of its terms, none but
 //!   those of forces that slide already gains energy, and each force is within its set to the bit. What is not found ends the motion by name.
-//!   Of 100,000 random impacts of each kind on up to four contacts, 0 are not decided where rows are independent, 1 where they depend on one
-//!   another, 3 where they nearly do, 126 with masses from 10⁻⁴ to 10⁴, and 1,752 where contacts face each other.
+//!   Of 100,000 random impacts of each kind on up to four contacts, all are decided where rows are independent or depend on one another; 5 are not
+//!   where they nearly do, 72 with masses from 10⁻⁴ to 10⁴, and 1,688 where contacts face each other.
 //! - Friction that reaches its limit slides if it does so with limits that are lower by 2⁻³⁸ = 4·10⁻¹², with the direction that it has
 //!   with limits lower by 2⁻²⁴ = 6·10⁻⁸. Where friction is shared, the shares are those with the most of all limits left, to a
 //!   factor of 2: as loads grow they are decided anew, until less than 4·10⁻¹² of the limits is left.
@@ -255,7 +255,7 @@ for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) 
 //! # Many contacts
 //!
 //! For stacks and heaps, [`MotionBuilder::by_time_stepping`](crate::MotionBuilder::by_time_stepping) takes steps of one length
-//! instead, with the impulses of all contacts at once: [`MoreauJean`].
+//! instead, with the impulses of all contacts at once: [`MoreauJean`]. Games and controllers take them one at a time: [`ContactStepper`].
 
 #[cfg(feature = "alloc")]
 mod bodies;
@@ -263,8 +263,6 @@ mod bodies;
 mod builder;
 #[cfg(feature = "alloc")]
 mod condition;
-#[cfg(feature = "alloc")]
-mod cones;
 #[cfg(feature = "alloc")]
 mod driver;
 #[cfg(feature = "alloc")]
@@ -285,8 +283,6 @@ mod last_value;
 mod legs;
 #[cfg(feature = "alloc")]
 mod lifting;
-#[cfg(feature = "alloc")]
-mod newton;
 #[cfg(feature = "alloc")]
 mod reactions;
 #[cfg(feature = "alloc")]
@@ -313,7 +309,7 @@ pub(crate) use builder::arrive;
 #[cfg(feature = "alloc")]
 pub use builder::{AcrossContacts, ContactArrival, CrossesContacts};
 #[cfg(feature = "alloc")]
-pub use stepping::{MoreauJean, SteppedTrajectory, TimeStep, TimeStepping};
+pub use stepping::{ContactStepper, MoreauJean, SteppedTrajectory, TimeStep, TimeStepping};
 #[cfg(feature = "alloc")]
 pub use trajectory::{ContactTrajectory, Transition};
 #[cfg(feature = "alloc")]

@@ -6,7 +6,7 @@ use core::ops::Range;
 
 use super::Contacts;
 use super::rows::TouchingRows;
-use crate::cone::{ConeDecision, ConeSolver, Face, RowBlock, Set, dot};
+use crate::cone::{ConeDecision, ConeProblem, ConeSearch, Face, RowBlock, Set, dot};
 use crate::number::Real;
 
 /// The reactions of some rows, of which the others have none.
@@ -20,6 +20,8 @@ pub(super) struct ReactionProblem<'a, L> {
     /// Place of each row of the problem, and what its reactions may be.
     places: Vec<usize>,
     blocks: Vec<RowBlock>,
+    /// How reactions are looked for, with faces by constraints.
+    search: ConeSearch<'a>,
 }
 
 /// Reactions of all rows, the rates with them, and what they change x by.
@@ -28,8 +30,10 @@ pub(super) struct Reactions {
     pub(super) forces: Vec<f64>,
     pub(super) rates: Vec<f64>,
     pub(super) change: Vec<f64>,
-    /// Face of each block, as far as the problem has been decided.
+    /// Face of each row.
     pub(super) faces: Vec<Face>,
+    /// Zero if the law holds; else what is off it, see [`ConeDecision::residual`].
+    pub(super) residual: f64,
 }
 
 /// Why no reactions are known.
@@ -45,15 +49,21 @@ pub(super) enum NoForces {
 const TRIALS: usize = 1_000;
 
 impl<'a, L: Contacts<Scalar: Real>> ReactionProblem<'a, L> {
-    /// Without reactions, but those of constraints, which keep the rates that they have.
+    /// Without reactions, but those of constraints, which keep the rates that they have if none are given.
     pub(super) fn new(rows: &'a TouchingRows<L>, mut rates: Vec<f64>, noise: &'a [f64]) -> Self {
         rates.resize(rows.all.len(), 0.0);
-        let known = vec![0.0; rows.count];
-        let mut problem = Self { rows, rates, noise, known, places: vec![], blocks: vec![] };
+        let known = vec![0.0; rows.all.len()];
+        let mut problem =
+            Self { rows, rates, noise, known, places: vec![], blocks: vec![], search: ConeSearch::Law };
         (rows.count..rows.all.len()).for_each(|place| {
             problem.push(place..place + 1, Set::Line);
         });
         problem
+    }
+
+    /// Looks for reactions in this way, with faces by constraints.
+    pub(super) fn by(self, search: ConeSearch<'a>) -> Self {
+        Self { search, ..self }
     }
 
     /// Adds rows whose reactions are in this set. Returns the number of their block.
@@ -74,36 +84,44 @@ impl<'a, L: Contacts<Scalar: Real>> ReactionProblem<'a, L> {
 
     /// Finds the reactions.
     pub(super) fn decide(&self) -> Result<Reactions, NoForces> {
-        let mut solver = self.solver();
-        let found = solver.decide();
-        if found.is_found {
-            return Ok(self.reactions(found));
-        }
-        let slides = self.blocks.iter().any(|block| matches!(block.set, Set::Ray { .. }));
-        match slides.then(|| solver.solutions(TRIALS)).flatten() {
-            Some(solutions) if solutions.is_empty() => Err(NoForces::Jammed),
-            _ => Err(NoForces::Undecided),
+        let problem = self.problem();
+        let found = match self.search {
+            ConeSearch::Law => problem.decide(ConeSearch::Law),
+            ConeSearch::Near { faces, tolerance } => {
+                let face = |block: &RowBlock| faces[self.rows.all[self.places[block.first]]];
+                let faces: Vec<Face> = self.blocks.iter().map(face).collect();
+                problem.decide(ConeSearch::Near { faces: &faces, tolerance })
+            }
+        };
+        match found.is_found {
+            true => Ok(self.reactions(found)),
+            false if problem.is_jammed(TRIALS) => Err(NoForces::Jammed),
+            false => Err(NoForces::Undecided),
         }
     }
 
-    fn solver(&self) -> ConeSolver {
+    fn problem(&self) -> ConeProblem {
         let of =
             |all: &[f64]| self.places.iter().map(|&place| all.get(place).copied().unwrap_or(0.0)).collect();
         let j = self.places.iter().flat_map(|&place| self.rows.row(place)).copied().collect();
-        ConeSolver::new(self.rows.n, j, [of(&self.rates), of(self.noise)], self.blocks.clone())
+        let (rates, noise, blocks) = (of(&self.rates), of(self.noise), self.blocks.clone());
+        ConeProblem { n: self.rows.n, j, rates, noise, blocks }
     }
 
     fn reactions(&self, found: ConeDecision) -> Reactions {
-        let ConeDecision { reactions, mut change, faces, .. } = found;
-        let rate = |place: usize| self.rates[place] + dot(self.rows.row(place), &change);
-        let mut rates: Vec<f64> = (0..self.rows.count).map(rate).collect();
-        let mut forces = self.known.clone();
-        for (known, place) in self.known.iter().zip(0..) {
+        let ConeDecision { reactions, mut change, faces: of_blocks, residual, .. } = found;
+        let mut rates: Vec<f64> =
+            (0..).zip(&self.rates).map(|(place, rate)| rate + dot(self.rows.row(place), &change)).collect();
+        let (mut forces, mut faces) = (self.known.clone(), vec![Face::Open; rates.len()]);
+        for (known, place) in self.known.iter().zip(0..).filter(|(known, _)| **known != 0.0) {
             change.iter_mut().zip(self.rows.row(place)).for_each(|(x, j)| *x += known * j);
         }
-        for (k, &place) in self.places.iter().enumerate().filter(|(_, place)| **place < self.rows.count) {
+        for (k, &place) in self.places.iter().enumerate() {
             (forces[place], rates[place]) = (forces[place] + reactions[k], found.rates[k]);
         }
-        Reactions { forces, rates, change, faces }
+        for (block, face) in self.blocks.iter().zip(of_blocks) {
+            block.rows().for_each(|k| faces[self.places[k]] = face);
+        }
+        Reactions { forces, rates, change, faces, residual }
     }
 }

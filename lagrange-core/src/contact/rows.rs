@@ -1,5 +1,7 @@
 //! The rows of bodies that touch.
 
+use alloc::rc::Rc;
+use alloc::vec;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
 
@@ -30,75 +32,155 @@ pub(super) struct TouchingRows<L> {
     /// J by rows, of n entries each.
     j: Vec<f64>,
     pub(super) n: usize,
-    mass: KineticFactor,
+    mass: Rc<KineticFactor>,
     system: PhantomData<fn(&L)>,
+}
+
+/// Part of the largest mass along a row below which a coordinate has none: that of a unit quaternion near (1, 0, 0, 0) has its square's.
+const MASSLESS: f64 = 1e-8;
+
+/// Rows W of all constraints, by their entries that are not zero.
+pub(super) struct SparseRows {
+    starts: Vec<usize>,
+    entries: Vec<(usize, f64)>,
+}
+
+impl SparseRows {
+    fn of(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
+        let mut all = Self { starts: vec![0], entries: Vec::new() };
+        for a in 0..rows {
+            all.entries.extend((0..columns).map(|i| (i, entry(a, i))).filter(|(_, w)| *w != 0.0));
+            all.starts.push(all.entries.len());
+        }
+        all
+    }
+
+    pub(super) fn row(&self, a: usize) -> &[(usize, f64)] {
+        &self.entries[self.starts[a]..self.starts[a + 1]]
+    }
+
+    /// All entries, by rows, with their columns.
+    fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + Clone + '_ {
+        (0..self.starts.len() - 1).flat_map(|a| self.row(a).iter().map(move |&(i, w)| (a, i, w)))
+    }
+
+    /// W v of one row.
+    pub(super) fn along(&self, a: usize, v: &[f64]) -> f64 {
+        self.row(a).iter().fold(0.0, |sum, &(i, w)| sum + w * v[i])
+    }
+}
+
+/// The mass matrix in coordinates of kinetic energy. Coordinates without mass have constraints that move them: a least mass along these
+/// rows changes nothing but their reactions.
+pub(super) struct Inertia {
+    pub(super) factor: Rc<KineticFactor>,
+    /// The mass along the row of each constraint.
+    pub(super) along: Vec<f64>,
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// The rows of these contacts, of all friction that may act with them, and of all other constraints.
     pub(super) fn rows(&self, touching: Vec<usize>, state: &StateOf<L>) -> Result<TouchingRows<L>, Error> {
+        let jacobian = self.jacobian(state);
+        let inertia = self.inertia(&self.mass(state), &[], (&jacobian, state))?;
+        Ok(TouchingRows::of(touching, &jacobian, inertia.factor))
+    }
+
+    /// Rows of closed contacts and of friction that sticks, and of the constraints that hold with open ones.
+    pub(super) fn jacobian(&self, state: &StateOf<L>) -> SparseRows {
+        let closed = self.closed.constraint_jacobian(state);
+        let is_free = free::<L>();
+        let open = is_free.contains(&true).then(|| self.open.constraint_jacobian(state));
+        SparseRows::of(<L::M>::COUNT, <L::N>::COUNT, |a, i| match &open {
+            Some(open) if is_free[a] => open[(a, i)].to_f64(),
+            _ => closed[(a, i)].to_f64(),
+        })
+    }
+
+    /// The mass matrix.
+    pub(super) fn mass(&self, state: &StateOf<L>) -> SparseRows {
+        let (n, masses) = (<L::N>::COUNT, self.open.mass_matrix(state));
+        SparseRows::of(n, n, |i, k| masses[(i, k)].to_f64())
+    }
+
+    /// Decomposes the sum of a mass matrix and these entries, with a least mass along the rows of constraints.
+    pub(super) fn inertia(
+        &self,
+        mass: &SparseRows,
+        added: &[(usize, usize, f64)],
+        (jacobian, state): (&SparseRows, &StateOf<L>),
+    ) -> Result<Inertia, Error> {
+        let n = <L::N>::COUNT;
+        let mut diagonal = vec![0.0; n];
+        let all = || mass.entries().chain(added.iter().copied());
+        all().filter(|(i, k, _)| i == k).for_each(|(i, _, x)| diagonal[i] += x);
+        let largest = diagonal.iter().fold(0.0, |most: f64, mass| most.max(mass.abs()));
+        let (mut along, mut of_rows) = (vec![0.0; <L::M>::COUNT], Vec::new());
+        for ((a, along), _) in along.iter_mut().enumerate().zip(free::<L>()).filter(|(_, is_free)| *is_free) {
+            let row = jacobian.row(a);
+            let most = row.iter().fold(0.0, |most, &(i, _)| f64::max(most, diagonal[i]));
+            let masses = row.iter().map(|&(i, _)| diagonal[i]).filter(|mass| *mass > MASSLESS * most);
+            let least = masses.fold(f64::INFINITY, f64::min);
+            let least = if least.is_finite() { least } else { largest };
+            *along = least / row.iter().map(|(_, w)| w * w).sum::<f64>();
+            *along = if along.is_finite() { *along } else { 0.0 };
+            let entry = |&(i, of): &(usize, f64), &(k, w): &(usize, f64)| (i, k, *along * of * w);
+            of_rows.extend(
+                row.iter().flat_map(|of| row.iter().map(move |w| (of, w))).map(|(of, w)| entry(of, w)),
+            );
+        }
+        // The general solver says which coordinates have no mass.
+        let Some(factor) = KineticFactor::of(n, all().chain(of_rows.iter().copied())) else {
+            solve(&self.open, state)?;
+            return Err(Error::Singular { coordinates: Names::default(), time: state.t.to_f64() });
+        };
+        Ok(Inertia { factor: Rc::new(factor), along })
+    }
+}
+
+/// Which constraints are not of contacts nor of friction.
+fn free<L: Contacts>() -> Vec<bool> {
+    let mut is_free = vec![true; <L::M>::COUNT];
+    L::CONTACTS.iter().for_each(|&a| is_free[a] = false);
+    L::FRICTIONS.iter().for_each(|friction| is_free[friction.rows()].fill(false));
+    is_free
+}
+
+impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
+    /// The rows of these contacts, of all friction that may act with them, and of all other constraints.
+    pub(super) fn of(touching: Vec<usize>, jacobian: &SparseRows, mass: Rc<KineticFactor>) -> Self {
+        let (mut touches, mut frictions) = (vec![false; L::CONTACTS.len()], Vec::new());
+        touching.iter().for_each(|&k| touches[k] = true);
         let mut all: Vec<usize> = touching.iter().map(|&k| L::CONTACTS[k]).collect();
-        let mut frictions = Vec::new();
         for (f, friction) in L::FRICTIONS.iter().enumerate() {
-            if friction.contact.is_none_or(|k| touching.contains(&k)) {
+            if friction.contact.is_none_or(|k| touches[k]) {
                 frictions.push((f, all.len()));
                 all.extend(friction.rows());
             }
         }
         let count = all.len();
-        let is_free =
-            |a: &usize| !L::CONTACTS.contains(a) && !L::FRICTIONS.iter().any(|of| of.rows().contains(a));
-        all.extend((0..<L::M>::COUNT).filter(is_free));
-        let (j, mass) = self.kinetic(&all, count, state)?;
+        all.extend((0..).zip(free::<L>()).filter(|(_, is_free)| *is_free).map(|(a, _)| a));
         let n = <L::N>::COUNT;
-        Ok(TouchingRows { all, touching, frictions, count, j, n, mass, system: PhantomData })
-    }
-
-    /// Rows in the coordinates of kinetic energy. Coordinates without mass have constraints that move them: a least mass along these rows
-    /// changes nothing, since they do not move.
-    fn kinetic(
-        &self,
-        all: &[usize],
-        count: usize,
-        state: &StateOf<L>,
-    ) -> Result<(Vec<f64>, KineticFactor), Error> {
-        let n = <L::N>::COUNT;
-        let (jacobian, of_constraints) =
-            (self.closed.constraint_jacobian(state), self.open.constraint_jacobian(state));
-        let entry = |place: usize, i: usize| match place < count {
-            true => jacobian[(all[place], i)].to_f64(),
-            false => of_constraints[(all[place], i)].to_f64(),
-        };
-        let mut j: Vec<f64> = (0..all.len())
-            .flat_map(|place| (0..n).map(move |i| (place, i)))
-            .map(|(place, i)| entry(place, i))
-            .collect();
-        let masses = self.open.mass_matrix(state);
-        let mut mass: Vec<f64> =
-            (0..n).flat_map(|i| (0..n).map(move |k| (i, k))).map(|(i, k)| masses[(i, k)].to_f64()).collect();
-        let largest = (0..n).fold(0.0, |most, i| f64::max(most, mass[i * n + i].abs()));
-        for row in j.chunks_exact(n.max(1)).skip(count) {
-            let along = |i: usize| mass[i * n + i] / (row[i] * row[i]);
-            let along = (0..n).map(along).filter(|along| *along > 0.0 && along.is_finite());
-            let least = along.fold(f64::INFINITY, f64::min);
-            let least = if least.is_finite() { least } else { largest };
-            for (i, of) in row.iter().enumerate() {
-                mass[i * n..][..n].iter_mut().zip(row).for_each(|(m, w)| *m += least * of * w);
-            }
+        let mut j = vec![0.0; all.len() * n];
+        for (&a, row) in all.iter().zip(j.chunks_exact_mut(n.max(1))) {
+            jacobian.row(a).iter().for_each(|&(i, w)| row[i] = w);
+            mass.solve_lower(row);
         }
-        // The general solver says which coordinates have no mass.
-        let Some(mass) = KineticFactor::of(mass, n) else {
-            solve(&self.open, state)?;
-            return Err(Error::Singular { coordinates: Names::default(), time: state.t.to_f64() });
-        };
-        j.chunks_exact_mut(n.max(1)).for_each(|row| mass.solve_lower(row));
-        Ok((j, mass))
+        Self { all, touching, frictions, count, j, n, mass, system: PhantomData }
     }
-}
 
-impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
     pub(super) fn row(&self, place: usize) -> &[f64] {
         &self.j[place * self.n..][..self.n]
+    }
+
+    /// What a change of x changes a rate by.
+    pub(super) fn along(&self, place: usize, x: &[f64]) -> f64 {
+        dot(self.row(place), x)
+    }
+
+    /// |J| of a row.
+    pub(super) fn length(&self, place: usize) -> f64 {
+        sqrt(self.response(place, place))
     }
 
     /// By how much a reaction of 1 of one row changes the rate of another one.
@@ -130,7 +212,7 @@ impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
     pub(super) fn motion_noise(&self, state: &StateOf<L>) -> Vec<f64> {
         let v: Vec<f64> = (0..self.n).map(|i| state.v[i].to_f64()).collect();
         let speed = L::Scalar::EPSILON * UNITS * self.mass.speed(&v);
-        (0..self.count).map(|place| speed * sqrt(self.response(place, place))).collect()
+        (0..self.count).map(|place| speed * self.length(place)).collect()
     }
 
     /// Rows that stay at rest: closed gaps, and velocities of friction that sticks.

@@ -208,9 +208,13 @@ impl Display for Error {
                 f,
                 "the friction of `{friction}` at t = {time} has the limit {limit} and the sliding force {sliding}: both must be numbers, and 0 ≤ sliding ≤ limit"
             ),
-            Self::ImpulsesNotFound { residual, iterations, time } => write!(
+            Self::ImpulsesNotFound { friction, time } => write!(
                 f,
-                "no impulses of the contacts at t = {time} were found in {iterations} sweeps: a relative residual of {residual:.1e} is left; allow more by `max_iterations` or a larger `tolerance`, or look for contacts that close in on one another"
+                "no impulses of `{friction}` and the contacts beside it were found in the step at t = {time}: take shorter steps, or state fewer contacts, as one foot in the place of two"
+            ),
+            Self::StepTooLong { residual, iterations, time } => write!(
+                f,
+                "the forces change too much within the step from t = {time}: after {iterations} iterations the balance of momentum is off by {residual:.1e} of its largest term; take shorter steps"
             ),
             Self::Theta { value } => {
                 write!(f, "the part θ of a time step is {value}: it must be from 0.5 to 1")

@@ -28,6 +28,8 @@ mod tangent;
 mod variation;
 
 #[cfg(feature = "alloc")]
+pub(crate) use self::tangent::WideOf;
+#[cfg(feature = "alloc")]
 pub(crate) use self::{argument::set_parameter, linearization::eigenvalues, singular::Singular};
 #[cfg(feature = "alloc")]
 pub use self::{

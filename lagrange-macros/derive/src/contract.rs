@@ -266,8 +266,9 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// Associated constants of these traits.
-const CONSTANTS: [&str; 22] = [
+const CONSTANTS: [&str; 23] = [
     "STATE_ARGUMENTS",
+    "FORCE_ARGUMENTS",
     "DEPENDS_ON_TIME",
     "QUATERNIONS",
     "HAS_CONTACTS",

@@ -2,7 +2,7 @@
 
 use lagrange_random::Random;
 
-use crate::cone::{ConeDecision, ConeSolver, Limit, RowBlock, Set};
+use crate::cone::{ConeDecision, ConeProblem, ConeSearch, ConeSolver, Limit, RowBlock, Set};
 
 /// How the rows of an impact depend on one another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +56,8 @@ impl Case {
     }
 
     pub(super) fn decision(&self) -> ConeDecision {
-        self.solver().decide()
+        let (j, [rates, noise]) = (self.rows.concat(), [self.q.clone(), self.noise.clone()]);
+        ConeProblem { n: self.n, j, rates, noise, blocks: self.blocks.clone() }.decide(ConeSearch::Law)
     }
 
     /// Up to four contacts with friction along one or two velocities.

@@ -1,21 +1,25 @@
 //! Steps of one length across contacts, for many of them: neither impacts nor transitions are located, and impulses take the
 //! place of forces.
 
+mod correction;
+mod forces;
+mod middle;
 mod step;
+mod stepper;
 mod trajectory;
 
 use alloc::vec::Vec;
 
-use super::bodies::Bodies;
+use super::Contacts;
 use super::builder::{CrossesContacts, check_times};
-use super::{Contact, Contacts, ImpactLaw};
 use crate::error::{Ending, Error, Pace};
+use crate::linearized::StateDerivatives;
 use crate::motion::method::contract::check_settings;
 use crate::motion::progress::report;
 use crate::motion::{AllSteps, LagrangianVectorField, MotionBuilder, Start};
-use crate::number::{Real, Scalar};
-use crate::solution::solve::solve;
-use crate::system::{Lagrangian, StateOf};
+use crate::number::Real;
+use crate::system::Lagrangian;
+pub use stepper::ContactStepper;
 pub use trajectory::{SteppedTrajectory, TimeStep};
 
 /// Largest number of steps unless [`max_steps`](MoreauJean::max_steps) sets another.
@@ -29,20 +33,21 @@ const RESERVED: usize = 1 << 16;
 
 /// Time stepping of contacts by the scheme of Moreau and Jean: [`by_time_stepping`](MotionBuilder::by_time_stepping).
 ///
-/// For many contacts, as in stacks and heaps, whose impacts are too many to be located one after another. A step of the length h
-/// (Moreau 1988; Jean, *Computer Methods in Applied Mechanics and Engineering* 177, 1999; Acary and Brogliato, *Numerical
-/// Methods for Nonsmooth Dynamical Systems*, 2008, chapter 10)
+/// For many contacts, as in stacks and heaps, whose impacts are too many to be located one after another, and for games and controllers,
+/// which take [one step at a time](ContactStepper). A step of the length h (Moreau 1988; Jean, *Computer Methods in Applied Mechanics and
+/// Engineering* 177, 1999; Acary and Brogliato, *Numerical Methods for Nonsmooth Dynamical Systems*, 2008, chapter 10)
 ///
 /// 1. drifts: q = q⁻ + (1 − θ) h v⁻;
-/// 2. kicks: M(q)(v⁺ − v⁻) = h f + Fᵀλ + Wᵀp, with the forces f at q and at half a step without contacts, the impulses λ of
-///    constraints and p of contacts and friction;
+/// 2. kicks: M(q)(v⁺ − v⁻) = h f + Fᵀλ + Wᵀp, with the impulses λ of constraints and p of contacts and friction, and the forces f at
+///    the velocities v = v⁻ + θ (v⁺ − v⁻) and the coordinates q⁻ + θ h v: they are those of the θ-method;
 /// 3. drifts on: q⁺ = q + θ h v⁺, and is projected to where no gap is negative and the constraints hold, in the metric of M and
 ///    without a change of velocities.
 ///
 /// Contacts act if their gaps are closed after the first drift, or would be negative at the end. Their rates u then satisfy
 /// Newton's law, u⁺ ≥ −e u⁻, p ≥ 0 and p = 0 unless they are equal, and the velocities of friction Coulomb's. Without
 /// restitution, and if the contact is approached no faster than free bodies fall in a step, they close without a bounce. Where
-/// restitution with friction would give energy, it is reduced, as from impact to impact. A contact with Poisson's law is an error.
+/// restitution with friction would give energy, it is reduced, as from impact to impact. A contact with Poisson's law is an error. The
+/// states of contacts in their fields are not looked at: gaps and velocities say them.
 #[cfg_attr(
     feature = "std",
     doc = r#"
@@ -76,27 +81,32 @@ assert!(lower > upper && ((upper + lower) / 1e-3 - 2.0 * 9.81 * block.alpha.cos(
 "#
 )]
 ///
-/// # Impulses, and by what bound they are found
+/// # Forces and impulses, and by what bound they are found
 ///
-/// Sweeps over the contacts (projected Gauss–Seidel; Jourdan, Alart and Jean 1998) begin with the impulses of the step before.
-/// From the eighth on, whenever their number doubles, Newton's method is tried (Alart and Curnier 1991), which takes
-/// over where sweeps are slow: in stacks, and where contacts depend on one another. Each step has its
-/// [residual](TimeStep::residual), and one above the tolerance ends the motion with [`Error::ImpulsesNotFound`]; what was computed
-/// until then is kept.
+/// Forces that are linear in coordinates and velocities, as of springs and dampers, act with the whole mass matrix M + θ h C + θ² h² K, where
+/// C = −∂f/∂v and K = −∂f/∂q: a wheel of 20 kg below a spring of 40 kN/m and a damper of 4 kN s/m rests and rolls with steps of 1/60 s. Of
+/// other forces, this is done with the symmetric part of the derivatives at the start of the step, and repeated until the balance of
+/// momentum holds up to the tolerance, as a part of its largest term: the [residual](TimeStep::residual) of the step. Where it does
+/// not come to that, [`Error::StepTooLong`] ends the motion.
+///
+/// Each time, the impulses satisfy the law of contacts to round-off, as from impact to impact. Those of a step begin with what
+/// stuck and slid in the one before. If none are found, [`Error::ImpulsesNotFound`] or [`Error::ContactsContradict`] ends the motion, and
+/// what was computed until then is kept.
 ///
 /// # Errors and energy
 ///
 /// - The order is 1: an impact acts up to a step too early or late. Between impacts the order is 2 with θ = ½ and without
 ///   constraints, whose velocities are projected onto them within a step and do not satisfy them at its end.
+/// - What rests is at rest exactly, with any step: the forces of a body that does not move are those of its place.
 /// - Gaps are never below zero at the end of a step, but for round-off and a millionth of what the free bodies fall in a
-///   step; up to that size they count as closed.
+///   step; up to that size they count as closed. What ends a step can start another motion.
 /// - With θ = ½ and forces that do not change within a step, the energy changes by p (u⁻ + u⁺)/2 in all, which is never
 ///   positive: it falls, and an elastic impact keeps it. The projection may lift bodies by what the path of a contact leaves
 ///   its tangent in a step, of the order h², and constraints that turn take some energy, of the order h.
 /// - With friction whose limit exceeds the force of sliding, the bodies stick in a step up to the limit if they stuck in the
 ///   one before.
-/// - Memory grows with the square of the number of contacts and frictions, the work of a sweep with the square of those that act,
-///   and that of a step of Newton's method with the third power. A step allocates nothing.
+/// - Contacts of bodies that touch one another, directly or by others, are one problem, with the cube of their number as work; others cost
+///   what they cost alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct MoreauJean {
@@ -108,10 +118,10 @@ pub struct MoreauJean {
 }
 
 impl MoreauJean {
-    /// Sets the step length, in units of time. θ is ½, the tolerance 10⁻⁸, and the limits are 10,000 sweeps in a step and
+    /// Sets the step length, in units of time. θ is ½, the tolerance 10⁻⁸, and the limits are 50 iterations in a step and
     /// 100,000 steps.
     pub fn with_step(step: f64) -> Self {
-        Self { step, theta: 0.5, tolerance: 1e-8, max_iterations: 10_000, max_steps: STEPS }
+        Self { step, theta: 0.5, tolerance: 1e-8, max_iterations: 50, max_steps: STEPS }
     }
 
     /// Sets the part θ of a step for which the bodies move with the velocities after it, from ½ to 1. Vibrations keep their energy
@@ -120,12 +130,12 @@ impl MoreauJean {
         Self { theta, ..self }
     }
 
-    /// Sets the tolerance of the [residual](TimeStep::residual) of the impulses of a step.
+    /// Sets the tolerance of the [residual](TimeStep::residual) of a step.
     pub fn tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// Sets the largest number of sweeps in a step.
+    /// Sets how often the impulses of a step are found anew, as forces change with the velocities.
     pub fn max_iterations(self, max_iterations: usize) -> Self {
         Self { max_iterations, ..self }
     }
@@ -136,11 +146,11 @@ impl MoreauJean {
     }
 
     fn check(&self) -> Result<(), Error> {
-        let sweeps = self.max_iterations as f64;
+        let iterations = self.max_iterations as f64;
         check_settings([
             ("step", Some(self.step)),
             ("tolerance", Some(self.tolerance)),
-            ("largest number of sweeps", Some(sweeps)),
+            ("largest number of iterations", Some(iterations)),
         ])?;
         let is_right = self.theta >= 0.5 && self.theta <= 1.0;
         if is_right { Ok(()) } else { Err(Error::Theta { value: self.theta }) }
@@ -175,7 +185,7 @@ type Builder<'a, 'w, L, P> = MotionBuilder<
     TimeStepping,
 >;
 
-impl<L: Contacts<Scalar: Real> + Clone, P> Builder<'_, '_, L, P> {
+impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P> Builder<'_, '_, L, P> {
     /// Moves to the time `end`.
     ///
     /// # Errors
@@ -185,68 +195,43 @@ impl<L: Contacts<Scalar: Real> + Clone, P> Builder<'_, '_, L, P> {
     }
 
     /// Moves towards the time `end`. If the motion fails on the way, the result holds what was computed until then, and its
-    /// [`ending`](SteppedTrajectory::ending) the reason: [`Error::ImpulsesNotFound`] if the sweeps of a step leave a residual
-    /// above the tolerance.
+    /// [`ending`](SteppedTrajectory::ending) the reason: [`Error::StepTooLong`], [`Error::ImpulsesNotFound`] or
+    /// [`Error::ContactsContradict`].
     ///
     /// # Errors
-    /// [`Error::Setting`] and [`Error::Theta`] for settings that are not allowed; [`Error::ImpactLaw`] if a contact has Poisson's
-    /// law of impact; those of
-    /// [`integrate`](crate::Simulate::integrate) before the first step; [`Error::Penetration`] if a gap is negative at the
-    /// start; [`Error::MotionBackwards`] if `end` lies before the start.
-    pub fn towards(self, end: L::Scalar) -> Result<SteppedTrajectory<L>, Error> {
-        let Self { system, start, mut on_progress, kept: TimeStepping { scheme }, .. } = self;
-        let state = start.into_state()?;
-        scheme.check()?;
-        check_times(state.t, end)?;
-        let bodies = begin(system, &state, end)?;
-        let (open, from) = (bodies.open.clone(), state.t);
-        let mut stepper = step::Stepper::new(bodies, scheme, &state);
+    /// Those of [`stepper`](Self::stepper); [`Error::MotionBackwards`] if `end` lies before the start.
+    pub fn towards(mut self, end: L::Scalar) -> Result<SteppedTrajectory<L>, Error> {
+        let on_progress = core::mem::take(&mut self.on_progress);
+        let mut on_progress = on_progress;
+        let (scheme, mut stepper) = (self.kept.scheme, self.stepper()?);
+        let from = stepper.state().t;
+        check_times(from, end)?;
         let count = count(&scheme, (end - from).to_f64());
         let mut steps = Vec::with_capacity(count.min(scheme.max_steps).min(RESERVED) + 1);
-        steps.push(TimeStep::start(state));
+        steps.push(*stepper.last());
         let ending = loop {
-            let (done, last): (usize, StateOf<L>) = (steps.len() - 1, steps[steps.len() - 1].state);
-            let time = last.t.to_f64();
+            let done = steps.len() - 1;
+            let (last, next) = (stepper.state().t, if done + 1 == count { end } else { stepper.next_time() });
+            let time = last.to_f64();
             if done == count {
                 break Ending::Complete { time };
             }
             if done >= scheme.max_steps {
                 break Ending::StepLimit { time, steps: done, pace: Pace::default() };
             }
-            let planned = from + L::Scalar::constant(scheme.step * (done + 1) as f64);
-            let next = if done + 1 == count { end } else { planned };
-            if next <= last.t {
+            if next <= last {
                 break Ending::TimeTooCoarse { time, step: scheme.step };
             }
-            match stepper.step(&last, next) {
-                Ok(step) => steps.push(step),
+            match stepper.advance(next) {
+                Ok(step) => steps.push(*step),
                 Err(error) => break Ending::of(error, time),
             }
             if let Err(ending) = report(&mut on_progress, [from, next, end], done + 1) {
                 break ending;
             }
         };
-        Ok(SteppedTrajectory { system: open, steps, ending })
+        Ok(SteppedTrajectory { system: stepper.into_system(), steps, ending })
     }
-}
-
-/// Checks the start.
-fn begin<L: Contacts<Scalar: Real> + Clone>(
-    system: &L,
-    state: &StateOf<L>,
-    end: L::Scalar,
-) -> Result<Bodies<L>, Error> {
-    let mut bodies = Bodies::new(system);
-    if let Some(k) = L::IMPACT_LAWS.iter().position(|&law| law == ImpactLaw::Poisson) {
-        return Err(Error::ImpactLaw { contact: bodies.name(k) });
-    }
-    solve(&bodies.open, state)?;
-    bodies.passes(state);
-    bodies.reaches(state, end - state.t)?;
-    let is_closed = |k| system.contact(k) != Some(Contact::Open);
-    bodies.check_closed(is_closed, state)?;
-    bodies.crossed(is_closed, state).map_or(Ok(()), Err)?;
-    Ok(bodies)
 }
 
 /// Number of steps over a span of time, the last of which may be shorter.

@@ -16,10 +16,9 @@ pub struct TimeStep<L: Lagrangian> {
     pub state: StateOf<L>,
     /// Impulses Λ of all constraints, contacts and friction in the step: momenta change by WᵀΛ.
     pub impulses: Vector<L::Scalar, L::M>,
-    /// Number of sweeps.
+    /// How often the impulses were found, as forces change with the velocities.
     pub iterations: usize,
-    /// Largest defect |p − proj(p − u/g)| √g of the impulses p of a gap or a friction with the rates u, where g is the response of
-    /// u to p; relative to the largest |c|/√g, with the rates c without impulses.
+    /// What the balance of momentum is off by, as a part of its largest term, both in units of the root of an energy.
     pub residual: L::Scalar,
 }
 
@@ -127,7 +126,7 @@ impl<L: Lagrangian<Scalar: Real>> SteppedTrajectory<L> {
         Ok(StateOf::<L> { t, q, v })
     }
 
-    /// The largest number of sweeps and the largest residual of a step.
+    /// The largest number of iterations and the largest residual of a step.
     fn worst(&self) -> (usize, L::Scalar) {
         self.steps.iter().fold((0, L::Scalar::constant(0.0)), |(iterations, residual), step| {
             (iterations.max(step.iterations), larger(residual, step.residual))
@@ -135,18 +134,18 @@ impl<L: Lagrangian<Scalar: Real>> SteppedTrajectory<L> {
     }
 }
 
-/// A summary: steps, the largest number of sweeps and the largest residual, and the ending.
+/// A summary: steps, the largest number of iterations and the largest residual, and the ending.
 impl<L: Contacts<Scalar: Real>> Display for SteppedTrajectory<L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let [start, end] = [self.steps[0].state.t, self.end().t];
         let ((iterations, residual), steps) = (self.worst(), self.steps.len() - 1);
+        let [of_steps, of_iterations] = [steps, iterations].map(|count| if count == 1 { "" } else { "s" });
+        writeln!(f, "{} from t = {start} to t = {end}: {steps} step{of_steps}", L::NAME)?;
+        let residual = residual.to_f64();
         writeln!(
             f,
-            "{} from t = {start} to t = {end}: {steps} step{}",
-            L::NAME,
-            if steps == 1 { "" } else { "s" }
+            "at most {iterations} iteration{of_iterations} and a residual of {residual:.1e} in a step"
         )?;
-        writeln!(f, "at most {iterations} sweeps and a residual of {:.1e} in a step", residual.to_f64())?;
         write!(f, "{}", self.ending)
     }
 }

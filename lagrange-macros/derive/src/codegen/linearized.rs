@@ -23,25 +23,33 @@ pub(super) struct Changing {
     /// Without the part of a tree of bodies.
     by_state: [Program; 2],
     by_parameters: [Program; 2],
-    /// Indices of the rates of time, coordinates and velocities with which the residual changes.
+    /// Indices of the rates of time, coordinates and velocities with which the residual changes, and those with which h does.
     state_arguments: BTreeSet<usize>,
+    force_arguments: BTreeSet<usize>,
 }
 
 impl Changing {
-    pub(super) fn new(graph: &Graph, linearization: &Linearization) -> Self {
+    pub(super) fn new(graph: &Graph, linearization: &Linearization, forcing: &[Id]) -> Self {
         let Linearization { by_state, by_parameters, residual, split } = linearization;
         let programs =
             |changes: &Changes, residual: &[Id]| Program::of_changes(graph, &changes.roots(), residual);
+        let n = forcing.len();
         let argument = |symbol| match Variable::of(symbol) {
             Variable::Change(index) => Some(index),
+            Variable::Time => Some(0),
+            Variable::Coordinate(i) => Some(1 + i),
+            Variable::Velocity(i) => Some(1 + n + i),
             _ => None,
         };
-        let state_arguments = graph.symbols(&by_state.roots()).filter_map(argument).collect();
+        let changes =
+            |symbol| argument(symbol).filter(|_| matches!(Variable::of(symbol), Variable::Change(_)));
+        let state_arguments = graph.symbols(&by_state.roots()).filter_map(changes).collect();
+        let force_arguments = graph.symbols(forcing).filter_map(argument).collect();
         let by_state = match split {
             Some(split) => programs(&split.by_state, &split.residual),
             None => programs(by_state, residual),
         };
-        Self { by_state, by_parameters: programs(by_parameters, residual), state_arguments }
+        Self { by_state, by_parameters: programs(by_parameters, residual), state_arguments, force_arguments }
     }
 
     /// Number of slopes: the larger of the numbers for states and for parameters.
@@ -90,7 +98,8 @@ impl Emitter<'_> {
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let (runtime, ident) = (runtime(self.declaration), &self.declaration.ident);
         let p = self.style.types.parameters;
-        let arguments = changing.state_arguments.iter();
+        let [arguments, of_forces] =
+            [&changing.state_arguments, &changing.force_arguments].map(|all| all.iter().copied());
         let scalar = self.style.types.scalar;
         let [of_state_slopes, of_parameter_slopes] =
             [&changing.by_state, &changing.by_parameters].map(|[slopes, _]| slopes.results.len());
@@ -113,6 +122,7 @@ impl Emitter<'_> {
                 impl #impl_generics __lagrange::StateDerivatives for #ident #type_generics #where_clause {
                     type Slopes = #slopes;
                     const STATE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(&[#(#arguments),*]);
+                    const FORCE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(&[#(#of_forces),*]);
                     #of_state
                 }
 

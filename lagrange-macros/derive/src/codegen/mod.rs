@@ -67,7 +67,10 @@ pub(crate) fn implementation(
     diagnostics: &mut Diagnostics,
 ) -> Option<TokenStream> {
     let solving = Solving::cheapest(graph, &derived.equations);
-    let changing = derived.linearization.as_ref().map(|linearization| Changing::new(graph, linearization));
+    let changing = derived
+        .linearization
+        .as_ref()
+        .map(|linearization| Changing::new(graph, linearization, &derived.equations.forcing));
     let series = TaylorPrograms::new(graph, &derived.equations);
     let slopes =
         changing.as_ref().map_or(0, Changing::slopes).max(series.as_ref().map_or(0, TaylorPrograms::slopes));

@@ -1,0 +1,172 @@
+//! Steps across contacts, one at a time.
+
+use core::fmt::{self, Debug, Formatter};
+
+use super::Builder;
+use super::MoreauJean;
+use super::middle::Middle;
+use super::step::Steps;
+use super::trajectory::TimeStep;
+use crate::contact::bodies::{Bodies, UNITS};
+use crate::contact::{Contacts, ImpactLaw};
+use crate::error::Error;
+use crate::linearized::StateDerivatives;
+use crate::names::name;
+use crate::number::{Real, Scalar};
+use crate::solution::solve::solve;
+use crate::system::StateOf;
+use crate::vector::Length;
+
+/// A motion across contacts that is taken step by step, for games and controllers. It keeps what stuck and slid: steps one by one are those
+/// of [`to`](crate::MotionBuilder::to), bit by bit.
+///
+/// ```
+/// use lagrange_core::contact::{Contact, MoreauJean};
+/// use lagrange_core::prelude::*;
+///
+/// /// A cart on a floor, which a motor drives against dry friction.
+/// #[derive(Clone, Lagrangian)]
+/// #[coordinates(x, y)]
+/// #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+/// #[force(x: motor)]
+/// #[contact(floor: y >= 0, friction(mu): x_dot)]
+/// struct Cart { m: f64, g: f64, mu: f64, motor: f64, floor: Contact }
+///
+/// let cart = Cart { m: 2.0, g: 9.81, mu: 0.5, motor: 0.0, floor: Contact::Closed };
+/// let motion = cart.motion(State::at_rest([0.0, 0.0])).by_time_stepping(MoreauJean::with_step(1.0 / 60.0));
+/// let mut stepper = motion.stepper()?;
+/// for frame in 0..120 {
+///     // The motor pulls harder and harder: the cart holds up to μ m g.
+///     stepper.change(|cart| cart.motor = f64::from(frame) / 10.0);
+///     let step = stepper.step()?;
+///     assert_eq!(step.state.v[0] > 1e-12, f64::from(frame) / 10.0 > 0.5 * 2.0 * 9.81);
+/// }
+/// # Ok::<(), Error>(())
+/// ```
+pub struct ContactStepper<L: Contacts<Scalar: Real>> {
+    steps: Steps<L>,
+    last: TimeStep<L>,
+    /// From where steps of the length of the scheme are counted, and their number.
+    from: L::Scalar,
+    done: usize,
+}
+
+impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P> Builder<'_, '_, L, P> {
+    /// Begins a motion that is taken step by step.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] and [`Error::Theta`] for settings that are not allowed; [`Error::ImpactLaw`] if a contact has Poisson's
+    /// law of impact; those of [`solve`](crate::Simulate::solve) at the start; [`Error::Penetration`] if a gap is negative there,
+    /// [`Error::NotProjected`] and [`Error::Inconsistent`] if a constraint does not hold, by more than what a step leaves.
+    pub fn stepper(self) -> Result<ContactStepper<L>, Error> {
+        let Self { system, start, kept, .. } = self;
+        let (state, scheme) = (start.into_state()?, kept.scheme);
+        scheme.check()?;
+        let mut bodies = Bodies::new(system);
+        if let Some(k) = L::IMPACT_LAWS.iter().position(|&law| law == ImpactLaw::Poisson) {
+            return Err(Error::ImpactLaw { contact: bodies.name(k) });
+        }
+        solve(&bodies.open, &state)?;
+        bodies.passes(&state);
+        bodies.reaches(&state, L::Scalar::constant(scheme.step))?;
+        check_start(&bodies, &state, &scheme)?;
+        let steps = Steps::new(bodies, scheme, &state);
+        Ok(ContactStepper { steps, last: TimeStep::start(state), from: state.t, done: 0 })
+    }
+}
+
+impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> ContactStepper<L> {
+    /// Takes a step of the length of the scheme.
+    ///
+    /// # Errors
+    /// [`Error::StepTooLong`], [`Error::ImpulsesNotFound`], [`Error::ContactsContradict`]; those of numbers that are none. The
+    /// stepper stays at the end of the last step.
+    pub fn step(&mut self) -> Result<&TimeStep<L>, Error> {
+        let next = self.next_time();
+        self.advance(next)
+    }
+
+    /// Takes a step to this time, and counts those that follow from there.
+    ///
+    /// # Errors
+    /// Those of [`step`](Self::step); [`Error::MotionBackwards`] if the time is not after that of the state.
+    pub fn step_to(&mut self, time: L::Scalar) -> Result<&TimeStep<L>, Error> {
+        let now = self.last.state.t;
+        let is_after = time > now;
+        if !is_after {
+            return Err(Error::MotionBackwards { start: now.to_f64(), end: time.to_f64() });
+        }
+        self.advance(time)?;
+        (self.from, self.done) = (time, 0);
+        Ok(&self.last)
+    }
+
+    /// Takes a step to this time, and counts it.
+    pub(super) fn advance(&mut self, time: L::Scalar) -> Result<&TimeStep<L>, Error> {
+        self.last = self.steps.step(&self.last.state, time)?;
+        self.done += 1;
+        Ok(&self.last)
+    }
+
+    /// The end of the next step of the length of the scheme.
+    pub(super) fn next_time(&self) -> L::Scalar {
+        self.from + L::Scalar::constant(self.steps.settings.step * (self.done + 1) as f64)
+    }
+
+    /// Returns the last step. Before the first, it has the start and no impulses.
+    pub fn last(&self) -> &TimeStep<L> {
+        &self.last
+    }
+
+    /// Returns the state at the end of the last step.
+    pub fn state(&self) -> &StateOf<L> {
+        &self.last.state
+    }
+
+    /// Returns the system, with all contacts open.
+    pub fn system(&self) -> &L {
+        &self.steps.bodies.open
+    }
+
+    /// Changes parameters, as inputs of a controller, from the next step on.
+    pub fn change(&mut self, change: impl FnOnce(&mut L)) {
+        let mut system = self.system().clone();
+        change(&mut system);
+        self.steps.bodies.take(&system);
+    }
+
+    pub(super) fn into_system(self) -> L {
+        self.steps.bodies.open
+    }
+}
+
+impl<L: Contacts<Scalar: Real>> Debug for ContactStepper<L> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ContactStepper")
+            .field("system", &L::NAME)
+            .field("last", &self.last)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Checks a start as what a step may leave.
+fn check_start<L: Contacts<Scalar: Real> + StateDerivatives + Clone>(
+    bodies: &Bodies<L>,
+    state: &StateOf<L>,
+    scheme: &MoreauJean,
+) -> Result<(), Error> {
+    let middle = Middle::of(bodies, state, L::Scalar::constant(scheme.step), scheme.theta)?;
+    middle.check(bodies, state)?;
+    let (rates, sizes) = (bodies.open.constraint_rate(state), bodies.open.rate_magnitude(state));
+    let turns = bodies.open.constraint_bias(state);
+    for a in 0..<L::M>::COUNT {
+        // Velocities that satisfy a constraint in the middle of a step leave it by what it turns until its end.
+        let allowed =
+            L::Scalar::EPSILON * UNITS * sizes[a].to_f64() + 2.0 * scheme.step * turns[a].to_f64().abs();
+        if Scalar::abs(rates[a]).to_f64() > allowed + middle.touching[a] / scheme.step {
+            let (constraint, time) = (name(L::CONSTRAINTS, a), state.t.to_f64());
+            return Err(Error::Inconsistent { constraint, rate: true, residual: rates[a].to_f64(), time });
+        }
+    }
+    Ok(())
+}
