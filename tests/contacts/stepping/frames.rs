@@ -1,6 +1,6 @@
 //! Motions that are taken step by step, as games and controllers do.
 
-use lagrange_core::contact::{Contact, MoreauJean};
+use lagrange_core::contact::{Contact, MoreauJean, TimeStep};
 use lagrange_core::prelude::*;
 use lagrange_random::cases;
 
@@ -83,6 +83,25 @@ fn a_constrained_motion_goes_on_frame_by_frame() {
     let off = State::new([-0.6, -0.8], [-0.6, -0.8]);
     let error = pendulum.motion(off).by_time_stepping(MoreauJean::with_step(FRAME)).to(1.0).unwrap_err();
     assert!(matches!(error, Error::Inconsistent { rate: true, .. }), "{error}");
+}
+
+/// The impulse of the rod in a step is its force, by a motion without steps of one length, times the step.
+#[test]
+fn impulses_of_constraints_are_their_forces() {
+    use lagrange_systems::Walled;
+    let pendulum = Walled { m: 1.5, l: 1.0, g: 9.81, d: 0.2, e: 0.6, ..Walled::default() };
+    let start = State::at_rest([-0.6, -0.8]);
+    let exact = pendulum.motion(start).by(Dop853::with_tolerance(1e-12)).with_contacts().to(0.4).unwrap();
+    let off = |h: f64| {
+        let path = pendulum.motion(start).by_time_stepping(MoreauJean::with_step(h)).to(0.4).unwrap();
+        let off = |step: &TimeStep<Walled>| {
+            let force = exact.at(step.state.t - h / 2.0).unwrap().multiplier("rod").unwrap();
+            (step.impulse("rod").unwrap() / h - force).abs()
+        };
+        path.steps()[1..].iter().map(off).fold(0.0, f64::max)
+    };
+    let errors = [0.02, 0.01, 0.005].map(off);
+    assert!(errors[2] < 0.05 && errors.windows(2).all(|pair| pair[1] < 0.6 * pair[0]), "{errors:?}");
 }
 
 /// A block that a motor pulls: what changes between steps acts in the next one; a step that fails leaves the stepper where it was.
