@@ -247,3 +247,35 @@ fn each_state_solves_the_equations_written_by_hand() {
     // Rods that lean far and are light to turn dig in.
     assert!(jams < count / 10, "{jams}");
 }
+
+/// A crank drives a block along a floor. At its dead centres the block stops, and no force of friction moves the crank: the block turns round
+/// all the same, and energy is lost by μ m g for each length.
+#[test]
+fn a_block_on_a_crank_turns_round_at_its_dead_centres() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(theta, y)]
+    #[lagrangian(j/2 * theta_dot^2 + m/2 * y_dot^2 - m*g*y)]
+    #[contact(floor: y >= 0, friction(mu): -l*sin(theta)*theta_dot)]
+    struct Crank {
+        j: f64,
+        m: f64,
+        l: f64,
+        g: f64,
+        mu: f64,
+        floor: Contact,
+    }
+    let crank = Crank { j: 2.0, m: 1.0, l: 0.5, g: 10.0, mu: 0.3, floor: Contact::Closed };
+    let motion = crank.motion(State::new([0.5, 0.0], [4.0, 0.0])).by(Dop853::with_tolerance(1e-12));
+    let path = motion.with_contacts().to(2.0).unwrap();
+    let (end, turns) = (path.end(), path.transitions());
+    assert!(
+        turns.iter().all(|turn| matches!(turn, Transition::Reverses { .. })) && turns.len() == 2,
+        "{turns:?} {end:?}"
+    );
+    let theta = end.q[0];
+    assert!(theta > 2.0 * std::f64::consts::PI && theta < 3.0 * std::f64::consts::PI, "{theta}");
+    // From 0.5 to π, to 2 π, and on.
+    let length = 0.5 * ((0.5_f64.cos() + 1.0) + 2.0 + (1.0 - theta.cos()));
+    let lost = 0.5 * 2.0 * (16.0 - end.v[0] * end.v[0]);
+    assert!((lost - 0.3 * 10.0 * length).abs() < 1e-9, "{lost} {}", 3.0 * length);
+}

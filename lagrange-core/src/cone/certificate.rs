@@ -12,7 +12,7 @@ use super::qr::PivotedQr;
 use super::{ConeSolver, Face, RowBlock, Set, dot, length, sqrt};
 
 /// Part of its terms by which a rate may be off the law.
-pub(super) const ACCURACY: f64 = 1e-12;
+pub(crate) const ACCURACY: f64 = 1e-12;
 /// Part of the change of velocities by which reactions may be off it.
 const OFF: f64 = 4e-13;
 /// Round-off that the sum x = Jᵀ r may have, in units of ε of its terms.

@@ -40,6 +40,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
+pub(crate) use certificate::ACCURACY;
 pub(crate) use islands::ConeProblem;
 
 /// What the reactions of a block may be.

@@ -21,6 +21,10 @@ const IMPACTS: usize = 100_000;
 /// Largest number of rounds that stop contacts which approach at rest.
 const STOPS: usize = 8;
 
+/// Part of the largest speed so far by which a velocity of friction that stops may differ from zero by round-off. That of a slider at its dead
+/// centre is zero because of the place: nothing stops there.
+const STOPPED: f64 = 1e-6;
+
 /// Time within which a bounce is searched for, in units of v/a: it takes 2. The end is at no simple part of it, where a zero
 /// would fall on the division of a step.
 const BOUNCE: f64 = 2.7;
@@ -132,8 +136,9 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         for place in rows.active(states) {
             span.add_change(place, -rates[place]);
         }
+        let most = STOPPED * rows.speed(&self.sizes(state).v);
         for (place, velocity) in self.starts(rows, (states, gripped), state) {
-            span.add_change(place, velocity - rates[place]);
+            span.add_change_within(place, velocity - rates[place], most);
         }
         // A rate that is round-off counts, too: in a slot without room, the gap would close again at once.
         let approaches = |place: &usize| {

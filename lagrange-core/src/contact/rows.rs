@@ -207,11 +207,16 @@ impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
         terms.fold(0.0, |sum, (of, r)| sum + (self.response(place, of) * r).abs())
     }
 
+    /// The root of twice the kinetic energy of these velocities.
+    pub(super) fn speed(&self, v: &Vector<L::Scalar, L::N>) -> f64 {
+        let v: Vec<f64> = v.iter().map(|v| v.to_f64()).collect();
+        self.mass.speed(&v)
+    }
+
     /// Round-off that the motion of all bodies leaves in rates: |J x| ≤ |J| |x|, in any coordinates. Those of a wedge and a block on it
     /// have no other size.
     pub(super) fn motion_noise(&self, state: &StateOf<L>) -> Vec<f64> {
-        let v: Vec<f64> = (0..self.n).map(|i| state.v[i].to_f64()).collect();
-        let speed = L::Scalar::EPSILON * UNITS * self.mass.speed(&v);
+        let speed = L::Scalar::EPSILON * UNITS * self.speed(&state.v);
         (0..self.count).map(|place| speed * self.length(place)).collect()
     }
 

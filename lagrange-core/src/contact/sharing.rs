@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::grip::{Decision, Gripped};
 use super::states::LegStates;
 use super::{Contacts, Friction};
-use crate::cone::length;
+use crate::cone::{ACCURACY, length};
 use crate::number::Real;
 
 /// Friction at rest.
@@ -46,11 +46,19 @@ impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
             match (slides, kept) {
                 // It begins to slide, unless the others keep it at rest.
                 (true, 1..) => span.truncate(before),
+                (true, 0) if self.is_driven(place, gripped) => {}
                 (_, kept) if kept == count => states.frictions[f].friction = Friction::Sticks,
                 _ => states.frictions[f].friction = Friction::Shares(parts),
             }
-            states.frictions[f].is_implied = kept == 0;
+            states.frictions[f].is_implied = kept == 0 && states.frictions[f].friction.is_at_rest();
         }
+    }
+
+    /// Whether a velocity changes by more than what forces are known to, although it is that of others at rest: at this instant alone, as
+    /// that of a slider at its dead centre.
+    fn is_driven(&self, place: usize, gripped: &Gripped) -> bool {
+        let terms = self.pressing.0[place].abs() + self.rows.size(place, &gripped.forces);
+        gripped.rates[place].abs() > ACCURACY * terms
     }
 
     /// Friction at rest, that which sticks first, in the order of what is left of its limit.

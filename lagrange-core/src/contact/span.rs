@@ -43,13 +43,22 @@ impl<'a, L: Contacts<Scalar: Real>> RowSpan<'a, L> {
 
     /// Adds a row, if it does not depend on the others, and changes its rate by this, but not those of the others.
     pub(super) fn add_change(&mut self, place: usize, by: f64) {
+        self.add_change_within(place, by, f64::INFINITY);
+    }
+
+    /// The same, if it changes x by no more than this.
+    pub(super) fn add_change_within(&mut self, place: usize, by: f64, most: f64) {
         if !self.add(place) {
             return;
         }
         let (row, Some(along)) = (self.rows.row(place), self.basis.last()) else { return };
         let rest = by - dot(row, &self.change);
         let factor = rest / dot(row, along);
-        self.change.iter_mut().zip(along).for_each(|(x, y)| *x += factor * y);
+        if factor.abs() <= most {
+            self.change.iter_mut().zip(along).for_each(|(x, y)| *x += factor * y);
+        } else {
+            self.basis.pop();
+        }
     }
 
     /// What the change does to the rate of a row.
