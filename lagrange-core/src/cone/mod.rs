@@ -101,8 +101,8 @@ pub(crate) enum ConeSearch<'a> {
 /// What is known of a problem.
 #[derive(Clone, Debug)]
 pub(crate) struct ConeDecision {
-    /// Whether the reactions satisfy the law, or come near enough to it. Else no faces were found on which reactions do, or reactions would be needed that are so
-    /// much larger than the rates that their round-off decides.
+    /// Whether the reactions satisfy the law, or come near enough to it. Else no faces were found on which reactions do, or reactions would
+    /// be needed that are so much larger than the rates that their round-off decides.
     pub(crate) is_found: bool,
     /// Zero if the reactions satisfy the law; else their largest distance from natural ones, as a part of the largest rate without them.
     pub(crate) residual: f64,
@@ -143,7 +143,7 @@ const WORK: usize = 40_000;
 /// Most other reactions that are tried to begin with.
 const STARTS: usize = 24;
 
-/// x·y, as four sums of every fourth product: one sum would wait for each addition.
+/// x·y. Four sums, each of every fourth product, are added side by side: of one sum, each addition would wait for the one before.
 #[inline]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     debug_assert_eq!(x.len(), y.len());

@@ -136,7 +136,7 @@ fn inputs_change_between_steps() {
     assert!((v - 0.01 * (20.0 - 9.81) / 2.0).abs() < 1e-15, "{v}");
     stepper.change(|cart| cart.motor = f64::NAN);
     let kept = *stepper.state();
-    assert!(stepper.step().is_err() && *stepper.state() == kept);
+    assert!(stepper.step().unwrap_err().to_string().contains('x') && *stepper.state() == kept);
     stepper.change(|cart| cart.motor = 0.0);
     assert!((stepper.step_to(kept.t + 0.5).unwrap().state.t - kept.t - 0.5).abs() < 1e-15);
     assert!(stepper.step_to(before.t).is_err());

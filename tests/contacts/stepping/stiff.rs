@@ -1,6 +1,6 @@
 //! Forces that change much within a step: springs and dampers act by the θ-method together with the contacts.
 
-use lagrange_core::contact::{Contact, MoreauJean};
+use lagrange_core::contact::{Contact, Friction, MoreauJean};
 use lagrange_core::prelude::*;
 
 /// A quarter of a car: a body on a spring and a damper over a wheel on a floor.
@@ -91,4 +91,34 @@ fn steps_that_are_too_long_are_named() {
         .unwrap_err()
         .to_string();
     assert!(error.contains("take shorter steps"), "{error}");
+}
+
+/// Friction that stuck before a step has its larger limit in all iterations of it: the force k ẏ² is above the limit with the velocity before the
+/// step, but below it with the one that it has in the step.
+#[test]
+fn friction_sticks_where_the_forces_of_the_step_are_below_its_limit() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian((x_dot^2 + y_dot^2)/2)]
+    #[force(x: k*y_dot^2)]
+    #[force(y: -c*y_dot)]
+    #[contact(floor: y + 9 >= 0)]
+    #[friction(grip: x_dot, limit: hold, sliding: pull)]
+    struct Gripped {
+        k: f64,
+        c: f64,
+        hold: f64,
+        pull: f64,
+        floor: Contact,
+        grip: Friction,
+    }
+    let gripped =
+        Gripped { k: 3.6, c: 20.0, hold: 2.0, pull: 1.0, floor: Contact::Open, grip: Friction::Sticks };
+    let start = State::new([0.0, 0.0], [0.0, 1.0]);
+    let path = gripped.motion(start).by_time_stepping(MoreauJean::with_step(0.05)).to(0.05).unwrap();
+    let step = path.steps()[1];
+    assert!(step.iterations > 1, "{step:?}");
+    // The velocity falls from 1 to 1/3: the force is k (2/3)² in the step.
+    assert!(step.state.v[0].abs() < 1e-12 && (step.state.v[1] - 1.0 / 3.0).abs() < 1e-8, "{step:?}");
+    assert!((step.impulse("grip").unwrap() / 0.05 + 3.6 * 4.0 / 9.0).abs() < 1e-7, "{step:?}");
 }

@@ -201,8 +201,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P> Builder<'_, '_, L,
     /// # Errors
     /// Those of [`stepper`](Self::stepper); [`Error::MotionBackwards`] if `end` lies before the start.
     pub fn towards(mut self, end: L::Scalar) -> Result<SteppedTrajectory<L>, Error> {
-        let on_progress = core::mem::take(&mut self.on_progress);
-        let mut on_progress = on_progress;
+        let mut on_progress = core::mem::take(&mut self.on_progress);
         let (scheme, mut stepper) = (self.kept.scheme, self.stepper()?);
         let from = stepper.state().t;
         check_times(from, end)?;

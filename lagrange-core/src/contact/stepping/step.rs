@@ -55,6 +55,10 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
         self.bodies.passes(from);
         let mut middle = Middle::of(&self.bodies, from, end - from.t, self.settings.theta)?;
         let mut pull = middle.pull(&self.bodies, &from.v);
+        if let Some(i) = pull.iter().position(|pull| !pull.is_finite()) {
+            let row = Row::Coordinate(L::COORDINATES[i]);
+            return Err(Error::EquationsNotFinite { row, time: from.t.to_f64() });
+        }
         let (mut after, mut residual) = (from.v, f64::INFINITY);
         for iterations in 1..=self.settings.max_iterations {
             let kicked = self.kick(&mut middle, &after, &pull)?;
@@ -68,6 +72,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
                 let impulses = vector(Array::from_fn(|a| L::Scalar::constant(kicked.impulses[a])));
                 let residual = L::Scalar::constant(residual.max(kicked.residual));
                 let state = self.drift_on(&middle, after, end)?;
+                self.take_sticking(&middle);
                 return Ok(TimeStep { state, impulses, iterations, residual });
             }
         }
@@ -118,18 +123,17 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
                 self.faces[a] = found.faces[place];
                 impulses[a] = found.forces[place] - middle.inertia.along[a] * rows.along(place, &step);
             }
-            self.take_sticking(&rows);
             if !middle.joins(&after) {
                 return Ok(Kicked { after, impulses, residual: found.residual });
             }
         }
     }
 
-    /// Takes note of the friction that sticks.
-    fn take_sticking(&mut self, rows: &TouchingRows<L>) {
-        self.sticks.fill(false);
-        for &(f, place) in &rows.frictions {
-            self.sticks[f] = self.faces[rows.all[place]] == Face::Stick;
+    /// Takes note of the friction that sticks at the end of a step.
+    fn take_sticking(&mut self, middle: &Middle<L>) {
+        for (sticks, friction) in self.sticks.iter_mut().zip(L::FRICTIONS) {
+            let acts = friction.contact.is_none_or(|k| middle.acts(k));
+            *sticks = acts && self.faces[friction.row] == Face::Stick;
         }
     }
 
