@@ -59,15 +59,13 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
             let row = Row::Coordinate(L::COORDINATES[i]);
             return Err(Error::EquationsNotFinite { row, time: from.t.to_f64() });
         }
-        let (mut after, mut residual) = (from.v, f64::INFINITY);
-        for iterations in 1..=self.settings.max_iterations {
+        let (mut after, mut residual, mut iterations) = (from.v, 0.0, 0);
+        while iterations < self.settings.max_iterations && f64::is_finite(residual) {
+            iterations += 1;
             let kicked = self.kick(&mut middle, &after, &pull)?;
             after = kicked.after;
             pull = middle.pull(&self.bodies, &after);
             residual = middle.residual(&pull, &after, &kicked.impulses);
-            if !residual.is_finite() {
-                break;
-            }
             if residual <= self.settings.tolerance {
                 let impulses = vector(Array::from_fn(|a| L::Scalar::constant(kicked.impulses[a])));
                 let residual = L::Scalar::constant(residual.max(kicked.residual));
@@ -76,8 +74,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
                 return Ok(TimeStep { state, impulses, iterations, residual });
             }
         }
-        let time = from.t.to_f64();
-        Err(Error::StepTooLong { residual, iterations: self.settings.max_iterations, time })
+        Err(Error::StepTooLong { residual, iterations, time: from.t.to_f64() })
     }
 
     /// The end of a step, where no gap is negative and the constraints hold.
