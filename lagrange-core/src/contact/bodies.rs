@@ -29,6 +29,10 @@ const TOUCHING: f64 = 4.0;
 /// by up to 25 units below zero (four times the round-off that events estimate), and is seen positive from 6 units on.
 const LOW: f64 = 64.0;
 
+/// Part of the error that a step may have, within which two velocities of friction are zero together. The direction of a velocity of
+/// 64 such errors, or a sixteenth of a step's, is known well enough to slide along.
+const STILL: f64 = 1.0 / 1024.0;
+
 /// Part of the span of a motion whose distances are the least ones of which round-off is taken.
 const INSTANT: f64 = 1e-6;
 
@@ -39,6 +43,8 @@ pub(super) struct Bodies<L: Lagrangian> {
     largest: [Array<L::Scalar, L::N>; 2],
     /// Length of the motion in time.
     pub(super) span: L::Scalar,
+    /// Part of the velocities by which steps err.
+    pub(super) accuracy: f64,
 }
 
 /// A gap or a velocity of friction at a state, with its rate and round-off.
@@ -57,7 +63,7 @@ pub(crate) fn impulse_changes<L: Contacts<Scalar: Real> + Clone>(
     impulses: &[(usize, L::Scalar)],
     state: &StateOf<L>,
 ) -> Result<L::Scalar, Error> {
-    let bodies = Bodies::new(system);
+    let bodies = Bodies::new(system, 0.0);
     let rows = bodies.rows((0..L::CONTACTS.len()).collect(), state)?;
     let place = |row: usize| rows.all.iter().position(|&of| of == row).unwrap_or(0);
     let change = |&(row, impulse): &(usize, L::Scalar)| {
@@ -67,7 +73,7 @@ pub(crate) fn impulse_changes<L: Contacts<Scalar: Real> + Clone>(
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
-    pub(super) fn new(system: &L) -> Self {
+    pub(super) fn new(system: &L, accuracy: f64) -> Self {
         let all = |contact, friction| {
             let mut system = system.clone();
             (0..L::FRICTIONS.len()).for_each(|f| {
@@ -81,12 +87,12 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let largest = [Array::filled(L::Scalar::constant(0.0)); 2];
         let open = all(Contact::Open, LegFriction::OFF.friction);
         let closed = all(Contact::Closed, Friction::Sticks);
-        Self { open, closed, largest, span: L::Scalar::constant(0.0) }
+        Self { open, closed, largest, span: L::Scalar::constant(0.0), accuracy }
     }
 
     /// Takes the parameters of this system.
     pub(super) fn take(&mut self, system: &L) {
-        let Self { open, closed, .. } = Self::new(system);
+        let Self { open, closed, .. } = Self::new(system, self.accuracy);
         (self.open, self.closed) = (open, closed);
     }
 
@@ -235,6 +241,13 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             (sum.to_f64(), L::Scalar::EPSILON * UNITS * size.to_f64())
         };
         Ok(rows.all[..rows.count].iter().map(of).unzip())
+    }
+
+    /// Error of the velocities of a friction with this round-off. A step ends where a single velocity stops; no step does so for two,
+    /// which err by what steps do.
+    pub(super) fn sliding_error(&self, count: usize, noise: L::Scalar) -> L::Scalar {
+        let by_steps = self.accuracy * STILL / (L::Scalar::EPSILON * UNITS);
+        if count == 2 { noise * L::Scalar::constant(by_steps.max(1.0)) } else { noise }
     }
 
     /// Whether a gap that is zero remains so but for round-off: its rate is none, or a bounce would rise by none. The first value is its

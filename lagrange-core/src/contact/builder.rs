@@ -103,7 +103,7 @@ where
         let state = start.into_state()?;
         check_times(state.t, end)?;
         let from = state.t;
-        let journey = Journey::begin(system, state, end, AllLegs::none())?;
+        let journey = Journey::begin((system, method.accuracy()), state, end, AllLegs::none())?;
         let ended = journey.reporting(on_progress).run(&method, events.list(), kept.transitions)?;
         Ok(ContactTrajectory::of(ended, from))
     }
@@ -178,7 +178,7 @@ pub(crate) fn arrive<'w, L: Contacts<Scalar: Real> + Clone, P: Method<L>>(
 ) -> Result<ContactArrival<L>, Error> {
     check_times(state.t, end)?;
     let record = Record::before_samples(plan, Vec::new(), steering, system, &state, end)?;
-    let journey = Journey::begin(system, state, end, SampledLegs { record })?;
+    let journey = Journey::begin((system, method.accuracy()), state, end, SampledLegs { record })?;
     let ended = journey.accepting(accept).run(method, events, transitions.unwrap_or(TRANSITIONS))?;
     let Ended { kept, transitions, crossings, statistics, system, state, ending } = ended;
     let arrival = Arrival { crossings, ..kept.record.arrive(state, ending, statistics) };

@@ -58,8 +58,14 @@ enum After {
 }
 
 impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
-    pub(super) fn begin(system: &L, mut state: StateOf<L>, end: L::Scalar, kept: K) -> Result<Self, Error> {
-        let (mut bodies, mut transitions) = (Bodies::new(system), Vec::new());
+    /// Decides what contacts and friction do at the start of a motion whose steps err by this part of the velocities.
+    pub(super) fn begin(
+        (system, accuracy): (&L, f64),
+        mut state: StateOf<L>,
+        end: L::Scalar,
+        kept: K,
+    ) -> Result<Self, Error> {
+        let (mut bodies, mut transitions) = (Bodies::new(system, accuracy), Vec::new());
         bodies.passes(&state);
         let is_closed = |k| system.contact(k) != Some(Contact::Open);
         bodies.check_closed(is_closed, &state)?;

@@ -55,7 +55,7 @@ pub(super) fn bounds<L: Contacts<Scalar: Real>>(
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
-    /// Velocity of friction, its size, and the round-off of that.
+    /// Velocity of friction, its size, and the error of that.
     fn sliding(&self, f: usize, state: &StateOf<L>) -> ([L::Scalar; 2], [L::Scalar; 2]) {
         let mut velocity = [L::Scalar::constant(0.0); 2];
         let mut noise = velocity[0];
@@ -63,6 +63,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let measured = self.measured_at(a, state);
             (velocity[component], noise) = (measured.rate, larger(noise, measured.noise[1]));
         }
+        let noise = self.sliding_error(L::FRICTIONS[f].count, noise);
         (velocity, [length(velocity), noise])
     }
 
@@ -144,11 +145,11 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         along_two.chain(begun(1).map(|row| (row, 0.0))).collect()
     }
 
-    /// Speed with which bodies begin to slide: round-off of it, and what the force of friction changes it within the round-off
+    /// Speed with which bodies begin to slide along two velocities: the error of it, and what the force of friction changes it within the round-off
     /// of the time.
     fn start(&self, rows: [usize; 2], changes: [f64; 2], state: &StateOf<L>) -> f64 {
         let unit = L::Scalar::EPSILON * f64::max(state.t.to_f64().abs(), self.span.to_f64());
-        let [x, y] = rows.map(|a| self.measured_at(a, state).noise[1].to_f64());
+        let [x, y] = rows.map(|a| self.sliding_error(2, self.measured_at(a, state).noise[1]).to_f64());
         BEGIN * (x.max(y) + unit * changes[0].max(changes[1]))
     }
 

@@ -143,8 +143,9 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //!   0. One that touches zero at a single point, as x² + y² at 0, does not close there.
 //! - A contact rests if its rate is below the round-off of its terms, or if a bounce would rise by no more than 64 u.
 //! - Friction is at rest if its velocity is below 8 ε Σ |Wᵢ| max |q̇ᵢ|, with the changes of velocities by impulses among the
-//!   largest; or 64 times that where another one stops: heel and toe of a foot stop together. What begins to slide along two velocities gets 64 times that as a speed, and what its force
-//!   changes within the round-off of the time.
+//!   largest; or 64 times that where another one stops: heel and toe of a foot stop together. Where 10⁻³ of the relative tolerance of the
+//!   method is more than 8 ε, it takes the place of that for friction along two velocities, since no step ends where both are zero. What begins
+//!   to slide along two gets 64 times that as a speed, and what its force changes within the round-off of the time.
 //! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both.
 //! - The direction in which bodies slide along two velocities is renewed where the velocity has turned by 60°; at 90° the
 //!   force of the old direction would change its sign.
@@ -242,8 +243,9 @@ for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) 
 //! # Which methods
 //!
 //! Those that solve for accelerations: `Dop853`, `Dopri5`, `Taylor`, `Radau`, `RungeKutta4`. Structure-preserving methods do not
-//! compile for contacts with friction. Where bodies begin to slide in a plane with a force that grows slowly, or several
-//! contacts of one body stop together, the direction of sliding is stiff, by μ g/|v|:
+//! compile for contacts with friction. Friction along two velocities v is stiff where these are small, since its direction turns at the rate
+//! μ g/|v|. Explicit methods follow a body that a large force sets in motion or that comes to rest for long. Where a force grows slowly past
+//! its limit, as on a table that shakes or tilts in two directions, they run into their limit on steps;
 //! [`Radau`](crate::linearized::Radau) follows it.
 //!
 //! # Several contacts at once

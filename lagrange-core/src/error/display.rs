@@ -202,7 +202,7 @@ impl Display for Error {
             ),
             Self::FrictionUndecided { friction, time } => write!(
                 f,
-                "the force of `{friction}` at t = {time} could not be decided: several contacts or velocities of one body share it, or slide at speeds near the tolerance; take `Radau` or time steps, or state fewer contacts, as one foot in the place of two"
+                "the force of `{friction}` at t = {time} could not be decided: several contacts or velocities of one body share it; take time steps, which share it among all of them, or state fewer contacts, as one foot in the place of two"
             ),
             Self::Friction { friction, bounds: [limit, sliding], time } => write!(
                 f,

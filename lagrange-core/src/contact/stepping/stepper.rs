@@ -62,7 +62,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P> Builder<'_, '_, L,
         let Self { system, start, kept, .. } = self;
         let (state, scheme) = (start.into_state()?, kept.scheme);
         scheme.check()?;
-        let mut bodies = Bodies::new(system);
+        let mut bodies = Bodies::new(system, 0.0);
         if let Some(k) = L::IMPACT_LAWS.iter().position(|&law| law == ImpactLaw::Poisson) {
             return Err(Error::ImpactLaw { contact: bodies.name(k) });
         }

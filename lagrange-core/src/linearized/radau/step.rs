@@ -69,6 +69,10 @@ where
         write!(to, "Radau {} {relative:?} {absolute:?} {max_step:?} {first_step:?}", 2 * S - 1)
     }
 
+    fn accuracy(&self) -> f64 {
+        self.relative
+    }
+
     fn check(&self) -> Result<(), Error> {
         check_settings([
             ("relative tolerance", Some(self.relative)),

@@ -44,6 +44,11 @@ where
     /// Those of writing to `to`.
     fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result;
 
+    /// Returns the part of an entry of the state by which a step may err; zero if the method does not estimate its errors.
+    fn accuracy(&self) -> f64 {
+        0.0
+    }
+
     /// Checks the settings.
     ///
     /// # Errors

@@ -64,6 +64,10 @@ where
         self.identify(to)
     }
 
+    fn accuracy(&self) -> f64 {
+        self.relative
+    }
+
     fn check(&self) -> Result<(), Error> {
         self.check()
     }

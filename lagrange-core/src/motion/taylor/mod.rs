@@ -48,6 +48,10 @@ impl<L: TaylorSeries<Scalar: Real>> Method<L> for Taylor {
         write!(to, "Taylor {relative:?} {absolute:?} {max_step:?}")
     }
 
+    fn accuracy(&self) -> f64 {
+        self.relative
+    }
+
     fn check(&self) -> Result<(), Error> {
         check_settings([
             ("relative tolerance", Some(self.relative)),
