@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use ConstraintKind::{Holonomic, Velocity};
 
+use super::contacts;
 use super::evidence::vanishes;
 use super::formulation::Formulation;
 use crate::diagnostics::Diagnostics;
@@ -80,34 +81,6 @@ impl Constraints {
         }
     }
 
-    /// Reports friction along the gap of its own contact.
-    fn check_tangents(&self, graph: &mut Graph, problem: &Problem, diagnostics: &mut Diagnostics) {
-        for friction in &problem.frictions {
-            let Some(gap) = friction.contact.map(|contact| problem.contacts[contact].row) else { continue };
-            for row in friction.row..friction.row + friction.sliding.len() {
-                if self.are_parallel(graph, problem, [gap, row]) {
-                    let contact = &problem.constraints[gap].0.text;
-                    let of = if friction.sliding.len() == 1 { "" } else { "a component of " };
-                    let message = format!(
-                        "{of}this velocity is along the gap of `{contact}`, where the contact itself acts: friction acts along the surface, as along `x_dot` beside a gap `y >= 0`"
-                    );
-                    diagnostics.error(problem.constraints[row].0.place, message);
-                }
-            }
-        }
-    }
-
-    /// Whether the second of two rows is a multiple of the first everywhere.
-    fn are_parallel(&self, graph: &mut Graph, problem: &Problem, [one, other]: [usize; 2]) -> bool {
-        let [one, other] = [one, other].map(|row| &self.jacobian[row]);
-        let Some(pivot) = one.iter().position(|&entry| entry != Id::ZERO) else { return false };
-        one.iter().zip(other).all(|(&first, &second)| {
-            let [across, along] = [graph.mul(one[pivot], second), graph.mul(other[pivot], first)];
-            let minor = graph.sub(across, along);
-            vanishes(graph, problem, minor).is_some()
-        })
-    }
-
     /// Σ_α λ_α F_αa for each coordinate a.
     pub(super) fn force(&self, graph: &mut Graph) -> Vec<Id> {
         let multipliers = nodes(graph, self.kinds.len(), Variable::Multiplier);
@@ -174,7 +147,7 @@ pub(super) fn derive(
         }
         diagnostics.stop_at_fault(label.place, graph);
     }
-    constraints.check_tangents(graph, problem, diagnostics);
+    contacts::check(graph, problem, &constraints, diagnostics);
     constraints.slide(graph, problem);
     diagnostics.is_empty().then_some(constraints)
 }

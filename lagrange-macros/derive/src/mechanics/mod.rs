@@ -4,6 +4,7 @@ mod completion;
 mod conservation;
 mod consistency;
 mod constraints;
+mod contacts;
 mod coordinates;
 mod degree;
 mod determinacy;

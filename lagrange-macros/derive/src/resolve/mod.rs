@@ -40,7 +40,7 @@ pub(crate) use label::{Label, entry_names, labels};
 use lowering::Lowering;
 pub(crate) use outline::{Observable, Outline, outline};
 pub(crate) use parameters::{Entry, Parameters, Switch, SwitchReading};
-pub(crate) use problem::{Observed, Problem};
+pub(crate) use problem::{FrictionRows, Observed, Problem};
 use scope::Scope;
 pub(crate) use scope::is_built_in;
 pub(crate) use value::cross;
