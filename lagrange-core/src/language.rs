@@ -490,7 +490,8 @@
 //! followed by e Λ.
 //!
 //! `friction(mu): x_dot - r*phi_dot` after the gap adds Coulomb's friction, along a velocity that is linear in q̇ or a vector
-//! of two, with a multiplier `floor_friction`. `#[friction(belt: x_dot - speed, limit: hold, sliding: pull)]` is dry friction
+//! of two, with a multiplier `floor_friction`; `friction(static: mu, kinetic: nu): …` has a coefficient while bodies stick and one while
+//! they slide. `#[friction(belt: x_dot - speed, limit: hold, sliding: pull)]` is dry friction
 //! with bounds of its own, by a field `belt` of the type [`Friction`](crate::contact::Friction): it keeps the velocity at zero
 //! with a force up to `limit`, and else pulls against it with `sliding`. The bounds are numbers ≥ 0, and may depend on the state.
 //!

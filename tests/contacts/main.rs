@@ -5,6 +5,7 @@
 
 mod abuse;
 mod along;
+mod coefficients;
 mod friction;
 mod frictionless;
 mod rest;

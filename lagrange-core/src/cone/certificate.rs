@@ -115,11 +115,13 @@ impl ConeSolver {
             Set::Disc(limit) => {
                 let (limit, r, u) =
                     (self.limit(&limit).0, self.two(k, |i| self.r[i]), self.two(k, |i| self.rate(i)));
-                let round_off = block.rows().map(|i| BALANCE * f64::EPSILON * self.terms(i)).sum::<f64>();
-                let size = length(r);
+                let terms = block.rows().map(|i| self.terms(i)).sum::<f64>();
+                let (size, speed) = (length(r), length(u));
                 let is_at_limit = size >= limit * (1.0 - 8.0 * f64::EPSILON);
-                // At its limit it may be at rest all the same: its rate is what the accuracy leaves then, and need not be against it.
-                let slides = is_at_limit && length(u) > round_off && r[0] * u[0] + r[1] * u[1] < 0.0;
+                // At its limit it may be at rest all the same: its rate is what the accuracy leaves then, and need not be against it. A limit
+                // that is round-off itself may not be reached to the bit.
+                let least = if is_at_limit { BALANCE * f64::EPSILON } else { ACCURACY };
+                let slides = speed > least * terms && r[0] * u[0] + r[1] * u[1] < 0.0;
                 match limit > 0.0 {
                     false => Face::Open,
                     true if !slides => Face::Stick,

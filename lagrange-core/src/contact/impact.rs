@@ -161,7 +161,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         for &(f, place) in &rows.frictions {
             let gap = L::FRICTIONS[f].contact.and_then(|k| rows.gap(k));
             if let Some(gap) = gap.filter(|&gap| plays[gap]) {
-                let [limit, _] = bounds(&self.closed, f, state)?;
+                let [limit, sliding] = bounds(&self.closed, f, state)?;
+                let limit = if self.slip(f, state, 1.0).is_some() { sliding } else { limit };
                 let places = place..place + L::FRICTIONS[f].count;
                 frictions.push(StagedFriction { places, gap: Some(gap), limit: limit.to_f64() });
             }

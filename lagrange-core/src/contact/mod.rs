@@ -44,6 +44,9 @@ assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
 //! has the name of the contact and `_friction`, and is the force along v, with the sign convention of all others: Wᵀλ is what
 //! acts on the coordinates. While the bodies stick, v = 0 and |λ| ≤ μ λ_N; while they slide, λ = −μ λ_N v/|v|.
 //!
+//! `friction(static: mu, kinetic: nu): v` has a larger coefficient while the bodies stick. What begins to slide has ν from then on, and so
+//! has an impact of bodies that slide; what stops has μ.
+//!
 //! λ_N is the force between the bodies if the gap is a distance where it closes, and v the velocity of one body past the other: with `3*y`
 //! for `y` friction is a third of what it should be. A gap r² − x² − y² beside a velocity (x ẏ − y ẋ)/r does not compile, nor does any
 //! other whose gradient is perpendicular to those of its velocities along two or three coordinates, but differs from them in length.

@@ -137,8 +137,11 @@ impl Page<'_> {
                 Formula::Call("abs".to_owned(), vec![self.multiplier(&target.name.text, &target.indices)]);
             vec![Fragment::Formula(force), Fragment::words(" ≤ "), Fragment::Formula(bound)]
         };
-        match law {
-            Law::Equation => when.into_iter().for_each(|_| remark.and(state(" is true"))),
+        let (limit, sliding) = match law {
+            Law::Equation => {
+                when.into_iter().for_each(|_| remark.and(state(" is true")));
+                return remark;
+            }
             Law::Contact { restitution, impact } => {
                 let zero = || Formula::sum(Vec::new());
                 let restitution = restitution.as_ref().map_or_else(zero, |law| self.written(law));
@@ -147,23 +150,25 @@ impl Page<'_> {
                     remarks.push(Fragment::words(" by Poisson's law"));
                 }
                 remark.and(remarks);
+                return remark;
             }
-            Law::Coulomb { coefficient } => {
-                let press = when.map_or("", |contact| &contact.text);
-                let press = self.multiplier(press, &target.indices);
-                remark.and(state(" sticks"));
-                remark.and(bounded(Formula::product(
-                    Scaled::from(Rational::one()),
-                    vec![self.written(coefficient), press],
-                    Vec::new(),
-                )));
+            Law::Coulomb { limit, sliding } => {
+                let force = |coefficient: &Expression| {
+                    let press = self.multiplier(when.map_or("", |contact| &contact.text), &target.indices);
+                    let factors = vec![self.written(coefficient), press];
+                    Formula::product(Scaled::from(Rational::one()), factors, Vec::new())
+                };
+                (limit.as_ref().map(force), force(sliding))
             }
             Law::Dry { limit, sliding } => {
-                remark.and(state(" sticks"));
-                remark.and(bounded(self.written(limit.as_ref().unwrap_or(sliding))));
-                let slides = vec![Fragment::words("slides with "), Fragment::Formula(self.written(sliding))];
-                limit.iter().for_each(|_| remark.and(slides.clone()));
+                (limit.as_ref().map(|limit| self.written(limit)), self.written(sliding))
             }
+        };
+        remark.and(state(" sticks"));
+        let is_stated = limit.is_some();
+        remark.and(bounded(limit.unwrap_or_else(|| sliding.clone())));
+        if is_stated {
+            remark.and(vec![Fragment::words("slides with "), Fragment::Formula(sliding)]);
         }
         remark
     }

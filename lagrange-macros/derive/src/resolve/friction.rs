@@ -91,8 +91,7 @@ impl Lowering<'_> {
     /// Coefficients or forces of sticking and sliding.
     fn bounds(&mut self, law: &Law) -> Option<[Id; 2]> {
         let (limit, sliding) = match law {
-            Law::Coulomb { coefficient } => (None, coefficient),
-            Law::Dry { limit, sliding } => (limit.as_ref(), sliding),
+            Law::Coulomb { limit, sliding } | Law::Dry { limit, sliding } => (limit.as_ref(), sliding),
             _ => return None,
         };
         let sliding = self.scalar(sliding);

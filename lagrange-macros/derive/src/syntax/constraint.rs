@@ -134,21 +134,42 @@ fn once(cursor: &Cursor, is_known: bool, what: &str) -> Result<()> {
     if is_known { Err(cursor.last_place().error(format!("{what} is given twice"))) } else { Ok(()) }
 }
 
-/// Reads `(mu): velocity`.
+/// Reads `(mu): velocity` or `(static: mu, kinetic: nu): velocity`.
 fn coulomb(cursor: &mut Cursor) -> Result<((Expression, Expression), Law)> {
     const FORM: &str =
         "the friction of a contact has a coefficient and a velocity: write `friction(mu): x_dot`";
     let Some(group) = cursor.take_group(Delimiter::Parenthesis) else { return Err(cursor.error(FORM)) };
-    let mut inside = Cursor::inside(&group);
-    let coefficient = expression::whole(&mut inside.until_comma())?;
-    if !inside.is_empty() {
-        return Err(
-            inside.error("the friction of a contact has one coefficient: write `friction(mu): x_dot`")
-        );
-    }
+    let (limit, sliding) = coefficients(&mut Cursor::inside(&group))?;
     cursor.expect_punct(':', FORM)?;
     let velocity = expression::whole(&mut cursor.until_comma())?;
-    Ok((against_zero(velocity), Law::Coulomb { coefficient }))
+    Ok((against_zero(velocity), Law::Coulomb { limit, sliding }))
+}
+
+/// Reads `mu`, or `static: mu, kinetic: nu`.
+fn coefficients(inside: &mut Cursor) -> Result<(Option<Expression>, Expression)> {
+    const FORM: &str = "the friction of a contact has one coefficient, or one at rest and one of sliding: write `friction(mu): x_dot` or `friction(static: mu, kinetic: nu): x_dot`";
+    let words = ["static", "kinetic"];
+    let is_given = |word: &&str| {
+        let mut ahead = inside.clone();
+        ahead.take_word(word) && ahead.is_punct(':')
+    };
+    let Some(first) = words.iter().position(|word| is_given(&word)) else {
+        let sliding = expression::whole(&mut inside.until_comma())?;
+        return if inside.is_empty() { Ok((None, sliding)) } else { Err(inside.error(FORM)) };
+    };
+    inside.take_word(words[first]);
+    inside.expect_punct(':', FORM)?;
+    let one = expression::whole(&mut inside.until_comma())?;
+    if !inside.take_word(words[1 - first]) {
+        return Err(inside.error(FORM));
+    }
+    inside.expect_punct(':', FORM)?;
+    let other = expression::whole(&mut inside.until_comma())?;
+    if !inside.is_empty() {
+        return Err(inside.error(FORM));
+    }
+    let (limit, sliding) = if first == 0 { (one, other) } else { (other, one) };
+    Ok((Some(limit), sliding))
 }
 
 /// The sides of velocity = 0.

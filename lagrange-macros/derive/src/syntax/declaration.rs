@@ -113,8 +113,12 @@ pub(crate) enum Law {
         restitution: Option<Expression>,
         impact: ImpactLaw,
     },
-    /// `friction(mu): velocity` of the contact before.
-    Coulomb { coefficient: Expression },
+    /// `friction(mu): velocity` or `friction(static: mu, kinetic: nu): velocity` of the contact before.
+    Coulomb {
+        /// Coefficient while the bodies stick; that of sliding if it is not given.
+        limit: Option<Expression>,
+        sliding: Expression,
+    },
     /// `#[friction(name: velocity, limit: bound, sliding: force)]`
     Dry {
         /// Largest force while the bodies stick; the sliding force if it is not given.

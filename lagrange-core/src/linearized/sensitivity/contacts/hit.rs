@@ -88,14 +88,12 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         let is_still = friction.rows().map(is_round_off).collect::<Result<Vec<_>, _>>()?;
         let rests = is_at_rest(&self.pushing, f, [before, after]) || is_still.into_iter().all(|still| still);
         match (is_at_limit, rests) {
-            (false, _) => Ok(Friction::Sticks),
+            (false, true) => Ok(Friction::Sticks),
             (true, true) => {
                 fails("its impulse is at the limit, and the arguments decide whether the bodies slide")
             }
-            (true, false) if count == 2 => {
-                fails("the direction in which the bodies slide turns in the impact")
-            }
-            (true, false) => Ok(Friction::Slides([if rate < zero { -1.0 } else { 1.0 }, 0.0])),
+            (_, false) if count == 2 => fails("the direction in which the bodies slide turns in the impact"),
+            (_, false) => Ok(Friction::Slides([if rate < zero { -1.0 } else { 1.0 }, 0.0])),
         }
     }
 

@@ -225,3 +225,14 @@ fn friction_takes_energy_where_it_slides() {
     assert!(energy.is_some_and(|line| line.ends_with("; between impacts; while nothing slides)")), "{text}");
     assert!(latex.contains("while nothing slides"), "{latex}");
 }
+
+#[test]
+fn coefficients_at_rest_and_of_sliding_are_printed() {
+    let source = "#[coordinates(x, y)]
+         #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+         #[contact(floor: y >= 0, friction(static: mu, kinetic: nu): x_dot)]
+         struct Block { m: f64, g: f64, mu: f64, nu: f64, floor: Contact }";
+    let law = "(while floor sticks; |λ_floor_friction| ≤ μ λ_floor; slides with ν λ_floor)";
+    let printed = lines(source, "Constraints\n");
+    assert!(printed.ends_with(&format!("floor_friction: ẋ = 0   {law}")), "{printed}");
+}
