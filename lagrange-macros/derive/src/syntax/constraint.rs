@@ -153,7 +153,7 @@ fn coefficients(inside: &mut Cursor) -> Result<(Option<Expression>, Expression)>
         let mut ahead = inside.clone();
         ahead.take_word(word) && ahead.is_punct(':')
     };
-    let Some(first) = words.iter().position(|word| is_given(&word)) else {
+    let Some(first) = words.iter().position(is_given) else {
         let sliding = expression::whole(&mut inside.until_comma())?;
         return if inside.is_empty() { Ok((None, sliding)) } else { Err(inside.error(FORM)) };
     };
