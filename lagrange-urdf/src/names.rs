@@ -14,7 +14,7 @@ const TAKEN: &str = "as async await break const continue crate dyn else enum ext
     position velocity angular_velocity jacobian kinetic express vector translate rotate rotate_x rotate_y rotate_z pose";
 
 /// Names that are taken among types.
-const TYPES: [&str; 6] = ["Body", "Limit", "Matrix3", "Vector3", "Friction", "Self"];
+const TYPES: [&str; 7] = ["Body", "Contact", "Limit", "Matrix3", "Vector3", "Friction", "Self"];
 
 /// Names of all that is written.
 pub(crate) struct Labels {
@@ -24,6 +24,10 @@ pub(crate) struct Labels {
     pub(crate) links: Vec<Label>,
     /// One for each tool.
     pub(crate) tools: Vec<String>,
+    /// Contacts with the floor.
+    pub(crate) feet: Vec<String>,
+    /// Coefficient of friction of the floor.
+    pub(crate) mu: String,
     /// Names of the description with other names here.
     renamed: Vec<(String, String)>,
 }
@@ -40,6 +44,8 @@ pub(crate) struct Label {
     pub(crate) damping: String,
     pub(crate) friction: String,
     pub(crate) coulomb: String,
+    /// Contacts at the limits of the joint.
+    pub(crate) stops: [String; 2],
 }
 
 impl Labels {
@@ -57,8 +63,11 @@ impl Labels {
             _ => names.renaming(tool.link, "tool"),
         });
         let tools = tools.collect();
+        let feet = tree.feet.iter().map(|foot| names.claim(&format!("{}_floor", foot.link), "contact"));
+        let feet = feet.collect();
+        let mu = names.claim("mu", "floor");
         let robot = type_name(options.name.as_deref().unwrap_or(robot));
-        Self { robot, links, tools, renamed: names.renamed }
+        Self { robot, links, tools, feet, mu, renamed: names.renamed }
     }
 
     /// True where names of fields have capitals, which rustc warns of.
@@ -94,6 +103,7 @@ impl Names {
             damping: claim(format!("{q}_damping")),
             friction: claim(format!("{q}_friction")),
             coulomb: claim(format!("{q}_coulomb")),
+            stops: ["lower", "upper"].map(|end| claim(format!("{q}_{end}"))),
             q,
             frame,
         }

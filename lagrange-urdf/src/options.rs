@@ -12,6 +12,8 @@ Usage: lagrange-urdf [options] robot.urdf > robot.rs
   --floating       the root link is free in space, by a position and a quaternion
   --numbers        masses, centres of mass, inertias and damping are numbers in the equations, not fields
   --friction       dry friction of the joints, from <dynamics friction=\"…\"/>
+  --limits         joints stop at their lower and upper limits, by contacts
+  --contact LINK   the origin of the link touches the floor z = 0, with friction; may be repeated
   --right-angles   angles that are multiples of π/2 to all digits written, as 1.5708, are read as these
   --tool LINK      the link has observables: its position, velocity and Jacobian; may be repeated
   --fix JOINT      the joint stays at 0; may be repeated
@@ -31,6 +33,10 @@ pub struct Options {
     pub numbers: bool,
     /// Joints have dry friction.
     pub friction: bool,
+    /// Joints stop at their limits.
+    pub limits: bool,
+    /// Links whose origins touch the floor.
+    pub contacts: Vec<String>,
     /// Angles that are multiples of π/2 to all digits written are read as these.
     pub right_angles: bool,
     /// Links that have observables.
@@ -72,6 +78,8 @@ impl Options {
             "--floating" => self.floating = true,
             "--numbers" => self.numbers = true,
             "--friction" => self.friction = true,
+            "--limits" => self.limits = true,
+            "--contact" => self.contacts.push(value()?),
             "--right-angles" => self.right_angles = true,
             "--tool" => self.tools.push(value()?),
             "--fix" => self.fixed.push(value()?),

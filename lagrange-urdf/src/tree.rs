@@ -17,6 +17,8 @@ pub(crate) struct Tree<'a> {
     pub(crate) links: Vec<Moving<'a>>,
     /// Links of `--tool`, with the moving link that each is part of and its place in there.
     pub(crate) tools: Vec<Tool<'a>>,
+    /// Links of `--contact`, in the same way.
+    pub(crate) feet: Vec<Tool<'a>>,
 }
 
 /// A link that moves relative to the one that carries it.
@@ -98,14 +100,18 @@ impl<'a> Tree<'a> {
                 "no link of the robot moves: all joints are fixed, or --floating is missing".to_owned(),
             );
         }
-        let mut tools = Vec::new();
-        for name in &options.tools {
-            match tool(&sites, name) {
-                Ok(tool) => tools.push(tool),
-                Err(error) => errors.push(error),
+        let mut named = |option: &str, names: &[String]| {
+            let mut found = Vec::new();
+            for name in names {
+                match tool(&sites, option, name) {
+                    Ok(tool) => found.push(tool),
+                    Err(error) => errors.push(error),
+                }
             }
-        }
-        if errors.is_empty() { Ok(Self { links, tools }) } else { Err(errors) }
+            found
+        };
+        let (tools, feet) = (named("--tool", &options.tools), named("--contact", &options.contacts));
+        if errors.is_empty() { Ok(Self { links, tools, feet }) } else { Err(errors) }
     }
 
     /// Index of the link that a joint moves.
@@ -212,13 +218,13 @@ fn lost(robot: &Robot, sites: &HashMap<&str, Site>) -> Option<String> {
     (!names.is_empty()).then(|| format!("the joints of {names} go round in a cycle"))
 }
 
-fn tool<'a>(sites: &HashMap<&'a str, Site>, name: &str) -> Result<Tool<'a>, String> {
+fn tool<'a>(sites: &HashMap<&'a str, Site>, option: &str, name: &str) -> Result<Tool<'a>, String> {
     let Some((link, site)) = sites.get_key_value(name) else {
         let known: Vec<&str> = sites.keys().copied().collect();
-        return Err(format!("--tool {name}: there is no link of this name{}", suggestion(name, &known)));
+        return Err(format!("{option} {name}: there is no link of this name{}", suggestion(name, &known)));
     };
     match site.host {
         Some(host) => Ok(Tool { link, host, place: site.pose }),
-        None => Err(format!("--tool {name}: the link does not move")),
+        None => Err(format!("{option} {name}: the link does not move")),
     }
 }

@@ -1,6 +1,8 @@
 //! A robot as text of Rust.
 
 mod attributes;
+mod contacts;
+mod efforts;
 mod fields;
 mod limits;
 
@@ -11,17 +13,24 @@ use crate::tree::Tree;
 /// Returns the text.
 pub(crate) fn write(name: &str, tree: &Tree, labels: &Labels, options: &Options, notes: &[String]) -> String {
     let rubs = options.friction && tree.links.iter().any(|moving| moving.friction() > 0.0);
-    let mut lines = head(name, options, rubs, notes);
+    let touches = contacts::are_there(tree, options);
+    let mut lines = head(name, options, [touches, rubs], notes);
     lines.push(format!(
         "/// The robot `{}`: a frame for each link that moves, a coordinate for each joint.",
         one_line(name)
     ));
-    if rubs {
+    let does: Vec<&str> = [
+        (options.limits && touches, "joints stop at their limits"),
+        (rubs, "joints stick and slide"),
+        (!tree.feet.is_empty(), "links touch the floor"),
+    ]
+    .into_iter()
+    .filter_map(|(is, does)| is.then_some(does))
+    .collect();
+    if !does.is_empty() {
+        let does = does.join(", its ");
         lines.push("///".to_owned());
-        lines.push(
-            "/// Its joints stick and slide in motions `robot.motion(start).with_contacts().to(end)`."
-                .to_owned(),
-        );
+        lines.push(format!("/// Its {does} in motions `robot.motion(start).with_contacts().to(end)`."));
     }
     lines.push("#[derive(Clone, Debug, Lagrangian)]".to_owned());
     if labels.have_capitals() {
@@ -29,7 +38,8 @@ pub(crate) fn write(name: &str, tree: &Tree, labels: &Labels, options: &Options,
     }
     lines.extend(attributes::attributes(tree, labels, options));
     lines.extend(fields::fields(tree, labels, options));
-    lines.extend(limits::limits(tree, labels));
+    lines.extend(limits::limits(tree, labels, options));
+    lines.extend(efforts::efforts(tree, labels));
     lines.join("\n") + "\n"
 }
 
@@ -38,7 +48,7 @@ fn one_line(name: &str) -> String {
     name.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-fn head(name: &str, options: &Options, rubs: bool, notes: &[String]) -> Vec<String> {
+fn head(name: &str, options: &Options, [touches, rubs]: [bool; 2], notes: &[String]) -> Vec<String> {
     let mut lines = vec![
         format!(
             "// The robot `{}`, written by lagrange-urdf from its description, to be read and edited.",
@@ -48,8 +58,11 @@ fn head(name: &str, options: &Options, rubs: bool, notes: &[String]) -> Vec<Stri
     ];
     lines.extend(notes.iter().map(|note| format!("// Note: {}.", one_line(note))));
     lines.push(String::new());
-    if rubs {
-        lines.push("use lagrange_core::contact::Friction;".to_owned());
+    match [touches, rubs] {
+        [true, true] => lines.push("use lagrange_core::contact::{Contact, Friction};".to_owned()),
+        [true, false] => lines.push("use lagrange_core::contact::Contact;".to_owned()),
+        [false, true] => lines.push("use lagrange_core::contact::Friction;".to_owned()),
+        [false, false] => {}
     }
     if !options.numbers {
         lines.push("use lagrange_core::nalgebra::{Matrix3, Vector3};".to_owned());

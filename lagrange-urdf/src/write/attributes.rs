@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::one_line;
+use super::{contacts, one_line};
 use crate::body::Body;
 use crate::names::{Label, Labels};
 use crate::number::{expression, vector};
@@ -31,6 +31,7 @@ pub(super) fn attributes(tree: &Tree, labels: &Labels, options: &Options) -> Vec
         lagrangian(tree, labels, options),
         attribute("force", driven.map(|(_, label)| format!("{}: {}", label.q, label.tau).into())),
         dissipation(tree, labels, options),
+        attribute("contact", contacts::statements(tree, labels, options).map(Statement::from)),
         attribute("friction", rubbing.map(|(moving, label)| friction(moving, label, options).into())),
         attribute(
             "observable",

@@ -1,5 +1,6 @@
 //! The struct with its fields, and the values of these.
 
+use super::contacts::stops;
 use super::{columns, one_line};
 use crate::body::Body;
 use crate::names::{Label, Labels};
@@ -59,6 +60,14 @@ fn all(tree: &Tree, labels: &Labels, options: &Options) -> Vec<Field> {
     for (moving, label) in links() {
         fields.extend(of_joint(moving, label, options));
     }
+    if !tree.feet.is_empty() {
+        let meaning =
+            "Coefficient of friction of the floor, which the description does not state.".to_owned();
+        fields.push(Field { name: labels.mu.clone(), class: "f64", meaning, value: rust(1.0) });
+    }
+    for (foot, name) in tree.feet.iter().zip(&labels.feet) {
+        fields.push(contact(name, format!("Whether the link `{}` touches the floor.", one_line(foot.link))));
+    }
     fields
 }
 
@@ -104,7 +113,14 @@ fn of_joint(moving: &Moving, label: &Label, options: &Options) -> Vec<Field> {
             fields.push(number(&label.coulomb, meaning, moving.friction()));
         }
     }
+    for (name, end) in stops(moving, label, options).into_iter().zip(["lower", "upper"]) {
+        fields.push(contact(name, format!("Whether the joint `{joint}` is at its {end} limit.")));
+    }
     fields
+}
+
+fn contact(name: &str, meaning: String) -> Field {
+    Field { name: name.to_owned(), class: "Contact", meaning, value: "Contact::default()".to_owned() }
 }
 
 const BODY: &str = "

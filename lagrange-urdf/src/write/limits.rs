@@ -4,10 +4,11 @@ use super::attributes::coordinates;
 use super::columns;
 use crate::names::{Label, Labels};
 use crate::number::rust;
+use crate::options::Options;
 use crate::robot::{JointType, Limit};
 use crate::tree::{Moving, Tree};
 
-pub(super) fn limits(tree: &Tree, labels: &Labels) -> Vec<String> {
+pub(super) fn limits(tree: &Tree, labels: &Labels, options: &Options) -> Vec<String> {
     if !tree.links.iter().any(|moving| limit(moving).is_some()) {
         return Vec::new();
     }
@@ -15,13 +16,13 @@ pub(super) fn limits(tree: &Tree, labels: &Labels) -> Vec<String> {
     let mut lines: Vec<String> = LIMIT.lines().map(str::to_owned).collect();
     lines.push(String::new());
     lines.push(format!("impl {} {{", labels.robot));
+    let known = match options.limits {
+        true => "Limits of the coordinates, in their order. The equations know positions alone, as contacts.",
+        false => "Limits of the coordinates, in their order, which the equations do not know.",
+    };
     let rows = links().filter(|(moving, _)| moving.mimic().is_none());
     let rows: Vec<_> = rows.flat_map(|(moving, label)| rows_of(moving, label)).collect();
-    lines.extend(constant(
-        "LIMITS",
-        "Limits of the coordinates, in their order, which the equations do not know.",
-        &rows,
-    ));
+    lines.extend(constant("LIMITS", known, &rows));
     let mimics = links().filter(|(moving, _)| moving.mimic().is_some());
     let mimics: Vec<_> = mimics.filter_map(|(moving, label)| Some(row(&label.q, limit(moving)?))).collect();
     if !mimics.is_empty() {
@@ -45,7 +46,7 @@ fn constant(name: &str, meaning: &str, rows: &[Vec<String>]) -> Vec<String> {
 }
 
 /// Limits of the joint of a link. `None` if it has several coordinates, or states no limits.
-fn limit(moving: &Moving) -> Option<Limit> {
+pub(super) fn limit(moving: &Moving) -> Option<Limit> {
     let limit = moving.joint.filter(|_| moving.is_simple())?.limit.filter(|limit| !limit.is_unset())?;
     let position = if moving.kind() == JointType::Continuous { Limit::NONE.position } else { limit.position };
     Some(Limit { position, ..limit })

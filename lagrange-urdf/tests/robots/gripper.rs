@@ -164,3 +164,20 @@ impl CartAndGripper {
         Limit { coordinate: "right_finger", position: [0.0, 0.04], velocity: 0.2, effort: 20.0 },
     ];
 }
+
+#[allow(dead_code, reason = "for those who set efforts, as described")]
+impl CartAndGripper {
+    /// Names of the efforts, as `inputs_for` takes them.
+    pub const EFFORTS: [&str; 3] = [
+        "tau_cart",
+        "tau_t_joint",
+        "tau_left_finger",
+    ];
+
+    /// Sets the efforts, in the order of `EFFORTS`.
+    pub fn set_efforts(&mut self, efforts: &[f64; 3]) {
+        self.tau_cart = efforts[0];
+        self.tau_t_joint = efforts[1];
+        self.tau_left_finger = efforts[2];
+    }
+}

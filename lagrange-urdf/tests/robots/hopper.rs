@@ -98,3 +98,18 @@ impl Hopper {
         Limit { coordinate: "ball[3]",  position: [f64::NEG_INFINITY, f64::INFINITY], velocity: f64::INFINITY, effort: f64::INFINITY },
     ];
 }
+
+#[allow(dead_code, reason = "for those who set efforts, as described")]
+impl Hopper {
+    /// Names of the efforts, as `inputs_for` takes them.
+    pub const EFFORTS: [&str; 2] = [
+        "tau_HIP",
+        "tau_KNEE",
+    ];
+
+    /// Sets the efforts, in the order of `EFFORTS`.
+    pub fn set_efforts(&mut self, efforts: &[f64; 2]) {
+        self.tau_HIP = efforts[0];
+        self.tau_KNEE = efforts[1];
+    }
+}

@@ -4,7 +4,7 @@ mod newton_euler;
 
 use std::path::{Path, PathBuf};
 
-use lagrange_core::contact::Friction;
+use lagrange_core::contact::{Friction, MoreauJean};
 use lagrange_core::nalgebra::{Const, DMatrix, DVector, Rotation3, SVector, Vector3};
 use lagrange_core::prelude::*;
 use lagrange_urdf::{Options, import};
@@ -20,6 +20,9 @@ mod rubbing { include!("rubbing.rs"); }
 #[rustfmt::skip]
 #[allow(unreachable_pub)]
 mod gripper { include!("gripper.rs"); }
+#[rustfmt::skip]
+#[allow(unreachable_pub)]
+mod standing { include!("standing.rs"); }
 #[rustfmt::skip]
 #[allow(unreachable_pub)]
 mod hopper { include!("hopper.rs"); }
@@ -51,6 +54,9 @@ fn texts_are_as_they_were() {
     is_written("gripper.urdf", "gripper.rs", &Options::default());
     let options = Options { floating: true, numbers: true, ..Options::default() };
     is_written("hopper.urdf", "hopper.rs", &options);
+    let (contacts, name) = (["shank".to_owned(), "foot".to_owned()].into(), Some("standing".to_owned()));
+    let options = Options { limits: true, contacts, name, friction: true, ..Options::default() };
+    is_written("standing.urdf", "standing.rs", &options);
 }
 
 /// Limits and states can be gone through together.
@@ -283,4 +289,23 @@ fn a_robot_in_space_moves_as_by_newton_and_euler() {
         [robot.tau_HIP, robot.tau_KNEE] = [efforts[7], efforts[8]];
         efforts
     });
+}
+
+/// Where it comes to rest, the floor carries its weight, and no joint is beyond its limits on the way.
+#[test]
+fn a_leg_collapses_onto_the_floor_within_its_limits() {
+    let mut robot = standing::Standing::default();
+    robot.set_efforts(&[0.0, 0.5, 0.0]);
+    assert_eq!((robot.tau_hip, standing::Standing::EFFORTS[1]), (0.5, "tau_hip"));
+    let start = State::at_rest([-0.3, 0.3, 0.5]);
+    let path = robot.motion(start).by_time_stepping(MoreauJean::with_step(1e-3)).to(6.0).expect("it moves");
+    for step in path.steps() {
+        let [slide, knee] = [step.state.q[0], step.state.q[2]];
+        assert!(slide.abs() < 2.0 + 1e-9 && knee > 0.2 - 1e-9 && knee < 2.5 + 1e-9, "{step:?}");
+    }
+    let last = path.steps().last().expect("a step");
+    let of = |name| last.impulse(name).expect("a contact") / 1e-3;
+    assert!(last.state.v.norm() < 1e-9, "{last:?}");
+    assert!(of("knee_lower") > 0.0 || of("knee_upper") > 0.0 || last.state.q[2] > 0.2);
+    assert!((of("shank_floor") + of("foot_floor") - 4.2 * 9.81).abs() < 1e-6, "{last:?}");
 }

@@ -78,3 +78,18 @@ impl Rubbing {
         Limit { coordinate: "elbow",    position: [-1.5, 2.0], velocity: 4.0, effort: 15.0 },
     ];
 }
+
+#[allow(dead_code, reason = "for those who set efforts, as described")]
+impl Rubbing {
+    /// Names of the efforts, as `inputs_for` takes them.
+    pub const EFFORTS: [&str; 2] = [
+        "tau_shoulder",
+        "tau_elbow",
+    ];
+
+    /// Sets the efforts, in the order of `EFFORTS`.
+    pub fn set_efforts(&mut self, efforts: &[f64; 2]) {
+        self.tau_shoulder = efforts[0];
+        self.tau_elbow = efforts[1];
+    }
+}

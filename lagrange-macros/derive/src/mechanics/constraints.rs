@@ -49,7 +49,7 @@ impl Constraints {
         graph: &mut Graph,
         problem: &Problem,
         formulation: &dyn Formulation,
-        (label, expression): (&Label, Id),
+        expression: Id,
     ) -> Option<String> {
         let mut drift = formulation.drift(graph);
         let (kind, residual, rate) = match has_velocity(graph, &[expression]) {
@@ -59,7 +59,7 @@ impl Constraints {
         let jacobian = formulation.jacobian_row(graph, expression);
         let switch = problem.switches.get(self.kinds.len()).copied().flatten();
         self.compliance.push(switch.map_or(Id::ZERO, |switch| graph.sub(Id::ONE, switch)));
-        let wrong = malformed(graph, problem, (label, expression), kind, &jacobian);
+        let wrong = malformed(graph, problem, self.kinds.len(), kind, &jacobian);
         self.kinds.push(kind);
         self.residual.push(residual);
         self.rate.push(rate);
@@ -142,7 +142,7 @@ pub(super) fn derive(
 ) -> Option<Constraints> {
     let mut constraints = Constraints::default();
     for (label, expression) in &problem.constraints {
-        if let Some(message) = constraints.push(graph, problem, formulation, (label, *expression)) {
+        if let Some(message) = constraints.push(graph, problem, formulation, *expression) {
             diagnostics.error(label.place, named(label, message));
         }
         diagnostics.stop_at_fault(label.place, graph);
@@ -168,12 +168,19 @@ fn without(label: &Label) -> String {
 fn malformed(
     graph: &mut Graph,
     problem: &Problem,
-    (label, expression): (&Label, Id),
+    row: usize,
     kind: ConstraintKind,
     jacobian: &[Id],
 ) -> Option<String> {
+    let (label, expression) = &problem.constraints[row];
     if jacobian.iter().all(|&entry| vanishes(graph, problem, entry).is_some()) {
-        let message = match expression {
+        let is_component =
+            problem.frictions.iter().any(|of| of.sliding.len() == 2 && (of.row..of.row + 2).contains(&row));
+        let message = match *expression {
+            Id::ZERO if is_component => {
+                "a component of this velocity is zero, whatever the motion: leave it out, as in `v[0]` for `v[0..2]`"
+                    .to_owned()
+            }
             Id::ZERO => {
                 format!("both sides of this constraint are the same, whatever the motion: {}", without(label))
             }

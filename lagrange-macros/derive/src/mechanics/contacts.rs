@@ -73,6 +73,9 @@ impl Rubbing<'_> {
     fn is_along_gap(&self, graph: &mut Graph, row: usize) -> bool {
         let [one, other] = [self.gap, row].map(|row| &self.constraints.jacobian[row]);
         let Some(pivot) = one.iter().position(|&entry| entry != Id::ZERO) else { return false };
+        if other.iter().all(|&entry| entry == Id::ZERO) {
+            return false;
+        }
         one.iter().zip(other).all(|(&first, &second)| {
             let [across, along] = [graph.mul(one[pivot], second), graph.mul(other[pivot], first)];
             let minor = graph.sub(across, along);
