@@ -41,7 +41,7 @@ dual numbers, which take the same derivatives at run time (num-dual {num_dual}, 
 {duals}
 
 {taylor}
-{stiff}{spheres}
+{stiff}{spheres}{grips}
 2,000 double pendulums from rest to t = 10. By Taylor's method errors are smaller than `Dop853`'s at the same tolerance. Where
 there is AVX-512, ours has eight lanes.
 
@@ -79,6 +79,15 @@ A hundred spheres that are thrown on a floor with friction, by time stepping. Wh
 """
 
 
+GRIPS = """\
+
+A cube that friction holds for a minute, below its limit, pressed against a wall by a pad or on a slope. MuJoCo's contacts give way by design;
+*stiff* has its settings against slip:
+
+{table}
+"""
+
+
 def of_readme(about, sections):
     fast = table(NANOSECONDS, [row for row in fastest(sections) if row[0] in README_ROWS])
     motions = [row[:5] for row in taylor(sections) if row[0] in README_MOTIONS]
@@ -97,6 +106,7 @@ def of_costs(about, sections):
         growth=growth(sections["growth"]),
         stiff=STIFF.format(table=stiff(sections["stiff"])) if "stiff" in sections else "",
         spheres=SPHERES.format(table=spheres(sections["spheres"])) if "spheres" in sections else "",
+        grips=GRIPS.format(table=grips(sections["grips"])) if "grips" in sections else "",
     )
 
 
@@ -221,6 +231,11 @@ def stiff(section):
 
 def spheres(section):
     measured = section.captioned("µs a step, and what they reach")
+    return table(measured.head, measured.rows)
+
+
+def grips(section):
+    measured = section.captioned("how far it creeps")
     return table(measured.head, measured.rows)
 
 

@@ -13,6 +13,7 @@ import rows_chain
 import rows_counts
 import rows_duals
 import rows_ensemble
+import rows_grips
 import rows_growth
 import rows_lanes
 import rows_loops
@@ -40,6 +41,7 @@ ROWS = {
     "taylor": rows_taylor.rows,
     "stiff": rows_stiff.rows,
     "spheres": rows_spheres.rows,
+    "grips": rows_grips.rows,
     "ensemble": rows_ensemble.rows,
     "duals": rows_duals.rows,
     "growth": rows_growth.rows,

@@ -2,6 +2,7 @@
 
 mod abuse;
 mod frames;
+mod grips;
 mod law;
 
 #[cfg(feature = "thorough")]
