@@ -8,6 +8,7 @@ mod along;
 mod coefficients;
 mod friction;
 mod frictionless;
+mod going_on;
 mod rest;
 mod restitution;
 mod sensitivities;

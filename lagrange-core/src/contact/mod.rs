@@ -268,7 +268,8 @@ for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) 
 //! # Many contacts
 //!
 //! For stacks and heaps, [`MotionBuilder::by_time_stepping`](crate::MotionBuilder::by_time_stepping) takes steps of one length
-//! instead, with the impulses of all contacts at once: [`MoreauJean`]. Games and controllers take them one at a time: [`ContactStepper`].
+//! instead, with the impulses of all contacts at once: [`MoreauJean`]. Games and controllers take them one at a time: [`ContactStepper`]. A motion
+//! by events goes on frame by frame, too: from `path.end()`, with the contacts of `path.system()`.
 
 #[cfg(feature = "alloc")]
 mod bodies;
