@@ -72,8 +72,10 @@ impl Rubbing<'_> {
     /// Whether a velocity is a multiple of the rate of the gap everywhere.
     fn is_along_gap(&self, graph: &mut Graph, row: usize) -> bool {
         let [one, other] = [self.gap, row].map(|row| &self.constraints.jacobian[row]);
-        let Some(pivot) = one.iter().position(|&entry| entry != Id::ZERO) else { return false };
-        if other.iter().all(|&entry| entry == Id::ZERO) {
+        // An entry may vanish without being simplified to zero.
+        let mut acts = |entry: Id| entry != Id::ZERO && vanishes(graph, self.problem, entry).is_none();
+        let Some(pivot) = one.iter().position(|&entry| acts(entry)) else { return false };
+        if !other.iter().any(|&entry| acts(entry)) {
             return false;
         }
         one.iter().zip(other).all(|(&first, &second)| {
