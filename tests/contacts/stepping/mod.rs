@@ -3,6 +3,7 @@
 mod abuse;
 mod frames;
 mod grips;
+mod landing;
 mod law;
 
 #[cfg(feature = "thorough")]

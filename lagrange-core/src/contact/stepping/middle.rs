@@ -11,6 +11,7 @@ use crate::contact::bodies::{Bodies, CROSSED, UNITS};
 use crate::contact::rows::{Inertia, SparseRows, TouchingRows};
 use crate::error::{Error, Row};
 use crate::linearized::StateDerivatives;
+use crate::names::name;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
 use crate::vector::{Entrywise, Length, Vector};
@@ -180,11 +181,17 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Middle<L> {
         TouchingRows::of(acting, &self.jacobian, Rc::clone(&self.inertia.factor))
     }
 
-    /// The rate at which a gap closes until the end of the step, but for its round-off. One that was below zero before the step, by what counts
-    /// as closed, opens up to zero; one that the first drift has brought below zero is left to the correction of the position.
+    /// The rate at which a gap closes, but for its round-off, to be zero in the middle of the next step: were it zero at the end of this one, its rate
+    /// would change its sign from step to step. A gap below zero is left to the correction of the position.
     pub(super) fn closing(&self, row: usize) -> f64 {
-        let (gap, before) = (self.gaps[row] - self.round_off[row], self.before[row] + self.round_off[row]);
-        -(gap.max(0.0) + before.min(0.0)) / self.lengths[1]
+        (self.round_off[row] - self.gaps[row]).min(0.0) / self.lengths[0]
+    }
+
+    /// The first contact whose gap was negative before the step by more than what a step leaves, as after a change of the system.
+    pub(super) fn crossed(&self, from: &StateOf<L>) -> Option<Error> {
+        let row = *L::CONTACTS.iter().find(|&&row| self.before[row] < -self.started[row])?;
+        let (contact, time) = (name(L::CONSTRAINTS, row), from.t.to_f64());
+        Some(Error::Penetration { contact, gap: self.before[row], time })
     }
 
     /// Lets contacts act whose gaps would be negative at the end of the step. Returns whether there are any.

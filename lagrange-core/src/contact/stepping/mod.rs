@@ -45,7 +45,8 @@ const RESERVED: usize = 1 << 16;
 ///
 /// Contacts act if their gaps are closed after the first drift, or would be negative at the end. Their rates u then satisfy
 /// Newton's law, u⁺ ≥ −e u⁻, p ≥ 0 and p = 0 unless they are equal, and the velocities of friction Coulomb's. Without
-/// restitution, and if the contact is approached no faster than free bodies fall in a step, they close without a bounce. Where
+/// restitution, and if the contact is approached no faster than free bodies fall in a step, they close without a bounce, to be zero where the
+/// contacts of the next step act. Where
 /// restitution with friction would give energy, it is reduced, as from impact to impact. A contact with Poisson's law is an error. The
 /// states of contacts in their fields are not looked at: gaps and velocities say them.
 #[cfg_attr(

@@ -54,6 +54,9 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
     pub(super) fn step(&mut self, from: &StateOf<L>, end: L::Scalar) -> Result<TimeStep<L>, Error> {
         self.bodies.passes(from);
         let mut middle = Middle::of(&self.bodies, from, end - from.t, self.settings.theta)?;
+        if let Some(error) = middle.crossed(from) {
+            return Err(error);
+        }
         let mut pull = middle.pull(&self.bodies, &from.v);
         if let Some(i) = pull.iter().position(|pull| !pull.is_finite()) {
             let row = Row::Coordinate(L::COORDINATES[i]);
