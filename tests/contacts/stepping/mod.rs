@@ -3,6 +3,7 @@
 mod abuse;
 mod frames;
 mod grips;
+mod holds;
 mod landing;
 mod law;
 

@@ -187,21 +187,23 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Middle<L> {
         (self.round_off[row] - self.gaps[row]).min(0.0) / self.lengths[0]
     }
 
-    /// The first contact whose gap was negative before the step by more than what a step leaves, as after a change of the system.
-    pub(super) fn crossed(&self, from: &StateOf<L>) -> Option<Error> {
-        let row = *L::CONTACTS.iter().find(|&&row| self.before[row] < -self.started[row])?;
+    /// The first contact whose gap was negative before the step, by more than what the longest step so far leaves.
+    pub(super) fn crossed(&self, from: &StateOf<L>, longest: f64) -> Option<Error> {
+        let longer = longest / self.lengths[0];
+        let allowed = |row: usize| self.started[row] * f64::max(1.0, longer * longer);
+        let row = *L::CONTACTS.iter().find(|&&row| self.before[row] < -allowed(row))?;
         let (contact, time) = (name(L::CONSTRAINTS, row), from.t.to_f64());
         Some(Error::Penetration { contact, gap: self.before[row], time })
     }
 
-    /// Lets contacts act whose gaps would be negative at the end of the step. Returns whether there are any.
+    /// Lets contacts act whose gaps would be negative in the middle of the next step. Returns whether there are any.
     pub(super) fn joins(&mut self, after: &Vector<L::Scalar, L::N>) -> bool {
         let change = self.change(after);
         let mut any = false;
         for (k, &row) in L::CONTACTS.iter().enumerate() {
             // Rates have a part that does not depend on velocities, if walls move.
             let rate = self.rates[row] + self.jacobian.along(row, &change);
-            let closes = rate < 0.0 && self.gaps[row] + rate * self.lengths[1] < -self.touching[row];
+            let closes = rate < 0.0 && self.gaps[row] + rate * self.lengths[0] < -self.touching[row];
             if closes && !self.acts[k] {
                 (self.acts[k], any) = (true, true);
             }

@@ -43,11 +43,10 @@ const RESERVED: usize = 1 << 16;
 /// 3. drifts on: q⁺ = q + θ h v⁺, and is projected to where no gap is negative and the constraints hold, in the metric of M and
 ///    without a change of velocities.
 ///
-/// Contacts act if their gaps are closed after the first drift, or would be negative at the end. Their rates u then satisfy
+/// Contacts act if their gaps are closed after the first drift, or would be negative in the middle of the next step. Their rates u then satisfy
 /// Newton's law, u⁺ ≥ −e u⁻, p ≥ 0 and p = 0 unless they are equal, and the velocities of friction Coulomb's. Without
-/// restitution, and if the contact is approached no faster than free bodies fall in a step, they close without a bounce, to be zero where the
-/// contacts of the next step act. Where
-/// restitution with friction would give energy, it is reduced, as from impact to impact. A contact with Poisson's law is an error. The
+/// restitution, and if the contact is approached no faster than free bodies fall in a step, they close without a bounce, to be zero in the
+/// middle of the next step. Where restitution with friction would give energy, it is reduced, as from impact to impact. A contact with Poisson's law is an error. The
 /// states of contacts in their fields are not looked at: gaps and velocities say them.
 #[cfg_attr(
     feature = "std",
@@ -105,7 +104,7 @@ assert!(lower > upper && ((upper + lower) / 1e-3 - 2.0 * 9.81 * block.alpha.cos(
 ///   positive: it falls, and an elastic impact keeps it. The projection may lift bodies by what the path of a contact leaves
 ///   its tangent in a step, of the order h², and constraints that turn take some energy, of the order h.
 /// - With friction whose limit exceeds the force of sliding, the bodies stick in a step up to the limit if they stuck in the
-///   one before.
+///   one before, were at rest, or stop in it.
 /// - Contacts of bodies that touch one another, directly or by others, are one problem, with the cube of their number as work; others cost
 ///   what they cost alone.
 #[derive(Clone, Copy, Debug, PartialEq)]

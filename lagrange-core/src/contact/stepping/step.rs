@@ -12,6 +12,7 @@ use crate::cone::{ConeSearch, Face, dot, sqrt};
 use crate::contact::bodies::Bodies;
 use crate::contact::friction::bounds;
 use crate::contact::impact::{StagedFriction, StagedImpact};
+use crate::contact::reactions::Reactions;
 use crate::contact::rows::TouchingRows;
 use crate::contact::{Contacts, FrictionRows};
 use crate::error::{Error, Row};
@@ -28,6 +29,23 @@ pub(super) struct Steps<L: Contacts<Scalar: Real>> {
     faces: Vec<Face>,
     /// Friction that did not reach its limit in the last step.
     sticks: Vec<bool>,
+    /// Length of the longest step.
+    longest: f64,
+    /// The system has been changed since the last step.
+    pub(super) is_changed: bool,
+}
+
+/// What a friction may take in a step: its limit, or the force of sliding where that is less.
+#[derive(Clone, Copy, PartialEq)]
+enum Hold {
+    /// The limit: it stuck in the step before.
+    Limit,
+    /// The force of sliding.
+    Sliding,
+    /// The limit, if it sticks with that: it was at rest, or stops in this step.
+    Trial,
+    /// The force of sliding: its limit does not stop it.
+    SlidingBack,
 }
 
 /// What impulses do within a step.
@@ -47,25 +65,28 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
         let is_still = |a: usize| Scalar::abs(rates[a]) <= unit * sizes[a];
         let sticks = |friction: &FrictionRows| friction.rows().all(is_still);
         let sticks = L::FRICTIONS.iter().map(sticks).collect();
-        Self { bodies, settings, faces: vec![Face::Stick; <L::M>::COUNT], sticks }
+        let faces = vec![Face::Stick; <L::M>::COUNT];
+        Self { bodies, settings, faces, sticks, longest: settings.step, is_changed: false }
     }
 
     /// Takes a step from a state to the time `end`.
     pub(super) fn step(&mut self, from: &StateOf<L>, end: L::Scalar) -> Result<TimeStep<L>, Error> {
         self.bodies.passes(from);
         let mut middle = Middle::of(&self.bodies, from, end - from.t, self.settings.theta)?;
-        if let Some(error) = middle.crossed(from) {
-            return Err(error);
+        if core::mem::take(&mut self.is_changed) {
+            middle.crossed(from, self.longest).map_or(Ok(()), Err)?;
         }
+        self.longest = self.longest.max(middle.lengths[0]);
         let mut pull = middle.pull(&self.bodies, &from.v);
         if let Some(i) = pull.iter().position(|pull| !pull.is_finite()) {
             let row = Row::Coordinate(L::COORDINATES[i]);
             return Err(Error::EquationsNotFinite { row, time: from.t.to_f64() });
         }
+        let mut holds = self.holds(&middle)?;
         let (mut after, mut residual, mut iterations) = (from.v, 0.0, 0);
         while iterations < self.settings.max_iterations && f64::is_finite(residual) {
             iterations += 1;
-            let kicked = self.kick(&mut middle, &after, &pull)?;
+            let kicked = self.kick(&mut middle, &mut holds, &after, &pull)?;
             after = kicked.after;
             pull = middle.pull(&self.bodies, &after);
             residual = middle.residual(&pull, &after, &kicked.impulses);
@@ -96,10 +117,11 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
     }
 
     /// Impulses with forces that are linear in the velocities about these, where the balance of momentum lacks `pull`. Contacts whose
-    /// gaps would be negative at the end of the step join in.
+    /// gaps would be negative in the middle of the next step join in.
     fn kick(
         &mut self,
         middle: &mut Middle<L>,
+        holds: &mut [Hold],
         about: &Vector<L::Scalar, L::N>,
         pull: &[f64],
     ) -> Result<Kicked<L>, Error> {
@@ -107,13 +129,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
         let free: Vec<f64> = own.iter().zip(&so_far).map(|(own, so_far)| own + so_far).collect();
         loop {
             let rows = middle.rows();
-            let staged = self.staged(middle, &rows, &free)?;
-            let found = staged.without_gain();
-            let found =
-                found.map_err(|why| match self.bodies.jams(why, (&rows, &staged.plays), &middle.state) {
-                    Error::FrictionUndecided { friction, time } => Error::ImpulsesNotFound { friction, time },
-                    error => error,
-                })?;
+            let found = self.decide(middle, &rows, holds, &free)?;
             let add = |to: &[f64]| found.change.iter().zip(to).map(|(x, y)| x + y).collect::<Vec<f64>>();
             let after = middle.state.v.plus(&rows.velocities(&add(&free)));
             let step = add(&own);
@@ -137,11 +153,59 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
         }
     }
 
-    /// The problem of a step: contacts open at a least rate, and friction that sticks has the limit, one that slides the sliding force.
+    /// What each friction may take in a step.
+    fn holds(&self, middle: &Middle<L>) -> Result<Vec<Hold>, Error> {
+        let of = |(f, &sticks): (usize, &bool)| {
+            let [limit, sliding] = bounds(&self.bodies.closed, f, &middle.state)?.map(Real::to_f64);
+            let is_still = L::FRICTIONS[f].rows().all(|a| middle.rates[a].abs() <= middle.noise[a]);
+            Ok(match sticks || limit == sliding {
+                true => Hold::Limit,
+                false if is_still => Hold::Trial,
+                false => Hold::Sliding,
+            })
+        };
+        self.sticks.iter().enumerate().map(of).collect()
+    }
+
+    /// Impulses of a step. Friction whose velocity they reverse stops if its limit allows it, and slides back else.
+    fn decide(
+        &self,
+        middle: &Middle<L>,
+        rows: &TouchingRows<L>,
+        holds: &mut [Hold],
+        free: &[f64],
+    ) -> Result<Reactions, Error> {
+        loop {
+            let staged = self.staged(middle, rows, holds, free)?;
+            let found = staged.without_gain();
+            let found =
+                found.map_err(|why| match self.bodies.jams(why, (rows, &staged.plays), &middle.state) {
+                    Error::FrictionUndecided { friction, time } => Error::ImpulsesNotFound { friction, time },
+                    error => error,
+                })?;
+            let mut is_decided = true;
+            for &(f, place) in &rows.frictions {
+                let places = place..place + L::FRICTIONS[f].count;
+                let along: f64 = places.map(|place| staged.before[place] * found.rates[place]).sum();
+                let next = match (holds[f], found.faces[place]) {
+                    (Hold::Sliding, Face::Slide(_)) if along < 0.0 => Hold::Trial,
+                    (Hold::Trial, Face::Slide(_)) => Hold::SlidingBack,
+                    (hold, _) => hold,
+                };
+                is_decided &= next == core::mem::replace(&mut holds[f], next);
+            }
+            if is_decided {
+                return Ok(found);
+            }
+        }
+    }
+
+    /// The problem of a step: contacts open at a least rate, and friction has the limit or the sliding force.
     fn staged<'a>(
         &'a self,
         middle: &Middle<L>,
         rows: &'a TouchingRows<L>,
+        holds: &[Hold],
         free: &[f64],
     ) -> Result<StagedImpact<'a, L>, Error> {
         let of = |values: &[f64]| rows.all.iter().map(|&a| values[a]).collect::<Vec<f64>>();
@@ -162,7 +226,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
         for &(f, place) in &rows.frictions {
             let FrictionRows { count, contact, .. } = L::FRICTIONS[f];
             let [limit, sliding] = bounds(&self.bodies.closed, f, &middle.state)?;
-            let bound = if self.sticks[f] { limit } else { sliding }.to_f64();
+            let bound = if matches!(holds[f], Hold::Limit | Hold::Trial) { limit } else { sliding }.to_f64();
             let limit = if contact.is_some() { bound } else { bound * middle.lengths[0] };
             let gap = contact.and_then(|k| rows.gap(k));
             frictions.push(StagedFriction { places: place..place + count, gap, limit });

@@ -128,11 +128,12 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> ContactStepper<L> {
         &self.steps.bodies.open
     }
 
-    /// Changes parameters, as inputs of a controller, from the next step on.
+    /// Changes parameters, as inputs of a controller, from the next step on. What makes a gap negative is [`Error::Penetration`] there.
     pub fn change(&mut self, change: impl FnOnce(&mut L)) {
         let mut system = self.system().clone();
         change(&mut system);
         self.steps.bodies.take(&system);
+        self.steps.is_changed = true;
     }
 
     pub(super) fn into_system(self) -> L {
