@@ -49,8 +49,9 @@ assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
 //!
 //! λ_N is the force between the bodies if the gap is a distance where it closes, and v the velocity of one body past the other: with `3*y`
 //! for `y` friction is a third of what it should be. A gap r² − x² − y² beside a velocity (x ẏ − y ẋ)/r does not compile, nor does any
-//! other whose gradient is perpendicular to those of its velocities along two or three coordinates, but differs from them in length.
-//! What depends on fewer coordinates, or on angles of several bodies, is not compared.
+//! other whose gradient is perpendicular to those of its velocities along two or three Cartesian coordinates, but differs from them in length;
+//! nor a velocity that has a part across a gap of two Cartesian coordinates, as ẋ beside a hill. What depends on fewer coordinates,
+//! or on angles, is not compared.
 //!
 //! `#[friction(belt: v, limit: hold, sliding: pull)]` is dry friction with bounds of its own, by a field `belt: Friction`: it
 //! sticks with a force up to `hold`, which is `pull` if it is not given, and slides with the force −`pull` v/|v|.

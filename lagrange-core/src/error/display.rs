@@ -206,7 +206,7 @@ impl Display for Error {
             ),
             Self::Friction { friction, bounds: [limit, sliding], time } => write!(
                 f,
-                "the friction of `{friction}` at t = {time} has the limit {limit} and the sliding force {sliding}: both must be numbers, and 0 ≤ sliding ≤ limit"
+                "the friction of `{friction}` at t = {time} has {limit} at rest, the limit or the static coefficient, and {sliding} where it slides: both must be numbers, and 0 ≤ sliding ≤ limit"
             ),
             Self::ImpulsesNotFound { friction, time } => write!(
                 f,

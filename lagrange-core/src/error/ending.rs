@@ -181,7 +181,7 @@ impl Display for Pace {
             None => f.write_str("; raise it with `max_steps`"),
             Some(step) => write!(
                 f,
-                ", where the next is {step:.1e} long; raise it with `max_steps`, unless steps only shrink: then the motion falls into a singularity, or forces jump, as friction by `abs` does where it sticks (smooth it, as by `tanh`, and take `Radau`)"
+                ", where the next is {step:.1e} long; raise it with `max_steps`, unless steps only shrink: then the motion falls into a singularity, or forces jump, as friction by `abs` does where it sticks (smooth it, as by `tanh`, and take `Radau`), or friction along two velocities begins slowly (take `Radau`)"
             ),
         }
     }

@@ -53,6 +53,12 @@ impl Rubbing<'_> {
             );
             return Some((row, message));
         }
+        if let Some(row) = self.rows().find(|&row| self.is_oblique(graph, row)) {
+            let message = format!(
+                "a part of this velocity is across the gap of `{contact}`, where friction does not act: write the velocity along the surface, as `(x_dot + s*y_dot)/sqrt(1 + s^2)` beside a gap `(y - f)/sqrt(1 + s^2)` with the slope s of f"
+            );
+            return Some((row, message));
+        }
         let names: Vec<String> = self.misfit(graph)?.iter().map(|&i| self.name(i)).collect();
         let message = format!(
             "the gap of `{contact}` and this velocity are not of one scale: friction would not be its coefficient times the force between the bodies, as their gradients along {} differ in length where the gap is closed; write the gap as a distance, such as `r - sqrt(x^2 + y^2)` for `r^2 - x^2 - y^2`, or `(y - f)/sqrt(1 + s^2)` for `y - f` with the slope s, and the velocity as that of one body past the other",
@@ -85,23 +91,60 @@ impl Rubbing<'_> {
         })
     }
 
-    /// Coordinates along which gap and velocities have perpendicular gradients at all states with a closed gap, but of different
-    /// lengths. In coordinates of a plane, or of space, in which the bodies touch, the lengths are the scales of gap and velocities. Any
-    /// others have such gradients by chance alone, and not everywhere.
-    fn misfit(&self, graph: &Graph) -> Option<Vec<usize>> {
-        let gradients: Vec<&[Id]> = [self.gap]
-            .into_iter()
-            .chain(self.rows())
-            .map(|row| &self.constraints.jacobian[row][..])
-            .collect();
+    /// Whether a gap depends on two Cartesian coordinates, those of a body in its plane, and a velocity on these alone, but not along the
+    /// surface.
+    fn is_oblique(&self, graph: &mut Graph, row: usize) -> bool {
+        let [gap, velocity] = [self.gap, row].map(|row| &self.constraints.jacobian[row][..]);
+        let (of_gap, of_velocity) = (support(gap), support(velocity));
+        if of_gap.len() != 2 || of_velocity.iter().any(|i| !of_gap.contains(i)) {
+            return false;
+        }
+        let along = |of: &Gradients| Approximate::dot(of_gap.iter().map(|&i| (of[0][i], of[1][i])));
+        let is_across = self.states(graph, &[gap, velocity]).iter().any(|of| along(of).excludes_zero());
+        is_across && self.are_cartesian(graph, &of_gap)
+    }
+
+    /// Cartesian coordinates along which gap and velocities have perpendicular gradients at all states with a closed gap, but of different
+    /// lengths: these are then the scales of gap and velocities. Two velocities go with a gap in space, or one of them with a gap that depends
+    /// on two coordinates alone, as that of a pipe.
+    fn misfit(&self, graph: &mut Graph) -> Option<Vec<usize>> {
+        let jacobian = &self.constraints.jacobian;
+        let gap = &jacobian[self.gap][..];
+        let all: Vec<&[Id]> = self.rows().map(|row| &jacobian[row][..]).collect();
+        let mut found = self.misfit_with(graph, &[&[gap], &all[..]].concat());
+        if all.len() == 2 && support(gap).len() == 2 {
+            found = all
+                .iter()
+                .fold(found, |found, velocity| found.or_else(|| self.misfit_with(graph, &[gap, velocity])));
+        }
+        found
+    }
+
+    /// The same for these gradients, of the gap first.
+    fn misfit_with(&self, graph: &mut Graph, gradients: &[&[Id]]) -> Option<Vec<usize>> {
         let (gap, velocities) = gradients.split_first()?;
         let acts = |i: &usize| gap[*i] != Id::ZERO && velocities.iter().any(|of| of[*i] != Id::ZERO);
         let shared: Vec<usize> = (0..self.problem.coordinates.len()).filter(acts).collect();
         if shared.len() < gradients.len() || shared.len() > COORDINATES {
             return None;
         }
-        let states = self.states(graph, &gradients);
-        subsets(&shared, gradients.len()).into_iter().find(|subset| is_misfit(&states, subset))
+        let states = self.states(graph, gradients);
+        let subsets = subsets(&shared, gradients.len());
+        subsets.into_iter().find(|subset| is_misfit(&states, subset) && self.are_cartesian(graph, subset))
+    }
+
+    /// Whether the mass matrix is a multiple of the identity on these coordinates.
+    fn are_cartesian(&self, graph: &mut Graph, coordinates: &[usize]) -> bool {
+        let velocities: Vec<Symbol> = coordinates.iter().map(|&i| Variable::Velocity(i).symbol()).collect();
+        let momenta = graph.gradient(self.problem.lagrangian, &velocities);
+        let mass: Vec<Vec<Id>> = momenta.into_iter().map(|p| graph.gradient(p, &velocities)).collect();
+        (0..mass.len()).all(|i| {
+            (0..mass.len()).all(|k| {
+                let expected = if i == k { mass[0][0] } else { Id::ZERO };
+                let off = graph.sub(mass[i][k], expected);
+                vanishes(graph, self.problem, off).is_some()
+            })
+        })
     }
 
     /// Gradients of gap and velocities at random states where the gap is closed and constraints hold.
@@ -141,6 +184,11 @@ fn is_misfit(states: &[Gradients], subset: &[usize]) -> bool {
     known.len() > STATES / 2
         && known.iter().all(|of| are_perpendicular(of))
         && known.iter().any(|of| differ(of))
+}
+
+/// Coordinates that a row depends on.
+fn support(row: &[Id]) -> Vec<usize> {
+    (0..row.len()).filter(|&i| row[i] != Id::ZERO).collect()
 }
 
 /// All sets of so many of these numbers.

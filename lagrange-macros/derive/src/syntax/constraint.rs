@@ -8,6 +8,7 @@ use super::declaration::{Constraint, ImpactLaw, Law};
 use super::expression::{self, Expression, Kind};
 use super::forms::{colon, equals, finish, form};
 use super::name::Name;
+use super::slips;
 use super::target::{Target, target};
 use super::unread::unread;
 use crate::symbolic::Rational;
@@ -47,7 +48,7 @@ pub(super) fn contact(cursor: &mut Cursor, constraints: &mut Vec<Constraint>) ->
                 friction = Some(coulomb(cursor)?);
             } else {
                 let message = "a contact has `restitution: e` and `friction(mu): velocity` after its gap";
-                return Err(cursor.error(message));
+                return Err(cursor.error(slips::meant(cursor, &["restitution", "friction"], message)));
             }
         }
         let when = Some(name.clone());
@@ -154,6 +155,10 @@ fn coefficients(inside: &mut Cursor) -> Result<(Option<Expression>, Expression)>
         ahead.take_word(word) && ahead.is_punct(':')
     };
     let Some(first) = words.iter().position(is_given) else {
+        let mut ahead = inside.clone();
+        if ahead.take_ident().is_some() && (ahead.is_punct(':') || ahead.is_punct('=')) {
+            return Err(inside.error(slips::meant(inside, &words, FORM)));
+        }
         let sliding = expression::whole(&mut inside.until_comma())?;
         return if inside.is_empty() { Ok((None, sliding)) } else { Err(inside.error(FORM)) };
     };

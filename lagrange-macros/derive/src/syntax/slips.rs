@@ -89,3 +89,15 @@ fn unexpected_point(cursor: &Cursor) -> syn::Error {
     };
     cursor.error(message)
 }
+
+/// A message, with the word that was meant if the next one is a slip of it.
+pub(super) fn meant(cursor: &Cursor, words: &[&str], message: &str) -> String {
+    let Some(written) = cursor.clone().take_ident().map(|ident| ident.to_string()) else {
+        return message.to_owned();
+    };
+    let distance = |word: &&&str| strsim::damerau_levenshtein(&written, word);
+    match words.iter().min_by_key(distance).filter(|word| (1..=2).contains(&distance(word))) {
+        Some(word) => format!("did you mean `{word}`? {message}"),
+        None => message.to_owned(),
+    }
+}
