@@ -106,3 +106,31 @@ fn a_light_ball_drives_heavy_ones_apart() {
         assert!(off < 1e-8, "{light}, {e}: off by {off:e}");
     }
 }
+
+/// Its velocities along the floor are the round-off of nothing, with no size of their own.
+#[test]
+fn a_block_at_rest_that_is_steered_stays_at_rest() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y, theta)]
+    #[define(corner[i in 0..2] = [
+        x + (2*i - 1)*b*cos(theta) + b*sin(theta),
+        y + (2*i - 1)*b*sin(theta) - b*cos(theta)
+    ])]
+    #[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*b^2/3 * theta_dot^2 - m*g*y)]
+    #[contact(floor[i in 0..2]: corner[i][1] >= 0, friction(mu): der(corner[i])[0])]
+    struct Steered {
+        m: f64,
+        b: f64,
+        g: f64,
+        mu: f64,
+        floor: [Contact; 2],
+    }
+    let block = Steered { m: 1.0, b: 0.1, g: 9.81, mu: 0.5, floor: [Contact::Open; 2] };
+    let motion = block.motion(State::at_rest([0.0, 0.1, 0.0])).with_contacts().every(0.01);
+    let arrival = motion.controlled(1e-3, |_, _| Ok::<(), &str>(())).to(0.1).unwrap();
+    assert!(
+        matches!(arrival.transitions[..], [Transition::Closes { .. }, Transition::Closes { .. }]),
+        "{:?}",
+        arrival.transitions
+    );
+}

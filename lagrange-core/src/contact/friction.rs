@@ -67,10 +67,35 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         (velocity, [length(velocity), noise])
     }
 
-    /// Direction in which bodies slide; `None` if they are at rest but for so many units of round-off.
-    pub(super) fn slip(&self, f: usize, state: &StateOf<L>, units: f64) -> Option<[L::Scalar; 2]> {
+    /// Direction in which bodies slide; `None` if they are at rest but for so many units of round-off, or slower than the least speed.
+    pub(super) fn slip(
+        &self,
+        f: usize,
+        state: &StateOf<L>,
+        [units, least]: [f64; 2],
+    ) -> Option<[L::Scalar; 2]> {
         let (velocity, [speed, noise]) = self.sliding(f, state);
-        (speed > L::Scalar::constant(units) * noise).then(|| velocity.map(|component| component / speed))
+        let slides = speed > L::Scalar::constant(units) * noise && speed.to_f64() > least;
+        slides.then(|| velocity.map(|component| component / speed))
+    }
+
+    /// Speed of a friction that its limit stops within the round-off of the time, with the accelerations of gaps towards one another.
+    pub(super) fn least_slip(
+        &self,
+        (rows, pressing): (&TouchingRows<L>, &[f64]),
+        (f, place): (usize, usize),
+        limit: f64,
+        state: &StateOf<L>,
+    ) -> f64 {
+        let gap = L::FRICTIONS[f].contact.map(|k| rows.gap(k));
+        let press =
+            gap.map_or(1.0, |gap| gap.map_or(0.0, |gap| pressing[gap].abs() / rows.response(gap, gap)));
+        self.time_unit(state) * limit * press * rows.response(place, place)
+    }
+
+    /// Round-off of the time.
+    fn time_unit(&self, state: &StateOf<L>) -> f64 {
+        L::Scalar::EPSILON * f64::max(state.t.to_f64().abs(), self.span.to_f64())
     }
 
     /// Whether bodies are at rest where their velocity along the direction of sliding has become zero. That of one velocity is
@@ -148,7 +173,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Speed with which bodies begin to slide along two velocities: the error of it, and what the force of friction changes it within the round-off
     /// of the time.
     fn start(&self, rows: [usize; 2], changes: [f64; 2], state: &StateOf<L>) -> f64 {
-        let unit = L::Scalar::EPSILON * f64::max(state.t.to_f64().abs(), self.span.to_f64());
+        let unit = self.time_unit(state);
         let [x, y] = rows.map(|a| self.sliding_error(2, self.measured_at(a, state).noise[1]).to_f64());
         BEGIN * (x.max(y) + unit * changes[0].max(changes[1]))
     }

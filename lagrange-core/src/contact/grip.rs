@@ -74,12 +74,14 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
         // What has the same velocity as another friction stops with it.
         let units = if matches!(end, Some(LegEnd::Stops(_))) { BEGIN } else { 1.0 };
         let is_at_rest = |f| end == Some(LegEnd::Stops(f)) || (end.is_some() && was.is_at_rest::<L>(f));
-        let slip = |f| if is_at_rest(f) { None } else { bodies.slip(f, state, units) };
-        let slips = (0..L::FRICTIONS.len()).map(|f| slip(f).map(|along| along.map(Real::to_f64))).collect();
         let mut of_friction = vec![[0.0; 2]; L::FRICTIONS.len()];
-        for &(f, _) in &rows.frictions {
+        let mut least = vec![0.0; L::FRICTIONS.len()];
+        for &(f, place) in &rows.frictions {
             of_friction[f] = bounds(&bodies.closed, f, state)?.map(Real::to_f64);
+            least[f] = bodies.least_slip((rows, &pressing.0), (f, place), of_friction[f][0], state);
         }
+        let slip = |f: usize| if is_at_rest(f) { None } else { bodies.slip(f, state, [units, least[f]]) };
+        let slips = (0..L::FRICTIONS.len()).map(|f| slip(f).map(|along| along.map(Real::to_f64))).collect();
         let (bounds, fallen, held, part, carries) = (of_friction, Vec::new(), Vec::new(), 1.0, None);
         Ok(Self { bodies, rows, pressing, bounds, was, end, resting, slips, fallen, held, part, carries })
     }

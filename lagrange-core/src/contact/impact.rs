@@ -162,7 +162,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let gap = L::FRICTIONS[f].contact.and_then(|k| rows.gap(k));
             if let Some(gap) = gap.filter(|&gap| plays[gap]) {
                 let [limit, sliding] = bounds(&self.closed, f, state)?;
-                let limit = if self.slip(f, state, 1.0).is_some() { sliding } else { limit };
+                let limit = if self.slip(f, state, [1.0, 0.0]).is_some() { sliding } else { limit };
                 let places = place..place + L::FRICTIONS[f].count;
                 frictions.push(StagedFriction { places, gap: Some(gap), limit: limit.to_f64() });
             }

@@ -169,7 +169,8 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! - Bodies touch up to a gap of 4 u. A contact rests if its rate is below the round-off of its terms, or if a bounce would rise by no more
 //!   than 64 u. A gap that touches zero at a single point, as x² + y² at 0, does not close there.
 //! - Friction is at rest if its velocity is below 8 ε Σ |Wᵢ| max |q̇ᵢ|, with the changes of velocities by impulses among the
-//!   largest; or 64 times that where another one stops: heel and toe of a foot stop together. Where 10⁻³ of the relative tolerance of the
+//!   largest, or what its limit stops within the round-off of the time; or 64 times that where another one stops: heel and toe of a foot
+//!   stop together. Where 10⁻³ of the relative tolerance of the
 //!   method is more than 8 ε, it takes the place of that for friction along two velocities, since no step ends where both are zero. What begins
 //!   to slide along two gets 64 times that as a speed, and what its force changes within the round-off of the time.
 //! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both; a force of contact that
