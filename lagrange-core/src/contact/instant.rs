@@ -100,7 +100,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     fn grip(
         &self,
         (rows, pressing): (&TouchingRows<L>, &(Vec<f64>, Vec<f64>)),
-        resting: Vec<bool>,
+        mut resting: Vec<bool>,
         state: &mut StateOf<L>,
         (was, end): (&LegStates, Option<LegEnd>),
         transitions: &mut Vec<Transition<L::Scalar>>,
@@ -112,7 +112,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let states = decision.states(&gripped);
             let bounce = self.bounce((&rows.touching, &decision.resting, &gripped.rates), &before);
             self.halt(rows, (&states, &gripped), state);
-            if self.slides_back(&states, state) {
+            let comes = self.comes_to_rest(rows, pressing, &mut resting, state);
+            if comes || self.slides_back(&states, state) {
                 continue;
             }
             self.report(&decision.towards(&gripped, &states), &before, (was, &states), transitions)?;
@@ -121,6 +122,23 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         }
         let friction = rows.frictions.first().map_or("", |&(f, _)| name(L::CONSTRAINTS, L::FRICTIONS[f].row));
         Err(Error::FrictionUndecided { friction, time: state.t.to_f64() })
+    }
+
+    /// Marks gaps that have opened but whose rates went with those of others at rest. Returns whether there are any.
+    fn comes_to_rest(
+        &self,
+        rows: &TouchingRows<L>,
+        pressing: &(Vec<f64>, Vec<f64>),
+        resting: &mut [bool],
+        state: &StateOf<L>,
+    ) -> bool {
+        let noise = rows.motion_noise(state);
+        let mut any = false;
+        for (place, rests) in resting.iter_mut().enumerate().filter(|(_, rests)| !**rests) {
+            *rests = self.rests(rows.touching[place], [pressing.0[place], noise[place]], state);
+            any |= *rests;
+        }
+        any
     }
 
     /// Takes the rates, all but zero, of what stays at rest: closed gaps, and friction that sticks. No other gap at rest closes. What begins
