@@ -9,6 +9,7 @@ mod coefficients;
 mod friction;
 mod frictionless;
 mod going_on;
+mod gripping;
 mod rest;
 mod restitution;
 mod sensitivities;
