@@ -137,3 +137,27 @@ fn a_coefficient_of_sliding_above_that_at_rest_is_named() {
     let Err(error) = path else { panic!("a motion") };
     assert!(error.to_string().contains("floor_friction"), "{error}");
 }
+
+/// Two feet share what friction holds, and slide without any.
+#[test]
+fn friction_may_hold_where_none_slows() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y, theta)]
+    #[define(foot[i in 0..2] = [x + (2*i - 1)*b*cos(theta), y + (2*i - 1)*b*sin(theta)])]
+    #[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*b^2/6 * theta_dot^2 - m*g*y)]
+    #[force(x: pull*t)]
+    #[contact(feet[i in 0..2]: foot[i][1] >= 0, friction(static: mu, kinetic: 0*mu): der(foot[i])[0])]
+    struct Sledge {
+        m: f64,
+        b: f64,
+        g: f64,
+        mu: f64,
+        pull: f64,
+        feet: [Contact; 2],
+    }
+    let sledge = Sledge { m: 1.0, b: 0.2, g: 10.0, mu: 0.3, pull: 1.5, feet: [Contact::Closed; 2] };
+    let path = sledge.motion(State::at_rest([0.0; 3])).with_contacts().to(3.0).unwrap();
+    let first = path.transitions().iter().find(|of| matches!(of, Transition::Slips { .. })).unwrap();
+    assert!((first.time() - 2.0).abs() < 1e-9, "{:?}", path.transitions());
+    assert!((path.end().v[0] - 0.75 * (9.0 - 4.0)).abs() < 1e-9, "{:?}", path.end());
+}

@@ -13,8 +13,7 @@ struct RestingFriction {
     f: usize,
     place: usize,
     slides: bool,
-    /// Force of sliding.
-    sliding: f64,
+    limit: f64,
     /// What is left of its limit.
     slack: f64,
 }
@@ -29,16 +28,16 @@ impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
         rows.any(|row| !span.add(row))
     }
 
-    /// Lets friction at rest whose velocity depends on others at rest act with the part of the force of sliding that was found:
+    /// Lets friction at rest whose velocity depends on others at rest act with the part of its limit that was found:
     /// the rows that are left are independent, and their forces unique. Those that are furthest from their limits are left.
     pub(super) fn share(&self, gripped: &Gripped, states: &mut LegStates) {
         let gaps = (0..self.rows.touching.len()).filter(|&place| states.is_closed(self.rows.touching[place]));
         let mut span = self.rows.span(gaps.collect::<Vec<_>>());
-        for RestingFriction { f, place, slides, sliding, .. } in self.at_rest(gripped, states) {
+        for RestingFriction { f, place, slides, limit, .. } in self.at_rest(gripped, states) {
             let (count, before) = (L::FRICTIONS[f].count, span.size());
             let mut parts = [Some(0.0); 2];
             for (row, part) in (place..place + count).zip(&mut parts) {
-                let ratio = gripped.forces[row] / sliding;
+                let ratio = gripped.forces[row] / limit;
                 let shared = Some(if ratio.is_finite() { ratio } else { 0.0 });
                 *part = if span.add(row) { None } else { shared };
             }
@@ -69,11 +68,11 @@ impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
             }
             let gap = L::FRICTIONS[f].contact.and_then(|k| self.rows.gap(k));
             let press = gap.map_or(1.0, |gap| gripped.forces[gap]);
-            let [limit, sliding] = self.bounds[f].map(|bound| bound * press);
+            let limit = self.bounds[f][0] * press;
             let force = |c: usize| if c < L::FRICTIONS[f].count { gripped.forces[place + c] } else { 0.0 };
             let slack = limit - length([force(0), force(1)]);
             let slides = matches!(gripped.grips[f], Some(Friction::Slides(_)));
-            Some(RestingFriction { f, place, slides, sliding, slack })
+            Some(RestingFriction { f, place, slides, limit, slack })
         };
         let mut resting: Vec<_> = self.rows.frictions.iter().filter_map(of).collect();
         resting.sort_by(|one, other| one.slides.cmp(&other.slides).then(other.slack.total_cmp(&one.slack)));

@@ -15,7 +15,7 @@ pub enum Contact {
     /// that of two acts against the velocity, which has a positive part along this direction.
     Slides([f64; 2]),
     /// The bodies touch and stay together, along with others that share the force of friction. The force along each velocity
-    /// is the one that keeps it zero, or this part of the force of sliding: the others then keep that velocity zero.
+    /// is the one that keeps it zero, or this part of the limit: the others then keep that velocity zero.
     Shares([Option<f64>; 2]),
 }
 
@@ -138,7 +138,7 @@ pub fn slides<T: Scalar>(field: &impl FrictionState) -> T {
     one_if(matches!(field.friction(), Some(Friction::Slides(direction)) if direction != [0.0; 2]))
 }
 
-/// A component of the direction in which the friction of the field slides, or of the part of its sliding force that is
+/// A component of the direction in which the friction of the field slides, or of the part of its limit that is
 /// stated; else 0.
 #[inline(always)]
 pub fn slip<T: Scalar>(field: &impl FrictionState, component: usize) -> T {

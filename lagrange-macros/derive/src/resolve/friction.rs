@@ -78,7 +78,8 @@ impl Lowering<'_> {
         let press = contact.map_or(Id::ONE, |contact| {
             self.graph.symbol(Variable::Multiplier(self.contacts[contact].row).symbol())
         });
-        let force = self.graph.mul(bounds[1], press);
+        let coefficient = self.bound_in_force(bounds, entry);
+        let force = self.graph.mul(coefficient, press);
         let against = self.graph.neg(force);
         let velocities = velocity.flat();
         let directions = self.directions(&velocities, entry);
@@ -86,6 +87,17 @@ impl Lowering<'_> {
             directions.into_iter().map(|direction| self.graph.mul(against, direction)).collect();
         powers.extend(sliding.iter().copied().zip(velocities));
         self.frictions.push(FrictionRows { row, sliding, entry, contact, bounds });
+    }
+
+    /// The bound that acts: that of sliding while it slides, and that of sticking where a part of it is stated.
+    fn bound_in_force(&mut self, [limit, sliding]: [Id; 2], entry: Entry) -> Id {
+        if limit == sliding {
+            return sliding;
+        }
+        let slides = self.read(entry, SwitchReading::Slides);
+        let rests = self.graph.sub(Id::ONE, slides);
+        let (sliding, limit) = (self.graph.mul(slides, sliding), self.graph.mul(rests, limit));
+        self.graph.add(sliding, limit)
     }
 
     /// Coefficients or forces of sticking and sliding.
