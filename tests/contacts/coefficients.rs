@@ -44,7 +44,7 @@ fn random_block(random: &mut Random) -> Carried {
 
 #[test]
 fn a_block_on_a_belt_sticks_and_slips_with_its_period() {
-    for seed in 0..cases([5, 100, 1000]) as u64 {
+    for seed in 0..cases([5, 20, 1000]) as u64 {
         let block = random_block(&mut Random(seed));
         let start = State::new([block.mu * block.m * block.g / block.k * 0.5, 0.0], [block.belt, 0.0]);
         let period = block.slides() + block.sticks();
@@ -100,7 +100,7 @@ struct Plate {
 /// All feet slip when the force is μ m g, and slide with ν m g.
 #[test]
 fn all_feet_of_a_plate_slip_together() {
-    for seed in 0..cases([1, 50, 500]) as u64 {
+    for seed in 0..cases([1, 3, 500]) as u64 {
         let mut random = Random(seed);
         let angle = random.between(0.0, 2.0 * PI);
         let (nu, m, pull) = (random.between(0.1, 0.5), random.between(0.5, 2.0), random.between(1.0, 5.0));

@@ -116,7 +116,7 @@ impl ShakenPlane {
 /// A force that grows slowly past its limit sets the block in motion with a direction that turns at once: it is stiff.
 #[test]
 fn a_block_sticks_and_slips_in_a_plane() {
-    for seed in 30..30 + cases([20, 80, 400]) as u64 {
+    for seed in 30..30 + cases([20, 40, 400]) as u64 {
         let mut random = Random(seed);
         let [a, b] = [(); 2].map(|()| random.between(0.3, 1.8));
         let [w, u] = [(); 2].map(|()| random.between(1.0, 4.0));
