@@ -31,7 +31,8 @@ fn friction_that_begins_at_its_limit_slips() {
 fn friction_that_would_push_is_named() {
     let system = Belt { m: 1.0, hold: 1.0, pull: 1.0, falls: 1.0, ..Belt::default() };
     let path = system.motion(State::new([0.0], [2.0])).with_contacts().towards(4.0).unwrap();
-    assert!(path.ending().to_string().contains("the sliding force -"), "{}", path.ending());
+    let ending = path.ending().to_string();
+    assert!(ending.contains("the friction of `belt`") && ending.contains("0 ≤ sliding ≤ limit"), "{ending}");
     assert!((path.ending().time() - 1.0).abs() < 0.5, "{}", path.ending());
 }
 
