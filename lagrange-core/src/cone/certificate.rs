@@ -118,8 +118,8 @@ impl ConeSolver {
                 let terms = block.rows().map(|i| self.terms(i)).sum::<f64>();
                 let (size, speed) = (length(r), length(u));
                 let is_at_limit = size >= limit * (1.0 - 8.0 * f64::EPSILON);
-                // At its limit it may be at rest all the same: its rate is what the accuracy leaves then, and need not be against it. A limit
-                // that is round-off itself may not be reached to the bit.
+                // A friction at its limit may be at rest: its rate is then within the accuracy, in any direction. A limit as small as
+                // round-off may differ from the force in its last bits, so that a rate beyond the accuracy says that it slides.
                 let least = if is_at_limit { BALANCE * f64::EPSILON } else { ACCURACY };
                 let slides = speed > least * terms && r[0] * u[0] + r[1] * u[1] < 0.0;
                 match limit > 0.0 {

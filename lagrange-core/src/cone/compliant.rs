@@ -54,7 +54,7 @@ impl ConeSolver {
         })
     }
 
-    /// Takes Newton steps about the reactions so far, if they lead nearer to natural ones.
+    /// Takes Newton steps from the reactions so far, and keeps those that the natural map changes less.
     fn approach(&mut self, weight: f64) {
         let (before, defects) = (self.r.clone(), self.defects());
         self.newton(weight, &before, &mut |_| {});
@@ -106,7 +106,7 @@ impl ConeSolver {
         }
     }
 
-    /// Takes Newton steps with one weight; `see` is called after each. Returns whether they settle.
+    /// Takes Newton steps with one weight of the compliance; `see` is called after each. Returns whether they settle.
     fn newton(&mut self, weight: f64, center: &[f64], see: &mut dyn FnMut(&Self)) -> bool {
         for _ in 0..STEPS {
             let mut equations =

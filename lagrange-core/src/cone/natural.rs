@@ -1,12 +1,12 @@
-//! The natural map of reactions: r of each block becomes the reaction of its set that is nearest to r − u/g. Reactions that stay so satisfy the
-//! law.
+//! The natural map of reactions. It takes the reaction r of each block to the point of its set that is nearest to r − u/g, with the rates u
+//! and the response g of the block. Reactions that it does not change satisfy the law.
 
 use alloc::vec::Vec;
 
 use super::{ConeSolver, Face, Limit, RowBlock, Set, dot, length, sqrt};
 
 impl ConeSolver {
-    /// The vector within a limit that is nearest to r − u/g of a friction, and its face.
+    /// Projects r − u/g of a friction onto the disc of this radius. Returns the point, and its face.
     pub(super) fn within(&self, k: usize, limit: f64) -> ([f64; 2], Face) {
         let tries = self.pulled(k);
         let far = length(tries);

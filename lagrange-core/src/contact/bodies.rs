@@ -243,8 +243,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         Ok(rows.all[..rows.count].iter().map(of).unzip())
     }
 
-    /// Error of the velocities of a friction with this round-off. A step ends where a single velocity stops; no step does so for two,
-    /// which err by what steps do.
+    /// Error of the velocities of a friction with this round-off. A step ends where a single velocity becomes zero. Two become zero within a
+    /// step, and have the error of its method.
     pub(super) fn sliding_error(&self, count: usize, noise: L::Scalar) -> L::Scalar {
         let by_steps = self.accuracy * STILL / (L::Scalar::EPSILON * UNITS);
         if count == 2 { noise * L::Scalar::constant(by_steps.max(1.0)) } else { noise }

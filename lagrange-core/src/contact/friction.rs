@@ -170,7 +170,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         along_two.chain(begun(1).map(|row| (row, 0.0))).collect()
     }
 
-    /// Speed with which bodies begin to slide along two velocities: the error of it, and what the force of friction changes it within the round-off
+    /// Speed with which bodies begin to slide along two velocities: its error, and its change by the force of friction within the round-off
     /// of the time.
     fn start(&self, rows: [usize; 2], changes: [f64; 2], state: &StateOf<L>) -> f64 {
         let unit = self.time_unit(state);

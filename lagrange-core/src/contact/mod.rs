@@ -139,7 +139,7 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! # What is guaranteed
 //!
 //! 1. At the stored states no gap is negative and all constraints hold, to the round-off of their terms.
-//! 2. Impulses and forces are compared with the law before they are believed: no rate is off it by more than 10⁻¹² of its terms, each force is
+//! 2. Impulses and forces are compared with the law before they are used: no rate is off it by more than 10⁻¹² of its terms, each force is
 //!    within its set to the bit, and none but a force that slides already gains energy. Up to the end of a leg, forces stay within the
 //!    law to 10⁻⁶ of the largest of them.
 //! 3. What cannot be decided so ends the motion by name and time, and what was computed until then is kept: of 100,000 random impacts of
@@ -171,7 +171,8 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! - Friction is at rest if its velocity is below 8 ε Σ |Wᵢ| max |q̇ᵢ|, with the changes of velocities by impulses among the
 //!   largest, or what its limit stops within the round-off of the time; or 64 times that where another one stops: heel and toe of a foot
 //!   stop together. Where 10⁻³ of the relative tolerance of the
-//!   method is more than 8 ε, it takes the place of that for friction along two velocities, since no step ends where both are zero. What begins
+//!   method is more than 8 ε, it takes the place of that for friction along two velocities, since no step ends where both are zero. A velocity
+//!   below that which no force can stop, as along a rail, then counts as rest, too, and its friction is wrong: lower the tolerance. What begins
 //!   to slide along two gets 64 times that as a speed, and what its force changes within the round-off of the time.
 //! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both; a force of contact that
 //!   begins at zero, once it is below by as much, but by no more than 5·10⁻⁷ of the largest force.

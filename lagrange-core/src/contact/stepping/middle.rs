@@ -20,7 +20,7 @@ use crate::vector::{Entrywise, Length, Vector};
 /// velocities whose residual is the default tolerance move them, so that contacts at rest stay closed.
 const TOUCHING: f64 = 1e-6;
 
-/// Equations at the state to which the bodies drift first. All values of constraints are by their index.
+/// Equations at the state to which the bodies drift first. Lists of values have one for each constraint, in the order of their indices.
 pub(super) struct Middle<L: Contacts<Scalar: Real>> {
     pub(super) state: StateOf<L>,
     pub(super) jacobian: SparseRows,
@@ -201,7 +201,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Middle<L> {
         let change = self.change(after);
         let mut any = false;
         for (k, &row) in L::CONTACTS.iter().enumerate() {
-            // Rates have a part that does not depend on velocities, if walls move.
+            // Where walls move, a part of the rate does not depend on the velocities of bodies.
             let rate = self.rates[row] + self.jacobian.along(row, &change);
             let closes = rate < 0.0 && self.gaps[row] + rate * self.lengths[0] < -self.touching[row];
             if closes && !self.acts[k] {

@@ -33,8 +33,8 @@ const RESERVED: usize = 1 << 16;
 
 /// Time stepping of contacts by the scheme of Moreau and Jean: [`by_time_stepping`](MotionBuilder::by_time_stepping).
 ///
-/// For many contacts, as in stacks and heaps, whose impacts are too many to be located one after another, and for games and controllers,
-/// which take [one step at a time](ContactStepper). A step of the length h (Moreau 1988; Jean, *Computer Methods in Applied Mechanics and
+/// Stacks and heaps have too many impacts to be located one after another; games and controllers take
+/// [one step at a time](ContactStepper). A step of the length h (Moreau 1988; Jean, *Computer Methods in Applied Mechanics and
 /// Engineering* 177, 1999; Acary and Brogliato, *Numerical Methods for Nonsmooth Dynamical Systems*, 2008, chapter 10)
 ///
 /// 1. drifts: q = q⁻ + (1 − θ) h v⁻;
@@ -47,7 +47,7 @@ const RESERVED: usize = 1 << 16;
 /// Newton's law, u⁺ ≥ −e u⁻, p ≥ 0 and p = 0 unless they are equal, and the velocities of friction Coulomb's. Without
 /// restitution, and if the contact is approached no faster than free bodies fall in a step, they close without a bounce, to be zero in the
 /// middle of the next step. Where restitution with friction would give energy, it is reduced, as from impact to impact. A contact with Poisson's law is an error. The
-/// states of contacts in their fields are not looked at: gaps and velocities say them.
+/// fields of contacts are ignored: gaps and velocities of the start say which contacts are closed.
 #[cfg_attr(
     feature = "std",
     doc = r#"
@@ -86,8 +86,8 @@ assert!(lower > upper && ((upper + lower) / 1e-3 - 2.0 * 9.81 * block.alpha.cos(
 /// Forces that are linear in coordinates and velocities, as of springs and dampers, act with the whole mass matrix M + θ h C + θ² h² K, where
 /// C = −∂f/∂v and K = −∂f/∂q: a wheel of 20 kg below a spring of 40 kN/m and a damper of 4 kN s/m rests and rolls with steps of 1/60 s. Of
 /// other forces, this is done with the symmetric part of the derivatives at the start of the step, and repeated until the balance of
-/// momentum holds up to the tolerance, as a part of its largest term: the [residual](TimeStep::residual) of the step. Where it does
-/// not come to that, [`Error::StepTooLong`] ends the motion.
+/// momentum is off by no more than the tolerance times its largest term. What it is off by, as a part of that term, is the
+/// [residual](TimeStep::residual) of the step. A step that does not reach the tolerance ends the motion with [`Error::StepTooLong`].
 ///
 /// Each time, the impulses satisfy the law of contacts to round-off, as from impact to impact. Those of a step begin with what
 /// stuck and slid in the one before. If none are found, [`Error::ImpulsesNotFound`] or [`Error::ContactsContradict`] ends the motion, and

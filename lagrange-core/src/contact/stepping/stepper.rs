@@ -17,8 +17,8 @@ use crate::solution::solve::solve;
 use crate::system::StateOf;
 use crate::vector::Length;
 
-/// A motion across contacts that is taken step by step, for games and controllers. It keeps what stuck and slid: steps one by one are those
-/// of [`to`](crate::MotionBuilder::to), bit by bit.
+/// A motion across contacts that is taken step by step, for games and controllers. It remembers what stuck and slid: its steps equal those of
+/// [`to`](crate::MotionBuilder::to) to the last bit.
 ///
 /// ```
 /// use lagrange_core::contact::{Contact, MoreauJean};
