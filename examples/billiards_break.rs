@@ -3,7 +3,7 @@
 
 mod picture;
 
-use lagrange_core::contact::{Contact, ContactTrajectory};
+use lagrange_core::contact::Contact;
 use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
@@ -37,7 +37,7 @@ const TABLE: Table = Table {
     high: [[OPEN; 2]; 7],
 };
 
-type Path = ContactTrajectory<Table>;
+type Path = Trajectory<Table>;
 
 fn main() -> Result<()> {
     let file = picture::path("billiards_break")?;
@@ -85,7 +85,7 @@ fn draw(path: &Path, title: &str, area: &picture::Area) -> Result<()> {
         let color = if i == 0 { RED } else { BLUE };
         let way: Points = path.samples(1500).map(|s| (s.state().q[2 * i], s.state().q[2 * i + 1])).collect();
         chart.line(way, color.mix(0.4).stroke_width(1));
-        let [x, y] = [0, 1].map(|k| path.end().q[2 * i + k]);
+        let [x, y] = [0, 1].map(|k| path.end().state().q[2 * i + k]);
         let rim = (0..=36).map(|k| f64::from(k).to_radians() * 10.0);
         chart.face(rim.map(|angle| (x + TABLE.a * angle.cos(), y + TABLE.a * angle.sin())), color);
     }

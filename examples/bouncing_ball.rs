@@ -5,7 +5,7 @@
 
 mod picture;
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
@@ -47,7 +47,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-fn bounces(path: &ContactTrajectory<Ball>) -> impl Iterator<Item = Bounce> {
+fn bounces(path: &Trajectory<Ball>) -> impl Iterator<Item = Bounce> {
     let impacts = path.transitions().iter().filter_map(|transition| match transition {
         Transition::Impact { time, impulses } => Some((*time, impulses.first()?.1)),
         _ => None,
@@ -83,7 +83,7 @@ fn series(n: i32) -> f64 {
     fall * (1.0 + 2.0 * RESTITUTION * (1.0 - RESTITUTION.powi(n)) / (1.0 - RESTITUTION))
 }
 
-fn draw(path: &ContactTrajectory<Ball>, bounces: &[Bounce], file: &std::path::Path) -> Result<()> {
+fn draw(path: &Trajectory<Ball>, bounces: &[Bounce], file: &std::path::Path) -> Result<()> {
     let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     let [mut flight, mut speed, mut energy] = [const { Points::new() }; 3];

@@ -7,7 +7,7 @@ mod picture;
 
 use std::f64::consts::TAU;
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
@@ -42,7 +42,7 @@ const LEG: Leg = Leg {
     ground: Contact::Closed,
 };
 
-type Path = ContactTrajectory<Leg>;
+type Path = Trajectory<Leg>;
 
 fn main() -> Result<()> {
     let start = State::at_rest([LEG.l, 0.0]);

@@ -6,7 +6,7 @@
 
 mod picture;
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
@@ -29,7 +29,7 @@ struct Block {
 const BLOCK: Block =
     Block { m: 3.0, b: 0.1, h: 0.5, g: 9.81, mu: 0.8, floor: [Contact::Closed, Contact::Open] };
 
-type Path = ContactTrajectory<Block>;
+type Path = Trajectory<Block>;
 
 fn main() -> Result<()> {
     let alpha = (BLOCK.b / BLOCK.h).atan();

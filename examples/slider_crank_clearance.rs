@@ -5,7 +5,7 @@ mod picture;
 
 use std::f64::consts::TAU;
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
@@ -53,7 +53,7 @@ const CRANK: SliderCrank = SliderCrank {
     lower: [Contact::Open; 2],
 };
 
-type Path = ContactTrajectory<SliderCrank>;
+type Path = Trajectory<SliderCrank>;
 
 fn main() -> Result<()> {
     let start = State::new([0.0; 3], [150.0, -75.0, 0.0]);

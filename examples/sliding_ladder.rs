@@ -45,14 +45,14 @@ fn main() -> Result<()> {
         let leg = trajectory.leg::<Trajectory<Leaning>>(0).ok_or("the first leg")?;
         let angle = leg.end().coordinate("theta")?;
         let error = angle - (2.0 / 3.0 * start.sin()).asin();
-        let (left, down) = (leg.end().time(), trajectory.end());
+        let (left, down) = (leg.end().time(), trajectory.end_time());
         println!("{start:8.1} {left:12.6} {angle:16.12} {error:10.0e} {down:10.6}");
     }
     let trajectory = fall(1.3)?;
     println!("\nfrom 1.3 rad: {}", trajectory.ending().ok_or("no leg")?);
     let energy = |sample: Box<dyn Named<f64> + '_>| sample.energy();
-    let start = energy(trajectory.at(trajectory.start())?);
-    let end = energy(trajectory.at(trajectory.end())?);
+    let start = energy(trajectory.at(trajectory.start_time())?);
+    let end = energy(trajectory.at(trajectory.end_time())?);
     println!("energy at the start and when it is down: {start:.10} J, {end:.10} J");
     let file = picture::path("sliding_ladder")?;
     draw(&trajectory, &file)?;

@@ -5,7 +5,7 @@
 
 mod picture;
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
@@ -38,7 +38,7 @@ fn main() -> Result<()> {
         }
     }
     let rolls = 5.0 / 7.0 * (START[0] + 0.4 * BALL.r * START[2]);
-    println!("\nit rolls with {} m/s, {rolls} m/s by its angular momentum", path.end().v[0]);
+    println!("\nit rolls with {} m/s, {rolls} m/s by its angular momentum", path.end().state().v[0]);
     println!("\n{}", path.drift());
     let file = picture::path("spinning_ball")?;
     draw(&path, &file)?;
@@ -46,7 +46,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-fn draw(path: &ContactTrajectory<Ball>, file: &std::path::Path) -> Result<()> {
+fn draw(path: &Trajectory<Ball>, file: &std::path::Path) -> Result<()> {
     let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     let [mut way, mut speed, mut rim, mut energy] = [const { Points::new() }; 4];
@@ -74,7 +74,7 @@ fn draw(path: &ContactTrajectory<Ball>, file: &std::path::Path) -> Result<()> {
 }
 
 /// The ball with a spoke, every 0.03 s of its first bounces.
-fn draw_spin(path: &ContactTrajectory<Ball>, area: &picture::Area) -> Result<()> {
+fn draw_spin(path: &Trajectory<Ball>, area: &picture::Area) -> Result<()> {
     let mut chart = Panel::new("Its spin, every 0.03 s", ["x in m", "y in m"]).equal_axes();
     chart.line([(-0.1, 0.0), (0.65, 0.0)], GREY.stroke_width(2));
     for k in 0..40 {

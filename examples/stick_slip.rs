@@ -8,7 +8,7 @@ mod picture;
 
 use std::f64::consts::TAU;
 
-use lagrange_core::contact::{ContactTrajectory, Friction};
+use lagrange_core::contact::Friction;
 use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 use plotters::prelude::*;
@@ -55,7 +55,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-fn draw(path: &ContactTrajectory<Bow>, file: &std::path::Path) -> Result<()> {
+fn draw(path: &Trajectory<Bow>, file: &std::path::Path) -> Result<()> {
     let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));
     let [mut x, mut speed, mut friction, mut phase] = [const { Points::new() }; 4];

@@ -5,7 +5,7 @@
 
 mod picture;
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Panel, Points, RED, Result};
 
@@ -89,7 +89,7 @@ fn main() -> Result<()> {
 }
 
 /// Times of the transitions of a kind.
-fn times(path: &ContactTrajectory<Woodpecker>, is_it: impl Fn(&Transition<f64>) -> bool) -> Vec<f64> {
+fn times(path: &Trajectory<Woodpecker>, is_it: impl Fn(&Transition<f64>) -> bool) -> Vec<f64> {
     path.transitions()
         .iter()
         .filter(|transition| is_it(transition))
@@ -97,7 +97,7 @@ fn times(path: &ContactTrajectory<Woodpecker>, is_it: impl Fn(&Transition<f64>) 
         .collect()
 }
 
-fn draw(path: &ContactTrajectory<Woodpecker>, file: &std::path::Path) -> Result<()> {
+fn draw(path: &Trajectory<Woodpecker>, file: &std::path::Path) -> Result<()> {
     const SHOWN: f64 = 0.5;
     let root = picture::sheet(file, (1100, 900))?;
     let panels = root.split_evenly((2, 2));

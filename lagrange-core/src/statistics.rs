@@ -32,14 +32,4 @@ impl Statistics {
             multipliers_are_unique: earlier.multipliers_are_unique && self.multipliers_are_unique,
         }
     }
-
-    /// Counts since an earlier moment.
-    pub(crate) fn since(self, earlier: &Self) -> Self {
-        Self {
-            accepted: self.accepted - earlier.accepted,
-            rejected: self.rejected - earlier.rejected,
-            evaluations: self.evaluations - earlier.evaluations,
-            ..self
-        }
-    }
 }

@@ -1,7 +1,7 @@
 //! Rods that are thrown at a floor and a wall: at every stored state no gap is negative, no multiplier pulls, no force acts
 //! across a gap, and no energy is gained.
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Contacts, Transition};
+use lagrange_core::contact::{Contact, Contacts, Transition};
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{Ending, prelude::*};
 use lagrange_random::cases;
@@ -26,7 +26,7 @@ fn ends(a: f64, state: &State<f64, 3>) -> [[f64; 2]; 4] {
 }
 
 /// Gaps, forces, cones, the direction of friction and energy at every stored state.
-fn keeps_the_laws<L>(case: &str, [a, mu]: [f64; 2], path: &ContactTrajectory<L>)
+fn keeps_the_laws<L>(case: &str, [a, mu]: [f64; 2], path: &Trajectory<L>)
 where
     L: Contacts<N = Const<3>, Scalar = f64> + Clone,
 {

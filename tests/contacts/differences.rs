@@ -1,6 +1,6 @@
 //! Derivatives across contacts and friction, by differences of whole motions.
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Contacts, Friction, Transition};
+use lagrange_core::contact::{Contact, Contacts, Friction, Transition};
 use lagrange_core::linearized::{DifferentiableMethod, Linearized, StateSensitivity};
 use lagrange_core::nalgebra::Const;
 use lagrange_core::prelude::*;
@@ -14,7 +14,7 @@ fn check<L, D, const N: usize>(
     what: &str,
     names: &[&str],
     (method, tolerance): (D, f64),
-    run: impl Fn(usize, f64) -> ContactTrajectory<L>,
+    run: impl Fn(usize, f64) -> Trajectory<L>,
 ) where
     L: Linearized<N = Const<N>, Scalar = f64> + Contacts + Clone,
     D: DifferentiableMethod<L>,

@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::motion::{Limits, MultiplierBounds, Step};
 use lagrange_core::{Error, Method, StateOf, Statistics, prelude::*};
 
@@ -108,20 +108,20 @@ fn moved(
     block: &Block,
     start: State<f64, 2>,
     method: impl Method<Block>,
-) -> Result<ContactTrajectory<Block>, String> {
+) -> Result<Trajectory<Block>, String> {
     let motion = block.motion(start).by(method).with_contacts().max_transitions(40);
     motion.towards(6.0).map_err(|error| error.to_string())
 }
 
 /// Its transitions: time and kind, with what they are of.
-fn transitions(path: &ContactTrajectory<Block>) -> Vec<(f64, String)> {
+fn transitions(path: &Trajectory<Block>) -> Vec<(f64, String)> {
     let times = path.transitions().iter().map(Transition::time);
     times.zip(kinds(path)).collect()
 }
 
 /// Part of the step at this time in which the force of the floor is nearer to its least than to its value at most times; 1.67
 /// widths of a pulse exp(−(t/w)²).
-fn width_of_dip(path: &ContactTrajectory<Block>, time: f64) -> f64 {
+fn width_of_dip(path: &Trajectory<Block>, time: f64) -> f64 {
     let steps = || path.legs().iter().flat_map(|leg| leg.steps().map(|step| step.state().t));
     let start = steps().filter(|&t| t <= time).fold(0.0, f64::max);
     let end = steps().filter(|&t| t > time).fold(6.0, f64::min);

@@ -33,8 +33,8 @@ fn a_block_that_slides_stops() {
     let path = thrown.motion(State::new([0.0; 2], [3.0, 0.0])).with_contacts().to(2.0).unwrap();
     let [Transition::Sticks { time, .. }] = path.transitions() else { panic!("{:?}", path.transitions()) };
     assert!((time - 1.0).abs() < 1e-14, "{time}");
-    assert!((path.end().q[0] - 1.5).abs() < 1e-14, "{:?}", path.end());
-    assert_eq!(path.end().v[0], 0.0);
+    assert!((path.end().state().q[0] - 1.5).abs() < 1e-14, "{:?}", path.end());
+    assert_eq!(path.end().state().v[0], 0.0);
 }
 
 /// A sphere thrown on a floor slides until v = 5/7 v₀, at the time 2/7 v₀/(μ g), and rolls (Milton 8.8; any textbook).
@@ -48,7 +48,7 @@ fn a_sphere_thrown_on_a_floor_slides_and_then_rolls() {
             panic!("{:?}", path.transitions())
         };
         assert!((time - 2.0 / 7.0 * 2.0 / (0.25 * 9.81)).abs() < 1e-13, "{time}");
-        let v = path.end().v;
+        let v = path.end().state().v;
         assert!((v[0] - 5.0 / 7.0 * speed).abs() < 1e-13 && (v[2] * 0.3 - v[0]).abs() < 1e-14, "{v:?}");
     }
 }
@@ -87,7 +87,7 @@ fn a_block_thrown_across_a_slope_turns_down() {
     let slope = Puck { m: 1.0, g: 10.0, tilt, down, mu: tilt.tan(), floor, ..Puck::default() };
     let start = State::new([0.0; 3], [2.0, 0.0, 0.0]);
     let path = slope.motion(start).by(Dop853::with_tolerance(1e-12)).with_contacts().to(20.0).unwrap();
-    let v = path.end().v;
+    let v = path.end().state().v;
     assert!((v[0].hypot(v[1]) + v[1] - 2.0).abs() < 1e-10, "{v:?}");
     assert!((v[1] - 1.0).abs() < 1e-6 && v[0].abs() < 1e-6, "{v:?}");
 }
@@ -103,7 +103,7 @@ fn a_sphere_with_spin_bounces() {
             sphere.motion(State::new([0.0, 1.0, 0.0], [2.0, -1.0, spin])).with_contacts().to(2.0).unwrap();
         let slip: f64 = 2.0 - r * spin;
         let change = -(mu * (1.0 + e)).min(2.0 / 7.0 * slip.abs()) * slip.signum();
-        let v = path.end().v;
+        let v = path.end().state().v;
         assert!((v[1] - e).abs() < 1e-14 && (v[0] - (2.0 + change)).abs() < 1e-14, "{spin}: {v:?}");
         assert!((v[2] - (spin - 2.5 * change / r)).abs() < 1e-12, "{spin}: {v:?}");
     }
@@ -272,10 +272,10 @@ fn a_block_on_a_crank_turns_round_at_its_dead_centres() {
         turns.iter().all(|turn| matches!(turn, Transition::Reverses { .. })) && turns.len() == 2,
         "{turns:?} {end:?}"
     );
-    let theta = end.q[0];
+    let theta = end.state().q[0];
     assert!(theta > 2.0 * std::f64::consts::PI && theta < 3.0 * std::f64::consts::PI, "{theta}");
     // From 0.5 to π, to 2 π, and on.
     let length = 0.5 * ((0.5_f64.cos() + 1.0) + 2.0 + (1.0 - theta.cos()));
-    let lost = 0.5 * 2.0 * (16.0 - end.v[0] * end.v[0]);
+    let lost = 0.5 * 2.0 * (16.0 - end.state().v[0] * end.state().v[0]);
     assert!((lost - 0.3 * 10.0 * length).abs() < 1e-9, "{lost} {}", 3.0 * length);
 }

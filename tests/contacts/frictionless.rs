@@ -23,7 +23,10 @@ fn a_ball_bounces_and_rests() {
             panic!("{:?}", path.transitions().last())
         };
         assert!((time - fall * 1.8 / 0.2).abs() < 1e-12, "{:e}", time - fall * 1.8 / 0.2);
-        assert_eq!((path.end().q[1], path.end().v[1], path.system().floor), (0.0, 0.0, Contact::Closed));
+        assert_eq!(
+            (path.end().state().q[1], path.end().state().v[1], path.system().floor),
+            (0.0, 0.0, Contact::Closed)
+        );
         let floor = path.at(9.0).unwrap().multiplier("floor").unwrap();
         assert!((floor - 0.2 * 9.81).abs() < 1e-15);
     }
@@ -39,7 +42,7 @@ fn collisions_count_the_digits_of_pi() {
         let start = State::new([1.0, 2.0, 1e6], [0.0, -1.0, 0.0]);
         let path = blocks.motion(start).by(Dop853::default()).with_contacts().to(1e3).unwrap();
         assert_eq!(impacts(path.transitions()).len(), count);
-        let energy = blocks.energy(path.end()) / blocks.energy(&start) - 1.0;
+        let energy = blocks.energy(path.end().state()) / blocks.energy(&start) - 1.0;
         assert!(energy.abs() < 1e-13, "{energy:e}");
     }
 }
@@ -50,7 +53,11 @@ fn balls_in_a_row_exchange_their_velocities() {
     let start = State::new([-1.0, 0.0, 1e-6], [1.0, 0.0, 0.0]);
     let path = balls.motion(start).with_contacts().to(3.0).unwrap();
     assert_eq!(impacts(path.transitions()).len(), 2);
-    assert!((path.end().v - State::new([0.0; 3], [0.0, 0.0, 1.0]).v).amax() < 1e-12, "{}", path.end().v);
+    assert!(
+        (path.end().state().v - State::new([0.0; 3], [0.0, 0.0, 1.0]).v).amax() < 1e-12,
+        "{}",
+        path.end().state().v
+    );
 }
 
 #[test]
@@ -102,7 +109,11 @@ fn a_ball_in_a_slot_without_room_comes_to_rest() {
         for v in [1.0, -7.7] {
             let slot = Slot { e: [e; 2], high, ..Slot::default() };
             let path = slot.motion(State::new([0.0], [v])).with_contacts().to(1.0).unwrap();
-            assert!(path.end().q[0].abs() <= high && path.end().v[0] == 0.0, "{e}, {v}: {}", path.end());
+            assert!(
+                path.end().state().q[0].abs() <= high && path.end().state().v[0] == 0.0,
+                "{e}, {v}: {}",
+                path.end()
+            );
         }
     }
 }
@@ -136,8 +147,8 @@ fn ends_that_are_none() {
     assert!(matches!(to(-1.0), Err(Error::MotionBackwards { .. })));
     // No time passes, and nothing happens.
     let path = to(0.0).unwrap();
-    assert!(path.transitions().is_empty() && path.end().q[1] == 1.0);
-    assert_eq!((path.at(0.0).unwrap().state(), path.steps().count()), (path.end(), 1));
+    assert!(path.transitions().is_empty() && path.end().state().q[1] == 1.0);
+    assert_eq!((path.at(0.0).unwrap().state(), path.steps().count()), (path.end().state(), 1));
     assert_eq!(path.csv(3).records().rows.len(), 3);
 }
 
@@ -172,5 +183,8 @@ fn a_coordinate_without_mass_meets_the_floor() {
     assert!((impacts(path.transitions())[0] - fall).abs() < 1e-14);
     let since = 0.6 - fall;
     let height = 0.5 * (2.0 * 9.81_f64).sqrt() * since - 9.81 / 2.0 * since * since;
-    assert!((path.end().q[0] - height).abs() < 1e-13 && (path.end().q[1] - 3.0 + height).abs() < 1e-13);
+    assert!(
+        (path.end().state().q[0] - height).abs() < 1e-13
+            && (path.end().state().q[1] - 3.0 + height).abs() < 1e-13
+    );
 }

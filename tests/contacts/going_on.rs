@@ -47,7 +47,7 @@ fn each_frame_starts_where_the_last_one_ended() {
             block.pull = most * (frame / 30.0).sin();
             let path = block.motion(state).with_contacts().to(frame / 60.0);
             let path = path.unwrap_or_else(|error| panic!("seed {seed}, frame {frame}: {error}"));
-            (state, block) = (*path.end(), path.system().clone());
+            (state, block) = (*path.end().state(), path.system().clone());
             let (sin, cos) = state.q[2].sin_cos();
             let depth = [-0.2, 0.2].map(|b| 0.1 * cos - b * sin - state.q[1]);
             assert!(depth.iter().all(|depth| *depth < 1e-15), "seed {seed}, frame {frame}: {depth:?}");
@@ -63,10 +63,10 @@ fn frames_are_one_motion() {
         let whole = block.motion(state).by(method).with_contacts().to(1.0).unwrap();
         for frame in (1..=60).map(f64::from) {
             let path = block.motion(state).by(method).with_contacts().to(frame / 60.0).unwrap();
-            (state, block) = (*path.end(), path.system().clone());
+            (state, block) = (*path.end().state(), path.system().clone());
         }
         // Bounces that rise by no more than 64 units of round-off count as rest, with velocities of the order of its root.
-        let off = (state.q - whole.end().q).amax().max((state.v - whole.end().v).amax());
+        let off = (state.q - whole.end().state().q).amax().max((state.v - whole.end().state().v).amax());
         assert!(off < 1e-6, "seed {seed}: {off:e}");
     }
 }

@@ -55,7 +55,7 @@ fn impacts(transitions: &[Transition<f64>]) -> Vec<f64> {
 
 /// Kinds of transitions, with what they are of.
 #[cfg(feature = "thorough")]
-fn kinds<L: Lagrangian>(path: &lagrange_core::contact::ContactTrajectory<L>) -> Vec<String> {
+fn kinds<L: Lagrangian>(path: &lagrange_core::Trajectory<L>) -> Vec<String> {
     let kind = |transition: &Transition<L::Scalar>| match transition {
         Transition::Impact { impulses, .. } => {
             format!("impact {:?}", impulses.iter().map(|(name, _)| *name).collect::<Vec<_>>())

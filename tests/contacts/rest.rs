@@ -17,7 +17,7 @@ fn a_pendulum_rests_at_its_wall() {
         panic!("{:?}", path.transitions())
     };
     assert!((impulses[0].1 - (2.0 * 9.81 * (1.0 - c)).sqrt()).abs() < 1e-11, "{impulses:?}");
-    assert!(path.end().q[0].abs() < 1e-15 && path.end().v[0].abs() < 1e-15, "{}", path.end());
+    assert!(path.end().state().q[0].abs() < 1e-15 && path.end().state().v[0].abs() < 1e-15, "{}", path.end());
 }
 
 /// Its weight comes in pulses, down to zero and a little below.
@@ -29,7 +29,7 @@ fn a_block_that_loses_its_weight_for_an_instant_stays_on_its_floor() {
         let path = motion.max_transitions(100).to(5.0).unwrap();
         assert_eq!(path.system().floor, Contact::Closed);
         // The first lifting begins where the weight is zero, and rises by less than 10⁻¹⁰.
-        assert!(path.end().q[0].abs() < 1e-15, "{}", path.end());
+        assert!(path.end().state().q[0].abs() < 1e-15, "{}", path.end());
         let opens = path.transitions().iter().find(|of| matches!(of, Transition::Opens { .. })).unwrap();
         assert!((opens.time() - core::f64::consts::FRAC_PI_3).abs() < 1e-4, "{:?}", path.transitions());
     }
@@ -45,10 +45,14 @@ fn blocks_come_to_rest_on_one_another() {
             assert!(*time >= 0.0 && *time < last + 1e-5, "`{contact}` rests at {time}, after {last}");
         }
     }
-    assert!((path.end().q[0].abs() + (path.end().q[2] - 0.2).abs()) < 1e-14, "{}", path.end());
+    assert!(
+        (path.end().state().q[0].abs() + (path.end().state().q[2] - 0.2).abs()) < 1e-14,
+        "{}",
+        path.end()
+    );
     // At rest from the start, with y[0] = 0: no entry gives the round-off of this gap a size.
     let path = stack.motion(State::at_rest([0.0, 0.1, 0.2])).with_contacts().to(10.0).unwrap();
-    let forces = path.system().solve(path.end()).unwrap().multipliers;
+    let forces = path.system().solve(path.end().state()).unwrap().multipliers;
     for (force, blocks) in forces.iter().zip([3.0, 2.0, 1.0]) {
         assert!((force - blocks * 9.81).abs() < 1e-12, "{forces}");
     }
@@ -64,7 +68,7 @@ fn a_ball_rests_on_a_moving_floor_at_late_times() {
         let motion = shaken.motion(state).by(Dop853::with_tolerance(1e-12)).with_contacts();
         let path = motion.max_transitions(1_000).to(start + 1.5).unwrap();
         assert_eq!(path.system().floor, Contact::Closed, "from {start}");
-        let gap = path.end().q[0] - floor(path.end().t);
+        let gap = path.end().state().q[0] - floor(path.end().state().t);
         assert!(gap.abs() < 1e-15 * (1.0 + start), "from {start}: {gap:e}");
     }
 }
@@ -73,7 +77,7 @@ fn a_ball_rests_on_a_moving_floor_at_late_times() {
 fn after(m: [f64; 3], e: f64, v: [f64; 3]) -> (usize, [f64; 3]) {
     let balls = Stack { m, low: -9.0, e: [e; 3], ..Stack::default() };
     let path = balls.motion(State::new([0.0; 3], v)).with_contacts().to(0.1).unwrap();
-    (impacts(path.transitions()).len(), path.end().v.into())
+    (impacts(path.transitions()).len(), path.end().state().v.into())
 }
 
 /// A heavy ball drives a light one against another that moves away: the light one is hit in turn, thousands of times, until they

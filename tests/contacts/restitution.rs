@@ -21,7 +21,7 @@ pub(crate) fn after<L: Contacts<N = Const<3>, Scalar = f64> + Clone>(
     system: &L,
     start: State<f64, 3>,
 ) -> [f64; 3] {
-    system.motion(start).with_contacts().to(1e-9).expect("an impact").end().v.into()
+    system.motion(start).with_contacts().to(1e-9).expect("an impact").end().state().v.into()
 }
 
 /// The rows of the lower end, and their responses G = W M⁻¹ Wᵀ.

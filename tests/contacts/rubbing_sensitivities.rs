@@ -1,6 +1,6 @@
 //! Derivatives across friction, by closed forms: sticking, sliding, reversals.
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Contacts, Transition};
+use lagrange_core::contact::{Contact, Contacts, Transition};
 use lagrange_core::linearized::{DifferentiableMethod, Linearized};
 use lagrange_core::prelude::*;
 use lagrange_systems::{Belt, Block, Sphere};
@@ -8,7 +8,7 @@ use lagrange_systems::{Belt, Block, Sphere};
 use crate::method;
 
 /// Fails if a method has other derivatives of the first coordinate, by more than this.
-fn has_derivatives<L>(path: &ContactTrajectory<L>, names: &[&str], expected: &[f64], most: f64)
+fn has_derivatives<L>(path: &Trajectory<L>, names: &[&str], expected: &[f64], most: f64)
 where
     L: Linearized<Scalar = f64> + Contacts + Clone,
     Dop853: DifferentiableMethod<L>,

@@ -1,6 +1,6 @@
 //! Tables whose legs share forces of friction: they stand up to the load at which they have to slide, turn or tip.
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::prelude::*;
 use lagrange_core::{Ending, Method};
 use lagrange_random::{Level, cases};
@@ -54,14 +54,14 @@ const TABLE: Table = Table {
 const WEIGHT: f64 = 2.0 * 9.81;
 
 impl Table {
-    fn path(&self, method: impl Method<Self>, end: f64) -> ContactTrajectory<Self> {
+    fn path(&self, method: impl Method<Self>, end: f64) -> Trajectory<Self> {
         let motion = self.motion(State::at_rest([0.0; 6])).by(method).with_contacts();
         let path = motion.max_transitions(200).towards(end).unwrap();
         self.keeps_the_laws(&path);
         path
     }
 
-    fn by_radau(&self, end: f64) -> ContactTrajectory<Self> {
+    fn by_radau(&self, end: f64) -> Trajectory<Self> {
         let path = self.path(Radau::with_tolerance(1e-9), end);
         assert!(matches!(path.ending(), Ending::Complete { .. }), "{}", path.ending());
         // All that slides begins at once, and goes on.
@@ -73,13 +73,13 @@ impl Table {
     }
 
     /// Gaps, forces, cones and the direction of friction at every stored state, and at the last one.
-    fn keeps_the_laws(&self, path: &ContactTrajectory<Self>) {
+    fn keeps_the_laws(&self, path: &Trajectory<Self>) {
         self.keeps_the_laws_in_steps(path);
         let last = path.system().solve(path.end()).unwrap();
         self.keeps_the_laws_at(path.end(), last.multipliers.as_slice());
     }
 
-    fn keeps_the_laws_in_steps(&self, path: &ContactTrajectory<Self>) {
+    fn keeps_the_laws_in_steps(&self, path: &Trajectory<Self>) {
         for step in path.legs().iter().flat_map(|leg| leg.steps()) {
             self.keeps_the_laws_at(step.state(), step.solution().unwrap().multipliers.as_slice());
         }
@@ -166,7 +166,7 @@ fn tables_at_their_limit_begin_to_slide() {
 }
 
 /// Time of the first friction that slides.
-fn first_slip(path: &ContactTrajectory<Table>) -> Option<f64> {
+fn first_slip(path: &Trajectory<Table>) -> Option<f64> {
     let is_slip = |of: &&Transition<f64>| matches!(of, Transition::Slips { .. });
     path.transitions().iter().find(is_slip).map(Transition::time)
 }

@@ -1,7 +1,7 @@
 //! Bodies in space on rough floors: a ball against a closed solution, and boxes whose corners share forces of friction, by a check
 //! of the laws at every stored state.
 
-use lagrange_core::contact::{Contact, ContactTrajectory, Transition};
+use lagrange_core::contact::{Contact, Transition};
 use lagrange_core::nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use lagrange_core::{Ending, prelude::*};
 
@@ -93,7 +93,7 @@ impl Brick {
     }
 
     /// Gaps, forces, cones, the direction of friction and energy at every stored state.
-    fn keeps_the_laws(&self, case: &str, path: &ContactTrajectory<Self>) {
+    fn keeps_the_laws(&self, case: &str, path: &Trajectory<Self>) {
         let mut energy = f64::INFINITY;
         let steps = path.legs().iter().flat_map(|leg| {
             let last = leg.steps().count();
@@ -127,7 +127,7 @@ impl Brick {
 }
 
 /// Fails if one friction begins to stick or slide more than once at one instant.
-fn changes_once(case: &str, path: &ContactTrajectory<Brick>) {
+fn changes_once(case: &str, path: &Trajectory<Brick>) {
     let mut last = std::collections::HashMap::new();
     for transition in path.transitions() {
         if let Transition::Sticks { friction, time } | Transition::Slips { friction, time } = transition {

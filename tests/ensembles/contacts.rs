@@ -52,7 +52,7 @@ fn members_are_those_of_single_motions_and_of_the_series() {
         let arrival = arrival(&outcome, k);
         let (ball, start) = member(k);
         let motion = ball.motion(start).by(method).with_contacts().event(lands()).every(0.5);
-        let alone = motion.to(END).unwrap().arrival;
+        let alone = motion.to(END).unwrap();
         assert_eq!(
             (&alone.state, &alone.samples, &alone.crossings),
             (&arrival.state, &arrival.samples, &arrival.crossings)

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lagrange_core::{Dop853, Ending, HybridTrajectory, prelude::*};
 
-use lagrange_systems::{LeaningRod, PushedSpring, Sticking};
+use lagrange_systems::{Ball, LeaningRod, PushedSpring, Sticking};
 
 use crate::runs::{LADDER, leaning};
 use crate::{Plane, Rod, SPRING};
@@ -88,10 +88,13 @@ fn a_hybrid_trajectory_answers_at_any_time_by_name() {
     let mut lies = sliding.event("lies", |s| s.coordinate("theta")).falling().terminal();
     let second = sliding.motion(*first.end().state()).by(method).event(&mut lies).towards(10.0).unwrap();
     let mut trajectory = HybridTrajectory::<f64>::new();
-    assert!(trajectory.start().is_nan() && trajectory.ending().is_none() && trajectory.at(0.0).is_err());
+    assert!(trajectory.start_time().is_nan() && trajectory.ending().is_none() && trajectory.at(0.0).is_err());
     trajectory.push(first.into_owned()).unwrap();
     trajectory.push(second.into_owned()).unwrap();
-    assert_eq!((trajectory.start(), trajectory.end()), (0.0, trajectory.legs().last().unwrap().end_time()));
+    assert_eq!(
+        (trajectory.start_time(), trajectory.end_time()),
+        (0.0, trajectory.legs().last().unwrap().end_time())
+    );
     assert!(trajectory.ending().unwrap().to_string().contains("`lies`"));
     let energy = trajectory.at(0.0).unwrap().energy();
     let mut count = 0;
@@ -107,7 +110,7 @@ fn a_hybrid_trajectory_answers_at_any_time_by_name() {
     assert_eq!(count, 101);
     // Where they meet, the next answers.
     assert!(trajectory.at(left).unwrap().observable("foot").is_ok());
-    assert!(trajectory.at(trajectory.end() + 1e-9).is_err() && trajectory.at(-1e-9).is_err());
+    assert!(trajectory.at(trajectory.end_time() + 1e-9).is_err() && trajectory.at(-1e-9).is_err());
     assert!(matches!(trajectory.at(20.0).err(), Some(Error::OutsideTrajectory { start: 0.0, .. })));
 }
 
@@ -134,4 +137,23 @@ fn a_leg_that_does_not_go_on_is_refused() {
     trajectory.push(leg(-1.0, -2.0)).unwrap();
     assert!((trajectory.at(-0.5).unwrap().coordinate("x").unwrap() - 0.5_f64.cos()).abs() < 1e-8);
     assert_eq!(trajectory.samples(5).filter_map(Result::ok).last().unwrap().time(), -2.0);
+}
+
+/// A ball falls from 1 m, bounces, and flies on as a point of another system.
+#[test]
+fn a_leg_may_cross_contacts() {
+    let ball = Ball { m: 1.0, g: 9.81, e: 0.5, ..Ball::default() };
+    let bounces = ball.motion(State::at_rest([0.0, 1.0])).with_contacts().to(0.6).unwrap();
+    let flies =
+        Plane { g: 9.81 }.integrate(*bounces.end().state(), 0.7, Dop853::default()).unwrap().into_owned();
+    let mut trajectory = HybridTrajectory::new();
+    trajectory.push(bounces).unwrap();
+    trajectory.push(flies).unwrap();
+    let fall = (2.0_f64 / 9.81).sqrt();
+    for t in [0.3, 0.5, 0.65] {
+        let up = 0.5 * 9.81 * fall * (t - fall);
+        let y =
+            if t < fall { 1.0 } else { up } - 0.5 * 9.81 * if t < fall { t * t } else { (t - fall).powi(2) };
+        assert!((trajectory.at(t).unwrap().coordinate("y").unwrap() - y).abs() < 1e-9, "{t}");
+    }
 }

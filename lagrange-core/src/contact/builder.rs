@@ -1,13 +1,10 @@
 //! Settings of a motion across contacts.
 
-use core::fmt::{self, Debug, Formatter};
-
 use alloc::{boxed::Box, vec::Vec};
 
-use super::Contacts;
 use super::driver::{Ended, Journey};
 use super::legs::{Accept, AllLegs, SampledLegs};
-use super::trajectory::{ContactTrajectory, Transition};
+use super::{Contact, Contacts};
 use crate::error::Error;
 use crate::motion::builder::EventList;
 use crate::motion::progress::report;
@@ -16,15 +13,17 @@ use crate::motion::run::check_end;
 use crate::motion::{
     AllSteps, DynEvent, Kept, LagrangianVectorField, Method, MotionBuilder, SamplesAlone, Start,
 };
+use crate::names::name;
 use crate::number::Real;
+use crate::solution::Adjustment;
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::Length;
+use crate::trajectory::{Leg, Path, Trajectory};
+use crate::vector::{Length, zeros};
 
 /// Largest number of transitions unless [`max_transitions`](MotionBuilder::max_transitions) sets another.
 const TRANSITIONS: usize = 100_000;
 
-/// Marks a motion across contacts that keeps `K`: `to` returns a [`ContactTrajectory`], or with samples alone a
-/// [`ContactArrival`].
+/// Marks a motion across contacts that keeps `K`: all steps, or samples alone.
 #[derive(Clone, Copy, Debug)]
 pub struct AcrossContacts<K = AllSteps> {
     kept: K,
@@ -88,25 +87,39 @@ where
     ///
     /// # Errors
     /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
-    pub fn to(self, end: L::Scalar) -> Result<ContactTrajectory<L>, Error> {
+    pub fn to(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
         self.towards(end)?.finished()
     }
 
     /// Moves towards the time `end`. If the motion fails on the way, the result holds what was computed until then, and its
-    /// [`ending`](ContactTrajectory::ending) the reason.
+    /// [`ending`](Trajectory::ending) the reason.
     ///
     /// # Errors
     /// Those of [`integrate`](crate::Simulate::integrate) before the first step, and of the functions of events at the start;
     /// [`Error::Penetration`] if a gap is negative at the start; [`Error::MotionBackwards`] if `end` lies before the start.
-    pub fn towards(self, end: L::Scalar) -> Result<ContactTrajectory<L>, Error> {
+    pub fn towards(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
         let Self { system, start, method, events, on_progress, kept } = self;
         let state = start.into_state()?;
         check_times(state.t, end)?;
-        let from = state.t;
         let journey = Journey::begin((system, method.accuracy()), state, end, AllLegs::none())?;
         let ended = journey.reporting(on_progress).run(&method, events.list(), kept.transitions)?;
-        Ok(ContactTrajectory::of(ended, from))
+        Ok(trajectory::<L, P>(ended))
     }
+}
+
+/// The trajectory of a motion that has ended.
+fn trajectory<L: Contacts<Scalar: Real> + Clone, P: Method<L>>(ended: Ended<L, AllLegs<L>>) -> Trajectory<L> {
+    let Ended { kept, transitions, crossings, statistics, system, state, ending } = ended;
+    let AllLegs { mut legs, adjustment } = kept;
+    let is_open = |k: usize| system.contact(k) == Some(Contact::Open);
+    let rows = L::CONTACTS.iter().enumerate().filter(|&(k, _)| !is_open(k));
+    let closed = rows.map(|(_, &row)| name(L::CONSTRAINTS, row)).collect();
+    if legs.last().is_none_or(|leg| *leg.last() != state || !leg.is_after(transitions.len())) {
+        let path = Path::<_, _, Vec<P::Interpolant>>::from(state).finish();
+        legs.push(Leg::new(system, path, None).after(transitions.len()));
+    }
+    let adjustment = adjustment.unwrap_or(Adjustment { q: zeros(), v: zeros() });
+    Trajectory { legs, transitions, closed, crossings, ending, statistics, adjustment }
 }
 
 impl<'w, L, P, E> Builder<'_, 'w, L, P, E, SamplesAlone<'w, L>>
@@ -133,16 +146,14 @@ where
     /// let ball = Ball { g: 9.81, e: 0.5, floor: Contact::Open };
     /// let motion = ball.motion(State::at_rest([1.0])).with_contacts().every(0.1);
     /// let landed = motion.quantity("landed", |sample| f64::from(sample.system().floor == Contact::Closed)).to(2.0)?;
-    /// assert_eq!(landed.arrival.samples.len(), 21);
-    /// assert_eq!(landed.arrival.values.last(), Some(&1.0));
+    /// assert_eq!((landed.samples.len(), landed.values.last()), (21, Some(&1.0)));
     /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
     /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
-    pub fn to(self, end: L::Scalar) -> Result<ContactArrival<L>, Error> {
-        let arrived = self.towards(end)?;
-        if arrived.arrival.ending.is_failure() { Err(arrived.arrival.ending.into()) } else { Ok(arrived) }
+    pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error> {
+        self.towards(end)?.finished()
     }
 
     /// Moves towards the time `end`. If the motion fails on the way, the result holds what was recorded until then, and its
@@ -151,7 +162,7 @@ where
     /// # Errors
     /// Those of a motion across contacts that keeps its steps; [`Error::SampleTime`], [`Error::OutsideTrajectory`] and
     /// [`Error::Setting`] for samples that cannot be taken; those of the function of a quantity at the start.
-    pub fn towards(self, end: L::Scalar) -> Result<ContactArrival<L>, Error> {
+    pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error> {
         let Self { system, start, method, events, mut on_progress, kept } = self;
         let AcrossContacts { kept: SamplesAlone { plan, steered }, transitions } = kept;
         let state = start.into_state()?;
@@ -175,32 +186,13 @@ pub(crate) fn arrive<'w, L: Contacts<Scalar: Real> + Clone, P: Method<L>>(
     method: &P,
     (plan, events, steering): SampledParts<'w, L>,
     accept: Accept<'w, L>,
-) -> Result<ContactArrival<L>, Error> {
+) -> Result<Arrival<L::Scalar, L::N>, Error> {
     check_times(state.t, end)?;
     let record = Record::before_samples(plan, Vec::new(), steering, system, &state, end)?;
     let journey = Journey::begin((system, method.accuracy()), state, end, SampledLegs { record })?;
     let ended = journey.accepting(accept).run(method, events, transitions.unwrap_or(TRANSITIONS))?;
-    let Ended { kept, transitions, crossings, statistics, system, state, ending } = ended;
-    let arrival = Arrival { crossings, ..kept.record.arrive(state, ending, statistics) };
-    Ok(ContactArrival { arrival, transitions, system })
-}
-
-/// End of a motion across contacts that keeps samples alone.
-pub struct ContactArrival<L: Lagrangian> {
-    /// Its end, samples, quantities and crossings.
-    pub arrival: Arrival<L::Scalar, L::N>,
-    /// Its transitions, in the order in which they were decided.
-    pub transitions: Vec<Transition<L::Scalar>>,
-    /// The system, with parameters and contacts as they are at the end.
-    pub system: L,
-}
-
-impl<L: Lagrangian<Scalar: Real>> Debug for ContactArrival<L> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { arrival, transitions, .. } = self;
-        let mut text = f.debug_struct("ContactArrival");
-        text.field("system", &L::NAME).field("arrival", arrival).field("transitions", transitions).finish()
-    }
+    let Ended { kept, transitions, crossings, statistics, state, ending, .. } = ended;
+    Ok(Arrival { crossings, transitions, ..kept.record.arrive(state, ending, statistics) })
 }
 
 /// Checks the times of a motion, which runs forwards.

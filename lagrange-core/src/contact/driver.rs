@@ -3,12 +3,12 @@
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+use super::Transition;
 use super::bodies::Bodies;
 use super::instant::{Decided, LegEnd};
 use super::legs::{Accept, Driven, KeepsLegs, LegWatch, StartedLeg};
 use super::lifting::Lifting;
 use super::states::LegStates;
-use super::trajectory::Transition;
 use super::watched::{SharedValues, of_contacts, of_friction};
 use super::{Contact, Contacts};
 use crate::error::{Ending, Error};

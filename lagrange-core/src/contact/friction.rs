@@ -3,12 +3,12 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::Transition;
 use super::bodies::Bodies;
 use super::grip::Gripped;
 use super::reactions::NoForces;
 use super::rows::TouchingRows;
 use super::states::{LegFriction, LegStates};
-use super::trajectory::Transition;
 use super::{Contacts, Friction, FrictionRows};
 use crate::cone;
 use crate::error::Error;

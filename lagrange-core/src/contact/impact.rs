@@ -4,11 +4,11 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
+use super::Transition;
 use super::bodies::Bodies;
 use super::friction::{BEGIN, bounds};
 use super::reactions::{NoForces, ReactionProblem, Reactions};
 use super::rows::TouchingRows;
-use super::trajectory::Transition;
 use super::{Contacts, ImpactLaw};
 use crate::cone::{ConeSearch, Limit, Set};
 use crate::error::Error;

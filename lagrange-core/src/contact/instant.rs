@@ -3,11 +3,11 @@
 use alloc::vec::Vec;
 
 use super::Contacts;
+use super::Transition;
 use super::bodies::{Bodies, Measured};
 use super::grip::{Decision, Gripped};
 use super::rows::TouchingRows;
 use super::states::LegStates;
-use super::trajectory::Transition;
 use crate::error::Error;
 use crate::names::name;
 use crate::number::{Real, Scalar};

@@ -20,7 +20,7 @@ use crate::solution::Adjustment;
 use crate::solution::crossing::Crossing;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, StateOf};
-use crate::trajectory::Trajectory;
+use crate::trajectory::Leg;
 
 /// Callback with the state and the number of steps after each step; it may cancel the motion.
 pub(super) type Accept<'w, L> = Box<dyn FnMut(&StateOf<L>, usize) -> Result<(), Ending> + 'w>;
@@ -175,16 +175,14 @@ where
 
 /// All steps of all legs.
 pub(super) struct AllLegs<L: Lagrangian> {
-    pub(super) legs: Vec<Trajectory<L>>,
-    /// Number of transitions before each leg.
-    pub(super) transitions: Vec<usize>,
-    /// Counts of the legs so far.
-    counts: Statistics,
+    pub(super) legs: Vec<Leg<L>>,
+    /// What moves the start onto the constraints.
+    pub(super) adjustment: Option<Adjustment<L::Scalar, L::N>>,
 }
 
 impl<L: Lagrangian> AllLegs<L> {
     pub(super) fn none() -> Self {
-        Self { legs: Vec::new(), transitions: Vec::new(), counts: Statistics::default() }
+        Self { legs: Vec::new(), adjustment: None }
     }
 }
 
@@ -194,14 +192,12 @@ impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for AllLegs<L> {
             leg;
         let stored = Stored::<_, _, _, true>::begin(system, &run.state, goal, events, None)?;
         let mut watched = WatchedLeg { observer: stored, watch };
-        let driven = run.drive(method, limits, &mut watched);
-        let own = run.statistics.since(&self.counts);
-        let path = watched.observer.finish(driven.clone(), own, adjustment).into_owned();
-        self.counts = run.statistics;
-        let (state, crossings) = (*path.end().state(), path.crossings().to_vec());
-        self.legs.push(path);
-        self.transitions.push(transitions);
-        Ok(Driven { state, crossings, ending: driven, statistics: run.statistics })
+        let ending = run.drive(method, limits, &mut watched);
+        let (leg, crossings) = watched.observer.into_leg(ending.as_ref().err());
+        let (state, statistics) = (*leg.last(), run.statistics);
+        self.adjustment.get_or_insert(adjustment);
+        self.legs.push(leg.into_owned().after(transitions));
+        Ok(Driven { state, crossings, ending, statistics })
     }
 }
 

@@ -32,7 +32,7 @@ let Transition::Impact { time, .. } = path.transitions()[0] else { panic!() };
 assert!((time - fall).abs() < 1e-14);
 let rests = path.transitions().iter().find(|transition| matches!(transition, Transition::Rests { .. }));
 assert!((rests.expect("it rests").time() - fall * 1.8 / 0.2).abs() < 1e-12);
-assert_eq!((path.end().q[1], path.end().v[0]), (0.0, 0.5));
+assert_eq!((path.end().state().q[1], path.end().state().v[0]), (0.0, 0.5));
 # Ok::<(), Error>(())
 ```
 "#
@@ -77,7 +77,7 @@ let path = sphere.motion(State::new([0.0, 0.3, 0.0], [2.0, 0.0, 0.0])).with_cont
 let Transition::Sticks { friction: "floor_friction", time } = path.transitions()[0] else { panic!() };
 assert!((time - 2.0 / 7.0 * 2.0 / (0.25 * 9.81)).abs() < 1e-12);
 assert!((path.at(0.1)?.multiplier("floor_friction")? + 0.25 * 0.4 * 9.81).abs() < 1e-12);
-assert!((path.end().v[0] - 5.0 / 7.0 * 2.0).abs() < 1e-12);
+assert!((path.end().state().v[0] - 5.0 / 7.0 * 2.0).abs() < 1e-12);
 assert_eq!(path.system().floor, Contact::Closed);
 # Ok::<(), Error>(())
 ```
@@ -103,12 +103,12 @@ assert_eq!(path.system().floor, Contact::Closed);
 //! ```
 //!
 //! Motions with derivatives, Lyapunov exponents and `integrate` of an ensemble do not compile either.
-//! [`ContactTrajectory::sensitivity`] has the derivatives across contacts. A [`Motion`](crate::Motion) leaves contacts as their fields say, and so does what looks at one state, as
+//! [`Trajectory::sensitivity`] has the derivatives across contacts. A [`Motion`](crate::Motion) leaves contacts as their fields say, and so does what looks at one state, as
 //! `solve`, `jacobian`, `linearize`, `equilibrium` and `inputs_for`.
 //!
 //! # Derivatives
 //!
-//! [`ContactTrajectory::sensitivity`] has the derivatives of the last state by the start and by parameters, across impacts,
+//! [`Trajectory::sensitivity`] has the derivatives of the last state by the start and by parameters, across impacts,
 //! openings and friction. Where neighbouring motions pass a transition in different ways, there is none:
 //! [`Error::NoDerivativeAcross`](crate::Error::NoDerivativeAcross) names it.
 //!
@@ -223,7 +223,7 @@ struct Balls { e: [f64; 2], balls: [Contact; 2] }
 let balls = Balls { e: [0.0, 1.0], balls: [Contact::Open; 2] };
 let path = balls.motion(State::new([1.0; 3], [1.0, 0.0, 0.0])).with_contacts().to(1.0)?;
 // Impulses of 2/3 and 1/3 compress. The second contact returns its 1/3, and presses the first two balls together with 1/6.
-for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) {
+for (v, expected) in path.end().state().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) {
     assert!((v - expected).abs() < 1e-15);
 }
 # Ok::<(), Error>(())
@@ -236,7 +236,7 @@ for (v, expected) in path.end().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) 
 //! in one impact may gain energy, and for friction with several e no proof excludes it: all restitutions are then lowered in
 //! proportion to where they gain none.
 //!
-//! [`sensitivity`](ContactTrajectory::sensitivity) has derivatives across an impact by Poisson's law where one contact pushes, without
+//! [`sensitivity`](Trajectory::sensitivity) has derivatives across an impact by Poisson's law where one contact pushes, without
 //! friction or sliding, and an error else. [Time stepping](MoreauJean) is an error, [`Error::ImpactLaw`](crate::Error::ImpactLaw).
 //!
 //! # Painlevé's paradox
@@ -313,22 +313,20 @@ mod states;
 #[cfg(feature = "alloc")]
 mod stepping;
 #[cfg(feature = "alloc")]
-mod trajectory;
-#[cfg(feature = "alloc")]
 mod watched;
 
 pub use crate::system::switch::{Contact, Friction};
 use crate::system::{Lagrangian, StateOf};
 #[cfg(feature = "alloc")]
+pub use crate::trajectory::Transition;
+#[cfg(feature = "alloc")]
 pub(crate) use bodies::impulse_changes;
 #[cfg(feature = "std")]
 pub(crate) use builder::arrive;
 #[cfg(feature = "alloc")]
-pub use builder::{AcrossContacts, ContactArrival, CrossesContacts};
+pub use builder::{AcrossContacts, CrossesContacts};
 #[cfg(feature = "alloc")]
 pub use stepping::{ContactStepper, MoreauJean, SteppedTrajectory, TimeStep, TimeStepping};
-#[cfg(feature = "alloc")]
-pub use trajectory::{ContactTrajectory, Transition};
 #[cfg(feature = "alloc")]
 pub(crate) use watched::held;
 

@@ -75,6 +75,6 @@ impl<L: Contacts<Scalar: Real> + Clone> Job<'_, L> {
         let accept = |state: &StateOf<L>, _| unless_broken(self.observe(index, state), state.t.to_f64());
         let along = (plan, self.member_plan.fresh_events(), steering);
         let arrived = arrive((system, *start), (self.end, None), method, along, Box::new(accept))?;
-        Ok(arrived.arrival)
+        Ok(Arrival { transitions: Vec::new(), ..arrived })
     }
 }

@@ -201,8 +201,7 @@ impl<'w, L: Lagrangian<Scalar: Real>, F, P, E>
         P: Method<L, F>,
         E: EventList<DynEvent<'w, L>>,
     {
-        let arrival = self.towards(end)?;
-        if arrival.ending.is_failure() { Err(arrival.ending.into()) } else { Ok(arrival) }
+        self.towards(end)?.finished()
     }
 
     /// Integrates towards the time `end`. If the motion fails on the way, the result holds the record up to there, and

@@ -9,11 +9,12 @@ use super::run::{Observer, Run};
 use crate::error::{Ending, Error};
 use crate::number::Real;
 use crate::solution::Adjustment;
+use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, StateOf};
-use crate::trajectory::{Path, Trajectory};
+use crate::trajectory::{Leg, Path, Trajectory};
 
 /// Observer that stores the steps, their dense output and the crossings of the events `W`. Without events `HAS_EVENTS`
 /// is false, and the search is not compiled.
@@ -21,6 +22,7 @@ pub(crate) struct Stored<'a, 'e, L: Lagrangian, W, I, const HAS_EVENTS: bool> {
     system: &'a L,
     end: L::Scalar,
     path: Path<L::Scalar, L::N, Vec<I>>,
+    crossings: Vec<Crossing<L::Scalar, L::N>>,
     pub(crate) search: EventSearch<'e, W, L>,
     /// Ending at the start, if an event that is due there ends the motion.
     stopped: Option<Ending>,
@@ -40,10 +42,10 @@ where
         events: &'e mut [W],
         on_progress: Option<OnProgress<'e>>,
     ) -> Result<Self, Error> {
-        let mut path = Path::from(*start);
+        let (path, mut crossings) = (Path::from(*start), Vec::new());
         let mut search = EventSearch::begin(events, system, start)?;
-        let stopped = search.record_due(start, &mut path.crossings);
-        Ok(Self { system, end, path, search, stopped, on_progress })
+        let stopped = search.record_due(start, &mut crossings);
+        Ok(Self { system, end, path, crossings, search, stopped, on_progress })
     }
 
     pub(crate) fn system(&self) -> &'a L {
@@ -63,8 +65,26 @@ where
         adjustment: Adjustment<L::Scalar, L::N>,
     ) -> Trajectory<&'a L, F> {
         let time = self.end.to_f64();
-        let ending = driven.err().unwrap_or(Ending::Complete { time });
-        Trajectory::new(self.system, self.path.finish(), ending, statistics, adjustment)
+        let (leg, crossings) = self.into_leg(driven.as_ref().err());
+        Trajectory::of(
+            leg,
+            crossings,
+            driven.err().unwrap_or(Ending::Complete { time }),
+            statistics,
+            adjustment,
+        )
+    }
+
+    /// The steps and the crossings of a motion, or of a leg, which ends so before its goal.
+    pub(crate) fn into_leg<F>(
+        self,
+        ending: Option<&Ending>,
+    ) -> (Leg<&'a L, F>, Vec<Crossing<L::Scalar, L::N>>) {
+        let boundary = match ending {
+            Some(Ending::Event { event, .. }) => Some(*event),
+            _ => None,
+        };
+        (Leg::new(self.system, self.path.finish(), boundary), self.crossings)
     }
 }
 
@@ -98,7 +118,8 @@ where
         self.path.push(run.state);
         if const { HAS_EVENTS } {
             let ends = [&run.before, &run.state];
-            self.search.record_in::<F, _>(&mut self.path, self.system, ends).map_or(Ok(()), Err)?;
+            let Self { search, path, crossings, system, .. } = self;
+            search.record_in::<F, _>(path, crossings, system, ends).map_or(Ok(()), Err)?;
         }
         let times = [self.path.start(), run.state.t, self.end];
         report(&mut self.on_progress, times, run.statistics.accepted)

@@ -9,7 +9,7 @@ use super::stored::Trajectory;
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve;
-use crate::solution::vector_field::VectorField;
+use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::system::{Lagrangian, StateOf};
 use crate::vector::Length;
 
@@ -41,48 +41,23 @@ assert_eq!(table.lines().next(), Some("t,r,phi,r_dot,phi_dot,height,p_phi,energy
 "#
 )]
 #[must_use = "a table is to be printed, or written to a file"]
-pub struct Csv<'t, M> {
-    motion: &'t M,
+pub struct Csv<'t, S: Lagrangian, F = LagrangianVectorField> {
+    motion: &'t Trajectory<S, F>,
     count: usize,
     has_energy: bool,
     has_conserved: bool,
 }
 
-/// A motion that a table can be made of: a [`Trajectory`], or a [`ContactTrajectory`](crate::contact::ContactTrajectory).
-pub trait Tabulated: Debug {
-    /// The system in motion.
-    type System: Lagrangian<Scalar: Real>;
-
-    /// Returns `count` states at evenly spaced times, each with the system of its time.
-    #[doc(hidden)]
-    fn states(&self, count: usize) -> impl Iterator<Item = (&Self::System, StateOf<Self::System>)>;
-}
-
-impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Tabulated for Trajectory<S, F> {
-    type System = S;
-
-    fn states(&self, count: usize) -> impl Iterator<Item = (&S, StateOf<S>)> {
-        Self::states(self, count).map(|state| (&self.system, state))
-    }
-}
-
-/// Number of a table of this motion.
-type Cell<M> = <<M as Tabulated>::System as Lagrangian>::Scalar;
-
 impl<S: Lagrangian, F> Trajectory<S, F> {
     /// Returns a table of `count` states at evenly spaced times, as comma-separated values.
     ///
     /// Print it, or write `path.csv(200).to_string()` to a file.
-    pub fn csv(&self, count: usize) -> Csv<'_, Self> {
-        Csv::of(self, count)
+    pub fn csv(&self, count: usize) -> Csv<'_, S, F> {
+        Csv { motion: self, count, has_energy: false, has_conserved: false }
     }
 }
 
-impl<'t, M> Csv<'t, M> {
-    pub(crate) fn of(motion: &'t M, count: usize) -> Self {
-        Self { motion, count, has_energy: false, has_conserved: false }
-    }
-
+impl<S: Lagrangian, F> Csv<'_, S, F> {
     /// Adds a column `energy`, E = p·q̇ − L.
     pub fn energy(self) -> Self {
         Self { has_energy: true, ..self }
@@ -94,9 +69,9 @@ impl<'t, M> Csv<'t, M> {
     }
 }
 
-impl<M: Tabulated> Csv<'_, M> {
+impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Csv<'_, S, F> {
     /// Returns the names and the numbers of the table, for storage, plots, or other formats (feature `serde`).
-    pub fn records(&self) -> Records<Cell<M>> {
+    pub fn records(&self) -> Records<S::Scalar> {
         let row = |(system, state): (&_, _)| {
             let mut cells = Vec::new();
             self.cells(system, &state, &mut cells);
@@ -108,52 +83,47 @@ impl<M: Tabulated> Csv<'_, M> {
     /// Conserved quantities that no other column contains.
     fn conserved_columns(&self) -> impl Iterator<Item = (usize, &'static str)> {
         let (has_energy, wanted) = (self.has_energy, self.has_conserved);
-        let named = M::System::FACTS.conserved.iter().map(|conserved| conserved.name).enumerate();
+        let named = S::FACTS.conserved.iter().map(|conserved| conserved.name).enumerate();
         named.filter(move |(_, name)| {
-            wanted && !(has_energy && *name == "energy") && !M::System::OBSERVABLES.contains(name)
+            wanted && !(has_energy && *name == "energy") && !S::OBSERVABLES.contains(name)
         })
     }
 
     fn names(&self) -> Vec<String> {
         let mut names = Vec::from(["t".to_string()]);
-        names.extend(M::System::COORDINATES.iter().copied().map(String::from));
-        names.extend(M::System::COORDINATES.iter().copied().map(|name| Entry::Velocity(name).to_string()));
-        names.extend(M::System::CONSTRAINTS.iter().copied().map(|name| format!("lambda({name})")));
-        if <<M::System as Lagrangian>::M>::COUNT > 0 {
-            names.extend(M::System::COORDINATES.iter().copied().map(|name| format!("force({name})")));
+        names.extend(S::COORDINATES.iter().copied().map(String::from));
+        names.extend(S::COORDINATES.iter().copied().map(|name| Entry::Velocity(name).to_string()));
+        names.extend(S::CONSTRAINTS.iter().copied().map(|name| format!("lambda({name})")));
+        if <S::M>::COUNT > 0 {
+            names.extend(S::COORDINATES.iter().copied().map(|name| format!("force({name})")));
         }
-        names.extend(M::System::OBSERVABLES.iter().map(ToString::to_string));
+        names.extend(S::OBSERVABLES.iter().map(ToString::to_string));
         names.extend(self.has_energy.then(|| "energy".to_string()));
         names.extend(self.conserved_columns().map(|(_, name)| name.to_string()));
         names
     }
 
     /// Appends the cells of a line, in the order of the names.
-    fn cells(&self, system: &M::System, state: &StateOf<M::System>, cells: &mut Vec<Cell<M>>) {
-        let unknown = Cell::<M>::constant(f64::NAN);
-        let is_solved = <<M::System as Lagrangian>::M>::COUNT > 0 || !M::System::OBSERVABLES.is_empty();
+    fn cells(&self, system: &S, state: &StateOf<S>, cells: &mut Vec<S::Scalar>) {
+        let unknown = S::Scalar::constant(f64::NAN);
+        let is_solved = <S::M>::COUNT > 0 || !S::OBSERVABLES.is_empty();
         let solution = is_solved.then(|| solve(system, state).ok()).flatten();
         cells.push(state.t);
         cells.extend(state.q.iter().chain(&state.v));
-        if <<M::System as Lagrangian>::M>::COUNT > 0 {
+        if <S::M>::COUNT > 0 {
             let multipliers = solution.map(|solution| solution.multipliers);
             let force = multipliers.map(|lambda| system.constraint_force(state, &lambda));
-            cells.extend(
-                (0..<<M::System as Lagrangian>::M>::COUNT)
-                    .map(|a| multipliers.map_or(unknown, |lambda| lambda[a])),
-            );
-            cells.extend(
-                (0..<<M::System as Lagrangian>::N>::COUNT).map(|i| force.map_or(unknown, |force| force[i])),
-            );
+            cells.extend((0..<S::M>::COUNT).map(|a| multipliers.map_or(unknown, |lambda| lambda[a])));
+            cells.extend((0..<S::N>::COUNT).map(|i| force.map_or(unknown, |force| force[i])));
         }
         let observable = |k: usize| system.observable(k, state, solution.as_ref()?);
-        cells.extend((0..M::System::OBSERVABLES.len()).map(|k| observable(k).unwrap_or(unknown)));
+        cells.extend((0..S::OBSERVABLES.len()).map(|k| observable(k).unwrap_or(unknown)));
         cells.extend(self.has_energy.then(|| system.energy(state)));
         cells.extend(self.conserved_columns().map(|(k, _)| system.conserved(k, state).unwrap_or(unknown)));
     }
 }
 
-impl<M: Tabulated> Display for Csv<'_, M> {
+impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Display for Csv<'_, S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.names().join(","))?;
         let mut cells = Vec::new();
@@ -171,7 +141,7 @@ impl<M: Tabulated> Display for Csv<'_, M> {
     }
 }
 
-impl<M: Debug> Debug for Csv<'_, M> {
+impl<S: Lagrangian, F> Debug for Csv<'_, S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { motion, count, has_energy, has_conserved } = self;
         let mut fields = f.debug_struct("Csv");

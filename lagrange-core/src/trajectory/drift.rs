@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 use core::fmt::{self, Display, Formatter};
 
+use super::leg::Leg;
 use super::stored::{Trajectory, between};
 use crate::error::Error;
 use crate::number::{Real, Scalar, exceeds};
@@ -76,12 +77,15 @@ pub struct Drift<T> {
 
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
     /// Returns the largest deviation of each conserved quantity from its initial value, and that of the balance of an energy
-    /// that is not conserved.
+    /// that is not conserved, or only while nothing slides. What impacts take of it is left out.
     pub fn drift(&self) -> Drift<S::Scalar> {
-        let drift = Drift::of(self.states_of_steps().map(|state| (&self.system, state)));
-        if S::FACTS.energy_is_conserved.is_some() { drift } else { drift.balanced([self]) }
+        let drift = Drift::of(self.states_of_steps());
+        let is_conserved = S::FACTS.energy_is_conserved.is_some() && !S::HAS_FRICTION;
+        if is_conserved { drift } else { drift.balanced(self.legs()) }
     }
+}
 
+impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
     /// Adds E − ∫ dE/dt dt − `start` at each step to the largest deviation, and returns the last; NaN if a state or its
     /// multipliers have an error.
     fn balance(&self, start: S::Scalar, balance: &mut Deviation<S::Scalar>) -> S::Scalar {
@@ -112,9 +116,7 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
 
 impl<T: Real> Drift<T> {
     /// The largest deviations from the first of these states, each with the system of its time.
-    pub(crate) fn of<'s, S: Lagrangian<Scalar = T> + 's>(
-        mut steps: impl Iterator<Item = (&'s S, StateOf<S>)>,
-    ) -> Self {
+    fn of<'s, S: Lagrangian<Scalar = T> + 's>(mut steps: impl Iterator<Item = (&'s S, StateOf<S>)>) -> Self {
         // One pass for all quantities: in (q, p) every state requires a search for the velocity.
         let start = steps.next().into_iter().flat_map(|(system, start)| {
             let conserved = S::FACTS.conserved.iter().enumerate();
@@ -134,17 +136,13 @@ impl<T: Real> Drift<T> {
         Self { quantities: quantities.into_iter().map(|(_, deviation)| deviation).collect() }
     }
 
-    /// Adds the balance of the energy along these trajectories, which follow one another. What the energy changes from one
-    /// to the next, as at an impact, is left out.
-    pub(crate) fn balanced<'t, S: Lagrangian<Scalar = T> + 't, F: VectorField<S> + 't>(
-        mut self,
-        legs: impl IntoIterator<Item = &'t Trajectory<S, F>>,
-    ) -> Self {
-        let (zero, mut legs) = (T::constant(0.0), legs.into_iter().peekable());
-        let start = legs.peek().map(|leg| leg.system.energy(&leg.path.start));
-        self.quantities.extend(start.map(|start| {
+    /// Adds the balance of the energy along these legs. What it changes from one to the next, as at an impact, is left out.
+    fn balanced<S: Lagrangian<Scalar = T>, F: VectorField<S>>(mut self, legs: &[Leg<S, F>]) -> Self {
+        let zero = T::constant(0.0);
+        self.quantities.extend(legs.first().map(|first| {
+            let start = first.system.energy(&first.path.start);
             let mut balance = Deviation { name: BALANCE, start, largest: zero };
-            legs.fold(zero, |left, leg| leg.balance(left, &mut balance));
+            legs.iter().fold(zero, |left, leg| leg.balance(left, &mut balance));
             balance
         }));
         self

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use core::any::Any;
 use core::fmt::{self, Debug, Formatter};
 
+use super::leg::outside;
 use super::stored::{Trajectory, between};
 use crate::error::{Ending, Error};
 use crate::number::Real;
@@ -49,7 +50,8 @@ let mut trajectory = HybridTrajectory::new();
 trajectory.push(first.into_owned())?;
 trajectory.push(second.into_owned())?;
 for k in 0..=10 {
-    let sample = trajectory.at(trajectory.start() + 0.1 * f64::from(k) * (trajectory.end() - trajectory.start()))?;
+    let (start, end) = (trajectory.start_time(), trajectory.end_time());
+    let sample = trajectory.at(start + 0.1 * f64::from(k) * (end - start))?;
     println!("{} {} {}", sample.time(), sample.coordinate("theta")?, sample.multiplier("floor")?);
 }
 let leaning = trajectory.leg::<Trajectory<Leaning>>(0).expect("the first leg");
@@ -59,11 +61,11 @@ assert!(leaning.end().multiplier("wall")?.abs() < 1e-12);
 "#
 )]
 ///
-/// The legs own their systems: [`Trajectory::into_owned`]. At a time shared by two legs, the sample is that of
+/// The legs own their systems: [`Trajectory::into_owned`]; those across contacts do from the start. At a time shared by two legs, the sample is that of
 /// the later one: after an impact it has the velocities after the impact. For the earlier one, query the leg
 /// itself, from [`legs`](Self::legs).
 pub struct HybridTrajectory<T> {
-    legs: Vec<Box<dyn Leg<T>>>,
+    legs: Vec<Box<dyn AnyTrajectory<T>>>,
 }
 
 impl<T: Real> HybridTrajectory<T> {
@@ -77,9 +79,9 @@ impl<T: Real> HybridTrajectory<T> {
     /// # Errors
     /// [`Error::LegApart`] if the leg does not start at the end of the previous one, or runs in the opposite
     /// direction of time.
-    pub fn push(&mut self, leg: impl Leg<T> + 'static) -> Result<(), Error> {
-        let goes_back = |leg: &dyn Leg<T>| leg.end_time() < leg.start_time();
-        let goes_on = |leg: &dyn Leg<T>| leg.end_time() > leg.start_time();
+    pub fn push(&mut self, leg: impl AnyTrajectory<T> + 'static) -> Result<(), Error> {
+        let goes_back = |leg: &dyn AnyTrajectory<T>| leg.end_time() < leg.start_time();
+        let goes_on = |leg: &dyn AnyTrajectory<T>| leg.end_time() > leg.start_time();
         if let Some(last) = self.legs.last() {
             let turns = self
                 .legs
@@ -96,24 +98,24 @@ impl<T: Real> HybridTrajectory<T> {
     }
 
     /// Returns the legs, in order.
-    pub fn legs(&self) -> impl ExactSizeIterator<Item = &dyn Leg<T>> {
+    pub fn legs(&self) -> impl ExactSizeIterator<Item = &dyn AnyTrajectory<T>> {
         self.legs.iter().map(|leg| &**leg)
     }
 
     /// Returns leg `index`, counted from 0, if it is a trajectory of type `L`, with all its states and
     /// crossings.
-    pub fn leg<L: Leg<T> + 'static>(&self, index: usize) -> Option<&L> {
+    pub fn leg<L: AnyTrajectory<T> + 'static>(&self, index: usize) -> Option<&L> {
         let leg: &dyn Any = &**self.legs.get(index)?;
         leg.downcast_ref()
     }
 
     /// Returns the start time; NaN without legs.
-    pub fn start(&self) -> T {
+    pub fn start_time(&self) -> T {
         self.legs.first().map_or(T::constant(f64::NAN), |leg| leg.start_time())
     }
 
     /// Returns the end time; NaN without legs.
-    pub fn end(&self) -> T {
+    pub fn end_time(&self) -> T {
         self.legs.last().map_or(T::constant(f64::NAN), |leg| leg.end_time())
     }
 
@@ -128,19 +130,18 @@ impl<T: Real> HybridTrajectory<T> {
     /// # Errors
     /// [`Error::OutsideTrajectory`], and those of [`Trajectory::at`].
     pub fn at(&self, t: T) -> Result<Box<dyn Named<T> + '_>, Error> {
-        let covers = |leg: &&dyn Leg<T>| {
+        let covers = |leg: &&dyn AnyTrajectory<T>| {
             let (start, end) = (leg.start_time(), leg.end_time());
             start <= t && t <= end || end <= t && t <= start
         };
         let leg = self.legs.iter().map(|leg| &**leg).rev().find(covers);
-        let [time, start, end] = [t, self.start(), self.end()].map(Real::to_f64);
-        leg.ok_or(Error::OutsideTrajectory { time, start, end })?.named_at(t)
+        leg.ok_or_else(|| outside(t, [self.start_time(), self.end_time()]))?.named_at(t)
     }
 
     /// Returns `count` states at evenly spaced times, first and last included, each as the result of
     /// [`at`](Self::at).
     pub fn samples(&self, count: usize) -> impl Iterator<Item = Result<Box<dyn Named<T> + '_>, Error>> {
-        let (start, end, intervals) = (self.start(), self.end(), count.saturating_sub(1).max(1));
+        let (start, end, intervals) = (self.start_time(), self.end_time(), count.saturating_sub(1).max(1));
         (0..count).map(move |i| self.at(between(start, end, i as f64 / intervals as f64)))
     }
 }
@@ -159,7 +160,7 @@ impl<T: Real> Debug for HybridTrajectory<T> {
 
 /// A leg of a [`HybridTrajectory`]: a [`Trajectory`] whose type does not show the numbers of coordinates and
 /// constraints.
-pub trait Leg<T>: Any + Debug + Send + Sync {
+pub trait AnyTrajectory<T>: Any + Debug + Send + Sync {
     /// Returns the start time.
     fn start_time(&self) -> T;
     /// Returns the end time.
@@ -173,17 +174,17 @@ pub trait Leg<T>: Any + Debug + Send + Sync {
     fn named_at(&self, t: T) -> Result<Box<dyn Named<T> + '_>, Error>;
 }
 
-impl<S, F> Leg<S::Scalar> for Trajectory<S, F>
+impl<S, F> AnyTrajectory<S::Scalar> for Trajectory<S, F>
 where
     S: Lagrangian<Scalar: Real> + Clone + Send + Sync + 'static,
     F: VectorField<S> + Send + Sync + 'static,
 {
     fn start_time(&self) -> S::Scalar {
-        self.path.start.t
+        self.times()[0]
     }
 
     fn end_time(&self) -> S::Scalar {
-        self.path.last.t
+        self.times()[1]
     }
 
     fn ending(&self) -> &Ending {

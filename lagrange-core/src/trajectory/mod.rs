@@ -3,16 +3,19 @@
 mod csv;
 mod drift;
 mod hybrid;
+mod leg;
 mod path;
 mod records;
 mod stored;
 #[cfg(test)]
 mod tests;
+mod transition;
 
-pub use csv::{Csv, Tabulated};
+pub use csv::Csv;
 pub use drift::{Deviation, Drift};
-pub use hybrid::{HybridTrajectory, Leg, Named};
+pub use hybrid::{AnyTrajectory, HybridTrajectory, Named};
+pub use leg::Leg;
 pub(crate) use path::Path;
 pub use records::Records;
 pub use stored::Trajectory;
-pub(crate) use stored::between;
+pub use transition::Transition;

@@ -5,7 +5,6 @@ use alloc::vec::Vec;
 
 use crate::number::Real;
 use crate::room::Room;
-use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
 use crate::system::State;
@@ -16,8 +15,6 @@ use crate::vector::{Element, Length};
 pub(crate) struct Path<T: Element, N: Length, S = Box<dyn Interpolants<T, N> + Send + Sync>> {
     pub(super) start: Room<State<T, N>>,
     pub(super) last: Room<State<T, N>>,
-    /// Crossings of events, in the order of the motion.
-    pub(crate) crossings: Vec<Crossing<T, N>>,
     /// Start times of the steps.
     times: Vec<T>,
     interpolants: S,
@@ -37,13 +34,7 @@ impl<T: Element, N: Length, I: Interpolant<T, N>> Interpolants<T, N> for Vec<I> 
 
 impl<T: Real, N: Length, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N, Vec<I>> {
     pub(crate) fn from(start: State<T, N>) -> Self {
-        Self {
-            start: Room::of(start),
-            last: Room::of(start),
-            crossings: Vec::new(),
-            times: Vec::new(),
-            interpolants: Vec::new(),
-        }
+        Self { start: Room::of(start), last: Room::of(start), times: Vec::new(), interpolants: Vec::new() }
     }
 
     /// Returns the start time.
@@ -64,10 +55,9 @@ impl<T: Real, N: Length, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N
         *self.last = state;
     }
 
-    /// Returns the interpolant of the last step, and the list of crossings to which those within the step are
-    /// added.
-    pub(crate) fn last_step(&mut self) -> Option<(&I, &mut Vec<Crossing<T, N>>)> {
-        Some((self.interpolants.last()?, &mut self.crossings))
+    /// Returns the interpolant of the last step.
+    pub(crate) fn last_step(&self) -> Option<&I> {
+        self.interpolants.last()
     }
 
     /// Ends the path at `end`, within the last step or at its start.
@@ -80,8 +70,15 @@ impl<T: Real, N: Length, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N
     }
 
     pub(crate) fn finish(self) -> Path<T, N> {
-        let Self { start, last, crossings, times, interpolants } = self;
-        Path { start, last, crossings, times, interpolants: Box::new(interpolants) }
+        let Self { start, last, times, interpolants } = self;
+        Path { start, last, times, interpolants: Box::new(interpolants) }
+    }
+}
+
+impl<T: Element, N: Length> Path<T, N> {
+    /// Returns the number of steps.
+    pub(super) fn len(&self) -> usize {
+        self.times.len()
     }
 }
 

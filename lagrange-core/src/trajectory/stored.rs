@@ -1,10 +1,10 @@
 //! Trajectories stored in memory.
 
+use alloc::vec::Vec;
 use core::fmt::{self, Debug, Display, Formatter};
-use core::iter::once;
-use core::marker::PhantomData;
 
-use super::path::Path;
+use super::leg::{Leg, outside};
+use super::transition::{Transition, write_counts};
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar};
 use crate::solution::crossing::Crossing;
@@ -19,17 +19,50 @@ use crate::vector::{Array, vector};
 /// Between the steps the trajectory is the dense output of the method, projected onto the constraints like the
 /// steps themselves. It is continuous and equals the computed states at their times.
 ///
+/// Across [contacts](crate::contact) the motion consists of [legs](Self::legs) between its [transitions](Self::transitions), each with a
+/// system whose contacts are open or closed as in the leg. At a transition, states are those after it; those before it end the
+/// legs. Without contacts there is one leg, and no transition.
+///
+#[cfg_attr(
+    feature = "std",
+    doc = r#"
+```
+use lagrange_core::contact::Contact;
+use lagrange_core::prelude::*;
+
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(y_dot^2/2 - g*y)]
+#[observable(height = y)]
+#[contact(floor: y >= 0)]
+struct Stone { g: f64, floor: Contact }
+
+let stone = Stone { g: 9.81, floor: Contact::Open };
+let path = stone.motion(State::at_rest([1.0])).with_contacts().to(1.0)?;
+assert_eq!(path.at(0.9)?.observable("height")?, 0.0);
+assert_eq!(path.at(0.9)?.multiplier("floor")?, 9.81);
+assert_eq!(path.csv(50).to_string().lines().next(), Some("t,y,y_dot,lambda(floor),force(y),height"));
+let text = path.to_string();
+assert!(text.contains("\n1 impact, 1 closing; closed at the end: `floor`\nreached the end at t = 1"), "{text}");
+# Ok::<(), Error>(())
+```
+"#
+)]
+///
 /// The call that integrates borrows the system `S`: `Trajectory<&Pendulum>`.
 /// [`into_owned`](Self::into_owned) returns a trajectory with its own copy of the system,
-/// `Trajectory<Pendulum>`. The vector field `F` tells which equations were integrated,
+/// `Trajectory<Pendulum>`; across contacts it has copies from the start. The vector field `F` tells which equations were integrated,
 /// Lagrange's or Hamilton's; samples have both velocities and momenta.
 pub struct Trajectory<S: Lagrangian, F = LagrangianVectorField> {
-    pub(crate) system: S,
-    pub(super) path: Path<S::Scalar, S::N>,
-    ending: Ending,
-    statistics: Statistics,
-    adjustment: Adjustment<S::Scalar, S::N>,
-    field: PhantomData<F>,
+    /// At least one. What happens at the end is before a last one without steps.
+    pub(crate) legs: Vec<Leg<S, F>>,
+    pub(crate) transitions: Vec<Transition<S::Scalar>>,
+    /// Contacts that are closed at the end.
+    pub(crate) closed: Vec<&'static str>,
+    pub(crate) crossings: Vec<Crossing<S::Scalar, S::N>>,
+    pub(crate) ending: Ending,
+    pub(crate) statistics: Statistics,
+    pub(crate) adjustment: Adjustment<S::Scalar, S::N>,
 }
 
 impl<L: Lagrangian + Clone, F> Trajectory<&L, F> {
@@ -58,20 +91,23 @@ assert!(swing(2.0)?.end().coordinate("theta")? < 0.1);
     )]
     /// For a system in an `Arc` or an `Rc`, only the pointer is copied.
     pub fn into_owned(self) -> Trajectory<L, F> {
-        let Self { system, path, ending, statistics, adjustment, field } = self;
-        Trajectory { system: system.clone(), path, ending, statistics, adjustment, field }
+        let Self { legs, transitions, closed, crossings, ending, statistics, adjustment } = self;
+        let legs = legs.into_iter().map(Leg::into_owned).collect();
+        Trajectory { legs, transitions, closed, crossings, ending, statistics, adjustment }
     }
 }
 
 impl<S: Lagrangian, F> Trajectory<S, F> {
-    pub(crate) fn new(
-        system: S,
-        path: Path<S::Scalar, S::N>,
+    /// A motion of one leg.
+    pub(crate) fn of(
+        leg: Leg<S, F>,
+        crossings: Vec<Crossing<S::Scalar, S::N>>,
         ending: Ending,
         statistics: Statistics,
         adjustment: Adjustment<S::Scalar, S::N>,
     ) -> Self {
-        Self { system, path, ending, statistics, adjustment, field: PhantomData }
+        let (legs, transitions, closed) = (Vec::from([leg]), Vec::new(), Vec::new());
+        Self { legs, transitions, closed, crossings, ending, statistics, adjustment }
     }
 
     /// Returns the trajectory, unless a failure kept it from its end. Terminal events and cancelled runs count
@@ -90,17 +126,39 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
         if is_failure { Err(self.ending.clone().into()) } else { Ok(()) }
     }
 
-    pub(crate) fn start_time(&self) -> S::Scalar {
-        self.path.start.t
+    pub(crate) fn first_leg(&self) -> &Leg<S, F> {
+        &self.legs[0]
     }
 
-    pub(crate) fn last_state(&self) -> &StateOf<S> {
-        &self.path.last
+    fn last_leg(&self) -> &Leg<S, F> {
+        &self.legs[self.legs.len() - 1]
     }
 
-    /// Returns the system.
+    /// Times of start and end.
+    pub(super) fn times(&self) -> [S::Scalar; 2] {
+        [self.first_leg().first().t, self.last_leg().last().t]
+    }
+
+    /// Returns the system, with its contacts as they are at the end.
     pub fn system(&self) -> &S {
-        &self.system
+        self.last_leg().system()
+    }
+
+    /// Returns the legs between the transitions, one at least. A transition at the end of the motion is followed by a leg without steps.
+    pub fn legs(&self) -> &[Leg<S, F>] {
+        &self.legs
+    }
+
+    /// Returns the transitions in the order in which they are decided, which is that of time but for [`Transition::Rests`]: it has
+    /// the later time when its bounces end. At one time impacts come before what closes and opens.
+    pub fn transitions(&self) -> &[Transition<S::Scalar>] {
+        &self.transitions
+    }
+
+    /// The transitions before each leg, after the one before it.
+    pub(crate) fn transitions_before_legs(&self) -> impl Iterator<Item = &[Transition<S::Scalar>]> {
+        let starts = core::iter::once(0).chain(self.legs.iter().map(|leg| leg.transitions));
+        starts.zip(&self.legs).map(|(from, leg)| &self.transitions[from..leg.transitions])
     }
 
     /// Returns the reason why the trajectory ends: end time, terminal event, cancelled, or a failure, which
@@ -109,9 +167,11 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
         &self.ending
     }
 
-    /// Returns the crossings of the [events](crate::MotionBuilder::event), in the order of the motion.
+    /// Returns the crossings of the [events](crate::MotionBuilder::event), in the order of the motion; at a transition, the state
+    /// is that before it. A function that jumps at a transition does not cross there. A terminal event ends the motion before
+    /// the transition.
     pub fn crossings(&self) -> &[Crossing<S::Scalar, S::N>] {
-        &self.path.crossings
+        &self.crossings
     }
 
     /// Returns the numbers of steps and evaluations.
@@ -132,84 +192,94 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
 }
 
 impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Trajectory<S, F> {
-    /// Returns the sample at this time.
+    /// Returns the sample at this time, with the system as it is then; at a transition, that after it.
     ///
     /// # Errors
     /// [`Error::OutsideTrajectory`]; [`Error::NotProjected`], or in (q, p) an error of the search for the
     /// velocity, if the interpolated state cannot be projected onto the constraints.
     pub fn at(&self, t: S::Scalar) -> Result<Sample<S>, Error> {
-        self.state_at(t).map(|state| self.sample(state))
+        let leg = self.leg_at(t);
+        leg.state_at(t).map(|state| leg.sample(state)).map_err(|error| self.outside(error, t))
     }
 
-    /// Returns the first state, made consistent.
+    /// Returns the first state, made consistent; across contacts, that after what happens at the start.
     pub fn start(&self) -> Sample<S> {
-        self.sample(*self.path.start)
+        self.first_leg().start()
     }
 
     /// Returns the last state.
     pub fn end(&self) -> Sample<S> {
-        self.sample(*self.path.last)
+        self.last_leg().end()
     }
 
-    /// Returns the states that the method computed, first and last included.
+    /// Returns the states that the method computed, first and last included; at a transition, the state before it and the
+    /// state after it.
     pub fn steps(&self) -> impl Iterator<Item = Sample<S>> + '_ {
-        self.states_of_steps().map(|state| self.sample(state))
+        self.legs.iter().flat_map(Leg::steps)
     }
 
     /// Returns `count` states at evenly spaced times, first and last included. If [`at`](Self::at) fails,
     /// coordinates and velocities are NaN.
     pub fn samples(&self, count: usize) -> impl Iterator<Item = Sample<S>> + '_ {
-        self.states(count).map(|state| self.sample(state))
-    }
-
-    pub(super) fn sample(&self, state: StateOf<S>) -> Sample<S> {
-        Sample { system: self.system.clone(), state }
+        self.states(count).map(|(system, state)| Sample { system: system.clone(), state })
     }
 }
 
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
-    pub(crate) fn states_of_steps(&self) -> impl Iterator<Item = StateOf<S>> + '_ {
-        let starts = (0..self.statistics.accepted).filter_map(|i| self.path.start_of(i));
-        starts.map(|point| F::state(&self.system, &point)).chain(once(*self.path.last))
+    /// The states of all steps, each with the system of its time.
+    pub(super) fn states_of_steps(&self) -> impl Iterator<Item = (&S, StateOf<S>)> {
+        self.legs.iter().flat_map(|leg| leg.states_of_steps().map(|state| (leg.system(), state)))
     }
 
-    pub(super) fn states(&self, count: usize) -> impl Iterator<Item = StateOf<S>> + '_ {
-        let (first, last) = (self.path.start.t, self.path.last.t);
+    /// States at evenly spaced times, each with the system of its time.
+    pub(super) fn states(&self, count: usize) -> impl Iterator<Item = (&S, StateOf<S>)> {
+        let [first, last] = self.times();
         let intervals = count.saturating_sub(1).max(1);
         let nowhere = vector(Array::filled(S::Scalar::constant(f64::NAN)));
         (0..count).map(move |i| {
             let t = between(first, last, i as f64 / intervals as f64);
-            self.state_at(t).unwrap_or(State { t, q: nowhere, v: nowhere })
+            let leg = self.leg_at(t);
+            (leg.system(), leg.state_at(t).unwrap_or(State { t, q: nowhere, v: nowhere }))
         })
     }
 
-    /// Returns the state at a time. An interpolated state violates the constraints by about the tolerance, so
-    /// it is projected.
-    pub(crate) fn state_at(&self, t: S::Scalar) -> Result<StateOf<S>, Error> {
-        if t == self.path.last.t {
-            return Ok(*self.path.last);
-        }
-        match self.path.at(t) {
-            Some(point) => F::project(&self.system, &point),
-            None => Err(Error::OutsideTrajectory {
-                time: t.to_f64(),
-                start: self.path.start.t.to_f64(),
-                end: self.path.last.t.to_f64(),
-            }),
-        }
+    /// The last leg that starts at this time or before.
+    fn leg_at(&self, t: S::Scalar) -> &Leg<S, F> {
+        let [start, end] = self.times();
+        let has_begun = |leg: &Leg<S, F>| match end < start {
+            true => leg.first().t >= t,
+            false => leg.first().t <= t,
+        };
+        &self.legs[self.legs.partition_point(has_begun).saturating_sub(1)]
+    }
+
+    /// An error of a leg, with the times of the motion.
+    fn outside(&self, error: Error, t: S::Scalar) -> Error {
+        if let Error::OutsideTrajectory { .. } = error { outside(t, self.times()) } else { error }
     }
 }
 
-/// A summary: first and last time, numbers of steps, evaluations and crossings, and the ending.
+/// A summary: first and last time, numbers of steps, evaluations and crossings, across contacts the transitions by their kind and the
+/// contacts that are closed at the end, and the ending.
 impl<S: Lagrangian<Scalar: Real>, F> Display for Trajectory<S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Statistics { accepted, rejected, evaluations, .. } = self.statistics;
-        write!(f, "{} from t = {} to t = {}:", S::NAME, self.path.start.t, self.path.last.t)?;
+        let [start, end] = self.times();
+        write!(f, "{} from t = {start} to t = {end}:", S::NAME)?;
         write!(f, " {accepted} steps, {rejected} rejected, {evaluations} evaluations")?;
-        match self.path.crossings.len() {
+        match self.crossings.len() {
             0 => {}
             1 => write!(f, ", 1 crossing")?,
             count => write!(f, ", {count} crossings")?,
+        }
+        if S::HAS_CONTACTS {
+            writeln!(f)?;
+            write_counts(&self.transitions, f)?;
+        }
+        let mut before = "; closed at the end: ";
+        for contact in &self.closed {
+            write!(f, "{before}`{contact}`")?;
+            before = ", ";
         }
         write!(f, "\n{}", self.ending)
     }
@@ -219,10 +289,11 @@ impl<S: Lagrangian, F> Debug for Trajectory<S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Trajectory")
             .field("system", &S::NAME)
-            .field("start", &*self.path.start)
-            .field("end", &*self.path.last)
+            .field("start", self.first_leg().first())
+            .field("end", self.last_leg().last())
             .field("ending", &self.ending)
             .field("statistics", &self.statistics)
+            .field("transitions", &self.transitions.len())
             .finish()
     }
 }

@@ -33,7 +33,7 @@ fn impulses_after_a_landing_are_forces_and_the_error_falls_with_the_step() {
                 let found = step.impulse("floor").unwrap() / h;
                 assert!((found - push).abs() < 40.0 * h * push, "{theta} {h}: {found} for {push}");
             }
-            (path.end().q - exact.end().q).amax()
+            (path.end().q - exact.end().state().q).amax()
         })
     });
     assert!(errors.iter().all(|[long, short]| *long < 3e-3 && *short < 3e-4), "{errors:?}");

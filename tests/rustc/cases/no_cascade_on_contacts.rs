@@ -12,7 +12,7 @@ struct System {
 }
 
 fn moves(system: &System) -> Result<State<f64, 2>, Error> {
-    Ok(*system.motion(State::at_rest([1.0; 2])).with_contacts().to(1.0)?.end())
+    Ok(*system.motion(State::at_rest([1.0; 2])).with_contacts().to(1.0)?.end().state())
 }
 
 fn main() {

@@ -155,7 +155,7 @@ impl<T: Real, N: Length> MemberRow<T, N> {
                     },
                     MemberEnding::Failed(said) => Ending::Elsewhere { time, said },
                 };
-                Ok(Arrival { state, ending, statistics, samples, values, crossings })
+                Ok(Arrival { state, ending, statistics, samples, values, crossings, transitions: Vec::new() })
             }
         };
         Ok(Member { index, fingerprint, names: names.clone(), result })

@@ -63,6 +63,7 @@ fn outcome() -> Outcome<f64, Const<1>> {
             samples,
             values,
             crossings,
+            transitions: Vec::new(),
         };
         member(index, Ok(arrival))
     };

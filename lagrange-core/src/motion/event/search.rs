@@ -203,6 +203,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     pub(crate) fn record_in<F, I>(
         &mut self,
         path: &mut Path<L::Scalar, L::N, Vec<I>>,
+        crossings: &mut Vec<Crossing<L::Scalar, L::N>>,
         system: &L,
         [before, after]: [&StateOf<L>; 2],
     ) -> Option<Ending>
@@ -210,7 +211,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
         F: VectorField<L>,
         I: Interpolant<L::Scalar, L::N> + Send + Sync + 'static,
     {
-        let (interpolant, crossings) = path.last_step()?;
+        let interpolant = path.last_step()?;
         let step = DenseStep { system, before, after, interpolant, field: PhantomData::<F> };
         let (at, ending) = self.record(&step, crossings)?;
         path.cut(at);

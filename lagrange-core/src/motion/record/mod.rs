@@ -21,6 +21,7 @@ use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State, StateOf};
+use crate::trajectory::Transition;
 use crate::vector::{Element, Length};
 
 /// End of a motion, with its samples, quantities and crossings.
@@ -40,6 +41,19 @@ pub struct Arrival<T: Element, N: Length> {
     pub values: Vec<T>,
     /// Crossings of events, in the order of the motion.
     pub crossings: Vec<Crossing<T, N>>,
+    /// Transitions of a motion across [contacts](crate::contact), in the order in which they are decided. Those of the members of an
+    /// ensemble are not kept.
+    pub transitions: Vec<Transition<T>>,
+}
+
+impl<T: Element, N: Length> Arrival<T, N> {
+    /// Returns the arrival, unless a failure kept the motion from its end.
+    ///
+    /// # Errors
+    /// [`Error::Unfinished`] with the ending.
+    pub fn finished(self) -> Result<Self, Error> {
+        if self.ending.is_failure() { Err(self.ending.into()) } else { Ok(self) }
+    }
 }
 
 /// Controller, which sets parameters of a system during its motion. Its error is a message.
@@ -252,7 +266,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
         statistics: Statistics,
     ) -> Arrival<L::Scalar, L::N> {
         let Self { samples, values, crossings, .. } = self;
-        Arrival { state, ending, statistics, samples, values, crossings }
+        Arrival { state, ending, statistics, samples, values, crossings, transitions: Vec::new() }
     }
 }
 

@@ -3,14 +3,14 @@
 use super::fails;
 use super::law::NamedLaw;
 use crate::contact::{Contact, Contacts, Friction};
-use crate::error::{Ending, Error};
+use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::sensitivity::state::{ChangingStateOf, StateSensitivity, at_event};
 use crate::linearized::tangent::Tangent;
 use crate::names::{Entry, name};
 use crate::number::{Real, Scalar};
 use crate::system::{Lagrangian, ResidualChange, Solution, StateOf};
-use crate::trajectory::Trajectory;
+use crate::trajectory::Leg;
 use crate::vector::{Vector, zeros};
 
 /// What becomes zero at the end of a leg.
@@ -28,10 +28,10 @@ pub(super) enum Boundary {
 
 impl Boundary {
     /// The boundary at the end of a leg; `None` if the leg ends at a time.
-    pub(super) fn of<L: Contacts<Scalar: Real>>(leg: &Trajectory<L>) -> Option<Self> {
-        let Ending::Event { event, .. } = leg.ending() else { return None };
-        let of_contact = L::CONTACTS.iter().position(|&row| L::CONSTRAINTS[row] == *event);
-        let of_friction = || L::FRICTIONS.iter().position(|of| L::CONSTRAINTS[of.row] == *event);
+    pub(super) fn of<L: Contacts<Scalar: Real>>(leg: &Leg<L>) -> Option<Self> {
+        let event = leg.boundary()?;
+        let of_contact = L::CONTACTS.iter().position(|&row| L::CONSTRAINTS[row] == event);
+        let of_friction = || L::FRICTIONS.iter().position(|of| L::CONSTRAINTS[of.row] == event);
         match of_contact {
             Some(k) if leg.system().contact(k) == Some(Contact::Open) => Some(Self::Gap(k)),
             Some(k) => Some(Self::Push(k)),
@@ -57,17 +57,14 @@ impl Boundary {
     /// Derivatives at the end of a leg, of its time too, from those at a fixed time.
     pub(super) fn reach<L: Linearized<Scalar: Real> + Contacts + Clone>(
         self,
-        leg: &Trajectory<L>,
+        leg: &Leg<L>,
         at: StateSensitivity<L::Scalar, L::N>,
     ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
-        let end = leg.end();
-        if leg.start_time() == end.time() {
+        let Some(before) = leg.before_last() else {
             let reason =
                 "another transition happens at the same time, and the arguments may change their order";
-            return fails(self.name::<L>(), end.time(), reason);
-        }
-        let steps = leg.statistics().accepted;
-        let before = leg.states_of_steps().nth(steps.saturating_sub(1)).unwrap_or(at.state);
+            return fails(self.name::<L>(), leg.last().t, reason);
+        };
         let system = self.closed(leg.system());
         let change = |at: &ChangingStateOf<'_, L>| self.change(&system, at);
         at_event(leg.system(), at, (self.name::<L>(), &change), &before)

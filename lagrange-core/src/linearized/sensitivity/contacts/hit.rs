@@ -13,7 +13,7 @@ use crate::linearized::sensitivity::state::{StateSensitivity, impact_sensitivity
 use crate::names::name;
 use crate::number::{Real, Scalar, largest, power_of_epsilon};
 use crate::system::{Lagrangian, StateOf};
-use crate::trajectory::Trajectory;
+use crate::trajectory::Leg;
 use crate::vector::Entrywise;
 
 /// An impact on one contact, at the end of a leg.
@@ -28,7 +28,7 @@ pub(super) struct Hit<L> {
 type Impulses<L> = [(&'static str, <L as Lagrangian>::Scalar)];
 
 impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
-    pub(super) fn of(leg: &Trajectory<L>, impulses: &Impulses<L>, after: &StateOf<L>) -> Result<Self, Error> {
+    pub(super) fn of(leg: &Leg<L>, impulses: &Impulses<L>, after: &StateOf<L>) -> Result<Self, Error> {
         let mut pushing = leg.system().clone();
         let mut hits = Vec::new();
         for k in 0..L::CONTACTS.len() {
@@ -41,7 +41,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
         match hits[..] {
             [contact] if Boundary::of(leg) == Some(Boundary::Gap(contact)) => {
                 let mut hit = Self { contact, pushing };
-                hit.rub(leg.end().state(), impulses, after)?;
+                hit.rub(leg.last(), impulses, after)?;
                 hit.check_poisson(after)?;
                 Ok(hit)
             }
@@ -122,7 +122,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
     /// Derivatives after the impact, from those at a fixed time before it.
     pub(super) fn after(
         &self,
-        leg: &Trajectory<L>,
+        leg: &Leg<L>,
         at: StateSensitivity<L::Scalar, L::N>,
     ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
         let at = Boundary::Gap(self.contact).reach(leg, at)?;
@@ -141,7 +141,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
     /// pushes or not.
     pub(super) fn check_idle(
         &self,
-        leg: &Trajectory<L>,
+        leg: &Leg<L>,
         impulses: &Impulses<L>,
         [at, after]: [&StateSensitivity<L::Scalar, L::N>; 2],
     ) -> Result<(), Error> {

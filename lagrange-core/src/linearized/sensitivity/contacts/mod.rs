@@ -24,20 +24,20 @@ use hit::Hit;
 
 use super::state::{StateSensitivity, start};
 use super::trajectory::integrate;
-use crate::contact::{ContactTrajectory, Contacts, Transition};
+use crate::contact::{Contacts, Transition};
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::variation::DifferentiableMethod;
 use crate::number::{Real, largest, power_of_epsilon};
 use crate::solution::solve::solve;
 use crate::system::StateOf;
-use crate::trajectory::Trajectory;
+use crate::trajectory::{Leg, Trajectory};
 use crate::vector::Entrywise;
 
 /// Reason why friction of two velocities that begins or ceases to slide is not differentiated.
 const IN_THE_PLANE: &str = "friction of two velocities has no direction at rest, and its force no derivative; end the motion before, or start after it";
 
-impl<L: Linearized<Scalar: Real> + Contacts + Clone> ContactTrajectory<L> {
+impl<L: Linearized<Scalar: Real> + Contacts + Clone> Trajectory<L> {
     /// Returns the last state with its derivatives by these arguments: entries of the start, and parameters of the equations, of
     /// gaps, of restitutions and of friction. The legs are integrated once more by `method`.
     ///
@@ -83,28 +83,20 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> ContactTrajectory<L> {
         arguments: &[&str],
         method: D,
     ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
-        if self.ending().is_failure() {
-            return Err(Error::from(self.ending().clone()));
-        }
-        let first = self.legs().first().map_or(*self.end(), |leg| *leg.start().state());
-        let mut at = start::<L>(&first, arguments)?;
+        self.check_finished()?;
+        let mut at = start::<L>(self.first_leg().first(), arguments)?;
         self.check_plane()?;
-        self.check_start(&at)?;
+        check_start(self.first_leg(), &at)?;
         let mut before = None;
         for (leg, transitions) in self.legs().iter().zip(self.transitions_before_legs()) {
-            at = cross(before, (leg.system(), *leg.start().state()), transitions, at)?;
-            at.state = *leg.start().state();
-            let end = *leg.end().state();
+            at = cross(before, (leg.system(), *leg.first()), transitions, at)?;
+            (at.state, before) = (*leg.first(), Some(leg));
+            let end = *leg.last();
             if at.state.t != end.t {
                 at = integrate(leg.system(), &at, end.t, &method, &mut [], None)?.finished()?.end()?.clone();
             }
             at.state = end;
-            before = Some(leg);
         }
-        // An impact at the very end.
-        let after = (self.system(), *self.end());
-        let mut at = cross(before, after, self.transitions_after_legs(), at)?;
-        at.state = *self.end();
         let accelerations = solve(self.system(), &at.state)?.accelerations;
         (0..at.arguments().len()).for_each(|j| at.delay(j, -at.t[j], &accelerations));
         Ok(at)
@@ -124,19 +116,21 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> ContactTrajectory<L> {
         }
         Ok(())
     }
+}
 
-    fn check_start(&self, at: &StateSensitivity<L::Scalar, L::N>) -> Result<(), Error> {
-        let Some(leg) = self.legs().first() else { return Ok(()) };
-        // At rest compared with the end of the leg.
-        let change = Change { systems: [leg.system(); 2], states: [*leg.end().state(), at.state] };
-        change.check_start(at)?;
-        change.check_limits(None)
-    }
+fn check_start<L: Linearized<Scalar: Real> + Contacts + Clone>(
+    first: &Leg<L>,
+    at: &StateSensitivity<L::Scalar, L::N>,
+) -> Result<(), Error> {
+    // At rest compared with the end of the leg.
+    let change = Change { systems: [first.system(); 2], states: [*first.last(), at.state] };
+    change.check_start(at)?;
+    change.check_limits(None)
 }
 
 /// Derivatives of the state after the transitions between two legs. `before` is the leg that ends there.
 fn cross<L: Linearized<Scalar: Real> + Contacts + Clone>(
-    before: Option<&Trajectory<L>>,
+    before: Option<&Leg<L>>,
     (system, state): (&L, StateOf<L>),
     transitions: &[Transition<L::Scalar>],
     at: StateSensitivity<L::Scalar, L::N>,
@@ -157,7 +151,7 @@ fn cross<L: Linearized<Scalar: Real> + Contacts + Clone>(
             let after = hit.after(leg, at.clone())?;
             hit.check(&after.state, &state)?;
             hit.check_idle(leg, impulses, [&at, &after])?;
-            let (systems, states) = ([leg.system(), system], [*leg.end().state(), state]);
+            let (systems, states) = ([leg.system(), system], [*leg.last(), state]);
             Change { systems, states }.check_limits(None)?;
             return Ok(after);
         }
@@ -186,7 +180,7 @@ fn first_name<T>(transitions: &[Transition<T>]) -> &'static str {
 /// Derivatives across the end of a leg without an impact. Where the accelerations are continuous, so are the derivatives; else
 /// they jump by (ẋ⁻ − ẋ⁺) δt, with the change δt of the time at which the leg ends.
 fn without_impact<L: Linearized<Scalar: Real> + Contacts + Clone>(
-    leg: &Trajectory<L>,
+    leg: &Leg<L>,
     (system, state): (&L, &StateOf<L>),
     transitions: &[Transition<L::Scalar>],
     at: StateSensitivity<L::Scalar, L::N>,
@@ -203,7 +197,7 @@ fn without_impact<L: Linearized<Scalar: Real> + Contacts + Clone>(
         return Err(Error::Grazing { event: first_name(transitions), time: state.t.to_f64() });
     };
     let at = boundary.reach(leg, at)?;
-    let change = Change { systems: [leg.system(), system], states: [*leg.end().state(), *state] };
+    let change = Change { systems: [leg.system(), system], states: [*leg.last(), *state] };
     change.check_alone(boundary, &at)?;
     change.check_limits(Some(boundary))?;
     Ok(at)
@@ -211,10 +205,10 @@ fn without_impact<L: Linearized<Scalar: Real> + Contacts + Clone>(
 
 /// Whether the accelerations do not jump at the end of a leg.
 fn is_continuous<L: Linearized<Scalar: Real> + Contacts + Clone>(
-    leg: &Trajectory<L>,
+    leg: &Leg<L>,
     (system, state): (&L, &StateOf<L>),
 ) -> Result<bool, Error> {
-    let [one, other] = [solve(leg.system(), leg.end().state())?, solve(system, state)?];
+    let [one, other] = [solve(leg.system(), leg.last())?, solve(system, state)?];
     let jump = one.accelerations.minus(&other.accelerations);
     // At the zero of a multiplier, its rate times the round-off of the time is left.
     let least = power_of_epsilon::<L::Scalar>(0.5) * largest(one.accelerations.as_slice());

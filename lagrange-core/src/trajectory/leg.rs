@@ -1,0 +1,135 @@
+//! Legs of a motion: its parts between transitions.
+
+use core::fmt::{self, Debug, Formatter};
+use core::iter::once;
+use core::marker::PhantomData;
+
+use super::path::Path;
+use crate::error::Error;
+use crate::number::Real;
+use crate::solution::Sample;
+use crate::solution::vector_field::{LagrangianVectorField, VectorField};
+use crate::system::{Lagrangian, StateOf};
+
+/// A part of a [`Trajectory`](super::Trajectory) between two transitions, with the system as it is there: a motion without contacts has
+/// one leg.
+pub struct Leg<S: Lagrangian, F = LagrangianVectorField> {
+    pub(super) system: S,
+    pub(super) path: Path<S::Scalar, S::N>,
+    /// Number of transitions of the motion before the leg.
+    pub(super) transitions: usize,
+    /// Event at its end, of the user or of a contact.
+    boundary: Option<&'static str>,
+    field: PhantomData<F>,
+}
+
+impl<S: Lagrangian, F> Leg<S, F> {
+    pub(crate) fn new(system: S, path: Path<S::Scalar, S::N>, boundary: Option<&'static str>) -> Self {
+        Self { system, path, transitions: 0, boundary, field: PhantomData }
+    }
+
+    /// The same after so many transitions of the motion.
+    pub(crate) fn after(self, transitions: usize) -> Self {
+        Self { transitions, ..self }
+    }
+
+    /// True if no transition follows it, of so many of the motion.
+    pub(crate) fn is_after(&self, transitions: usize) -> bool {
+        self.transitions == transitions
+    }
+
+    /// Name of the event, of the user or of a contact, at its end.
+    pub(crate) fn boundary(&self) -> Option<&'static str> {
+        self.boundary
+    }
+
+    /// Returns the system, with the contacts of the leg.
+    pub fn system(&self) -> &S {
+        &self.system
+    }
+
+    pub(crate) fn first(&self) -> &StateOf<S> {
+        &self.path.start
+    }
+
+    pub(crate) fn last(&self) -> &StateOf<S> {
+        &self.path.last
+    }
+}
+
+impl<L: Lagrangian + Clone, F> Leg<&L, F> {
+    pub(crate) fn into_owned(self) -> Leg<L, F> {
+        let Self { system, path, transitions, boundary, field } = self;
+        Leg { system: system.clone(), path, transitions, boundary, field }
+    }
+}
+
+impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Leg<S, F> {
+    /// Returns its first state.
+    pub fn start(&self) -> Sample<S> {
+        self.sample(*self.path.start)
+    }
+
+    /// Returns its last state, which is that before the next transition.
+    pub fn end(&self) -> Sample<S> {
+        self.sample(*self.path.last)
+    }
+
+    /// Returns the sample at this time.
+    ///
+    /// # Errors
+    /// Those of [`Trajectory::at`](super::Trajectory::at).
+    pub fn at(&self, t: S::Scalar) -> Result<Sample<S>, Error> {
+        self.state_at(t).map(|state| self.sample(state))
+    }
+
+    /// Returns the states that the method computed, first and last included.
+    pub fn steps(&self) -> impl Iterator<Item = Sample<S>> + '_ {
+        self.states_of_steps().map(|state| self.sample(state))
+    }
+
+    pub(super) fn sample(&self, state: StateOf<S>) -> Sample<S> {
+        Sample { system: self.system.clone(), state }
+    }
+}
+
+impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
+    pub(crate) fn states_of_steps(&self) -> impl Iterator<Item = StateOf<S>> + '_ {
+        let starts = (0..self.path.len()).filter_map(|i| self.path.start_of(i));
+        starts.map(|point| F::state(&self.system, &point)).chain(once(*self.path.last))
+    }
+
+    /// Returns the state at the start of the last step; `None` without steps.
+    pub(crate) fn before_last(&self) -> Option<StateOf<S>> {
+        let point = self.path.start_of(self.path.len().checked_sub(1)?)?;
+        Some(F::state(&self.system, &point))
+    }
+
+    /// Returns the state at a time. An interpolated state violates the constraints by about the tolerance, so
+    /// it is projected.
+    pub(super) fn state_at(&self, t: S::Scalar) -> Result<StateOf<S>, Error> {
+        if t == self.path.last.t {
+            return Ok(*self.path.last);
+        }
+        match self.path.at(t) {
+            Some(point) => F::project(&self.system, &point),
+            None => Err(outside(t, [self.path.start.t, self.path.last.t])),
+        }
+    }
+}
+
+impl<S: Lagrangian, F> Debug for Leg<S, F> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let mut text = f.debug_struct("Leg");
+        text.field("system", &S::NAME)
+            .field("start", &*self.path.start)
+            .field("end", &*self.path.last)
+            .finish()
+    }
+}
+
+/// The time is not between start and end.
+pub(super) fn outside<T: Real>(time: T, [start, end]: [T; 2]) -> Error {
+    let [time, start, end] = [time, start, end].map(Real::to_f64);
+    Error::OutsideTrajectory { time, start, end }
+}
