@@ -4,7 +4,7 @@
 
 mod picture;
 
-use lagrange_core::contact::{Contact, MoreauJean, SteppedTrajectory};
+use lagrange_core::contact::{Contact, MoreauJean};
 use lagrange_core::prelude::*;
 use picture::{BLUE, GREY, Panel, RED, Result};
 use plotters::prelude::*;
@@ -38,16 +38,15 @@ const NINE: [Contact; 9] = [Contact::Open; 9];
 const TOWER: Tower =
     Tower { m: 1.0, b: 0.5, h: 0.25, g: 9.81, mu: 0.5, floor: [Contact::Open; 2], left: NINE, right: NINE };
 
-type Path = SteppedTrajectory<Tower>;
+type Path = Trajectory<Tower>;
 
 fn main() -> Result<()> {
     let mut start = State::at_rest([0.0; 30]);
     (0..10).for_each(|i| start.q[10 + i] = TOWER.h * (2 * i + 1) as f64);
     let stands = TOWER.motion(start).by_time_stepping(MoreauJean::with_step(0.05)).to(20.0)?;
-    let moved = stands.steps().iter().map(|step| (step.state.q - start.q).amax()).fold(0.0, f64::max);
+    let moved = stands.steps().map(|step| (step.state().q - start.q).amax()).fold(0.0, f64::max);
     println!("{stands}\nit has moved by {moved:.0e} m");
-    let last = &stands.steps()[stands.steps().len() - 1];
-    let carried = (last.impulse("floor[0]")? + last.impulse("floor[1]")?) / 0.05;
+    let carried = stands.end().multiplier("floor[0]")? + stands.end().multiplier("floor[1]")?;
     println!("the floor carries {carried:.6} N, ten blocks weigh {:.6} N\n", 10.0 * TOWER.m * TOWER.g);
     // Pushed, it turns about its lower right edge.
     for i in 0..10 {
@@ -55,9 +54,9 @@ fn main() -> Result<()> {
     }
     let falls = TOWER.motion(start).by_time_stepping(MoreauJean::with_step(4e-3)).to(FALL)?;
     println!("{falls}");
-    for (step, energy) in falls.steps().iter().zip(falls.energies()).step_by(50) {
-        let angle = -step.state.q[29].to_degrees();
-        println!("t = {:.1} s: its top has turned by {angle:5.1}°, energy {energy:.3} J", step.state.t);
+    for step in falls.steps().step_by(50) {
+        let (angle, energy) = (-step.state().q[29].to_degrees(), step.energy());
+        println!("t = {:.1} s: its top has turned by {angle:5.1}°, energy {energy:.3} J", step.time());
     }
     let file = picture::path("block_tower")?;
     draw(&stands, &falls, &file)?;
@@ -72,8 +71,8 @@ const FALL: f64 = 1.2;
 fn draw(stands: &Path, falls: &Path, file: &std::path::Path) -> Result<()> {
     let root = picture::sheet(file, (1100, 520))?;
     let panels = root.split_evenly((1, 2));
-    draw_tower("It stands for 20 s", stands.end(), &panels[0])?;
-    draw_tower(&format!("Pushed, after {FALL} s"), falls.end(), &panels[1])?;
+    draw_tower("It stands for 20 s", stands.end().state(), &panels[0])?;
+    draw_tower(&format!("Pushed, after {FALL} s"), falls.end().state(), &panels[1])?;
     root.present()?;
     Ok(())
 }

@@ -74,7 +74,7 @@ fn time_steps_stick_and_slip_with_both_coefficients() {
     let expected = block.nu * block.m * block.g / block.k;
     let errors = [4e-3, 1e-3].map(|h| {
         let path = block.motion(start).by_time_stepping(MoreauJean::with_step(h)).to(end).unwrap();
-        (path.end().q[0] - expected).abs()
+        (path.end().state().q[0] - expected).abs()
     });
     assert!(errors[0] < 2e-2 && errors[1] < 5e-3, "{errors:?}");
 }

@@ -23,7 +23,7 @@ fn check<L, D, const N: usize>(
     let found: StateSensitivity<f64, Const<N>> = path.sensitivity(names, method).unwrap();
     for (j, name) in names.iter().enumerate() {
         let error = [1e-4, 1e-5].map(|h| {
-            let values = [-2.0, -1.0, 1.0, 2.0].map(|part| *run(j, part * h).end());
+            let values = [-2.0, -1.0, 1.0, 2.0].map(|part| *run(j, part * h).end().state());
             let [a, b, c, d] = &values;
             let mut error = 0.0_f64;
             for i in 0..N {

@@ -135,7 +135,7 @@ fn a_gap_without_a_gradient_is_named() {
     let lagrange_core::Ending::Unsolved { error, time } = path.ending() else { panic!("{}", path.ending()) };
     assert!(matches!(error, Error::NoGradient { constraint: "floor", .. }), "{error}");
     assert!((time - (2.0_f64 / 9.81).sqrt()).abs() < 1e-9, "{time}");
-    assert!(path.end().q[0].abs() < 1e-9);
+    assert!(path.end().state().q[0].abs() < 1e-9);
 }
 
 #[test]

@@ -26,7 +26,7 @@ fn derivatives_where_the_rod_slides() {
     let found = end(0.6, 0.05, 2.0).sensitivity(&["e[0]", "mu", "x_dot"], method).unwrap();
     let step = 1e-5;
     for (column, [e, mu, s]) in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].into_iter().enumerate() {
-        let at = |part: f64| end(0.6 + part * e, 0.05 + part * mu, 2.0 + part * s).end().v;
+        let at = |part: f64| end(0.6 + part * e, 0.05 + part * mu, 2.0 + part * s).end().state().v;
         let difference = (at(step) - at(-step)) / (2.0 * step);
         let error = (difference - found.v.column(column)).amax();
         assert!(error < 1e-8, "{column}: {error:e}");

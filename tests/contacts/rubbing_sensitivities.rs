@@ -100,7 +100,7 @@ fn a_block_that_slides_back_has_the_derivatives_of_both_ways() {
     assert!((time - v / up).abs() < 1e-13, "{time}");
     assert!(path.to_string().contains("0 slips, 1 reversal\n"), "{path}");
     let tau = end - v / up;
-    assert!((path.end().q[0] - (v * v / (2.0 * up) - down * tau * tau / 2.0)).abs() < 1e-12);
+    assert!((path.end().state().q[0] - (v * v / (2.0 * up) - down * tau * tau / 2.0)).abs() < 1e-12);
     let by = |dv: f64, dup: f64, ddown: f64| {
         let dtau = -dv / up + v / (up * up) * dup;
         v / up * dv - v * v / (2.0 * up * up) * dup - ddown * tau * tau / 2.0 - down * tau * dtau

@@ -75,8 +75,8 @@ impl Table {
     /// Gaps, forces, cones and the direction of friction at every stored state, and at the last one.
     fn keeps_the_laws(&self, path: &Trajectory<Self>) {
         self.keeps_the_laws_in_steps(path);
-        let last = path.system().solve(path.end()).unwrap();
-        self.keeps_the_laws_at(path.end(), last.multipliers.as_slice());
+        let last = path.system().solve(path.end().state()).unwrap();
+        self.keeps_the_laws_at(path.end().state(), last.multipliers.as_slice());
     }
 
     fn keeps_the_laws_in_steps(&self, path: &Trajectory<Self>) {
@@ -191,7 +191,7 @@ fn a_table_that_is_pushed_slides() {
                 let first = first_slip(&path).unwrap();
                 assert!((first - time).abs() < 1e-9, "{case}: {first} for {time}");
                 if p < 1.0 {
-                    let q = path.end().q;
+                    let q = path.end().state().q;
                     let off = f64::hypot(q[0] - moved * d[0], q[1] - moved * d[1]);
                     assert!(off < 1e-7 && q[5].abs() < 1e-7, "{case}: {q:?}");
                 }
@@ -212,7 +212,11 @@ fn a_table_that_is_pushed_high_tips() {
             assert!(path.at(time - 1e-9).unwrap().state().v.amax() < 1e-12);
             // (j + m (l²/4 + h²)) b̈ = k p (t − t₀) about the legs, whose friction sticks.
             let turned = 3.0 * p * 0.008 / 6.0 / (0.3 + 2.0 * 0.5);
-            assert!((path.end().q[4] - turned).abs() < 1e-9, "{p}: {} for {turned}", path.end().q[4]);
+            assert!(
+                (path.end().state().q[4] - turned).abs() < 1e-9,
+                "{p}: {} for {turned}",
+                path.end().state().q[4]
+            );
         }
     }
 }
@@ -227,7 +231,11 @@ fn a_table_that_is_turned_turns() {
         let first = first_slip(&path).unwrap();
         assert!((first - time).abs() < 1e-9, "{n}: {first} for {time}");
         let turned = n / (6.0 * 0.3);
-        assert!((path.end().q[5] - turned).abs() < 1e-6, "{n}: {} for {turned}", path.end().q[5]);
+        assert!(
+            (path.end().state().q[5] - turned).abs() < 1e-6,
+            "{n}: {} for {turned}",
+            path.end().state().q[5]
+        );
     }
 }
 

@@ -42,7 +42,7 @@ fn a_billiard_ball_slides_in_the_plane_and_then_rolls() {
             panic!("{:?}", path.transitions())
         };
         assert!((rolls - time).abs() < 1e-11, "{rolls} for {time}");
-        for (v, (v0, u0)) in path.end().v.iter().zip(velocity.iter().zip(slip)) {
+        for (v, (v0, u0)) in path.end().state().v.iter().zip(velocity.iter().zip(slip)) {
             assert!((v - (v0 - 2.0 / 7.0 * u0)).abs() < 1e-11, "{:?}", path.end());
         }
     }
@@ -202,7 +202,7 @@ fn boxes_that_lie_on_a_slope() {
         }
         if case % 4 == 0 {
             let a = (9.81 * (alpha.sin() - mu * alpha.cos())).max(0.0);
-            let v = path.end().v[0];
+            let v = path.end().state().v[0];
             assert!((v - a).abs() < 1e-9, "case {case}: {v} for {a}");
         }
     }

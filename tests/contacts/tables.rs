@@ -63,7 +63,7 @@ fn steps_have_both_states_of_an_impact() {
     assert!(
         matches!(at_impact[..], [before, after] if (before + 2.0).abs() < 1e-8 && (after - 0.4).abs() < 1e-8)
     );
-    assert_eq!(path.steps().last().unwrap().state(), path.end());
+    assert_eq!(path.steps().last().unwrap().state(), path.end().state());
     assert_eq!(path.steps().next().unwrap().state(), &START);
     let lambda = |t| path.at(t).unwrap().multiplier("floor").unwrap();
     assert!(lambda(0.5) == 0.0 && (lambda(2.0) - 6.0).abs() < 1e-14);

@@ -23,8 +23,8 @@ fn tables_stand_on_their_legs() {
     let starts = [State::at_rest([0.5, 0.0, 0.0]), State::new([0.5, 0.1, 0.05], [0.0, 0.3, -0.2])];
     for start in starts {
         let path = table.motion(start).with_contacts().max_transitions(1_000).to(10.0).unwrap();
-        assert!(path.end().q.amax() < 1e-14 && path.end().v.amax() < 1e-14, "{}", path.end());
-        let forces = path.system().solve(path.end()).unwrap().multipliers;
+        assert!(path.end().state().q.amax() < 1e-14 && path.end().state().v.amax() < 1e-14, "{}", path.end());
+        let forces = path.system().solve(path.end().state()).unwrap().multipliers;
         assert!((forces.sum() - 2.0 * 9.81).abs() < 1e-12 && forces.min() >= 0.0, "{forces}");
     }
 }
@@ -36,8 +36,8 @@ fn tables_stand_at_the_origin() {
         let table = Table { m: 2.0, j, g: 9.81, legs: [Contact::Open; 4] };
         let start = State::at_rest([0.0; 3]);
         let path = table.motion(start).with_contacts().max_transitions(100).to(10.0).unwrap();
-        assert!(path.end().q.amax() < 1e-20 && path.end().v.amax() < 1e-20, "{}", path.end());
-        let forces = path.system().solve(path.end()).unwrap().multipliers;
+        assert!(path.end().state().q.amax() < 1e-20 && path.end().state().v.amax() < 1e-20, "{}", path.end());
+        let forces = path.system().solve(path.end().state()).unwrap().multipliers;
         // A leg that takes no load has round-off of the others'.
         assert!((forces.sum() - 2.0 * 9.81).abs() < 1e-12 && forces.min() > -1e-13, "{forces}");
     }
@@ -93,7 +93,7 @@ fn a_mass_in_a_groove_stays() {
         }
         let motion = groove.motion(State::at_rest([0.0; 2])).with_contacts();
         match motion.max_transitions(100).to(0.1) {
-            Ok(path) => assert!(path.end().v.norm() < 1e-9, "{lean}, {opening}, {mu:?}"),
+            Ok(path) => assert!(path.end().state().v.norm() < 1e-9, "{lean}, {opening}, {mu:?}"),
             Err(Error::FrictionUndecided { .. }) => undecided += 1,
             Err(error) => panic!("{lean}, {opening}, {mu:?}: {error}"),
         }

@@ -103,7 +103,7 @@ fn frames_across_contacts_free_what_they_allocate() {
         let used = measure(|| {
             let motion = puck.motion(state).by(RungeKutta4::with_step(1.0 / 240.0)).with_contacts();
             let path = motion.to(f64::from(frame) / 60.0).expect("no end before");
-            (state, puck) = (*path.end(), path.system().clone());
+            (state, puck) = (*path.end().state(), path.system().clone());
         });
         assert_eq!(used.bytes_current, 0, "frame {frame}: {used:?}");
         let half = &mut largest[usize::from(frame > 200)];

@@ -326,7 +326,7 @@ pub(crate) use builder::arrive;
 #[cfg(feature = "alloc")]
 pub use builder::{AcrossContacts, CrossesContacts};
 #[cfg(feature = "alloc")]
-pub use stepping::{ContactStepper, MoreauJean, SteppedTrajectory, TimeStep, TimeStepping};
+pub use stepping::{ContactStepper, InTimeSteps, MoreauJean, TimeStep, TimeStepping};
 #[cfg(feature = "alloc")]
 pub(crate) use watched::held;
 

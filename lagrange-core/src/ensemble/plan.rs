@@ -117,7 +117,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
     pub(super) fn event<G: EventFunction<L> + Send + Sync + 'a>(&mut self, event: Event<L, G>) {
         self.events.push(event.map(|function| {
             let value: Box<Observed<'a, L>> =
-                Box::new(move |sample: &Sample<&L>| function.at(sample.system, &sample.state));
+                Box::new(move |sample: &Sample<&L>| function.at(sample.system(), sample.state()));
             value
         }));
     }

@@ -168,7 +168,7 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
 
     /// Pairs a state with this system, to evaluate coordinates, energies, forces and other quantities by name.
     fn sample(&self, state: StateOf<Self>) -> Sample<&Self> {
-        Sample { system: self, state }
+        Sample::of(self, state)
     }
 
     /// Defines an event of this system: the zero crossings of a function of its motion. The function takes a sample and

@@ -21,14 +21,30 @@ use crate::system::{Lagrangian, SolutionOf, State, StateOf, check_names};
 /// an `Arc` or an `Rc`, only the pointer is copied.
 #[derive(Clone, Copy)]
 pub struct Sample<S: Lagrangian> {
-    pub(crate) system: S,
-    pub(crate) state: StateOf<S>,
+    system: S,
+    state: StateOf<S>,
+    /// Accelerations and multipliers, if they are not those that the equations have at this state.
+    given: Option<SolutionOf<S>>,
+}
+
+impl<S: Lagrangian> Sample<S> {
+    #[inline]
+    pub(crate) fn of(system: S, state: StateOf<S>) -> Self {
+        Self { system, state, given: None }
+    }
+
+    /// The same with these accelerations and multipliers.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn with(self, given: Option<SolutionOf<S>>) -> Self {
+        Self { given, ..self }
+    }
 }
 
 impl<L: Lagrangian + Clone> Sample<&L> {
     /// Returns the sample with its own copy of the system; the original may then change or be dropped.
     pub fn into_owned(self) -> Sample<L> {
-        Sample { system: self.system.clone(), state: self.state }
+        let Self { system, state, given } = self;
+        Sample { system: system.clone(), state, given }
     }
 }
 
@@ -48,12 +64,13 @@ impl<S: Lagrangian<Scalar: Real>> Sample<S> {
         self.state.t
     }
 
-    /// Returns accelerations and multipliers, solved for at this state.
+    /// Returns accelerations and multipliers, solved for at this state; in a [motion by time steps](crate::contact::MoreauJean) the
+    /// means over the step that leads there.
     ///
     /// # Errors
     /// Those of [`Simulate::solve`](crate::Simulate::solve).
     pub fn solution(&self) -> Result<SolutionOf<S>, Error> {
-        solve(&self.system, &self.state)
+        self.given.map_or_else(|| solve(&self.system, &self.state), Ok)
     }
 
     /// Returns the energy E = p·q̇ − L, the value of the Hamiltonian H(t, q, p).

@@ -8,9 +8,9 @@ use super::records::Records;
 use super::stored::Trajectory;
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
-use crate::solution::solve::solve;
+use crate::solution::Sample;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
-use crate::system::{Lagrangian, StateOf};
+use crate::system::Lagrangian;
 use crate::vector::Length;
 
 /// Table of a trajectory, one line per sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
@@ -72,12 +72,12 @@ impl<S: Lagrangian, F> Csv<'_, S, F> {
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Csv<'_, S, F> {
     /// Returns the names and the numbers of the table, for storage, plots, or other formats (feature `serde`).
     pub fn records(&self) -> Records<S::Scalar> {
-        let row = |(system, state): (&_, _)| {
+        let row = |sample| {
             let mut cells = Vec::new();
-            self.cells(system, &state, &mut cells);
+            self.cells(&sample, &mut cells);
             cells
         };
-        Records { names: self.names(), rows: self.motion.states(self.count).map(row).collect() }
+        Records { names: self.names(), rows: self.motion.borrowed_samples(self.count).map(row).collect() }
     }
 
     /// Conserved quantities that no other column contains.
@@ -104,10 +104,11 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Csv<'_, S, F> {
     }
 
     /// Appends the cells of a line, in the order of the names.
-    fn cells(&self, system: &S, state: &StateOf<S>, cells: &mut Vec<S::Scalar>) {
+    fn cells(&self, sample: &Sample<&S>, cells: &mut Vec<S::Scalar>) {
+        let (system, state) = (*sample.system(), sample.state());
         let unknown = S::Scalar::constant(f64::NAN);
         let is_solved = <S::M>::COUNT > 0 || !S::OBSERVABLES.is_empty();
-        let solution = is_solved.then(|| solve(system, state).ok()).flatten();
+        let solution = is_solved.then(|| sample.solution().ok()).flatten();
         cells.push(state.t);
         cells.extend(state.q.iter().chain(&state.v));
         if <S::M>::COUNT > 0 {
@@ -127,9 +128,9 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Display for Csv<'_, S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.names().join(","))?;
         let mut cells = Vec::new();
-        for (system, state) in self.motion.states(self.count) {
+        for sample in self.motion.borrowed_samples(self.count) {
             cells.clear();
-            self.cells(system, &state, &mut cells);
+            self.cells(&sample, &mut cells);
             for (k, cell) in cells.iter().enumerate() {
                 // `Debug` prints the shortest form that reads back the same, with an exponent if that is
                 // shorter.

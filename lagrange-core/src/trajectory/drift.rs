@@ -7,9 +7,9 @@ use super::leg::Leg;
 use super::stored::{Trajectory, between};
 use crate::error::Error;
 use crate::number::{Real, Scalar, exceeds};
-use crate::solution::solve::solve;
+use crate::solution::Sample;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, StateOf};
+use crate::system::Lagrangian;
 use crate::vector::{Length, zeros};
 
 /// Nodes in a step and weights of Gauss's formula of order 16 (Abramowitz and Stegun, table 25.4). In the long steps of
@@ -79,7 +79,7 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
     /// Returns the largest deviation of each conserved quantity from its initial value, and that of the balance of an energy
     /// that is not conserved, or only while nothing slides. What impacts take of it is left out.
     pub fn drift(&self) -> Drift<S::Scalar> {
-        let drift = Drift::of(self.states_of_steps());
+        let drift = Drift::of(self.legs().iter().flat_map(Leg::samples_of_steps));
         let is_conserved = S::FACTS.energy_is_conserved.is_some() && !S::HAS_FRICTION;
         if is_conserved { drift } else { drift.balanced(self.legs()) }
     }
@@ -91,11 +91,11 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
     fn balance(&self, start: S::Scalar, balance: &mut Deviation<S::Scalar>) -> S::Scalar {
         let (mut left, mut from) = (start, self.path.start.t);
         let mut before = self.system.energy(&self.path.start);
-        for state in self.states_of_steps().skip(1) {
-            let energy = self.system.energy(&state);
-            left += energy - before - self.work(from, state.t).unwrap_or(S::Scalar::constant(f64::NAN));
+        for step in self.samples_of_steps().skip(1) {
+            let energy = step.energy();
+            left += energy - before - self.work(from, step.time()).unwrap_or(S::Scalar::constant(f64::NAN));
             balance.largest = farther(balance.largest, left);
-            (from, before) = (state.t, energy);
+            (from, before) = (step.time(), energy);
         }
         left
     }
@@ -103,32 +103,32 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
     /// ∫ dE/dt dt between two times.
     fn work(&self, from: S::Scalar, to: S::Scalar) -> Result<S::Scalar, Error> {
         GAUSS.iter().try_fold(S::Scalar::constant(0.0), |sum, (node, weight)| {
-            let state = self.state_at(between(from, to, *node))?;
+            let sample = self.sample_at(between(from, to, *node))?;
             let multipliers = match <S::M>::COUNT {
                 0 => zeros(),
-                _ => solve(&self.system, &state)?.multipliers,
+                _ => sample.solution()?.multipliers,
             };
-            Ok(sum
-                + self.system.energy_rate(&state, &multipliers) * (to - from) * S::Scalar::constant(*weight))
+            let rate = self.system.energy_rate(sample.state(), &multipliers);
+            Ok(sum + rate * (to - from) * S::Scalar::constant(*weight))
         })
     }
 }
 
 impl<T: Real> Drift<T> {
-    /// The largest deviations from the first of these states, each with the system of its time.
-    fn of<'s, S: Lagrangian<Scalar = T> + 's>(mut steps: impl Iterator<Item = (&'s S, StateOf<S>)>) -> Self {
+    /// The largest deviations from the first of these samples.
+    fn of<'s, S: Lagrangian<Scalar = T> + 's>(mut steps: impl Iterator<Item = Sample<&'s S>>) -> Self {
         // One pass for all quantities: in (q, p) every state requires a search for the velocity.
-        let start = steps.next().into_iter().flat_map(|(system, start)| {
+        let start = steps.next().into_iter().flat_map(|start| {
             let conserved = S::FACTS.conserved.iter().enumerate();
             conserved.filter_map(move |(index, conserved)| {
-                let (name, start) = (conserved.name, system.conserved(index, &start)?);
+                let (name, start) = (conserved.name, start.system().conserved(index, start.state())?);
                 Some((index, Deviation { name, start, largest: T::constant(0.0) }))
             })
         });
         let mut quantities: Vec<_> = start.collect();
-        for (system, step) in steps {
+        for step in steps {
             for (index, Deviation { start, largest, .. }) in &mut quantities {
-                if let Some(value) = system.conserved(*index, &step) {
+                if let Some(value) = step.system().conserved(*index, step.state()) {
                     *largest = farther(*largest, value - *start);
                 }
             }

@@ -1,15 +1,17 @@
 //! Legs of a motion: its parts between transitions.
 
+use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 use core::iter::once;
 use core::marker::PhantomData;
 
 use super::path::Path;
 use crate::error::Error;
-use crate::number::Real;
+use crate::number::{Real, Scalar};
 use crate::solution::Sample;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{Lagrangian, Solution, SolutionOf, StateOf};
+use crate::vector::{Array, vector};
 
 /// A part of a [`Trajectory`](super::Trajectory) between two transitions, with the system as it is there: a motion without contacts has
 /// one leg.
@@ -20,12 +22,24 @@ pub struct Leg<S: Lagrangian, F = LagrangianVectorField> {
     pub(super) transitions: usize,
     /// Event at its end, of the user or of a contact.
     boundary: Option<&'static str>,
+    /// Mean accelerations and multipliers of each step, in a motion by time steps.
+    means: Option<Vec<SolutionOf<S>>>,
     field: PhantomData<F>,
 }
 
 impl<S: Lagrangian, F> Leg<S, F> {
     pub(crate) fn new(system: S, path: Path<S::Scalar, S::N>, boundary: Option<&'static str>) -> Self {
-        Self { system, path, transitions: 0, boundary, field: PhantomData }
+        Self { system, path, transitions: 0, boundary, means: None, field: PhantomData }
+    }
+
+    /// A motion by time steps with these mean accelerations and multipliers.
+    pub(crate) fn in_time_steps(self, means: Vec<SolutionOf<S>>) -> Self {
+        Self { means: Some(means), ..self }
+    }
+
+    /// True if it is a motion by time steps.
+    pub(crate) fn is_in_time_steps(&self) -> bool {
+        self.means.is_some()
     }
 
     /// The same after so many transitions of the motion.
@@ -59,20 +73,20 @@ impl<S: Lagrangian, F> Leg<S, F> {
 
 impl<L: Lagrangian + Clone, F> Leg<&L, F> {
     pub(crate) fn into_owned(self) -> Leg<L, F> {
-        let Self { system, path, transitions, boundary, field } = self;
-        Leg { system: system.clone(), path, transitions, boundary, field }
+        let Self { system, path, transitions, boundary, means, field } = self;
+        Leg { system: system.clone(), path, transitions, boundary, means, field }
     }
 }
 
 impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Leg<S, F> {
     /// Returns its first state.
     pub fn start(&self) -> Sample<S> {
-        self.sample(*self.path.start)
+        self.sample(*self.path.start).into_owned()
     }
 
     /// Returns its last state, which is that before the next transition.
     pub fn end(&self) -> Sample<S> {
-        self.sample(*self.path.last)
+        self.sample(*self.path.last).into_owned()
     }
 
     /// Returns the sample at this time.
@@ -80,23 +94,28 @@ impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Leg<S, F> {
     /// # Errors
     /// Those of [`Trajectory::at`](super::Trajectory::at).
     pub fn at(&self, t: S::Scalar) -> Result<Sample<S>, Error> {
-        self.state_at(t).map(|state| self.sample(state))
+        self.sample_at(t).map(Sample::into_owned)
     }
 
     /// Returns the states that the method computed, first and last included.
     pub fn steps(&self) -> impl Iterator<Item = Sample<S>> + '_ {
-        self.states_of_steps().map(|state| self.sample(state))
-    }
-
-    pub(super) fn sample(&self, state: StateOf<S>) -> Sample<S> {
-        Sample { system: self.system.clone(), state }
+        self.samples_of_steps().map(Sample::into_owned)
     }
 }
 
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
-    pub(crate) fn states_of_steps(&self) -> impl Iterator<Item = StateOf<S>> + '_ {
+    /// A state of the leg, in a motion by time steps with the means of the step that leads there.
+    fn sample(&self, state: StateOf<S>) -> Sample<&S> {
+        let unknown = S::Scalar::constant(f64::NAN);
+        let none = || Solution::given(vector(Array::filled(unknown)), vector(Array::filled(unknown)));
+        let of_step = |means: &Vec<_>| means.get(self.path.step_until(state.t)).copied().unwrap_or_else(none);
+        Sample::of(&self.system, state).with(self.means.as_ref().map(of_step))
+    }
+
+    pub(crate) fn samples_of_steps(&self) -> impl Iterator<Item = Sample<&S>> + '_ {
         let starts = (0..self.path.len()).filter_map(|i| self.path.start_of(i));
-        starts.map(|point| F::state(&self.system, &point)).chain(once(*self.path.last))
+        let states = starts.map(|point| F::state(&self.system, &point)).chain(once(*self.path.last));
+        states.map(|state| self.sample(state))
     }
 
     /// Returns the state at the start of the last step; `None` without steps.
@@ -105,16 +124,20 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
         Some(F::state(&self.system, &point))
     }
 
-    /// Returns the state at a time. An interpolated state violates the constraints by about the tolerance, so
-    /// it is projected.
-    pub(super) fn state_at(&self, t: S::Scalar) -> Result<StateOf<S>, Error> {
+    /// Returns the sample at a time. An interpolated state violates the constraints by about the tolerance, so
+    /// it is projected, unless it is between time steps, which violate them themselves.
+    pub(super) fn sample_at(&self, t: S::Scalar) -> Result<Sample<&S>, Error> {
         if t == self.path.last.t {
-            return Ok(*self.path.last);
+            return Ok(self.sample(*self.path.last));
         }
-        match self.path.at(t) {
-            Some(point) => F::project(&self.system, &point),
-            None => Err(outside(t, [self.path.start.t, self.path.last.t])),
-        }
+        let Some(point) = self.path.at(t) else {
+            return Err(outside(t, [self.path.start.t, self.path.last.t]));
+        };
+        let state = match self.is_in_time_steps() {
+            true => F::state(&self.system, &point),
+            false => F::project(&self.system, &point)?,
+        };
+        Ok(self.sample(state))
     }
 }
 

@@ -8,7 +8,7 @@ use crate::room::Room;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
 use crate::system::State;
-use crate::vector::{Element, Length};
+use crate::vector::{Element, Entrywise, Length, PhaseVector, array};
 
 /// States at the ends of the steps, and the interpolants between them. The type of the interpolants depends on
 /// the method; [`finish`](Path::finish) erases it.
@@ -29,6 +29,19 @@ pub(crate) trait Interpolants<T: Element, N: Length> {
 impl<T: Element, N: Length, I: Interpolant<T, N>> Interpolants<T, N> for Vec<I> {
     fn at(&self, step: usize, t: T) -> Option<StagePoint<T, N>> {
         self.get(step).map(|interpolant| interpolant.at(t))
+    }
+}
+
+/// Ends of steps, between which coordinates and velocities are linear.
+struct Polygon<T: Element, N: Length>(Vec<State<T, N>>);
+
+impl<T: Real, N: Length> Interpolants<T, N> for Polygon<T, N> {
+    fn at(&self, step: usize, t: T) -> Option<StagePoint<T, N>> {
+        let (before, after) = (self.0.get(step)?, self.0.get(step + 1)?);
+        let part = (t - before.t) / (after.t - before.t);
+        let between = |x: T, y: T| x + part * (y - x);
+        let (q, v) = (before.q.each_with(&after.q, between), before.v.each_with(&after.v, between));
+        Some(StagePoint { t, y: PhaseVector::<T, N>::of(q, v), velocity: array(v) })
     }
 }
 
@@ -83,6 +96,18 @@ impl<T: Element, N: Length> Path<T, N> {
 }
 
 impl<T: Real, N: Length> Path<T, N> {
+    /// Steps that end at these states, the first of which is the start, and are linear between.
+    pub(crate) fn linear(start: State<T, N>, ends: Vec<State<T, N>>) -> Self {
+        let (last, times) = (*ends.last().unwrap_or(&start), ends.iter().map(|state| state.t));
+        let times = times.take(ends.len().saturating_sub(1)).collect();
+        Self { start: Room::of(start), last: Room::of(last), times, interpolants: Box::new(Polygon(ends)) }
+    }
+
+    /// Returns the step of a motion forwards that ends at a time or after it; at the start, the first.
+    pub(super) fn step_until(&self, t: T) -> usize {
+        self.times.partition_point(|start| *start < t).saturating_sub(1)
+    }
+
     /// Returns the point of the phase space at the start of a step.
     pub(super) fn start_of(&self, step: usize) -> Option<StagePoint<T, N>> {
         self.interpolants.at(step, *self.times.get(step)?)

@@ -11,7 +11,7 @@ use crate::solution::crossing::Crossing;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::solution::{Adjustment, Sample};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State, StateOf};
+use crate::system::{Lagrangian, State};
 use crate::vector::{Array, vector};
 
 /// Motion of a system from its start to the end of the integration. It prints as a summary.
@@ -48,6 +48,9 @@ assert!(text.contains("\n1 impact, 1 closing; closed at the end: `floor`\nreache
 ```
 "#
 )]
+///
+/// By [time steps](crate::contact::MoreauJean) there is one leg, whose system has all contacts open. States between two steps are linear
+/// between them, and accelerations and multipliers of a sample are the means over the step that leads there.
 ///
 /// The call that integrates borrows the system `S`: `Trajectory<&Pendulum>`.
 /// [`into_owned`](Self::into_owned) returns a trajectory with its own copy of the system,
@@ -198,8 +201,7 @@ impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Trajectory<S, F> {
     /// [`Error::OutsideTrajectory`]; [`Error::NotProjected`], or in (q, p) an error of the search for the
     /// velocity, if the interpolated state cannot be projected onto the constraints.
     pub fn at(&self, t: S::Scalar) -> Result<Sample<S>, Error> {
-        let leg = self.leg_at(t);
-        leg.state_at(t).map(|state| leg.sample(state)).map_err(|error| self.outside(error, t))
+        self.leg_at(t).at(t).map_err(|error| self.outside(error, t))
     }
 
     /// Returns the first state, made consistent; across contacts, that after what happens at the start.
@@ -221,25 +223,20 @@ impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Trajectory<S, F> {
     /// Returns `count` states at evenly spaced times, first and last included. If [`at`](Self::at) fails,
     /// coordinates and velocities are NaN.
     pub fn samples(&self, count: usize) -> impl Iterator<Item = Sample<S>> + '_ {
-        self.states(count).map(|(system, state)| Sample { system: system.clone(), state })
+        self.borrowed_samples(count).map(Sample::into_owned)
     }
 }
 
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
-    /// The states of all steps, each with the system of its time.
-    pub(super) fn states_of_steps(&self) -> impl Iterator<Item = (&S, StateOf<S>)> {
-        self.legs.iter().flat_map(|leg| leg.states_of_steps().map(|state| (leg.system(), state)))
-    }
-
-    /// States at evenly spaced times, each with the system of its time.
-    pub(super) fn states(&self, count: usize) -> impl Iterator<Item = (&S, StateOf<S>)> {
+    /// Samples at evenly spaced times.
+    pub(super) fn borrowed_samples(&self, count: usize) -> impl Iterator<Item = Sample<&S>> {
         let [first, last] = self.times();
         let intervals = count.saturating_sub(1).max(1);
         let nowhere = vector(Array::filled(S::Scalar::constant(f64::NAN)));
         (0..count).map(move |i| {
             let t = between(first, last, i as f64 / intervals as f64);
             let leg = self.leg_at(t);
-            (leg.system(), leg.state_at(t).unwrap_or(State { t, q: nowhere, v: nowhere }))
+            leg.sample_at(t).unwrap_or(Sample::of(leg.system(), State { t, q: nowhere, v: nowhere }))
         })
     }
 
@@ -272,7 +269,7 @@ impl<S: Lagrangian<Scalar: Real>, F> Display for Trajectory<S, F> {
             1 => write!(f, ", 1 crossing")?,
             count => write!(f, ", {count} crossings")?,
         }
-        if S::HAS_CONTACTS {
+        if S::HAS_CONTACTS && !self.first_leg().is_in_time_steps() {
             writeln!(f)?;
             write_counts(&self.transitions, f)?;
         }

@@ -19,7 +19,7 @@ where
     let error = |h: f64| {
         let path = system.motion(start).by_time_stepping(MoreauJean::with_step(h)).to(end).unwrap();
         exact.iter().fold(0.0, |most: f64, (t, state)| {
-            let found = path.at(*t).unwrap().q;
+            let found = path.at(*t).unwrap().state().q;
             found.iter().zip(state.q.iter()).fold(most, |most, (x, y)| most.max((x - y).abs()))
         })
     };
@@ -65,7 +65,7 @@ fn a_pendulum_that_hits_a_wall_converges_and_stays_on_its_rod() {
     converges(&pendulum, start, 2.0, 5e-3, 1e-2);
     let path = pendulum.motion(start).by_time_stepping(MoreauJean::with_step(5e-3)).to(2.0).unwrap();
     for step in path.steps() {
-        let [x, y] = [step.state.q[0], step.state.q[1]];
+        let [x, y] = [step.state().q[0], step.state().q[1]];
         assert!((x.hypot(y) - 1.0).abs() < 1e-9 && x < 0.2 + 1e-9, "{step:?}");
     }
 }

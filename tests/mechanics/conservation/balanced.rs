@@ -12,7 +12,7 @@ fn the_energy_is_balanced_across_contacts() {
     let motion = thrown.motion(State::new([0.0, 0.5], [2.0, 0.0])).by(Dop853::with_tolerance(1e-12));
     let path = motion.with_contacts().to(3.0).expect("a motion");
     let balance = *path.drift().get("energy - work").expect("a balance");
-    assert!(balance.largest < 1e-9 && thrown.energy(path.end()) < 1e-9, "{balance:?}");
+    assert!(balance.largest < 1e-9 && thrown.energy(path.end().state()) < 1e-9, "{balance:?}");
     let block = Block { m: 1.1, k: 4.0, speed: 0.2, hold: 2.0, pull: 1.0, belt: Friction::Sticks };
     let motion = block.motion(State::new([0.0], [0.2])).by(Dop853::with_tolerance(1e-12));
     let path = motion.with_contacts().to(10.0).expect("a motion");

@@ -8,8 +8,6 @@ mod step;
 mod stepper;
 mod trajectory;
 
-use alloc::vec::Vec;
-
 use super::Contacts;
 use super::builder::{CrossesContacts, check_times};
 use crate::error::{Ending, Error, Pace};
@@ -19,8 +17,10 @@ use crate::motion::progress::report;
 use crate::motion::{AllSteps, LagrangianVectorField, MotionBuilder, Start};
 use crate::number::Real;
 use crate::system::Lagrangian;
+use crate::trajectory::Trajectory;
 pub use stepper::ContactStepper;
-pub use trajectory::{SteppedTrajectory, TimeStep};
+use trajectory::Recorded;
+pub use trajectory::TimeStep;
 
 /// Largest number of steps unless [`max_steps`](MoreauJean::max_steps) sets another.
 const STEPS: usize = 100_000;
@@ -71,11 +71,10 @@ let path = block.motion(thrown).by_time_stepping(MoreauJean::with_step(1e-3)).to
 
 // It slides by v²/(2 g (μ cos α − sin α)), and rests.
 let distance = 0.5 / (9.81 * (0.5 * block.alpha.cos() - block.alpha.sin()));
-assert!((path.end().q[0] - distance).abs() < 1e-3);
-// The lower corner carries more of the weight. An impulse is a force times the step.
-let last = &path.steps()[2000];
-let [upper, lower] = [last.impulse("slope[0]")?, last.impulse("slope[1]")?];
-assert!(lower > upper && ((upper + lower) / 1e-3 - 2.0 * 9.81 * block.alpha.cos()).abs() < 1e-6);
+assert!((path.end().coordinate("x")? - distance).abs() < 1e-3);
+// The lower corner carries more of the weight.
+let [upper, lower] = [path.end().multiplier("slope[0]")?, path.end().multiplier("slope[1]")?];
+assert!(lower > upper && (upper + lower - 2.0 * 9.81 * block.alpha.cos()).abs() < 1e-6);
 # Ok::<(), Error>(())
 ```
 "#
@@ -157,59 +156,79 @@ impl MoreauJean {
     }
 }
 
-/// Marks a motion in steps of one length across contacts: `to` returns a [`SteppedTrajectory`].
+/// Marks a motion in steps of one length across contacts.
 #[derive(Clone, Copy, Debug)]
 pub struct TimeStepping {
     scheme: MoreauJean,
 }
 
-impl<'a, 'w, L: Contacts + Clone, S, P> MotionBuilder<'a, 'w, L, S, P, (), AllSteps> {
+/// Settings of a motion without events and samples: `()` and [`AllSteps`].
+#[diagnostic::on_unimplemented(
+    message = "a motion in time steps takes no events, samples, quantities or controller",
+    label = "not in time steps",
+    note = "look at each step of `motion.by_time_stepping(scheme).stepper()?`, and change inputs by its `change`; `path.samples(count)` are samples of the whole motion",
+    note = "`with_contacts` in the place of `by_time_stepping` takes them all"
+)]
+pub trait InTimeSteps {}
+
+impl InTimeSteps for () {}
+
+impl InTimeSteps for AllSteps {}
+
+impl<'a, 'w, L: Contacts + Clone, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
     /// Moves across the [contacts](crate::contact) of the system in steps of one length, without events, by the
     /// [scheme of Moreau and Jean](MoreauJean).
-    pub fn by_time_stepping(self, scheme: MoreauJean) -> MotionBuilder<'a, 'w, L, S, P, (), TimeStepping>
+    pub fn by_time_stepping(self, scheme: MoreauJean) -> MotionBuilder<'a, 'w, L, S, P, E, TimeStepping>
     where
         S: CrossesContacts,
+        E: InTimeSteps,
+        K: InTimeSteps,
     {
         self.keeping(|_| TimeStepping { scheme })
     }
 }
 
 /// Settings of a motion from a state.
-type Builder<'a, 'w, L, P> = MotionBuilder<
+type Builder<'a, 'w, L, P, E> = MotionBuilder<
     'a,
     'w,
     L,
     Start<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, LagrangianVectorField>,
     P,
-    (),
+    E,
     TimeStepping,
 >;
 
-impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P> Builder<'_, '_, L, P> {
+impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E> Builder<'_, '_, L, P, E> {
     /// Moves to the time `end`.
     ///
     /// # Errors
     /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
-    pub fn to(self, end: L::Scalar) -> Result<SteppedTrajectory<L>, Error> {
+    pub fn to(self, end: L::Scalar) -> Result<Trajectory<L>, Error>
+    where
+        E: InTimeSteps,
+    {
         self.towards(end)?.finished()
     }
 
     /// Moves towards the time `end`. If the motion fails on the way, the result holds what was computed until then, and its
-    /// [`ending`](SteppedTrajectory::ending) the reason: [`Error::StepTooLong`], [`Error::ImpulsesNotFound`] or
+    /// [`ending`](Trajectory::ending) the reason: [`Error::StepTooLong`], [`Error::ImpulsesNotFound`] or
     /// [`Error::ContactsContradict`].
     ///
     /// # Errors
     /// Those of [`stepper`](Self::stepper); [`Error::MotionBackwards`] if `end` lies before the start.
-    pub fn towards(mut self, end: L::Scalar) -> Result<SteppedTrajectory<L>, Error> {
+    pub fn towards(mut self, end: L::Scalar) -> Result<Trajectory<L>, Error>
+    where
+        E: InTimeSteps,
+    {
         let mut on_progress = core::mem::take(&mut self.on_progress);
         let (scheme, mut stepper) = (self.kept.scheme, self.stepper()?);
         let from = stepper.state().t;
         check_times(from, end)?;
         let count = count(&scheme, (end - from).to_f64());
-        let mut steps = Vec::with_capacity(count.min(scheme.max_steps).min(RESERVED) + 1);
-        steps.push(*stepper.last());
+        let mut steps = Recorded::from(*stepper.state(), count.min(scheme.max_steps).min(RESERVED));
         let ending = loop {
-            let done = steps.len() - 1;
+            let done = steps.count();
             let (last, next) = (stepper.state().t, if done + 1 == count { end } else { stepper.next_time() });
             let time = last.to_f64();
             if done == count {
@@ -222,14 +241,14 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P> Builder<'_, '_, L,
                 break Ending::TimeTooCoarse { time, step: scheme.step };
             }
             match stepper.advance(next) {
-                Ok(step) => steps.push(*step),
+                Ok(step) => steps.push(step),
                 Err(error) => break Ending::of(error, time),
             }
             if let Err(ending) = report(&mut on_progress, [from, next, end], done + 1) {
                 break ending;
             }
         };
-        Ok(SteppedTrajectory { system: stepper.into_system(), steps, ending })
+        Ok(steps.finish(stepper.into_system(), ending))
     }
 }
 

@@ -95,7 +95,8 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
                 let residual = L::Scalar::constant(residual.max(kicked.residual));
                 let state = self.drift_on(&middle, after, end)?;
                 self.take_sticking(&middle);
-                return Ok(TimeStep { state, impulses, iterations, residual });
+                let means = TimeStep::<L>::means([from, &state], &impulses);
+                return Ok(TimeStep { state, impulses, iterations, residual, means });
             }
         }
         Err(Error::StepTooLong { residual, iterations, time: from.t.to_f64() })

@@ -3,6 +3,7 @@
 use core::fmt::{self, Debug, Formatter};
 
 use super::Builder;
+use super::InTimeSteps;
 use super::MoreauJean;
 use super::middle::Middle;
 use super::step::Steps;
@@ -13,6 +14,7 @@ use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::names::name;
 use crate::number::{Real, Scalar};
+use crate::solution::Sample;
 use crate::solution::solve::solve;
 use crate::system::StateOf;
 use crate::vector::Length;
@@ -40,6 +42,7 @@ use crate::vector::Length;
 ///     stepper.change(|cart| cart.motor = f64::from(frame) / 10.0);
 ///     let step = stepper.step()?;
 ///     assert_eq!(step.state.v[0] > 1e-12, f64::from(frame) / 10.0 > 0.5 * 2.0 * 9.81);
+///     assert!((stepper.sample().multiplier("floor")? - 2.0 * 9.81).abs() < 1e-9);
 /// }
 /// # Ok::<(), Error>(())
 /// ```
@@ -51,7 +54,7 @@ pub struct ContactStepper<L: Contacts<Scalar: Real>> {
     done: usize,
 }
 
-impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P> Builder<'_, '_, L, P> {
+impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E: InTimeSteps> Builder<'_, '_, L, P, E> {
     /// Begins a motion that is taken step by step.
     ///
     /// # Errors
@@ -121,6 +124,12 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> ContactStepper<L> {
     /// Returns the state at the end of the last step.
     pub fn state(&self) -> &StateOf<L> {
         &self.last.state
+    }
+
+    /// Returns the sample at the end of the last step, for queries by name: multipliers are the mean forces of the step. Before the first,
+    /// they are NaN.
+    pub fn sample(&self) -> Sample<&L> {
+        Sample::of(self.system(), self.last.state).with(Some(self.last.means))
     }
 
     /// Returns the system, with all contacts open.

@@ -198,7 +198,7 @@ where
 {
     #[inline]
     fn at(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
-        self(&Sample { system, state: *state }).value()
+        self(&Sample::of(system, *state)).value()
     }
 }
 

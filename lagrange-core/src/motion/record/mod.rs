@@ -122,7 +122,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
     ) -> Result<Self, Error> {
         plan.times.check_within([start.t, end])?;
         // Evaluate each quantity once, so that an unknown name is an error before the first step.
-        let sample = Sample { system, state: *start };
+        let sample = Sample::of(system, *start);
         plan.quantities.iter().try_for_each(|(_, value)| value(&sample).map(drop))?;
         let mut crossings = Vec::new();
         let mut search = EventSearch::begin(&mut events, system, start)?;
@@ -162,7 +162,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
     }
 
     fn push(&mut self, system: &L, state: StateOf<L>) -> Result<(), Error> {
-        let (sample, before) = (Sample { system, state }, self.values.len());
+        let (sample, before) = (Sample::of(system, state), self.values.len());
         for (_, value) in &self.plan.quantities {
             match value(&sample) {
                 Ok(value) => self.values.push(value),

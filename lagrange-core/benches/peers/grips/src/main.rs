@@ -57,8 +57,8 @@ macro_rules! hold {
         let (system, start, now) = ($system, $start, Instant::now());
         let scheme = MoreauJean::with_step($step).max_steps(usize::MAX);
         let path = system.motion(start).by_time_stepping(scheme).to($seconds).expect("a motion");
-        let spent = now.elapsed().as_secs_f64() / (path.steps().len() - 1) as f64;
-        let end = path.end();
+        let spent = now.elapsed().as_secs_f64() / path.statistics().accepted as f64;
+        let end = *path.end().state();
         let creep = (end.q - start.q).fixed_rows::<3>(0).norm();
         let speed = end.v.fixed_rows::<3>(0).norm();
         println!("{{\"creep\": {creep}, \"speed\": {speed}, \"step\": {spent}}}");

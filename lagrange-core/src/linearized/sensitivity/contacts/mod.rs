@@ -28,11 +28,15 @@ use crate::contact::{Contacts, Transition};
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::variation::DifferentiableMethod;
+use crate::names::name;
 use crate::number::{Real, largest, power_of_epsilon};
 use crate::solution::solve::solve;
 use crate::system::StateOf;
 use crate::trajectory::{Leg, Trajectory};
 use crate::vector::Entrywise;
+
+/// Reason why a motion by time steps is not differentiated.
+const BY_TIME_STEPS: &str = "time steps do not locate its transitions; move by `with_contacts`";
 
 /// Reason why friction of two velocities that begins or ceases to slide is not differentiated.
 const IN_THE_PLANE: &str = "friction of two velocities has no direction at rest, and its force no derivative; end the motion before, or start after it";
@@ -69,6 +73,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Trajectory<L> {
     /// [`Error::Unfinished`] if the motion failed; those of a
     /// [motion with derivatives](crate::linearized::MotionDerivatives::motion_with_derivatives). [`Error::NoDerivativeAcross`]:
     ///
+    /// - for a motion by time steps;
     /// - if a contact comes to rest by accumulating impacts, if several contacts are hit at one time, and for an impact at the start;
     /// - if a contact at rest neither pushes nor parts in an impact that could make it do either;
     /// - if two frictions change at one time, unless one changes because of the other;
@@ -84,6 +89,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Trajectory<L> {
         method: D,
     ) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
         self.check_finished()?;
+        self.check_located()?;
         let mut at = start::<L>(self.first_leg().first(), arguments)?;
         self.check_plane()?;
         check_start(self.first_leg(), &at)?;
@@ -100,6 +106,15 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Trajectory<L> {
         let accelerations = solve(self.system(), &at.state)?.accelerations;
         (0..at.arguments().len()).for_each(|j| at.delay(j, -at.t[j], &accelerations));
         Ok(at)
+    }
+
+    /// Fails if transitions are not located.
+    fn check_located(&self) -> Result<(), Error> {
+        let first = L::CONTACTS.iter().chain(L::FRICTIONS.iter().map(|friction| &friction.row)).next();
+        match (self.first_leg().is_in_time_steps(), first) {
+            (true, Some(&row)) => fails(name(L::CONSTRAINTS, row), self.first_leg().first().t, BY_TIME_STEPS),
+            _ => Ok(()),
+        }
     }
 
     /// Fails if friction of two velocities begins or ceases to slide: the turn of its direction grows without bound there.

@@ -38,8 +38,8 @@ fn run(rate: f64) -> Run {
     let path =
         motion.by_time_stepping(MoreauJean::with_step(1.0 / rate)).to(SECONDS as f64).expect("a motion");
     let mut run = Run { spent: now.elapsed(), ..Run::default() };
-    path.steps().iter().for_each(|step| (0..COUNT).for_each(|i| run.passes(step.state.q[2 * COUNT + i])));
-    let v = path.end().v;
+    path.steps().for_each(|step| (0..COUNT).for_each(|i| run.passes(step.state().q[2 * COUNT + i])));
+    let v = path.end().state().v;
     for i in 0..COUNT {
         let along = [v[i], v[COUNT + i]];
         run.ends(i, along, [along[0] - RADIUS * v[4 * COUNT + i], along[1] + RADIUS * v[3 * COUNT + i]]);
