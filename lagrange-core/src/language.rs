@@ -496,7 +496,7 @@
 //! with a force up to `limit`, and else pulls against it with `sliding`. The bounds are numbers ≥ 0, and may depend on the state.
 //!
 //! `motion(start).with_contacts().to(end)` goes from impact to impact, and opens and closes the contacts. A motion without
-//! `with_contacts` does not compile; a [`Motion`](crate::Motion) leaves contacts as their fields say.
+//! `with_contacts` does not compile.
 //!
 //! A constraint may be switched as well, `#[constraint(grip: x = y, when: held)]`, by a field of the type `bool`, or by an array
 //! of them for a family. While it is off, its row of F, its residual and its multiplier are zero. What the macro proves of
@@ -518,7 +518,7 @@
 //! let start = State::at_rest([1.0]);
 //! assert_eq!(held.solve(&start)?.multipliers.as_slice(), [0.0, 2.0 * 9.81]);
 //! let path = Block { held: false, ..held }.motion(start).with_contacts().to(5.0)?;
-//! assert_eq!((path.end().q[0], path.system().table), (0.0, Contact::Closed));
+//! assert_eq!((path.end().state().q[0], path.system().table), (0.0, Contact::Closed));
 //! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!

@@ -1,8 +1,11 @@
 //! Motions that go on from where others ended, frame by frame.
 
-use lagrange_core::contact::Contact;
+use lagrange_core::contact::{Contact, ContactMotion, Transition};
 use lagrange_core::prelude::*;
 use lagrange_random::{Random, cases};
+use lagrange_systems::Ball;
+
+use crate::method;
 
 /// A block with two corners on a floor, pulled along it.
 #[derive(Clone, Lagrangian)]
@@ -58,15 +61,86 @@ fn each_frame_starts_where_the_last_one_ended() {
 #[test]
 fn frames_are_one_motion() {
     for seed in 0..cases([5, 10, 500]) as u64 {
-        let (mut block, mut state) = thrown(seed);
+        let (block, start) = thrown(seed);
         let method = Dop853::with_tolerance(1e-12);
-        let whole = block.motion(state).by(method).with_contacts().to(1.0).unwrap();
+        let whole = block.motion(start).by(method).with_contacts().to(1.0).unwrap();
+        let mut motion = block.motion(start).by(method).with_contacts().begin().unwrap();
+        let mut transitions = Vec::new();
         for frame in (1..=60).map(f64::from) {
-            let path = block.motion(state).by(method).with_contacts().to(frame / 60.0).unwrap();
-            (state, block) = (*path.end().state(), path.system().clone());
+            motion.advance_to(frame / 60.0).unwrap();
+            transitions.extend_from_slice(motion.transitions());
         }
         // Bounces that rise by no more than 64 units of round-off count as rest, with velocities of the order of its root.
-        let off = (state.q - whole.end().state().q).amax().max((state.v - whole.end().state().v).amax());
-        assert!(off < 1e-6, "seed {seed}: {off:e}");
+        assert!(off(motion.state(), whole.end().state()) < 1e-6, "seed {seed}: {motion:?}");
+        let first = |transitions: &[Transition<f64>]| transitions[0].clone();
+        let [one, other] = [first(&transitions), first(whole.transitions())].map(|change| change.time());
+        assert!((one - other).abs() < 1e-9, "seed {seed}: {one} {other}");
     }
+}
+
+fn off(one: &State<f64, 3>, other: &State<f64, 3>) -> f64 {
+    (one.q - other.q).amax().max((one.v - other.v).amax())
+}
+
+/// Inputs that change between advances are those of a controller with that interval.
+#[test]
+fn changes_are_those_of_a_controller() {
+    for seed in 0..cases([3, 6, 300]) as u64 {
+        let ((block, start), method) = (thrown(seed), Dop853::with_tolerance(1e-12));
+        let pull = |t: f64| 12.0 * (7.0 * t).sin();
+        let controlled =
+            block.motion(start).by(method).with_contacts().controlled(1.0 / 64.0, |block, state| {
+                block.pull = pull(state.t);
+                Ok::<_, Error>(())
+            });
+        let controlled = controlled.to(1.5).unwrap();
+        let mut motion = block.motion(start).by(method).with_contacts().begin().unwrap();
+        for frame in 0..96 {
+            motion.change(|block| block.pull = pull(f64::from(frame) / 64.0));
+            motion.advance_to(f64::from(frame + 1) / 64.0).unwrap();
+        }
+        assert!(off(motion.state(), &controlled.state) < 1e-6, "seed {seed}: {motion:?} {controlled:?}");
+    }
+}
+
+/// A ball falls from 1 m and bounces with e = ½.
+#[test]
+fn a_motion_goes_on_from_events_and_after_faults() {
+    let ball = Ball { m: 1.0, g: 9.81, e: 0.5, ..Ball::default() };
+    let fall = (2.0_f64 / 9.81).sqrt();
+    let mut motion = ball.motion(State::at_rest([0.0, 1.0])).by(method()).with_contacts().begin().unwrap();
+    let mut half = ball.event("half", |sample| sample.state().q[1] - 0.5).falling().terminal();
+    let mut down = ball.event("down", |sample| sample.state().q[1]).falling().terminal();
+    let mut find = |motion: &mut ContactMotion<_, _>, end| {
+        motion
+            .advance_to_event(end, &mut [&mut half, &mut down])
+            .unwrap()
+            .map(|found| (found.event, found.state))
+    };
+    let (event, state) = find(&mut motion, 9.0).expect("it falls");
+    assert!(event == "half" && (state.t - 1.0 / 9.81_f64.sqrt()).abs() < 1e-13, "{state:?}");
+    // Before the impact, which follows.
+    let (event, state) = find(&mut motion, 9.0).expect("it lands");
+    assert!(event == "down" && (state.t - fall).abs() < 1e-13 && state.v[1] < -4.4, "{state:?}");
+    assert!(motion.transitions().is_empty());
+    assert_eq!(find(&mut motion, fall + 0.1), None);
+    assert!(matches!(motion.transitions(), [Transition::Impact { time, .. }] if *time == state.t));
+    let up = 0.5 * 9.81 * fall * 0.1 - 0.5 * 9.81 * 0.01;
+    assert!((motion.state().q[1] - up).abs() < 1e-12, "{motion:?}");
+    // Back in time, and with the floor above the ball.
+    let before = *motion.state();
+    let error = motion.advance_to(0.0).unwrap_err().to_string();
+    assert!(error.contains("cannot go back"), "{error}");
+    motion.change(|ball| ball.r = 5.0);
+    let error = motion.advance_to(1.0).unwrap_err().to_string();
+    assert!(error.contains("`floor`") && *motion.state() == before, "{error}");
+    motion.change(|ball| ball.r = 0.0);
+    motion.advance_to(1.0).unwrap();
+    // Thrown anew, from the floor where it rests.
+    motion.advance_to(9.0).unwrap();
+    assert_eq!(motion.system().floor, Contact::Closed);
+    motion.set_state(State { t: 0.0, ..State::new([0.0, 0.0], [0.0, 1.0]) }).unwrap();
+    motion.advance_to(0.1).unwrap();
+    assert_eq!(motion.system().floor, Contact::Open);
+    assert!((motion.state().q[1] - (0.1 - 0.5 * 9.81 * 0.01)).abs() < 1e-13, "{motion:?}");
 }

@@ -1,7 +1,7 @@
 //! What a system says of itself to be shown.
 
-use lagrange_core::contact::Contacts;
-use lagrange_core::{Method, StateOf, generic::Vector, prelude::*};
+use lagrange_core::contact::{ContactMotion, Contacts};
+use lagrange_core::{Ending, Method, StateOf, generic::Vector, prelude::*};
 
 use crate::scene::{Point, Scene, View};
 
@@ -80,15 +80,15 @@ pub trait Exhibit<const K: usize>: Lagrangian<Scalar = f64> + Clone + 'static {
     /// The system and its start, by the sliders. Of the start, what violates constraints is projected away.
     fn set(knobs: [f64; K]) -> (Self, StateOf<Self>);
 
-    /// Moves on to this time. A system with contacts moves [across them](across_contacts).
+    /// Begins its motion. A system with contacts moves [across them](across_contacts).
     ///
     /// # Errors
-    /// Why the motion ends before.
-    fn advance(motion: &mut Motion<Self, Dop853>, end: f64) -> Result<(), String>
+    /// Why it cannot start there.
+    fn begin(self, start: StateOf<Self>) -> Result<Box<dyn Moves<Self>>, Error>
     where
         Dop853: Method<Self>,
     {
-        motion.advance_to(end).map_err(|ending| ending.to_string())
+        Ok(Box::new(Motion::new(self, start, Dop853::with_tolerance(TOLERANCE))?))
     }
 
     /// From where it is seen.
@@ -106,16 +106,58 @@ pub trait Exhibit<const K: usize>: Lagrangian<Scalar = f64> + Clone + 'static {
 /// Energies and constraints come to at most so small a part of their size.
 pub(crate) const TOLERANCE: f64 = 1e-12;
 
-/// Moves across contacts to this time.
-pub(crate) fn across_contacts<E>(motion: &mut Motion<E, Dop853>, end: f64) -> Result<(), String>
+/// A motion that goes on from picture to picture.
+pub trait Moves<E: Lagrangian> {
+    /// The system as it is now.
+    fn system(&self) -> &E;
+    /// Where it is now.
+    fn state(&self) -> &StateOf<E>;
+    /// Moves on to this time.
+    ///
+    /// # Errors
+    /// Why the motion ends before.
+    fn advance(&mut self, end: f64) -> Result<(), Ending>;
+}
+
+impl<E: Lagrangian<Scalar = f64>> Moves<E> for Motion<E, Dop853>
 where
-    E: Contacts<Scalar = f64> + Clone,
     Dop853: Method<E>,
 {
-    let method = Dop853::with_tolerance(TOLERANCE);
-    let path = motion.system().motion(*motion.state()).by(method).with_contacts().to(end);
-    let path = path.map_err(|error| error.to_string())?;
-    let next = Motion::new(path.system().clone(), *path.end(), method);
-    *motion = next.map_err(|error| error.to_string())?;
-    Ok(())
+    fn system(&self) -> &E {
+        self.system()
+    }
+
+    fn state(&self) -> &StateOf<E> {
+        self.state()
+    }
+
+    fn advance(&mut self, end: f64) -> Result<(), Ending> {
+        self.advance_to(end)
+    }
+}
+
+impl<E: Contacts<Scalar = f64> + Clone + 'static> Moves<E> for ContactMotion<E, Dop853>
+where
+    Dop853: Method<E>,
+{
+    fn system(&self) -> &E {
+        self.system()
+    }
+
+    fn state(&self) -> &StateOf<E> {
+        self.state()
+    }
+
+    fn advance(&mut self, end: f64) -> Result<(), Ending> {
+        self.advance_to(end)
+    }
+}
+
+/// Begins a motion across contacts.
+pub(crate) fn across_contacts<E>(system: &E, start: StateOf<E>) -> Result<Box<dyn Moves<E>>, Error>
+where
+    E: Contacts<Scalar = f64> + Clone + 'static,
+    Dop853: Method<E>,
+{
+    Ok(Box::new(system.motion(start).by(Dop853::with_tolerance(TOLERANCE)).with_contacts().begin()?))
 }

@@ -6,7 +6,7 @@ use lagrange_core::facts::{Conserved, EnergyForm};
 use lagrange_core::generic::Array;
 use lagrange_core::{Method, StateOf, prelude::*};
 
-use crate::exhibit::{Exhibit, Moment, TOLERANCE, Units};
+use crate::exhibit::{Exhibit, Moment, Moves, Units};
 use crate::scene::{Point, Scene, View};
 
 /// How many frames are kept: two minutes of watching.
@@ -67,7 +67,7 @@ where
     E: Exhibit<K>,
     Dop853: Method<E>,
 {
-    motion: Motion<E, Dop853>,
+    motion: Box<dyn Moves<E>>,
     frames: VecDeque<Frame<E>>,
     /// How many frames came before those that are kept.
     forgotten: usize,
@@ -82,8 +82,7 @@ where
     let knobs = knobs.try_into().map_err(|_| format!("{} has {K} sliders", E::NAME))?;
     let (system, start) = E::set(knobs);
     let (start, _) = system.make_consistent(&start).map_err(|error| error.to_string())?;
-    let motion =
-        Motion::new(system, start, Dop853::with_tolerance(TOLERANCE)).map_err(|error| error.to_string())?;
+    let motion = system.begin(start).map_err(|error| error.to_string())?;
     let mut live = Live { motion, frames: VecDeque::new(), forgotten: 0 };
     live.record();
     Ok(Box::new(live))
@@ -171,7 +170,7 @@ where
             if next > end {
                 return Ok(());
             }
-            E::advance(&mut self.motion, next)?;
+            self.motion.advance(next).map_err(|ending| ending.to_string())?;
             self.record();
         }
     }

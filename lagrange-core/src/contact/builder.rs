@@ -4,6 +4,7 @@ use alloc::{boxed::Box, vec::Vec};
 
 use super::driver::{Ended, Journey};
 use super::legs::{Accept, AllLegs, SampledLegs};
+use super::motion::ContactMotion;
 use super::{Contact, Contacts};
 use crate::error::Error;
 use crate::motion::builder::EventList;
@@ -48,8 +49,21 @@ pub trait CrossesContacts {}
 
 impl<T: Real, N: Length> CrossesContacts for Start<T, N, LagrangianVectorField> {}
 
+/// Settings of a motion without events and samples, which its caller may take step by step: `()` and [`AllSteps`].
+#[diagnostic::on_unimplemented(
+    message = "a motion that is taken step by step has no events, samples, quantities or controller of its own",
+    label = "not in such a motion",
+    note = "look at the state after each step, and set inputs by `change`; `advance_to_event` of a `ContactMotion` takes events",
+    note = "`motion(start).with_contacts().to(end)` takes them all"
+)]
+pub trait Stepwise {}
+
+impl Stepwise for () {}
+
+impl Stepwise for AllSteps {}
+
 /// Settings of a motion from a state.
-type Builder<'a, 'w, L, P, E, K> = MotionBuilder<
+pub(super) type Builder<'a, 'w, L, P, E, K> = MotionBuilder<
     'a,
     'w,
     L,
@@ -77,6 +91,23 @@ impl<L: Lagrangian, S, P, E, K> MotionBuilder<'_, '_, L, S, P, E, AcrossContacts
     }
 }
 
+impl<L: Contacts<Scalar: Real> + Clone, P: Method<L>, E> Builder<'_, '_, L, P, E, AllSteps> {
+    /// Begins a motion that its caller advances, and can steer in between.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for settings of the method that are not allowed, and [`Error::StateNotFinite`]. What contacts do at the start
+    /// is decided when the motion is first advanced.
+    pub fn begin(self) -> Result<ContactMotion<L, P>, Error>
+    where
+        L: 'static,
+        E: Stepwise,
+    {
+        let Self { system, start, method, kept, .. } = self;
+        method.check()?;
+        Ok(ContactMotion::new(system, start.into_state()?, method, kept.transitions))
+    }
+}
+
 impl<'w, L, P, E> Builder<'_, 'w, L, P, E, AllSteps>
 where
     L: Contacts<Scalar: Real> + Clone,
@@ -101,7 +132,7 @@ where
         let Self { system, start, method, events, on_progress, kept } = self;
         let state = start.into_state()?;
         check_times(state.t, end)?;
-        let journey = Journey::begin((system, method.accuracy()), state, end, AllLegs::none())?;
+        let journey = Journey::new((system, method.accuracy()), state, AllLegs::none()).begin(end)?;
         let ended = journey.reporting(on_progress).run(&method, events.list(), kept.transitions)?;
         Ok(trajectory::<L, P>(ended))
     }
@@ -189,10 +220,12 @@ pub(crate) fn arrive<'w, L: Contacts<Scalar: Real> + Clone, P: Method<L>>(
 ) -> Result<Arrival<L::Scalar, L::N>, Error> {
     check_times(state.t, end)?;
     let record = Record::before_samples(plan, Vec::new(), steering, system, &state, end)?;
-    let journey = Journey::begin((system, method.accuracy()), state, end, SampledLegs { record })?;
+    let journey =
+        Journey::new((system, method.accuracy()), state, SampledLegs { record: Some(record) }).begin(end)?;
     let ended = journey.accepting(accept).run(method, events, transitions.unwrap_or(TRANSITIONS))?;
     let Ended { kept, transitions, crossings, statistics, state, ending, .. } = ended;
-    Ok(Arrival { crossings, transitions, ..kept.record.arrive(state, ending, statistics) })
+    let (samples, values) = kept.record.map(Record::into_samples).unwrap_or_default();
+    Ok(Arrival { state, ending, statistics, samples, values, crossings, transitions })
 }
 
 /// Checks the times of a motion, which runs forwards.

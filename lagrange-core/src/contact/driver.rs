@@ -23,15 +23,15 @@ use crate::system::{Lagrangian, StateOf};
 
 /// A motion under way, which keeps `K` of its legs.
 pub(super) struct Journey<'w, L: Lagrangian, K> {
-    bodies: Bodies<L>,
+    pub(super) bodies: Bodies<L>,
     decided: Decided<L::Scalar>,
-    state: StateOf<L>,
+    pub(super) state: StateOf<L>,
     /// Times of start and end.
     times: [L::Scalar; 2],
     kept: K,
-    transitions: Vec<Transition<L::Scalar>>,
-    crossings: Vec<Crossing<L::Scalar, L::N>>,
-    statistics: Statistics,
+    pub(super) transitions: Vec<Transition<L::Scalar>>,
+    pub(super) crossings: Vec<Crossing<L::Scalar, L::N>>,
+    pub(super) statistics: Statistics,
     accept: Accept<'w, L>,
     /// State, contacts and number of transitions at the end of the last leg.
     arrived: Option<(StateOf<L>, LegStates, usize)>,
@@ -58,26 +58,45 @@ enum After {
 }
 
 impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
-    /// Decides what contacts and friction do at the start of a motion whose steps err by this part of the velocities.
-    pub(super) fn begin(
-        (system, accuracy): (&L, f64),
-        mut state: StateOf<L>,
-        end: L::Scalar,
-        kept: K,
-    ) -> Result<Self, Error> {
-        let (mut bodies, mut transitions) = (Bodies::new(system, accuracy), Vec::new());
-        bodies.passes(&state);
-        let is_closed = |k| system.contact(k) != Some(Contact::Open);
-        bodies.check_closed(is_closed, &state)?;
-        bodies.reaches(&state, end - state.t)?;
-        bodies.crossed(is_closed, &state).map_or(Ok(()), Err)?;
-        let (times, was) =
-            ([state.t, end], LegStates { frictions: Vec::new(), ..LegStates::closed::<L>(is_closed) });
-        let decided = bodies.settle(&mut state, (&was, None), &mut transitions)?;
-        let (crossings, statistics, accept) =
-            (Vec::new(), Statistics::default(), Box::new(|_: &_, _| Ok(())));
-        let arrived = None;
-        Ok(Self { bodies, decided, state, times, kept, transitions, crossings, statistics, accept, arrived })
+    /// A motion before its start, whose steps err by this part of the velocities. Contacts are closed as the fields of the system say.
+    pub(super) fn new((system, accuracy): (&L, f64), state: StateOf<L>, kept: K) -> Self {
+        let (bodies, times) = (Bodies::new(system, accuracy), [state.t; 2]);
+        let closed = LegStates::closed::<L>(|k| system.contact(k) != Some(Contact::Open));
+        let decided = Decided { states: LegStates { frictions: Vec::new(), ..closed }, bounce: None };
+        let (transitions, crossings, statistics) = (Vec::new(), Vec::new(), Statistics::default());
+        let (accept, arrived) = (Box::new(|_: &_, _| Ok(())), None);
+        Self { bodies, decided, state, times, kept, transitions, crossings, statistics, accept, arrived }
+    }
+
+    /// Goes on from another state, without what is known of contacts and friction.
+    pub(super) fn restart(&mut self, state: StateOf<L>) {
+        let open = LegStates { frictions: Vec::new(), ..LegStates::closed::<L>(|_| false) };
+        (self.state, self.decided, self.arrived) = (state, Decided { states: open, bounce: None }, None);
+    }
+
+    /// Forgets what happened so far.
+    pub(super) fn forget(&mut self) {
+        self.transitions.clear();
+        self.crossings.clear();
+    }
+
+    /// The system with its contacts as they are now.
+    pub(super) fn system(&self) -> L {
+        self.bodies.with(&self.decided.states)
+    }
+
+    /// Sets the time to which the motion goes on from its state.
+    pub(super) fn head_for(&mut self, end: L::Scalar) -> Result<(), Error> {
+        self.times = [self.state.t, end];
+        self.bodies.passes(&self.state);
+        self.bodies.reaches(&self.state, end - self.state.t)
+    }
+
+    /// Decides what contacts and friction do at the start of a motion to this time.
+    pub(super) fn begin(mut self, end: L::Scalar) -> Result<Self, Error> {
+        self.head_for(end)?;
+        self.settle_anew()?;
+        Ok(self)
     }
 
     /// Calls this after every step; it may end the motion.
@@ -98,33 +117,42 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         mut events: Vec<Box<DynEvent<'w, L>>>,
         limit: usize,
     ) -> Result<Ended<L, K>, Error> {
+        self.go_on(method, &mut events, limit).map(|ending| self.ended(ending))
+    }
+
+    /// Moves to the end or to a terminal event, and returns the reason why it stops there.
+    pub(super) fn go_on<'e, P: Method<L>>(
+        &mut self,
+        method: &P,
+        events: &mut [Box<DynEvent<'e, L>>],
+        limit: usize,
+    ) -> Result<Ending, Error> {
         let (watchdog, mut transitions) = (Watchdog::new(method.limits(), &self.statistics), 0);
         let mut is_first = true;
-        let ending = loop {
+        loop {
             let time = self.state.t.to_f64();
             if transitions == limit {
-                break Ending::TransitionLimit { time, transitions };
+                return Ok(Ending::TransitionLimit { time, transitions });
             }
             let after = match self.steer() {
-                Err(ending) => break ending,
-                Ok(()) => self.leg(method, &mut events, &watchdog),
+                Err(ending) => return Ok(ending),
+                Ok(()) => self.leg(method, (events, is_first), &watchdog),
             };
             let after = match after {
-                Err(error) if core::mem::take(&mut is_first) => return Err(error),
-                after => after.and_then(|driven| self.goes_on(driven, &mut events)),
+                Err(error) if is_first => return Err(error),
+                after => after.and_then(|driven| self.goes_on(driven, events)),
             };
             is_first = false;
             match after {
                 Err(error) => {
                     let ending = Ending::of(error, self.state.t.to_f64());
-                    break self.retreat(ending);
+                    return Ok(self.retreat(ending));
                 }
-                Ok(After::Ending(ending)) => break ending,
+                Ok(After::Ending(ending)) => return Ok(ending),
                 Ok(After::Transition) => transitions += 1,
                 Ok(After::Leg) => {}
             }
-        };
-        Ok(self.ended(ending))
+        }
     }
 
     /// Ends the motion before a transition that cannot be decided, with the state and the contacts of the last leg.
@@ -137,7 +165,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     }
 
     fn ended(mut self, ending: Ending) -> Ended<L, K> {
-        let system = self.bodies.with(&self.decided.states);
+        let system = self.system();
         let noted = if ending.is_failure() { Ok(()) } else { self.kept.arrives(&system, &self.state) };
         let ending = noted.err().map_or(ending, |error| Ending::of(error, self.state.t.to_f64()));
         let Self { state, kept, transitions, crossings, statistics, .. } = self;
@@ -149,28 +177,29 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     fn steer(&mut self) -> Result<(), Ending> {
         let time = self.state.t.to_f64();
         let fails = |error| Ending::of(error, time);
-        let mut system = self.bodies.with(&self.decided.states);
+        let mut system = self.system();
         self.kept.arrives(&system, &self.state).map_err(fails)?;
         if self.kept.control(&mut system, &self.state)? {
             self.bodies.take(&system);
-            self.decided = self.settle_anew().map_err(fails)?;
+            self.settle_anew().map_err(fails)?;
         }
         Ok(())
     }
 
-    /// Decides which contacts are closed, and which friction sticks, after a change of parameters.
-    fn settle_anew(&mut self) -> Result<Decided<L::Scalar>, Error> {
+    /// Decides which contacts are closed, and which friction sticks, at the start and after a change of parameters.
+    pub(super) fn settle_anew(&mut self) -> Result<(), Error> {
         let was = &self.decided.states;
         self.bodies.check_closed(|k| was.is_closed(k), &self.state)?;
         self.bodies.crossed(|k| was.is_closed(k), &self.state).map_or(Ok(()), Err)?;
-        self.bodies.settle(&mut self.state, (was, None), &mut self.transitions)
+        self.decided = self.bodies.settle(&mut self.state, (was, None), &mut self.transitions)?;
+        Ok(())
     }
 
     /// Moves until the next gap closes, the next multiplier becomes zero, or friction begins to slide or stops.
-    fn leg<P: Method<L>>(
+    fn leg<'e, P: Method<L>>(
         &mut self,
         method: &P,
-        given: &mut [Box<DynEvent<'w, L>>],
+        (given, is_first): (&mut [Box<DynEvent<'e, L>>], bool),
         limits: &Watchdog,
     ) -> Result<Driven<L>, Error> {
         let Self { bodies, decided, .. } = self;
@@ -181,7 +210,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         // The projection may move gaps of open contacts. Conditions are watched from where it leads.
         let state = &{ run.state };
         let sizes = bodies.sizes(state);
-        EventSearch::begin_leg(given, &system, [state, &sizes], self.statistics.accepted == 0)?;
+        EventSearch::begin_leg(given, &system, [state, &sizes], is_first)?;
         let (shared, lifting) = (SharedValues::of(&closed), Lifting::of(&decided.states));
         let mut own = of_contacts((&system, bodies), (&shared, &lifting), decided, state)?;
         own.extend(of_friction(&system, &shared, decided, state)?);
@@ -218,7 +247,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     }
 
     /// Decides what follows at the end of a leg.
-    fn goes_on(&mut self, leg: Driven<L>, given: &mut [Box<DynEvent<'w, L>>]) -> Result<After, Error> {
+    fn goes_on(&mut self, leg: Driven<L>, given: &mut [Box<DynEvent<'_, L>>]) -> Result<After, Error> {
         self.state = leg.state;
         self.arrived = Some((self.state, self.decided.states.clone(), self.transitions.len()));
         self.bodies.passes(&self.state);
@@ -230,7 +259,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
             (Err(Ending::Event { .. }), Some(contact)) => Some(contact),
             (Err(ending), _) => return Ok(After::Ending(ending)),
         };
-        let system = self.bodies.with(&self.decided.states);
+        let system = self.system();
         let here = [&self.state, &self.bodies.sizes(&self.state)];
         if let Some(ending) = EventSearch::record_at_end(given, &system, here, &mut self.crossings)? {
             return Ok(After::Ending(ending));

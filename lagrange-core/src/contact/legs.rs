@@ -201,26 +201,23 @@ impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for AllLegs<L> {
     }
 }
 
-/// Samples of all legs.
+/// Samples of all legs, or nothing of them.
 pub(super) struct SampledLegs<'w, L: Lagrangian> {
-    pub(super) record: Record<'w, L>,
+    pub(super) record: Option<Record<'w, L>>,
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for SampledLegs<'_, L> {
     fn goal(&self) -> Option<L::Scalar> {
-        Some(self.record.goal)
+        self.record.as_ref().map(|record| record.goal)
     }
 
     fn arrives(&mut self, system: &L, state: &StateOf<L>) -> Result<(), Error> {
-        self.record.take_due(system, state)
+        self.record.as_mut().map_or(Ok(()), |record| record.take_due(system, state))
     }
 
     fn control(&mut self, system: &mut L, state: &StateOf<L>) -> Result<bool, Ending> {
-        let is_due = self.record.is_due(state.t);
-        if is_due {
-            self.record.control(system, state)?;
-        }
-        Ok(is_due)
+        let due = self.record.as_mut().filter(|record| record.is_due(state.t));
+        due.map_or(Ok(false), |record| record.control(system, state).map(|()| true))
     }
 
     fn drive<P: Method<L>>(&mut self, leg: StartedLeg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error> {
@@ -228,7 +225,7 @@ impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for SampledLegs<'_, L> {
         let mut crossings = Vec::new();
         let mut search = EventSearch::begin(events, system, &run.state)?;
         let stopped = search.record_due(&run.state, &mut crossings);
-        let (record, within) = (&mut self.record, None);
+        let (record, within) = (self.record.as_mut(), None);
         let observer = SampledLeg { system, search, crossings, stopped, record, goal, within };
         let mut watched = WatchedLeg { observer, watch };
         let ending = run.drive(method, limits, &mut watched);
@@ -244,7 +241,7 @@ struct SampledLeg<'l, 'e, 'w, L: Lagrangian, I> {
     crossings: Vec<Crossing<L::Scalar, L::N>>,
     /// Ending at the start, if an event that is due there ends the leg.
     stopped: Option<Ending>,
-    record: &'l mut Record<'w, L>,
+    record: Option<&'l mut Record<'w, L>>,
     goal: L::Scalar,
     /// Interpolant of the last step.
     within: Option<I>,
@@ -290,6 +287,8 @@ where
             ending
         });
         let goes_on = stopped.is_none() && run.state.t != self.goal;
-        self.record.keep_samples(&step, &mut run.state, goes_on).or(stopped).map_or(Ok(()), Err)
+        let record = self.record.as_mut();
+        let failed = record.and_then(|record| record.keep_samples(&step, &mut run.state, goes_on));
+        failed.or(stopped).map_or(Ok(()), Err)
     }
 }

@@ -102,9 +102,9 @@ assert_eq!(path.system().floor, Contact::Closed);
 //! let path = ball.integrate(State::at_rest([1.0]), 1.0, Dop853::default());
 //! ```
 //!
-//! Motions with derivatives, Lyapunov exponents and `integrate` of an ensemble do not compile either.
-//! [`Trajectory::sensitivity`] has the derivatives across contacts. A [`Motion`](crate::Motion) leaves contacts as their fields say, and so does what looks at one state, as
-//! `solve`, `jacobian`, `linearize`, `equilibrium` and `inputs_for`.
+//! A [`Motion`](crate::Motion), motions with derivatives, Lyapunov exponents and `integrate` of an ensemble do not compile either.
+//! [`Trajectory::sensitivity`] has the derivatives across contacts.
+//! What looks at one state, as `solve`, `jacobian`, `linearize`, `equilibrium` and `inputs_for`, leaves contacts as their fields say.
 //!
 //! # Derivatives
 //!
@@ -272,7 +272,7 @@ for (v, expected) in path.end().state().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 
 //!
 //! For stacks and heaps, [`MotionBuilder::by_time_stepping`](crate::MotionBuilder::by_time_stepping) takes steps of one length
 //! instead, with the impulses of all contacts at once: [`MoreauJean`]. Games and controllers take them one at a time: [`ContactStepper`]. A motion
-//! by events goes on frame by frame, too: from `path.end()`, with the contacts of `path.system()`.
+//! by events goes on frame by frame, too: [`ContactMotion`].
 
 #[cfg(feature = "alloc")]
 mod bodies;
@@ -301,6 +301,8 @@ mod legs;
 #[cfg(feature = "alloc")]
 mod lifting;
 #[cfg(feature = "alloc")]
+mod motion;
+#[cfg(feature = "alloc")]
 mod reactions;
 #[cfg(feature = "alloc")]
 mod rows;
@@ -324,9 +326,11 @@ pub(crate) use bodies::impulse_changes;
 #[cfg(feature = "std")]
 pub(crate) use builder::arrive;
 #[cfg(feature = "alloc")]
-pub use builder::{AcrossContacts, CrossesContacts};
+pub use builder::{AcrossContacts, CrossesContacts, Stepwise};
 #[cfg(feature = "alloc")]
-pub use stepping::{ContactStepper, InTimeSteps, MoreauJean, TimeStep, TimeStepping};
+pub use motion::ContactMotion;
+#[cfg(feature = "alloc")]
+pub use stepping::{ContactStepper, MoreauJean, TimeStep, TimeStepping};
 #[cfg(feature = "alloc")]
 pub(crate) use watched::held;
 

@@ -31,11 +31,6 @@ impl<L: Lagrangian> Debug for SamplesAlone<'_, L> {
 }
 
 /// Selects what a motion keeps: all steps, or samples alone.
-#[diagnostic::on_unimplemented(
-    message = "a motion in time steps takes no samples, quantities or controller",
-    label = "not in time steps",
-    note = "look at each step of `stepper()?`, and change inputs by its `change`; `path.samples(count)` are samples of the whole motion"
-)]
 pub trait Kept<'w, L: Lagrangian> {
     /// The same with samples alone.
     type Alone;

@@ -14,7 +14,7 @@ use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
 use crate::system::finite::check_finite;
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{Lagrangian, StateOf, check_contacts};
 
 /// A motion that its caller advances by a length of time or to a time, and can steer in between.
 ///
@@ -50,7 +50,8 @@ use crate::system::{Lagrangian, StateOf};
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// Limits on steps and on wall-clock time apply to each advance separately.
+/// Limits on steps and on wall-clock time apply to each advance separately. A system with contacts or dry friction moves by a
+/// [`ContactMotion`](crate::contact::ContactMotion).
 pub struct Motion<L, P, F = LagrangianVectorField>
 where
     L: Lagrangian<Scalar: Real>,
@@ -83,6 +84,7 @@ where
     P: Method<L, F>,
 {
     pub(crate) fn begin(system: L, state: &StateOf<L>, method: P) -> Result<Self, Error> {
+        const { check_contacts::<L>() };
         let (run, _) = Run::begin(&system, state, &method)?;
         let last_step = LastStep::none();
         Ok(Self { system, method, run, stop: None, last_step })

@@ -317,11 +317,10 @@ pub(crate) fn entry<L: Lagrangian>(index: usize) -> Entry {
 }
 
 /// Asserts, at compile time, that no motion passes through contacts.
-#[cfg(feature = "alloc")]
 pub(crate) const fn check_contacts<L: Lagrangian>() {
     assert!(
         !L::HAS_CONTACTS,
-        "this system has contacts, or dry friction as of joints: move it by `motion(start).with_contacts().to(end)`, so that they open and close, stick and slide, an ensemble by `integrate_with_contacts`, or by a `Motion`, which leaves them as they are; derivatives across contacts are `path.sensitivity(&[…], method)`, with the path that this motion returns"
+        "this system has contacts, or dry friction as of joints: move it by `motion(start).with_contacts().to(end)`, so that they open and close, stick and slide, step by step by `motion(start).with_contacts().begin()` in the place of a `Motion`, an ensemble by `integrate_with_contacts`; derivatives across contacts are `path.sensitivity(&[…], method)`, with the path that this motion returns"
     );
 }
 

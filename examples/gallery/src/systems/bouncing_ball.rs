@@ -1,9 +1,9 @@
 //! A ball with spin that bounces, slides and rolls.
 
 use lagrange_core::contact::Contact;
-use lagrange_core::{Method, prelude::*};
+use lagrange_core::{Method, StateOf, prelude::*};
 
-use crate::exhibit::across_contacts;
+use crate::exhibit::{Moves, across_contacts};
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
@@ -38,11 +38,11 @@ impl Exhibit<5> for BouncingBall {
         (ball, State::new([0.0, 1.4, 0.0], [v, 0.0, w]))
     }
 
-    fn advance(motion: &mut Motion<Self, Dop853>, end: f64) -> Result<(), String>
+    fn begin(self, start: StateOf<Self>) -> Result<Box<dyn Moves<Self>>, Error>
     where
         Dop853: Method<Self>,
     {
-        across_contacts(motion, end)
+        across_contacts(&self, start)
     }
 
     fn view(&self, state: &State<f64, 3>) -> View {

@@ -1,9 +1,9 @@
 //! A block that rocks from corner to corner (Housner 1963).
 
 use lagrange_core::contact::Contact;
-use lagrange_core::{Method, prelude::*};
+use lagrange_core::{Method, StateOf, prelude::*};
 
-use crate::exhibit::across_contacts;
+use crate::exhibit::{Moves, across_contacts};
 use crate::{Exhibit, Knob, Moment, Paint, Point, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
@@ -50,11 +50,11 @@ impl Exhibit<4> for RockingBlock {
         (block, State::at_rest([b * cosine - h * sine - b, b * sine + h * cosine, angle]))
     }
 
-    fn advance(motion: &mut Motion<Self, Dop853>, end: f64) -> Result<(), String>
+    fn begin(self, start: StateOf<Self>) -> Result<Box<dyn Moves<Self>>, Error>
     where
         Dop853: Method<Self>,
     {
-        across_contacts(motion, end)
+        across_contacts(&self, start)
     }
 
     fn view(&self, _: &State<f64, 3>) -> View {

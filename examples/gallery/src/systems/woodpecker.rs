@@ -1,9 +1,9 @@
 //! The woodpecker toy, with the numbers of Leine, Glocker and van Campen (2001).
 
 use lagrange_core::contact::Contact;
-use lagrange_core::{Method, prelude::*};
+use lagrange_core::{Method, StateOf, prelude::*};
 
-use crate::exhibit::across_contacts;
+use crate::exhibit::{Moves, across_contacts};
 use crate::{Exhibit, Knob, Moment, Paint, Scene, Units, View, knob, xy};
 
 #[derive(Clone, Lagrangian)]
@@ -88,11 +88,11 @@ impl Exhibit<3> for Woodpecker {
         (toy, State::new([0.0, -play / h, -0.2788], [-0.3411, 0.0, -7.4583]))
     }
 
-    fn advance(motion: &mut Motion<Self, Dop853>, end: f64) -> Result<(), String>
+    fn begin(self, start: StateOf<Self>) -> Result<Box<dyn Moves<Self>>, Error>
     where
         Dop853: Method<Self>,
     {
-        across_contacts(motion, end)
+        across_contacts(&self, start)
     }
 
     fn view(&self, state: &State<f64, 3>) -> View {

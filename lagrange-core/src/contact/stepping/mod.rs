@@ -9,12 +9,12 @@ mod stepper;
 mod trajectory;
 
 use super::Contacts;
-use super::builder::{CrossesContacts, check_times};
+use super::builder::{CrossesContacts, Stepwise, check_times};
 use crate::error::{Ending, Error, Pace};
 use crate::linearized::StateDerivatives;
 use crate::motion::method::contract::check_settings;
 use crate::motion::progress::report;
-use crate::motion::{AllSteps, LagrangianVectorField, MotionBuilder, Start};
+use crate::motion::{LagrangianVectorField, MotionBuilder, Start};
 use crate::number::Real;
 use crate::system::Lagrangian;
 use crate::trajectory::Trajectory;
@@ -162,29 +162,16 @@ pub struct TimeStepping {
     scheme: MoreauJean,
 }
 
-/// Settings of a motion without events and samples: `()` and [`AllSteps`].
-#[diagnostic::on_unimplemented(
-    message = "a motion in time steps takes no events, samples, quantities or controller",
-    label = "not in time steps",
-    note = "look at each step of `motion.by_time_stepping(scheme).stepper()?`, and change inputs by its `change`; `path.samples(count)` are samples of the whole motion",
-    note = "`with_contacts` in the place of `by_time_stepping` takes them all"
-)]
-pub trait InTimeSteps {}
-
-impl InTimeSteps for () {}
-
-impl InTimeSteps for AllSteps {}
-
 impl<'a, 'w, L: Contacts + Clone, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
     /// Moves across the [contacts](crate::contact) of the system in steps of one length, without events, by the
     /// [scheme of Moreau and Jean](MoreauJean).
-    pub fn by_time_stepping(self, scheme: MoreauJean) -> MotionBuilder<'a, 'w, L, S, P, E, TimeStepping>
+    pub fn by_time_stepping(self, scheme: MoreauJean) -> MotionBuilder<'a, 'w, L, S, P, (), TimeStepping>
     where
         S: CrossesContacts,
-        E: InTimeSteps,
-        K: InTimeSteps,
+        E: Stepwise,
+        K: Stepwise,
     {
-        self.keeping(|_| TimeStepping { scheme })
+        self.with_events(|_| ()).keeping(|_| TimeStepping { scheme })
     }
 }
 
@@ -206,7 +193,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E> Builder<'_, '_,
     /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
     pub fn to(self, end: L::Scalar) -> Result<Trajectory<L>, Error>
     where
-        E: InTimeSteps,
+        E: Stepwise,
     {
         self.towards(end)?.finished()
     }
@@ -219,7 +206,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E> Builder<'_, '_,
     /// Those of [`stepper`](Self::stepper); [`Error::MotionBackwards`] if `end` lies before the start.
     pub fn towards(mut self, end: L::Scalar) -> Result<Trajectory<L>, Error>
     where
-        E: InTimeSteps,
+        E: Stepwise,
     {
         let mut on_progress = core::mem::take(&mut self.on_progress);
         let (scheme, mut stepper) = (self.kept.scheme, self.stepper()?);

@@ -3,12 +3,12 @@
 use core::fmt::{self, Debug, Formatter};
 
 use super::Builder;
-use super::InTimeSteps;
 use super::MoreauJean;
 use super::middle::Middle;
 use super::step::Steps;
 use super::trajectory::TimeStep;
 use crate::contact::bodies::{Bodies, UNITS};
+use crate::contact::builder::Stepwise;
 use crate::contact::{Contacts, ImpactLaw};
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
@@ -54,7 +54,7 @@ pub struct ContactStepper<L: Contacts<Scalar: Real>> {
     done: usize,
 }
 
-impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E: InTimeSteps> Builder<'_, '_, L, P, E> {
+impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E: Stepwise> Builder<'_, '_, L, P, E> {
     /// Begins a motion that is taken step by step.
     ///
     /// # Errors

@@ -258,6 +258,12 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
         self.stopped.take()
     }
 
+    /// The samples, and their quantities.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn into_samples(self) -> (Vec<StateOf<L>>, Vec<L::Scalar>) {
+        (self.samples, self.values)
+    }
+
     /// Converts the record to the result, with the state at the end.
     pub(crate) fn arrive(
         self,
