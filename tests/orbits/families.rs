@@ -7,6 +7,7 @@ use lagrange_core::nalgebra::Complex;
 use lagrange_core::orbits::{BifurcationKind, FamilyEnding, OrbitError};
 use lagrange_core::prelude::*;
 use lagrange_random::cases;
+use lagrange_systems::Pendulum;
 
 use crate::bifurcations::around;
 use crate::messages::orbit_error;
@@ -103,6 +104,19 @@ fn family_of_relaxing_oscillations() {
         assert!(orbit.gap < 1e-8 && orbit.error < 1e-3 && orbit.period > 6.0, "{orbit}");
     }
     assert!(family.bifurcations().iter().all(|found| found.orbit.period > 6.0), "{family}");
+}
+
+/// Up to the separatrix, where the monodromy grows without bound: swings of a pendulum have no bifurcations, and both of their multipliers
+/// are 1.
+#[test]
+fn swings_up_to_the_separatrix() {
+    let pendulum = Pendulum { m: 1.0, l: 1.0, g: 1.0 };
+    let search = pendulum.periodic_orbit(&State::at_rest([3.14])).by(Dop853::with_tolerance(1e-13));
+    let search = search.period_near(34.1);
+    let family = search.family(&search.find().unwrap()).orbits(11).follow().unwrap();
+    assert!(family.bifurcations().is_empty() && family.lost().is_empty(), "{family}");
+    let last = family.orbits().last().unwrap();
+    assert!(last.energy() > 1.0 - 1e-8 && last.monodromy.trivial() == 2, "{last}");
 }
 
 /// The stable and the unstable cycle meet at a = b²/4.

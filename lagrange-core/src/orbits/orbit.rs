@@ -228,7 +228,7 @@ impl<T: Real> Problem<T> {
         let start = shot.chain.nodes[0];
         let end = StateOf::<L> { t: start.t + shot.chain.period, ..start };
         let around = Monodromy::of(&shot.chain.system, [&start, &end], first.tangents.clone(), columns);
-        let splits = if self.has_clock { None } else { self.trivial(shot, around.is_symplectic()) };
+        let splits = if self.has_clock { None } else { self.trivial(shot) };
         let Some(splits) = splits else {
             return around.with_factors((0..m).map(|k| shot.factor(k)).collect(), 0);
         };
@@ -239,14 +239,10 @@ impl<T: Real> Problem<T> {
 
     /// Bases of the components at each node across the motion and, where the energy is conserved, along its surface: the quotient of the
     /// surface by the motion, to which the derivatives descend.
-    fn trivial<L: Linearized<Scalar = T> + Clone>(
-        &self,
-        shot: &Shot<L>,
-        is_symplectic: bool,
-    ) -> Option<Vec<DMatrix<T>>> {
+    fn trivial<L: Linearized<Scalar = T> + Clone>(&self, shot: &Shot<L>) -> Option<Vec<DMatrix<T>>> {
         let across = |(frame, node): (&Frame<T>, &StateOf<L>)| {
             let mut directions = alloc::vec![frame.along()?];
-            if self.is_conservative && is_symplectic {
+            if self.is_conservative {
                 directions.push(frame.energy(&shot.chain.system, node)?.0);
             }
             Some(complement(frame.count(), &directions))
