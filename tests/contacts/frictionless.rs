@@ -1,8 +1,8 @@
 //! Contacts without friction, against closed solutions; and what has no motion, by name.
 
-use lagrange_core::contact::{Contact, Transition};
-use lagrange_core::{Lagrangian, prelude::*};
-use lagrange_random::cases;
+use lagrange_core::contact::{Contact, Friction, Transition};
+use lagrange_core::{Lagrangian, SolutionOf, prelude::*};
+use lagrange_random::{Random, cases};
 use lagrange_systems::{Ball, Slot, Stack};
 
 use crate::impacts;
@@ -187,4 +187,65 @@ fn a_coordinate_without_mass_meets_the_floor() {
         (path.end().state().q[0] - height).abs() < 1e-13
             && (path.end().state().q[1] - 3.0 + height).abs() < 1e-13
     );
+}
+
+/// While all contacts are open, accelerations are those of the system without them; dry friction and a rod act all the same.
+#[test]
+fn in_flight_a_system_is_that_without_contacts() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y, theta)]
+    #[lagrangian(m/2*(x_dot^2 + y_dot^2) + j*theta_dot^2*(2 + sin(theta))/2 - m*g*y + k*x*sin(theta))]
+    #[constraint(rod: x^2 + y^2 = 1)]
+    #[friction(belt: theta_dot - 2, sliding: hold)]
+    struct Free {
+        m: f64,
+        j: f64,
+        g: f64,
+        k: f64,
+        hold: f64,
+        belt: Friction,
+    }
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y, theta)]
+    #[lagrangian(m/2*(x_dot^2 + y_dot^2) + j*theta_dot^2*(2 + sin(theta))/2 - m*g*y + k*x*sin(theta))]
+    #[constraint(rod: x^2 + y^2 = 1)]
+    #[friction(belt: theta_dot - 2, sliding: hold)]
+    #[contact(floor: y + 2 + cos(theta)/4 >= 0, friction(mu): x_dot + theta_dot)]
+    #[contact(wall[i in 0..2]: 2 + x - theta*i >= 0, friction(mu): [y_dot, theta_dot])]
+    struct Bounded {
+        m: f64,
+        j: f64,
+        g: f64,
+        k: f64,
+        mu: f64,
+        hold: f64,
+        belt: Friction,
+        floor: Contact,
+        wall: [Contact; 2],
+    }
+    let mut random = Random(1);
+    for belt in [Friction::Sticks, Friction::Slides([1.0, 0.0]), Friction::Slides([-1.0, 0.0])] {
+        let [m, j, g, k, hold, mu] = [(); 6].map(|()| random.between(0.5, 2.0));
+        let free = Free { m, j, g, k, hold, belt };
+        let (floor, wall) = (Contact::Open, [Contact::Open; 2]);
+        let bounded = Bounded { m, j, g, k, mu, hold, belt, floor, wall };
+        let turn = random.between(0.0, 6.0);
+        let q = [turn.cos(), turn.sin(), random.between(-3.0, 3.0)];
+        let speed = random.between(-1.0, 1.0);
+        let state =
+            State::new(q, [-speed * q[1], speed * q[0], if belt == Friction::Sticks { 2.0 } else { 0.3 }]);
+        let (expected, found) = (free.solve(&state).unwrap(), bounded.solve(&state).unwrap());
+        let ours = found.multipliers.fixed_rows::<2>(0);
+        assert!(
+            found.multipliers.iter().skip(2).all(|force| *force == 0.0) && found.multipliers_are_unique()
+        );
+        let off = (expected.accelerations - found.accelerations).amax();
+        assert!(off < 1e-13 * expected.accelerations.amax().max(1.0), "{belt:?}: {off:e}");
+        assert!((expected.multipliers - ours).amax() < 1e-13 * (1.0 + expected.multipliers.amax()));
+        // One that is closed is not forgotten.
+        let closed = Bounded { floor: Contact::Slides([1.0, 0.0]), ..bounded };
+        let is_same =
+            |closed: SolutionOf<Bounded>| (closed.accelerations - expected.accelerations).amax() < 1e-3;
+        assert!(!closed.solve(&state).is_ok_and(is_same));
+    }
 }

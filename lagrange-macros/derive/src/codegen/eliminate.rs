@@ -20,7 +20,7 @@ use indexmap::IndexSet;
 use super::count::OPERATION_LIMIT;
 use super::operation::{Operation, Register};
 use super::schedule::Schedule;
-use crate::mechanics::{Equations, Form};
+use crate::mechanics::{Form, LinearEquations};
 use crate::symbolic::Id;
 use crate::variables::Variable;
 use arithmetic::{Solver, Sparse, SparseEntry};
@@ -66,13 +66,13 @@ struct PivotCheck {
 
 /// Appends the elimination to a schedule that computes the entries of the form, F and γ. `None` if it would be too
 /// long.
-pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equations) -> Option<Solved> {
+pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &LinearEquations) -> Option<Solved> {
     let mut solver = Solver::new(schedule);
     let factorization = solver.factorize(form, equations)?;
     let bias = solver.entries(&equations.bias);
     let starts = solver.starts(form, &factorization, &bias);
     let found = solver.solve(&factorization, starts, bias);
-    Some(solver.finish(found, equations.forcing.len(), factorization.check.pivot))
+    Some(solver.finish(found, equations.coordinates, factorization.check.pivot))
 }
 
 /// Appends the factorization to a schedule that computes the entries of the form, F and σ. Also returns the registers
@@ -80,7 +80,7 @@ pub(super) fn eliminate(schedule: &mut Schedule, form: &Form, equations: &Equati
 pub(super) fn factor(
     schedule: &mut Schedule,
     form: &Form,
-    equations: &Equations,
+    equations: &LinearEquations,
 ) -> Option<(Factorization, IndexSet<Register>)> {
     let mut solver = Solver::new(schedule);
     let factorization = solver.factorize(form, equations)?;
@@ -94,14 +94,14 @@ pub(super) fn solve_with(
     schedule: &mut Schedule,
     source: &Schedule,
     (factorization, numbers): &(Factorization, IndexSet<Register>),
-    equations: &Equations,
+    equations: &LinearEquations,
 ) -> Solved {
     let factorization = factorization.with_registers(|register| {
         let number = numbers.get_index_of(&register).map(|k| Operation::Input(Variable::Factor(k).symbol()));
         schedule.push(number.unwrap_or(source.operations[register.index()]))
     });
     let mut input = |variable: Variable| Some(schedule.push(Operation::Input(variable.symbol())));
-    let (n, m) = (equations.forcing.len(), equations.bias.len());
+    let (n, m) = (equations.coordinates, equations.bias.len());
     let forcing: Vec<SparseEntry> = (0..n).map(|i| input(Variable::Forcing(i))).collect();
     let bias: Vec<SparseEntry> = (0..m).map(|a| input(Variable::Bias(a))).collect();
     let mut solver = Solver::new(schedule);
@@ -142,7 +142,7 @@ fn pattern(matrix: &[Vec<Id>]) -> Vec<Vec<bool>> {
 }
 
 /// Elimination order, and the number of multipliers that it contains.
-fn order(form: &Form, equations: &Equations) -> Option<(Vec<usize>, usize)> {
+fn order(form: &Form, equations: &LinearEquations) -> Option<(Vec<usize>, usize)> {
     let (matrix, rows) = (pattern(&form.matrix), pattern(&equations.jacobian));
     if form.definitions.is_empty()
         && form.columns.is_none()
@@ -170,7 +170,7 @@ struct Found {
 }
 
 impl Solver<'_> {
-    fn factorize(&mut self, form: &Form, equations: &Equations) -> Option<Factorization> {
+    fn factorize(&mut self, form: &Form, equations: &LinearEquations) -> Option<Factorization> {
         let (order, among) = order(form, equations)?;
         let mut matrix: Vec<Vec<SparseEntry>> = form.matrix.iter().map(|row| self.entries(row)).collect();
         if among > 0 {
@@ -189,7 +189,7 @@ impl Solver<'_> {
     }
 
     /// Appends −Fᵀ to the right of a matrix, −F below it, and −c on the diagonal.
-    fn put_among(&mut self, matrix: &mut Vec<Vec<SparseEntry>>, equations: &Equations) {
+    fn put_among(&mut self, matrix: &mut Vec<Vec<SparseEntry>>, equations: &LinearEquations) {
         let (n, jacobian) = (matrix.len(), &equations.jacobian);
         for row in jacobian {
             let mut below = self.entries(row);
@@ -204,7 +204,7 @@ impl Solver<'_> {
     }
 
     /// Rows σ_a F_a of the constraints that complete M.
-    fn completing(&mut self, form: &Form, equations: &Equations) -> Vec<(usize, Sparse)> {
+    fn completing(&mut self, form: &Form, equations: &LinearEquations) -> Vec<(usize, Sparse)> {
         let weighted = form.completing.iter().map(|&(a, weight)| {
             let (weight, row) = (self.entry(weight), self.entries(&equations.jacobian[a]));
             let row: Vec<SparseEntry> = row.into_iter().map(|entry| self.multiply(weight, entry)).collect();

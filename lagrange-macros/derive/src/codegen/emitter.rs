@@ -5,6 +5,7 @@ use quote::quote;
 
 use super::count::OPERATION_LIMIT;
 use super::kernel::{Kernel, Part};
+use super::passes::Program;
 use super::solving::Solving;
 use super::style::FunctionContext;
 use crate::facts::Facts;
@@ -22,6 +23,8 @@ pub(super) struct Emitter<'a> {
     pub(super) facts: &'a Facts,
     /// Programs of the elimination. `None` if the equations are solved by loops of the runtime.
     pub(super) solving: Option<Solving>,
+    /// The program that solves for accelerations where all contacts are open; `None` without contacts.
+    pub(super) open: Option<Program>,
     pub(super) style: FunctionContext<'a>,
 }
 

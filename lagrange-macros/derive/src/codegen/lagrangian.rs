@@ -148,15 +148,15 @@ impl Emitter<'_> {
             Quantity::CompletedMomentum => completed(&|found| found.momentum.clone()),
             Quantity::CompletedMomentumRate => completed(&|found| found.rate.clone()),
             Quantity::CompletedMassMatrix => completed(&|found| columns(&found.mass)),
-            Quantity::Compliance => equations.compliance.clone(),
+            Quantity::Compliance => equations.linear.compliance.clone(),
             Quantity::Forcing => equations.forcing.clone(),
             Quantity::Residual => equations.residual.clone(),
             Quantity::Rate => equations.rate.clone(),
             Quantity::ResidualMagnitude => equations.magnitudes[0].clone(),
             Quantity::RateMagnitude => equations.magnitudes[1].clone(),
-            Quantity::Jacobian => columns(&equations.jacobian),
+            Quantity::Jacobian => columns(&equations.linear.jacobian),
             Quantity::JacobianRoundOff => columns(&equations.jacobian_round_off),
-            Quantity::Bias => equations.bias.clone(),
+            Quantity::Bias => equations.linear.bias.clone(),
             Quantity::ConstraintForce => {
                 let force = |i| equations.constraint_force.get(i).copied().unwrap_or(Id::ZERO);
                 (0..problem.coordinates.len()).map(force).collect()
@@ -202,6 +202,17 @@ impl Emitter<'_> {
         kernel: Kernel,
         result: impl Fn(&[TokenStream]) -> TokenStream,
     ) -> Written {
+        self.function_after(&TokenStream::new(), method, kernel, result)
+    }
+
+    /// Emits a method that computes its result by a kernel, unless these statements return another.
+    pub(super) fn function_after(
+        &self,
+        before: &TokenStream,
+        method: &Method,
+        kernel: Kernel,
+        result: impl Fn(&[TokenStream]) -> TokenStream,
+    ) -> Written {
         let signature = self.style.types.signature(method);
         let (statements, doc, result) = (&kernel.statements, &kernel.doc, result(&kernel.results));
         let tokens = quote! {
@@ -209,6 +220,7 @@ impl Emitter<'_> {
             #[inline]
             #[allow(unused_variables)]
             #signature {
+                #before
                 #statements
                 #result
             }

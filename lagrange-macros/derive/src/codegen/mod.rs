@@ -49,7 +49,7 @@ pub(crate) use count::Count;
 use emitter::{Emitter, too_long};
 use linearized::Changing;
 use series::TaylorPrograms;
-use solving::Solving;
+use solving::{Solving, cheapest};
 pub(crate) use stub::stub;
 use style::FunctionContext;
 #[cfg(test)]
@@ -66,7 +66,9 @@ pub(crate) fn implementation(
     facts: &Facts,
     diagnostics: &mut Diagnostics,
 ) -> Option<TokenStream> {
-    let solving = Solving::cheapest(graph, &derived.equations);
+    let solving = Solving::cheapest(graph, &derived.equations.linear);
+    let open = derived.equations.open.as_ref().and_then(|open| cheapest(graph, open));
+    let open = open.map(|(_, program)| program.fused());
     let changing = derived
         .linearization
         .as_ref()
@@ -77,7 +79,7 @@ pub(crate) fn implementation(
     let numbers = solving.as_ref().map(|solving| solving.factor.results.len());
     let sums = series.as_ref().map_or([0; 2], |series| [series.sums, series.terms]);
     let style = FunctionContext::new(graph, (&declaration.ident, problem), numbers, slopes, sums);
-    let emitter = Emitter { declaration, problem, derived, rendered, facts, solving, style };
+    let emitter = Emitter { declaration, problem, derived, rendered, facts, solving, open, style };
     if emitter.solving.is_none() && !problem.frictions.is_empty() {
         diagnostics.error(
             problem.place,

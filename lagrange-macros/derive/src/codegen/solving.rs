@@ -5,7 +5,7 @@ use super::eliminate::{self, Solved};
 use super::operation::Register;
 use super::passes::Program;
 use super::schedule::Schedule;
-use crate::mechanics::{Equations, Form};
+use crate::mechanics::{Form, LinearEquations};
 use crate::symbolic::{Graph, Id};
 
 /// Emitted parts of the elimination.
@@ -18,26 +18,31 @@ pub(super) struct Solving {
     pub(super) solve: Program,
 }
 
+/// The program of the form with the shortest estimated time. `None` if all forms are too long.
+pub(super) fn cheapest<'e>(graph: &Graph, equations: &'e LinearEquations) -> Option<(&'e Form, Program)> {
+    let programs = equations.forms.iter().filter_map(|form| Some((form, solve(graph, form, equations)?)));
+    let programs = programs.filter(|(_, program)| program.count().total() <= OPERATION_LIMIT);
+    programs.min_by_key(|(_, program)| program.time().total())
+}
+
 impl Solving {
     /// Chooses the form with the shortest estimated time. `None` if all forms are too long.
-    pub(super) fn cheapest(graph: &Graph, equations: &Equations) -> Option<Self> {
-        let programs = equations.forms.iter().filter_map(|form| Some((form, solve(graph, form, equations)?)));
-        let programs = programs.filter(|(_, program)| program.count().total() <= OPERATION_LIMIT);
-        let (form, accelerations) = programs.min_by_key(|(_, program)| program.time().total())?;
+    pub(super) fn cheapest(graph: &Graph, equations: &LinearEquations) -> Option<Self> {
+        let (form, accelerations) = cheapest(graph, equations)?;
         let (factor, solve) = factor_and_solve(graph, form, equations)?;
         Some(Self { accelerations: accelerations.fused(), factor: factor.fused(), solve: solve.fused() })
     }
 }
 
 /// Solves the equations of motion by one form. Results: accelerations, multipliers and the pivot.
-pub(super) fn solve(graph: &Graph, form: &Form, equations: &Equations) -> Option<Program> {
+pub(super) fn solve(graph: &Graph, form: &Form, equations: &LinearEquations) -> Option<Program> {
     let right_hand_sides = form.linear.iter().chain(form.alone.iter().flatten()).chain(&equations.bias);
     let mut schedule = Schedule::new(graph, &entries(form, equations, right_hand_sides));
     let solved = eliminate::eliminate(&mut schedule, form, equations)?;
     Some(Program::new(schedule, results(solved)))
 }
 
-fn factor_and_solve(graph: &Graph, form: &Form, equations: &Equations) -> Option<(Program, Program)> {
+fn factor_and_solve(graph: &Graph, form: &Form, equations: &LinearEquations) -> Option<(Program, Program)> {
     let mut factoring = Schedule::new(graph, &entries(form, equations, [].iter()));
     let factor = eliminate::factor(&mut factoring, form, equations)?;
     let mut solving = Schedule::default();
@@ -47,7 +52,11 @@ fn factor_and_solve(graph: &Graph, form: &Form, equations: &Equations) -> Option
 }
 
 /// Entries of the form and of F, weights of the constraints, and `others`.
-fn entries<'a>(form: &'a Form, equations: &'a Equations, others: impl Iterator<Item = &'a Id>) -> Vec<Id> {
+fn entries<'a>(
+    form: &'a Form,
+    equations: &'a LinearEquations,
+    others: impl Iterator<Item = &'a Id>,
+) -> Vec<Id> {
     let definitions = form.definitions.iter().flatten().map(|(_, entry)| entry);
     let matrices = form.matrix.iter().chain(&equations.jacobian).flatten();
     let weights = form.completing.iter().map(|(_, weight)| weight);

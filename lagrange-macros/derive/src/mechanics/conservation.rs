@@ -102,7 +102,7 @@ fn energy_changes(graph: &mut Graph, problem: &Problem, equations: &Equations) -
     let inhomogeneous = (0..problem.constraints.len()).map(|a| match equations.kinds[a] {
         ConstraintKind::Holonomic => along_time.of(graph, equations.residual[a]),
         ConstraintKind::Velocity => {
-            let homogeneous = graph.dot(&equations.jacobian[a], &velocities);
+            let homogeneous = graph.dot(&equations.linear.jacobian[a], &velocities);
             graph.sub(equations.rate[a], homogeneous)
         }
     });

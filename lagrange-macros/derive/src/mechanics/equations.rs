@@ -11,11 +11,53 @@ use super::integrability::Kinds;
 use super::twists::Twists;
 use super::{consistency, constraints, determinacy, dissipation, integrability, vanishing};
 use crate::diagnostics::Diagnostics;
-use crate::resolve::Problem;
+use crate::resolve::{Entry, Problem};
 use crate::symbolic::{Graph, Id};
 use crate::variables::{Variable, has_velocity, total_time_derivative};
 
-/// M q̈ − Fᵀλ = h and F q̈ + γ + c λ = 0, every entry a node of the problem's graph.
+/// M q̈ − Fᵀλ = h and F q̈ + γ + c λ = 0, linear in q̈ and λ.
+#[derive(Debug)]
+pub(crate) struct LinearEquations {
+    /// Number of the coordinates.
+    pub(crate) coordinates: usize,
+    /// Equivalent quadratic forms of M and h, completed by constraints where M is singular. The first has the
+    /// accelerations as its only variables.
+    pub(crate) forms: Vec<Form>,
+    /// Constraint Jacobian F, row by row
+    pub(crate) jacobian: Vec<Vec<Id>>,
+    /// γ
+    pub(crate) bias: Vec<Id>,
+    /// Diagonal of c: zero, but 1 while a switched constraint does not hold
+    pub(crate) compliance: Vec<Id>,
+    /// Entries of c beside its diagonal, each with its row and column
+    pub(crate) coupling: Vec<(usize, usize, Id)>,
+}
+
+impl LinearEquations {
+    /// The same with each node replaced.
+    fn map(&self, mut node: impl FnMut(Id) -> Id) -> Self {
+        Self {
+            coordinates: self.coordinates,
+            forms: self.forms.iter().map(|form| form.map(&mut node)).collect(),
+            jacobian: self.jacobian.iter().map(|row| row.iter().map(|&id| node(id)).collect()).collect(),
+            bias: self.bias.iter().map(|&id| node(id)).collect(),
+            compliance: self.compliance.iter().map(|&id| node(id)).collect(),
+            coupling: self.coupling.iter().map(|&(row, column, id)| (row, column, node(id))).collect(),
+        }
+    }
+
+    /// The equations where all contacts are open: the numbers that stand for the state of a contact are zero.
+    fn open(&self, graph: &mut Graph, problem: &Problem) -> Option<Self> {
+        let is_of_contact = |entry: &Entry| problem.contacts.iter().any(|contact| contact.entry == *entry);
+        let off = |symbol| match Variable::of(symbol) {
+            Variable::Switch(k) => is_of_contact(&problem.parameters.switches[k].entry).then_some(Id::ZERO),
+            _ => None,
+        };
+        (!problem.contacts.is_empty()).then(|| self.map(|id| graph.substituted(id, off)))
+    }
+}
+
+/// The equations of motion, every entry a node of the problem's graph.
 #[derive(Debug)]
 pub(crate) struct Equations {
     /// p = ∂L/∂q̇
@@ -39,16 +81,8 @@ pub(crate) struct Equations {
     pub(crate) rate: Vec<Id>,
     /// Scales of the constraint residuals: Σ |F_αi q_i| of holonomic constraints, and Σ |F_αi q̇_i| of all
     pub(crate) magnitudes: [Vec<Id>; 2],
-    /// Constraint Jacobian F, row by row
-    pub(crate) jacobian: Vec<Vec<Id>>,
     /// Bounds of the rounding errors of F, in units of the round-off unit, of rows that parameters may cancel; else zero
     pub(crate) jacobian_round_off: Vec<Vec<Id>>,
-    /// γ of F q̈ + γ = 0
-    pub(crate) bias: Vec<Id>,
-    /// Diagonal of c in F q̈ + γ + c λ = 0: zero, but 1 while a switched constraint does not hold
-    pub(crate) compliance: Vec<Id>,
-    /// Entries of c beside its diagonal, each with its row and column
-    pub(crate) coupling: Vec<(usize, usize, Id)>,
     /// h to be printed, without switches
     pub(crate) printed_forcing: Vec<Id>,
     /// Fᵀλ and forces that are multiples of multipliers, with the multipliers λ as symbols
@@ -59,9 +93,10 @@ pub(crate) struct Equations {
     pub(crate) balance: Vec<Id>,
     /// d/dt (F q̇ + b), and what friction that slides adds to it, with accelerations and multipliers as symbols
     pub(crate) constraint_acceleration: Vec<Id>,
-    /// Equivalent quadratic forms of M and h, completed by constraints where M is singular. The first has the
-    /// accelerations as its only variables.
-    pub(crate) forms: Vec<Form>,
+    /// What determines accelerations and multipliers.
+    pub(crate) linear: LinearEquations,
+    /// The same where all contacts are open; `None` without contacts.
+    pub(crate) open: Option<LinearEquations>,
     /// Lagrangian with the same motions and a regular mass matrix; `None` if no constraint completes M.
     pub(crate) completed: Option<Completed>,
 }
@@ -104,10 +139,22 @@ impl Equations {
             constraint_force.iter_mut().zip(multiples).for_each(|(sum, more)| *sum = graph.add(*sum, more));
         }
         let completed = Completed::of(graph, (&momenta, &mass), &constraints, &forms[0].completing);
+        let magnitudes = [
+            constraints.magnitude(graph, Variable::Coordinate, |kind| kind == ConstraintKind::Holonomic),
+            constraints.magnitude(graph, Variable::Velocity, |_| true),
+        ];
+        let linear = LinearEquations {
+            coordinates: mass.len(),
+            forms,
+            jacobian: constraints.jacobian,
+            bias: constraints.bias,
+            compliance: constraints.compliance,
+            coupling: constraints.coupling,
+        };
         Some(Self {
             printed_forcing: without_switches(graph, problem, &forcing),
             balance,
-            forms,
+            open: linear.open(graph, problem),
             completed,
             integrability,
             momenta_are_linear: !has_velocity(graph, &mass.concat()),
@@ -119,26 +166,26 @@ impl Equations {
             constraint_force,
             printed_force,
             constraint_acceleration,
-            magnitudes: [
-                constraints.magnitude(graph, Variable::Coordinate, |kind| kind == ConstraintKind::Holonomic),
-                constraints.magnitude(graph, Variable::Velocity, |_| true),
-            ],
-            jacobian_round_off: vanishing::round_off(graph, &constraints.jacobian),
+            magnitudes,
+            jacobian_round_off: vanishing::round_off(graph, &linear.jacobian),
             kinds: constraints.kinds,
             residual: constraints.residual,
             rate: constraints.rate,
-            jacobian: constraints.jacobian,
-            bias: constraints.bias,
-            compliance: constraints.compliance,
-            coupling: constraints.coupling,
+            linear,
         })
     }
 
     /// All expressions of the equations, as roots in the graph.
     pub(crate) fn roots(&self) -> Vec<Id> {
-        let matrices = self.mass.iter().chain(&self.jacobian).flatten();
-        let vectors =
-            [&self.momentum, &self.momentum_rate, &self.forcing, &self.residual, &self.rate, &self.bias];
+        let matrices = self.mass.iter().chain(&self.linear.jacobian).flatten();
+        let vectors = [
+            &self.momentum,
+            &self.momentum_rate,
+            &self.forcing,
+            &self.residual,
+            &self.rate,
+            &self.linear.bias,
+        ];
         matrices
             .chain(vectors.into_iter().flatten())
             .chain([&self.energy])

@@ -39,6 +39,27 @@ impl Form {
         Self { matrix, linear, definitions, rows: None, columns: None, alone, completing: Vec::new() }
     }
 
+    /// The same with each node replaced.
+    pub(super) fn map(&self, node: &mut impl FnMut(Id) -> Id) -> Self {
+        let mut rows = |rows: &[Vec<Id>]| -> Vec<Vec<Id>> {
+            rows.iter().map(|row| row.iter().map(|&id| node(id)).collect()).collect()
+        };
+        let (matrix, of_rows) = (rows(&self.matrix), self.rows.as_deref().map(&mut rows));
+        let columns = self.columns.as_deref().map(&mut rows);
+        let mut terms = |terms: &[(usize, Id)]| -> Vec<(usize, Id)> {
+            terms.iter().map(|&(k, id)| (k, node(id))).collect()
+        };
+        Self {
+            matrix,
+            definitions: self.definitions.iter().map(|definition| terms(definition)).collect(),
+            completing: terms(&self.completing),
+            rows: of_rows,
+            columns,
+            linear: self.linear.iter().map(|&id| node(id)).collect(),
+            alone: self.alone.iter().map(|id| id.map(&mut *node)).collect(),
+        }
+    }
+
     /// Adds the constraint Jacobian over all variables of the form.
     pub(super) fn with(self, rows: Vec<Vec<Id>>) -> Self {
         Self { rows: Some(rows), ..self }

@@ -39,7 +39,7 @@ pub(crate) use completion::Completed;
 pub(crate) use conservation::{Conserved, ConservedKind, EnergyChange};
 pub use constraints::ConstraintKind;
 pub use energy_form::EnergyForm;
-pub(crate) use equations::Equations;
+pub(crate) use equations::{Equations, LinearEquations};
 pub use evidence::Evidence;
 pub(crate) use facts::Facts;
 pub(crate) use form::Form;

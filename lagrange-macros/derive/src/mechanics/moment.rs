@@ -57,7 +57,7 @@ impl Moment {
             Variable::Switch(k) => Approximate::exact(f64::from(u8::from(is_on(k, draw)))),
             _ => problem.drawn(symbol, draw),
         });
-        let slopes: Vec<&[Id]> = equations.jacobian.iter().map(Vec::as_slice).collect();
+        let slopes: Vec<&[Id]> = equations.linear.jacobian.iter().map(Vec::as_slice).collect();
         let is_holonomic = |a: &usize| equations.kinds[*a] == ConstraintKind::Holonomic;
         let holonomic = (0..equations.kinds.len()).filter(is_holonomic);
         let (residual, of_residual): (Vec<Id>, Vec<&[Id]>) =
@@ -80,8 +80,12 @@ impl Moment {
     /// Solves M q̈ − Fᵀλ = h, F q̈ = −γ for the accelerations and multipliers.
     fn accelerate(&mut self, graph: &Graph, problem: &Problem, equations: &Equations) -> Option<()> {
         let (n, m) = (problem.coordinates.len(), problem.constraints.len());
-        let roots =
-            [&equations.mass.concat(), &equations.forcing, &equations.jacobian.concat(), &equations.bias];
+        let roots = [
+            &equations.mass.concat(),
+            &equations.forcing,
+            &equations.linear.jacobian.concat(),
+            &equations.linear.bias,
+        ];
         let values = self.0.values(graph, &roots.map(Vec::as_slice).concat());
         let (mass, rest) = values.split_at(n * n);
         let (forcing, rest) = rest.split_at(n);

@@ -101,7 +101,7 @@ fn a_quaternion_costs_what_it_does_with_a_term_that_vanishes_added_by_hand() {
 /// Returns the names of the constraints that complete M.
 fn completing(source: &str) -> Vec<String> {
     let (_, problem, equations) = equations(&without(source));
-    let [first, rest @ ..] = &equations.forms[..] else { panic!("a form") };
+    let [first, rest @ ..] = &equations.linear.forms[..] else { panic!("a form") };
     assert!(rest.iter().all(|form| form.completing == first.completing), "every form or none");
     first.completing.iter().map(|&(a, _)| problem.constraints[a].0.text.clone()).collect()
 }
@@ -212,17 +212,17 @@ fn massless_coordinates_and_indefinite_masses_are_completed() {
 /// A random state that satisfies the constraints.
 fn state(graph: &Graph, problem: &Problem, equations: &Equations, draw: u64) -> Sample {
     let n = problem.coordinates.len();
-    let roots = [&equations.roots()[..], &equations.forms[0].linear].concat();
+    let roots = [&equations.roots()[..], &equations.linear.forms[0].linear].concat();
     let all = [symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity)];
     let known = graph.symbols(&roots).chain(all.iter().flatten().copied());
     let mut sample = Sample::new(known, draw, |symbol, draw| problem.drawn(symbol, draw));
     let is_holonomic = |a: &usize| equations.residual[*a] != Id::ZERO;
     let (residual, slopes): (Vec<Id>, Vec<&[Id]>) = (0..equations.residual.len())
         .filter(is_holonomic)
-        .map(|a| (equations.residual[a], &equations.jacobian[a][..]))
+        .map(|a| (equations.residual[a], &equations.linear.jacobian[a][..]))
         .unzip();
     sample.project(graph, &residual, &slopes, &all[0]).expect("a place");
-    let rows: Vec<&[Id]> = equations.jacobian.iter().map(Vec::as_slice).collect();
+    let rows: Vec<&[Id]> = equations.linear.jacobian.iter().map(Vec::as_slice).collect();
     sample.project(graph, &equations.rate, &rows, &all[1]).expect("a velocity");
     sample
 }
@@ -230,9 +230,9 @@ fn state(graph: &Graph, problem: &Problem, equations: &Equations, draw: u64) -> 
 /// Solves M q̈ − Fᵀλ = h, F q̈ = −γ for accelerations and multipliers, by Gaussian elimination with complete
 /// pivoting.
 fn pivoted(graph: &Graph, equations: &Equations, state: &mut Sample) -> Vec<f64> {
-    let (n, m) = (equations.mass.len(), equations.bias.len());
+    let (n, m) = (equations.mass.len(), equations.linear.bias.len());
     let mut values = |roots: &[Id]| state.values(graph, roots);
-    let jacobian: Vec<Vec<Approximate>> = equations.jacobian.iter().map(|row| values(row)).collect();
+    let jacobian: Vec<Vec<Approximate>> = equations.linear.jacobian.iter().map(|row| values(row)).collect();
     let mut rows: Vec<Vec<Approximate>> = equations.mass.iter().map(|row| values(row)).collect();
     for (i, row) in rows.iter_mut().enumerate() {
         row.extend(jacobian.iter().map(|constraint| constraint[i].negated()));
@@ -240,7 +240,7 @@ fn pivoted(graph: &Graph, equations: &Equations, state: &mut Sample) -> Vec<f64>
     }
     for (a, mut row) in jacobian.into_iter().enumerate() {
         row.resize(n + m, Approximate::exact(0.0));
-        row.push(values(&equations.bias)[a].negated());
+        row.push(values(&equations.linear.bias)[a].negated());
         rows.push(row);
     }
     let solution = solve(rows, n + m).expect("a solution");
@@ -277,7 +277,7 @@ fn the_weight_of_a_unit_quaternion_is_an_expression_of_the_parameters() {
     let scaled = SINGULAR[5].0;
     for (source, cost) in [(systems::TOP, 3), (FREE, 3), (BALL, 3), (scaled, 3), (SINGULAR[6].0, 1)] {
         let (graph, _, equations) = equations(&without(source));
-        let (_, weight) = equations.forms[0].completing[0];
+        let (_, weight) = equations.linear.forms[0].completing[0];
         let is_fixed = |symbol: Symbol| matches!(Variable::of(symbol), Variable::Parameter(_));
         assert!(graph.symbols(&[weight]).all(is_fixed), "{source}");
         assert!(operations(&graph, &[weight]).arithmetic <= cost, "{source}");
@@ -288,7 +288,7 @@ fn the_weight_of_a_unit_quaternion_is_an_expression_of_the_parameters() {
 #[test]
 fn a_sphere_is_completed_to_a_diagonal() {
     let (_, _, equations) = equations(&without(BALL));
-    for (i, row) in equations.forms[0].matrix.iter().enumerate() {
+    for (i, row) in equations.linear.forms[0].matrix.iter().enumerate() {
         assert!(row.iter().enumerate().all(|(j, &entry)| (i == j) == (entry != Id::ZERO)), "{row:?}");
     }
 }
@@ -344,7 +344,7 @@ fn the_completed_lagrangian_is_differentiated() {
     for source in sources.into_iter().chain([joints(2, true)].map(|source| without(&source))) {
         let (mut graph, problem, equations) = equations(&source);
         let completed = equations.completed.as_ref().expect("a singular M");
-        let squares = equations.forms[0].completing.iter().map(|&(a, weight)| {
+        let squares = equations.linear.forms[0].completing.iter().map(|&(a, weight)| {
             let square = graph.square(equations.rate[a]);
             (graph.mul(weight, square), Rational::new(1, 2))
         });

@@ -137,8 +137,8 @@ const NAMED: [&str; 8] = [
 fn every_form_has_the_same_solution() {
     for source in NAMED {
         let (graph, _, equations) = equations(source);
-        assert_eq!(equations.forms.len(), 2, "{source}");
-        assert!(!equations.forms[1].definitions.is_empty(), "{source}");
+        assert_eq!(equations.linear.forms.len(), 2, "{source}");
+        assert!(!equations.linear.forms[1].definitions.is_empty(), "{source}");
         for point in 0..20 {
             let input = |symbol: Symbol| {
                 let mixed = (1 + u64::from(symbol.family)) * 7_919
@@ -218,7 +218,7 @@ fn what_would_be_too_long_is_left_to_loops() {
 fn a_quotient_that_exact_arithmetic_cannot_write_is_left_to_run_time() {
     let source = "#[coordinates(x)] #[lagrangian(3^-200*x_dot^2/2 - 3^200*x^2/2)] struct Stiff {}";
     let (graph, _, equations) = equations(source);
-    assert_eq!(equations.forms[0].alone, [None]);
+    assert_eq!(equations.linear.forms[0].alone, [None]);
     let solution = &solutions(&graph, &equations, |_| 0.5)[0];
     let acceleration = solution.as_ref().expect("short")[0];
     let expected = -0.5 * 3.0_f64.powi(400);
@@ -236,7 +236,7 @@ fn very_many_named_velocities_are_not_solved_over() {
             "#[coordinates(x, y)] #[define(v[i in 0..{count}] = cos(i*x)*x_dot + y_dot)]
              #[lagrangian(dot(v, v)/2 + x_dot^2)] struct Many {{}}"
         );
-        equations(&source).2.forms.len()
+        equations(&source).2.linear.forms.len()
     };
     assert_eq!((named(40), named(600)), (2, 1));
 }

@@ -121,8 +121,8 @@ fn the_equations() {
         format!("p = ∂L/∂q̇         {}", written(&equations.momentum)),
         format!("M = ∂p/∂q̇         {}", rows(&equations.mass)),
         format!("h                 {}", written(&equations.forcing)),
-        format!("F                 {}", rows(&equations.jacobian)),
-        format!("γ                 {}", written(&equations.bias)),
+        format!("F                 {}", rows(&equations.linear.jacobian)),
+        format!("γ                 {}", written(&equations.linear.bias)),
         format!("E = p·q̇ − L       {}", written(&[equations.energy])),
         format!("no_slip           {}", kinds.join(", ")),
     ];
@@ -157,7 +157,7 @@ fn the_passes() {
 #[test]
 fn the_passes_of_a_chain() {
     let (graph, _, derived) = derived(&systems::chain(5));
-    let forms = derived.equations.forms.len();
+    let forms = derived.equations.linear.forms.len();
     assert_eq!(forms, 2, "over the accelerations alone, and over those of velocities that are named");
     let text = ["over the angles alone", "over the named velocities, too"]
         .into_iter()

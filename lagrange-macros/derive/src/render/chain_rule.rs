@@ -203,7 +203,7 @@ impl Page<'_> {
             let mut terms = Vec::new();
             for group in labels.chunk_by(|one, other| vector(one).is_some() && vector(one) == vector(other)) {
                 let first = labels.iter().position(|label| label == &group[0])?;
-                let acts = (first..first + group.len()).any(|a| equations.jacobian[a][i] != Id::ZERO);
+                let acts = (first..first + group.len()).any(|a| equations.linear.jacobian[a][i] != Id::ZERO);
                 let is_whole = group.len() == 3;
                 let names = if is_whole { vec![vector(group[0])?] } else { group.to_vec() };
                 let dots = usize::from(equations.kinds[first] != ConstraintKind::Holonomic);

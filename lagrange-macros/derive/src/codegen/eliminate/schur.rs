@@ -4,7 +4,7 @@ use super::arithmetic::{Solver, Sparse, SparseEntry};
 use super::order::Pattern;
 use super::reduce::FormFactors;
 use super::short;
-use crate::mechanics::Equations;
+use crate::mechanics::LinearEquations;
 
 /// Maximum number of constraints on a coordinate i for which the entry z_i z'_i / D_i of S = Z D⁻¹ Zᵀ is
 /// computed as (z_i z'_i) / D_i, so that a pass can factor the sum. With more constraints, z_i / D_i is
@@ -18,7 +18,7 @@ impl Solver<'_> {
         &mut self,
         factors: &FormFactors,
         (rows, columns): (&[Sparse], Option<&[Sparse]>),
-        equations: &Equations,
+        equations: &LinearEquations,
     ) -> Option<FormFactors> {
         let mut schur = self.complement(factors, rows);
         self.comply(&mut schur, equations);
@@ -41,7 +41,7 @@ impl Solver<'_> {
     }
 
     /// Adds the compliances to the diagonal.
-    fn comply(&mut self, schur: &mut [Vec<SparseEntry>], equations: &Equations) {
+    fn comply(&mut self, schur: &mut [Vec<SparseEntry>], equations: &LinearEquations) {
         for (a, row) in schur.iter_mut().enumerate() {
             let compliance = self.entry(equations.compliance[a]);
             row[a] = self.add(row[a], compliance);

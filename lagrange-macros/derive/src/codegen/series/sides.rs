@@ -13,7 +13,7 @@ use super::coefficients::{Recurrences, Stage};
 use crate::codegen::operation::{Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
-use crate::mechanics::{ConstraintKind, Equations};
+use crate::mechanics::{ConstraintKind, Equations, LinearEquations};
 use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
 
@@ -21,7 +21,9 @@ impl Recurrences {
     /// Returns the right-hand sides for order k, first those in place of h, then those in place of γ. `None`
     /// if an operation has no Taylor series.
     pub(super) fn right_hand_sides(&mut self, graph: &Graph, equations: &Equations) -> Option<Vec<Register>> {
-        let Equations { balance, kinds, bias, constraint_acceleration, .. } = equations;
+        let Equations {
+            balance, kinds, linear: LinearEquations { bias, .. }, constraint_acceleration, ..
+        } = equations;
         let holonomic = |a: usize| kinds[a] == ConstraintKind::Holonomic;
         let are_quadratic: Vec<bool> =
             (0..bias.len()).map(|a| holonomic(a) && is_quadratic(graph, bias[a])).collect();

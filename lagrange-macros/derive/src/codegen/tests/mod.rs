@@ -31,8 +31,8 @@ pub(crate) fn values(graph: &Graph, roots: &[Id], input: impl Fn(Symbol) -> f64)
 /// Operation counts of the accelerations as derived and after each pass, for each form of the equations. `None` for a
 /// form that is solved in loops.
 pub(crate) fn solving(graph: &Graph, equations: &Equations) -> Vec<Option<Vec<(&'static str, Count)>>> {
-    let counts = |form| Some(solve(graph, form, equations)?.counts);
-    equations.forms.iter().map(counts).collect()
+    let counts = |form| Some(solve(graph, form, &equations.linear)?.counts);
+    equations.linear.forms.iter().map(counts).collect()
 }
 
 /// Accelerations, multipliers and pivot, for each form of the equations.
@@ -55,8 +55,8 @@ pub(crate) fn solutions_by(
     let function =
         |call: &Call<f64>, output| function(call.function, &call.derivatives, &call.arguments, output);
     let values = |form| {
-        let program = solve(graph, form, equations)?.fused();
+        let program = solve(graph, form, &equations.linear)?.fused();
         Some(FunctionBody::new(&program, &Default::default()).values(program.results.len(), &input, function))
     };
-    equations.forms.iter().map(values).collect()
+    equations.linear.forms.iter().map(values).collect()
 }
