@@ -269,3 +269,16 @@ fn events_of_a_gap_at_rest_are_quiet() {
         assert!(calls.get() < 120 * path.legs().len(), "{} calls, {} legs", calls.get(), path.legs().len());
     }
 }
+
+/// A function that falls to zero at the end of a motion, to round-off, does not rise there.
+#[test]
+fn events_at_the_end_of_a_motion_have_their_direction() {
+    for end in (1..100).map(|i| 0.01 * f64::from(i)) {
+        let start = State::new([0.0, 1.0], [1.0, 0.0]);
+        let event = || BALL.event("reaches", move |sample| end - sample.state().q[0]);
+        let count = |event| {
+            BALL.motion(start).by(method()).event(event).with_contacts().to(end).unwrap().crossings().len()
+        };
+        assert_eq!([count(event().rising()), count(event().falling()), count(event())], [0, 1, 1], "{end}");
+    }
+}

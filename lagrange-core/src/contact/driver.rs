@@ -18,6 +18,7 @@ use crate::motion::run::{Run, Watchdog};
 use crate::motion::{DynEvent, Method};
 use crate::number::Real;
 use crate::solution::crossing::Crossing;
+use crate::solution::reason::parameter_not_finite;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, StateOf};
 
@@ -188,6 +189,10 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
 
     /// Decides which contacts are closed, and which friction sticks, at the start and after a change of parameters.
     pub(super) fn settle_anew(&mut self) -> Result<(), Error> {
+        self.settle().map_err(|error| parameter_not_finite(&self.bodies.open).unwrap_or(error))
+    }
+
+    fn settle(&mut self) -> Result<(), Error> {
         let was = &self.decided.states;
         self.bodies.check_closed(|k| was.is_closed(k), &self.state)?;
         self.bodies.crossed(|k| was.is_closed(k), &self.state).map_or(Ok(()), Err)?;
@@ -233,7 +238,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         };
         let (system, events) = (&system, &mut events[..]);
         let transitions = self.transitions.len();
-        self.kept.drive(StartedLeg {
+        let driven = self.kept.drive(StartedLeg {
             system,
             run,
             adjustment,
@@ -243,7 +248,9 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
             method,
             limits,
             watch,
-        })
+        });
+        lifting.end(&mut decided.states);
+        driven
     }
 
     /// Decides what follows at the end of a leg.

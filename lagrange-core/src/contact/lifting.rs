@@ -56,6 +56,13 @@ impl<T: Real> Lifting<T> {
             }
     }
 
+    /// At the end of a leg, takes gaps that have risen for those of open contacts.
+    pub(super) fn end(&self, states: &mut LegStates) {
+        for (of, rise) in states.contacts.iter_mut().zip(&self.0) {
+            of.is_resting &= of.is_closed || !matches!(rise.get(), Rise::None);
+        }
+    }
+
     /// Takes note of the end of a step, at which gaps have risen.
     pub(super) fn pass(&self, has_risen: impl Fn(usize) -> bool) {
         for (k, rise) in self.0.iter().enumerate() {

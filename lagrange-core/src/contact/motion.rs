@@ -45,7 +45,7 @@ use crate::system::finite::check_finite;
 ///     assert_eq!(slips, frame == 99);
 /// }
 /// assert!((motion.sample().multiplier("floor_friction")? + 0.5 * 2.0 * 9.81).abs() < 1e-12);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// # Ok::<(), Error>(())
 /// ```
 pub struct ContactMotion<L: Contacts<Scalar: Real> + 'static, P> {
     journey: Journey<'static, L, SampledLegs<'static, L>>,
@@ -69,12 +69,13 @@ impl<L: Contacts<Scalar: Real> + Clone + 'static, P: Method<L>> ContactMotion<L,
         &self.journey.state
     }
 
-    /// Returns the system, with its contacts as they are now.
+    /// Returns the system, with its contacts as they are now; before the first advance and after a change as its fields say.
     pub fn system(&self) -> &L {
         &self.system
     }
 
-    /// Returns the current state with its system, for queries by name.
+    /// Returns the current state with its [`system`](Self::system), for queries by name. An advance to the current time decides its contacts
+    /// after a start or a change.
     pub fn sample(&self) -> Sample<&L> {
         Sample::of(&self.system, self.journey.state)
     }
@@ -96,7 +97,7 @@ impl<L: Contacts<Scalar: Real> + Clone + 'static, P: Method<L>> ContactMotion<L,
         self.is_changed = true;
     }
 
-    /// Goes on from another state.
+    /// Goes on from another state, which may be of an earlier time.
     ///
     /// # Errors
     /// [`Error::StateNotFinite`]; what does not satisfy gaps and constraints is an error of the next advance.
@@ -135,6 +136,8 @@ impl<L: Contacts<Scalar: Real> + Clone + 'static, P: Method<L>> ContactMotion<L,
 
     fn advance(&mut self, end: L::Scalar, events: &mut [Box<DynEvent<'_, L>>]) -> Result<Ending, Ending> {
         let time = self.state().t.to_f64();
+        self.journey.forget();
+        check_times(self.state().t, end).map_err(|error| Ending::of(error, time))?;
         let ending = self.moved(end, events).unwrap_or_else(|error| Ending::of(error, time));
         self.system = self.journey.system();
         // What happens at an event follows with the next advance.
@@ -142,9 +145,8 @@ impl<L: Contacts<Scalar: Real> + Clone + 'static, P: Method<L>> ContactMotion<L,
         if ending.is_failure() { Err(ending) } else { Ok(ending) }
     }
 
+    /// Advances to an end that is not before the state.
     fn moved(&mut self, end: L::Scalar, events: &mut [Box<DynEvent<'_, L>>]) -> Result<Ending, Error> {
-        check_times(self.state().t, end)?;
-        self.journey.forget();
         if self.is_changed {
             self.journey.bodies.take(&self.system);
         }

@@ -190,7 +190,7 @@ impl Display for Error {
             ),
             Self::Penetration { contact, gap, time } => write!(
                 f,
-                "the gap of contact `{contact}` is {gap:e} at t = {time}: start where no gap is negative, and if a motion came here, take shorter steps, so that no contact is passed within one"
+                "the gap of contact `{contact}` is {gap:e} at t = {time}: start where no gap is negative, change no parameter so that one becomes negative, and if a motion came here, take shorter steps, so that no contact is passed within one"
             ),
             Self::ContactsContradict { contacts, time } => write!(
                 f,

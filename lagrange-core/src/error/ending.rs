@@ -271,7 +271,8 @@ impl Display for Ending {
             }
             Self::TransitionLimit { time, transitions } => write!(
                 f,
-                "stopped at t = {time}, after {transitions} transitions of contacts, the limit; raise it with `max_transitions`, or take `Radau` where bodies slide along two velocities"
+                "stopped at t = {time}, after {transitions} transition{} of contacts, the limit; raise it with `max_transitions`, or take `Radau` where bodies slide along two velocities",
+                if *transitions == 1 { "" } else { "s" }
             ),
             Self::WallTimeLimit { time } => {
                 write!(f, "stopped at t = {time} by the limit on wall time; raise it with `wall_time`")

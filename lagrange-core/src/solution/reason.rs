@@ -19,13 +19,19 @@ pub(crate) fn reason<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>
     ) {
         return error;
     }
+    parameter_not_finite(system).or_else(|| zero_quaternion(system, state)).unwrap_or(error)
+}
+
+/// The first parameter that is not finite.
+#[cold]
+pub(crate) fn parameter_not_finite<L: Lagrangian<Scalar: Real>>(system: &L) -> Option<Error> {
     let mut found = None;
     system.visit_parameters(&mut |name, value| {
         if found.is_none() && !value.is_finite() {
             found = Some(Error::ParameterNotFinite { name, value: value.to_f64() });
         }
     });
-    found.or_else(|| zero_quaternion(system, state)).unwrap_or(error)
+    found
 }
 
 /// Finds four entries of one vector that are zero, where a constraint holds for each of the four unit vectors but not for zero.

@@ -11,6 +11,7 @@ use crate::solution::solve::solve;
 #[cfg(feature = "alloc")]
 use crate::system::lookup::{index, unknown};
 use crate::system::{Lagrangian, SolutionOf, State, StateOf, check_names};
+use crate::vector::zeros;
 
 /// A state of a system with derived quantities: accelerations, multipliers, energy, observables.
 ///
@@ -35,8 +36,8 @@ impl<S: Lagrangian> Sample<S> {
 
     /// The same with these accelerations and multipliers.
     #[cfg(feature = "alloc")]
-    pub(crate) fn with(self, given: Option<SolutionOf<S>>) -> Self {
-        Self { given, ..self }
+    pub(crate) fn with(self, given: SolutionOf<S>) -> Self {
+        Self { given: Some(given), ..self }
     }
 }
 
@@ -84,7 +85,15 @@ impl<S: Lagrangian<Scalar: Real>> Sample<S> {
     /// # Errors
     /// Those of [`solution`](Self::solution).
     pub fn energy_rate(&self) -> Result<S::Scalar, Error> {
-        Ok(self.system.energy_rate(&self.state, &self.solution()?.multipliers))
+        let multipliers = self.solution()?.multipliers;
+        Ok(match self.given {
+            None => self.system.energy_rate(&self.state, &multipliers),
+            // Velocities need not satisfy the constraints: their forces have a power of their own.
+            Some(_) => {
+                let power = self.system.constraint_force(&self.state, &multipliers).dot(&self.state.v);
+                self.system.energy_rate(&self.state, &zeros()) + power
+            }
+        })
     }
 }
 
@@ -134,7 +143,8 @@ impl<S: Lagrangian<Scalar: Real>> Sample<S> {
         Ok(self.solution()?.multipliers[index])
     }
 
-    /// Returns the generalized constraint force Σ_α λ_α F_αa on the coordinate of this name, Milton (8.7).
+    /// Returns the generalized constraint force Σ_α λ_α F_αa on the coordinate of this name, Milton (8.7). Friction of contacts counts;
+    /// that of its own, by `#[friction(…)]`, counts while it sticks, and is an applied force while it slides.
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).

@@ -5,7 +5,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 use super::entries::Entries;
 use super::lagrangian::Lagrangian;
 use crate::number::{Scalar, Wide};
-use crate::vector::{Array, Element, Entrywise, Length, Vector};
+use crate::vector::{Array, Element, Entrywise, Length, Vector, vector};
 
 /// The time `t`, the generalized coordinates `q` and the generalized velocities `v` = q̇.
 ///
@@ -134,6 +134,12 @@ impl<T: Scalar, N: Length, M: Length> Solution<T, N, M> {
     /// Joins accelerations and multipliers that are given, not computed by an elimination.
     pub(crate) fn given(accelerations: Vector<T, N>, multipliers: Vector<T, M>) -> Self {
         Self { accelerations, multipliers, pivot: T::constant(1.0), rank: M::COUNT }
+    }
+
+    /// Accelerations and multipliers that are not known: NaN.
+    pub(crate) fn unknown() -> Self {
+        let unknown = T::constant(f64::NAN);
+        Self::given(vector(Array::filled(unknown)), vector(Array::filled(unknown)))
     }
 }
 

@@ -43,7 +43,7 @@ pub struct Deviation<T> {
 
 /// Deviations of every conserved quantity of a system along a trajectory.
 ///
-/// An energy that is not conserved, or only while nothing slides, is balanced: `energy - work` is E − ∫ dE/dt dt, with the rate
+/// An energy that is not conserved, or only while nothing hits and slides, is balanced: `energy - work` is E − ∫ dE/dt dt, with the rate
 /// [`energy_rate`](Lagrangian::energy_rate) of forces, moving constraints and a Lagrangian that changes with time. The integral
 /// is that of Gauss's formula of order 16 over each step, on the dense output. Its error comes to that of the motion; a
 /// deviation far above the tolerance tells of an inaccurate motion, or of a rate that changes abruptly within a step.
@@ -77,10 +77,10 @@ pub struct Drift<T> {
 
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
     /// Returns the largest deviation of each conserved quantity from its initial value, and that of the balance of an energy
-    /// that is not conserved, or only while nothing slides. What impacts take of it is left out.
+    /// that is not conserved, or only while nothing hits and slides. What impacts take is left out; in time steps it is work of impulses.
     pub fn drift(&self) -> Drift<S::Scalar> {
         let drift = Drift::of(self.legs().iter().flat_map(Leg::samples_of_steps));
-        let is_conserved = S::FACTS.energy_is_conserved.is_some() && !S::HAS_FRICTION;
+        let is_conserved = S::FACTS.energy_is_conserved.is_some() && !S::HAS_CONTACTS;
         if is_conserved { drift } else { drift.balanced(self.legs()) }
     }
 }
@@ -104,11 +104,10 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
     fn work(&self, from: S::Scalar, to: S::Scalar) -> Result<S::Scalar, Error> {
         GAUSS.iter().try_fold(S::Scalar::constant(0.0), |sum, (node, weight)| {
             let sample = self.sample_at(between(from, to, *node))?;
-            let multipliers = match <S::M>::COUNT {
-                0 => zeros(),
-                _ => sample.solution()?.multipliers,
+            let rate = match <S::M>::COUNT {
+                0 => self.system.energy_rate(sample.state(), &zeros()),
+                _ => sample.energy_rate()?,
             };
-            let rate = self.system.energy_rate(sample.state(), &multipliers);
             Ok(sum + rate * (to - from) * S::Scalar::constant(*weight))
         })
     }

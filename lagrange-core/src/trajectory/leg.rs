@@ -7,11 +7,10 @@ use core::marker::PhantomData;
 
 use super::path::Path;
 use crate::error::Error;
-use crate::number::{Real, Scalar};
+use crate::number::Real;
 use crate::solution::Sample;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::system::{Lagrangian, Solution, SolutionOf, StateOf};
-use crate::vector::{Array, vector};
 
 /// A part of a [`Trajectory`](super::Trajectory) between two transitions, with the system as it is there: a motion without contacts has
 /// one leg.
@@ -22,9 +21,16 @@ pub struct Leg<S: Lagrangian, F = LagrangianVectorField> {
     pub(super) transitions: usize,
     /// Event at its end, of the user or of a contact.
     boundary: Option<&'static str>,
-    /// Mean accelerations and multipliers of each step, in a motion by time steps.
-    means: Option<Vec<SolutionOf<S>>>,
+    means: Option<Means<S>>,
     field: PhantomData<F>,
+}
+
+/// What acts in a motion by time steps.
+pub(crate) struct Means<S: Lagrangian> {
+    /// The system with all constraints that the multipliers belong to: contacts closed, friction that sticks.
+    pub(crate) closed: S,
+    /// Mean accelerations and multipliers of each step.
+    pub(crate) of_steps: Vec<SolutionOf<S>>,
 }
 
 impl<S: Lagrangian, F> Leg<S, F> {
@@ -33,7 +39,7 @@ impl<S: Lagrangian, F> Leg<S, F> {
     }
 
     /// A motion by time steps with these mean accelerations and multipliers.
-    pub(crate) fn in_time_steps(self, means: Vec<SolutionOf<S>>) -> Self {
+    pub(crate) fn in_time_steps(self, means: Means<S>) -> Self {
         Self { means: Some(means), ..self }
     }
 
@@ -74,6 +80,7 @@ impl<S: Lagrangian, F> Leg<S, F> {
 impl<L: Lagrangian + Clone, F> Leg<&L, F> {
     pub(crate) fn into_owned(self) -> Leg<L, F> {
         let Self { system, path, transitions, boundary, means, field } = self;
+        let means = means.map(|Means { closed, of_steps }| Means { closed: closed.clone(), of_steps });
         Leg { system: system.clone(), path, transitions, boundary, means, field }
     }
 }
@@ -104,12 +111,11 @@ impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Leg<S, F> {
 }
 
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
-    /// A state of the leg, in a motion by time steps with the means of the step that leads there.
+    /// A state of the leg, in a motion by time steps with the means of the step that leads there; at the start with those of the first.
     fn sample(&self, state: StateOf<S>) -> Sample<&S> {
-        let unknown = S::Scalar::constant(f64::NAN);
-        let none = || Solution::given(vector(Array::filled(unknown)), vector(Array::filled(unknown)));
-        let of_step = |means: &Vec<_>| means.get(self.path.step_until(state.t)).copied().unwrap_or_else(none);
-        Sample::of(&self.system, state).with(self.means.as_ref().map(of_step))
+        let Some(Means { closed, of_steps }) = &self.means else { return Sample::of(&self.system, state) };
+        let of_step = of_steps.get(self.path.step_until(state.t)).copied();
+        Sample::of(closed, state).with(of_step.unwrap_or_else(Solution::unknown))
     }
 
     pub(crate) fn samples_of_steps(&self) -> impl Iterator<Item = Sample<&S>> + '_ {

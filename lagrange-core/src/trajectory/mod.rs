@@ -15,6 +15,7 @@ pub use csv::Csv;
 pub use drift::{Deviation, Drift};
 pub use hybrid::{AnyTrajectory, HybridTrajectory, Named};
 pub use leg::Leg;
+pub(crate) use leg::Means;
 pub(crate) use path::Path;
 pub use records::Records;
 pub use stored::Trajectory;

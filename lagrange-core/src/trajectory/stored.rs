@@ -49,8 +49,9 @@ assert!(text.contains("\n1 impact, 1 closing; closed at the end: `floor`\nreache
 "#
 )]
 ///
-/// By [time steps](crate::contact::MoreauJean) there is one leg, whose system has all contacts open. States between two steps are linear
-/// between them, and accelerations and multipliers of a sample are the means over the step that leads there.
+/// By [time steps](crate::contact::MoreauJean) there is one leg. States between two steps are linear
+/// between them; accelerations and multipliers of a sample are the means over the step that leads there, at the start over the first, and
+/// NaN without steps. The system of a sample has all contacts closed, so that their forces count; that of the leg has all open.
 ///
 /// The call that integrates borrows the system `S`: `Trajectory<&Pendulum>`.
 /// [`into_owned`](Self::into_owned) returns a trajectory with its own copy of the system,
@@ -263,7 +264,10 @@ impl<S: Lagrangian<Scalar: Real>, F> Display for Trajectory<S, F> {
         let Statistics { accepted, rejected, evaluations, .. } = self.statistics;
         let [start, end] = self.times();
         write!(f, "{} from t = {start} to t = {end}:", S::NAME)?;
-        write!(f, " {accepted} steps, {rejected} rejected, {evaluations} evaluations")?;
+        match self.first_leg().is_in_time_steps() {
+            true => write!(f, " {accepted} time steps, {evaluations} evaluations")?,
+            false => write!(f, " {accepted} steps, {rejected} rejected, {evaluations} evaluations")?,
+        }
         match self.crossings.len() {
             0 => {}
             1 => write!(f, ", 1 crossing")?,

@@ -1,6 +1,6 @@
 //! The laws of Newton and Coulomb at every step, with gaps and velocities by hand.
 
-use lagrange_core::contact::MoreauJean;
+use lagrange_core::contact::{Contact, MoreauJean};
 use lagrange_core::prelude::*;
 use lagrange_systems::{Ball, Rod};
 
@@ -121,4 +121,43 @@ fn energy_never_rises() {
         }
         assert!(energies[energies.len() - 1] < 0.5 * energies[0]);
     }
+}
+
+/// Forces and powers of contacts in a sample are those of its multipliers: a box on a belt that gets faster, and then slides.
+#[test]
+fn samples_have_the_forces_of_contacts_and_the_work_of_their_impulses() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(x, y)]
+    #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+    #[contact(belt: y >= 0, friction(mu): x_dot - a*t)]
+    struct Carried {
+        m: f64,
+        g: f64,
+        mu: f64,
+        a: f64,
+        belt: Contact,
+    }
+    for (a, force) in [(3.0, 6.0), (8.0, 9.81)] {
+        let carried = Carried { m: 2.0, g: G, mu: 0.5, a, belt: Contact::Open };
+        let motion = carried.motion(State::at_rest([0.0; 2])).by_time_stepping(MoreauJean::with_step(STEP));
+        let path = motion.to(1.0).unwrap();
+        let (last, v) = (path.end(), force / 2.0);
+        let found = ["x", "y"].map(|name| last.constraint_force(name).unwrap());
+        assert!((found[0] - force).abs() < 1e-9 && (found[1] - 2.0 * G).abs() < 1e-9, "{found:?}");
+        // The velocity is that of the belt in the middle of a step.
+        assert!((last.energy_rate().unwrap() - force * v).abs() < force * a * STEP, "{last}");
+        let table = path.csv(3).to_string();
+        assert!(table.starts_with("t,x,y,x_dot,y_dot,lambda(belt),lambda(belt_friction),force(x),force(y)"));
+        let balance = *path.drift().get("energy - work").unwrap();
+        assert!(balance.largest < 1e-12, "{balance:?}");
+        assert!(
+            path.to_string().contains("500 time steps")
+                && path.to_string().contains("closed at the end: `belt`")
+        );
+    }
+    // And of impacts.
+    let (rod, thrown) = (rod(0.4), State::new([0.0, 1.2, 0.7], [0.5, 0.0, -3.0]));
+    let path = rod.motion(thrown).by_time_stepping(MoreauJean::with_step(STEP)).to(1.0).unwrap();
+    let balance = *path.drift().get("energy - work").unwrap();
+    assert!(balance.largest < 5e-3 * balance.start, "{balance:?}");
 }

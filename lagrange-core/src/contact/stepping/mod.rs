@@ -235,7 +235,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E> Builder<'_, '_,
                 break ending;
             }
         };
-        Ok(steps.finish(stepper.into_system(), ending))
+        Ok(steps.finish(stepper.into_systems(), ending))
     }
 }
 

@@ -126,10 +126,10 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> ContactStepper<L> {
         &self.last.state
     }
 
-    /// Returns the sample at the end of the last step, for queries by name: multipliers are the mean forces of the step. Before the first,
-    /// they are NaN.
+    /// Returns the sample at the end of the last step, for queries by name: accelerations and multipliers are the means over the step, and
+    /// NaN before the first. Its system has all contacts closed, so that their forces count.
     pub fn sample(&self) -> Sample<&L> {
-        Sample::of(self.system(), self.last.state).with(Some(self.last.means))
+        Sample::of(&self.steps.bodies.closed, self.last.state).with(self.last.means)
     }
 
     /// Returns the system, with all contacts open.
@@ -145,8 +145,9 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> ContactStepper<L> {
         self.steps.is_changed = true;
     }
 
-    pub(super) fn into_system(self) -> L {
-        self.steps.bodies.open
+    /// The system with all contacts open, and with all closed.
+    pub(super) fn into_systems(self) -> [L; 2] {
+        [self.steps.bodies.open, self.steps.bodies.closed]
     }
 }
 

@@ -3,13 +3,15 @@
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 
+use crate::contact::Contacts;
 use crate::error::{Ending, Error};
+use crate::names::name;
 use crate::number::{Real, Scalar};
 use crate::solution::Adjustment;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, Solution, SolutionOf, StateOf, lookup};
-use crate::trajectory::{Leg, Path, Trajectory};
-use crate::vector::{Array, Entrywise, Vector, vector, zeros};
+use crate::trajectory::{Leg, Means, Path, Trajectory};
+use crate::vector::{Entrywise, Vector, zeros};
 
 /// A step of a motion: what is known at its end.
 pub struct TimeStep<L: Lagrangian> {
@@ -29,9 +31,8 @@ pub struct TimeStep<L: Lagrangian> {
 impl<L: Lagrangian<Scalar: Real>> TimeStep<L> {
     /// The start of a motion.
     pub(super) fn start(state: StateOf<L>) -> Self {
-        let (zero, unknown) = (L::Scalar::constant(0.0), L::Scalar::constant(f64::NAN));
-        let means = Solution::given(vector(Array::filled(unknown)), vector(Array::filled(unknown)));
-        Self { state, impulses: zeros(), iterations: 0, residual: zero, means }
+        let residual = L::Scalar::constant(0.0);
+        Self { state, impulses: zeros(), iterations: 0, residual, means: Solution::unknown() }
     }
 
     /// Accelerations and multipliers of a step between two states, as means.
@@ -83,7 +84,7 @@ pub(super) struct Recorded<L: Lagrangian> {
     statistics: Statistics,
 }
 
-impl<L: Lagrangian<Scalar: Real>> Recorded<L> {
+impl<L: Contacts<Scalar: Real>> Recorded<L> {
     /// Steps from this state, with memory for so many.
     pub(super) fn from(start: StateOf<L>, count: usize) -> Self {
         let mut ends = Vec::with_capacity(count + 1);
@@ -102,9 +103,16 @@ impl<L: Lagrangian<Scalar: Real>> Recorded<L> {
         self.statistics.evaluations += step.iterations;
     }
 
-    pub(super) fn finish(self, system: L, ending: Ending) -> Trajectory<L> {
-        let Self { ends, means, statistics } = self;
-        let leg = Leg::new(system, Path::linear(ends[0], ends), None).in_time_steps(means);
-        Trajectory::of(leg, Vec::new(), ending, statistics, Adjustment { q: zeros(), v: zeros() })
+    pub(super) fn finish(self, [open, closed]: [L; 2], ending: Ending) -> Trajectory<L> {
+        let Self { ends, means: of_steps, statistics } = self;
+        let pushes =
+            |row: usize| of_steps.last().is_some_and(|last| last.multipliers[row] > L::Scalar::constant(0.0));
+        let pushing = L::CONTACTS.iter().filter(|&&row| pushes(row)).map(|&row| name(L::CONSTRAINTS, row));
+        let pushing = pushing.collect();
+        let leg = Leg::new(open, Path::linear(ends[0], ends), None);
+        let leg = leg.in_time_steps(Means { closed, of_steps });
+        let adjustment = Adjustment { q: zeros(), v: zeros() };
+        let path = Trajectory::of(leg, Vec::new(), ending, statistics, adjustment);
+        Trajectory { closed: pushing, ..path }
     }
 }

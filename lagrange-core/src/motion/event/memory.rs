@@ -67,6 +67,8 @@ pub struct EventState<T> {
     last: Option<T>,
     /// Magnitude of the function at the last crossing.
     left: T,
+    /// True if the function has changed its sign, counted or not, and has been within its round-off since.
+    has_turned: bool,
     /// True if the state or the system has been set since the last crossing.
     is_new: bool,
     /// Longest interval of time between two crossings, or up to the first.
@@ -141,6 +143,7 @@ impl<T: Real> EventState<T> {
             until: None,
             last: None,
             left: zero,
+            has_turned: false,
             is_new: true,
             longest: zero,
             short: 0,
@@ -173,7 +176,7 @@ impl<T: Real> EventState<T> {
     #[cfg(feature = "alloc")]
     pub(super) fn arrive_at_end(&mut self, value: T, noise: T) {
         let zero = T::constant(0.0);
-        if self.start.is_none() && Scalar::abs(value) <= noise {
+        if self.start.is_none() && !self.has_turned && Scalar::abs(value) <= noise {
             self.next = zero;
             if self.crosses() {
                 (self.due, self.left) = (Some(self.value < zero), Scalar::abs(value));
@@ -366,9 +369,12 @@ impl<T: Real> EventState<T> {
     /// Continues the search from the end of the interval, at time `t`.
     #[inline]
     pub(super) fn go_on(&mut self, t: T) {
-        if Scalar::abs(self.samples[FINEST]) > self.noise {
+        let (size, zero) = (Scalar::abs(self.samples[FINEST]), T::constant(0.0));
+        if size > self.noise {
             self.start = None;
         }
+        let turns = self.value < zero && self.next > zero || self.value > zero && self.next < zero;
+        self.has_turned = turns || self.has_turned && size <= self.round_off;
         (self.value, self.samples[0], self.until) = (self.next, self.samples[FINEST], Some(t));
     }
 
