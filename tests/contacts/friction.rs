@@ -1,8 +1,8 @@
 //! Friction: the equations of each state against systems written by hand, and motions against closed solutions.
 
-use lagrange_core::contact::{Contact, Transition};
+use lagrange_core::contact::{Contact, Friction, Transition};
 use lagrange_core::prelude::*;
-use lagrange_random::cases;
+use lagrange_random::{Random, cases};
 use lagrange_systems::{Belt, Block, Puck, Rod, Sphere};
 
 use crate::{Congruence, impacts};
@@ -278,4 +278,34 @@ fn a_block_on_a_crank_turns_round_at_its_dead_centres() {
     let length = 0.5 * ((0.5_f64.cos() + 1.0) + 2.0 + (1.0 - theta.cos()));
     let lost = 0.5 * 2.0 * (16.0 - end.state().v[0] * end.state().v[0]);
     assert!((lost - 0.3 * 10.0 * length).abs() < 1e-9, "{lost} {}", 3.0 * length);
+}
+
+/// Two bodies fall side by side in a guide with a friction of so little that the force between them, which is zero, exceeds it by round-off.
+#[test]
+fn a_guide_without_friction_is_decided() {
+    #[derive(Clone, Lagrangian)]
+    #[coordinates(y, z)]
+    #[lagrangian(a/2*y_dot^2 + b/2*z_dot^2 - a*g*y - b*g*z)]
+    #[friction(guide: y_dot - z_dot, sliding: hold)]
+    struct Guided {
+        a: f64,
+        b: f64,
+        g: f64,
+        hold: f64,
+        guide: Friction,
+    }
+    let mut random = Random(2);
+    for _ in 0..cases([20, 40, 2000]) {
+        let [a, b] = [(); 2].map(|()| random.between(0.1, 50.0));
+        for hold in [0.0, 1e-300, 1e-20, 1e-16, 1e-15, 1e-12] {
+            let guided = Guided { a, b, g: 9.81, hold, guide: Friction::Sticks };
+            for v in [[0.0; 2], [0.1, 0.2]] {
+                let path = guided.motion(State::new([1.0, 0.5], v)).with_contacts().to(0.1).unwrap();
+                let fallen = path.end().state().q - lagrange_core::nalgebra::Vector2::new(1.0, 0.5);
+                let expected = v.map(|v| 0.1 * v - 0.5 * 9.81 * 0.01);
+                let off = (fallen - lagrange_core::nalgebra::Vector2::from(expected)).amax();
+                assert!(off < 1e-12, "{a} {b} {hold:e} {v:?}: {off:e}");
+            }
+        }
+    }
 }

@@ -174,7 +174,8 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //!   method is more than 8 ε, it takes the place of that for friction along two velocities, since no step ends where both are zero. A velocity
 //!   below that which no force can stop, as along a rail, then counts as rest, too, and its friction is wrong: lower the tolerance. What begins
 //!   to slide along two gets 64 times that as a speed, and what its force changes within the round-off of the time.
-//! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both; a force of contact that
+//! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both and of the largest force on a
+//!   coordinate that it could balance; a force of contact that
 //!   begins at zero, once it is below by as much, but by no more than 5·10⁻⁷ of the largest force.
 //! - The direction in which bodies slide along two velocities is renewed where the velocity has turned by 60°.
 //! - Where friction is shared, the shares are those with the most of all limits left, to a factor of 2: as loads grow they are decided anew,

@@ -145,8 +145,8 @@ where
             continue;
         }
         let LegFriction { friction, is_implied, .. } = decided.states.frictions[f];
-        let [limit, force] =
-            if friction.is_at_rest() { check_held(system, (closed, f), state)? } else { [zero; 2] };
+        let [limit, force, least] =
+            if friction.is_at_rest() { check_held(system, (closed, f), state)? } else { [zero; 3] };
         // A force that is a part of that of sliding, and of a velocity that others keep zero, stays where it is.
         if is_implied {
             continue;
@@ -159,7 +159,6 @@ where
                     Ok(limit - force)
                 };
                 // A force that begins at its limit has no sign before, and may have no round-off.
-                let least = L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * (limit + force);
                 let margin =
                     margin(system, state, [least + least_speed::<L::Scalar>(), limit + force], left)?;
                 let event = system.event(name, move |sample| Ok(left(sample)? + margin));
@@ -195,20 +194,34 @@ fn least_speed<T: Real>() -> T {
     Scalar::sqrt(T::constant(T::SMALLEST)) * T::constant(AT_LIMIT)
 }
 
-/// Limit of friction at rest and its force at the start of a leg. Fails if the force exceeds it by more than what the decision leaves
-/// of the largest force.
+/// Limit of friction at rest, its force at the start of a leg, and the round-off of both. Fails if the force exceeds the limit by more than
+/// that, and than what the decision leaves of the largest force.
 fn check_held<L: Contacts<Scalar: Real> + Clone>(
     system: &L,
     (closed, f): (&L, usize),
     state: &StateOf<L>,
-) -> Result<[L::Scalar; 2], Error> {
+) -> Result<[L::Scalar; 3], Error> {
     let solution = system.solve(state)?;
     let [limit, force] = held(closed, f, state, &solution)?;
-    if force - limit > L::Scalar::constant(BEYOND) * largest::<L>(&solution) {
+    let sizes = limit + force + applied(closed, f, state);
+    let round_off = L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * sizes;
+    if force - limit > larger(round_off, L::Scalar::constant(BEYOND) * largest::<L>(&solution)) {
         let friction = name(L::CONSTRAINTS, L::FRICTIONS[f].row);
         return Err(Error::FrictionUndecided { friction, time: state.t.to_f64() });
     }
-    Ok([limit, force])
+    Ok([limit, force, round_off])
+}
+
+/// The largest force along a friction that balances one of the forces on the coordinates: that of friction may be the round-off of these.
+fn applied<L: Contacts<Scalar: Real> + Clone>(closed: &L, f: usize, state: &StateOf<L>) -> L::Scalar {
+    let (forces, rows) = (closed.forcing(state), closed.constraint_jacobian(state));
+    let zero = L::Scalar::constant(0.0);
+    let along = |a: usize, i: usize| match rows[(a, i)] == zero {
+        true => zero,
+        false => Scalar::abs(forces[i] / rows[(a, i)]),
+    };
+    let each = L::FRICTIONS[f].rows().flat_map(|a| (0..<L::N>::COUNT).map(move |i| along(a, i)));
+    each.fold(zero, larger)
 }
 
 /// Limit of friction that sticks, and its force.
