@@ -79,12 +79,12 @@ fn steps_have_both_states_of_an_impact() {
 fn a_summary_counts_the_transitions() {
     let path = BALL.motion(START).with_contacts().to(2.0).unwrap();
     let impacts = path.transitions().len() - 1;
-    let expected = format!(
-        "Ball from t = 0 to t = 2: {impacts} impacts, 1 rest, 0 closings, 0 openings\nclosed at the end: `floor`\nreached the end at t = 2"
-    );
-    assert_eq!(path.to_string(), expected);
+    let (steps, rest) = path.to_string().split_once('\n').map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
+    assert!(steps.starts_with("Ball from t = 0 to t = 2: ") && steps.ends_with(" evaluations"), "{steps}");
+    let expected = format!("{impacts} impacts, 1 rest; closed at the end: `floor`\nreached the end at t = 2");
+    assert_eq!(rest, expected);
     let path = BALL.motion(START).with_contacts().to(1.2).unwrap();
-    let expected =
-        "Ball from t = 0 to t = 1.2: 1 impact, 0 rests, 0 closings, 0 openings\nreached the end at t = 1.2";
-    assert_eq!(path.to_string(), expected);
+    assert!(path.to_string().ends_with(" evaluations\n1 impact\nreached the end at t = 1.2"), "{path}");
+    let path = BALL.motion(START).with_contacts().to(0.1).unwrap();
+    assert!(path.to_string().contains("\nno transitions\n"), "{path}");
 }

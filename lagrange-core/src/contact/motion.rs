@@ -117,6 +117,14 @@ impl<L: Contacts<Scalar: Real> + Clone + 'static, P: Method<L>> ContactMotion<L,
         self.advance(end, &mut []).map(drop)
     }
 
+    /// Advances by this length of time; many equal lengths add up with the rounding error of each sum.
+    ///
+    /// # Errors
+    /// Those of [`advance_to`](Self::advance_to).
+    pub fn advance_by(&mut self, length: L::Scalar) -> Result<(), Ending> {
+        self.advance_to(self.state().t + length)
+    }
+
     /// Advances to the first crossing of a [terminal](crate::Event::terminal) one of these events, or to the time `end` if there is none
     /// on the way. At an impact, the state is that before it, and the impact follows with the next advance.
     ///

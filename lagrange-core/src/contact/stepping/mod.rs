@@ -19,7 +19,7 @@ use crate::number::Real;
 use crate::system::Lagrangian;
 use crate::trajectory::Trajectory;
 pub use stepper::ContactStepper;
-use trajectory::Recorded;
+use trajectory::TakenSteps;
 pub use trajectory::TimeStep;
 
 /// Largest number of steps unless [`max_steps`](MoreauJean::max_steps) sets another.
@@ -213,7 +213,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E> Builder<'_, '_,
         let from = stepper.state().t;
         check_times(from, end)?;
         let count = count(&scheme, (end - from).to_f64());
-        let mut steps = Recorded::from(*stepper.state(), count.min(scheme.max_steps).min(RESERVED));
+        let mut steps = TakenSteps::from(*stepper.state(), count.min(scheme.max_steps).min(RESERVED));
         let ending = loop {
             let done = steps.count();
             let (last, next) = (stepper.state().t, if done + 1 == count { end } else { stepper.next_time() });

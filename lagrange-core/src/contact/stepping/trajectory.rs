@@ -77,14 +77,14 @@ impl<L: Lagrangian> Debug for TimeStep<L> {
 }
 
 /// Steps of a motion so far.
-pub(super) struct Recorded<L: Lagrangian> {
+pub(super) struct TakenSteps<L: Lagrangian> {
     /// States at their ends, the first of which is the start.
     ends: Vec<StateOf<L>>,
     means: Vec<SolutionOf<L>>,
     statistics: Statistics,
 }
 
-impl<L: Contacts<Scalar: Real>> Recorded<L> {
+impl<L: Contacts<Scalar: Real>> TakenSteps<L> {
     /// Steps from this state, with memory for so many.
     pub(super) fn from(start: StateOf<L>, count: usize) -> Self {
         let mut ends = Vec::with_capacity(count + 1);

@@ -22,7 +22,7 @@ use crate::vector::{Element, Length};
     message = "`{Self}` is not a method that integrates `{L}`",
     note = "methods are `Dop853::default()`, `Taylor::default()`, `Dopri5::default()`, `Radau::default()`, and with steps of one length `RungeKutta4::with_step(…)`, `Verlet`, `Gauss::<2>`, `Lobatto::<2>` and `DAlembert`; the system must be over `f64` or `f32`",
     note = "motions in (q, p), `motion_in_momenta`, are integrated by `Dop853`, `Dopri5` and other pairs alone",
-    note = "the order is `integrate(start, end, method)`"
+    note = "the order is `integrate(start, end, method)`; time steps across contacts are `motion(start).by_time_stepping(scheme)`"
 )]
 pub trait Method<L, F = LagrangianVectorField>
 where
