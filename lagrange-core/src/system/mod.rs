@@ -28,10 +28,8 @@ pub use equations::{Equations, Excerpt};
 pub use evidence::Evidence;
 pub use facts::{Conserved, EnergyForm, Facts, LinearPart, TotalDerivative};
 pub use integrability::{Classification, Extent, Integrability, Integrals};
-#[cfg(feature = "alloc")]
-pub(crate) use lagrangian::check_contacts;
 pub use lagrangian::{ConstraintKind, Lagrangian};
-pub(crate) use lagrangian::{check_friction, check_names, entry, has_velocity_constraints};
+pub(crate) use lagrangian::{check_contacts, check_friction, check_names, entry, has_velocity_constraints};
 pub use pack::{Pack, Packed, Shared};
 pub(crate) use state::write_state;
 pub use state::{Solution, SolutionOf, State, StateOf};

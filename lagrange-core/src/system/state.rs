@@ -5,7 +5,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 use super::entries::Entries;
 use super::lagrangian::Lagrangian;
 use crate::number::{Scalar, Wide};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, vector};
+use crate::vector::{Array, Element, Entrywise, Length, Vector};
 
 /// The time `t`, the generalized coordinates `q` and the generalized velocities `v` = q̇.
 ///
@@ -139,7 +139,7 @@ impl<T: Scalar, N: Length, M: Length> Solution<T, N, M> {
     /// Accelerations and multipliers that are not known: NaN.
     pub(crate) fn unknown() -> Self {
         let unknown = T::constant(f64::NAN);
-        Self::given(vector(Array::filled(unknown)), vector(Array::filled(unknown)))
+        Self::given(Array::filled(unknown).into(), Array::filled(unknown).into())
     }
 }
 

@@ -195,8 +195,14 @@ fn malformed(
         let slopes = graph.gradient(entry, &symbols(problem.coordinates.len(), Variable::Velocity));
         slopes.into_iter().position(|slope| vanishes(graph, problem, slope).is_none())
     })?;
-    Some(format!(
-        "this constraint is not linear in the velocity of `{}`: d'Alembert's principle covers F(q,t) q̇ + b(q,t) = 0 only",
-        problem.coordinates[velocity].text
-    ))
+    let name = &problem.coordinates[velocity].text;
+    let is_friction = problem.frictions.iter().any(|of| (of.row..of.row + of.sliding.len()).contains(&row));
+    Some(match is_friction {
+        true => format!(
+            "this is not linear in the velocity of `{name}`: friction acts along a velocity F(q,t) q̇ + b(q,t), as that of one body past another"
+        ),
+        false => format!(
+            "this constraint is not linear in the velocity of `{name}`: d'Alembert's principle covers F(q,t) q̇ + b(q,t) = 0 only"
+        ),
+    })
 }

@@ -5,7 +5,7 @@ use super::parameters::{CONTACT, Entry, FRICTION, SwitchReading};
 use super::problem::{ContactRow, FrictionRows};
 use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
-use crate::symbolic::Id;
+use crate::symbolic::{Id, Rational};
 use crate::syntax::{Constraint, Expression, ImpactLaw, Law};
 use crate::variables::{Variable, has_velocity};
 
@@ -38,14 +38,20 @@ impl Lowering<'_> {
     /// Adds a contact.
     pub(super) fn contact(
         &mut self,
-        (restitution, impact): (Option<&Expression>, ImpactLaw),
+        (value, impact): (Option<&Expression>, ImpactLaw),
         (constraint, element): (&Constraint, &[usize]),
         row: usize,
         entry: Option<Entry>,
     ) {
         let restitution = self.with_indices(&constraint.target.indices, element, |lowering| {
-            restitution.map_or(Some(Id::ZERO), |value| lowering.scalar(value))
+            value.map_or(Some(Id::ZERO), |value| lowering.scalar(value))
         });
+        if let (Some(number), Some(value)) = (restitution.and_then(|id| self.graph.as_number(id)), value)
+            && (number < Rational::from(0) || number > Rational::from(1))
+        {
+            let message = "a coefficient of restitution is a number from 0, where the bodies stay together, to 1, where they lose no energy";
+            self.diagnostics.error(value.place, message);
+        }
         if let (Some(entry), Some(restitution)) = (entry, restitution) {
             self.contacts.push(ContactRow { row, entry, restitution, impact });
         }
@@ -106,9 +112,22 @@ impl Lowering<'_> {
             Law::Coulomb { limit, sliding } | Law::Dry { limit, sliding } => (limit.as_ref(), sliding),
             _ => return None,
         };
-        let sliding = self.scalar(sliding);
-        let limit = limit.map_or(sliding, |limit| self.scalar(limit));
-        Some([limit?, sliding?])
+        let of_sliding = self.scalar(sliding);
+        let of_rest = limit.map_or(of_sliding, |limit| self.scalar(limit));
+        let bounds = [of_rest?, of_sliding?];
+        let [at_rest, slides] = bounds.map(|id| self.graph.as_number(id));
+        let is_law = matches!(law, Law::Coulomb { .. });
+        if slides.is_some_and(|number| number < Rational::from(0)) {
+            let what = if is_law { "a coefficient" } else { "a force" };
+            let message =
+                format!("{what} of friction is not negative: it acts against the velocity by itself");
+            self.diagnostics.error(sliding.place, message);
+        } else if at_rest.zip(slides).is_some_and(|(at_rest, slides)| at_rest < slides) {
+            let what = if is_law { "the static coefficient" } else { "the limit" };
+            let message = format!("{what} is the larger one: friction that holds bears at least what slides");
+            self.diagnostics.error(limit.unwrap_or(sliding).place, message);
+        }
+        Some(bounds)
     }
 
     /// Components of the direction in which friction slides, each zero while it does not. That of two velocities v is v/|v|,
