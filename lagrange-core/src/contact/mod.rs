@@ -103,12 +103,12 @@ assert_eq!(path.system().floor, Contact::Closed);
 //! ```
 //!
 //! A [`Motion`](crate::Motion), motions with derivatives, Lyapunov exponents and `integrate` of an ensemble do not compile either.
-//! [`Trajectory::sensitivity`] has the derivatives across contacts.
+//! [`Trajectory::sensitivity`](crate::Trajectory::sensitivity) has the derivatives across contacts.
 //! What looks at one state, as `solve`, `jacobian`, `linearize`, `equilibrium` and `inputs_for`, leaves contacts as their fields say.
 //!
 //! # Derivatives
 //!
-//! [`Trajectory::sensitivity`] has the derivatives of the last state by the start and by parameters, across impacts,
+//! [`Trajectory::sensitivity`](crate::Trajectory::sensitivity) has the derivatives of the last state by the start and by parameters, across impacts,
 //! openings and friction. Where neighbouring motions pass a transition in different ways, there is none:
 //! [`Error::NoDerivativeAcross`](crate::Error::NoDerivativeAcross) names it.
 //!
@@ -237,7 +237,7 @@ for (v, expected) in path.end().state().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 
 //! in one impact may gain energy, and for friction with several e no proof excludes it: all restitutions are then lowered in
 //! proportion to where they gain none.
 //!
-//! [`sensitivity`](Trajectory::sensitivity) has derivatives across an impact by Poisson's law where one contact pushes, without
+//! [`sensitivity`](crate::Trajectory::sensitivity) has derivatives across an impact by Poisson's law where one contact pushes, without
 //! friction or sliding, and an error else. [Time stepping](MoreauJean) is an error, [`Error::ImpactLaw`](crate::Error::ImpactLaw).
 //!
 //! # Painlevé's paradox

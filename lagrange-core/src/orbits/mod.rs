@@ -74,7 +74,7 @@ pub trait PeriodicMotion: Linearized<Scalar: Real> + Sized {
 
     /// Monodromy matrix of a motion across events, resets and impacts, from its derivatives at the end. The derivatives are those of
     /// [`motion_with_derivatives`](MotionDerivatives::motion_with_derivatives) or of a
-    /// [`Trajectory`](crate::contact::Trajectory::sensitivity) by all coordinates and velocities.
+    /// [`Trajectory`](crate::Trajectory::sensitivity) by all coordinates and velocities.
     ///
     /// Where the motion ends at an event, the matrix is that of the map from the start to the event (Poincaré's map).
     ///

@@ -115,7 +115,7 @@ pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
     /// reached neither its end nor an event, or if the event has no derivative.
     ///
     /// A system with [contacts](crate::contact) would pass through them, and does not compile. Its derivatives are those of
-    /// [`Trajectory::sensitivity`](crate::contact::Trajectory::sensitivity).
+    /// [`Trajectory::sensitivity`](crate::Trajectory::sensitivity).
     ///
     /// ```compile_fail
     /// # use lagrange_core::contact::Contact;
