@@ -159,6 +159,7 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! | [`ImpactsDoNotEnd`](crate::Error::ImpactsDoNotEnd) | impacts follow one another at one time | less restitution, or none where a light body is between heavy ones |
 //! | [`TransitionLimit`](crate::Ending::TransitionLimit) | too many transitions, as of a body that chatters | `max_transitions`, or [time steps](MoreauJean) |
 //! | [`StepLimit`](crate::Ending::StepLimit), "looks stiff" | friction along two velocities begins slowly, or a spring is stiff | [`Radau`](crate::linearized::Radau) |
+//! | [`MethodFailed`](crate::Ending::MethodFailed), [`TimeTooCoarse`](crate::Ending::TimeTooCoarse) | steps of a loose tolerance pass over where friction along two velocities turns | a tolerance of 10⁻⁷ or less |
 //! | [`StepTooLong`](crate::Error::StepTooLong), [`ImpulsesNotFound`](crate::Error::ImpulsesNotFound) | in time steps: forces or contacts change too much in one | shorter steps |
 //!
 //! # Bounds
