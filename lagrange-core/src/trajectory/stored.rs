@@ -189,7 +189,7 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
     }
 
     /// True if the constraints were independent throughout. If not, the motion is still correct, and the
-    /// multipliers are those of least Euclidean norm.
+    /// multipliers are those of least Euclidean norm. Time steps do not examine it: theirs are shared as if all contacts were equally stiff.
     pub fn multipliers_are_unique(&self) -> bool {
         self.statistics.multipliers_are_unique
     }
