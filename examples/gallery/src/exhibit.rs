@@ -1,7 +1,7 @@
 //! What a system says of itself to be shown.
 
 use lagrange_core::contact::{ContactMotion, Contacts};
-use lagrange_core::{Ending, Method, StateOf, generic::Vector, prelude::*};
+use lagrange_core::{Method, StateOf, generic::Vector, prelude::*};
 
 use crate::scene::{Point, Scene, View};
 
@@ -116,7 +116,7 @@ pub trait Moves<E: Lagrangian> {
     ///
     /// # Errors
     /// Why the motion ends before.
-    fn advance(&mut self, end: f64) -> Result<(), Ending>;
+    fn advance(&mut self, end: f64) -> Result<(), String>;
 }
 
 impl<E: Lagrangian<Scalar = f64>> Moves<E> for Motion<E, Dop853>
@@ -131,8 +131,8 @@ where
         self.state()
     }
 
-    fn advance(&mut self, end: f64) -> Result<(), Ending> {
-        self.advance_to(end)
+    fn advance(&mut self, end: f64) -> Result<(), String> {
+        self.advance_to(end).map_err(|ending| ending.to_string())
     }
 }
 
@@ -148,8 +148,8 @@ where
         self.state()
     }
 
-    fn advance(&mut self, end: f64) -> Result<(), Ending> {
-        self.advance_to(end)
+    fn advance(&mut self, end: f64) -> Result<(), String> {
+        self.advance_to(end).map_err(|ending| ending.to_string())
     }
 }
 

@@ -170,7 +170,7 @@ where
             if next > end {
                 return Ok(());
             }
-            self.motion.advance(next).map_err(|ending| ending.to_string())?;
+            self.motion.advance(next)?;
             self.record();
         }
     }
