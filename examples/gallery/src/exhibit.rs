@@ -119,39 +119,29 @@ pub trait Moves<E: Lagrangian> {
     fn advance(&mut self, end: f64) -> Result<(), String>;
 }
 
-impl<E: Lagrangian<Scalar = f64>> Moves<E> for Motion<E, Dop853>
-where
-    Dop853: Method<E>,
-{
-    fn system(&self) -> &E {
-        self.system()
-    }
+macro_rules! moves {
+    ($motion:ident of $($system:tt)*) => {
+        impl<E: $($system)*> Moves<E> for $motion<E, Dop853>
+        where
+            Dop853: Method<E>,
+        {
+            fn system(&self) -> &E {
+                self.system()
+            }
 
-    fn state(&self) -> &StateOf<E> {
-        self.state()
-    }
+            fn state(&self) -> &StateOf<E> {
+                self.state()
+            }
 
-    fn advance(&mut self, end: f64) -> Result<(), String> {
-        self.advance_to(end).map_err(|ending| ending.to_string())
-    }
+            fn advance(&mut self, end: f64) -> Result<(), String> {
+                self.advance_to(end).map_err(|ending| ending.to_string())
+            }
+        }
+    };
 }
 
-impl<E: Contacts<Scalar = f64> + Clone + 'static> Moves<E> for ContactMotion<E, Dop853>
-where
-    Dop853: Method<E>,
-{
-    fn system(&self) -> &E {
-        self.system()
-    }
-
-    fn state(&self) -> &StateOf<E> {
-        self.state()
-    }
-
-    fn advance(&mut self, end: f64) -> Result<(), String> {
-        self.advance_to(end).map_err(|ending| ending.to_string())
-    }
-}
+moves!(Motion of Lagrangian<Scalar = f64>);
+moves!(ContactMotion of Contacts<Scalar = f64> + Clone + 'static);
 
 /// Begins a motion across contacts.
 pub(crate) fn across_contacts<E>(system: &E, start: StateOf<E>) -> Result<Box<dyn Moves<E>>, Error>

@@ -92,7 +92,7 @@ impl<L: Lagrangian, S, P, E, K> MotionBuilder<'_, '_, L, S, P, E, AcrossContacts
 }
 
 impl<L: Contacts<Scalar: Real> + Clone, P: Method<L>, E> Builder<'_, '_, L, P, E, AllSteps> {
-    /// Begins a motion that its caller advances, and can steer in between.
+    /// Begins a motion that its caller advances, and can steer in between. A progress callback is not called.
     ///
     /// # Errors
     /// [`Error::Setting`] for settings of the method that are not allowed, and [`Error::StateNotFinite`]. What contacts do at the start

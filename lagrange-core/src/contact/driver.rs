@@ -69,13 +69,13 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         Self { bodies, decided, state, times, kept, transitions, crossings, statistics, accept, arrived }
     }
 
-    /// Goes on from another state, without what is known of contacts and friction.
+    /// Continues from another state, where nothing is known yet of contacts and friction.
     pub(super) fn restart(&mut self, state: StateOf<L>) {
         let open = LegStates { frictions: Vec::new(), ..LegStates::closed::<L>(|_| false) };
         (self.state, self.decided, self.arrived) = (state, Decided { states: open, bounce: None }, None);
     }
 
-    /// Forgets what happened so far.
+    /// Clears the transitions and crossings of the last advance.
     pub(super) fn forget(&mut self) {
         self.transitions.clear();
         self.crossings.clear();
@@ -86,7 +86,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         self.bodies.with(&self.decided.states)
     }
 
-    /// Sets the time to which the motion goes on from its state.
+    /// Sets the end of the next part of the motion, which starts at the current state.
     pub(super) fn head_for(&mut self, end: L::Scalar) -> Result<(), Error> {
         self.times = [self.state.t, end];
         self.bodies.passes(&self.state);

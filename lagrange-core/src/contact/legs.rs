@@ -201,7 +201,7 @@ impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for AllLegs<L> {
     }
 }
 
-/// Samples of all legs, or nothing of them.
+/// Samples of all legs. Without a record, nothing of the legs is kept.
 pub(super) struct SampledLegs<'w, L: Lagrangian> {
     pub(super) record: Option<Record<'w, L>>,
 }

@@ -56,7 +56,7 @@ impl<T: Real> Lifting<T> {
             }
     }
 
-    /// At the end of a leg, takes gaps that have risen for those of open contacts.
+    /// Ends the leg: a contact whose gap has risen is an ordinary open contact from then on.
     pub(super) fn end(&self, states: &mut LegStates) {
         for (of, rise) in states.contacts.iter_mut().zip(&self.0) {
             of.is_resting &= of.is_closed || !matches!(rise.get(), Rise::None);

@@ -274,7 +274,7 @@ for (v, expected) in path.end().state().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 
 //!
 //! For stacks and heaps, [`MotionBuilder::by_time_stepping`](crate::MotionBuilder::by_time_stepping) takes steps of one length
 //! instead, with the impulses of all contacts at once: [`MoreauJean`]. Games and controllers take them one at a time: [`ContactStepper`]. A motion
-//! by events goes on frame by frame, too: [`ContactMotion`].
+//! whose impacts are located can be advanced frame by frame, too: [`ContactMotion`].
 
 #[cfg(feature = "alloc")]
 mod bodies;

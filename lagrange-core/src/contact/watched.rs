@@ -212,7 +212,8 @@ fn check_held<L: Contacts<Scalar: Real> + Clone>(
     Ok([limit, force, round_off])
 }
 
-/// The largest force along a friction that balances one of the forces on the coordinates: that of friction may be the round-off of these.
+/// Returns the largest force along a friction that would balance one of the forces on the coordinates. The force of friction is known to
+/// the round-off of this.
 fn applied<L: Contacts<Scalar: Real> + Clone>(closed: &L, f: usize, state: &StateOf<L>) -> L::Scalar {
     let (forces, rows) = (closed.forcing(state), closed.constraint_jacobian(state));
     let zero = L::Scalar::constant(0.0);

@@ -14,8 +14,8 @@ pub enum Contact {
     /// The bodies touch, and slide along one another. The friction of one velocity acts against the sign of the first number;
     /// that of two acts against the velocity, which has a positive part along this direction.
     Slides([f64; 2]),
-    /// The bodies touch and stay together, along with others that share the force of friction. The force along each velocity
-    /// is the one that keeps it zero, or this part of the limit: the others then keep that velocity zero.
+    /// The bodies touch and stay together, along with others that share the force of friction. For each velocity, `None`
+    /// stands for the force that keeps it zero, and a number for that part of the limit, while the others keep the velocity zero.
     Shares([Option<f64>; 2]),
 }
 

@@ -25,9 +25,9 @@ pub struct Leg<S: Lagrangian, F = LagrangianVectorField> {
     field: PhantomData<F>,
 }
 
-/// What acts in a motion by time steps.
+/// Mean accelerations and multipliers in a motion by time steps, with the system to which they belong.
 pub(crate) struct Means<S: Lagrangian> {
-    /// The system with all constraints that the multipliers belong to: contacts closed, friction that sticks.
+    /// The system with all contacts closed and all friction sticking: each multiplier has its constraint.
     pub(crate) closed: S,
     /// Mean accelerations and multipliers of each step.
     pub(crate) of_steps: Vec<SolutionOf<S>>,
@@ -48,12 +48,12 @@ impl<S: Lagrangian, F> Leg<S, F> {
         self.means.is_some()
     }
 
-    /// The same after so many transitions of the motion.
+    /// The same leg, with this number of transitions of the motion before it.
     pub(crate) fn after(self, transitions: usize) -> Self {
         Self { transitions, ..self }
     }
 
-    /// True if no transition follows it, of so many of the motion.
+    /// True if this number of transitions, all those of the motion so far, are before the leg.
     pub(crate) fn is_after(&self, transitions: usize) -> bool {
         self.transitions == transitions
     }

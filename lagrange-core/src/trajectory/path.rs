@@ -96,7 +96,7 @@ impl<T: Element, N: Length> Path<T, N> {
 }
 
 impl<T: Real, N: Length> Path<T, N> {
-    /// Steps that end at these states, the first of which is the start, and are linear between.
+    /// A path through these states, the first of which is its start, linear between them.
     pub(crate) fn linear(start: State<T, N>, ends: Vec<State<T, N>>) -> Self {
         let (last, times) = (*ends.last().unwrap_or(&start), ends.iter().map(|state| state.t));
         let times = times.take(ends.len().saturating_sub(1)).collect();

@@ -58,7 +58,7 @@ assert!(text.contains("\n1 impact, 1 closing; closed at the end: `floor`\nreache
 /// `Trajectory<Pendulum>`; across contacts it has copies from the start. The vector field `F` tells which equations were integrated,
 /// Lagrange's or Hamilton's; samples have both velocities and momenta.
 pub struct Trajectory<S: Lagrangian, F = LagrangianVectorField> {
-    /// At least one. What happens at the end is before a last one without steps.
+    /// At least one. Transitions at the end of the motion are followed by a leg without steps.
     pub(crate) legs: Vec<Leg<S, F>>,
     pub(crate) transitions: Vec<Transition<S::Scalar>>,
     /// Contacts that are closed at the end.
@@ -153,8 +153,8 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
         &self.legs
     }
 
-    /// Returns the transitions in the order in which they are decided, which is that of time but for [`Transition::Rests`]: it has
-    /// the later time when its bounces end. At one time impacts come before what closes and opens.
+    /// Returns the transitions in the order in which they are decided. This is the order of time, except that the time of a
+    /// [`Transition::Rests`] is when its last bounces end. At one time, impacts come before contacts that close and open.
     pub fn transitions(&self) -> &[Transition<S::Scalar>] {
         &self.transitions
     }
@@ -251,7 +251,7 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
         &self.legs[self.legs.partition_point(has_begun).saturating_sub(1)]
     }
 
-    /// An error of a leg, with the times of the motion.
+    /// Replaces the times of a leg in an error by those of the motion.
     fn outside(&self, error: Error, t: S::Scalar) -> Error {
         if let Error::OutsideTrajectory { .. } = error { outside(t, self.times()) } else { error }
     }

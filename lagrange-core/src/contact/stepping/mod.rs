@@ -46,7 +46,7 @@ const RESERVED: usize = 1 << 16;
 /// Contacts act if their gaps are closed after the first drift, or would be negative in the middle of the next step. Their rates u then satisfy
 /// Newton's law, u⁺ ≥ −e u⁻, p ≥ 0 and p = 0 unless they are equal, and the velocities of friction Coulomb's. Without
 /// restitution, and if the contact is approached no faster than free bodies fall in a step, they close without a bounce, to be zero in the
-/// middle of the next step. Where restitution with friction would give energy, it is reduced, as from impact to impact. A contact with Poisson's law is an error. The
+/// middle of the next step. Where restitution with friction would give energy, it is reduced, as it is in impacts that are located. A contact with Poisson's law is an error. The
 /// fields of contacts are ignored: gaps and velocities of the start say which contacts are closed.
 #[cfg_attr(
     feature = "std",

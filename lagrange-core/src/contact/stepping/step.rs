@@ -31,7 +31,7 @@ pub(super) struct Steps<L: Contacts<Scalar: Real>> {
     sticks: Vec<bool>,
     /// Length of the longest step.
     longest: f64,
-    /// The system has been changed since the last step.
+    /// True if parameters have been changed since the last step.
     pub(super) is_changed: bool,
 }
 

@@ -55,7 +55,7 @@ pub struct ContactStepper<L: Contacts<Scalar: Real>> {
 }
 
 impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E: Stepwise> Builder<'_, '_, L, P, E> {
-    /// Begins a motion that is taken step by step.
+    /// Begins a motion that is taken step by step. A progress callback is not called.
     ///
     /// # Errors
     /// [`Error::Setting`] and [`Error::Theta`] for settings that are not allowed; [`Error::ImpactLaw`] if a contact has Poisson's

@@ -30,7 +30,7 @@ impl Emitter<'_> {
         written
     }
 
-    /// Statements that return what a body in flight needs: where all contacts are open, their rows are not solved for.
+    /// Statements that solve without the rows of contacts, and return, while all contacts are open.
     fn open_contacts(&self) -> Written {
         let Some(open) = &self.open else {
             return Written { tokens: TokenStream::new(), kernels: Vec::new() };
