@@ -137,6 +137,11 @@ fn a_motion_goes_on_from_events_and_after_faults() {
     assert!(error.contains("`floor`") && *motion.state() == before, "{error}");
     motion.change(|ball| ball.r = 0.0);
     motion.advance_to(1.0).unwrap();
+    // A parameter that is no number is named, and can be mended.
+    motion.change(|ball| ball.r = f64::NAN);
+    let error = motion.advance_by(0.1).unwrap_err().to_string();
+    assert!(error.contains("`r`"), "{error}");
+    motion.change(|ball| ball.r = 0.0);
     // Thrown anew, from the floor where it rests.
     motion.advance_to(9.0).unwrap();
     assert_eq!(motion.system().floor, Contact::Closed);

@@ -146,6 +146,9 @@ fn samples_have_the_forces_of_contacts_and_the_work_of_their_impulses() {
         assert!((found[0] - force).abs() < 1e-9 && (found[1] - 2.0 * G).abs() < 1e-9, "{found:?}");
         // The velocity is that of the belt in the middle of a step.
         assert!((last.energy_rate().unwrap() - force * v).abs() < force * a * STEP, "{last}");
+        // Transitions are not located, so that there is nothing to differentiate across.
+        let error = path.sensitivity(&["mu"], Dop853::default()).unwrap_err();
+        assert!(error.to_string().contains("time steps do not locate"), "{error}");
         let table = path.csv(3).to_string();
         assert!(table.starts_with("t,x,y,x_dot,y_dot,lambda(belt),lambda(belt_friction),force(x),force(y)"));
         let balance = *path.drift().get("energy - work").unwrap();
