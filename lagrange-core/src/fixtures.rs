@@ -116,12 +116,11 @@ impl<const N: usize, const M: usize, const H: usize> Lagrangian for Mechanism<N,
     }
 
     fn accelerations_unchecked(&self, state: &At<N>) -> Solution<f64, N, M> {
-        let none = [0.0; M];
-        eliminate((self.mass)(state), (self.forcing)(state), (self.jacobian)(state), (self.bias)(state), none)
+        eliminate((self.mass)(state), (self.forcing)(state), (self.jacobian)(state), (self.bias)(state))
     }
 
     fn factor(&self, state: &At<N>) -> LoopFactor<f64, N, M> {
-        generated::factor((self.mass)(state), (self.jacobian)(state), [0.0; M], [0.0; M])
+        generated::factor((self.mass)(state), (self.jacobian)(state), [0.0; M])
     }
 
     fn solve_with<S: Broadcast<f64>>(

@@ -8,35 +8,35 @@ use crate::solution::eliminate;
 pub use crate::linearized::bodies::{Joint, JointColumn, Tree, TreeNumbers};
 pub use crate::number::numeric::{only_where, sin_cos_of_small};
 pub use crate::solution::eliminate::nan_if_ill_conditioned;
+pub use crate::solution::switched::{Row, Switched, SwitchedFactorOf, accelerations};
 pub use crate::system::defect::{Defect, asymmetry, distortion};
 pub use crate::system::equations::equations;
 pub use crate::system::member::FieldMember;
-pub use crate::system::switch::{FrictionState, Switch, holds, slides, slip, start, sticks};
+pub use crate::system::switch::{FrictionState, Switch, holds, keeps, slides, slip, start, sticks};
+pub use crate::vector::Array;
 
 /// Factorizations computed in loops, for `N` coordinates and `M` constraints.
 pub type LoopFactor<T, const N: usize, const M: usize> = eliminate::LoopFactor<T, Const<N>, Const<M>>;
 
-/// Factorizes the completed mass matrix M + FᵀσF, given the rows of M and F, the weights σ and the compliances c.
+/// Factorizes the completed mass matrix M + FᵀσF, given the rows of M and F and the weights σ.
 #[inline]
 pub fn factor<T: Scalar, const N: usize, const M: usize>(
     m: [[T; N]; N],
     f: [[T; N]; M],
     weights: [T; M],
-    compliance: [T; M],
 ) -> LoopFactor<T, N, M> {
-    eliminate::LoopFactor::of(m.into(), f.into(), weights.into(), compliance.into())
+    eliminate::LoopFactor::of(m.into(), f.into(), weights.into(), [T::constant(0.0); M].into())
 }
 
-/// Solves M q̈ − Fᵀλ = h, F q̈ + c λ = −γ without pivoting, given the rows of M and F.
+/// Solves M q̈ − Fᵀλ = h, F q̈ = −γ without pivoting, given the rows of M and F.
 #[inline]
 pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
     m: [[T; N]; N],
     h: [T; N],
     f: [[T; N]; M],
     gamma: [T; M],
-    compliance: [T; M],
 ) -> crate::Solution<T, N, M> {
-    factor(m, f, [T::constant(0.0); M], compliance).solve_completed(h.into(), gamma.into())
+    factor(m, f, [T::constant(0.0); M]).solve_completed(h.into(), gamma.into())
 }
 
 /// Converts an array to a column vector, without a copy.

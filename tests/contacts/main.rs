@@ -15,6 +15,7 @@ mod restitution;
 mod sensitivities;
 mod shaken;
 mod stepping;
+mod switched;
 
 // Costly to compile or to run: more systems and methods for what the modules above test.
 #[cfg(feature = "thorough")]

@@ -189,7 +189,7 @@ pub fn nan_if_ill_conditioned<T: Scalar>(least: T, most: T) -> T {
 
 /// Returns `x`, or NaN if `y` is not finite. `min` drops NaN, but 0/0 must not count as a good pivot.
 #[inline]
-fn poison<T: Scalar>(x: T, y: T) -> T {
+pub(super) fn poison<T: Scalar>(x: T, y: T) -> T {
     x + y * T::constant(0.0)
 }
 

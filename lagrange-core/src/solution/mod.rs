@@ -14,6 +14,7 @@ pub(crate) mod reason;
 pub(crate) mod round_off;
 mod sample;
 pub(crate) mod solve;
+pub(crate) mod switched;
 pub(crate) mod vector_field;
 
 pub use consistent::{Adjustment, Consistent};

@@ -132,6 +132,12 @@ pub fn sticks<T: Scalar>(field: &impl FrictionState, component: usize) -> T {
     one_if(field.friction().is_some_and(|friction| friction.keeps(component)))
 }
 
+/// Returns whether the friction of the field keeps a component of the velocity at zero.
+#[inline(always)]
+pub fn keeps(field: &impl FrictionState) -> bool {
+    field.friction().is_some_and(|friction| (0..2).any(|component| friction.keeps(component)))
+}
+
 /// 1 while the friction of the field slides, else 0.
 #[inline(always)]
 pub fn slides<T: Scalar>(field: &impl FrictionState) -> T {

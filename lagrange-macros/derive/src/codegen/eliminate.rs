@@ -2,11 +2,9 @@
 //!
 //! The [form](Form) ½ xᵀHx − bᵀx is reduced variable by variable: a free variable is eliminated, M = L D Lᵀ, and a
 //! defined one is substituted. The Schur complement S = F M⁻¹ Fᵀ = Z D⁻¹ Zᵀ with Z = F L⁻ᵀ is then factorized as S =
-//! L D Lᵀ. Sliding friction pushes along columns B that are not the rows F: then S = Z D⁻¹ Yᵀ + c with Y = B L⁻ᵀ is not
-//! symmetric, and is factorized as L D U. Structural zeros generate no code, and all factorizations use an order with little
-//! fill-in. (Golub and
-//! Van Loan, *Matrix Computations*, 4.1.2; Nocedal and Wright, *Numerical Optimization*, 16.2.) One LDLᵀ of the whole
-//! indefinite matrix would need pivoting at run time, except for the kinematic loops in [`loops`].
+//! L D Lᵀ. Structural zeros generate no code, and both factorizations use an order with little fill-in. (Golub and Van Loan,
+//! *Matrix Computations*, 4.1.2; Nocedal and Wright, *Numerical Optimization*, 16.2.) One LDLᵀ of the whole indefinite
+//! matrix would need pivoting at run time, except for the kinematic loops in [`loops`].
 
 mod arithmetic;
 mod loops;
@@ -41,15 +39,13 @@ pub(super) struct Solved {
     pub(super) pivot: Register,
 }
 
-/// Factorization of the KKT matrix, which has M and −Bᵀ above F and c.
+/// Factorization of the KKT matrix, which has M and −Fᵀ above F and 0.
 pub(super) struct Factorization {
     form: FormFactors,
     /// Number of multipliers that are variables of the form: all or none.
     among: usize,
     /// Rows of Z = F L⁻ᵀ for the multipliers that are not variables of the form.
     rows: Vec<Sparse>,
-    /// Rows of Y = B L⁻ᵀ for these multipliers, along which they push; those of Z unless friction slides.
-    columns: Vec<Sparse>,
     schur: FormFactors,
     /// Rows σ_a F_a of the constraints a that complete M. A solve subtracts γ_a times this row from h.
     completing: Vec<(usize, Sparse)>,
@@ -118,7 +114,7 @@ impl Factorization {
     /// Returns all registers of the factorization.
     fn registers(&self) -> impl Iterator<Item = Register> {
         let completing = self.completing.iter().map(|(_, row)| row);
-        let rows = self.rows.iter().chain(&self.columns).chain(completing).flatten();
+        let rows = self.rows.iter().chain(completing).flatten();
         let rows = rows.map(|&(_, entry)| entry);
         let check = [Some(self.check.pivot), self.check.doubt].into_iter().flatten();
         check.chain(self.form.registers()).chain(rows).chain(self.schur.registers())
@@ -129,11 +125,10 @@ impl Factorization {
         let schur = self.schur.with_registers(&mut new);
         let mut row = |row: &Sparse| row.iter().map(|&(i, entry)| (i, new(entry))).collect();
         let rows = self.rows.iter().map(&mut row).collect();
-        let columns = self.columns.iter().map(&mut row).collect();
         let completing = self.completing.iter().map(|(a, weighted)| (*a, row(weighted))).collect();
         let PivotCheck { pivot, doubt } = self.check;
         let check = PivotCheck { pivot: new(pivot), doubt: doubt.map(new) };
-        Self { form, among: self.among, rows, columns, schur, completing, check }
+        Self { form, among: self.among, rows, schur, completing, check }
     }
 }
 
@@ -145,22 +140,21 @@ fn pattern(matrix: &[Vec<Id>]) -> Vec<Vec<bool>> {
 fn order(form: &Form, equations: &LinearEquations) -> Option<(Vec<usize>, usize)> {
     let (matrix, rows) = (pattern(&form.matrix), pattern(&equations.jacobian));
     if form.definitions.is_empty()
-        && form.columns.is_none()
         && let Some(order) = loops::order(&matrix, &rows)
     {
         return Some((order, rows.len()));
     }
     let definitions = form.definitions.iter().map(|row| row.iter().map(|&(i, _)| i).collect()).collect();
-    Some((short(&Pattern { matrix, definitions, after: Vec::new() }, form.columns.is_none())?, 0))
+    Some((short(&Pattern { matrix, definitions, after: Vec::new() })?, 0))
 }
 
-/// Elimination order. `None` if loops are preferable, or if the code exceeds [`OPERATION_LIMIT`]. Sliding friction has no loops.
-fn short(pattern: &Pattern, has_loops: bool) -> Option<Vec<usize>> {
+/// Elimination order. `None` if loops are preferable, or if the code exceeds [`OPERATION_LIMIT`].
+fn short(pattern: &Pattern) -> Option<Vec<usize>> {
     let (order, cost) = reduction_order(pattern);
     let free = pattern.matrix.len() - pattern.definitions.len();
     let in_loops = free * free * free / 3;
     let is_worth_it = cost <= UNROLLED || SPARSE * cost <= in_loops || !pattern.definitions.is_empty();
-    ((is_worth_it || !has_loops) && cost <= OPERATION_LIMIT).then_some(order)
+    (is_worth_it && cost <= OPERATION_LIMIT).then_some(order)
 }
 
 /// Registers of the accelerations and multipliers that a solve computes.
@@ -180,15 +174,13 @@ impl Solver<'_> {
         let reduced = self.factor(matrix, definitions, &order, among);
         let written = form.rows.as_ref().unwrap_or(&equations.jacobian);
         let rows = if among > 0 { Vec::new() } else { self.rows(written, &reduced) };
-        let columns = form.columns.as_ref().map(|columns| self.rows(columns, &reduced));
-        let schur = self.schur_factors(&reduced, (&rows, columns.as_deref()), equations)?;
-        let columns = columns.unwrap_or_else(|| rows.clone());
+        let schur = self.schur_factors(&reduced, &rows)?;
         let completing = self.completing(form, equations);
         let check = self.pivot_check(!equations.jacobian.is_empty());
-        Some(Factorization { form: reduced, among, rows, columns, schur, completing, check })
+        Some(Factorization { form: reduced, among, rows, schur, completing, check })
     }
 
-    /// Appends −Fᵀ to the right of a matrix, −F below it, and −c on the diagonal.
+    /// Appends −Fᵀ to the right of a matrix, and −F below it.
     fn put_among(&mut self, matrix: &mut Vec<Vec<SparseEntry>>, equations: &LinearEquations) {
         let (n, jacobian) = (matrix.len(), &equations.jacobian);
         for row in jacobian {
@@ -198,9 +190,6 @@ impl Solver<'_> {
             matrix.push(below);
         }
         matrix[n..].iter_mut().for_each(|row| row.resize(n + jacobian.len(), None));
-        for (a, compliance) in self.entries(&equations.compliance).into_iter().enumerate() {
-            matrix[n + a][n + a] = self.negate(compliance);
-        }
     }
 
     /// Rows σ_a F_a of the constraints that complete M.
@@ -270,23 +259,22 @@ impl Solver<'_> {
         starts: Vec<SparseEntry>,
         bias: Vec<SparseEntry>,
     ) -> Found {
-        let Factorization { form, among, rows, columns, schur, check: PivotCheck { doubt, .. }, .. } =
-            factorization;
+        let Factorization { form, among, rows, schur, check: PivotCheck { doubt, .. }, .. } = factorization;
         let multipliers = self.multipliers(schur, &starts, rows, bias);
         // Add `doubt` (zero or NaN) to the finished multipliers. It is known late, and adding it earlier
         // would delay every multiplier that depends on another.
         let mut multipliers: Vec<SparseEntry> =
             multipliers.into_iter().map(|one| self.add(one, *doubt)).collect();
-        let pushes = self.pushes(&multipliers, columns, starts.len());
+        let pushes = self.pushes(&multipliers, rows, starts.len());
         let mut accelerations = self.backward(form, starts, &pushes, *doubt);
         multipliers.extend(accelerations.split_off(accelerations.len() - among));
         Found { accelerations, multipliers }
     }
 
-    /// Yᵀλ
-    fn pushes(&mut self, multipliers: &[SparseEntry], columns: &[Sparse], size: usize) -> Vec<SparseEntry> {
+    /// Zᵀλ
+    fn pushes(&mut self, multipliers: &[SparseEntry], rows: &[Sparse], size: usize) -> Vec<SparseEntry> {
         let mut pushes = vec![None; size];
-        for (&multiplier, row) in multipliers.iter().zip(columns) {
+        for (&multiplier, row) in multipliers.iter().zip(rows) {
             for &(i, z) in row {
                 let part = self.multiply(multiplier, Some(z));
                 pushes[i] = self.add(pushes[i], part);

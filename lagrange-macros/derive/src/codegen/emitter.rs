@@ -5,7 +5,6 @@ use quote::quote;
 
 use super::count::OPERATION_LIMIT;
 use super::kernel::{Kernel, Part};
-use super::passes::Program;
 use super::solving::Solving;
 use super::style::FunctionContext;
 use crate::facts::Facts;
@@ -21,10 +20,7 @@ pub(super) struct Emitter<'a> {
     pub(super) derived: &'a Derived,
     pub(super) rendered: &'a Rendered,
     pub(super) facts: &'a Facts,
-    /// Programs of the elimination. `None` if the equations are solved by loops of the runtime.
-    pub(super) solving: Option<Solving>,
-    /// The program that solves for accelerations where all contacts are open; `None` without contacts.
-    pub(super) open: Option<Program>,
+    pub(super) solving: Solving,
     pub(super) style: FunctionContext<'a>,
 }
 

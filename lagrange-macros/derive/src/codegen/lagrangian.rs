@@ -25,7 +25,10 @@ impl Emitter<'_> {
             self.style.types.scalar,
             [problem.coordinates.len(), problem.constraints.len()],
         );
-        let factor = &self.style.factor;
+        let switched = self.derived.equations.switched.as_ref();
+        let emitted = &self.style.factor;
+        let factor =
+            switched.map_or(quote!(#emitted), |_| quote!(__lagrange::generated::SwitchedFactorOf<Self>));
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let generics = self.generics(&self.orders(&[]), true);
         let (impl_generics, _, where_clause) = generics.split_for_impl();
@@ -43,17 +46,18 @@ impl Emitter<'_> {
         let (integrability, facts) = (self.integrability(), self.facts());
         let observables = self.observable_names();
         let completed = self.derived.equations.completed.iter().flat_map(|_| &COMPLETED);
-        let switched = SWITCHED.iter().filter(|_| !problem.parameters.switches.is_empty());
+        let compliance = SWITCHED.iter().filter(|_| switched.is_some());
         let may_cancel =
             self.derived.equations.jacobian_round_off.iter().flatten().any(|&bound| bound != Id::ZERO);
         let cancelling = CANCELLING.iter().filter(|_| may_cancel);
-        let methods = LAGRANGIAN.iter().chain(completed).chain(switched).chain(cancelling);
+        let methods = LAGRANGIAN.iter().chain(completed).chain(compliance).chain(cancelling);
         let methods: Written = methods.map(|method| self.method(method)).collect();
         let inherent: Written =
             problem.observables.iter().map(|observable| self.observable(observable)).collect();
         let contacts = self.contacts();
-        let of_contacts = contacts.iter().flat_map(|contacts| &contacts.kernels);
-        let kernels = || methods.kernels.iter().chain(&inherent.kernels).chain(of_contacts.clone());
+        let switched = switched.map(|switched| self.switched(switched));
+        let others = contacts.iter().chain(&switched).flat_map(|written| &written.kernels);
+        let kernels = || methods.kernels.iter().chain(&inherent.kernels).chain(others.clone());
         self.report_refused(kernels(), diagnostics);
         let [modules, parts] = self.parts_of(kernels(), &generics);
         let (methods, inherent) = (&methods.tokens, &inherent.tokens);
@@ -74,6 +78,15 @@ impl Emitter<'_> {
                 #[automatically_derived]
                 #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens, unreachable_code)]
                 impl #impl_generics __lagrange::contact::Contacts for #ident #type_generics #where_clause {
+                    #tokens
+                }
+            }
+        });
+        let switched = switched.iter().map(|Written { tokens, .. }| {
+            quote! {
+                #[automatically_derived]
+                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
+                impl #impl_generics __lagrange::generated::Switched for #ident #type_generics #where_clause {
                     #tokens
                 }
             }
@@ -124,6 +137,7 @@ impl Emitter<'_> {
                 #parts
 
                 #(#contacts)*
+                #(#switched)*
                 #markers
                 #pack
                 #check_members
@@ -148,7 +162,7 @@ impl Emitter<'_> {
             Quantity::CompletedMomentum => completed(&|found| found.momentum.clone()),
             Quantity::CompletedMomentumRate => completed(&|found| found.rate.clone()),
             Quantity::CompletedMassMatrix => completed(&|found| columns(&found.mass)),
-            Quantity::Compliance => equations.linear.compliance.clone(),
+            Quantity::Compliance => equations.compliance.clone(),
             Quantity::Forcing => equations.forcing.clone(),
             Quantity::Residual => equations.residual.clone(),
             Quantity::Rate => equations.rate.clone(),

@@ -28,6 +28,7 @@ mod signature;
 mod solving;
 mod stub;
 mod style;
+mod switched;
 #[cfg(test)]
 mod tests;
 mod time;
@@ -49,7 +50,7 @@ pub(crate) use count::Count;
 use emitter::{Emitter, too_long};
 use linearized::Changing;
 use series::TaylorPrograms;
-use solving::{Solving, cheapest};
+use solving::Solving;
 pub(crate) use stub::stub;
 use style::FunctionContext;
 #[cfg(test)]
@@ -66,9 +67,7 @@ pub(crate) fn implementation(
     facts: &Facts,
     diagnostics: &mut Diagnostics,
 ) -> Option<TokenStream> {
-    let solving = Solving::cheapest(graph, &derived.equations.linear);
-    let open = derived.equations.open.as_ref().and_then(|open| cheapest(graph, open));
-    let open = open.map(|(_, program)| program.fused());
+    let solving = Solving::of(graph, &derived.equations);
     let changing = derived
         .linearization
         .as_ref()
@@ -76,16 +75,16 @@ pub(crate) fn implementation(
     let series = TaylorPrograms::new(graph, &derived.equations);
     let slopes =
         changing.as_ref().map_or(0, Changing::slopes).max(series.as_ref().map_or(0, TaylorPrograms::slopes));
-    let numbers = solving.as_ref().map(|solving| solving.factor.results.len());
+    let more = derived.equations.switched.as_ref().map_or(0, |_| derived.equations.forcing.len());
+    let numbers = solving.factoring.as_ref().map(|[factor, _]| factor.results.len() - more);
+    let constraints = match &derived.equations.switched {
+        Some(_) => 0,
+        None => problem.constraints.len(),
+    };
     let sums = series.as_ref().map_or([0; 2], |series| [series.sums, series.terms]);
-    let style = FunctionContext::new(graph, (&declaration.ident, problem), numbers, slopes, sums);
-    let emitter = Emitter { declaration, problem, derived, rendered, facts, solving, open, style };
-    if emitter.solving.is_none() && !problem.frictions.is_empty() {
-        diagnostics.error(
-            problem.place,
-            "this system with friction is too large: its equations are solved in straight-line code, which has too many operations",
-        );
-    }
+    let style =
+        FunctionContext::new(graph, (&declaration.ident, problem), (numbers, constraints), slopes, sums);
+    let emitter = Emitter { declaration, problem, derived, rendered, facts, solving, style };
     for (function, order) in emitter.orders(&[]).into_iter().filter(|(_, order)| *order > FUNCTION_ORDER) {
         let Supplied { name, place, .. } = &problem.functions[function as usize];
         diagnostics.error(*place, format!(

@@ -150,7 +150,7 @@ impl Types<'_> {
         self.of_lengths(&quote!(Solution), "Solution", &[Dimension::Coordinates, Dimension::Constraints])
     }
 
-    fn vector(&self, length: Dimension) -> TokenStream {
+    pub(super) fn vector(&self, length: Dimension) -> TokenStream {
         self.of_lengths(&quote!(nalgebra::SVector), "Vector", &[length])
     }
 }

@@ -22,7 +22,7 @@ pub(super) struct FunctionContext<'a> {
     /// Expression for the system: `self`, or the argument of a [part](super::kernel::Part).
     pub(super) system: TokenStream,
     pub(super) types: Types<'a>,
-    /// Type that holds the factorization of the KKT matrix.
+    /// Type that holds the emitted factorization.
     pub(super) factor: TokenStream,
     /// Number type of the system, for functions that are generic over a wider type; else `None`.
     pub(super) narrow: Option<&'a syn::Type>,
@@ -41,12 +41,12 @@ pub(super) struct FunctionContext<'a> {
 }
 
 impl<'a> FunctionContext<'a> {
-    /// `numbers` is the length of the factorization; `None` selects the factorization type of the runtime. `slopes`,
-    /// `sums` and `terms` are upper bounds on the numbers of these inputs.
+    /// `numbers` is the length of the factorization; `None` selects the factorization type of the runtime, with so many
+    /// `constraints`. `slopes`, `sums` and `terms` are upper bounds on the numbers of these inputs.
     pub(super) fn new(
         graph: &'a Graph,
         (ident, problem): (&'a Ident, &'a Problem),
-        numbers: Option<usize>,
+        (numbers, constraints): (Option<usize>, usize),
         slopes: usize,
         [sums, terms]: [usize; 2],
     ) -> Self {
@@ -131,7 +131,7 @@ impl<'a> FunctionContext<'a> {
         };
         let factor = match numbers {
             Some(numbers) => quote!([#scalar; #numbers]),
-            None => quote!(__lagrange::generated::LoopFactor<#scalar, #n, #m>),
+            None => quote!(__lagrange::generated::LoopFactor<#scalar, #n, #constraints>),
         };
         Self {
             graph,

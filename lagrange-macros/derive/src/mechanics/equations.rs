@@ -8,14 +8,15 @@ use super::euler_lagrange::{Momenta, energy};
 use super::form::Form;
 use super::formulation::Formulation;
 use super::integrability::Kinds;
+use super::switched::SwitchedEquations;
 use super::twists::Twists;
 use super::{consistency, constraints, determinacy, dissipation, integrability, vanishing};
 use crate::diagnostics::Diagnostics;
-use crate::resolve::{Entry, Problem};
+use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
-use crate::variables::{Variable, has_velocity, total_time_derivative};
+use crate::variables::{Variable, has_velocity, nodes, total_time_derivative};
 
-/// M q̈ − Fᵀλ = h and F q̈ + γ + c λ = 0, linear in q̈ and λ.
+/// M q̈ − Fᵀλ = h and F q̈ + γ = 0, linear in q̈ and λ.
 #[derive(Debug)]
 pub(crate) struct LinearEquations {
     /// Number of the coordinates.
@@ -27,33 +28,20 @@ pub(crate) struct LinearEquations {
     pub(crate) jacobian: Vec<Vec<Id>>,
     /// γ
     pub(crate) bias: Vec<Id>,
-    /// Diagonal of c: zero, but 1 while a switched constraint does not hold
-    pub(crate) compliance: Vec<Id>,
-    /// Entries of c beside its diagonal, each with its row and column
-    pub(crate) coupling: Vec<(usize, usize, Id)>,
+    /// For each constraint of the system, its multiplier if that is known; `None` if it is solved for. Empty if all are solved for.
+    pub(crate) given: Vec<Option<Id>>,
 }
 
 impl LinearEquations {
     /// The same with each node replaced.
-    fn map(&self, mut node: impl FnMut(Id) -> Id) -> Self {
+    pub(super) fn map(&self, mut node: impl FnMut(Id) -> Id) -> Self {
         Self {
             coordinates: self.coordinates,
             forms: self.forms.iter().map(|form| form.map(&mut node)).collect(),
             jacobian: self.jacobian.iter().map(|row| row.iter().map(|&id| node(id)).collect()).collect(),
             bias: self.bias.iter().map(|&id| node(id)).collect(),
-            compliance: self.compliance.iter().map(|&id| node(id)).collect(),
-            coupling: self.coupling.iter().map(|&(row, column, id)| (row, column, node(id))).collect(),
+            given: self.given.iter().map(|id| id.map(&mut node)).collect(),
         }
-    }
-
-    /// The equations where all contacts are open: the numbers that stand for the state of a contact are zero.
-    fn open(&self, graph: &mut Graph, problem: &Problem) -> Option<Self> {
-        let is_of_contact = |entry: &Entry| problem.contacts.iter().any(|contact| contact.entry == *entry);
-        let off = |symbol| match Variable::of(symbol) {
-            Variable::Switch(k) => is_of_contact(&problem.parameters.switches[k].entry).then_some(Id::ZERO),
-            _ => None,
-        };
-        (!problem.contacts.is_empty()).then(|| self.map(|id| graph.substituted(id, off)))
     }
 }
 
@@ -93,10 +81,12 @@ pub(crate) struct Equations {
     pub(crate) balance: Vec<Id>,
     /// d/dt (F q̇ + b), and what friction that slides adds to it, with accelerations and multipliers as symbols
     pub(crate) constraint_acceleration: Vec<Id>,
-    /// What determines accelerations and multipliers.
+    /// Diagonal of c in F q̈ + γ + c λ = 0: zero, but 1 while a switched constraint does not hold
+    pub(crate) compliance: Vec<Id>,
+    /// What determines accelerations and multipliers where all constraints hold.
     pub(crate) linear: LinearEquations,
-    /// The same where all contacts are open; `None` without contacts.
-    pub(crate) open: Option<LinearEquations>,
+    /// The same in parts if some constraints can be switched off.
+    pub(crate) switched: Option<SwitchedEquations>,
     /// Lagrangian with the same motions and a regular mass matrix; `None` if no constraint completes M.
     pub(crate) completed: Option<Completed>,
 }
@@ -133,10 +123,16 @@ impl Equations {
         let balance = balance(graph, formulation, &constraint_force);
         let mut momenta = momenta;
         let mut constraint_force = constraint_force;
+        let mut multiples = Vec::new();
         if !problem.frictions.is_empty() {
-            without_multiples(graph, &mut forcing);
-            let multiples = without_multiples(graph, &mut momenta.rate);
-            constraint_force.iter_mut().zip(multiples).for_each(|(sum, more)| *sum = graph.add(*sum, more));
+            multiples = without_multiples(graph, &mut forcing);
+            let forces = without_multiples(graph, &mut momenta.rate);
+            let multipliers = nodes(graph, constraints.kinds.len(), Variable::Multiplier);
+            for (sum, of) in constraint_force.iter_mut().zip(forces) {
+                let terms = of.into_iter().map(|(a, multiple)| graph.mul(multiple, multipliers[a]));
+                let terms: Vec<Id> = terms.collect();
+                *sum = graph.total([vec![*sum], terms].concat());
+            }
         }
         let completed = Completed::of(graph, (&momenta, &mass), &constraints, &forms[0].completing);
         let magnitudes = [
@@ -146,15 +142,15 @@ impl Equations {
         let linear = LinearEquations {
             coordinates: mass.len(),
             forms,
-            jacobian: constraints.jacobian,
-            bias: constraints.bias,
-            compliance: constraints.compliance,
-            coupling: constraints.coupling,
+            jacobian: constraints.jacobian.clone(),
+            bias: constraints.bias.clone(),
+            given: Vec::new(),
         };
         Some(Self {
             printed_forcing: without_switches(graph, problem, &forcing),
             balance,
-            open: linear.open(graph, problem),
+            switched: SwitchedEquations::of(graph, problem, (&linear, &constraints), &multiples),
+            compliance: constraints.compliance,
             completed,
             integrability,
             momenta_are_linear: !has_velocity(graph, &mass.concat()),
@@ -205,11 +201,11 @@ fn balance(graph: &mut Graph, formulation: &dyn Formulation, constraint_force: &
 }
 
 /// Takes the multiples of multipliers out of expressions, and returns them.
-fn without_multiples(graph: &mut Graph, expressions: &mut [Id]) -> Vec<Id> {
+fn without_multiples(graph: &mut Graph, expressions: &mut [Id]) -> Vec<Vec<(usize, Id)>> {
     let multiples = expressions.iter_mut().map(|expression| {
-        let Multiples { rest, .. } = Multiples::of(graph, *expression);
-        let whole = std::mem::replace(expression, rest);
-        graph.sub(whole, rest)
+        let Multiples { rest, of } = Multiples::of(graph, *expression);
+        *expression = rest;
+        of
     });
     multiples.collect()
 }

@@ -7,7 +7,7 @@ pub(super) const LIMIT: usize = 500;
 
 /// ½ xᵀHx − bᵀx. The variables x are the accelerations, followed by the parts of the rates of named velocities that
 /// are linear in the accelerations, in order of definition.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Form {
     /// H, by rows.
     pub(crate) matrix: Vec<Vec<Id>>,
@@ -17,8 +17,6 @@ pub(crate) struct Form {
     pub(crate) definitions: Vec<Vec<(usize, Id)>>,
     /// Constraint Jacobian F over x; `None` if F over the accelerations alone applies.
     pub(crate) rows: Option<Vec<Vec<Id>>>,
-    /// F and forces that are multiples of multipliers, over x, a row for each multiplier; `None` if there are no such forces.
-    pub(crate) columns: Option<Vec<Vec<Id>>>,
     /// b_i/H_ii of each acceleration that is coupled to no other variable.
     pub(crate) alone: Vec<Option<Id>>,
     /// Each constraint a, with its weight σ_a, that adds σ_a F_aᵀF_a to H and −σ_a γ_a F_a to b. A solve for another h
@@ -36,7 +34,7 @@ impl Form {
 
     pub(super) fn new(matrix: Vec<Vec<Id>>, linear: Vec<Id>, definitions: Vec<Vec<(usize, Id)>>) -> Self {
         let alone = vec![None; matrix.len()];
-        Self { matrix, linear, definitions, rows: None, columns: None, alone, completing: Vec::new() }
+        Self { matrix, linear, definitions, rows: None, alone, completing: Vec::new() }
     }
 
     /// The same with each node replaced.
@@ -45,7 +43,6 @@ impl Form {
             rows.iter().map(|row| row.iter().map(|&id| node(id)).collect()).collect()
         };
         let (matrix, of_rows) = (rows(&self.matrix), self.rows.as_deref().map(&mut rows));
-        let columns = self.columns.as_deref().map(&mut rows);
         let mut terms = |terms: &[(usize, Id)]| -> Vec<(usize, Id)> {
             terms.iter().map(|&(k, id)| (k, node(id))).collect()
         };
@@ -54,7 +51,6 @@ impl Form {
             definitions: self.definitions.iter().map(|definition| terms(definition)).collect(),
             completing: terms(&self.completing),
             rows: of_rows,
-            columns,
             linear: self.linear.iter().map(|&id| node(id)).collect(),
             alone: self.alone.iter().map(|id| id.map(&mut *node)).collect(),
         }

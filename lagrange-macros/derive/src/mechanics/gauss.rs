@@ -6,7 +6,7 @@
 //! articulated-body algorithm (Featherstone, *Rigid Body Dynamics Algorithms*, chapter 7).
 
 use super::completion;
-use super::constraints::{Constraints, Multiples};
+use super::constraints::Constraints;
 use super::form::{Form, LIMIT};
 use super::formulation::Formulation;
 use crate::resolve::Problem;
@@ -28,27 +28,10 @@ impl Form {
         let mut forms: Vec<Self> = [plain].into_iter().chain(others).collect();
         let completing = completion::completing(graph, problem, mass, constraints);
         for form in &mut forms {
-            if !problem.frictions.is_empty() {
-                form.separate_multiples(graph, &constraints.jacobian);
-            }
             form.complete(graph, constraints, &completing);
             form.divide_what_is_alone(graph);
         }
         forms
-    }
-
-    /// Takes the multiples of multipliers out of b, as columns of their own.
-    fn separate_multiples(&mut self, graph: &mut Graph, jacobian: &[Vec<Id>]) {
-        let mut columns = self.rows.clone().unwrap_or_else(|| jacobian.to_vec());
-        columns.iter_mut().for_each(|column| column.resize(self.matrix.len(), Id::ZERO));
-        for (i, linear) in self.linear.iter_mut().enumerate() {
-            let Multiples { rest, of } = Multiples::of(graph, *linear);
-            *linear = rest;
-            for (a, entry) in of {
-                columns[a][i] = graph.add(columns[a][i], entry);
-            }
-        }
-        self.columns = Some(columns);
     }
 
     /// Replaces H by H + FᵀσF and b by b − Fᵀσγ, for the given constraints and their σ. Leaves the form unchanged if

@@ -25,6 +25,7 @@ mod legendre;
 mod linearization;
 mod marker;
 mod moment;
+mod switched;
 mod twists;
 mod vanishing;
 mod velocities;
@@ -54,6 +55,7 @@ pub(crate) use linearization::SplitResidual;
 use linearization::linearize;
 pub(crate) use linearization::{Changes, Linearization, changes};
 pub use marker::Marker;
+pub(crate) use switched::{Row, RowGroup, SwitchedEquations};
 #[cfg(test)]
 pub(crate) use twists::TreeColumn;
 pub(crate) use twists::{

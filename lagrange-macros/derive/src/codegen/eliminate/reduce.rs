@@ -1,7 +1,5 @@
 //! Reduces a quadratic form variable by variable, and applies the reduction to vectors.
 
-use std::collections::BTreeSet;
-
 use super::arithmetic::{Solver, Sparse, SparseEntry, sparse};
 use crate::codegen::operation::{Operation, Register};
 
@@ -18,9 +16,8 @@ struct ReductionStep {
 }
 
 enum StepKind {
-    /// Elimination of a free variable: its column of L below the diagonal, and its row of U beside it, which is the same if the
-    /// matrix is symmetric.
-    Eliminated { below: Sparse, beside: Sparse },
+    /// Elimination of a free variable: its column of L below the diagonal.
+    Eliminated(Sparse),
     /// Substitution of a defined variable: its definition.
     Substituted(Sparse),
 }
@@ -28,7 +25,7 @@ enum StepKind {
 impl FormFactors {
     /// Returns all registers of the reduction.
     pub(super) fn registers(&self) -> impl Iterator<Item = Register> {
-        let columns = self.steps.iter().flat_map(|step| step.kind.entries()).flatten();
+        let columns = self.steps.iter().flat_map(|step| step.kind.entries());
         let columns = columns.map(|&(_, entry)| entry);
         self.reciprocals.iter().flatten().copied().chain(columns)
     }
@@ -38,9 +35,7 @@ impl FormFactors {
         let steps = self.steps.iter().map(|&ReductionStep { variable, ref kind }| {
             let mut renewed = |entries: &Sparse| entries.iter().map(|&(i, entry)| (i, new(entry))).collect();
             let kind = match kind {
-                StepKind::Eliminated { below, beside } => {
-                    StepKind::Eliminated { below: renewed(below), beside: renewed(beside) }
-                }
+                StepKind::Eliminated(column) => StepKind::Eliminated(renewed(column)),
                 StepKind::Substituted(entries) => StepKind::Substituted(renewed(entries)),
             };
             ReductionStep { variable, kind }
@@ -50,11 +45,9 @@ impl FormFactors {
 }
 
 impl StepKind {
-    fn entries(&self) -> Vec<&Sparse> {
-        match self {
-            Self::Eliminated { below, beside } => vec![below, beside],
-            Self::Substituted(entries) => vec![entries],
-        }
+    fn entries(&self) -> &Sparse {
+        let (Self::Eliminated(entries) | Self::Substituted(entries)) = self;
+        entries
     }
 }
 
@@ -133,8 +126,7 @@ impl Solver<'_> {
             if variable < free {
                 let (column, reciprocal) = self.eliminate(&mut form, variable);
                 factors.reciprocals[variable] = Some(reciprocal);
-                let kind = StepKind::Eliminated { beside: column.clone(), below: column };
-                factors.steps.push(ReductionStep { variable, kind });
+                factors.steps.push(ReductionStep { variable, kind: StepKind::Eliminated(column) });
             } else {
                 taken = independent(rest, free, &definitions);
                 let together = rest[..taken].iter().map(|&k| (k, &definitions[k - free])).collect::<Vec<_>>();
@@ -147,39 +139,6 @@ impl Solver<'_> {
             }
             rest[..taken].iter().for_each(|&variable| form.remove(variable));
             rest = &rest[taken..];
-        }
-        factors
-    }
-
-    /// Factorizes a matrix that is not symmetric as L D U. Pivots are compared to `scale`.
-    pub(super) fn factor_unsymmetric(
-        &mut self,
-        mut matrix: Vec<Vec<SparseEntry>>,
-        scale: Vec<SparseEntry>,
-        order: &[usize],
-    ) -> FormFactors {
-        let one = self.schedule.constant(1.0);
-        let mut factors = FormFactors { steps: Vec::new(), reciprocals: vec![None; matrix.len()] };
-        let mut left: BTreeSet<usize> = order.iter().copied().collect();
-        for &variable in order {
-            left.remove(&variable);
-            let pivot = self.known(matrix[variable][variable]);
-            let reciprocal = self.schedule.push(Operation::Divide(one, pivot));
-            self.note_pivot(scale[variable], pivot, reciprocal);
-            let mut scaled = |entries: Vec<(usize, SparseEntry)>| -> Sparse {
-                let scale = |(i, entry)| Some((i, self.multiply(entry, Some(reciprocal))?));
-                entries.into_iter().filter_map(scale).collect()
-            };
-            let below = scaled(left.iter().map(|&i| (i, matrix[i][variable])).collect());
-            let beside = scaled(left.iter().map(|&j| (j, matrix[variable][j])).collect());
-            for &(i, l) in &below {
-                for &(j, _) in &beside {
-                    let part = self.multiply(Some(l), matrix[variable][j]);
-                    matrix[i][j] = self.subtract(matrix[i][j], part);
-                }
-            }
-            factors.reciprocals[variable] = Some(reciprocal);
-            factors.steps.push(ReductionStep { variable, kind: StepKind::Eliminated { below, beside } });
         }
         factors
     }
@@ -293,8 +252,8 @@ impl Solver<'_> {
     pub(super) fn forward(&mut self, factors: &FormFactors, mut x: Vec<SparseEntry>) -> Vec<SparseEntry> {
         for ReductionStep { variable, kind } in &factors.steps {
             match kind {
-                StepKind::Eliminated { below, .. } => {
-                    for &(i, l) in below {
+                StepKind::Eliminated(column) => {
+                    for &(i, l) in column {
                         let part = self.multiply(Some(l), x[*variable]);
                         x[i] = self.subtract(x[i], part);
                     }
@@ -323,7 +282,7 @@ impl Solver<'_> {
     ) -> Vec<SparseEntry> {
         for ReductionStep { variable, kind } in factors.steps.iter().rev() {
             x[*variable] = match kind {
-                StepKind::Eliminated { beside: column, .. } => {
+                StepKind::Eliminated(column) => {
                     let pushed = self.multiply(y[*variable], factors.reciprocals[*variable]);
                     let is_first = column.is_empty() && pushed.is_none();
                     let start = self.add(x[*variable], if is_first { doubt } else { pushed });

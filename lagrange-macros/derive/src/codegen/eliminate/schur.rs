@@ -4,7 +4,6 @@ use super::arithmetic::{Solver, Sparse, SparseEntry};
 use super::order::Pattern;
 use super::reduce::FormFactors;
 use super::short;
-use crate::mechanics::LinearEquations;
 
 /// Maximum number of constraints on a coordinate i for which the entry z_i z'_i / D_i of S = Z D⁻¹ Zᵀ is
 /// computed as (z_i z'_i) / D_i, so that a pass can factor the sum. With more constraints, z_i / D_i is
@@ -12,40 +11,12 @@ use crate::mechanics::LinearEquations;
 const FEW: usize = 2;
 
 impl Solver<'_> {
-    /// Factorizes the Schur complement S = Z D⁻¹ Yᵀ + c, with Z in place of Y if there are no columns. `None` if this takes
-    /// too many operations.
-    pub(super) fn schur_factors(
-        &mut self,
-        factors: &FormFactors,
-        (rows, columns): (&[Sparse], Option<&[Sparse]>),
-        equations: &LinearEquations,
-    ) -> Option<FormFactors> {
-        let mut schur = self.complement(factors, rows);
-        self.comply(&mut schur, equations);
-        let scale = (0..rows.len()).map(|a| schur[a][a]).collect();
-        if let Some(columns) = columns {
-            schur = self.complement_along(factors, rows, columns);
-            self.comply(&mut schur, equations);
-            for &(row, column, entry) in &equations.coupling {
-                let entry = self.entry(entry);
-                schur[row][column] = self.add(schur[row][column], entry);
-            }
-        }
+    /// Factorizes the Schur complement S = Z D⁻¹ Zᵀ. `None` if this takes too many operations.
+    pub(super) fn schur_factors(&mut self, factors: &FormFactors, rows: &[Sparse]) -> Option<FormFactors> {
+        let schur = self.complement(factors, rows);
         let matrix = schur.iter().map(|row| row.iter().map(Option::is_some).collect()).collect();
-        let order =
-            short(&Pattern { matrix, definitions: Vec::new(), after: Vec::new() }, columns.is_none())?;
-        Some(match columns {
-            None => self.factor(schur, Vec::new(), &order, 0),
-            Some(_) => self.factor_unsymmetric(schur, scale, &order),
-        })
-    }
-
-    /// Adds the compliances to the diagonal.
-    fn comply(&mut self, schur: &mut [Vec<SparseEntry>], equations: &LinearEquations) {
-        for (a, row) in schur.iter_mut().enumerate() {
-            let compliance = self.entry(equations.compliance[a]);
-            row[a] = self.add(row[a], compliance);
-        }
+        let order = short(&Pattern { matrix, definitions: Vec::new(), after: Vec::new() })?;
+        Some(self.factor(schur, Vec::new(), &order, 0))
     }
 
     /// Solves S λ = −γ − Z D⁻¹L⁻¹b for the multipliers λ; `starts` is D⁻¹L⁻¹b.
@@ -80,20 +51,6 @@ impl Solver<'_> {
             }
         }
         schur
-    }
-
-    /// Z D⁻¹ Yᵀ
-    fn complement_along(
-        &mut self,
-        factors: &FormFactors,
-        rows: &[Sparse],
-        columns: &[Sparse],
-    ) -> Vec<Vec<SparseEntry>> {
-        let sharing = vec![rows.len(); factors.reciprocals.len()];
-        let row = |row: &Sparse| {
-            columns.iter().map(|column| self.product(row, column, factors, &sharing)).collect()
-        };
-        rows.iter().map(row).collect()
     }
 
     /// Entry Σ_i z_i z'_i / D_i of the Schur complement, for two rows z and z' of Z.

@@ -1,0 +1,176 @@
+//! The equations of motion of a system with constraints that can be switched off: the runtime puts together those that hold.
+
+use super::constraints::Constraints;
+use super::equations::LinearEquations;
+use super::form::Form;
+use crate::resolve::{Entry, FrictionRows, Problem, SwitchReading};
+use crate::symbolic::{Graph, Id, Symbol};
+use crate::variables::Variable;
+
+/// Number of coordinates up to which rows have an entry for each: loops of constant length then need no indices.
+const DENSE: usize = 12;
+
+/// Equations of motion in parts.
+#[derive(Debug)]
+pub(crate) struct SwitchedEquations {
+    /// The equations where only those constraints hold that always do.
+    pub(crate) free: LinearEquations,
+    /// The equations of the mass matrix alone, completed.
+    pub(crate) inertia: LinearEquations,
+    pub(crate) groups: Vec<RowGroup>,
+}
+
+/// Constraints whose rows are computed together.
+#[derive(Debug)]
+pub(crate) struct RowGroup {
+    /// Entry of the field that switches them off; `None` if they are always computed.
+    pub(crate) entry: Option<Entry>,
+    pub(crate) rows: Vec<Row>,
+}
+
+/// The row of a constraint, computed while its group is on.
+#[derive(Debug)]
+pub(crate) struct Row {
+    /// Index of the constraint.
+    pub(crate) constraint: usize,
+    /// Coordinates with entries in F or B.
+    pub(crate) columns: Vec<usize>,
+    /// Entries of F in these columns.
+    pub(crate) jacobian: Vec<Id>,
+    /// Entries of B, which has forces of friction that slides beside those of F; `None` if it is F.
+    pub(crate) push: Option<Vec<Id>>,
+    /// Zero where the constraint holds, else one; the multiple of the multiplier of the first row of the group in F q̈ + γ + c λ; the
+    /// weight σ in the completion of M; γ.
+    pub(crate) numbers: [Id; 4],
+}
+
+impl SwitchedEquations {
+    /// Splits the equations of motion. `multiples` are those of multipliers in each entry of h, by constraint. `None` if all constraints always hold.
+    pub(super) fn of(
+        graph: &mut Graph,
+        problem: &Problem,
+        (linear, constraints): (&LinearEquations, &Constraints),
+        multiples: &[Vec<(usize, Id)>],
+    ) -> Option<Self> {
+        let held: Vec<usize> =
+            (0..constraints.kinds.len()).filter(|&a| constraints.always_holds(a)).collect();
+        if held.len() == constraints.kinds.len() {
+            return None;
+        }
+        let mut free = linear.holding(&held);
+        free.given = (0..constraints.kinds.len())
+            .map(|a| (!constraints.always_holds(a)).then(|| graph.neg(constraints.bias[a])))
+            .collect();
+        let free = free.map(|id| graph.substituted(id, |symbol| off(problem, symbol)));
+        let rows = Rows { problem, constraints, multiples, weights: &linear.forms[0].completing };
+        let inertia = free.without_constraints();
+        Some(Self { inertia, groups: rows.groups(graph, held), free })
+    }
+}
+
+impl LinearEquations {
+    /// The equations with these constraints only.
+    fn holding(&self, held: &[usize]) -> Self {
+        let of = |rows: &[Vec<Id>]| held.iter().map(|&a| rows[a].clone()).collect::<Vec<_>>();
+        let place = |&(a, weight): &(usize, Id)| Some((held.iter().position(|&b| b == a)?, weight));
+        let form = |form: &Form| Form {
+            rows: form.rows.as_deref().map(of),
+            completing: form.completing.iter().filter_map(place).collect(),
+            ..form.clone()
+        };
+        Self {
+            coordinates: self.coordinates,
+            forms: self.forms.iter().map(form).collect(),
+            jacobian: of(&self.jacobian),
+            bias: held.iter().map(|&a| self.bias[a]).collect(),
+            given: Vec::new(),
+        }
+    }
+
+    /// The equations of the completed mass matrix alone.
+    fn without_constraints(&self) -> Self {
+        let form = |form: &Form| Form { rows: None, completing: Vec::new(), ..form.clone() };
+        Self {
+            coordinates: self.coordinates,
+            forms: self.forms.iter().map(form).collect(),
+            jacobian: Vec::new(),
+            bias: Vec::new(),
+            given: Vec::new(),
+        }
+    }
+}
+
+/// What a reading of a switch is while no constraint holds that can be switched off.
+fn off(problem: &Problem, symbol: Symbol) -> Option<Id> {
+    let Variable::Switch(k) = Variable::of(symbol) else { return None };
+    let switch = &problem.parameters.switches[k];
+    let is_of_contact = problem.contacts.iter().any(|contact| contact.entry == switch.entry);
+    let keeps = matches!(switch.reading, SwitchReading::Holds | SwitchReading::Sticks(_));
+    (is_of_contact || keeps).then_some(Id::ZERO)
+}
+
+struct Rows<'a> {
+    problem: &'a Problem,
+    constraints: &'a Constraints,
+    multiples: &'a [Vec<(usize, Id)>],
+    weights: &'a [(usize, Id)],
+}
+
+impl Rows<'_> {
+    /// The constraints that always hold, and those of each entry of a field that switches some.
+    fn groups(&self, graph: &mut Graph, held: Vec<usize>) -> Vec<RowGroup> {
+        let mut groups: Vec<(Option<Entry>, Vec<usize>)> = vec![(None, held)];
+        for a in (0..self.constraints.kinds.len()).filter(|&a| !self.constraints.always_holds(a)) {
+            let entry = self.entry(graph, a);
+            match groups.iter_mut().find(|(of, _)| *of == entry && entry.is_some()) {
+                Some((_, rows)) => rows.push(a),
+                None => groups.push((entry, vec![a])),
+            }
+        }
+        groups.retain(|(_, rows)| !rows.is_empty());
+        let group = |(entry, constraints): (Option<Entry>, Vec<usize>)| {
+            let rows = constraints.into_iter().map(|a| self.row(graph, a, entry)).collect();
+            // Friction that slides has a force, too.
+            let is_friction =
+                |friction: &FrictionRows| friction.contact.is_none() && Some(friction.entry) == entry;
+            let entry = entry.filter(|_| !self.problem.frictions.iter().any(is_friction));
+            RowGroup { entry, rows }
+        };
+        groups.into_iter().map(group).collect()
+    }
+
+    /// Entry of the field that switches a constraint.
+    fn entry(&self, graph: &Graph, a: usize) -> Option<Entry> {
+        let symbol = graph.symbols(&[self.problem.switches.get(a).copied()??]).next()?;
+        match Variable::of(symbol) {
+            Variable::Switch(k) => Some(self.problem.parameters.switches[k].entry),
+            _ => None,
+        }
+    }
+
+    /// The row of a constraint while the field of this entry does not switch it off.
+    fn row(&self, graph: &mut Graph, a: usize, entry: Option<Entry>) -> Row {
+        let Constraints { jacobian, bias, compliance, coupling, .. } = self.constraints;
+        let parameters = &self.problem.parameters;
+        let mut on = |id| {
+            graph.substituted(id, |symbol| {
+                let Variable::Switch(k) = Variable::of(symbol) else { return None };
+                let switch = &parameters.switches[k];
+                (Some(switch.entry) == entry && matches!(switch.reading, SwitchReading::Holds))
+                    .then_some(Id::ONE)
+            })
+        };
+        let f: Vec<Id> = jacobian[a].iter().map(|&entry| on(entry)).collect();
+        let of =
+            |i: usize| self.multiples.get(i)?.iter().find(|(b, _)| *b == a).map(|&(_, multiple)| multiple);
+        let more: Vec<Id> = (0..f.len()).map(|i| of(i).map_or(Id::ZERO, &mut on)).collect();
+        let columns: Vec<usize> =
+            (0..f.len()).filter(|&i| f.len() <= DENSE || [f[i], more[i]] != [Id::ZERO; 2]).collect();
+        let coupling = coupling.iter().find(|(row, ..)| *row == a).map_or(Id::ZERO, |&(.., entry)| entry);
+        let weight = self.weights.iter().find(|(b, _)| *b == a).map_or(Id::ZERO, |&(_, weight)| weight);
+        let numbers = [compliance[a], coupling, weight, bias[a]].map(&mut on);
+        let pushes = more.iter().any(|&entry| entry != Id::ZERO);
+        let push = pushes.then(|| columns.iter().map(|&i| graph.add(f[i], more[i])).collect());
+        Row { constraint: a, jacobian: columns.iter().map(|&i| f[i]).collect(), columns, push, numbers }
+    }
+}
