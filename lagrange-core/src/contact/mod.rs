@@ -319,10 +319,14 @@ mod stepping;
 #[cfg(feature = "alloc")]
 mod watched;
 
+use core::fmt::Debug;
+
+use crate::number::Broadcast;
 pub use crate::system::switch::{Contact, Friction};
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{Direction, Lagrangian, StateOf};
 #[cfg(feature = "alloc")]
 pub use crate::trajectory::Transition;
+use crate::vector::Vector;
 #[cfg(feature = "alloc")]
 pub(crate) use bodies::impulse_changes;
 #[cfg(feature = "std")]
@@ -344,6 +348,33 @@ pub enum ImpactLaw {
     Newton,
     /// `restitution(poisson): e`: an impulse Λ that stops the gap is followed by one of at least e Λ.
     Poisson,
+}
+
+/// A system with contacts whose forces can be differentiated by the state, as [time steps](MoreauJean) need it. The derive macro
+/// implements it together with [`Contacts`].
+#[diagnostic::on_unimplemented(
+    message = "the derivatives of the forces of `{Self}` are not known",
+    label = "no `ForceDerivatives`",
+    note = "`#[derive(Lagrangian)]` gives it to every system with contacts whose functions (`#[function(…)]`) have one derivative more than its forces need"
+)]
+pub trait ForceDerivatives: Contacts {
+    /// Plain numbers from which the derivatives of the forces along all directions are computed.
+    type ForceSlopes: Copy + Debug;
+
+    /// What [`forcing`](Lagrangian::forcing) depends on, in ascending order: 0 is the time, 1 … N are coordinates, N + 1 … 2N
+    /// velocities.
+    const FORCE_ARGUMENTS: &'static [usize];
+
+    /// Computes the numbers from which the derivatives of [`forcing`](Lagrangian::forcing) at a state follow.
+    fn force_slopes(&self, state: &StateOf<Self>) -> Self::ForceSlopes;
+
+    /// Derivative of [`forcing`](Lagrangian::forcing) along a direction, from the [`force_slopes`](Self::force_slopes) of a
+    /// state; on [`Lanes`](crate::Lanes), along several directions at once.
+    fn force_change_with<S: Broadcast<Self::Scalar>>(
+        &self,
+        slopes: &Self::ForceSlopes,
+        direction: &Direction<S, Self::N>,
+    ) -> Vector<S, Self::N>;
 }
 
 /// The constraints of one friction.

@@ -44,9 +44,6 @@ pub trait StateDerivatives: Lagrangian {
     /// ```
     const STATE_ARGUMENTS: Option<&'static [usize]> = None;
 
-    /// What [`forcing`](Lagrangian::forcing) depends on, numbered as [`STATE_ARGUMENTS`](Self::STATE_ARGUMENTS). `None` if it is not known.
-    const FORCE_ARGUMENTS: Option<&'static [usize]> = None;
-
     /// Computes the numbers from which the derivatives of the residual along all directions in time and state follow.
     /// Accelerations and multipliers are held at those of `solution`.
     fn residual_slopes(&self, state: &StateOf<Self>, solution: &SolutionOf<Self>) -> Self::Slopes;
@@ -137,7 +134,6 @@ macro_rules! derivatives_behind {
         impl<L: StateDerivatives> StateDerivatives for $pointer {
             type Slopes = L::Slopes;
             const STATE_ARGUMENTS: Option<&'static [usize]> = L::STATE_ARGUMENTS;
-            const FORCE_ARGUMENTS: Option<&'static [usize]> = L::FORCE_ARGUMENTS;
 
             fn motion_gradients(
                 slopes: &Self::Slopes,

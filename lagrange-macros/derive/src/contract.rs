@@ -266,9 +266,8 @@ pub(crate) const TAYLOR_SERIES: [Method; 3] = [
 ];
 
 /// Associated constants of these traits.
-const CONSTANTS: [&str; 23] = [
+const CONSTANTS: [&str; 22] = [
     "STATE_ARGUMENTS",
-    "FORCE_ARGUMENTS",
     "DEPENDS_ON_TIME",
     "QUATERNIONS",
     "HAS_CONTACTS",

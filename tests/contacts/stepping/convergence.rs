@@ -1,8 +1,8 @@
 //! Motions in steps of one length against motions from impact to impact, whose times are exact to round-off: the error falls with
 //! the step, by its first power.
 
-use lagrange_core::contact::{Contact, Contacts, MoreauJean};
-use lagrange_core::{StateDerivatives, StateOf, prelude::*};
+use lagrange_core::contact::{Contact, ForceDerivatives, MoreauJean};
+use lagrange_core::{StateOf, prelude::*};
 use lagrange_systems::{Ball, Belt, Puck, Rod, Shaken, Sphere, Walled};
 
 /// Fails where the least-squares slope of the logarithm of the deviation of coordinates, the largest of 50 times, over seven
@@ -11,7 +11,7 @@ use lagrange_systems::{Ball, Belt, Puck, Rod, Shaken, Sphere, Walled};
 #[track_caller]
 fn converges<L>(system: &L, start: StateOf<L>, end: f64, longest: f64, bound: f64)
 where
-    L: Contacts<Scalar = f64> + StateDerivatives + Clone,
+    L: ForceDerivatives<Scalar = f64> + Clone,
 {
     let exact = system.motion(start).by(Dop853::with_tolerance(1e-12)).with_contacts().to(end).unwrap();
     let exact: Vec<(f64, StateOf<L>)> =

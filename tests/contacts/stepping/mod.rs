@@ -15,13 +15,12 @@ mod stiff;
 #[cfg(feature = "thorough")]
 mod tower;
 
-use lagrange_core::contact::{ContactStepper, Contacts, TimeStep};
-use lagrange_core::linearized::StateDerivatives;
+use lagrange_core::contact::{ContactStepper, ForceDerivatives, TimeStep};
 
 /// The start, and the steps until this time.
 fn steps<L>(mut stepper: ContactStepper<L>, end: f64) -> Vec<TimeStep<L>>
 where
-    L: Contacts<Scalar = f64> + StateDerivatives + Clone,
+    L: ForceDerivatives<Scalar = f64> + Clone,
 {
     let mut steps = vec![*stepper.last()];
     while stepper.state().t < end {

@@ -5,11 +5,10 @@ use alloc::vec::Vec;
 
 use super::middle::Middle;
 use crate::cone::Set;
-use crate::contact::Contacts;
+use crate::contact::ForceDerivatives;
 use crate::contact::bodies::Bodies;
 use crate::contact::reactions::ReactionProblem;
 use crate::error::Error;
-use crate::linearized::StateDerivatives;
 use crate::names::name;
 use crate::number::Real;
 use crate::system::StateOf;
@@ -18,7 +17,7 @@ use crate::vector::{Entrywise, Length};
 /// Largest number of Gauss–Newton corrections of a position. Convergence is quadratic, and the first violation that of a step.
 const CORRECTIONS: usize = 20;
 
-impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Middle<L> {
+impl<L: ForceDerivatives<Scalar: Real> + Clone> Middle<L> {
     /// Moves a state by Gauss–Newton steps in the metric of the mass matrix. Velocities stay.
     pub(super) fn correct(&self, bodies: &Bodies<L>, state: &mut StateOf<L>) -> Result<(), Error> {
         for _ in 0..CORRECTIONS {

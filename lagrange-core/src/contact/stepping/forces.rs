@@ -3,12 +3,12 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::contact::Contacts;
 use crate::contact::bodies::Bodies;
-use crate::linearized::{StateDerivatives, WideOf};
+use crate::contact::{Contacts, ForceDerivatives};
+use crate::linearized::WideOf;
 use crate::number::{Real, Scalar, Wide};
-use crate::system::{Solution, StateOf};
-use crate::vector::{Entrywise, Length, Vector, zeros};
+use crate::system::{Direction, StateOf};
+use crate::vector::{Entrywise, Length, Vector};
 
 /// Forces h f(t + θ h, q⁻ + θ h v, v) of a step of length h at the velocities v = v⁻ + θ (v⁺ − v⁻).
 pub(super) struct ThetaForces<L: Contacts<Scalar: Real>> {
@@ -25,7 +25,7 @@ pub(super) struct ImplicitForces {
     pub(super) sizes: Vec<f64>,
 }
 
-impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> ThetaForces<L> {
+impl<L: ForceDerivatives<Scalar: Real> + Clone> ThetaForces<L> {
     pub(super) fn new(from: &StateOf<L>, step: L::Scalar, theta: f64) -> Self {
         Self { from: *from, step, theta: L::Scalar::constant(theta) }
     }
@@ -47,26 +47,17 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> ThetaForces<L> {
     /// How the forces change with the velocities after the step, about those before it.
     pub(super) fn linearize(&self, bodies: &Bodies<L>) -> ImplicitForces {
         let (n, state) = (<L::N>::COUNT, self.state(&self.from.v));
-        let (accelerations, multipliers, pivot) = (zeros(), zeros(), L::Scalar::constant(1.0));
-        let none = Solution { accelerations, multipliers, pivot, rank: 0 };
         let [step, theta] = [self.step, self.theta].map(Real::to_f64);
         let largest = bodies.sizes(&state);
         let (mut added, mut sizes) = (Vec::new(), vec![0.0; n]);
-        let all: Vec<usize>;
-        let arguments = match L::FORCE_ARGUMENTS {
-            Some(arguments) => arguments,
-            None => {
-                all = (1..=2 * n).collect();
-                &all
-            }
-        };
-        let arguments = &arguments[usize::from(arguments.first() == Some(&0))..];
+        let arguments = &L::FORCE_ARGUMENTS[usize::from(L::FORCE_ARGUMENTS.first() == Some(&0))..];
         if arguments.is_empty() {
             return ImplicitForces { added, sizes };
         }
-        let slopes = bodies.open.residual_slopes(&state, &none);
+        let slopes = bodies.open.force_slopes(&state);
         for block in arguments.chunks(WideOf::<L>::COUNT) {
-            let change = bodies.open.residual_change_by::<WideOf<L>>(&slopes, block.iter().copied());
+            let direction = Direction::of_arguments::<L::Scalar>(block.iter().copied());
+            let change: Vector<WideOf<L>, L::N> = bodies.open.force_change_with(&slopes, &direction);
             for (lane, &argument) in block.iter().enumerate() {
                 let k = (argument - 1) % n;
                 let (factor, size) = match argument <= n {
@@ -74,7 +65,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> ThetaForces<L> {
                     false => (theta * step, largest.v[k]),
                 };
                 for (i, size_of) in sizes.iter_mut().enumerate() {
-                    let entry = change.motion[i].lane(lane).to_f64();
+                    let entry = -change[i].lane(lane).to_f64();
                     if entry != 0.0 {
                         *size_of += step * (entry * size.to_f64()).abs();
                         let half = factor * entry / 2.0;

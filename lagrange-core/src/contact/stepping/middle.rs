@@ -6,11 +6,10 @@ use alloc::vec::Vec;
 
 use super::forces::{ImplicitForces, ThetaForces};
 use crate::cone::{dot, sqrt};
-use crate::contact::Contacts;
 use crate::contact::bodies::{Bodies, CROSSED, UNITS};
 use crate::contact::rows::{Inertia, SparseRows, TouchingRows};
+use crate::contact::{Contacts, ForceDerivatives};
 use crate::error::{Error, Row};
-use crate::linearized::StateDerivatives;
 use crate::names::name;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
@@ -50,7 +49,7 @@ pub(super) struct Middle<L: Contacts<Scalar: Real>> {
     acts: Vec<bool>,
 }
 
-impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Middle<L> {
+impl<L: ForceDerivatives<Scalar: Real> + Clone> Middle<L> {
     pub(super) fn of(
         bodies: &Bodies<L>,
         from: &StateOf<L>,

@@ -8,10 +8,9 @@ mod step;
 mod stepper;
 mod trajectory;
 
-use super::Contacts;
 use super::builder::{CrossesContacts, Stepwise, check_times};
+use super::{Contacts, ForceDerivatives};
 use crate::error::{Ending, Error, Pace};
-use crate::linearized::StateDerivatives;
 use crate::motion::method::contract::check_settings;
 use crate::motion::progress::report;
 use crate::motion::{LagrangianVectorField, MotionBuilder, Start};
@@ -186,7 +185,7 @@ type Builder<'a, 'w, L, P, E> = MotionBuilder<
     TimeStepping,
 >;
 
-impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E> Builder<'_, '_, L, P, E> {
+impl<L: ForceDerivatives<Scalar: Real> + Clone, P, E> Builder<'_, '_, L, P, E> {
     /// Moves to the time `end`.
     ///
     /// # Errors

@@ -14,9 +14,8 @@ use crate::contact::friction::bounds;
 use crate::contact::impact::{StagedFriction, StagedImpact};
 use crate::contact::reactions::Reactions;
 use crate::contact::rows::TouchingRows;
-use crate::contact::{Contacts, FrictionRows};
+use crate::contact::{Contacts, ForceDerivatives, FrictionRows};
 use crate::error::{Error, Row};
-use crate::linearized::StateDerivatives;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
 use crate::vector::{Array, Entrywise, Length, Vector, vector};
@@ -58,7 +57,7 @@ struct Kicked<L: Contacts<Scalar: Real>> {
     residual: f64,
 }
 
-impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> Steps<L> {
+impl<L: ForceDerivatives<Scalar: Real> + Clone> Steps<L> {
     pub(super) fn new(bodies: Bodies<L>, settings: MoreauJean, state: &StateOf<L>) -> Self {
         let (rates, sizes) = (bodies.closed.constraint_rate(state), bodies.closed.rate_magnitude(state));
         let unit = L::Scalar::constant(L::Scalar::EPSILON * crate::contact::bodies::UNITS);

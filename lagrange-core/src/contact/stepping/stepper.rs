@@ -9,9 +9,8 @@ use super::step::Steps;
 use super::trajectory::TimeStep;
 use crate::contact::bodies::{Bodies, UNITS};
 use crate::contact::builder::Stepwise;
-use crate::contact::{Contacts, ImpactLaw};
+use crate::contact::{Contacts, ForceDerivatives, ImpactLaw};
 use crate::error::Error;
-use crate::linearized::StateDerivatives;
 use crate::names::name;
 use crate::number::{Real, Scalar};
 use crate::solution::Sample;
@@ -54,7 +53,7 @@ pub struct ContactStepper<L: Contacts<Scalar: Real>> {
     done: usize,
 }
 
-impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E: Stepwise> Builder<'_, '_, L, P, E> {
+impl<L: ForceDerivatives<Scalar: Real> + Clone, P, E: Stepwise> Builder<'_, '_, L, P, E> {
     /// Begins a motion that is taken step by step. A progress callback is not called.
     ///
     /// # Errors
@@ -78,7 +77,7 @@ impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone, P, E: Stepwise> Build
     }
 }
 
-impl<L: Contacts<Scalar: Real> + StateDerivatives + Clone> ContactStepper<L> {
+impl<L: ForceDerivatives<Scalar: Real> + Clone> ContactStepper<L> {
     /// Takes a step of the length of the scheme.
     ///
     /// # Errors
@@ -161,7 +160,7 @@ impl<L: Contacts<Scalar: Real>> Debug for ContactStepper<L> {
 }
 
 /// Checks a start as what a step may leave.
-fn check_start<L: Contacts<Scalar: Real> + StateDerivatives + Clone>(
+fn check_start<L: ForceDerivatives<Scalar: Real> + Clone>(
     bodies: &Bodies<L>,
     state: &StateOf<L>,
     scheme: &MoreauJean,

@@ -23,38 +23,41 @@ pub(super) struct Changing {
     /// Without the part of a tree of bodies.
     by_state: [Program; 2],
     by_parameters: [Program; 2],
+    /// Derivatives of h.
+    pub(super) of_forces: [Program; 2],
     /// Indices of the rates of time, coordinates and velocities with which the residual changes, and those with which h does.
     state_arguments: BTreeSet<usize>,
-    force_arguments: BTreeSet<usize>,
+    pub(super) force_arguments: BTreeSet<usize>,
 }
 
 impl Changing {
     pub(super) fn new(graph: &Graph, linearization: &Linearization, forcing: &[Id]) -> Self {
-        let Linearization { by_state, by_parameters, residual, split } = linearization;
+        let Linearization { by_state, by_parameters, residual, split, forces } = linearization;
         let programs =
             |changes: &Changes, residual: &[Id]| Program::of_changes(graph, &changes.roots(), residual);
-        let n = forcing.len();
-        let argument = |symbol| match Variable::of(symbol) {
+        let change = |symbol| match Variable::of(symbol) {
             Variable::Change(index) => Some(index),
-            Variable::Time => Some(0),
-            Variable::Coordinate(i) => Some(1 + i),
-            Variable::Velocity(i) => Some(1 + n + i),
             _ => None,
         };
-        let changes =
-            |symbol| argument(symbol).filter(|_| matches!(Variable::of(symbol), Variable::Change(_)));
-        let state_arguments = graph.symbols(&by_state.roots()).filter_map(changes).collect();
-        let force_arguments = graph.symbols(forcing).filter_map(argument).collect();
+        let arguments = |roots: &[Id]| graph.symbols(roots).filter_map(change).collect();
+        let (state_arguments, force_arguments) = (arguments(&by_state.roots()), arguments(forces));
+        let of_forces = Program::of_changes(graph, forces, forcing);
         let by_state = match split {
             Some(split) => programs(&split.by_state, &split.residual),
             None => programs(by_state, residual),
         };
-        Self { by_state, by_parameters: programs(by_parameters, residual), state_arguments, force_arguments }
+        Self {
+            by_state,
+            by_parameters: programs(by_parameters, residual),
+            of_forces,
+            state_arguments,
+            force_arguments,
+        }
     }
 
     /// Number of slopes: the larger of the numbers for states and for parameters.
     pub(super) fn slopes(&self) -> usize {
-        [&self.by_state, &self.by_parameters]
+        [&self.by_state, &self.by_parameters, &self.of_forces]
             .into_iter()
             .map(|[slopes, _]| slopes.results.len())
             .max()
@@ -98,8 +101,7 @@ impl Emitter<'_> {
         let (_, type_generics, _) = self.declaration.generics.split_for_impl();
         let (runtime, ident) = (runtime(self.declaration), &self.declaration.ident);
         let p = self.style.types.parameters;
-        let [arguments, of_forces] =
-            [&changing.state_arguments, &changing.force_arguments].map(|all| all.iter().copied());
+        let arguments = changing.state_arguments.iter().copied();
         let scalar = self.style.types.scalar;
         let [of_state_slopes, of_parameter_slopes] =
             [&changing.by_state, &changing.by_parameters].map(|[slopes, _]| slopes.results.len());
@@ -122,7 +124,6 @@ impl Emitter<'_> {
                 impl #impl_generics __lagrange::StateDerivatives for #ident #type_generics #where_clause {
                     type Slopes = #slopes;
                     const STATE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(&[#(#arguments),*]);
-                    const FORCE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(&[#(#of_forces),*]);
                     #of_state
                 }
 

@@ -9,6 +9,7 @@ mod defects;
 mod eliminate;
 mod emitter;
 mod facts;
+mod forces;
 mod inputs;
 mod integrability;
 mod kernel;
@@ -93,10 +94,10 @@ pub(crate) fn implementation(
     }
     let mut tokens = emitter.lagrangian(diagnostics);
     diagnostics.is_empty().then_some(())?;
-    let linearization = derived.linearization.as_ref().zip(changing);
-    tokens.extend(
-        linearization.and_then(|(linearization, changing)| emitter.linearized(linearization, &changing)),
-    );
+    if let Some((linearization, changing)) = derived.linearization.as_ref().zip(changing) {
+        tokens.extend(emitter.linearized(linearization, &changing));
+        tokens.extend(emitter.force_derivatives(linearization, &changing));
+    }
     tokens.extend(series.as_ref().map(|series| emitter.taylor_series(series)));
     Some(tokens)
 }

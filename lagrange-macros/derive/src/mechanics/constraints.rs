@@ -175,7 +175,7 @@ fn malformed(
     let (label, expression) = &problem.constraints[row];
     if jacobian.iter().all(|&entry| vanishes(graph, problem, entry).is_some()) {
         let is_component =
-            problem.frictions.iter().any(|of| of.sliding.len() == 2 && (of.row..of.row + 2).contains(&row));
+            problem.frictions.iter().any(|of| of.sliding.len() == 2 && of.rows().contains(&row));
         let message = match *expression {
             Id::ZERO if is_component => {
                 "a component of this velocity is zero, whatever the motion: leave it out, as in `v[0]` for `v[0..2]`"
@@ -196,7 +196,7 @@ fn malformed(
         slopes.into_iter().position(|slope| vanishes(graph, problem, slope).is_none())
     })?;
     let name = &problem.coordinates[velocity].text;
-    let is_friction = problem.frictions.iter().any(|of| (of.row..of.row + of.sliding.len()).contains(&row));
+    let is_friction = problem.frictions.iter().any(|of| of.rows().contains(&row));
     Some(match is_friction {
         true => format!(
             "this is not linear in the velocity of `{name}`: friction acts along a velocity F(q,t) q̇ + b(q,t), as that of one body past another"

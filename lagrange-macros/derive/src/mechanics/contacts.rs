@@ -46,14 +46,14 @@ impl Rubbing<'_> {
     /// The constraint at fault, and what is wrong with it.
     fn fault(&self, graph: &mut Graph) -> Option<(usize, String)> {
         let contact = &self.problem.constraints[self.gap].0.text;
-        if let Some(row) = self.rows().find(|&row| self.is_along_gap(graph, row)) {
+        if let Some(row) = self.friction.rows().find(|&row| self.is_along_gap(graph, row)) {
             let of = if self.friction.sliding.len() == 1 { "" } else { "a component of " };
             let message = format!(
                 "{of}this velocity is along the gap of `{contact}`, where the contact itself acts: friction acts along the surface, as along `x_dot` beside a gap `y >= 0`"
             );
             return Some((row, message));
         }
-        if let Some(row) = self.rows().find(|&row| self.is_oblique(graph, row)) {
+        if let Some(row) = self.friction.rows().find(|&row| self.is_oblique(graph, row)) {
             let message = format!(
                 "a part of this velocity is across the gap of `{contact}`, where friction does not act: write the velocity along the surface, as `(x_dot + s*y_dot)/sqrt(1 + s^2)` beside a gap `(y - f)/sqrt(1 + s^2)` with the slope s of f"
             );
@@ -65,10 +65,6 @@ impl Rubbing<'_> {
             names.join(", ")
         );
         Some((self.friction.row, message))
-    }
-
-    fn rows(&self) -> core::ops::Range<usize> {
-        self.friction.row..self.friction.row + self.friction.sliding.len()
     }
 
     fn name(&self, coordinate: usize) -> String {
@@ -110,7 +106,7 @@ impl Rubbing<'_> {
     fn misfit(&self, graph: &mut Graph) -> Option<Vec<usize>> {
         let jacobian = &self.constraints.jacobian;
         let gap = &jacobian[self.gap][..];
-        let all: Vec<&[Id]> = self.rows().map(|row| &jacobian[row][..]).collect();
+        let all: Vec<&[Id]> = self.friction.rows().map(|row| &jacobian[row][..]).collect();
         let mut found = self.misfit_with(graph, &[&[gap], &all[..]].concat());
         if all.len() == 2 && support(gap).len() == 2 {
             found = all

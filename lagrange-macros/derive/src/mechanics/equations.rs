@@ -163,7 +163,7 @@ impl Equations {
             printed_force,
             constraint_acceleration,
             magnitudes,
-            jacobian_round_off: vanishing::round_off(graph, &linear.jacobian),
+            jacobian_round_off: vanishing::round_off(graph, problem, &linear.jacobian),
             kinds: constraints.kinds,
             residual: constraints.residual,
             rate: constraints.rate,

@@ -21,6 +21,8 @@ pub(crate) struct Linearization {
     pub(crate) residual: Vec<Id>,
     /// The derivatives by the state in two parts, for systems with many joints.
     pub(crate) split: Option<SplitResidual>,
+    /// Derivatives of h along a direction in time and state, for systems with contacts; else empty.
+    pub(crate) forces: Vec<Id>,
 }
 
 /// The residual in two parts: inertial forces and weights of a tree of bodies, and all other terms.
@@ -100,8 +102,27 @@ pub(super) fn linearize(
         by_parameters: Changes::along(graph, &equations.balance, equations, parameters),
         residual: residual(&equations.balance, equations),
         split,
+        forces: forces(graph, problem, equations, state),
     };
     graph.take_fault().is_none().then_some(linearization)
+}
+
+fn forces(
+    graph: &mut Graph,
+    problem: &Problem,
+    equations: &Equations,
+    pairs: &[(Symbol, Symbol)],
+) -> Vec<Id> {
+    if problem.contacts.is_empty() && problem.frictions.is_empty() {
+        return Vec::new();
+    }
+    let mut along = along(graph, pairs);
+    equations.forcing.iter().map(|&force| along.of(graph, force)).collect()
+}
+
+/// Derivatives along the direction whose components are the second of these pairs of symbols.
+fn along(graph: &mut Graph, pairs: &[(Symbol, Symbol)]) -> Forward {
+    Forward::along(pairs.iter().map(|&(argument, change)| (argument, graph.symbol(change))))
 }
 
 fn residual(balance: &[Id], equations: &Equations) -> Vec<Id> {
@@ -110,12 +131,9 @@ fn residual(balance: &[Id], equations: &Equations) -> Vec<Id> {
 }
 
 impl Changes {
-    /// Derivatives along the direction whose components are the second of these pairs of symbols. `balance` is the residual
-    /// of the equations of motion.
+    /// Derivatives along a [direction](along). `balance` is the residual of the equations of motion.
     fn along(graph: &mut Graph, balance: &[Id], equations: &Equations, pairs: &[(Symbol, Symbol)]) -> Self {
-        let seeds: Vec<_> =
-            pairs.iter().map(|&(argument, change)| (argument, graph.symbol(change))).collect();
-        let mut along = Forward::along(seeds);
+        let mut along = along(graph, pairs);
         let mut of = |roots: &[Id]| roots.iter().map(|&root| along.of(graph, root)).collect::<Vec<Id>>();
         Self {
             motion: of(balance),

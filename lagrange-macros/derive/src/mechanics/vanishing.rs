@@ -6,15 +6,18 @@
 
 use rustc_hash::FxHashMap;
 
+use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Node, RoundOff, Symbol};
 use crate::variables::Variable;
 
 /// For each row that parameters may cancel, the bounds of the rounding errors of its entries, in units of the round-off
-/// unit; zeros for the other rows.
-pub(super) fn round_off(graph: &mut Graph, jacobian: &[Vec<Id>]) -> Vec<Vec<Id>> {
+/// unit; zeros for the other rows. Friction has none: as its force is bounded, a row that is round-off changes nothing else.
+pub(super) fn round_off(graph: &mut Graph, problem: &Problem, jacobian: &[Vec<Id>]) -> Vec<Vec<Id>> {
     let variations = Variations::of(graph, &jacobian.concat());
     let mut bounds = RoundOff::default();
-    let rows = jacobian.iter().map(|row| match row.iter().any(|entry| variations.lasts(entry)) {
+    let is_friction = |row: usize| problem.frictions.iter().any(|friction| friction.rows().contains(&row));
+    let lasts = |row: &[Id]| row.iter().any(|entry| variations.lasts(entry));
+    let rows = jacobian.iter().enumerate().map(|(a, row)| match is_friction(a) || lasts(row) {
         false => row.iter().map(|&entry| bounds.of(graph, entry)).collect(),
         true => vec![Id::ZERO; row.len()],
     });

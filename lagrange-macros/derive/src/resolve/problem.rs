@@ -80,6 +80,13 @@ pub(crate) struct FrictionRows {
     pub(crate) bounds: [Id; 2],
 }
 
+impl FrictionRows {
+    /// Indices of its constraints.
+    pub(crate) fn rows(&self) -> core::ops::Range<usize> {
+        self.row..self.row + self.sliding.len()
+    }
+}
+
 /// An observable: a scalar, a vector or a matrix.
 pub(crate) struct Observed {
     pub(crate) label: Label,
