@@ -50,9 +50,14 @@ impl Graph {
 
     /// Replaces nodes by others and keeps definitions.
     pub fn replaced(&mut self, root: Id, replacements: &FxHashMap<Id, Id>) -> Id {
+        self.all_replaced(&[root], replacements)[&root]
+    }
+
+    /// Replaces nodes by others in all `roots` and keeps definitions. Returns the new nodes by the old ones.
+    pub fn all_replaced(&mut self, roots: &[Id], replacements: &FxHashMap<Id, Id>) -> FxHashMap<Id, Id> {
         let mut new: FxHashMap<Id, Id> = FxHashMap::default();
         let leaves: Vec<Id> = replacements.keys().copied().collect();
-        for id in self.reachable_to(&[root], &leaves) {
+        for id in self.reachable_to(roots, &leaves) {
             let node = self.node(id).clone();
             let rebuilt = match node {
                 _ if replacements.contains_key(&id) => replacements[&id],
@@ -61,7 +66,7 @@ impl Graph {
             };
             new.insert(id, rebuilt);
         }
-        new[&root]
+        new
     }
 
     pub(super) fn rebuilt(&mut self, node: &Node, new: impl Fn(Id) -> Id) -> Id {

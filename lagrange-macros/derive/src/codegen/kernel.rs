@@ -83,24 +83,24 @@ impl FunctionContext<'_> {
             let rounds =
                 part.rounds.as_ref().map_or_else(String::new, |rounds| format!(", {} rounds", rounds.count));
             let doc = format!("Chunk {} of {count} of `{name}`{rounds}.", k + 1);
-            context.part(format_ident!("__{name}_{k}"), doc, part, waiting, arrays)
+            context.part(&self.system, (format_ident!("__{name}_{k}"), doc), part, waiting, arrays)
         });
         let (calls, parts): (Vec<_>, Vec<_>) = parts.unzip();
         (quote! { let mut waiting = [#zero; #waiting]; #(#calls)* }, parts)
     }
 
     /// Name of the module of a part. The length of the struct's name keeps modules of structs apart whose names continue one another.
-    fn module_of(&self, part: &Ident) -> Ident {
+    pub(super) fn module_of(&self, part: &Ident) -> Ident {
         let ident = self.ident.to_string();
         let name = ident.trim_start_matches("r#");
         format_ident!("__{}_{name}{part}", name.len())
     }
 
-    /// Emits one chunk of a long function: its call, and the called part.
+    /// Emits one chunk of a long function: its call for a system, and the called part.
     fn part(
         &self,
-        name: Ident,
-        doc: String,
+        system: &TokenStream,
+        (name, doc): (Ident, String),
         part: Chunk,
         waiting: usize,
         arrays: &ResultArrays,
@@ -128,7 +128,7 @@ impl FunctionContext<'_> {
         let (scalar, module) = (self.types.scalar, self.module_of(&name));
         let (names, array_types) = (&arrays.names, arrays.types(scalar));
         let call = quote! {
-            #module::Part::<Self>::#name(self, #(#arguments,)* &mut waiting, #(&mut #names),*);
+            #module::Part::<Self>::#name(#system, #(#arguments,)* &mut waiting, #(&mut #names),*);
         };
         let arguments = quote!(#(#types,)* waiting: &mut [#scalar; #waiting], #(#names: &mut #array_types),*);
         let (generics, body) = (self.generics(), self.statements(part, arrays));

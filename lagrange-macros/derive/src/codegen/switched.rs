@@ -1,9 +1,10 @@
 //! Emits the parts of the equations of motion that the runtime puts together if constraints can be switched off.
 
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::emitter::{Emitter, Written};
+use super::kernel::Part;
 use super::shape::ResultShape;
 use super::signature::{Types, wide};
 use crate::contract::{Argument, Dimension};
@@ -100,17 +101,32 @@ impl Emitter<'_> {
         groups.iter().map(group).collect()
     }
 
-    /// Arms that store the numbers of each group.
+    /// Arms that store the numbers of each group. Each is a function by itself: the time to compile a function grows faster than
+    /// its length.
     fn groups(&self, groups: &[RowGroup]) -> Written {
-        let mut start = 0;
+        let (mut start, context) = (0, self.style.of_parts());
+        let state = self.style.types.argument(Argument::State);
         let arm = |(k, group): (usize, &RowGroup)| {
             let numbers: Vec<Id> = group.rows.iter().flat_map(Row::all).collect();
             let from = start;
             start += numbers.len();
             let shape = [ResultShape::Vector(numbers.len())];
-            let kernel = self.style.kernel(&format!("rows_{k}"), &numbers, &shape);
+            let mut kernel = context.kernel(&format!("rows_{k}"), &numbers, &shape);
+            let name = format_ident!("__rows_{k}_all");
+            let (module, scalar) = (context.module_of(&name), self.style.types.scalar);
             let (statements, results) = (&kernel.statements, &kernel.results);
-            let tokens = quote!(#k => { #statements numbers[#from..#start].copy_from_slice(#(&#results)*); });
+            let part = Part {
+                doc: kernel.doc.clone(),
+                generics: None,
+                arguments: quote!(#state, numbers: &mut [#scalar]),
+                body: quote!(#statements numbers.copy_from_slice(#(&#results)*);),
+                module,
+                name,
+            };
+            let Part { module, name, .. } = &part;
+            let tokens =
+                quote!(#k => #module::Part::<Self>::#name(self, state, &mut numbers[#from..#start]),);
+            kernel.parts.push(part);
             Written { tokens, kernels: vec![kernel] }
         };
         groups.iter().enumerate().map(arm).collect()

@@ -15,6 +15,8 @@ use crate::variables::{Variable, nodes};
 
 /// Number of random states at which a quantity must pass the test to count as conserved.
 const STATES: u32 = 8;
+/// The same where constraints can be switched off, in combinations that differ from state to state.
+const STATES_OF_SWITCHES: u32 = 24;
 /// Largest number of coordinates plus constraints for which random states are tried unasked. Quantities declared as
 /// conserved are always tested.
 const LARGE: usize = 120;
@@ -157,6 +159,7 @@ fn trial(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Trial {
     let state: Vec<_> = state.chain([Variable::Time]).map(Variable::symbol).collect();
     let mut roots = graph.gradient(quantity, &state);
     roots.push(quantity);
+    let states = if moments.equations.switched.is_some() { STATES_OF_SWITCHES } else { STATES };
     let mut held = 0;
     for index in 0.. {
         let Some(moment) = moments.get(index, graph) else { break };
@@ -174,7 +177,7 @@ fn trial(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Trial {
         if rate.error <= INFORMATIVE * size {
             held += 1;
         }
-        if held == STATES {
+        if held == states {
             return Trial::Held(held);
         }
     }

@@ -128,7 +128,8 @@ impl Multiples {
         let all: BTreeSet<usize> = graph.symbols(&[expression]).filter_map(multiplier).collect();
         let slopes = all.iter().map(|&a| Variable::Multiplier(a).symbol()).collect::<Vec<_>>();
         let of = all.into_iter().zip(graph.gradient(expression, &slopes)).collect();
-        let rest = graph.substituted(expression, |symbol| multiplier(symbol).map(|_| Id::ZERO));
+        let zeros: Vec<Id> = slopes.iter().map(|&multiplier| graph.symbol(multiplier)).collect();
+        let rest = graph.without(expression, &zeros);
         Self { rest, of }
     }
 }

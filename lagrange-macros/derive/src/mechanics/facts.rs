@@ -34,9 +34,11 @@ impl Facts {
         equations: &Equations,
         diagnostics: &mut Diagnostics,
     ) -> Self {
-        let mut moments = Moments::new(problem, equations);
+        let mut moments = Moments::new(problem, equations, true);
         let (cyclic, mut conserved) = momenta(graph, &mut moments);
-        let (energy, changes) = conservation::of_energy(graph, &mut moments);
+        // The energy is said to be conserved while nothing slides.
+        let mut at_rest = Moments::new(problem, equations, false);
+        let (energy, changes) = conservation::of_energy(graph, &mut at_rest);
         let may_change = energy.is_none() || !problem.frictions.is_empty();
         let rates = changes.iter().filter(|_| may_change).map(|(_, part)| *part).collect::<Vec<_>>();
         let energy_rate = graph.total(rates);

@@ -1,10 +1,12 @@
 //! The equations of motion of a system with constraints that can be switched off: the runtime puts together those that hold.
 
+use rustc_hash::FxHashMap;
+
 use super::constraints::Constraints;
 use super::equations::LinearEquations;
 use super::form::Form;
-use crate::resolve::{Entry, FrictionRows, Problem, SwitchReading};
-use crate::symbolic::{Graph, Id, Symbol};
+use crate::resolve::{Entry, FrictionRows, Problem, Switch, SwitchReading};
+use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
 
 /// Number of coordinates up to which rows have an entry for each: loops of constant length then need no indices.
@@ -25,6 +27,8 @@ pub(crate) struct SwitchedEquations {
 pub(crate) struct RowGroup {
     /// Entry of the field that switches them off; `None` if they are always computed.
     pub(crate) entry: Option<Entry>,
+    /// What reads that entry: 1 while they may hold, else 0.
+    pub(crate) is_on: Option<Id>,
     pub(crate) rows: Vec<Row>,
 }
 
@@ -61,11 +65,25 @@ impl SwitchedEquations {
         free.given = (0..constraints.kinds.len())
             .map(|a| (!constraints.always_holds(a)).then(|| graph.neg(constraints.bias[a])))
             .collect();
-        let free = free.map(|id| graph.substituted(id, |symbol| off(problem, symbol)));
+        let off = readings(graph, problem, off);
+        let new = graph.all_replaced(&free.nodes(), &off);
+        let free = free.map(|id| new[&id]);
         let rows = Rows { problem, constraints, multiples, weights: &linear.forms[0].completing };
         let inertia = free.without_constraints();
         Some(Self { inertia, groups: rows.groups(graph, held), free })
     }
+}
+
+/// What some readings of switches are, node by node.
+fn readings(
+    graph: &mut Graph,
+    problem: &Problem,
+    value: impl Fn(&Problem, &Switch) -> Option<Id>,
+) -> FxHashMap<Id, Id> {
+    let switches = problem.parameters.switches.iter().enumerate();
+    let known =
+        switches.filter_map(|(k, switch)| Some((Variable::Switch(k).symbol(), value(problem, switch)?)));
+    known.map(|(symbol, value)| (graph.symbol(symbol), value)).collect()
 }
 
 impl LinearEquations {
@@ -87,6 +105,15 @@ impl LinearEquations {
         }
     }
 
+    fn nodes(&self) -> Vec<Id> {
+        let mut nodes = Vec::new();
+        self.map(|id| {
+            nodes.push(id);
+            id
+        });
+        nodes
+    }
+
     /// The equations of the completed mass matrix alone.
     fn without_constraints(&self) -> Self {
         let form = |form: &Form| Form { rows: None, completing: Vec::new(), ..form.clone() };
@@ -101,9 +128,7 @@ impl LinearEquations {
 }
 
 /// What a reading of a switch is while no constraint holds that can be switched off.
-fn off(problem: &Problem, symbol: Symbol) -> Option<Id> {
-    let Variable::Switch(k) = Variable::of(symbol) else { return None };
-    let switch = &problem.parameters.switches[k];
+fn off(problem: &Problem, switch: &Switch) -> Option<Id> {
     let is_of_contact = problem.contacts.iter().any(|contact| contact.entry == switch.entry);
     let keeps = matches!(switch.reading, SwitchReading::Holds | SwitchReading::Sticks(_));
     (is_of_contact || keeps).then_some(Id::ZERO)
@@ -134,9 +159,17 @@ impl Rows<'_> {
             let is_friction =
                 |friction: &FrictionRows| friction.contact.is_none() && Some(friction.entry) == entry;
             let entry = entry.filter(|_| !self.problem.frictions.iter().any(is_friction));
-            RowGroup { entry, rows }
+            let is_on = entry.and_then(|entry| self.reading(graph, entry));
+            RowGroup { entry, is_on, rows }
         };
         groups.into_iter().map(group).collect()
+    }
+
+    /// Node of the reading whether a constraint holds.
+    fn reading(&self, graph: &mut Graph, entry: Entry) -> Option<Id> {
+        let holds = Switch { entry, reading: SwitchReading::Holds };
+        let index = self.problem.parameters.switches.get_index_of(&holds)?;
+        Some(graph.symbol(Variable::Switch(index).symbol()))
     }
 
     /// Entry of the field that switches a constraint.
@@ -151,15 +184,10 @@ impl Rows<'_> {
     /// The row of a constraint while the field of this entry does not switch it off.
     fn row(&self, graph: &mut Graph, a: usize, entry: Option<Entry>) -> Row {
         let Constraints { jacobian, bias, compliance, coupling, .. } = self.constraints;
-        let parameters = &self.problem.parameters;
-        let mut on = |id| {
-            graph.substituted(id, |symbol| {
-                let Variable::Switch(k) = Variable::of(symbol) else { return None };
-                let switch = &parameters.switches[k];
-                (Some(switch.entry) == entry && matches!(switch.reading, SwitchReading::Holds))
-                    .then_some(Id::ONE)
-            })
-        };
+        let holds =
+            |switch: &Switch| Some(switch.entry) == entry && matches!(switch.reading, SwitchReading::Holds);
+        let on = readings(graph, self.problem, |_, switch| holds(switch).then_some(Id::ONE));
+        let mut on = |id| graph.replaced(id, &on);
         let f: Vec<Id> = jacobian[a].iter().map(|&entry| on(entry)).collect();
         let of =
             |i: usize| self.multiples.get(i)?.iter().find(|(b, _)| *b == a).map(|&(_, multiple)| multiple);

@@ -33,7 +33,7 @@ pub(super) fn classify(graph: &mut Graph, problem: &Problem, constraints: &Const
     if !constraints.kinds.contains(&ConstraintKind::Velocity) {
         kinds.integrals = Some(Integrals { count: 0, of: 0, evidence: Evidence::Proved });
     } else if let Some(mut space) = Space::new(graph, problem, constraints) {
-        fill(graph, problem, &mut space, &mut kinds);
+        fill(graph, problem, constraints, &mut space, &mut kinds);
     }
     kinds
 }
@@ -42,11 +42,19 @@ fn verdict(integrability: Integrability, evidence: Evidence) -> Classification {
     Classification { integrability, evidence }
 }
 
-fn fill(graph: &mut Graph, problem: &Problem, space: &mut Space, kinds: &mut Kinds) {
+/// Classifies the velocity constraints. Those that always hold are a set; each other one is classified without the others.
+fn fill(
+    graph: &mut Graph,
+    problem: &Problem,
+    constraints: &Constraints,
+    space: &mut Space,
+    kinds: &mut Kinds,
+) {
     let rows = space.velocity.clone();
     // First the cheap tests: the brackets of a large set may exceed the size limit of the graph.
     let alone: Vec<_> = rows.iter().map(|(_, form)| classify_alone(space, form)).collect();
-    let forms: Vec<OneForm> = rows.iter().map(|(_, form)| form.clone()).collect();
+    let held = rows.iter().filter(|(row, _)| constraints.always_holds(*row));
+    let forms: Vec<OneForm> = held.map(|(_, form)| form.clone()).collect();
     let set = Distribution::new(space, &forms);
     let set = set.and_then(|set| set.closure(space).map(|closure| (set, closure)));
     kinds.integrals = set.as_ref().map(|(set, closure)| {
@@ -55,7 +63,7 @@ fn fill(graph: &mut Graph, problem: &Problem, space: &mut Space, kinds: &mut Kin
     });
     for ((row, form), alone) in rows.into_iter().zip(alone) {
         let class = match alone {
-            Some(class) if !class.integrability.is_integrable() => {
+            Some(class) if constraints.always_holds(row) && !class.integrability.is_integrable() => {
                 set.as_ref().and_then(|(set, closure)| classify_in(space, set, closure, &form))
             }
             class => class,

@@ -24,7 +24,7 @@ pub(super) struct Space {
     pub(super) graph: Graph,
     /// The coordinates, then time.
     pub(super) symbols: Vec<Symbol>,
-    /// dΦ of the holonomic constraints.
+    /// dΦ of the holonomic constraints that always hold.
     pub(super) holonomic: Vec<OneForm>,
     /// Forms of the velocity constraints, each with the index of its constraint.
     pub(super) velocity: Vec<(usize, OneForm)>,
@@ -45,7 +45,9 @@ impl Space {
             samples: Vec::new(),
         };
         let is_holonomic = |row: &usize| constraints.kinds[*row] == ConstraintKind::Holonomic;
-        let (holonomic, velocity): (Vec<_>, Vec<_>) = (0..constraints.kinds.len()).partition(is_holonomic);
+        let (mut holonomic, velocity): (Vec<_>, Vec<_>) =
+            (0..constraints.kinds.len()).partition(is_holonomic);
+        holonomic.retain(|&row| constraints.always_holds(row));
         let residuals: Vec<Id> = holonomic.iter().map(|&row| constraints.residual[row]).collect();
         let residuals = space.graph.copied(graph, &residuals);
         space.holonomic =

@@ -383,9 +383,6 @@ const _: () = {
         const STATE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(
             &[1usize],
         );
-        const FORCE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(
-            &[1usize],
-        );
         ///3 operations (+ − × ÷ √), 1 elementary function.
         #[inline]
         #[allow(unused_variables)]

@@ -226,6 +226,31 @@ fn friction_takes_energy_where_it_slides() {
     assert!(latex.contains("while nothing slides"), "{latex}");
 }
 
+/// Where a ball rolls on a floor, friction has no force, and the momentum along it stays; where it slides, it does not. Friction
+/// between two sledges keeps their sum, and a leg that presses alone turns a table.
+#[test]
+fn momenta_are_conserved_whether_bodies_stick_slide_or_part() {
+    let ball = "#[coordinates(x, y, phi)]
+         #[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m/5 * r^2 * phi_dot^2 - m*g*y)]
+         #[contact(floor: y - r >= 0, friction(mu): x_dot - r*phi_dot)]
+         struct Ball { m: f64, g: f64, mu: f64, r: f64, floor: Contact }";
+    let sledges = "#[coordinates(a, b)]
+         #[lagrangian(m/2 * (a_dot^2 + 2*b_dot^2))]
+         #[friction(rope: a_dot - b_dot, sliding: hold)]
+         #[conserved(total = m*(a_dot + 2*b_dot))]
+         struct Sledges { m: f64, hold: f64, rope: Friction }";
+    let table = "#[coordinates(z, a)]
+         #[lagrangian(m/2 * z_dot^2 + j/2 * a_dot^2 - m*g*z)]
+         #[contact(left: z + a >= 0)]
+         #[contact(right: z - a >= 0)]
+         struct Table { m: f64, j: f64, g: f64, left: Contact, right: Contact }";
+    for (source, kept) in [(ball, "E"), (sledges, "E total"), (table, "E")] {
+        let conserved = lines(source, "Conserved\n");
+        let names: Vec<&str> = conserved.lines().filter_map(|line| line.trim().split(' ').next()).collect();
+        assert_eq!(names.join(" "), kept, "{conserved}");
+    }
+}
+
 #[test]
 fn coefficients_at_rest_and_of_sliding_are_printed() {
     let source = "#[coordinates(x, y)]
