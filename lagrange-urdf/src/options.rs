@@ -84,7 +84,13 @@ impl Options {
             "--tool" => self.tools.push(value()?),
             "--fix" => self.fixed.push(value()?),
             "--name" => self.name = Some(value()?),
-            _ if argument.starts_with('-') => return Err(format!("unknown option {argument}; see --help")),
+            _ if argument.starts_with('-') => {
+                let known: Vec<&str> =
+                    HELP.split_whitespace().filter(|word| word.starts_with("--")).collect();
+                let meant = suggestion(argument, &known);
+                let end = if meant.is_empty() { "; see --help" } else { &meant };
+                return Err(format!("unknown option {argument}{end}"));
+            }
             _ => files.push(argument.to_owned()),
         }
         Ok(())

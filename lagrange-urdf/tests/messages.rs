@@ -349,6 +349,7 @@ fn the_program_says_what_is_wrong_and_fails() {
         (&[], "error: one file is expected, found 0; see --help\n"),
         (&[&arm, &arm], "error: one file is expected, found 2; see --help\n"),
         (&["--fast", &arm], "error: unknown option --fast; see --help\n"),
+        (&["--limts", &arm], "error: unknown option --limts: did you mean `--limits`?\n"),
         (&[&arm, "--tool"], "error: --tool is followed by a name; see --help\n"),
     ] {
         let output = run(arguments);

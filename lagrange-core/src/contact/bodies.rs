@@ -1,6 +1,8 @@
 //! A system with contacts at a state: gaps, their rates and round-off, and what forces do to them.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::cell::Cell;
 
 use super::rows::TouchingRows;
 use super::states::{LegFriction, LegStates};
@@ -12,7 +14,7 @@ use crate::number::{Real, Scalar, larger};
 use crate::solution::consistent::gradient;
 use crate::solution::solve::solve_near;
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Array, Length, Vector, vector};
+use crate::vector::{Array, Matrix, Vector, vector};
 
 /// Round-off of gaps and rates, in units of the round-off of the sums Σ |Wᵢ qᵢ| and Σ |Wᵢ q̇ᵢ| over the largest entries so
 /// far. A gap comes from a projection to 4 units and a location to one unit of time; a rate from a solve.
@@ -40,11 +42,29 @@ const INSTANT: f64 = 1e-6;
 pub(super) struct Bodies<L: Lagrangian> {
     pub(super) open: L,
     pub(super) closed: L,
+    /// The last state at which constraints were evaluated.
+    last: Cell<Option<Box<ClosedConstraints<L>>>>,
     largest: [Array<L::Scalar, L::N>; 2],
     /// Length of the motion in time.
     pub(super) span: L::Scalar,
     /// Part of the velocities by which steps err.
     pub(super) accuracy: f64,
+}
+
+/// All constraints at a state, with the contacts closed.
+struct ClosedConstraints<L: Lagrangian> {
+    state: StateOf<L>,
+    /// Gaps, rates, and accelerations at q̈ = 0.
+    values: [Vector<L::Scalar, L::M>; 3],
+    jacobian: Matrix<L::Scalar, L::M, L::N>,
+}
+
+impl<L: Lagrangian> ClosedConstraints<L> {
+    fn of(closed: &L, state: &StateOf<L>) -> Self {
+        let (gaps, rates) = (closed.constraint_residual(state), closed.constraint_rate(state));
+        let values = [gaps, rates, closed.constraint_bias(state)];
+        Self { state: *state, values, jacobian: closed.constraint_jacobian(state) }
+    }
 }
 
 /// A gap or a velocity of friction at a state, with its rate and round-off.
@@ -87,13 +107,13 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let largest = [Array::filled(L::Scalar::constant(0.0)); 2];
         let open = all(Contact::Open, LegFriction::OFF.friction);
         let closed = all(Contact::Closed, Friction::Sticks);
-        Self { open, closed, largest, span: L::Scalar::constant(0.0), accuracy }
+        Self { open, closed, last: Cell::new(None), largest, span: L::Scalar::constant(0.0), accuracy }
     }
 
     /// Takes the parameters of this system.
     pub(super) fn take(&mut self, system: &L) {
         let Self { open, closed, .. } = Self::new(system, self.accuracy);
-        (self.open, self.closed) = (open, closed);
+        (self.open, self.closed, self.last) = (open, closed, Cell::new(None));
     }
 
     /// The system with contacts and friction in these states.
@@ -125,8 +145,17 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         })
     }
 
+    /// Reads the constraints at a state. They are evaluated unless that was the last one: contacts are measured in turn.
+    fn at<R>(&self, state: &StateOf<L>, read: impl FnOnce(&ClosedConstraints<L>) -> R) -> R {
+        let last = self.last.take().filter(|last| last.state == *state);
+        let at = last.unwrap_or_else(|| Box::new(ClosedConstraints::of(&self.closed, state)));
+        let found = read(&at);
+        self.last.set(Some(at));
+        found
+    }
+
     pub(super) fn gap(&self, k: usize, state: &StateOf<L>) -> L::Scalar {
-        self.closed.constraint_residual(state)[L::CONTACTS[k]]
+        self.at(state, |at| at.values[0][L::CONTACTS[k]])
     }
 
     /// Takes note of the entries of a state.
@@ -165,12 +194,6 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         Ok(())
     }
 
-    /// The row W of a constraint.
-    pub(super) fn row(&self, a: usize, state: &StateOf<L>) -> Vector<L::Scalar, L::N> {
-        let jacobian = self.closed.constraint_jacobian(state);
-        vector(Array::from_fn(|i| jacobian[(a, i)]))
-    }
-
     /// The gap of contact `k`, its rate, and their round-off.
     pub(super) fn measured(&self, k: usize, state: &StateOf<L>) -> Measured<L::Scalar> {
         self.measured_at(L::CONTACTS[k], state)
@@ -178,19 +201,18 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
 
     /// The rate of constraint `a`, its Φ if it has one, and their round-off.
     pub(super) fn measured_at(&self, a: usize, state: &StateOf<L>) -> Measured<L::Scalar> {
-        let (row, rate) = (self.row(a, state), self.closed.constraint_rate(state)[a]);
-        let unit = L::Scalar::constant(L::Scalar::EPSILON * UNITS);
-        let [of_gap, of_rate] = self.largest.each_ref().map(|largest| {
-            (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, i| sum + Scalar::abs(row[i]) * largest[i])
-        });
-        let of_bodies = (0..<L::N>::COUNT).fold(rate, |rest, i| rest - row[i] * state.v[i]);
-        let in_time = (Scalar::abs(rate) + Scalar::abs(of_bodies)) * Scalar::abs(state.t);
-        let rate_in_time = Scalar::abs(self.closed.constraint_bias(state)[a] * state.t);
-        Measured {
-            gap: self.closed.constraint_residual(state)[a],
-            rate,
-            noise: [unit * (of_gap + in_time), unit * (of_rate + rate_in_time)],
-        }
+        self.at(state, |at| {
+            let ([gap, rate, bias], row) = (at.values.each_ref().map(|values| values[a]), at.jacobian.row(a));
+            let unit = L::Scalar::constant(L::Scalar::EPSILON * UNITS);
+            let [of_gap, of_rate] = self.largest.each_ref().map(|largest| {
+                let sizes = row.iter().zip(largest).map(|(w, &most)| Scalar::abs(*w) * most);
+                sizes.fold(L::Scalar::constant(0.0), |sum, size| sum + size)
+            });
+            let of_bodies = row.iter().zip(&state.v).fold(rate, |rest, (&w, &v)| rest - w * v);
+            let in_time = (Scalar::abs(rate) + Scalar::abs(of_bodies)) * Scalar::abs(state.t);
+            let rate_in_time = Scalar::abs(bias * state.t);
+            Measured { gap, rate, noise: [unit * (of_gap + in_time), unit * (of_rate + rate_in_time)] }
+        })
     }
 
     /// Rates of the rows of contacts and friction, and their round-off.
@@ -232,15 +254,16 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         state: &StateOf<L>,
     ) -> Result<(Vec<f64>, Vec<f64>), Error> {
         let free = solve_near(&self.open, state, None, |solution, _| solution.accelerations)?;
-        let bias = self.closed.constraint_bias(state);
-        let of = |&a: &usize| {
-            let (row, bias) = (self.row(a, state), bias[a]);
-            let terms = || (0..<L::N>::COUNT).map(|i| row[i] * free[i]).chain([bias]);
-            let size = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + Scalar::abs(term));
-            let sum = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + term);
-            (sum.to_f64(), L::Scalar::EPSILON * UNITS * size.to_f64())
-        };
-        Ok(rows.all[..rows.count].iter().map(of).unzip())
+        Ok(self.at(state, |at| {
+            let of = |&a: &usize| {
+                let (row, [_, _, bias]) = (at.jacobian.row(a), at.values.each_ref().map(|values| values[a]));
+                let terms = || row.iter().zip(&free).map(|(&w, &free)| w * free).chain([bias]);
+                let size = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + Scalar::abs(term));
+                let sum = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + term);
+                (sum.to_f64(), L::Scalar::EPSILON * UNITS * size.to_f64())
+            };
+            rows.all[..rows.count].iter().map(of).unzip()
+        }))
     }
 
     /// Error of the velocities of a friction with this round-off. A step ends where a single velocity becomes zero. Two become zero within a
