@@ -122,3 +122,63 @@ fn accelerations_satisfy_newton_and_the_laws() {
     });
     assert!(2 * good > all, "{good} of {all}");
 }
+
+/// Three rows, of which two nearly depend on each other, and one that is switched off.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, z)]
+#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 + x - 2*y + z/3)]
+#[constraint(a: s*(x + y + z) = 0)]
+#[constraint(b: x - y + 2*z = 0)]
+#[constraint(c: x - y + 2*z + k*x = 0)]
+#[constraint(d: x = y, when: on)]
+struct Near {
+    s: f64,
+    k: f64,
+    on: bool,
+}
+
+/// The elimination leaves it to the general solver, where the row that is off has no part, whatever the scales of the others.
+#[test]
+fn a_row_that_is_off_leaves_the_forces_of_the_others_alone() {
+    for s in [1.0, 1e-8, 1e-14, 1e-20] {
+        let (near, state) = (Near { s, k: 1e-4, on: false }, State::at_rest([0.0; 3]));
+        assert!(near.accelerations_unchecked(&state).pivot < 1e-5);
+        let solution = near.solve(&state).unwrap();
+        assert!(solution.multipliers_are_unique(), "{s}");
+        let (a, lambda) = (solution.accelerations, solution.multipliers);
+        let newton = near.inverse_dynamics(&state, &a, &lambda);
+        assert!(newton.amax() < 1e-9 && a.amax() < 1e-9, "{s}: {newton} {a}");
+        // x + y + z, x − y + 2 z and x carry (1, −2, 1/3).
+        assert!((s * lambda[0] - 11.0 / 9.0).abs() < 1e-9, "{s}: {lambda}");
+    }
+}
+
+/// Friction that slides on two walls at an angle.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y, z)]
+#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 - x - 3/10*y + z/5)]
+#[contact(one: x >= 0, friction(mu): z_dot)]
+#[contact(two: 3/5*x + 4/5*y >= 0, friction(mu): a*x_dot + b*z_dot)]
+struct Slides {
+    a: f64,
+    b: f64,
+    mu: f64,
+    one: Contact,
+    two: Contact,
+}
+
+/// Terms of friction that all but cancel cost digits: where more than a third is lost, there is no solution.
+#[test]
+fn friction_that_cancels_is_found_unreliable() {
+    let a = 0.37_f64;
+    let slides = Contact::Slides([-1.0, 0.0]);
+    for mu in [0.1, 1.0, 1e2, 1e4, 1e6, 1e8, 1e12] {
+        let system = Slides { a, b: (1.0 - a * a).sqrt(), mu, one: slides, two: slides };
+        let found = system.solve(&State::at_rest([0.0; 3]));
+        let is_right = |found: &lagrange_core::SolutionOf<Slides>| {
+            let two = Slides::CONSTRAINTS.iter().position(|name| *name == "two").unwrap();
+            (found.multipliers[two] - 0.375).abs() < 1e-9
+        };
+        assert!(found.as_ref().map_or(mu > 1e5, is_right), "{mu}: {found:?}");
+    }
+}

@@ -95,6 +95,7 @@ pub(crate) fn solve_in_general<L: Lagrangian<Scalar: Real>>(
     let mut solved = kkt::solve(&equations, rank).map_err(|found| fault::<L>(&found, time))?;
     for a in (0..<L::M>::COUNT).filter(|&a| is_off(a)) {
         solved.0.multipliers[a] = -gamma[a];
+        solved.0.rank += 1;
     }
     let Solution { accelerations, multipliers, .. } = &solved.0;
     match first_row::<L>(|i| !accelerations[i].is_finite(), |a| !multipliers[a].is_finite()) {

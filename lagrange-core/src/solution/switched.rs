@@ -191,7 +191,7 @@ impl<I, T: Scalar, N: Length, H: Length> SwitchedFactor<I, T, N, H> {
         &L::GROUPS[group][index]
     }
 
-    /// Computes F M⁻¹ Bᵀ. Returns the diagonal of F M⁻¹ Fᵀ.
+    /// Computes F M⁻¹ Bᵀ. Returns its diagonal or that of F M⁻¹ Fᵀ, whichever is larger.
     #[inline]
     fn put_together<L>(&mut self, system: &L) -> Array<T, H>
     where
@@ -211,7 +211,7 @@ impl<I, T: Scalar, N: Length, H: Length> SwitchedFactor<I, T, N, H> {
                 }
             }
             scale[b] = match row.pushes {
-                true => row.dot(across, &self.moved(system, row, across)),
+                true => row.dot(across, &self.moved(system, row, across)).max(self.schur[b][b].abs()),
                 false => self.schur[b][b],
             };
         }

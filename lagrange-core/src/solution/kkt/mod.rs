@@ -139,7 +139,8 @@ impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
         let largest = m.iter().fold(T::constant(0.0), |most, row| larger(most, largest(row)));
         let along = along_constraints(&m, rows.split.rank, largest);
         let pivot = if rows.split.rank < N::COUNT { along.smallest / largest } else { T::constant(1.0) };
-        let wide = (rows.split.rank < M::COUNT).then(|| least_norm(&rows));
+        // Rows of zeros, as of constraints that are switched off, have no share in the forces.
+        let wide = rows.has_dependent_rows(f).then(|| least_norm(&rows));
         Self { rows, m, along, pivot, wide, must_agree: rank.must_agree }
     }
 
@@ -233,6 +234,12 @@ impl<T: Real, N: Length, M: Length> Rows<T, N, M> {
         let units = Units::of(m, f);
         let rows = from_fn(|a| units.unit_row(a, &f[a]));
         Self { units, split: Qr::of(rows, rank.tolerance) }
+    }
+
+    /// True if the forces may be shared among rows of F in several ways.
+    fn has_dependent_rows(&self, f: &Array<Array<T, N>, M>) -> bool {
+        let is_zero = |row: &Array<T, N>| row.iter().all(|&entry| entry == T::constant(0.0));
+        self.split.order.iter().skip(self.split.rank).any(|&row| !is_zero(&f[row]))
     }
 
     /// Returns true for each constraint that belongs to a largest independent set.

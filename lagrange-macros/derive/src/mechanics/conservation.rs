@@ -15,7 +15,8 @@ use crate::variables::{Variable, nodes};
 
 /// Number of random states at which a quantity must pass the test to count as conserved.
 const STATES: u32 = 8;
-/// The same where constraints can be switched off, in combinations that differ from state to state.
+/// Number that is tried where constraints can be switched off, in combinations that differ from state to state. Where many combinations
+/// contradict one another, fewer are found, and [`STATES`] are enough.
 const STATES_OF_SWITCHES: u32 = 24;
 /// Largest number of coordinates plus constraints for which random states are tried unasked. Quantities declared as
 /// conserved are always tested.
@@ -178,10 +179,10 @@ fn trial(graph: &mut Graph, moments: &mut Moments, quantity: Id) -> Trial {
             held += 1;
         }
         if held == states {
-            return Trial::Held(held);
+            break;
         }
     }
-    Trial::Undecided
+    if held >= STATES { Trial::Held(held) } else { Trial::Undecided }
 }
 
 /// The state and the parameters as text for a message, at most `ROOM` coordinates and parameters.

@@ -54,11 +54,14 @@ enum SwitchState {
 }
 
 impl SwitchState {
-    /// State number `k` of those in a draw: all hold in the first, none in the second, and in the others they differ.
-    fn of(k: usize, draw: u64, slides: bool) -> Self {
-        match (draw, random(STATES, k as u64, draw)) {
-            (0, _) | (2.., ..0.4) => Self::On,
-            (2.., 0.7..) if slides => Self::Slides,
+    /// State number `k` of `count` in a draw: all hold in the first, none in the second, and about two, or half of them, in the others.
+    /// More would often contradict one another, as opposite walls do.
+    fn of([k, count]: [usize; 2], draw: u64, slides: bool) -> Self {
+        let part = f64::min(0.5, 2.0 / count as f64);
+        match (draw, random(STATES, k as u64, draw) / part) {
+            (0, _) | (2.., ..0.5) => Self::On,
+            (2.., 0.5..1.0) if slides => Self::Slides,
+            (2.., 0.5..1.0) => Self::On,
             _ => Self::Off,
         }
     }
@@ -84,8 +87,8 @@ impl Moment {
         let mut entries: Vec<Entry> = problem.parameters.switches.iter().map(|switch| switch.entry).collect();
         entries.sort_unstable();
         entries.dedup();
-        let state_of =
-            |entry: Entry| SwitchState::of(entries.partition_point(|&other| other < entry), draw, slides);
+        let place = |entry: Entry| entries.partition_point(|&other| other < entry);
+        let state_of = |entry: Entry| SwitchState::of([place(entry), entries.len()], draw, slides);
         let n = problem.coordinates.len();
         let (coordinates, velocities) = (symbols(n, Variable::Coordinate), symbols(n, Variable::Velocity));
         let parameters = symbols(problem.parameters.entries.len(), Variable::Parameter);

@@ -33,13 +33,15 @@ impl Page<'_> {
         self.energy_line(remark)
     }
 
-    /// False if no contact is stated, or if all are elastic by one law: the multipliers of fixed gaps do no work.
+    /// False if no contact is stated, or if all are elastic by one law and without friction: the multipliers of fixed gaps do no
+    /// work, but friction that stops a velocity takes its energy.
     fn loses_energy_at_impacts(&self) -> bool {
         let contacts = &self.problem.contacts;
         let is_elastic = |restitution| restitution == Id::ONE;
-        !contacts
+        let are_elastic = contacts
             .iter()
-            .all(|contact| is_elastic(contact.restitution) && contact.impact == contacts[0].impact)
+            .all(|contact| is_elastic(contact.restitution) && contact.impact == contacts[0].impact);
+        !are_elastic || !contacts.is_empty() && !self.problem.frictions.is_empty()
     }
 
     /// Line of an energy that changes, and its rate with the terms that contribute to it; these alone if the rate is long or

@@ -32,8 +32,11 @@ impl Page<'_> {
             ConservedKind::Observable(..) => return None,
         };
         let mut remark = Remark::of(held(*evidence));
-        // A momentum without a multiplier in its equation has no impulse either.
-        if matches!(quantity, ConservedKind::Observable(..)) && !self.problem.contacts.is_empty() {
+        // A momentum without a multiplier in its equation has no impulse either. One that was tried may have a multiplier that is
+        // zero where no force presses bodies together.
+        let has_impulses =
+            matches!(quantity, ConservedKind::Observable(..)) || matches!(evidence, Evidence::Held(_));
+        if has_impulses && !self.problem.contacts.is_empty() {
             remark.and(vec![Fragment::words("between impacts")]);
         }
         Some(Line { remark, ..line })
