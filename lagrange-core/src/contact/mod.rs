@@ -322,8 +322,9 @@ mod watched;
 use core::fmt::Debug;
 
 use crate::number::Broadcast;
+use crate::solution::switched::Switched;
 pub use crate::system::switch::{Contact, Friction};
-use crate::system::{Direction, Lagrangian, StateOf};
+use crate::system::{Direction, StateOf};
 #[cfg(feature = "alloc")]
 pub use crate::trajectory::Transition;
 use crate::vector::Vector;
@@ -361,14 +362,14 @@ pub trait ForceDerivatives: Contacts {
     /// Plain numbers from which the derivatives of the forces along all directions are computed.
     type ForceSlopes: Copy + Debug;
 
-    /// What [`forcing`](Lagrangian::forcing) depends on, in ascending order: 0 is the time, 1 … N are coordinates, N + 1 … 2N
+    /// What [`forcing`](crate::Lagrangian::forcing) depends on, in ascending order: 0 is the time, 1 … N are coordinates, N + 1 … 2N
     /// velocities.
     const FORCE_ARGUMENTS: &'static [usize];
 
-    /// Computes the numbers from which the derivatives of [`forcing`](Lagrangian::forcing) at a state follow.
+    /// Computes the numbers from which the derivatives of [`forcing`](crate::Lagrangian::forcing) at a state follow.
     fn force_slopes(&self, state: &StateOf<Self>) -> Self::ForceSlopes;
 
-    /// Derivative of [`forcing`](Lagrangian::forcing) along a direction, from the [`force_slopes`](Self::force_slopes) of a
+    /// Derivative of [`forcing`](crate::Lagrangian::forcing) along a direction, from the [`force_slopes`](Self::force_slopes) of a
     /// state; on [`Lanes`](crate::Lanes), along several directions at once.
     fn force_change_with<S: Broadcast<Self::Scalar>>(
         &self,
@@ -396,7 +397,7 @@ pub struct FrictionRows {
     label = "no contacts",
     note = "a contact is stated by `#[contact(floor: y >= 0)]`, with a field `floor: Contact`"
 )]
-pub trait Contacts: Lagrangian {
+pub trait Contacts: Switched {
     /// Index, among the constraints, of each contact.
     const CONTACTS: &'static [usize];
 

@@ -39,29 +39,32 @@ pub(super) struct TouchingRows<L> {
 /// Part of the largest mass along a row below which a coordinate has none: that of a unit quaternion near (1, 0, 0, 0) has its square's.
 const MASSLESS: f64 = 1e-8;
 
-/// Rows W of all constraints, by their entries that are not zero.
+/// Rows of a matrix, as W of all constraints, by their entries that are not zero.
 pub(super) struct SparseRows {
-    starts: Vec<usize>,
+    /// Where the entries of each row are.
+    places: Vec<[usize; 2]>,
     entries: Vec<(usize, f64)>,
 }
 
 impl SparseRows {
-    fn of(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> Self {
-        let mut all = Self { starts: vec![0], entries: Vec::new() };
-        for a in 0..rows {
-            all.entries.extend((0..columns).map(|i| (i, entry(a, i))).filter(|(_, w)| *w != 0.0));
-            all.starts.push(all.entries.len());
-        }
-        all
+    fn zero(rows: usize) -> Self {
+        Self { places: vec![[0; 2]; rows], entries: Vec::new() }
+    }
+
+    fn set(&mut self, row: usize, entries: impl Iterator<Item = (usize, f64)>) {
+        let start = self.entries.len();
+        self.entries.extend(entries.filter(|(_, w)| *w != 0.0));
+        self.places[row] = [start, self.entries.len()];
     }
 
     pub(super) fn row(&self, a: usize) -> &[(usize, f64)] {
-        &self.entries[self.starts[a]..self.starts[a + 1]]
+        let [start, end] = self.places[a];
+        &self.entries[start..end]
     }
 
     /// All entries, by rows, with their columns.
     fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + Clone + '_ {
-        (0..self.starts.len() - 1).flat_map(|a| self.row(a).iter().map(move |&(i, w)| (a, i, w)))
+        (0..self.places.len()).flat_map(|a| self.row(a).iter().map(move |&(i, w)| (a, i, w)))
     }
 
     /// W v of one row.
@@ -88,19 +91,31 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
 
     /// Rows of closed contacts and of friction that sticks, and of the constraints that hold with open ones.
     pub(super) fn jacobian(&self, state: &StateOf<L>) -> SparseRows {
-        let closed = self.closed.constraint_jacobian(state);
-        let is_free = free::<L>();
-        let open = is_free.contains(&true).then(|| self.open.constraint_jacobian(state));
-        SparseRows::of(<L::M>::COUNT, <L::N>::COUNT, |a, i| match &open {
-            Some(open) if is_free[a] => open[(a, i)].to_f64(),
-            _ => closed[(a, i)].to_f64(),
-        })
+        let (mut all, is_free) = (SparseRows::zero(<L::M>::COUNT), free::<L>());
+        let mut numbers = Array::filled(L::Scalar::constant(0.0));
+        for (group, rows) in L::GROUPS.iter().enumerate() {
+            let system = if is_free[rows[0].constraint] { &self.open } else { &self.closed };
+            if !system.may_hold(group) {
+                continue;
+            }
+            system.rows(group, state, &mut numbers);
+            for row in rows.iter() {
+                let entries = row.jacobian(&numbers).iter().map(|w| w.to_f64());
+                all.set(row.constraint, row.columns.iter().copied().zip(entries));
+            }
+        }
+        all
     }
 
     /// The mass matrix.
     pub(super) fn mass(&self, state: &StateOf<L>) -> SparseRows {
-        let (n, masses) = (<L::N>::COUNT, self.open.mass_matrix(state));
-        SparseRows::of(n, n, |i, k| masses[(i, k)].to_f64())
+        let (mut all, masses) = (SparseRows::zero(<L::N>::COUNT), self.open.masses(state));
+        let mut entries = L::MASSES.iter().zip(&masses).peekable();
+        while let Some(&(&[i, _], _)) = entries.peek() {
+            let row = core::iter::from_fn(|| entries.next_if(|(place, _)| place[0] == i));
+            all.set(i, row.map(|(&[_, k], mass)| (k, mass.to_f64())));
+        }
+        all
     }
 
     /// Decomposes the sum of a mass matrix and these entries, with a least mass along the rows of constraints.

@@ -40,7 +40,7 @@ enum Number {
 }
 
 impl Row {
-    fn jacobian<'n, T>(&self, numbers: &'n [T]) -> &'n [T] {
+    pub(crate) fn jacobian<'n, T>(&self, numbers: &'n [T]) -> &'n [T] {
         &numbers[self.start..][..self.columns.len()]
     }
 
@@ -102,6 +102,14 @@ pub trait Switched: Lagrangian {
 
     /// Stores the numbers of a group.
     fn rows(&self, group: usize, state: &StateOf<Self>, numbers: &mut Array<Self::Scalar, Self::Numbers>);
+
+    /// How many entries of the mass matrix are not zero by its form.
+    type Masses: Length;
+    /// Rows and columns of these, row by row.
+    const MASSES: &'static [[usize; 2]];
+
+    /// Returns the entries of the mass matrix that may not be zero.
+    fn masses(&self, state: &StateOf<Self>) -> Array<Self::Scalar, Self::Masses>;
 
     /// Factorizes the mass matrix. Also returns h.
     fn inertia(&self, state: &StateOf<Self>) -> (Self::Inertia, Vector<Self::Scalar, Self::N>);

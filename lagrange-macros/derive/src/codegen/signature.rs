@@ -146,7 +146,7 @@ impl Types<'_> {
         self.of_lengths(&quote!(State), "State", &[Dimension::Coordinates])
     }
 
-    fn solution(&self) -> TokenStream {
+    pub(super) fn solution(&self) -> TokenStream {
         self.of_lengths(&quote!(Solution), "Solution", &[Dimension::Coordinates, Dimension::Constraints])
     }
 

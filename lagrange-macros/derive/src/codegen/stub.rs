@@ -9,10 +9,10 @@ use super::emitter::runtime;
 use super::markers::markers;
 use super::observables::method_name;
 use super::pack::pack;
-use super::signature::Types;
+use super::signature::{Types, wide};
 use crate::contract::{
-    FRICTION_LIMIT, LAGRANGIAN, LINEARIZED, Method, RESTITUTION, SLIDING_FRICTION, STATE_DERIVATIVES,
-    TAYLOR_SERIES,
+    Argument, Dimension, FRICTION_LIMIT, LAGRANGIAN, LINEARIZED, Method, RESTITUTION, SLIDING_FRICTION,
+    STATE_DERIVATIVES, TAYLOR_SERIES,
 };
 use crate::mechanics::Marker;
 use crate::resolve::{Observable, Outline};
@@ -46,7 +46,28 @@ pub(crate) fn stub(
     let contacts = has_contacts.then(|| {
         let laws = [RESTITUTION, FRICTION_LIMIT, SLIDING_FRICTION];
         let laws = laws.iter().map(never);
+        let wide = wide();
+        let over_wide = Types { scalar: &wide, constraints: 0, ..types };
+        let (state, over) = (types.argument(Argument::State), types.over());
+        let [vector, forcing] = [types.vector(Dimension::Coordinates), over_wide.argument(Argument::Forcing)];
+        let solution = over_wide.solution();
         quote! {
+            #[automatically_derived]
+            #[allow(unused_variables, clippy::all)]
+            impl #impl_generics __lagrange::generated::Switched for #ident #type_generics #where_clause {
+                type Inertia = ();
+                type Numbers = __lagrange::nalgebra::Const<0>;
+                type Held = __lagrange::nalgebra::Const<0>;
+                type Masses = __lagrange::nalgebra::Const<0>;
+                const GROUPS: &'static [&'static [__lagrange::generated::Row]] = &[];
+                const MASSES: &'static [[usize; 2]] = &[];
+                fn may_hold(&self, group: usize) -> bool { loop {} }
+                fn rows(&self, group: usize, #state, numbers: &mut __lagrange::generated::Array<#scalar, Self::Numbers>) { loop {} }
+                fn masses(&self, #state) -> __lagrange::generated::Array<#scalar, Self::Masses> { loop {} }
+                fn inertia(&self, #state) -> (Self::Inertia, #vector) { loop {} }
+                fn solve_inertia #over(&self, inertia: &Self::Inertia, #forcing) -> #solution { loop {} }
+            }
+
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
             impl #impl_generics __lagrange::contact::Contacts for #ident #type_generics #where_clause {

@@ -36,6 +36,13 @@ impl Emitter<'_> {
         let Written { tokens: arms, mut kernels } = self.groups(groups);
         let solving = self.inertia();
         kernels.extend(solving.kernels);
+        let mass = &self.derived.equations.mass;
+        let places = (0..n).flat_map(|i| (0..n).map(move |k| [i, k]));
+        let places: Vec<[usize; 2]> = places.filter(|&[i, k]| mass[i][k] != Id::ZERO).collect();
+        let masses: Vec<Id> = places.iter().map(|&[i, k]| mass[i][k]).collect();
+        let masses = self.style.kernel("masses", &masses, &[ResultShape::Vector(masses.len())]);
+        let (count_of_masses, find_masses, found) = (places.len(), &masses.statements, &masses.results);
+        let places = places.iter().map(|[i, k]| quote!([#i, #k]));
         let (solving, state, scalar) =
             (solving.tokens, self.style.types.argument(Argument::State), self.style.types.scalar);
         let tokens = quote! {
@@ -61,8 +68,18 @@ impl Emitter<'_> {
                 }
             }
 
+            type Masses = __lagrange::nalgebra::Const<#count_of_masses>;
+            const MASSES: &'static [[usize; 2]] = &[#(#places),*];
+
+            #[allow(unused_variables)]
+            fn masses(&self, #state) -> __lagrange::generated::Array<#scalar, Self::Masses> {
+                #find_masses
+                (#(#found)*).into()
+            }
+
             #solving
         };
+        kernels.push(masses);
         Written { tokens, kernels }
     }
 
