@@ -8,7 +8,7 @@ use crate::solution::eliminate;
 pub use crate::linearized::bodies::{Joint, JointColumn, Tree, TreeNumbers};
 pub use crate::number::numeric::{only_where, sin_cos_of_small};
 pub use crate::solution::eliminate::nan_if_ill_conditioned;
-pub use crate::solution::switched::{Row, Switched, SwitchedFactorOf, accelerations};
+pub use crate::solution::switched::{ConstraintRow, Switched, SwitchedFactorOf, accelerations};
 pub use crate::system::defect::{Defect, asymmetry, distortion};
 pub use crate::system::equations::equations;
 pub use crate::system::member::FieldMember;

@@ -54,10 +54,12 @@ impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
     }
 
     /// Whether a velocity changes by more than what forces are known to, although it is that of others at rest: at this instant alone, as
-    /// that of a slider at its dead centre.
+    /// that of a slider at its dead centre. All forces leave round-off along it, |J x| ≤ |J| |x|, even where none has a part along it.
     fn is_driven(&self, place: usize, gripped: &Gripped) -> bool {
         let terms = self.pressing.0[place].abs() + self.rows.size(place, &gripped.forces);
-        gripped.rates[place].abs() > ACCURACY * terms
+        let all = gripped.forces.iter().enumerate().map(|(of, force)| force.abs() * self.rows.length(of));
+        let round_off = L::Scalar::EPSILON * self.rows.length(place) * all.sum::<f64>();
+        gripped.rates[place].abs() > ACCURACY * terms + round_off
     }
 
     /// Friction at rest, that which sticks first, in the order of what is left of its limit.

@@ -18,7 +18,7 @@ use crate::vector::{Array, Element, Length, Vector, array, vector, zeros};
 /// A constraint, and where its numbers are: the entries of F in its columns; those of B, if they differ; and then c, the multiple of
 /// the multiplier of the first row of its group, the weight σ and γ.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
+pub struct ConstraintRow {
     /// Index of the constraint.
     pub constraint: usize,
     /// Coordinates with entries in F or B.
@@ -31,7 +31,7 @@ pub struct Row {
 
 /// Numbers of a row behind those of F and B.
 #[derive(Clone, Copy)]
-enum Number {
+enum RowNumber {
     /// Zero where the constraint holds, else one.
     Compliance,
     Coupling,
@@ -39,7 +39,7 @@ enum Number {
     Bias,
 }
 
-impl Row {
+impl ConstraintRow {
     pub(crate) fn jacobian<'n, T>(&self, numbers: &'n [T]) -> &'n [T] {
         &numbers[self.start..][..self.columns.len()]
     }
@@ -50,7 +50,7 @@ impl Row {
         &numbers[self.start + skipped..][..self.columns.len()]
     }
 
-    fn number<T: Copy>(&self, which: Number, numbers: &[T]) -> T {
+    fn number<T: Copy>(&self, which: RowNumber, numbers: &[T]) -> T {
         numbers[self.start + self.columns.len() * (1 + usize::from(self.pushes)) + which as usize]
     }
 
@@ -95,7 +95,7 @@ pub trait Switched: Lagrangian {
     type Held: Length;
     /// All constraints, group by group. Those of a group are computed together: all that always hold, a contact with its friction,
     /// other friction, or what one field switches.
-    const GROUPS: &'static [&'static [Row]];
+    const GROUPS: &'static [&'static [ConstraintRow]];
 
     /// True if rows of a group may hold now. The constraints of another have zero multipliers.
     fn may_hold(&self, group: usize) -> bool;
@@ -149,7 +149,7 @@ pub fn accelerations<L: Switched>(system: &L, state: &StateOf<L>) -> SolutionOf<
     let (factor, forcing) = SwitchedFactorOf::<L>::with_forcing(system, state);
     let mut bias = zeros();
     for row in L::GROUPS.iter().copied().flatten() {
-        bias[row.constraint] = row.number(Number::Bias, &factor.numbers);
+        bias[row.constraint] = row.number(RowNumber::Bias, &factor.numbers);
     }
     factor.solve(system, &forcing, &bias)
 }
@@ -176,7 +176,7 @@ impl<I, T: Scalar, N: Length, H: Length> SwitchedFactor<I, T, N, H> {
         for (group, rows) in L::GROUPS.iter().enumerate().filter(|&(group, _)| system.may_hold(group)) {
             system.rows(group, state, &mut numbers);
             for (index, row) in rows.iter().enumerate() {
-                if row.number(Number::Compliance, &numbers) == zero {
+                if row.number(RowNumber::Compliance, &numbers) == zero {
                     if count < H::COUNT {
                         held[count] = [group, index];
                     }
@@ -194,7 +194,7 @@ impl<I, T: Scalar, N: Length, H: Length> SwitchedFactor<I, T, N, H> {
         (factor, forcing)
     }
 
-    fn row<L: Switched>(&self, k: usize) -> &'static Row {
+    fn row<L: Switched>(&self, k: usize) -> &'static ConstraintRow {
         let [group, index] = self.held[k];
         &L::GROUPS[group][index]
     }
@@ -228,7 +228,7 @@ impl<I, T: Scalar, N: Length, H: Length> SwitchedFactor<I, T, N, H> {
 
     /// M⁻¹ times a row.
     #[inline]
-    fn moved<L>(&self, system: &L, row: &Row, entries: &[T]) -> Array<T, L::N>
+    fn moved<L>(&self, system: &L, row: &ConstraintRow, entries: &[T]) -> Array<T, L::N>
     where
         L: Switched<Inertia = I, Scalar = T>,
     {
@@ -276,7 +276,7 @@ impl<I, T: Scalar, N: Length, H: Length> SwitchedFactor<I, T, N, H> {
     {
         let (gamma, mut h) = (array(*bias), array(*forcing));
         for row in (0..self.count).map(|k| self.row::<L>(k)) {
-            let weight = row.number(Number::Weight, &self.numbers);
+            let weight = row.number(RowNumber::Weight, &self.numbers);
             if weight != T::constant(0.0) {
                 row.add(row.jacobian(&self.numbers), -S::of(weight) * gamma[row.constraint], &mut h);
             }
@@ -325,7 +325,7 @@ impl<I, T: Scalar, N: Length, H: Length> SwitchedFactor<I, T, N, H> {
         for rows in L::GROUPS {
             let first = lambda[rows[0].constraint];
             for row in rows.iter() {
-                let coupling = S::of(row.number(Number::Coupling, &self.numbers));
+                let coupling = S::of(row.number(RowNumber::Coupling, &self.numbers));
                 lambda[row.constraint] = lambda[row.constraint] - coupling * first;
             }
         }

@@ -59,7 +59,7 @@ pub(crate) fn stub(
                 type Numbers = __lagrange::nalgebra::Const<0>;
                 type Held = __lagrange::nalgebra::Const<0>;
                 type Masses = __lagrange::nalgebra::Const<0>;
-                const GROUPS: &'static [&'static [__lagrange::generated::Row]] = &[];
+                const GROUPS: &'static [&'static [__lagrange::generated::ConstraintRow]] = &[];
                 const MASSES: &'static [[usize; 2]] = &[];
                 fn may_hold(&self, group: usize) -> bool { loop {} }
                 fn rows(&self, group: usize, #state, numbers: &mut __lagrange::generated::Array<#scalar, Self::Numbers>) { loop {} }

@@ -49,7 +49,7 @@ impl Emitter<'_> {
             type Inertia = #factor;
             type Numbers = __lagrange::nalgebra::Const<#count>;
             type Held = __lagrange::nalgebra::Const<#held>;
-            const GROUPS: &'static [&'static [__lagrange::generated::Row]] = &[#(&[#rows]),*];
+            const GROUPS: &'static [&'static [__lagrange::generated::ConstraintRow]] = &[#(&[#rows]),*];
 
             #[inline]
             fn may_hold(&self, group: usize) -> bool {
@@ -109,7 +109,7 @@ impl Emitter<'_> {
             start += row.all().count();
             let fields =
                 quote!(constraint: #constraint, columns: &[#(#columns),*], pushes: #pushes, start: #from);
-            quote!(__lagrange::generated::Row { #fields })
+            quote!(__lagrange::generated::ConstraintRow { #fields })
         };
         let group = |group: &RowGroup| {
             let rows = group.rows.iter().map(&mut row);
