@@ -1,4 +1,4 @@
-use lagrange_core::contact::Contact;
+use lagrange_core::contact::{Contact, MoreauJean};
 use lagrange_core::prelude::*;
 
 #[derive(Clone, Lagrangian)]
@@ -15,6 +15,11 @@ fn moves(system: &System) -> Result<State<f64, 2>, Error> {
     Ok(*system.motion(State::at_rest([1.0; 2])).with_contacts().to(1.0)?.end().state())
 }
 
+fn steps(system: &System) -> Result<State<f64, 2>, Error> {
+    let motion = system.motion(State::at_rest([1.0; 2])).by_time_stepping(MoreauJean::with_step(1e-3));
+    Ok(*motion.to(1.0)?.end().state())
+}
+
 fn main() {
-    let _ = moves;
+    let _ = (moves, steps);
 }

@@ -51,6 +51,7 @@ pub(crate) fn stub(
         let (state, over) = (types.argument(Argument::State), types.over());
         let [vector, forcing] = [types.vector(Dimension::Coordinates), over_wide.argument(Argument::Forcing)];
         let solution = over_wide.solution();
+        let [direction, change] = [over_wide.argument(Argument::Direction), over_wide.vector(Dimension::Coordinates)];
         quote! {
             #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
@@ -66,6 +67,15 @@ pub(crate) fn stub(
                 fn masses(&self, #state) -> __lagrange::generated::Array<#scalar, Self::Masses> { loop {} }
                 fn inertia(&self, #state) -> (Self::Inertia, #vector) { loop {} }
                 fn solve_inertia #over(&self, inertia: &Self::Inertia, #forcing) -> #solution { loop {} }
+            }
+
+            #[automatically_derived]
+            #[allow(unused_variables, clippy::all)]
+            impl #impl_generics __lagrange::contact::ForceDerivatives for #ident #type_generics #where_clause {
+                type ForceSlopes = ();
+                const FORCE_ARGUMENTS: &'static [usize] = &[];
+                fn force_slopes(&self, #state) -> Self::ForceSlopes { loop {} }
+                fn force_change_with #over(&self, slopes: &Self::ForceSlopes, #direction) -> #change { loop {} }
             }
 
             #[automatically_derived]
