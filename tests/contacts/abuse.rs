@@ -115,6 +115,21 @@ fn a_rod_upright_in_a_corner_does_not_pass_through_the_wall() {
     keeps_the_laws("one rod", [a, mu], &path);
 }
 
+/// It comes to lie flat in the corner with velocities of exactly zero: forces along the floor are then 10⁻⁸⁸, and the rates that
+/// these leave are round-off of the weight.
+#[test]
+fn a_rod_that_lies_flat_in_a_corner_stays_there() {
+    let (a, mu) = (0.2215330993788233, 0.17870428336992394);
+    let start = State::new(
+        [1.8544771783021021, 1.0722803866826145, -0.9465776592162465],
+        [-2.4112717863960103, -0.8256845124840115, 1.5647778112487964],
+    );
+    let rod = rod(2.0733299485488756, a, 0.0, mu);
+    let path = rod.motion(start).by(Dop853::with_tolerance(1e-10)).with_contacts().to(5.0).unwrap();
+    keeps_the_laws("one rod", [a, mu], &path);
+    assert!(path.end().state().v.amax() < 1e-12, "{}", path.end().state());
+}
+
 #[cfg(feature = "thorough")]
 #[test]
 fn rods_on_a_smooth_floor_and_a_smooth_wall() {

@@ -42,7 +42,7 @@ const INSTANT: f64 = 1e-6;
 pub(super) struct Bodies<L: Lagrangian> {
     pub(super) open: L,
     pub(super) closed: L,
-    /// The last state at which constraints were evaluated.
+    /// Constraints at the state where they were evaluated last.
     last: Cell<Option<Box<ClosedConstraints<L>>>>,
     largest: [Array<L::Scalar, L::N>; 2],
     /// Length of the motion in time.
@@ -51,7 +51,7 @@ pub(super) struct Bodies<L: Lagrangian> {
     pub(super) accuracy: f64,
 }
 
-/// All constraints at a state, with the contacts closed.
+/// Values of all constraints at a state, with all contacts closed.
 struct ClosedConstraints<L: Lagrangian> {
     state: StateOf<L>,
     /// Gaps, rates, and accelerations at q̈ = 0.

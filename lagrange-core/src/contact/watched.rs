@@ -212,8 +212,8 @@ fn check_held<L: Contacts<Scalar: Real> + Clone>(
     Ok([limit, force, round_off])
 }
 
-/// Returns the largest force along a friction that would balance one of the forces on the coordinates. The force of friction is known to
-/// the round-off of this.
+/// Returns the friction that would balance the force on one coordinate alone, for the coordinate where it is largest. Its round-off is
+/// that of the friction.
 fn applied<L: Contacts<Scalar: Real> + Clone>(closed: &L, f: usize, state: &StateOf<L>) -> L::Scalar {
     let (forces, rows) = (closed.forcing(state), closed.constraint_jacobian(state));
     let zero = L::Scalar::constant(0.0);

@@ -1,10 +1,14 @@
 //! Accelerations and multipliers of systems with constraints that can be switched off: contacts, friction, and `when: field`.
 //!
-//! The derive macro emits the elimination of the mass matrix M, and the rows of the constraints, group by group. The rows that hold
-//! are put together at run time: the code grows with the number of constraints, and the time with the number of those that hold.
-//! F M⁻¹ Bᵀ is factorized as L D U. B is F, and in the row of a contact also the friction that slides in proportion to its
-//! multiplier. (Golub and Van Loan, *Matrix Computations*, 4.1.2, and the range-space method of Nocedal and Wright, *Numerical
-//! Optimization*, 16.2.)
+//! The equations are M q̈ − Bᵀλ = h and F q̈ + γ + c λ = 0. A row of F has the coefficients of the accelerations in one constraint. B is F,
+//! but in the row of a contact it has the friction that slides, too, since that is a multiple of the force of the contact. c is 1 on
+//! the diagonal for a constraint that does not hold, so that its multiplier is −γ; beside the diagonal, it has the ratio of the friction that
+//! slides to the force of its contact.
+//!
+//! The derive macro emits the elimination of M, and the rows of the constraints, group by group. The rows that hold are put together at
+//! run time: the code grows with the number of constraints, and the time with the number of those that hold. F M⁻¹ Bᵀ is factorized as
+//! L D U. (Golub and Van Loan, *Matrix Computations*, 4.1.2, and the range-space method of Nocedal and Wright, *Numerical Optimization*,
+//! 16.2.)
 
 use core::fmt::Debug;
 
@@ -15,25 +19,26 @@ use crate::number::{Broadcast, Scalar};
 use crate::system::{Lagrangian, Solution, SolutionOf, StateOf};
 use crate::vector::{Array, Element, Length, Vector, array, vector, zeros};
 
-/// A constraint, and where its numbers are: the entries of F in its columns; those of B, if they differ; and then c, the multiple of
-/// the multiplier of the first row of its group, the weight σ and γ.
+/// Where the numbers of a constraint are. They are the entries of F in its columns, those of B if they differ, and then the diagonal
+/// entry of c, its entry beside the diagonal, the weight σ with which the constraint completes M, and γ.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstraintRow {
     /// Index of the constraint.
     pub constraint: usize,
     /// Coordinates with entries in F or B.
     pub columns: &'static [usize],
-    /// Whether B differs from F.
+    /// True if the row of B differs from that of F.
     pub pushes: bool,
     /// Index of its first number.
     pub start: usize,
 }
 
-/// Numbers of a row behind those of F and B.
+/// Numbers that follow the entries of F and B in a row.
 #[derive(Clone, Copy)]
 enum RowNumber {
-    /// Zero where the constraint holds, else one.
+    /// Diagonal entry of c: 0 where the constraint holds, else 1.
     Compliance,
+    /// Entry of c in the column of the first row of the group.
     Coupling,
     Weight,
     Bias,
@@ -89,26 +94,26 @@ impl ConstraintRow {
 pub trait Switched: Lagrangian {
     /// Factorization of the mass matrix, completed by constraints that always hold.
     type Inertia: Copy + Debug + Send + Sync;
-    /// How many numbers all rows have.
+    /// Length of the array with the numbers of all rows.
     type Numbers: Length;
-    /// How many rows may hold at once.
+    /// Largest number of rows that can hold at once.
     type Held: Length;
     /// All constraints, group by group. Those of a group are computed together: all that always hold, a contact with its friction,
     /// other friction, or what one field switches.
     const GROUPS: &'static [&'static [ConstraintRow]];
 
-    /// True if rows of a group may hold now. The constraints of another have zero multipliers.
+    /// False if the field of a group switches all its constraints off: their multipliers are zero.
     fn may_hold(&self, group: usize) -> bool;
 
     /// Stores the numbers of a group.
     fn rows(&self, group: usize, state: &StateOf<Self>, numbers: &mut Array<Self::Scalar, Self::Numbers>);
 
-    /// How many entries of the mass matrix are not zero by its form.
+    /// Number of entries of the mass matrix that are not zero at every state.
     type Masses: Length;
-    /// Rows and columns of these, row by row.
+    /// Row and column of each of these entries, row by row.
     const MASSES: &'static [[usize; 2]];
 
-    /// Returns the entries of the mass matrix that may not be zero.
+    /// Returns these entries.
     fn masses(&self, state: &StateOf<Self>) -> Array<Self::Scalar, Self::Masses>;
 
     /// Factorizes the mass matrix. Also returns h.
@@ -297,7 +302,8 @@ impl<I, T: Scalar, N: Length, H: Length> SwitchedFactor<I, T, N, H> {
         }
     }
 
-    /// Finds the multipliers λ with which rows hold that accelerations `x` do not keep, from −γ. Returns Bᵀλ.
+    /// Solves for the multipliers that change the accelerations `x` so that the rows hold. `lambda` holds −γ, and then the multipliers.
+    /// Returns Bᵀλ.
     #[inline]
     fn hold<L, S>(&self, x: &Array<S, L::N>, lambda: &mut Array<S, L::M>) -> Array<S, L::N>
     where

@@ -54,7 +54,7 @@ impl Emitter<'_> {
             const IMPACT_LAWS: &'static [__lagrange::contact::ImpactLaw] = &[#(#impacts),*];
             const FRICTIONS: &'static [__lagrange::contact::FrictionRows] = &[#(#rows_of_friction),*];
 
-            #[allow(unused_variables)]
+            #[allow(unused_variables, unreachable_code)]
             fn contact(&self, index: usize) -> ::core::option::Option<__lagrange::contact::Contact> {
                 match index {
                     #(#read)*
@@ -62,7 +62,7 @@ impl Emitter<'_> {
                 }
             }
 
-            #[allow(unused_variables)]
+            #[allow(unused_variables, unreachable_code)]
             fn set_contact(&mut self, index: usize, state: __lagrange::contact::Contact) -> bool {
                 match index {
                     #(#set)*
@@ -71,7 +71,7 @@ impl Emitter<'_> {
                 true
             }
 
-            #[allow(unused_variables)]
+            #[allow(unused_variables, unreachable_code)]
             fn friction(&self, index: usize) -> ::core::option::Option<__lagrange::contact::Friction> {
                 match index {
                     #(#read_friction)*
@@ -79,7 +79,7 @@ impl Emitter<'_> {
                 }
             }
 
-            #[allow(unused_variables)]
+            #[allow(unused_variables, unreachable_code)]
             fn set_friction(&mut self, index: usize, state: __lagrange::contact::Friction) -> bool {
                 match index {
                     #(#set_friction)*

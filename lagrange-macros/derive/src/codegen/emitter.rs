@@ -68,6 +68,48 @@ impl Emitter<'_> {
     }
 }
 
+impl Emitter<'_> {
+    /// Emits the implementation of a trait of the runtime.
+    pub(super) fn implementation(
+        &self,
+        name: &TokenStream,
+        generics: &syn::Generics,
+        items: &TokenStream,
+    ) -> TokenStream {
+        let (impl_generics, _, where_clause) = generics.split_for_impl();
+        let (_, type_generics, _) = self.declaration.generics.split_for_impl();
+        let ident = &self.declaration.ident;
+        quote! {
+            #[automatically_derived]
+            #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
+            impl #impl_generics __lagrange::#name for #ident #type_generics #where_clause {
+                #items
+            }
+        }
+    }
+
+    /// Emits implementations in a scope of their own, with the parts of their long functions.
+    pub(super) fn in_scope<'k>(
+        &self,
+        kernels: impl Iterator<Item = &'k Kernel>,
+        generics: &syn::Generics,
+        items: &TokenStream,
+    ) -> TokenStream {
+        let ([modules, parts], runtime) = (self.parts_of(kernels, generics), runtime(self.declaration));
+        quote! {
+            #modules
+
+            const _: () = {
+                // Import a single name that users will not choose.
+                use #runtime as __lagrange;
+
+                #items
+                #parts
+            };
+        }
+    }
+}
+
 /// Replaces `Self` by the type of the system.
 fn without_self(tokens: TokenStream, system: &TokenStream) -> TokenStream {
     let replaced = |token| match token {

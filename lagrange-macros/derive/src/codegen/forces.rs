@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::bounds::FUNCTION_ORDER;
-use super::emitter::{Emitter, runtime};
+use super::emitter::Emitter;
 use super::linearized::Changing;
 use super::shape::ResultShape;
 use super::signature::{Types, wide};
@@ -30,43 +30,30 @@ impl Emitter<'_> {
         let kernels = [&of_slopes, &of_changes];
         kernels.iter().all(|kernel| kernel.refused.is_none()).then_some(())?;
         let generics = self.generics(&orders, false);
-        let [modules, parts] = self.parts_of(kernels.into_iter(), &generics);
-        let (impl_generics, _, where_clause) = generics.split_for_impl();
-        let (_, type_generics, _) = self.declaration.generics.split_for_impl();
-        let (runtime, ident, types) = (runtime(self.declaration), &self.declaration.ident, self.style.types);
+        let types = self.style.types;
         let (scalar, state, over) = (types.scalar, types.argument(Argument::State), types.over());
         let types = Types { scalar: &wide, ..types };
         let [direction, vector] = [types.argument(Argument::Direction), types.vector(Dimension::Coordinates)];
         let arguments = changing.force_arguments.iter();
         let [slopes, changes] = kernels.map(|kernel| &kernel.statements);
         let [found, changed] = kernels.map(|kernel| &kernel.results);
-        Some(quote! {
-            #modules
+        let items = quote! {
+            type ForceSlopes = [#scalar; #count];
+            const FORCE_ARGUMENTS: &'static [usize] = &[#(#arguments),*];
 
-            const _: () = {
-                use #runtime as __lagrange;
+            #[allow(unused_variables)]
+            fn force_slopes(&self, #state) -> Self::ForceSlopes {
+                #slopes
+                #(#found)*
+            }
 
-                #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics __lagrange::contact::ForceDerivatives for #ident #type_generics #where_clause {
-                    type ForceSlopes = [#scalar; #count];
-                    const FORCE_ARGUMENTS: &'static [usize] = &[#(#arguments),*];
-
-                    #[allow(unused_variables)]
-                    fn force_slopes(&self, #state) -> Self::ForceSlopes {
-                        #slopes
-                        #(#found)*
-                    }
-
-                    #[allow(unused_variables)]
-                    fn force_change_with #over(&self, slopes: &Self::ForceSlopes, #direction) -> #vector {
-                        #changes
-                        __lagrange::generated::vector(#(#changed)*)
-                    }
-                }
-
-                #parts
-            };
-        })
+            #[allow(unused_variables)]
+            fn force_change_with #over(&self, slopes: &Self::ForceSlopes, #direction) -> #vector {
+                #changes
+                __lagrange::generated::vector(#(#changed)*)
+            }
+        };
+        let items = self.implementation(&quote!(contact::ForceDerivatives), &generics, &items);
+        Some(self.in_scope(kernels.into_iter(), &generics, &items))
     }
 }

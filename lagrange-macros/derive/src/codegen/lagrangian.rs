@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::emitter::{Emitter, Written, runtime, too_long};
+use super::emitter::{Emitter, Written, too_long};
 use super::kernel::Kernel;
 use super::markers::markers;
 use super::observables::OBSERVABLE;
@@ -19,7 +19,6 @@ impl Emitter<'_> {
     /// Emits the implementation. Reports functions that are too long.
     pub(super) fn lagrangian(&self, diagnostics: &mut Diagnostics) -> TokenStream {
         let problem = self.problem;
-        let runtime = runtime(self.declaration);
         let (ident, scalar, [n, m]) = (
             &self.declaration.ident,
             self.style.types.scalar,
@@ -59,7 +58,6 @@ impl Emitter<'_> {
         let others = contacts.iter().chain(&switched).flat_map(|written| &written.kernels);
         let kernels = || methods.kernels.iter().chain(&inherent.kernels).chain(others.clone());
         self.report_refused(kernels(), diagnostics);
-        let [modules, parts] = self.parts_of(kernels(), &generics);
         let (methods, inherent) = (&methods.tokens, &inherent.tokens);
         let (equations, visit_parameters, visit_defects) =
             (self.equations(), self.visit_parameters(), self.visit_defects());
@@ -73,76 +71,58 @@ impl Emitter<'_> {
                 const HAS_CONTACTS: bool = true;
             )
         });
-        let contacts = contacts.iter().map(|Written { tokens, .. }| {
-            quote! {
-                #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens, unreachable_code)]
-                impl #impl_generics __lagrange::contact::Contacts for #ident #type_generics #where_clause {
-                    #tokens
-                }
-            }
-        });
-        let switched = switched.iter().map(|Written { tokens, .. }| {
-            quote! {
-                #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics __lagrange::generated::Switched for #ident #type_generics #where_clause {
-                    #tokens
-                }
-            }
-        });
-        quote! {
-            #modules
-
-            const _: () = {
-                // Import a single name that users will not choose.
-                use #runtime as __lagrange;
-
-                #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics __lagrange::Lagrangian for #ident #type_generics #where_clause {
-                    type Scalar = #scalar;
-                    type Factor = #factor;
-                    type N = __lagrange::nalgebra::Const<#n>;
-                    type M = __lagrange::nalgebra::Const<#m>;
-                    const NAME: &'static str = #name;
-                    const COORDINATES: &'static [&'static str] = &[#(#coordinates),*];
-                    const CONSTRAINTS: &'static [&'static str] = &[#(#constraints),*];
-                    const CONSTRAINT_KINDS: &'static [__lagrange::ConstraintKind] = &[#(#kinds),*];
-                    #integrability
-                    const MOMENTA_ARE_LINEAR: bool = #are_linear;
-                    const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
-                    const DIGEST: u32 = #digest;
-                    #quaternions
-                    #depends_on_time
-                    #supplied
-                    #facts
-                    #(#has_contacts)*
-                    const EQUATIONS: __lagrange::facts::Equations = Self::equations();
-                    #methods
-                    #visit_parameters
-                    #visit_defects
-                    #slides
+        let name_of_contacts = quote!(contact::Contacts);
+        let contacts = contacts
+            .iter()
+            .map(|Written { tokens, .. }| self.implementation(&name_of_contacts, &generics, tokens));
+        let name_of_switched = quote!(generated::Switched);
+        let switched = switched
+            .iter()
+            .map(|Written { tokens, .. }| self.implementation(&name_of_switched, &generics, tokens));
+        let items = quote! {
+            type Scalar = #scalar;
+            type Factor = #factor;
+            type N = __lagrange::nalgebra::Const<#n>;
+            type M = __lagrange::nalgebra::Const<#m>;
+            const NAME: &'static str = #name;
+            const COORDINATES: &'static [&'static str] = &[#(#coordinates),*];
+            const CONSTRAINTS: &'static [&'static str] = &[#(#constraints),*];
+            const CONSTRAINT_KINDS: &'static [__lagrange::ConstraintKind] = &[#(#kinds),*];
+            #integrability
+            const MOMENTA_ARE_LINEAR: bool = #are_linear;
+            const OBSERVABLES: &'static [&'static str] = &[#(#observables),*];
+            const DIGEST: u32 = #digest;
+            #quaternions
+            #depends_on_time
+            #supplied
+            #facts
+            #(#has_contacts)*
+            const EQUATIONS: __lagrange::facts::Equations = Self::equations();
+            #methods
+            #visit_parameters
+            #visit_defects
+            #slides
             #planar_friction
-                }
+        };
+        let lagrangian = self.implementation(&quote!(Lagrangian), &generics, &items);
+        let items = quote! {
+            #lagrangian
 
-                #[doc = #doc]
-                #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens, dead_code, non_snake_case)]
-                impl #impl_generics #ident #type_generics #where_clause {
-                    #equations
-                    #inherent
-                }
+            #[doc = #doc]
+            #[automatically_derived]
+            #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens, dead_code, non_snake_case)]
+            impl #impl_generics #ident #type_generics #where_clause {
+                #equations
+                #inherent
+            }
 
-                #parts
-
-                #(#contacts)*
-                #(#switched)*
-                #markers
-                #pack
-                #check_members
-            };
-        }
+            #(#contacts)*
+            #(#switched)*
+            #markers
+            #pack
+            #check_members
+        };
+        self.in_scope(kernels(), &generics, &items)
     }
 
     fn method(&self, method: &Method) -> Written {

@@ -7,7 +7,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::bounds::FUNCTION_ORDER;
-use super::emitter::{Emitter, Written, runtime};
+use super::emitter::{Emitter, Written};
 use super::passes::Program;
 use super::shape::ResultShape;
 use super::signature::wide;
@@ -97,9 +97,6 @@ impl Emitter<'_> {
         // Defer the bounds on user-supplied functions: a missing derivative is an error only where a Jacobian is
         // used.
         let generics = self.generics(&orders, false);
-        let (impl_generics, _, where_clause) = generics.split_for_impl();
-        let (_, type_generics, _) = self.declaration.generics.split_for_impl();
-        let (runtime, ident) = (runtime(self.declaration), &self.declaration.ident);
         let p = self.style.types.parameters;
         let arguments = changing.state_arguments.iter().copied();
         let scalar = self.style.types.scalar;
@@ -110,35 +107,22 @@ impl Emitter<'_> {
             Some(_) => quote!((#slopes, __lagrange::linearized::MotionGradients<#scalar, Self::N>)),
             None => slopes,
         };
-        let [modules, parts] = self.parts_of(kernels.iter(), &generics);
         let by_field = self.problem.parameters.by_field();
         let names = by_field.iter().map(|&k| self.problem.parameters.name(k));
-        Some(quote! {
-            #modules
-
-            const _: () = {
-                use #runtime as __lagrange;
-
-                #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics __lagrange::StateDerivatives for #ident #type_generics #where_clause {
-                    type Slopes = #slopes;
-                    const STATE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(&[#(#arguments),*]);
-                    #of_state
-                }
-
-                #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics __lagrange::Linearized for #ident #type_generics #where_clause {
-                    type P = __lagrange::nalgebra::Const<#p>;
-                    type ParameterSlopes = [#scalar; #of_parameter_slopes];
-                    const PARAMETERS: &'static [&'static str] = &[#(#names),*];
-                    #methods
-                }
-
-                #parts
-            };
-        })
+        let of_state = quote! {
+            type Slopes = #slopes;
+            const STATE_ARGUMENTS: ::core::option::Option<&'static [usize]> = ::core::option::Option::Some(&[#(#arguments),*]);
+            #of_state
+        };
+        let of_parameters = quote! {
+            type P = __lagrange::nalgebra::Const<#p>;
+            type ParameterSlopes = [#scalar; #of_parameter_slopes];
+            const PARAMETERS: &'static [&'static str] = &[#(#names),*];
+            #methods
+        };
+        let mut items = self.implementation(&quote!(StateDerivatives), &generics, &of_state);
+        items.extend(self.implementation(&quote!(Linearized), &generics, &of_parameters));
+        Some(self.in_scope(kernels.iter(), &generics, &items))
     }
 
     fn parameters(&self, method: &Method) -> Written {

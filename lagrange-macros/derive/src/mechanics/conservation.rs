@@ -15,8 +15,8 @@ use crate::variables::{Variable, nodes};
 
 /// Number of random states at which a quantity must pass the test to count as conserved.
 const STATES: u32 = 8;
-/// Number that is tried where constraints can be switched off, in combinations that differ from state to state. Where many combinations
-/// contradict one another, fewer are found, and [`STATES`] are enough.
+/// The same for a system with contacts: other contacts are closed in each state. There is no state where closed contacts contradict one
+/// another, as two opposite walls do; if fewer states are found therefore, [`STATES`] are enough.
 const STATES_OF_SWITCHES: u32 = 24;
 /// Largest number of coordinates plus constraints for which random states are tried unasked. Quantities declared as
 /// conserved are always tested.

@@ -54,8 +54,8 @@ enum SwitchState {
 }
 
 impl SwitchState {
-    /// State number `k` of `count` in a draw: all hold in the first, none in the second, and about two, or half of them, in the others.
-    /// More would often contradict one another, as opposite walls do.
+    /// State of switch `k` of `count` in a random draw. All constraints hold in the first draw, none in the second, and about two in each
+    /// other one, but at most half of them: the more contacts are closed, the more often two of them contradict each other.
     fn of([k, count]: [usize; 2], draw: u64, slides: bool) -> Self {
         let part = f64::min(0.5, 2.0 / count as f64);
         match (draw, random(STATES, k as u64, draw) / part) {

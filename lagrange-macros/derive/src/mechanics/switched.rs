@@ -9,7 +9,8 @@ use crate::resolve::{Entry, FrictionRows, Problem, Switch, SwitchReading};
 use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
 
-/// Number of coordinates up to which rows have an entry for each: loops of constant length then need no indices.
+/// Largest number of coordinates for which a row has an entry for each of them: a loop over such a row has a constant length and needs no
+/// indices. The accelerations of a block on a floor take 70 ns then, and 160 by indices.
 const DENSE: usize = 12;
 
 /// Equations of motion in parts.
@@ -17,7 +18,7 @@ const DENSE: usize = 12;
 pub(crate) struct SwitchedEquations {
     /// The equations where only those constraints hold that always do.
     pub(crate) free: LinearEquations,
-    /// The equations of the mass matrix alone, completed.
+    /// M q̈ = h without constraints, with M completed where it is singular.
     pub(crate) inertia: LinearEquations,
     pub(crate) groups: Vec<RowGroup>,
 }
@@ -27,7 +28,7 @@ pub(crate) struct SwitchedEquations {
 pub(crate) struct RowGroup {
     /// Entry of the field that switches them off; `None` if they are always computed.
     pub(crate) entry: Option<Entry>,
-    /// What reads that entry: 1 while they may hold, else 0.
+    /// Node that is 1 while that entry lets them hold, else 0.
     pub(crate) is_on: Option<Id>,
     pub(crate) rows: Vec<Row>,
 }
@@ -43,13 +44,14 @@ pub(crate) struct Row {
     pub(crate) jacobian: Vec<Id>,
     /// Entries of B, which has forces of friction that slides beside those of F; `None` if it is F.
     pub(crate) push: Option<Vec<Id>>,
-    /// Zero where the constraint holds, else one; the multiple of the multiplier of the first row of the group in F q̈ + γ + c λ; the
-    /// weight σ in the completion of M; γ.
+    /// In F q̈ + γ + c λ = 0: the diagonal entry of c, zero where the constraint holds, else one; the entry of c in the column of the
+    /// first row of the group; the weight σ with which the constraint completes M; γ.
     pub(crate) numbers: [Id; 4],
 }
 
 impl SwitchedEquations {
-    /// Splits the equations of motion. `multiples` are those of multipliers in each entry of h, by constraint. `None` if all constraints always hold.
+    /// Splits the equations of motion. `multiples` has, for each entry of h, the constraints whose multipliers occur in it, with their
+    /// coefficients. `None` if all constraints always hold.
     pub(super) fn of(
         graph: &mut Graph,
         problem: &Problem,
@@ -74,7 +76,7 @@ impl SwitchedEquations {
     }
 }
 
-/// What some readings of switches are, node by node.
+/// Nodes that read switches, each with its value, for the switches that have one.
 fn readings(
     graph: &mut Graph,
     problem: &Problem,
@@ -114,7 +116,7 @@ impl LinearEquations {
         nodes
     }
 
-    /// The equations of the completed mass matrix alone.
+    /// The equations without constraints; M stays completed where it is singular.
     fn without_constraints(&self) -> Self {
         let form = |form: &Form| Form { rows: None, completing: Vec::new(), ..form.clone() };
         Self {
@@ -127,7 +129,7 @@ impl LinearEquations {
     }
 }
 
-/// What a reading of a switch is while no constraint holds that can be switched off.
+/// Value of a switch while no constraint holds that can be switched off; `None` if it has several.
 fn off(problem: &Problem, switch: &Switch) -> Option<Id> {
     let is_of_contact = problem.contacts.iter().any(|contact| contact.entry == switch.entry);
     let keeps = matches!(switch.reading, SwitchReading::Holds | SwitchReading::Sticks(_));
@@ -142,7 +144,7 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// The constraints that always hold, and those of each entry of a field that switches some.
+    /// Groups of constraints: one of all that always hold, and one for each entry of a field that switches some.
     fn groups(&self, graph: &mut Graph, held: Vec<usize>) -> Vec<RowGroup> {
         let mut groups: Vec<(Option<Entry>, Vec<usize>)> = vec![(None, held)];
         for a in (0..self.constraints.kinds.len()).filter(|&a| !self.constraints.always_holds(a)) {

@@ -13,7 +13,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::count::OPERATION_LIMIT;
-use super::emitter::{Emitter, Written, runtime};
+use super::emitter::{Emitter, Written};
 use super::operation::Register;
 use super::passes::Program;
 use super::shape::ResultShape;
@@ -134,37 +134,22 @@ impl Emitter<'_> {
         };
         let Written { tokens, kernels } = TAYLOR_SERIES.iter().map(write).collect();
         let generics = self.generics_on_series(&series.slopes, &series.calls);
-        let [modules, parts] = self.parts_of(kernels.iter(), &generics);
-        let (impl_generics, _, where_clause) = generics.split_for_impl();
-        let (_, type_generics, _) = self.declaration.generics.split_for_impl();
-        let (runtime, ident, scalar) =
-            (runtime(self.declaration), &self.declaration.ident, style.types.scalar);
-        let slopes = series.slopes();
+        let (scalar, slopes) = (style.types.scalar, series.slopes());
         let [roots, arguments] = [("ROOTS", &series.roots), ("ARGUMENTS", &series.arguments)]
             .map(|(name, pairs)| places(name, pairs));
         let steep = places("STEEP", &series.steep);
         let functions = self.series_functions(&series.calls);
-        quote! {
-            #modules
-
-            const _: () = {
-                use #runtime as __lagrange;
-
-                #[automatically_derived]
-                #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-                impl #impl_generics __lagrange::TaylorSeries for #ident #type_generics #where_clause {
-                    type SeriesSlopes = [#scalar; #slopes];
-                    type Sums = [#scalar; #sums];
-                    type SeriesTerms = [#scalar; #terms];
-                    #roots
-                    #arguments
-                    #steep
-                    #tokens
-                    #functions
-                }
-
-                #parts
-            };
-        }
+        let items = quote! {
+            type SeriesSlopes = [#scalar; #slopes];
+            type Sums = [#scalar; #sums];
+            type SeriesTerms = [#scalar; #terms];
+            #roots
+            #arguments
+            #steep
+            #tokens
+            #functions
+        };
+        let items = self.implementation(&quote!(TaylorSeries), &generics, &items);
+        self.in_scope(kernels.iter(), &generics, &items)
     }
 }
