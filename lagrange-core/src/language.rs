@@ -430,7 +430,8 @@
 //! velocity along and across `th`.
 //!
 //! Other rows are dependent only on the constraints, as in some closed linkages, at some poses or for some parameters.
-//! These are detected numerically: the motion is correct, and the multipliers are those of least norm. Constraints that
+//! These are detected numerically: the motion is correct, and the multipliers are those of least norm, in units in which
+//! the rows of F have length 1: a constraint that is stated twice carries half of the force by each. Constraints that
 //! are dependent only to first order, such as `|a| = l`, `|b| = l` and `|a - b| = 2*l`, are an error as soon as a
 //! motion starts.
 //!

@@ -61,11 +61,11 @@ fn constraints_that_depend_on_one_another_count_once() {
     let jacobian = system.jacobian(&State::at_rest([0.0, -0.7])).unwrap();
     assert_eq!(jacobian.solution.rank, 1);
 
-    // Of the multipliers that carry the bob, 2 y (λ₀ + (2 + x) λ₁) = m g, those of least norm.
+    // Of the multipliers that carry the bob, 2 y (λ₀ + (2 + x) λ₁) = m g, those of least norm: each row has half of the force.
     let found = system.equilibrium(&State::at_rest([0.2, -0.6]), &[]).unwrap();
     let [x, y]: [f64; 2] = found.state.q.into();
     assert!(x.abs() < 1e-15 && (y + 0.7).abs() < 1e-15, "{x} {y}");
-    for (lambda, part) in found.multipliers.iter().zip([0.2, 0.4]) {
+    for (lambda, part) in found.multipliers.iter().zip([0.5, 0.25]) {
         let expected = -part * 3.0 * G / 1.4;
         assert!((lambda - expected).abs() < 1e-13 * G, "{lambda} {expected}");
     }

@@ -27,6 +27,19 @@ struct Twice<T> {
     r: T,
 }
 
+/// A point that three planes hold in its place: one in units of its own, one said twice.
+#[derive(Lagrangian, Clone)]
+#[coordinates(x, y, z)]
+#[lagrangian((x_dot^2 + y_dot^2 + z_dot^2)/2 + x - 2*y + z/3)]
+#[constraint(plane: s*(x + y + z) = 0)]
+#[constraint(steep: x - y + 2*z = 0)]
+#[constraint(again: x - y + k*z = 0)]
+#[constraint(third: 3*x + y - z = 0)]
+struct Corner {
+    s: f64,
+    k: f64,
+}
+
 pub(crate) const DOUBLE: [f64; 13] =
     [1e-300, 1e-200, 1e-165, 1e-161, 1e-155, 1e-80, 1.0, 1e80, 1e152, 1e155, 1e165, 1e200, 1e300];
 const SINGLE: [f32; 9] = [1e-37, 1e-30, 1e-22, 1e-10, 1.0, 1e10, 1e20, 1e30, 1e37];
@@ -71,15 +84,15 @@ fn rows_of_unlike_lengths_that_depend_on_one_another_share_the_force() {
     for s in DOUBLE {
         for r in DOUBLE {
             let twice = Twice { m: 1.0, g: 10.0, s, r };
-            let (lambda, state) = (8.0 / (s.max(2.0 * r)), State::at_rest([0.0; 2]));
-            slides(&twice, lambda.is_infinite(), 1e-13);
-            if lambda.is_normal() {
-                let [first, second]: [f64; 2] = twice.solve(&state).expect("a solution").multipliers.into();
-                assert!(((first * s + 2.0 * second * r) / 8.0 - 1.0).abs() < 1e-13, "{first} {second}");
-                // Of least norm: in proportion to the rows.
-                let (first, second) = (first / lambda, second / lambda);
-                let (s, r) = (s / s.max(2.0 * r), 2.0 * r / s.max(2.0 * r));
-                assert!((first * r - second * s).abs() < 1e-13, "{first} {second} for {s} {r}");
+            let lambda = [4.0 / s, 2.0 / r];
+            slides(&twice, lambda.iter().any(|lambda| lambda.is_infinite()), 1e-13);
+            if lambda.iter().all(|lambda| lambda.is_normal()) {
+                // Of least norm in the units of the rows: each carries half of the force.
+                let found: [f64; 2] =
+                    twice.solve(&State::at_rest([0.0; 2])).expect("a solution").multipliers.into();
+                for (found, lambda) in found.iter().zip(lambda) {
+                    assert!((found / lambda - 1.0).abs() < 1e-13, "{found} {lambda} for {s} {r}");
+                }
             }
         }
     }
@@ -210,5 +223,19 @@ fn inertia_between_coordinates_has_any_unit() {
         let cross = Cross { k: 10.0_f64.powi(power) };
         let off = cross.solve(&state).unwrap().accelerations[0] - expected;
         assert!(off.abs() < 1e-10, "k = 1e{power}: off by {off:e}");
+    }
+}
+
+/// At rest, (1, −2, 1/3) + s λ (1, 1, 1) + 2 μ (1, −1, 2) + ν (3, 1, −1) = 0, whatever the units of the first plane are.
+#[test]
+fn a_short_row_beside_dependent_ones_has_its_multiplier() {
+    for s in [1.0, 1e-4, 1e-8, 1e-12, 1e-16, 1e-100, 1e4, 1e8, 1e12, 1e16, 1e100] {
+        let solution = Corner { s, k: 2.0 }.solve(&State::at_rest([0.0; 3])).expect("a solution");
+        let [plane, steep, again, third]: [f64; 4] = solution.multipliers.into();
+        for (found, expected) in
+            [(plane * s, 41.0 / 30.0), (steep, -8.0 / 15.0), (again, -8.0 / 15.0), (third, -13.0 / 30.0)]
+        {
+            assert!((found - expected).abs() < 1e-13, "{s}: {found} for {expected}, {solution:?}");
+        }
     }
 }

@@ -119,7 +119,8 @@ pub struct Solution<T: Element, N: Length, M: Length> {
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::serial::number"))]
     pub pivot: T,
     /// Number of independent constraints at this state. If it is less than `M` the multipliers are not unique;
-    /// the given ones have the least Euclidean norm.
+    /// the given ones have the least norm in units in which masses are 1 and the rows of F have length 1. A constraint that is
+    /// stated twice carries half of the force by each statement, whatever factor either is multiplied by.
     pub rank: usize,
 }
 

@@ -38,7 +38,7 @@ pub struct Jacobian<T: Element, N: Length, M: Length, P: Length> {
     pub solution: Solution<T, N, M>,
     /// Derivatives of the accelerations q̈.
     pub accelerations: PartialDerivatives<T, N, N, P>,
-    /// Derivatives of the multipliers λ; if constraints are dependent, the change of least norm.
+    /// Derivatives of the multipliers λ; if constraints are dependent, the change of least norm in units in which the rows of F have length 1.
     pub multipliers: PartialDerivatives<T, M, N, P>,
 }
 

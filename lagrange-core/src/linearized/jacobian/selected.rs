@@ -20,7 +20,7 @@ pub struct SelectedJacobian<T: Element, N: Length, M: Length> {
     /// Derivatives of the accelerations q̈: one row per coordinate, one column per argument.
     pub accelerations: DMatrix<T>,
     /// Derivatives of the multipliers λ: one row per constraint, one column per argument. If constraints are dependent,
-    /// the change of least norm.
+    /// the change of least norm in units in which the rows of F have length 1.
     pub multipliers: DMatrix<T>,
     arguments: Vec<String>,
 }

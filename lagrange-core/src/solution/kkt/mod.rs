@@ -140,7 +140,7 @@ impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
         let along = along_constraints(&m, rows.split.rank, largest);
         let pivot = if rows.split.rank < N::COUNT { along.smallest / largest } else { T::constant(1.0) };
         // Rows of zeros, as of constraints that are switched off, have no share in the forces.
-        let wide = rows.has_dependent_rows(f).then(|| least_norm(&rows));
+        let wide = rows.has_dependent_rows(f).then(|| least_norm(&rows.split));
         Self { rows, m, along, pivot, wide, must_agree: rank.must_agree }
     }
 
@@ -206,20 +206,18 @@ impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
         Ok(Array::from_fn(|i| if i < rank { zero } else { y[i - rank] }))
     }
 
-    /// Returns λ with Fᵀλ = M q̈ − h (given in the range basis): the solution of least Euclidean norm if there
-    /// are several.
+    /// Returns λ with Fᵀλ = M q̈ − h (given in the range basis): if there are several, the one of least norm in the units of
+    /// the rows.
     fn multipliers(&self, force: &Array<T, N>) -> Array<T, M> {
-        match &self.wide {
-            None => {
-                let scaled = self.rows.split.solve(force);
-                Array::from_fn(|a| self.rows.units.of_row(a, scaled[a]))
-            }
+        let scaled = match &self.wide {
+            None => self.rows.split.solve(force),
             Some(wide) => {
-                let mut lambda = wide.solve_transposed(force);
-                wide.leave_basis(&mut lambda);
-                lambda
+                let mut least = wide.solve_transposed(force);
+                wide.leave_basis(&mut least);
+                least
             }
-        }
+        };
+        Array::from_fn(|a| self.rows.units.of_row(a, scaled[a]))
     }
 }
 
@@ -382,15 +380,13 @@ fn undetermined<T: Real, N: Length, M: Length>(
     share
 }
 
-/// Returns the QR factorization of Cᵀ for the least-norm solution of C λ = force, λ = Q R⁻ᵀ force. C is R times
-/// the row lengths, with one column per constraint.
-fn least_norm<T: Real, N: Length, M: Length>(rows: &Rows<T, N, M>) -> Qr<T, M, N> {
-    let Rows { units, split } = rows;
+/// Returns the QR factorization of Rᵀ, with one column per constraint, for the least-norm solution of R λ = force, λ = Q R⁻ᵀ force.
+fn least_norm<T: Real, N: Length, M: Length>(split: &Qr<T, N, M>) -> Qr<T, M, N> {
     let zero = T::constant(0.0);
     let mut transposed = Array::filled(Array::filled(zero));
     for (i, column) in transposed.iter_mut().enumerate().take(split.rank) {
         for (j, &row) in split.order.iter().enumerate().skip(i) {
-            column[row] = split.entry(i, j) * units.lengths[row] * units.powers[row];
+            column[row] = split.entry(i, j);
         }
     }
     Qr::of(transposed, zero)

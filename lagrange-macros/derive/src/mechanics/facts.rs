@@ -37,8 +37,8 @@ impl Facts {
         let mut moments = Moments::new(problem, equations, true);
         let (cyclic, mut conserved) = momenta(graph, &mut moments);
         // The energy is said to be conserved while nothing slides.
-        let mut at_rest = Moments::new(problem, equations, false);
-        let (energy, changes) = conservation::of_energy(graph, &mut at_rest);
+        let mut at_rest = (!problem.frictions.is_empty()).then(|| Moments::new(problem, equations, false));
+        let (energy, changes) = conservation::of_energy(graph, at_rest.as_mut().unwrap_or(&mut moments));
         let may_change = energy.is_none() || !problem.frictions.is_empty();
         let rates = changes.iter().filter(|_| may_change).map(|(_, part)| *part).collect::<Vec<_>>();
         let energy_rate = graph.total(rates);
