@@ -436,6 +436,14 @@ pub enum Error {
         /// The time of evaluation.
         time: f64,
     },
+    /// The function of an event is not a number in a motion by [time steps](crate::contact::MoreauJean), where events know no
+    /// accelerations and multipliers.
+    EventInTimeSteps {
+        /// The name of the event.
+        event: &'static str,
+        /// The time of evaluation.
+        time: f64,
+    },
     /// The state after a transition of contacts has no derivative by the state before it.
     NoDerivativeAcross {
         /// Name of the contact, or of the friction.

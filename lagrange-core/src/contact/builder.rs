@@ -16,7 +16,7 @@ use crate::motion::{
 };
 use crate::names::name;
 use crate::number::Real;
-use crate::solution::Adjustment;
+use crate::solution::{Adjustment, Sample};
 use crate::system::{Lagrangian, StateOf};
 use crate::trajectory::{Leg, Path, Trajectory};
 use crate::vector::{Length, zeros};
@@ -24,18 +24,26 @@ use crate::vector::{Length, zeros};
 /// Largest number of transitions unless [`max_transitions`](MotionBuilder::max_transitions) sets another.
 const TRANSITIONS: usize = 100_000;
 
-/// Marks a motion across contacts that keeps `K`: all steps, or samples alone.
+/// Marks a motion across contacts that keeps `K`: all steps, or samples alone. It crosses them by `C`: transitions that are located, or
+/// [time steps](super::MoreauJean).
 #[derive(Clone, Copy, Debug)]
-pub struct AcrossContacts<K = AllSteps> {
-    kept: K,
+pub struct AcrossContacts<K = AllSteps, C = Located> {
+    pub(super) kept: K,
+    pub(super) crossing: C,
+}
+
+/// Marks a motion whose transitions are located.
+#[derive(Clone, Copy, Debug)]
+pub struct Located {
+    /// Largest number of transitions.
     transitions: usize,
 }
 
-impl<'w, L: Lagrangian, K: Kept<'w, L>> Kept<'w, L> for AcrossContacts<K> {
-    type Alone = AcrossContacts<K::Alone>;
+impl<'w, L: Lagrangian, K: Kept<'w, L>, C> Kept<'w, L> for AcrossContacts<K, C> {
+    type Alone = AcrossContacts<K::Alone, C>;
 
     fn samples_alone(self, change: impl FnOnce(&mut SamplesAlone<'w, L>)) -> Self::Alone {
-        AcrossContacts { kept: self.kept.samples_alone(change), transitions: self.transitions }
+        AcrossContacts { kept: self.kept.samples_alone(change), crossing: self.crossing }
     }
 }
 
@@ -54,7 +62,7 @@ impl<T: Real, N: Length> CrossesContacts for Start<T, N, LagrangianVectorField> 
     message = "a motion that is taken step by step has no events, samples, quantities or controller of its own",
     label = "not in such a motion",
     note = "look at the state after each step, and set inputs by `change`; `advance_to_event` of a `ContactMotion` takes events",
-    note = "`motion(start).with_contacts().to(end)` takes them all"
+    note = "`motion(start).with_contacts().to(end)` and `by_time_stepping(scheme).to(end)` take them all"
 )]
 pub trait Stepwise {}
 
@@ -63,14 +71,14 @@ impl Stepwise for () {}
 impl Stepwise for AllSteps {}
 
 /// Settings of a motion from a state.
-pub(super) type Builder<'a, 'w, L, P, E, K> = MotionBuilder<
+pub(super) type Builder<'a, 'w, L, P, E, K, C = Located> = MotionBuilder<
     'a,
     'w,
     L,
     Start<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, LagrangianVectorField>,
     P,
     E,
-    AcrossContacts<K>,
+    AcrossContacts<K, C>,
 >;
 
 impl<'a, 'w, L: Contacts + Clone, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
@@ -80,14 +88,14 @@ impl<'a, 'w, L: Contacts + Clone, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, 
     where
         S: CrossesContacts,
     {
-        self.keeping(|kept| AcrossContacts { kept, transitions: TRANSITIONS })
+        self.keeping(|kept| AcrossContacts { kept, crossing: Located { transitions: TRANSITIONS } })
     }
 }
 
 impl<L: Lagrangian, S, P, E, K> MotionBuilder<'_, '_, L, S, P, E, AcrossContacts<K>> {
     /// Sets the largest number of transitions, 100,000 if it is not set.
     pub fn max_transitions(self, count: usize) -> Self {
-        self.keeping(|AcrossContacts { kept, .. }| AcrossContacts { kept, transitions: count })
+        self.keeping(|across| AcrossContacts { crossing: Located { transitions: count }, ..across })
     }
 }
 
@@ -104,7 +112,7 @@ impl<L: Contacts<Scalar: Real> + Clone, P: Method<L>, E> Builder<'_, '_, L, P, E
     {
         let Self { system, start, method, kept, .. } = self;
         method.check()?;
-        Ok(ContactMotion::new(system, start.into_state()?, method, kept.transitions))
+        Ok(ContactMotion::new(system, start.into_state()?, method, kept.crossing.transitions))
     }
 }
 
@@ -133,7 +141,7 @@ where
         let state = start.into_state()?;
         check_times(state.t, end)?;
         let journey = Journey::new((system, method.accuracy()), state, AllLegs::none()).begin(end)?;
-        let ended = journey.reporting(on_progress).run(&method, events.list(), kept.transitions)?;
+        let ended = journey.reporting(on_progress).run(&method, events.list(), kept.crossing.transitions)?;
         Ok(trajectory::<L, P>(ended))
     }
 }
@@ -195,11 +203,11 @@ where
     /// [`Error::Setting`] for samples that cannot be taken; those of the function of a quantity at the start.
     pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error> {
         let Self { system, start, method, events, mut on_progress, kept } = self;
-        let AcrossContacts { kept: SamplesAlone { plan, steered }, transitions } = kept;
+        let AcrossContacts { kept, crossing: Located { transitions } } = kept;
         let state = start.into_state()?;
-        plan.check()?;
+        kept.check()?;
+        let SamplesAlone { plan, steered } = kept;
         let steering = steered.map(|(steering, _)| steering);
-        steering.as_ref().map_or(Ok(()), Steering::check)?;
         let from = state.t;
         let accept = |state: &StateOf<L>, steps| report(&mut on_progress, [from, state.t, end], steps);
         let along = (&plan, events.list(), steering);
@@ -219,7 +227,7 @@ pub(crate) fn arrive<'w, L: Contacts<Scalar: Real> + Clone, P: Method<L>>(
     accept: Accept<'w, L>,
 ) -> Result<Arrival<L::Scalar, L::N>, Error> {
     check_times(state.t, end)?;
-    let record = Record::before_samples(plan, Vec::new(), steering, system, &state, end)?;
+    let record = Record::before_samples(plan, Vec::new(), steering, &Sample::of(system, state), end)?;
     let journey =
         Journey::new((system, method.accuracy()), state, SampledLegs { record: Some(record) }).begin(end)?;
     let ended = journey.accepting(accept).run(method, events, transitions.unwrap_or(TRANSITIONS))?;

@@ -161,6 +161,7 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! | [`StepLimit`](crate::Ending::StepLimit), "looks stiff" | friction along two velocities begins slowly, or a spring is stiff | [`Radau`](crate::linearized::Radau) |
 //! | [`MethodFailed`](crate::Ending::MethodFailed), [`TimeTooCoarse`](crate::Ending::TimeTooCoarse) | steps of a loose tolerance pass over where friction along two velocities turns | a tolerance of 10⁻⁷ or less |
 //! | [`StepTooLong`](crate::Error::StepTooLong), [`ImpulsesNotFound`](crate::Error::ImpulsesNotFound) | in time steps: forces or contacts change too much in one | shorter steps |
+//! | [`EventInTimeSteps`](crate::Error::EventInTimeSteps) | in time steps, an event depends on multipliers | take them as a [`quantity`](crate::MotionBuilder::quantity) of samples |
 //!
 //! # Bounds
 //!
@@ -333,11 +334,11 @@ pub(crate) use bodies::impulse_changes;
 #[cfg(feature = "std")]
 pub(crate) use builder::arrive;
 #[cfg(feature = "alloc")]
-pub use builder::{AcrossContacts, CrossesContacts, Stepwise};
+pub use builder::{AcrossContacts, CrossesContacts, Located, Stepwise};
 #[cfg(feature = "alloc")]
 pub use motion::ContactMotion;
 #[cfg(feature = "alloc")]
-pub use stepping::{ContactStepper, MoreauJean, TimeStep, TimeStepping};
+pub use stepping::{ContactStepper, MoreauJean, TimeStep};
 #[cfg(feature = "alloc")]
 pub(crate) use watched::held;
 

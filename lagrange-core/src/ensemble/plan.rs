@@ -116,8 +116,7 @@ impl<L: Lagrangian<Scalar: Real>> Default for MemberPlan<'_, L> {
 impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
     pub(super) fn event<G: EventFunction<L> + Send + Sync + 'a>(&mut self, event: Event<L, G>) {
         self.events.push(event.map(|function| {
-            let value: Box<Observed<'a, L>> =
-                Box::new(move |sample: &Sample<&L>| function.at(sample.system(), sample.state()));
+            let value: Box<Observed<'a, L>> = Box::new(move |sample: &Sample<&L>| function.at(sample));
             value
         }));
     }
@@ -176,7 +175,8 @@ impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
         start: &StateOf<L>,
         end: L::Scalar,
     ) -> Result<Record<'_, L>, Error> {
-        Record::begin(&self.samples, self.fresh_events(), self.steering(index), system, start, end)
+        let start = Sample::of(system, *start);
+        Record::begin(&self.samples, self.fresh_events(), self.steering(index), &start, end)
     }
 
     /// Events of a member, without a history.

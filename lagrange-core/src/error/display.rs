@@ -235,6 +235,10 @@ impl Display for Error {
                 f,
                 "the function of the event `{event}` is not a number at t = {time}: make it one wherever the motion may lead"
             ),
+            Self::EventInTimeSteps { event, time } => write!(
+                f,
+                "the function of the event `{event}` is not a number at t = {time}: by time steps, an event must not depend on accelerations or multipliers, which are means over a step; take samples with these as quantities, by `every` and `quantity`"
+            ),
             Self::NoDerivativeAcross { contact, time, reason } => write!(
                 f,
                 "the motion has no derivative across the transition of `{contact}` at t = {time}: {reason}"

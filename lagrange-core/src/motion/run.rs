@@ -8,6 +8,7 @@ use crate::error::{Ending, Error, Pace};
 use crate::number::Real;
 use crate::solution::Adjustment;
 use crate::solution::consistent::{self, Consistent};
+use crate::solution::interpolant::Interpolant;
 use crate::solution::solve::solve;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
@@ -223,7 +224,7 @@ where
     F: VectorField<L>,
     P: Method<L, F>,
 {
-    if <L::M>::COUNT > 0 {
+    if <L::M>::COUNT > 0 && <P::Interpolant as Interpolant<_, _>>::IS_PROJECTED {
         consistent::check(system, state)?;
     }
     method.resume(system, memory, state, statistics)

@@ -8,7 +8,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 use super::builder::{AllSteps, EventList, MotionBuilder, Start};
 use super::event::{DynEvent, EventValue};
 use super::method::Method;
-use super::progress::report;
+use super::progress::{OnProgress, report};
 use super::record::{Arrival, Moving, Record, RecordPlan, Recorded, SampleTimes, Steering};
 use super::run::{Run, Watchdog, check_end};
 use crate::error::Error;
@@ -27,6 +27,35 @@ pub struct SamplesAlone<'w, L: Lagrangian> {
 impl<L: Lagrangian> Debug for SamplesAlone<'_, L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("SamplesAlone").field("is_steered", &self.steered.is_some()).finish_non_exhaustive()
+    }
+}
+
+impl<'w, L: Lagrangian<Scalar: Real>> SamplesAlone<'w, L> {
+    /// Checks the conditions that do not depend on start and end.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        self.plan.check()?;
+        self.steered.as_ref().map_or(Ok(()), |(steering, _)| steering.check())
+    }
+
+    /// Moves from the start of a run to the time `end`, or to a terminal event, and records the samples.
+    pub(crate) fn record<F: VectorField<L>, P: Method<L, F>>(
+        self,
+        run: &mut Run<L, P, F>,
+        method: &P,
+        start: &Sample<&L>,
+        (events, mut on_progress): (Vec<Box<DynEvent<'w, L>>>, Option<OnProgress<'w>>),
+        end: L::Scalar,
+    ) -> Result<Arrival<L::Scalar, L::N>, Error> {
+        let Self { plan, steered } = self;
+        let (steering, mut own) = steered.unzip();
+        let record = Record::begin(&plan, events, steering, start, end)?;
+        let from = start.time();
+        let accept = |state: &StateOf<L>, steps| report(&mut on_progress, [from, state.t, end], steps);
+        let moving = own.as_mut().map_or(Moving::Fixed(*start.system()), Moving::Steered);
+        let limits = Watchdog::new(method.limits(), &run.statistics);
+        let mut recorded = Recorded::<_, _, _, true>::new(moving, record, accept);
+        let driven = run.drive(method, &limits, &mut recorded);
+        Ok(recorded.finish(driven, run.state, run.statistics))
     }
 }
 
@@ -216,22 +245,12 @@ impl<'w, L: Lagrangian<Scalar: Real>, F, P, E>
         E: EventList<DynEvent<'w, L>>,
     {
         const { check_contacts::<L>() };
-        let Self { system, start, method, events, mut on_progress, kept: SamplesAlone { plan, steered } } =
-            self;
+        let Self { system, start, method, events, on_progress, kept } = self;
         let state = start.state.as_ref().as_ref().map_err(Error::clone)?;
         check_end(end)?;
-        plan.check()?;
-        let (steering, mut own) = steered.unzip();
-        steering.as_ref().map_or(Ok(()), Steering::check)?;
+        kept.check()?;
         let mut begun = Run::<L, P, F>::begin(system, state, &method);
         let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
-        let record = Record::begin(&plan, events.list(), steering, system, &run.state, end)?;
-        let from = run.state.t;
-        let accept = |state: &StateOf<L>, steps| report(&mut on_progress, [from, state.t, end], steps);
-        let moving = own.as_mut().map_or(Moving::Fixed(system), Moving::Steered);
-        let limits = Watchdog::new(method.limits(), &run.statistics);
-        let mut recorded = Recorded::<_, _, _, true>::new(moving, record, accept);
-        let driven = run.drive(&method, &limits, &mut recorded);
-        Ok(recorded.finish(driven, run.state, run.statistics))
+        kept.record(run, &method, &Sample::of(system, run.state), (events.list(), on_progress), end)
     }
 }

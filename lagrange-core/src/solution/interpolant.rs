@@ -8,6 +8,10 @@ use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
 ///
 /// An interpolant contains the start time and the length of its step.
 pub trait Interpolant<T: Element, N: Length> {
+    /// True if states of a motion satisfy its constraints, so that those within a step are projected onto them.
+    #[doc(hidden)]
+    const IS_PROJECTED: bool = true;
+
     /// Returns the phase at a time within the step, with a velocity there or nearby.
     fn at(&self, t: T) -> StagePoint<T, N>;
 }

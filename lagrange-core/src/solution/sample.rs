@@ -2,6 +2,7 @@
 
 #[cfg(feature = "alloc")]
 use alloc::vec::Vec;
+use core::borrow::Borrow;
 use core::fmt::{self, Debug, Display, Formatter};
 
 use crate::error::Error;
@@ -34,10 +35,28 @@ impl<S: Lagrangian> Sample<S> {
         Self { system, state, given: None }
     }
 
-    /// The same with these accelerations and multipliers.
+    /// The same with these accelerations and multipliers; `None` for those of the equations.
     #[cfg(feature = "alloc")]
-    pub(crate) fn with(self, given: SolutionOf<S>) -> Self {
-        Self { given: Some(given), ..self }
+    pub(crate) fn with(self, given: Option<SolutionOf<S>>) -> Self {
+        Self { given, ..self }
+    }
+
+    /// Accelerations and multipliers, if they are not those of the equations.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn given(&self) -> Option<SolutionOf<S>> {
+        self.given
+    }
+}
+
+impl<L: Lagrangian> Sample<&L> {
+    /// The same sample of the system behind a pointer.
+    #[inline]
+    pub(crate) fn behind<K>(&self) -> Sample<&K>
+    where
+        L: Borrow<K>,
+        K: Lagrangian<N = L::N, M = L::M, Scalar = L::Scalar>,
+    {
+        Sample { system: self.system.borrow(), state: self.state, given: self.given }
     }
 }
 
@@ -66,7 +85,7 @@ impl<S: Lagrangian<Scalar: Real>> Sample<S> {
     }
 
     /// Returns accelerations and multipliers, solved for at this state; in a [motion by time steps](crate::contact::MoreauJean) the
-    /// means over the step that leads there.
+    /// means over the step that leads there, and NaN for its events.
     ///
     /// # Errors
     /// Those of [`Simulate::solve`](crate::Simulate::solve).

@@ -26,11 +26,11 @@ pub struct Leg<S: Lagrangian, F = LagrangianVectorField> {
 }
 
 /// Mean accelerations and multipliers in a motion by time steps, with the system to which they belong.
-pub(crate) struct Means<S: Lagrangian> {
+struct Means<S: Lagrangian> {
     /// The system with all contacts closed and all friction sticking: each multiplier has its constraint.
-    pub(crate) closed: S,
+    closed: S,
     /// Mean accelerations and multipliers of each step.
-    pub(crate) of_steps: Vec<SolutionOf<S>>,
+    of_steps: Vec<SolutionOf<S>>,
 }
 
 impl<S: Lagrangian, F> Leg<S, F> {
@@ -38,9 +38,11 @@ impl<S: Lagrangian, F> Leg<S, F> {
         Self { system, path, transitions: 0, boundary, means: None, field: PhantomData }
     }
 
-    /// A motion by time steps with these mean accelerations and multipliers.
-    pub(crate) fn in_time_steps(self, means: Means<S>) -> Self {
-        Self { means: Some(means), ..self }
+    /// A motion by time steps with these mean accelerations and multipliers, which belong to its system, whose contacts are all closed.
+    pub(crate) fn in_time_steps(self, open: S, mut of_steps: Vec<SolutionOf<S>>) -> Self {
+        // An event may cut off the last step at its start.
+        of_steps.truncate(self.path.len());
+        Self { system: open, means: Some(Means { closed: self.system, of_steps }), ..self }
     }
 
     /// True if it is a motion by time steps.
@@ -115,7 +117,7 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
     fn sample(&self, state: StateOf<S>) -> Sample<&S> {
         let Some(Means { closed, of_steps }) = &self.means else { return Sample::of(&self.system, state) };
         let of_step = of_steps.get(self.path.step_until(state.t)).copied();
-        Sample::of(closed, state).with(of_step.unwrap_or_else(Solution::unknown))
+        Sample::of(closed, state).with(of_step.or_else(|| Some(Solution::unknown())))
     }
 
     pub(crate) fn samples_of_steps(&self) -> impl Iterator<Item = Sample<&S>> + '_ {

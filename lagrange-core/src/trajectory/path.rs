@@ -32,16 +32,18 @@ impl<T: Element, N: Length, I: Interpolant<T, N>> Interpolants<T, N> for Vec<I> 
     }
 }
 
-/// Ends of steps, between which coordinates and velocities are linear.
-struct Polygon<T: Element, N: Length>(Vec<State<T, N>>);
+/// A time step between two states. Coordinates and velocities are linear in between.
+pub(crate) struct Chord<T: Element, N: Length>(pub(crate) [State<T, N>; 2]);
 
-impl<T: Real, N: Length> Interpolants<T, N> for Polygon<T, N> {
-    fn at(&self, step: usize, t: T) -> Option<StagePoint<T, N>> {
-        let (before, after) = (self.0.get(step)?, self.0.get(step + 1)?);
+impl<T: Real, N: Length> Interpolant<T, N> for Chord<T, N> {
+    const IS_PROJECTED: bool = false;
+
+    fn at(&self, t: T) -> StagePoint<T, N> {
+        let Self([before, after]) = self;
         let part = (t - before.t) / (after.t - before.t);
         let between = |x: T, y: T| x + part * (y - x);
         let (q, v) = (before.q.each_with(&after.q, between), before.v.each_with(&after.v, between));
-        Some(StagePoint { t, y: PhaseVector::<T, N>::of(q, v), velocity: array(v) })
+        StagePoint { t, y: PhaseVector::<T, N>::of(q, v), velocity: array(v) }
     }
 }
 
@@ -96,13 +98,6 @@ impl<T: Element, N: Length> Path<T, N> {
 }
 
 impl<T: Real, N: Length> Path<T, N> {
-    /// A path through these states, the first of which is its start, linear between them.
-    pub(crate) fn linear(start: State<T, N>, ends: Vec<State<T, N>>) -> Self {
-        let (last, times) = (*ends.last().unwrap_or(&start), ends.iter().map(|state| state.t));
-        let times = times.take(ends.len().saturating_sub(1)).collect();
-        Self { start: Room::of(start), last: Room::of(last), times, interpolants: Box::new(Polygon(ends)) }
-    }
-
     /// Returns the step of a motion forwards that ends at a time or after it; at the start, the first.
     pub(super) fn step_until(&self, t: T) -> usize {
         self.times.partition_point(|start| *start < t).saturating_sub(1)

@@ -49,8 +49,7 @@ assert!(text.contains("\n1 impact, 1 closing; closed at the end: `floor`\nreache
 "#
 )]
 ///
-/// By [time steps](crate::contact::MoreauJean) there is one leg. States between two steps are linear
-/// between them; accelerations and multipliers of a sample are the means over the step that leads there, at the start over the first, and
+/// By [time steps](crate::contact::MoreauJean) there is one leg. Between the ends of a step, states are linear in the time; accelerations and multipliers of a sample are the means over the step that leads there, at the start over the first, and
 /// NaN without steps. The system of a sample has all contacts closed, so that their forces count; that of the leg has all open.
 ///
 /// The call that integrates borrows the system `S`: `Trajectory<&Pendulum>`.

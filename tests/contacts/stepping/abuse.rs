@@ -97,6 +97,13 @@ fn limits_and_times() {
     let late = State { t: 1e9, ..start() };
     let late = block().motion(late).by_time_stepping(MoreauJean::with_step(1e-9)).towards(1e9 + 1.0).unwrap();
     assert!(matches!(late.ending(), Ending::TimeTooCoarse { .. }), "{late}");
+    let late = State { t: 1e9, ..start() };
+    let mut late = block().motion(late).by_time_stepping(MoreauJean::with_step(1e-9)).stepper().unwrap();
+    let error = late.step().unwrap_err();
+    assert!(
+        matches!(&error, Error::Unfinished(ending) if matches!(**ending, Ending::TimeTooCoarse { .. })),
+        "{error}"
+    );
     // The last step is shorter.
     let path = block().motion(start()).by_time_stepping(MoreauJean::with_step(0.3)).to(1.0).unwrap();
     let times: Vec<f64> = path.steps().map(|step| step.time()).collect();

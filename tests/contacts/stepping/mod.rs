@@ -1,6 +1,7 @@
 //! Contacts in steps of one length.
 
 mod abuse;
+mod along;
 mod frames;
 mod grips;
 mod holds;

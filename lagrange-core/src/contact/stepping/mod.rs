@@ -1,38 +1,37 @@
-//! Steps of one length across contacts, for many of them: neither impacts nor transitions are located, and impulses take the
+//! Steps of one length across contacts, for many of them: neither impacts nor other transitions are located, and impulses take the
 //! place of forces.
 
 mod correction;
 mod forces;
+mod method;
 mod middle;
 mod step;
 mod stepper;
-mod trajectory;
+mod time_step;
 
-use super::builder::{CrossesContacts, Stepwise, check_times};
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+use super::builder::{AcrossContacts, Builder, CrossesContacts};
 use super::{Contacts, ForceDerivatives};
-use crate::error::{Ending, Error, Pace};
-use crate::motion::method::contract::check_settings;
-use crate::motion::progress::report;
-use crate::motion::{LagrangianVectorField, MotionBuilder, Start};
+use crate::error::Error;
+use crate::motion::event::EventInSteps;
+use crate::motion::method::contract::{check_settings, limit_setters};
+use crate::motion::run::Watchdog;
+use crate::motion::store::Stored;
+use crate::motion::{AllSteps, Arrival, DynEvent, EventList, Limits, Method, MotionBuilder, SamplesAlone};
 use crate::number::Real;
-use crate::system::Lagrangian;
+use crate::solution::{Adjustment, Sample};
+use crate::system::Solution;
 use crate::trajectory::Trajectory;
+use crate::vector::zeros;
+use method::TimeSteps;
 pub use stepper::ContactStepper;
-use trajectory::TakenSteps;
-pub use trajectory::TimeStep;
-
-/// Largest number of steps unless [`max_steps`](MoreauJean::max_steps) sets another.
-const STEPS: usize = 100_000;
-
-/// Part of a step by which the last one may be longer than the others, instead of one more.
-const LONGER: f64 = 1e-6;
-
-/// Largest number of states for which memory is reserved before the first step.
-const RESERVED: usize = 1 << 16;
+pub use time_step::TimeStep;
 
 /// Time stepping of contacts by the scheme of Moreau and Jean: [`by_time_stepping`](MotionBuilder::by_time_stepping).
 ///
-/// Stacks and heaps have too many impacts to be located one after another; games and controllers take
+/// Stacks and heaps have too many impacts to be located one after another. Games take
 /// [one step at a time](ContactStepper). A step of the length h (Moreau 1988; Jean, *Computer Methods in Applied Mechanics and
 /// Engineering* 177, 1999; Acary and Brogliato, *Numerical Methods for Nonsmooth Dynamical Systems*, 2008, chapter 10)
 ///
@@ -105,6 +104,50 @@ assert!(lower > upper && (upper + lower - 2.0 * 9.81 * block.alpha.cos()).abs() 
 ///   one before, were at rest, or stop in it.
 /// - Contacts of bodies that touch one another, directly or by others, are one problem, with the cube of their number as work; others cost
 ///   what they cost alone.
+///
+/// # Events, samples and controllers
+///
+/// - Between the ends of a step, coordinates and velocities are linear in the time. Samples are on these chords, and [events](crate::Event)
+///   are located on them to round-off. A chord of a flight is up to g h²/8 below its parabola, and its velocity is exact with θ = ½.
+/// - A velocity that an impact reverses crosses zero within the step of the impact. The gap need not reach zero there.
+/// - Accelerations and multipliers of a sample are the means over its step, and NaN at the start. An event cannot depend on them:
+///   [`Error::EventInTimeSteps`].
+/// - A call of the controller ends a step. If its interval is no multiple of the step length, the step before each call is shorter, and
+///   the next ones are counted from the call. Samples and events do not shorten steps.
+/// - In the system of a sample and of a controller all contacts are closed, whether they push or not; what a controller sets them to is ignored.
+/// - A terminal event ends the motion on the chord, where constraints and gaps that curve are violated by the order h².
+///   [`make_consistent`](crate::Simulate::make_consistent) gives a start that satisfies the constraints.
+///
+/// ```
+/// use lagrange_core::contact::{Contact, MoreauJean};
+/// use lagrange_core::prelude::*;
+///
+/// /// A crate on a floor, which a winch pulls.
+/// #[derive(Clone, Lagrangian)]
+/// #[coordinates(x, y)]
+/// #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+/// #[force(x: rope)]
+/// #[contact(floor: y >= 0, friction(mu): x_dot)]
+/// struct Hauled { m: f64, g: f64, mu: f64, rope: f64, floor: Contact }
+///
+/// let hauled = Hauled { m: 30.0, g: 9.81, mu: 0.4, rope: 0.0, floor: Contact::Closed };
+/// let there = hauled.event("there", |sample| sample.state().q[0] - 1.0).terminal();
+/// let motion = hauled.motion(State::at_rest([0.0, 0.0])).by_time_stepping(MoreauJean::with_step(1e-3)).event(there);
+/// let motion = motion.every(0.5).quantity("friction", |sample| sample.multiplier("floor_friction"));
+/// // The winch pulls by 60 N more every two seconds. The crate moves once that is more than μ m g = 117.72 N.
+/// let arrival = motion.controlled(2.0, |hauled, _| {
+///     hauled.rope += 60.0;
+///     Ok::<_, Error>(())
+/// });
+/// let arrival = arrival.to(20.0)?;
+/// // For two seconds with the acceleration a, and then with b.
+/// let [a, b] = [120.0, 180.0].map(|rope| (rope - 117.72) / 30.0);
+/// let (x, v) = (2.0 * a, 2.0 * a);
+/// let end = 4.0 + ((v * v + 2.0 * b * (1.0 - x)).sqrt() - v) / b;
+/// assert!((arrival.state.t - end).abs() < 1e-6);
+/// assert!((arrival.values[3] + 60.0).abs() < 1e-9 && (arrival.values[7] + 117.72).abs() < 1e-9);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct MoreauJean {
@@ -112,14 +155,14 @@ pub struct MoreauJean {
     theta: f64,
     tolerance: f64,
     max_iterations: usize,
-    max_steps: usize,
+    limits: Limits,
 }
 
 impl MoreauJean {
     /// Sets the step length, in units of time. θ is ½, the tolerance 10⁻⁸, and the limits are 50 iterations in a step and
     /// 100,000 steps.
     pub fn with_step(step: f64) -> Self {
-        Self { step, theta: 0.5, tolerance: 1e-8, max_iterations: 50, max_steps: STEPS }
+        Self { step, theta: 0.5, tolerance: 1e-8, max_iterations: 50, limits: Limits::default() }
     }
 
     /// Sets the part θ of a step for which the bodies move with the velocities after it, from ½ to 1. Vibrations keep their energy
@@ -138,9 +181,8 @@ impl MoreauJean {
         Self { max_iterations, ..self }
     }
 
-    /// Sets the largest number of steps.
-    pub fn max_steps(self, max_steps: usize) -> Self {
-        Self { max_steps, ..self }
+    limit_setters! {
+        /// Sets the largest number of steps.
     }
 
     fn check(&self) -> Result<(), Error> {
@@ -155,45 +197,31 @@ impl MoreauJean {
     }
 }
 
-/// Marks a motion in steps of one length across contacts.
-#[derive(Clone, Copy, Debug)]
-pub struct TimeStepping {
-    scheme: MoreauJean,
-}
-
 impl<'a, 'w, L: Contacts + Clone, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
-    /// Moves across the [contacts](crate::contact) of the system in steps of one length, without events, by the
-    /// [scheme of Moreau and Jean](MoreauJean).
-    pub fn by_time_stepping(self, scheme: MoreauJean) -> MotionBuilder<'a, 'w, L, S, P, (), TimeStepping>
+    /// Moves across the [contacts](crate::contact) of the system in steps of one length, by the [scheme of Moreau and Jean](MoreauJean).
+    /// Transitions are not located. Events, samples, quantities, the controller and the progress callback are set as without contacts,
+    /// before or after; [they see](MoreauJean#events-samples-and-controllers) steps as chords.
+    pub fn by_time_stepping(
+        self,
+        scheme: MoreauJean,
+    ) -> MotionBuilder<'a, 'w, L, S, P, E, AcrossContacts<K, MoreauJean>>
     where
         S: CrossesContacts,
-        E: Stepwise,
-        K: Stepwise,
     {
-        self.with_events(|_| ()).keeping(|_| TimeStepping { scheme })
+        self.keeping(|kept| AcrossContacts { kept, crossing: scheme })
     }
 }
 
-/// Settings of a motion from a state.
-type Builder<'a, 'w, L, P, E> = MotionBuilder<
-    'a,
-    'w,
-    L,
-    Start<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, LagrangianVectorField>,
-    P,
-    E,
-    TimeStepping,
->;
-
-impl<L: ForceDerivatives<Scalar: Real> + Clone, P, E> Builder<'_, '_, L, P, E> {
-    /// Moves to the time `end`.
+impl<'w, L, P, E> Builder<'_, 'w, L, P, E, AllSteps, MoreauJean>
+where
+    L: ForceDerivatives<Scalar: Real> + Clone,
+    E: EventList<DynEvent<'w, L>>,
+{
+    /// Moves to the time `end`, or to the first [terminal](crate::Event::terminal) event.
     ///
     /// # Errors
     /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
-    pub fn to(self, end: L::Scalar) -> Result<Trajectory<L>, Error>
-    where
-        E: Stepwise,
-    {
+    pub fn to(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
         self.towards(end)?.finished()
     }
 
@@ -202,45 +230,51 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone, P, E> Builder<'_, '_, L, P, E> {
     /// [`Error::ContactsContradict`].
     ///
     /// # Errors
-    /// Those of [`stepper`](Self::stepper); [`Error::MotionBackwards`] if `end` lies before the start.
-    pub fn towards(mut self, end: L::Scalar) -> Result<Trajectory<L>, Error>
-    where
-        E: Stepwise,
-    {
-        let mut on_progress = core::mem::take(&mut self.on_progress);
-        let (scheme, mut stepper) = (self.kept.scheme, self.stepper()?);
-        let from = stepper.state().t;
-        check_times(from, end)?;
-        let count = count(&scheme, (end - from).to_f64());
-        let mut steps = TakenSteps::from(*stepper.state(), count.min(scheme.max_steps).min(RESERVED));
-        let ending = loop {
-            let done = steps.count();
-            let (last, next) = (stepper.state().t, if done + 1 == count { end } else { stepper.next_time() });
-            let time = last.to_f64();
-            if done == count {
-                break Ending::Complete { time };
-            }
-            if done >= scheme.max_steps {
-                break Ending::StepLimit { time, steps: done, pace: Pace::default() };
-            }
-            if next <= last {
-                break Ending::TimeTooCoarse { time, step: scheme.step };
-            }
-            match stepper.advance(next) {
-                Ok(step) => steps.push(step),
-                Err(error) => break Ending::of(error, time),
-            }
-            if let Err(ending) = report(&mut on_progress, [from, next, end], done + 1) {
-                break ending;
-            }
-        };
-        Ok(steps.finish(stepper.into_systems(), ending))
+    /// Those of [`stepper`](Self::stepper) and of the functions of events at the start; [`Error::MotionBackwards`] if `end` lies before the
+    /// start.
+    pub fn towards(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
+        let Self { system, start, events, on_progress, kept, .. } = self;
+        let method = TimeSteps(kept.crossing);
+        let mut run = method.run(system, start.into_state()?, end)?;
+        let closed = run.memory.stepper.closed().clone();
+        let mut events: Vec<_> = events.list().into_iter().map(EventInSteps).collect();
+        let mut stored = Stored::<_, _, _, true>::begin(&closed, &run.state, end, &mut events, on_progress)?;
+        let limits = Watchdog::new(Method::<L>::limits(&method), &run.statistics);
+        let driven = run.drive(&method, &limits, &mut stored);
+        let path = stored.finish(driven, run.statistics, Adjustment { q: zeros(), v: zeros() });
+        Ok(run.memory.finish(path.into_owned()))
     }
 }
 
-/// Number of steps over a span of time, the last of which may be shorter.
-fn count(scheme: &MoreauJean, span: f64) -> usize {
-    let steps = f64::max(span / scheme.step - LONGER, 0.0);
-    // Rounded up; `ceil` needs the standard library.
-    (steps as usize).saturating_add(usize::from(steps > steps as usize as f64))
+impl<'w, L, P, E> Builder<'_, 'w, L, P, E, SamplesAlone<'w, L>, MoreauJean>
+where
+    L: ForceDerivatives<Scalar: Real> + Clone,
+    E: EventList<DynEvent<'w, L>>,
+{
+    /// Moves to the time `end`, or to the first [terminal](crate::Event::terminal) event.
+    ///
+    /// # Errors
+    /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
+    pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error> {
+        self.towards(end)?.finished()
+    }
+
+    /// Moves towards the time `end`. If the motion fails on the way, the result holds what was recorded until then, and its
+    /// ending the reason.
+    ///
+    /// # Errors
+    /// Those of a motion by time steps that keeps them all; [`Error::SampleTime`], [`Error::OutsideTrajectory`] and
+    /// [`Error::Setting`] for samples that cannot be taken; those of the function of a quantity at the start.
+    pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error> {
+        let Self { system, start, events, on_progress, kept: AcrossContacts { mut kept, crossing }, .. } =
+            self;
+        kept.check()?;
+        let method = TimeSteps(crossing);
+        let mut run = method.run(system, start.into_state()?, end)?;
+        let closed = run.memory.stepper.closed().clone();
+        kept.steered = kept.steered.map(|(steering, _)| (steering, closed.clone()));
+        let events = events.list().into_iter().map(|event| Box::new(EventInSteps(event)) as Box<_>).collect();
+        let start = Sample::of(&closed, run.state).with(Some(Solution::unknown()));
+        kept.record(&mut run, &method, &start, (events, on_progress), end)
+    }
 }

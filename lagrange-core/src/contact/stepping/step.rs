@@ -7,7 +7,7 @@ use nalgebra::ComplexField;
 
 use super::MoreauJean;
 use super::middle::Middle;
-use super::trajectory::TimeStep;
+use super::time_step::TimeStep;
 use crate::cone::{ConeSearch, Face, dot, sqrt};
 use crate::contact::bodies::Bodies;
 use crate::contact::friction::bounds;

@@ -2,15 +2,14 @@
 
 use core::fmt::{self, Debug, Formatter};
 
-use super::Builder;
 use super::MoreauJean;
 use super::middle::Middle;
 use super::step::Steps;
-use super::trajectory::TimeStep;
+use super::time_step::TimeStep;
 use crate::contact::bodies::{Bodies, UNITS};
-use crate::contact::builder::Stepwise;
+use crate::contact::builder::{Builder, Stepwise};
 use crate::contact::{Contacts, ForceDerivatives, ImpactLaw};
-use crate::error::Error;
+use crate::error::{Ending, Error};
 use crate::names::name;
 use crate::number::{Real, Scalar};
 use crate::solution::Sample;
@@ -18,8 +17,11 @@ use crate::solution::solve::solve;
 use crate::system::StateOf;
 use crate::vector::Length;
 
+/// Part of a step by which the last one may be longer than the others, instead of one more.
+const LONGER: f64 = 1e-6;
+
 /// A motion across contacts that is taken step by step, for games and controllers. It remembers what stuck and slid: its steps equal those of
-/// [`to`](crate::MotionBuilder::to) to the last bit.
+/// [`to`](crate::MotionBuilder::to) to the last bit, and those of a controlled motion if it [steps to](Self::step_to) the times of the calls.
 ///
 /// ```
 /// use lagrange_core::contact::{Contact, MoreauJean};
@@ -53,39 +55,54 @@ pub struct ContactStepper<L: Contacts<Scalar: Real>> {
     done: usize,
 }
 
-impl<L: ForceDerivatives<Scalar: Real> + Clone, P, E: Stepwise> Builder<'_, '_, L, P, E> {
-    /// Begins a motion that is taken step by step. A progress callback is not called.
+impl<L: ForceDerivatives<Scalar: Real> + Clone, P, E, K> Builder<'_, '_, L, P, E, K, MoreauJean> {
+    /// Begins a motion that is taken step by step. A progress callback is not called, and limits do not count.
     ///
     /// # Errors
     /// [`Error::Setting`] and [`Error::Theta`] for settings that are not allowed; [`Error::ImpactLaw`] if a contact has Poisson's
     /// law of impact; those of [`solve`](crate::Simulate::solve) at the start; [`Error::Penetration`] if a gap is negative there,
     /// [`Error::NotProjected`] and [`Error::Inconsistent`] if a constraint does not hold, by more than what a step leaves.
-    pub fn stepper(self) -> Result<ContactStepper<L>, Error> {
+    pub fn stepper(self) -> Result<ContactStepper<L>, Error>
+    where
+        E: Stepwise,
+        K: Stepwise,
+    {
         let Self { system, start, kept, .. } = self;
-        let (state, scheme) = (start.into_state()?, kept.scheme);
+        ContactStepper::new(system, &start.into_state()?, kept.crossing)
+    }
+}
+
+impl<L: ForceDerivatives<Scalar: Real> + Clone> ContactStepper<L> {
+    pub(super) fn new(system: &L, state: &StateOf<L>, scheme: MoreauJean) -> Result<Self, Error> {
         scheme.check()?;
         let mut bodies = Bodies::new(system, 0.0);
         if let Some(k) = L::IMPACT_LAWS.iter().position(|&law| law == ImpactLaw::Poisson) {
             return Err(Error::ImpactLaw { contact: bodies.name(k) });
         }
-        solve(&bodies.open, &state)?;
-        bodies.passes(&state);
-        bodies.reaches(&state, L::Scalar::constant(scheme.step))?;
-        check_start(&bodies, &state, &scheme)?;
-        let steps = Steps::new(bodies, scheme, &state);
-        Ok(ContactStepper { steps, last: TimeStep::start(state), from: state.t, done: 0 })
+        solve(&bodies.open, state)?;
+        bodies.passes(state);
+        bodies.reaches(state, L::Scalar::constant(scheme.step))?;
+        check_start(&bodies, state, &scheme)?;
+        let steps = Steps::new(bodies, scheme, state);
+        Ok(Self { steps, last: TimeStep::start(*state), from: state.t, done: 0 })
     }
-}
 
-impl<L: ForceDerivatives<Scalar: Real> + Clone> ContactStepper<L> {
     /// Takes a step of the length of the scheme.
     ///
     /// # Errors
-    /// [`Error::StepTooLong`], [`Error::ImpulsesNotFound`], [`Error::ContactsContradict`]; those of numbers that are none. The
-    /// stepper stays at the end of the last step.
+    /// [`Error::StepTooLong`], [`Error::ImpulsesNotFound`], [`Error::ContactsContradict`]; those of numbers that are none;
+    /// [`Ending::TimeTooCoarse`] in [`Error::Unfinished`]. The stepper stays at the end of the last step.
     pub fn step(&mut self) -> Result<&TimeStep<L>, Error> {
-        let next = self.next_time();
+        let next = self.next_time()?;
         self.advance(next)
+    }
+
+    /// Takes a step of the length of the scheme, or one to the time `end` if that comes before, or after it by no more than [`LONGER`].
+    pub(super) fn step_towards(&mut self, end: L::Scalar) -> Result<&TimeStep<L>, Ending> {
+        let (time, next) = (self.last.state.t.to_f64(), self.next_time()?);
+        let longer = L::Scalar::constant(self.steps.settings.step * LONGER);
+        let taken = if next + longer < end { self.advance(next) } else { self.step_to(end) };
+        taken.map_err(|error| Ending::of(error, time))
     }
 
     /// Takes a step to this time, and counts those that follow from there.
@@ -104,15 +121,17 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> ContactStepper<L> {
     }
 
     /// Takes a step to this time, and counts it.
-    pub(super) fn advance(&mut self, time: L::Scalar) -> Result<&TimeStep<L>, Error> {
+    fn advance(&mut self, time: L::Scalar) -> Result<&TimeStep<L>, Error> {
         self.last = self.steps.step(&self.last.state, time)?;
         self.done += 1;
         Ok(&self.last)
     }
 
-    /// The end of the next step of the length of the scheme.
-    pub(super) fn next_time(&self) -> L::Scalar {
-        self.from + L::Scalar::constant(self.steps.settings.step * (self.done + 1) as f64)
+    /// The end of the next step of the length of the scheme, after the present time.
+    fn next_time(&self) -> Result<L::Scalar, Ending> {
+        let (now, step) = (self.last.state.t, self.steps.settings.step);
+        let next = self.from + L::Scalar::constant(step * (self.done + 1) as f64);
+        if next > now { Ok(next) } else { Err(Ending::TimeTooCoarse { time: now.to_f64(), step }) }
     }
 
     /// Returns the last step. Before the first, it has the start and no impulses.
@@ -128,7 +147,7 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> ContactStepper<L> {
     /// Returns the sample at the end of the last step, for queries by name: accelerations and multipliers are the means over the step, and
     /// NaN before the first. Its system has all contacts closed, so that their forces count.
     pub fn sample(&self) -> Sample<&L> {
-        Sample::of(&self.steps.bodies.closed, self.last.state).with(self.last.means)
+        Sample::of(self.closed(), self.last.state).with(Some(self.last.means))
     }
 
     /// Returns the system, with all contacts open.
@@ -140,13 +159,18 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> ContactStepper<L> {
     pub fn change(&mut self, change: impl FnOnce(&mut L)) {
         let mut system = self.system().clone();
         change(&mut system);
-        self.steps.bodies.take(&system);
+        self.take(&system);
+    }
+
+    /// Takes the parameters of this system from the next step on.
+    pub(super) fn take(&mut self, system: &L) {
+        self.steps.bodies.take(system);
         self.steps.is_changed = true;
     }
 
-    /// The system with all contacts open, and with all closed.
-    pub(super) fn into_systems(self) -> [L; 2] {
-        [self.steps.bodies.open, self.steps.bodies.closed]
+    /// The system with all contacts closed.
+    pub(super) fn closed(&self) -> &L {
+        &self.steps.bodies.closed
     }
 }
 

@@ -12,6 +12,7 @@ use crate::linearized::tangent::Tangent;
 use crate::motion::{AnyEvent, Event, EventFunction, EventValue};
 use crate::names::Entry;
 use crate::number::{Dual, Real, Scalar};
+use crate::solution::Sample;
 use crate::solution::solve::solve;
 use crate::system::lookup::index;
 use crate::system::{Direction, Solution, State, StateOf};
@@ -20,7 +21,7 @@ use crate::vector::{Entrywise, Length, zeros};
 /// State of a system over dual numbers: values, and their derivatives by one argument, for functions to be
 /// differentiated.
 ///
-/// Quantities have the names they have in a [`Sample`](crate::Sample): coordinates, velocities, accelerations,
+/// Quantities have the names they have in a [`Sample`]: coordinates, velocities, accelerations,
 /// multipliers and constraint forces. Parameters and captured numbers must be read with [`parameter`](Self::parameter)
 /// and [`number`](Self::number): values that the function captures, or reads from the system, are constants. [`Dual`]
 /// numbers have the mathematical functions of [`Scalar`].
@@ -188,9 +189,9 @@ where
     G: Fn(&DualSample<'_, L>) -> V,
     V: EventValue<Dual<L::Scalar>>,
 {
-    fn at(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
-        let still = ChangingState::along(state, Direction::zero());
-        Ok((self.0)(&DualSample::of(system, &still)).value()?.value)
+    fn at(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error> {
+        let still = ChangingState::along(sample.state(), Direction::zero());
+        Ok((self.0)(&DualSample::of(*sample.system(), &still)).value()?.value)
     }
 }
 

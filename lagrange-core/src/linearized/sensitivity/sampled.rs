@@ -15,6 +15,7 @@ use crate::motion::record::{Arrival, Record, RecordPlan};
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::motion::{DynEvent, MotionBuilder, SamplesAlone};
 use crate::number::Real;
+use crate::solution::Sample;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, StateOf};
@@ -111,7 +112,7 @@ fn integrate<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     let (course, memory) = Course::from(system, &run.state, start, method)?;
     let (arrival, course, before, samples) = {
         let lent = events.iter_mut().map(|event| -> Box<DynEvent<'_, L>> { Box::new(event) });
-        let record = Record::begin(plan, lent.collect(), None, system, &run.state, end)?;
+        let record = Record::begin(plan, lent.collect(), None, &Sample::of(system, run.state), end)?;
         let mut sampled = SampledAlong::<_, D> {
             system,
             ends: [run.state.t, end],

@@ -10,6 +10,8 @@ use super::memory::{CrossingDirection, EventState};
 use crate::error::Error;
 use crate::number::{Dual, Real};
 use crate::solution::Sample;
+#[cfg(feature = "alloc")]
+use crate::system::Solution;
 use crate::system::{Lagrangian, StateOf};
 
 /// A zero crossing of a function g of a motion, made by [`Simulate::event`](crate::Simulate::event).
@@ -187,7 +189,7 @@ impl<T> EventValue<T> for Result<T, Error> {
 pub trait EventFunction<L: Lagrangian> {
     /// Value of the function at a state.
     #[doc(hidden)]
-    fn at(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error>;
+    fn at(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error>;
 }
 
 impl<L, G, V> EventFunction<L> for G
@@ -197,8 +199,8 @@ where
     V: EventValue<L::Scalar>,
 {
     #[inline]
-    fn at(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
-        self(&Sample::of(system, *state)).value()
+    fn at(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error> {
+        self(sample).value()
     }
 }
 
@@ -210,9 +212,16 @@ where
     note = "make one by `system.event(\"name\", |sample| …)`, of the same system; a `Motion` takes `&mut [&mut event]`"
 )]
 pub trait AnyEvent<L: Lagrangian>: sealed::Sealed {
+    /// Value of the event's function for this sample.
+    #[doc(hidden)]
+    fn value_of(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error>;
+
     /// Value of the event's function at this state.
     #[doc(hidden)]
-    fn value(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error>;
+    #[inline]
+    fn value(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
+        self.value_of(&Sample::of(system, *state))
+    }
 
     /// Settings of the event, and the state of its search.
     #[doc(hidden)]
@@ -220,7 +229,13 @@ pub trait AnyEvent<L: Lagrangian>: sealed::Sealed {
 
     /// Stores the value of the function as sample `place` of the interval, unless the interval is already decided.
     #[doc(hidden)]
-    fn sample(&mut self, system: &L, state: &StateOf<L>, place: usize) -> Result<(), Error>;
+    #[inline]
+    fn sample(&mut self, system: &L, state: &StateOf<L>, place: usize) -> Result<(), Error> {
+        if !self.memory().is_known() {
+            self.memory().samples[place] = self.value(system, state)?;
+        }
+        Ok(())
+    }
 }
 
 /// A type-erased event.
@@ -243,6 +258,11 @@ macro_rules! watched_behind {
     ($pointer:ty) => {
         impl<L: Lagrangian, W: AnyEvent<L> + ?Sized> AnyEvent<L> for $pointer {
             #[inline]
+            fn value_of(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error> {
+                (**self).value_of(sample)
+            }
+
+            #[inline]
             fn value(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
                 (**self).value(system, state)
             }
@@ -264,6 +284,18 @@ watched_behind!(&mut W);
 #[cfg(feature = "alloc")]
 watched_behind!(Box<W>);
 
+impl<L: Lagrangian<Scalar: Real>, G: EventFunction<L>> Event<L, G> {
+    #[inline]
+    fn evaluate(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error> {
+        let value = self.function.at(sample)?;
+        // An infinite value has a sign, as at a pole.
+        match value.to_f64().is_nan() {
+            false => Ok(value),
+            true => Err(Error::EventNotFinite { event: self.memory.name, time: sample.time().to_f64() }),
+        }
+    }
+}
+
 impl<L, K, G> AnyEvent<L> for Event<K, G>
 where
     L: Lagrangian<Scalar: Real> + Borrow<K>,
@@ -271,26 +303,40 @@ where
     G: EventFunction<K>,
 {
     #[inline]
+    fn value_of(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error> {
+        self.evaluate(&sample.behind())
+    }
+
+    #[inline]
     fn value(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
-        let value = self.function.at(system.borrow(), state)?;
-        // An infinite value has a sign, as at a pole.
-        match value.to_f64().is_nan() {
-            false => Ok(value),
-            true => Err(Error::EventNotFinite { event: self.memory.name, time: state.t.to_f64() }),
-        }
+        self.evaluate(&Sample::of(system.borrow(), *state))
     }
 
     #[inline]
     fn memory(&mut self) -> &mut EventState<L::Scalar> {
         &mut self.memory
     }
+}
 
-    #[inline]
-    fn sample(&mut self, system: &L, state: &StateOf<L>, place: usize) -> Result<(), Error> {
-        if !self.memory.is_known() {
-            self.memory.samples[place] = AnyEvent::<L>::value(self, system, state)?;
-        }
-        Ok(())
+/// An event in a motion by time steps. Its function does not know accelerations and multipliers, which are means over a step.
+#[cfg(feature = "alloc")]
+pub(crate) struct EventInSteps<'e, L: Lagrangian>(pub(crate) Box<DynEvent<'e, L>>);
+
+#[cfg(feature = "alloc")]
+impl<L: Lagrangian> sealed::Sealed for EventInSteps<'_, L> {}
+
+#[cfg(feature = "alloc")]
+impl<L: Lagrangian<Scalar: Real>> AnyEvent<L> for EventInSteps<'_, L> {
+    fn value_of(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error> {
+        let value = self.0.value_of(&sample.with(Some(Solution::unknown())));
+        value.map_err(|error| match error {
+            Error::EventNotFinite { event, time } => Error::EventInTimeSteps { event, time },
+            error => error,
+        })
+    }
+
+    fn memory(&mut self) -> &mut EventState<L::Scalar> {
+        self.0.memory()
     }
 }
 

@@ -30,7 +30,8 @@ where
     pub(crate) fn at(&self, t: L::Scalar) -> Result<StateOf<L>, Error> {
         match t == self.after.t {
             true => Ok(*self.after),
-            false => F::project(self.system, &self.interpolant.at(t)),
+            false if I::IS_PROJECTED => F::project(self.system, &self.interpolant.at(t)),
+            false => Ok(F::state(self.system, &self.interpolant.at(t))),
         }
     }
 

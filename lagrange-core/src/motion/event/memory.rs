@@ -114,6 +114,14 @@ const SHORT: f64 = 1.0 / 67_108_864.0;
 /// accumulation.
 const ACCUMULATED: usize = 6;
 
+impl<T> EventState<T> {
+    /// True if the function crosses zero at most once on this interval.
+    #[inline]
+    pub(super) fn is_known(&self) -> bool {
+        self.view == View::Plain
+    }
+}
+
 impl<T: Real> EventState<T> {
     pub(super) fn new(name: &'static str) -> Self {
         let zero = T::constant(0.0);
@@ -257,12 +265,6 @@ impl<T: Real> EventState<T> {
             let before = self.density.map_or(needed, |density| density * T::constant(0.5));
             self.density = Some(larger(needed, before));
         }
-    }
-
-    /// True if the function crosses zero at most once on this interval.
-    #[inline]
-    pub(super) fn is_known(&self) -> bool {
-        self.view == View::Plain
     }
 
     /// Decides on the function by its samples of this degree, unless it is already decided.

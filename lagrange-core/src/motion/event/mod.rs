@@ -10,9 +10,9 @@ mod narrow;
 mod noise;
 mod search;
 
-#[cfg(feature = "alloc")]
-pub(crate) use definition::DynEvent;
 pub use definition::{AnyEvent, Event, EventFunction, EventValue};
+#[cfg(feature = "alloc")]
+pub(crate) use definition::{DynEvent, EventInSteps};
 pub(crate) use dense::DenseStep;
 #[cfg(feature = "alloc")]
 pub(crate) use noise::noise;

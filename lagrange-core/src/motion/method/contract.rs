@@ -10,7 +10,7 @@ use crate::number::Real;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State, StateOf};
+use crate::system::{Lagrangian, SolutionOf, State, StateOf};
 use crate::vector::{Element, Length};
 
 /// An integration method: a value with settings that proposes steps from one state to the next. Its bounds say to which
@@ -130,6 +130,13 @@ where
         memory: &Self::Memory,
         statistics: &mut Statistics,
     ) -> Option<MultiplierBounds<L::Scalar, L::M>> {
+        None
+    }
+
+    /// Returns the mean accelerations and multipliers of the last accepted step, if samples have these in the place of those of the equations.
+    #[doc(hidden)]
+    #[allow(unused_variables)]
+    fn means(&self, memory: &Self::Memory) -> Option<SolutionOf<L>> {
         None
     }
 

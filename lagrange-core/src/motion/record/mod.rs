@@ -20,7 +20,7 @@ use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State, StateOf};
+use crate::system::{Lagrangian, SolutionOf, State, StateOf};
 use crate::trajectory::Transition;
 use crate::vector::{Element, Length};
 
@@ -88,6 +88,8 @@ pub(crate) struct Record<'o, L: Lagrangian> {
     /// Ending at the start, if an event that is due there ends the motion.
     stopped: Option<Ending>,
     steering: Option<Steering<'o, L>>,
+    /// Accelerations and multipliers of samples, if they are not those of the equations.
+    given: Option<SolutionOf<L>>,
     start: L::Scalar,
     end: L::Scalar,
     /// Next time to reach: the end, or an earlier call of the controller.
@@ -102,12 +104,11 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
         plan: &'o RecordPlan<'o, L>,
         events: Vec<Box<DynEvent<'o, L>>>,
         steering: Option<Steering<'o, L>>,
-        system: &L,
-        start: &StateOf<L>,
+        start: &Sample<&L>,
         end: L::Scalar,
     ) -> Result<Self, Error> {
-        let mut record = Self::before_samples(plan, events, steering, system, start, end)?;
-        record.take_due(system, start)?;
+        let mut record = Self::before_samples(plan, events, steering, start, end)?;
+        record.take_due(start.system(), start.state())?;
         Ok(record)
     }
 
@@ -116,14 +117,13 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
         plan: &'o RecordPlan<'o, L>,
         mut events: Vec<Box<DynEvent<'o, L>>>,
         steering: Option<Steering<'o, L>>,
-        system: &L,
-        start: &StateOf<L>,
+        sample: &Sample<&L>,
         end: L::Scalar,
     ) -> Result<Self, Error> {
+        let (system, start) = (sample.system(), sample.state());
         plan.times.check_within([start.t, end])?;
         // Evaluate each quantity once, so that an unknown name is an error before the first step.
-        let sample = Sample::of(system, *start);
-        plan.quantities.iter().try_for_each(|(_, value)| value(&sample).map(drop))?;
+        plan.quantities.iter().try_for_each(|(_, value)| value(sample).map(drop))?;
         let mut crossings = Vec::new();
         let mut search = EventSearch::begin(&mut events, system, start)?;
         let (subdivisions, stopped) = (search.subdivisions, search.record_due(start, &mut crossings));
@@ -131,7 +131,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
         let (samples, values) =
             (Vec::with_capacity(count), Vec::with_capacity(count * plan.quantities.len()));
         let goal = if steering.is_some() { start.t } else { end };
-        let (start_time, calls) = (start.t, 0);
+        let (start_time, calls, given) = (start.t, 0, sample.given());
         Ok(Self {
             plan,
             samples,
@@ -141,6 +141,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
             subdivisions,
             stopped,
             steering,
+            given,
             start: start_time,
             end,
             goal,
@@ -162,7 +163,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
     }
 
     fn push(&mut self, system: &L, state: StateOf<L>) -> Result<(), Error> {
-        let (sample, before) = (Sample::of(system, state), self.values.len());
+        let (sample, before) = (Sample::of(system, state).with(self.given), self.values.len());
         for (_, value) in &self.plan.quantities {
             match value(&sample) {
                 Ok(value) => self.values.push(value),
@@ -368,10 +369,11 @@ where
     }
 
     #[inline(always)]
-    fn keep(&mut self, _: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
+    fn keep(&mut self, method: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
         if let (true, Some(interpolant)) = (const { HAS_DENSE_OUTPUT }, &self.within) {
             let (before, after, field) = (&run.before, &{ run.state }, PhantomData::<F>);
             let step = DenseStep { system: &*self.system, before, after, interpolant, field };
+            self.record.given = method.means(&run.memory);
             self.record.keep(&step, &mut run.state).map_or(Ok(()), Err)?;
         }
         (self.accept)(&run.state, run.statistics.accepted)

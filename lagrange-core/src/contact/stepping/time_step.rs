@@ -1,16 +1,10 @@
-//! Steps of a motion across contacts, and the trajectory that they make.
+//! A step of a motion across contacts.
 
-use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 
-use crate::contact::Contacts;
-use crate::error::{Ending, Error};
-use crate::names::name;
+use crate::error::Error;
 use crate::number::{Real, Scalar};
-use crate::solution::Adjustment;
-use crate::statistics::Statistics;
 use crate::system::{Lagrangian, Solution, SolutionOf, StateOf, lookup};
-use crate::trajectory::{Leg, Means, Path, Trajectory};
 use crate::vector::{Entrywise, Vector, zeros};
 
 /// A step of a motion: what is known at its end.
@@ -73,46 +67,5 @@ impl<L: Lagrangian> Debug for TimeStep<L> {
         let mut text = f.debug_struct("TimeStep");
         text.field("state", state).field("impulses", impulses);
         text.field("iterations", iterations).field("residual", residual).finish()
-    }
-}
-
-/// Steps of a motion so far.
-pub(super) struct TakenSteps<L: Lagrangian> {
-    /// States at their ends, the first of which is the start.
-    ends: Vec<StateOf<L>>,
-    means: Vec<SolutionOf<L>>,
-    statistics: Statistics,
-}
-
-impl<L: Contacts<Scalar: Real>> TakenSteps<L> {
-    /// Steps from this state, with memory for so many.
-    pub(super) fn from(start: StateOf<L>, count: usize) -> Self {
-        let mut ends = Vec::with_capacity(count + 1);
-        ends.push(start);
-        Self { ends, means: Vec::with_capacity(count), statistics: Statistics::default() }
-    }
-
-    pub(super) fn count(&self) -> usize {
-        self.means.len()
-    }
-
-    pub(super) fn push(&mut self, step: &TimeStep<L>) {
-        self.ends.push(step.state);
-        self.means.push(step.means);
-        self.statistics.accepted += 1;
-        self.statistics.evaluations += step.iterations;
-    }
-
-    pub(super) fn finish(self, [open, closed]: [L; 2], ending: Ending) -> Trajectory<L> {
-        let Self { ends, means: of_steps, statistics } = self;
-        let pushes =
-            |row: usize| of_steps.last().is_some_and(|last| last.multipliers[row] > L::Scalar::constant(0.0));
-        let pushing = L::CONTACTS.iter().filter(|&&row| pushes(row)).map(|&row| name(L::CONSTRAINTS, row));
-        let pushing = pushing.collect();
-        let leg = Leg::new(open, Path::linear(ends[0], ends), None);
-        let leg = leg.in_time_steps(Means { closed, of_steps });
-        let adjustment = Adjustment { q: zeros(), v: zeros() };
-        let path = Trajectory::of(leg, Vec::new(), ending, statistics, adjustment);
-        Trajectory { closed: pushing, ..path }
     }
 }

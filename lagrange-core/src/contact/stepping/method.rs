@@ -1,0 +1,133 @@
+//! Time steps as a method: the loop, the events and the records of all motions take them.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::stepper::ContactStepper;
+use super::{ForceDerivatives, MoreauJean};
+use crate::contact::Contacts;
+use crate::contact::builder::check_times;
+use crate::error::Error;
+use crate::motion::run::Run;
+use crate::motion::{Limits, Method, Step};
+use crate::names::name;
+use crate::number::{Real, Scalar};
+use crate::statistics::Statistics;
+use crate::system::{SolutionOf, StateOf};
+use crate::trajectory::{Chord, Trajectory};
+
+/// The scheme as a method, whose steps a [`ContactStepper`] takes. It is a type of its own: a motion takes the scheme by
+/// `by_time_stepping`, since states that time steps leave need not satisfy what other methods ask of a start.
+pub(super) struct TimeSteps(pub(super) MoreauJean);
+
+/// The steps of a motion so far.
+pub(super) struct TakenSteps<L: Contacts<Scalar: Real>> {
+    pub(super) stepper: ContactStepper<L>,
+    /// State before the last step.
+    before: StateOf<L>,
+    /// Mean accelerations and multipliers of each step whose dense output is stored.
+    means: Vec<SolutionOf<L>>,
+}
+
+impl TimeSteps {
+    /// Begins a motion to the time `end`.
+    pub(super) fn run<L: ForceDerivatives<Scalar: Real> + Clone>(
+        &self,
+        system: &L,
+        state: StateOf<L>,
+        end: L::Scalar,
+    ) -> Result<Run<L, Self>, Error> {
+        let mut statistics = Statistics::default();
+        let memory = self.begin(system, &state, &mut statistics)?;
+        check_times(state.t, end)?;
+        Ok(Run { memory, state, before: state, statistics })
+    }
+}
+
+impl<L: ForceDerivatives<Scalar: Real> + Clone> Method<L> for TimeSteps {
+    type Memory = TakenSteps<L>;
+    type Interpolant = Chord<L::Scalar, L::N>;
+
+    fn limits(&self) -> Limits {
+        self.0.limits
+    }
+
+    fn identify(&self, to: &mut dyn fmt::Write) -> fmt::Result {
+        write!(to, "{:?}", MoreauJean { limits: Limits::default(), ..self.0 })
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.0.check()
+    }
+
+    fn begin(&self, system: &L, start: &StateOf<L>, _: &mut Statistics) -> Result<TakenSteps<L>, Error> {
+        let stepper = ContactStepper::new(system, start, self.0)?;
+        Ok(TakenSteps { stepper, before: *start, means: Vec::new() })
+    }
+
+    fn resume(
+        &self,
+        system: &L,
+        memory: &mut TakenSteps<L>,
+        _: &StateOf<L>,
+        _: &mut Statistics,
+    ) -> Result<(), Error> {
+        memory.stepper.take(system);
+        Ok(())
+    }
+
+    fn step(
+        &self,
+        _: &L,
+        memory: &mut TakenSteps<L>,
+        end: L::Scalar,
+        statistics: &mut Statistics,
+    ) -> Step<L::Scalar, L::N> {
+        memory.before = *memory.stepper.state();
+        match memory.stepper.step_towards(end) {
+            Ok(step) => {
+                statistics.evaluations += step.iterations;
+                Step::Accepted(step.state)
+            }
+            Err(ending) => Step::Failed(ending),
+        }
+    }
+
+    fn interpolant(
+        &self,
+        _: &L,
+        memory: &mut TakenSteps<L>,
+        _: &mut Statistics,
+    ) -> Result<Self::Interpolant, Error> {
+        Ok(Chord([memory.before, *memory.stepper.state()]))
+    }
+
+    fn push_interpolant(
+        &self,
+        system: &L,
+        memory: &mut TakenSteps<L>,
+        statistics: &mut Statistics,
+        to: &mut Vec<Self::Interpolant>,
+    ) -> Result<(), Error> {
+        to.push(self.interpolant(system, memory, statistics)?);
+        memory.means.extend(self.means(memory));
+        Ok(())
+    }
+
+    fn means(&self, memory: &TakenSteps<L>) -> Option<SolutionOf<L>> {
+        Some(memory.stepper.last().means)
+    }
+}
+
+impl<L: ForceDerivatives<Scalar: Real> + Clone> TakenSteps<L> {
+    /// Gives the trajectory of these steps their means, and the names of the contacts that push in the last one.
+    pub(super) fn finish(self, mut path: Trajectory<L>) -> Trajectory<L> {
+        let leg = path.legs.pop().map(|leg| leg.in_time_steps(self.stepper.system().clone(), self.means));
+        path.legs.extend(leg);
+        let last = path.end().given();
+        let pushes = |row: usize| last.is_some_and(|of| of.multipliers[row] > L::Scalar::constant(0.0));
+        let pushing = L::CONTACTS.iter().filter(|&&row| pushes(row)).map(|&row| name(L::CONSTRAINTS, row));
+        path.closed = pushing.collect();
+        path
+    }
+}
