@@ -13,7 +13,7 @@ use crate::error::{Error, Row};
 use crate::names::name;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
-use crate::vector::{Entrywise, Length, Vector};
+use crate::vector::{Array, Entrywise, Length, Vector, vector};
 
 /// Gaps and residuals of constraints count as zero up to this part of what the free bodies move in a step: a hundred times what
 /// velocities whose residual is the default tolerance move them, so that contacts at rest stay closed.
@@ -144,11 +144,18 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Middle<L> {
         after.iter().zip(self.state.v.iter()).map(|(after, before)| (*after - *before).to_f64()).collect()
     }
 
-    /// Changes of the velocities without impulses, in coordinates of kinetic energy: that by `pull`, and that up to these velocities.
-    pub(super) fn free_change(&self, about: &Vector<L::Scalar, L::N>, pull: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    /// Change of the velocities by `pull` without impulses, in coordinates of kinetic energy.
+    pub(super) fn free_change(&self, pull: &[f64]) -> Vec<f64> {
         let mut own = pull.to_vec();
         self.inertia.factor.solve_lower(&mut own);
-        (own, self.inertia.factor.coordinates(&self.change(about)))
+        own
+    }
+
+    /// The velocities after this change of them, in coordinates of kinetic energy.
+    pub(super) fn velocities(&self, change: &[f64]) -> Vector<L::Scalar, L::N> {
+        let mut v = change.to_vec();
+        self.inertia.factor.solve_upper(&mut v);
+        self.state.v.plus(&vector(Array::from_fn(|i| L::Scalar::constant(v[i]))))
     }
 
     /// The largest part of a momentum, in units of the root of an energy, by which the balance is off but for round-off of momenta, relative to the

@@ -1,6 +1,7 @@
 //! Steps of one length across contacts, for many of them: neither impacts nor other transitions are located, and impulses take the
 //! place of forces.
 
+mod acceleration;
 mod correction;
 mod forces;
 mod method;
@@ -81,10 +82,14 @@ assert!(lower > upper && (upper + lower - 2.0 * 9.81 * block.alpha.cos()).abs() 
 /// # Forces and impulses, and by what bound they are found
 ///
 /// Forces that are linear in coordinates and velocities, as of springs and dampers, act with the whole mass matrix M + θ h C + θ² h² K, where
-/// C = −∂f/∂v and K = −∂f/∂q: a wheel of 20 kg below a spring of 40 kN/m and a damper of 4 kN s/m rests and rolls with steps of 1/60 s. Of
-/// other forces, this is done with the symmetric part of the derivatives at the start of the step, and repeated until the balance of
+/// C = −∂f/∂v and K = −∂f/∂q are symmetric: a wheel of 20 kg below a spring of 40 kN/m and a damper of 4 kN s/m rests and rolls with steps of 1/60 s.
+/// Of other forces, this is done with the symmetric part of the derivatives at the start of the step, and repeated until the balance of
 /// momentum is off by no more than the tolerance times its largest term. What it is off by, as a part of that term, is the
 /// [residual](TimeStep::residual) of the step. A step that does not reach the tolerance ends the motion with [`Error::StepTooLong`].
+///
+/// The iteration is accelerated (Anderson 1965; Walker and Ni, *SIAM Journal on Numerical Analysis* 49, 2011). Magnetic and gyroscopic forces, which
+/// are linear in the velocities and do no work, take some five iterations, and two or three more for each further rate at which they turn
+/// bodies, however far that is in a step. Beside contacts with friction, a step in which they turn a velocity by more than a right angle may be too long.
 ///
 /// Each time, the impulses satisfy the law of contacts to round-off, as from impact to impact. Those of a step begin with what
 /// stuck and slid in the one before. If none are found, [`Error::ImpulsesNotFound`] or [`Error::ContactsContradict`] ends the motion, and

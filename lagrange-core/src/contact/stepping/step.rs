@@ -2,10 +2,12 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
+use core::mem::{discriminant, replace, take};
 
 use nalgebra::ComplexField;
 
 use super::MoreauJean;
+use super::acceleration::Acceleration;
 use super::middle::Middle;
 use super::time_step::TimeStep;
 use crate::cone::{ConeSearch, Face, dot, sqrt};
@@ -48,12 +50,12 @@ enum Hold {
 }
 
 /// What impulses do within a step.
-struct Kicked<L: Contacts<Scalar: Real>> {
-    /// Velocities after them.
-    after: Vector<L::Scalar, L::N>,
+struct Kicked {
+    /// Change of the velocities, in coordinates of kinetic energy.
+    change: Vec<f64>,
     /// Impulse of each constraint.
     impulses: Vec<f64>,
-    /// By what the law of contacts is off.
+    /// By what the law of contacts is off, or the balance of momentum if that is more.
     residual: f64,
 }
 
@@ -72,33 +74,57 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Steps<L> {
     pub(super) fn step(&mut self, from: &StateOf<L>, end: L::Scalar) -> Result<TimeStep<L>, Error> {
         self.bodies.passes(from);
         let mut middle = Middle::of(&self.bodies, from, end - from.t, self.settings.theta)?;
-        if core::mem::take(&mut self.is_changed) {
+        if take(&mut self.is_changed) {
             middle.crossed(from, self.longest).map_or(Ok(()), Err)?;
         }
         self.longest = self.longest.max(middle.lengths[0]);
-        let mut pull = middle.pull(&self.bodies, &from.v);
-        if let Some(i) = pull.iter().position(|pull| !pull.is_finite()) {
-            let row = Row::Coordinate(L::COORDINATES[i]);
-            return Err(Error::EquationsNotFinite { row, time: from.t.to_f64() });
-        }
-        let mut holds = self.holds(&middle)?;
-        let (mut after, mut residual, mut iterations) = (from.v, 0.0, 0);
+        let pull = middle.pull(&self.bodies, &from.v);
+        check_finite::<L>(|i| pull[i].is_finite(), from.t)?;
+        let (Kicked { change, impulses, residual }, iterations) =
+            self.balance(&mut middle, pull, from.t.to_f64())?;
+        let (impulses, residual) =
+            (vector(Array::from_fn(|a| L::Scalar::constant(impulses[a]))), L::Scalar::constant(residual));
+        let state = self.drift_on(&middle, middle.velocities(&change), end)?;
+        self.take_sticking(&middle);
+        let means = TimeStep::<L>::means([from, &state], &impulses);
+        Ok(TimeStep { state, impulses, iterations, residual, means })
+    }
+
+    /// Finds impulses until they and the forces balance the momenta, in a step from this time. Contacts whose gaps would then be
+    /// negative in the middle of the next step join in. Returns how often impulses were found, too.
+    fn balance(
+        &mut self,
+        middle: &mut Middle<L>,
+        mut pull: Vec<f64>,
+        time: f64,
+    ) -> Result<(Kicked, usize), Error> {
+        let (mut holds, mut acceleration) = (self.holds(middle)?, Acceleration::default());
+        let (mut about, mut residual, mut iterations) = (vec![0.0; <L::N>::COUNT], 0.0, 0);
         while iterations < self.settings.max_iterations && f64::is_finite(residual) {
-            iterations += 1;
-            let kicked = self.kick(&mut middle, &mut holds, &after, &pull)?;
-            after = kicked.after;
-            pull = middle.pull(&self.bodies, &after);
-            residual = middle.residual(&pull, &after, &kicked.impulses);
-            if residual <= self.settings.tolerance {
-                let impulses = vector(Array::from_fn(|a| L::Scalar::constant(kicked.impulses[a])));
-                let residual = L::Scalar::constant(residual.max(kicked.residual));
-                let state = self.drift_on(&middle, after, end)?;
-                self.take_sticking(&middle);
-                let means = TimeStep::<L>::means([from, &state], &impulses);
-                return Ok(TimeStep { state, impulses, iterations, residual, means });
+            let before: Vec<_> = self.faces.iter().map(discriminant).collect();
+            let kicked = self.kick(middle, &mut holds, &about, &pull)?;
+            let after = middle.velocities(&kicked.change);
+            let left = middle.pull(&self.bodies, &after);
+            residual = middle.residual(&left, &after, &kicked.impulses);
+            let is_balanced = residual <= self.settings.tolerance;
+            if is_balanced && !middle.joins(&after) {
+                let residual = residual.max(kicked.residual);
+                return Ok((Kicked { residual, ..kicked }, iterations + 1));
+            }
+            if is_balanced || !self.faces.iter().map(discriminant).eq(before) {
+                acceleration = Acceleration::default();
+            }
+            if !is_balanced {
+                iterations += 1;
+                about = acceleration.next(about, &kicked.change);
+                pull = middle.pull(&self.bodies, &middle.velocities(&about));
+                // Forces need not be numbers beyond the velocities that have been found.
+                if !pull.iter().all(|pull| pull.is_finite()) {
+                    (about, pull) = (kicked.change, left);
+                }
             }
         }
-        Err(Error::StepTooLong { residual, iterations, time: from.t.to_f64() })
+        Err(Error::StepTooLong { residual, iterations, time })
     }
 
     /// The end of a step, where no gap is negative and the constraints hold.
@@ -112,37 +138,31 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Steps<L> {
         let q = middle.state.q.plus(&after.each(|v| v * second));
         let mut state = StateOf::<L> { t: end, q, v: after };
         middle.correct(&self.bodies, &mut state)?;
-        check_finite::<L>(&state)?;
+        check_finite::<L>(|i| state.q[i].is_finite() && state.v[i].is_finite(), end)?;
         Ok(state)
     }
 
-    /// Impulses with forces that are linear in the velocities about these, where the balance of momentum lacks `pull`. Contacts whose
-    /// gaps would be negative in the middle of the next step join in.
+    /// Impulses of the contacts that act, with forces that are linear in the velocities about those after this change, where the balance of
+    /// momentum lacks `pull`.
     fn kick(
         &mut self,
-        middle: &mut Middle<L>,
+        middle: &Middle<L>,
         holds: &mut [Hold],
-        about: &Vector<L::Scalar, L::N>,
+        about: &[f64],
         pull: &[f64],
-    ) -> Result<Kicked<L>, Error> {
-        let (own, so_far) = middle.free_change(about, pull);
-        let free: Vec<f64> = own.iter().zip(&so_far).map(|(own, so_far)| own + so_far).collect();
-        loop {
-            let rows = middle.rows();
-            let found = self.decide(middle, &rows, holds, &free)?;
-            let add = |to: &[f64]| found.change.iter().zip(to).map(|(x, y)| x + y).collect::<Vec<f64>>();
-            let after = middle.state.v.plus(&rows.velocities(&add(&free)));
-            let step = add(&own);
-            self.faces.fill(Face::Stick);
-            let mut impulses = vec![0.0; <L::M>::COUNT];
-            for (place, &a) in rows.all.iter().enumerate() {
-                self.faces[a] = found.faces[place];
-                impulses[a] = found.forces[place] - middle.inertia.along[a] * rows.along(place, &step);
-            }
-            if !middle.joins(&after) {
-                return Ok(Kicked { after, impulses, residual: found.residual });
-            }
+    ) -> Result<Kicked, Error> {
+        let own = middle.free_change(pull);
+        let add = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x + y).collect::<Vec<f64>>();
+        let (free, rows) = (add(&own, about), middle.rows());
+        let found = self.decide(middle, &rows, holds, &free)?;
+        let (change, step) = (add(&found.change, &free), add(&found.change, &own));
+        self.faces.fill(Face::Stick);
+        let mut impulses = vec![0.0; <L::M>::COUNT];
+        for (place, &a) in rows.all.iter().enumerate() {
+            self.faces[a] = found.faces[place];
+            impulses[a] = found.forces[place] - middle.inertia.along[a] * rows.along(place, &step);
         }
+        Ok(Kicked { change, impulses, residual: found.residual })
     }
 
     /// Takes note of the friction that sticks at the end of a step.
@@ -192,7 +212,7 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Steps<L> {
                     (Hold::Trial, Face::Slide(_)) => Hold::SlidingBack,
                     (hold, _) => hold,
                 };
-                is_decided &= next == core::mem::replace(&mut holds[f], next);
+                is_decided &= next == replace(&mut holds[f], next);
             }
             if is_decided {
                 return Ok(found);
@@ -247,13 +267,14 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Steps<L> {
     }
 }
 
-/// Checks that a step ends at a state of numbers.
-fn check_finite<L: Contacts<Scalar: Real>>(state: &StateOf<L>) -> Result<(), Error> {
-    let is_finite = |i: usize| state.q[i].is_finite() && state.v[i].is_finite();
-    match (0..<L::N>::COUNT).find(|&i| !is_finite(i)) {
-        None => Ok(()),
-        Some(i) => {
-            Err(Error::EquationsNotFinite { row: Row::Coordinate(L::COORDINATES[i]), time: state.t.to_f64() })
-        }
-    }
+/// Fails by the name of the first coordinate whose equation is not finite at this time.
+fn check_finite<L: Contacts<Scalar: Real>>(
+    is_finite: impl Fn(usize) -> bool,
+    time: L::Scalar,
+) -> Result<(), Error> {
+    let wrong = (0..<L::N>::COUNT).find(|&i| !is_finite(i));
+    wrong.map_or(Ok(()), |i| {
+        let row = Row::Coordinate(L::COORDINATES[i]);
+        Err(Error::EquationsNotFinite { row, time: time.to_f64() })
+    })
 }
