@@ -99,6 +99,8 @@ assert!(lower > upper && (upper + lower - 2.0 * 9.81 * block.alpha.cos()).abs() 
 ///
 /// - The order is 1: an impact acts up to a step too early or late. Between impacts the order is 2 with θ = ½ and without
 ///   constraints, whose velocities are projected onto them within a step and do not satisfy them at its end.
+/// - The impulses of constraints and of contacts that curve turn the velocities from within the step before to within this one. In a step of the
+///   length h after one of the length h⁻, they have (1 + h⁻/h)/2 times the force of this turn as a mean: take multipliers from steps of one length.
 /// - What rests is at rest exactly, with any step: the forces of a body that does not move are those of its place.
 /// - Gaps are never below zero at the end of a step, but for round-off and a millionth of what the free bodies fall in a
 ///   step; up to that size they count as closed. What ends a step can start another motion.
