@@ -31,7 +31,7 @@ impl<L: Lagrangian> Debug for SamplesAlone<'_, L> {
 }
 
 impl<'w, L: Lagrangian<Scalar: Real>> SamplesAlone<'w, L> {
-    /// Checks the conditions that do not depend on start and end.
+    /// Checks the sample times and the interval of the controller, as far as they do not depend on start and end.
     pub(crate) fn check(&self) -> Result<(), Error> {
         self.plan.check()?;
         self.steered.as_ref().map_or(Ok(()), |(steering, _)| steering.check())

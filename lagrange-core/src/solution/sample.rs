@@ -153,7 +153,8 @@ impl<S: Lagrangian<Scalar: Real>> Sample<S> {
     }
 
     /// Returns the multiplier λ of the constraint of this name. If constraints depend on one another, as
-    /// [`Solution::multipliers_are_unique`](crate::Solution::multipliers_are_unique) tells, the multipliers are those of least Euclidean norm.
+    /// [`Solution::multipliers_are_unique`](crate::Solution::multipliers_are_unique) tells, the multipliers are
+    /// those of least norm in units in which masses are 1 and the rows of F have length 1.
     ///
     /// # Errors
     /// [`Error::UnknownName`], and those of [`solution`](Self::solution).

@@ -19,8 +19,8 @@ use crate::number::{Broadcast, Scalar};
 use crate::system::{Lagrangian, Solution, SolutionOf, StateOf};
 use crate::vector::{Array, Element, Length, Vector, array, vector, zeros};
 
-/// Where the numbers of a constraint are. They are the entries of F in its columns, those of B if they differ, and then the diagonal
-/// entry of c, its entry beside the diagonal, the weight σ with which the constraint completes M, and γ.
+/// Place of a constraint's numbers in the array of all rows. Its row of F comes first, then its row of B if that differs, then the diagonal
+/// entry of c, the entry of c beside the diagonal, the weight σ with which the constraint completes M, and γ.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstraintRow {
     /// Index of the constraint.
@@ -102,7 +102,7 @@ pub trait Switched: Lagrangian {
     /// other friction, or what one field switches.
     const GROUPS: &'static [&'static [ConstraintRow]];
 
-    /// False if the field of a group switches all its constraints off: their multipliers are zero.
+    /// Returns false if the field of a group switches all its constraints off, so that their multipliers are zero.
     fn may_hold(&self, group: usize) -> bool;
 
     /// Stores the numbers of a group.

@@ -188,7 +188,7 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
     }
 
     /// True if the constraints were independent throughout. If not, the motion is still correct, and the
-    /// multipliers are those of least Euclidean norm. Time steps do not examine it: theirs are shared as if all contacts were equally stiff.
+    /// multipliers are those of least norm in units in which masses are 1 and the rows of F have length 1. Time steps do not examine it: theirs are shared as if all contacts were equally stiff.
     pub fn multipliers_are_unique(&self) -> bool {
         self.statistics.multipliers_are_unique
     }

@@ -4,10 +4,7 @@ use alloc::vec::Vec;
 
 use crate::cone::{dot, sqrt};
 
-/// Part of a difference that must be left beside those before it: less of it is round-off.
-const NEW: f64 = 1e-6;
-
-/// Iterates so far, in coordinates of kinetic energy.
+/// Starts and results of the iterations so far, from which the next start is extrapolated. Velocities are in units in which the mass matrix is 1.
 ///
 /// The iteration is an affine map while forces are linear in the velocities and the same contacts push, stick and slide. Its acceleration is
 /// then equivalent to GMRES (Walker and Ni, *SIAM Journal on Numerical Analysis* 49, 2011), and converges even where the map does not
@@ -36,7 +33,8 @@ impl Acceleration {
         let changed = sqrt(dot(&difference[1], &difference[1]));
         let rest = self.differences.iter().fold(difference, without);
         let left = sqrt(dot(&rest[1], &rest[1]));
-        if left > NEW * changed {
+        // Of a difference that those before explain to half of the digits, less than half of the rest is right.
+        if left > sqrt(f64::EPSILON) * changed {
             self.differences.push(rest.map(|half| half.iter().map(|x| x / left).collect()));
         }
     }

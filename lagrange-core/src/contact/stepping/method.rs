@@ -1,4 +1,4 @@
-//! Time steps as a method: the loop, the events and the records of all motions take them.
+//! The scheme of Moreau and Jean as a [`Method`], which shares the loop over steps, the search for events and the records with the others.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -16,8 +16,8 @@ use crate::statistics::Statistics;
 use crate::system::{SolutionOf, StateOf};
 use crate::trajectory::{Chord, Trajectory};
 
-/// The scheme as a method, whose steps a [`ContactStepper`] takes. It is a type of its own: a motion takes the scheme by
-/// `by_time_stepping`, since states that time steps leave need not satisfy what other methods ask of a start.
+/// The scheme as a method, whose steps a [`ContactStepper`] takes. It is private: a motion takes the scheme by
+/// `by_time_stepping`, since the end of a time step need not satisfy the conditions on the start of other motions.
 pub(super) struct TimeSteps(pub(super) MoreauJean);
 
 /// The steps of a motion so far.

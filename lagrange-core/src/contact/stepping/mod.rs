@@ -1,5 +1,4 @@
-//! Steps of one length across contacts, for many of them: neither impacts nor other transitions are located, and impulses take the
-//! place of forces.
+//! Motions with many contacts in steps of one length: impacts and other transitions are not located, and contacts act by impulses.
 
 mod acceleration;
 mod correction;
@@ -237,8 +236,8 @@ where
     /// [`Error::ContactsContradict`].
     ///
     /// # Errors
-    /// Those of [`stepper`](Self::stepper) and of the functions of events at the start; [`Error::MotionBackwards`] if `end` lies before the
-    /// start.
+    /// The errors of [`stepper`](Self::stepper), and of the functions of events at the start; [`Error::MotionBackwards`] if `end` lies before
+    /// the start.
     pub fn towards(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
         let Self { system, start, events, on_progress, kept, .. } = self;
         let method = TimeSteps(kept.crossing);
@@ -270,8 +269,8 @@ where
     /// ending the reason.
     ///
     /// # Errors
-    /// Those of a motion by time steps that keeps them all; [`Error::SampleTime`], [`Error::OutsideTrajectory`] and
-    /// [`Error::Setting`] for samples that cannot be taken; those of the function of a quantity at the start.
+    /// The errors of a motion by time steps that keeps all steps; [`Error::SampleTime`], [`Error::OutsideTrajectory`] and
+    /// [`Error::Setting`] for samples that cannot be taken; errors of the function of a quantity at the start.
     pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error> {
         let Self { system, start, events, on_progress, kept: AcrossContacts { mut kept, crossing }, .. } =
             self;

@@ -90,8 +90,8 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Steps<L> {
         Ok(TimeStep { state, impulses, iterations, residual, means })
     }
 
-    /// Finds impulses until they and the forces balance the momenta, in a step from this time. Contacts whose gaps would then be
-    /// negative in the middle of the next step join in. Returns how often impulses were found, too.
+    /// Iterates over forces and impulses until they balance the change of the momenta in a step from this time. A contact whose gap would be
+    /// negative in the middle of the next step is added. Returns the impulses and the number of iterations.
     fn balance(
         &mut self,
         middle: &mut Middle<L>,
@@ -118,10 +118,6 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Steps<L> {
                 iterations += 1;
                 about = acceleration.next(about, &kicked.change);
                 pull = middle.pull(&self.bodies, &middle.velocities(&about));
-                // Forces need not be numbers beyond the velocities that have been found.
-                if !pull.iter().all(|pull| pull.is_finite()) {
-                    (about, pull) = (kicked.change, left);
-                }
             }
         }
         Err(Error::StepTooLong { residual, iterations, time })

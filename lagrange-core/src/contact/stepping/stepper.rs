@@ -90,7 +90,7 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> ContactStepper<L> {
     /// Takes a step of the length of the scheme.
     ///
     /// # Errors
-    /// [`Error::StepTooLong`], [`Error::ImpulsesNotFound`], [`Error::ContactsContradict`]; those of numbers that are none;
+    /// [`Error::StepTooLong`], [`Error::ImpulsesNotFound`], [`Error::ContactsContradict`]; [`Error::EquationsNotFinite`];
     /// [`Ending::TimeTooCoarse`] in [`Error::Unfinished`]. The stepper stays at the end of the last step.
     pub fn step(&mut self) -> Result<&TimeStep<L>, Error> {
         let next = self.next_time()?;

@@ -9,8 +9,8 @@ use crate::resolve::{Entry, FrictionRows, Problem, Switch, SwitchReading};
 use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
 
-/// Largest number of coordinates for which a row has an entry for each of them: a loop over such a row has a constant length and needs no
-/// indices. The accelerations of a block on a floor take 70 ns then, and 160 by indices.
+/// Largest number of coordinates for which a row of F stores its zeros, too. Loops over such rows have a constant length and no
+/// indices: the accelerations of a block on a floor take 70 ns, and 160 ns by rows with indices.
 const DENSE: usize = 12;
 
 /// Equations of motion in parts.
@@ -44,8 +44,8 @@ pub(crate) struct Row {
     pub(crate) jacobian: Vec<Id>,
     /// Entries of B, which has forces of friction that slides beside those of F; `None` if it is F.
     pub(crate) push: Option<Vec<Id>>,
-    /// In F q̈ + γ + c λ = 0: the diagonal entry of c, zero where the constraint holds, else one; the entry of c in the column of the
-    /// first row of the group; the weight σ with which the constraint completes M; γ.
+    /// Four numbers of the row F q̈ + γ + c λ = 0: the diagonal entry of c, which is 0 where the constraint holds and else 1; the entry of c in
+    /// the column of the first row of the group; the weight σ with which the constraint completes M; and γ.
     pub(crate) numbers: [Id; 4],
 }
 
