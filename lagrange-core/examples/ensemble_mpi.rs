@@ -3,7 +3,7 @@
 //! ```text
 //! apt-get install libopenmpi-dev openmpi-bin libclang-dev
 //! cargo build --release -p lagrange-core --features mpi --example ensemble_mpi
-//! mpirun -n 4 target/release/examples/ensemble_mpi 100000 rows.csv
+//! mpirun -n 4 target/release/examples/ensemble_mpi 100000 rows.jsonl
 //! ```
 //!
 //! Rank 0 appends the row of each member to the file as it is done. Killed and started again, it does what is not in the file
@@ -89,7 +89,7 @@ fn with_file(
     let mut rows = File::options().append(true).create(true).open(file)?;
     let (mut written, started) = (Ok(()), Instant::now());
     let pendulums = pendulums.resume(&known)?.on_progress(|progress| {
-        written = rows.write_all(progress.member.csv().to_string().as_bytes());
+        written = rows.write_all(progress.member.json_line().to_string().as_bytes());
         if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     let outcome = run(pendulums)?;
@@ -97,7 +97,7 @@ fn with_file(
     let Some(outcome) = outcome else { return Ok(()) };
     // In order, and without what a kill has left of rows.
     let cleaned = format!("{file}.cleaned");
-    write(&cleaned, outcome.csv().to_string())?;
+    write(&cleaned, outcome.json_lines().to_string())?;
     rename(&cleaned, file)?;
     let (done, failed) = (outcome.members().len(), outcome.failures().count());
     println!("{done} members, {failed} failures; the energy is off by {:e}", off(&outcome)?);

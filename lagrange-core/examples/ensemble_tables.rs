@@ -1,13 +1,13 @@
 //! Springs with samples, quantities and crossings, in a table that survives a kill.
 //!
 //! ```text
-//! cargo run --release -p lagrange-core --features rayon,parquet --example ensemble_tables -- 100000 FOLDER csv
+//! cargo run --release -p lagrange-core --features rayon,parquet --example ensemble_tables -- 100000 FOLDER json
 //! cargo run --release -p lagrange-core --features rayon,parquet --example ensemble_tables -- 100000 FOLDER parquet
 //! ```
 //!
-//! Members are appended to `FOLDER/rows.csv`, or to files in `FOLDER/parquet`, as they are done. Killed and started again, the program
-//! does what is not in the table yet. In the end it writes all that it knows of the members to `FOLDER/csv.csv` or
-//! `FOLDER/parquet.csv`. `.ci/tables` compares these, kills, and reads the tables with polars and pandas.
+//! Members are appended to `FOLDER/rows.jsonl`, or to files in `FOLDER/parquet`, as they are done. Killed and started again, the program
+//! does what is not in the table yet. In the end it writes all that it knows of the members to `FOLDER/json.jsonl` or
+//! `FOLDER/parquet.jsonl`. `.ci/tables` compares these, kills, and reads the tables with polars and pandas.
 
 use std::error::Error;
 use std::fs::{File, create_dir_all, read_to_string, write};
@@ -49,12 +49,12 @@ fn springs<'a>(count: usize) -> Springs<'a> {
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [count, folder, kind] = &arguments[..] else {
-        return Err("usage: ensemble_tables COUNT FOLDER csv|parquet".into());
+        return Err("usage: ensemble_tables COUNT FOLDER json|parquet".into());
     };
     let (springs, folder) = (springs(count.parse()?), Path::new(folder));
     create_dir_all(folder)?;
-    let outcome = if kind == "csv" { with_csv(springs, folder)? } else { with_parquet(springs, folder)? };
-    write(folder.join(format!("{kind}.csv")), outcome.csv().to_string())?;
+    let outcome = if kind == "json" { with_json(springs, folder)? } else { with_parquet(springs, folder)? };
+    write(folder.join(format!("{kind}.jsonl")), outcome.json_lines().to_string())?;
     let all = outcome.members().iter().filter_map(|member| member.arrival());
     let kept = all.fold([0; 2], |[s, c], arrival| [s + arrival.samples.len(), c + arrival.crossings.len()]);
     println!("{} members, {} failures", outcome.members().len(), outcome.failures().count());
@@ -72,8 +72,8 @@ fn integrate(springs: Springs<'_>, since: Instant) -> Result<Outcome<f64, Const<
     Ok(outcome)
 }
 
-fn with_csv(springs: Springs<'_>, folder: &Path) -> Result<Outcome<f64, Const<1>>> {
-    let (file, since) = (folder.join("rows.csv"), Instant::now());
+fn with_json(springs: Springs<'_>, folder: &Path) -> Result<Outcome<f64, Const<1>>> {
+    let (file, since) = (folder.join("rows.jsonl"), Instant::now());
     let known = match read_to_string(&file) {
         Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
         known => known?,
@@ -81,7 +81,7 @@ fn with_csv(springs: Springs<'_>, folder: &Path) -> Result<Outcome<f64, Const<1>
     let mut rows = File::options().append(true).create(true).open(file)?;
     let mut written = Ok(());
     let springs = springs.resume(&known)?.on_progress(|progress| {
-        written = rows.write_all(progress.member.csv().to_string().as_bytes());
+        written = rows.write_all(progress.member.json_line().to_string().as_bytes());
         if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     let outcome = integrate(springs, since)?;

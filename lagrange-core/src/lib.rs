@@ -140,14 +140,17 @@ println!("{}", path.csv(50).energy());
 //! - `alloc`: trajectories and Taylor series need it; without it, motions advance step by step.
 //! - `libm`: elementary functions for programs without `std`.
 //! - `rayon`: ensembles on all threads.
-//! - `mpi`: ensembles on many machines.
-//! - `parquet`: tables of ensembles as Parquet files.
+//! - `tables`: tables of ensembles as JSON lines, and ensembles that resume from them; turns on `serde`.
+//! - `parquet`: tables of ensembles as Parquet files too.
+//! - `mpi`: ensembles on many machines; turns on `tables`, since rows travel as JSON lines.
 //! - `serde`: serializes states, solutions, records of trajectories and endings, and deserializes those without
 //!   names. Numbers survive JSON to the last bit only with
 //!   `serde_json = { version = "1", features = ["float_roundtrip"] }`.
 #![cfg_attr(not(feature = "std"), no_std)]
 // Makes docs.rs show which feature an item needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
+// Ensembles link to their tables, which are documented with that feature.
+#![cfg_attr(not(feature = "tables"), allow(rustdoc::broken_intra_doc_links))]
 // Matrix algorithms read best with indices.
 #![allow(clippy::needless_range_loop)]
 

@@ -74,9 +74,9 @@ fn whole() -> Outcome<f64, Const<2>> {
     outcome
 }
 
-/// As the table of comma-separated values has it.
+/// As the table of JSON lines has it.
 fn expected(outcome: &Outcome<f64, Const<2>>) -> MemberTable<f64, Const<2>> {
-    MemberTable::read::<Oscillators<f64>>(&outcome.csv().to_string()).expect("a table")
+    MemberTable::read::<Oscillators<f64>>(&outcome.json_lines().to_string()).expect("a table")
 }
 
 /// A directory that is removed in the end.
@@ -151,8 +151,19 @@ fn single_precision_comes_back_to_the_bit() {
     let mut table = ParquetTable::open(&directory.0, member).unwrap();
     outcome.members().iter().for_each(|member| table.push(member).unwrap());
     table.flush().unwrap();
-    let expected = MemberTable::read::<Oscillators<f32>>(&outcome.csv().to_string()).unwrap();
+    let expected = MemberTable::read::<Oscillators<f32>>(&outcome.json_lines().to_string()).unwrap();
     assert_eq!(table.read().unwrap(), expected);
+}
+
+/// More rows than a row group of the file has.
+#[test]
+fn a_file_of_several_row_groups_comes_back() {
+    let directory = Directory::new("groups");
+    let outcome = Ensemble::from_fn(1100, member).samples_at([0.0, 0.01]).integrate(0.01, method()).unwrap();
+    let mut table = table(&directory);
+    outcome.members().iter().for_each(|member| table.push(member).unwrap());
+    table.flush().unwrap();
+    assert_eq!((directory.files().len(), table.read().unwrap()), (1, expected(&outcome)));
 }
 
 /// Files are written on the way where rows have waited long enough, and by the drop.
@@ -210,7 +221,7 @@ fn a_run_that_was_stopped_twice_has_all_bits() {
             assert_eq!(format!("{member:?}"), format!("{expected:?}"));
         }
         if after == COUNT {
-            assert_eq!(outcome.csv().to_string(), whole.csv().to_string());
+            assert_eq!(outcome.json_lines().to_string(), whole.json_lines().to_string());
         }
     }
     let read = table_of(&directory);
@@ -243,7 +254,7 @@ fn lists_of_every_length_and_numbers_of_every_kind_are_read() {
         table.flush().unwrap();
     }
     for _ in 0..2 {
-        assert_eq!(table.read().unwrap().to_string(), outcome.csv().to_string());
+        assert_eq!(table.read().unwrap().to_string(), outcome.json_lines().to_string());
         let again =
             run().resume_from(table.read().unwrap()).unwrap().integrate(TO, Dop853::default()).unwrap();
         assert_eq!(format!("{again:?}"), format!("{outcome:?}"));
@@ -354,7 +365,7 @@ fn tables_of_other_systems_and_starts_are_refused() {
     refused(other.read(), "its columns are others");
     let moved = Ensemble::from_fn(1, free).integrate(1.0, Dop853::default()).unwrap();
     other.push(&moved.members()[0]).unwrap();
-    refused(other.flush(), "its columns are others");
+    refused(other.flush(), "the system or its equations are others");
     // A row whose member is made otherwise than the ensemble made it.
     let mut shifted = ParquetTable::open(&directory.0, |index| member(index + 1)).unwrap();
     let differs = "the start or the parameters of the member are others";

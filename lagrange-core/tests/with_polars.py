@@ -1,4 +1,4 @@
-"""Tables of `examples/ensemble_tables.rs`, read by polars (Parquet) and pandas (CSV): the same numbers to the bit, and those of springs.
+"""Tables of `examples/ensemble_tables.rs`, read by polars (Parquet) and pandas (JSON lines): the same numbers to the bit, and those of springs.
 
 with_polars.py COUNT FOLDER
 """
@@ -20,21 +20,22 @@ assert members["member"].equals(pl.Series("member", range(COUNT)))
 def long(column):
     """One row for each entry of a list, with the member's number and parameters."""
     lists = members.select("member", "parameters", column).filter(pl.col(column).list.len() > 0)
-    return lists.explode(column).unnest(column, "parameters")
+    table = lists.explode(column).unnest(column, "parameters")
+    return table.unnest("state") if "state" in table.columns else table
 
 
-def from_csv(column):
-    """The same from comma-separated values."""
-    table = pd.read_csv(f"{FOLDER}/csv.csv").dropna(subset=column)
-    frames = {row.member: pd.DataFrame(json.loads(getattr(row, column))) for row in table.itertuples()}
-    return pd.concat(frames, names=["member"]).reset_index(level="member")
+def from_json(column):
+    """The same from JSON lines, where infinities are texts."""
+    with open(f"{FOLDER}/json.jsonl") as lines:
+        entries = [entry | entry.pop("state", {}) | {"member": row["member"]} for row in map(json.loads, lines) for entry in row[column]]
+    return pd.DataFrame(entries)
 
 
 def same(column):
-    parquet, csv = long(column), from_csv(column)
-    names = list(csv.columns)
+    parquet, lines = long(column), from_json(column)
+    names = list(lines.columns)
     for name in names:
-        one, other = parquet[name].to_numpy(), csv[name].to_numpy()
+        one, other = parquet[name].to_numpy(), lines[name].to_numpy()
         assert len(one) == len(other)
         bits = one.view(np.int64) == other.astype(one.dtype).view(np.int64) if one.dtype == float else one == other
         assert bits.all(), f"{column}.{name}"
@@ -50,9 +51,9 @@ energy_off = ((samples[ENERGY] - samples["k"] / 2) / samples["k"]).abs().max()
 assert samples[SLOWNESS].equals(1 / samples["x_dot"], null_equal=True) and samples[SLOWNESS].is_infinite().any()
 crossings = same("crossings")
 zeros = crossings.filter(event="zero")
-zero = (zeros["event_count"] - 0.5) * np.pi / zeros["k"].sqrt()
+zero = (zeros["count"] - 0.5) * np.pi / zeros["k"].sqrt()
 zero_off = (zeros["t"] - zero).abs().max()
-assert (zeros["event_rising"] == (zeros["event_count"] % 2 == 0)).all()
+assert (zeros["rising"] == (zeros["count"] % 2 == 0)).all()
 ends = crossings.filter(event='end, "early"')
 end_off = (ends["t"] - 0.01 * (ends["member"] % 100)).abs().max()
 print(f"off by {off:.1e} in x and v/ω, {energy_off:.1e} of k in energy, {zero_off:.1e} and {end_off:.1e} in times of events")

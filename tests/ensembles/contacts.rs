@@ -101,10 +101,10 @@ fn members_that_differ_in_their_contacts_are_not_resumed() {
     let standing =
         |floor| Ensemble::from_fn(2, move |_| (Ball { floor, ..member(0).0 }, State::at_rest([0.0, 0.0])));
     let open = standing(Contact::Open).integrate_with_contacts(1.0, Dop853::default()).unwrap();
-    let table = open.csv().to_string();
+    let table = open.json_lines().to_string();
     let again =
         standing(Contact::Open).resume(&table).unwrap().integrate_with_contacts(1.0, Dop853::default());
-    assert_eq!(again.unwrap().csv().to_string(), table);
+    assert_eq!(again.unwrap().json_lines().to_string(), table);
     let closed = standing(Contact::Closed).resume(&table).unwrap();
     let error = closed.integrate_with_contacts(1.0, Dop853::default()).unwrap_err();
     assert!(matches!(error, Error::Ensemble(EnsembleError::OtherRun { .. })), "{error}");

@@ -3,10 +3,11 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use lagrange_core::ensemble::{EnsembleError, MemberEnding, MemberTable, Outcome};
+use lagrange_core::ensemble::{Arrival, EnsembleError, MemberEnding, MemberTable, Outcome};
 use lagrange_core::{nalgebra::Const, prelude::*};
 use lagrange_random::cases;
 use lagrange_systems::DoublePendulum;
+use serde_json::{Value, from_str, json, to_value};
 
 use crate::{COUNT, END, Pendulum, arrival, ensemble, member, on_lanes, on_threads, steps};
 
@@ -20,13 +21,13 @@ const MEMBER: &str = "the start or the parameters of the member are others";
 #[cfg(feature = "thorough")]
 const SYSTEM: &str = "the system or its equations are others";
 
-/// Line, column and reason of the row that an ensemble does not take over.
-fn refused<L: Lagrangian>(resumed: Result<Ensemble<'_, L>, Error>) -> (usize, usize, &'static str)
+/// Line and reason of the row that an ensemble does not take over.
+fn refused<L: Lagrangian>(resumed: Result<Ensemble<'_, L>, Error>) -> (usize, String)
 where
     L::Scalar: lagrange_core::Real,
 {
     match resumed {
-        Err(Error::Ensemble(EnsembleError::Resume { line, column, reason })) => (line, column, reason),
+        Err(Error::Ensemble(EnsembleError::Resume { line, reason })) => (line, reason),
         Err(error) => panic!("{error}"),
         Ok(_) => panic!("not refused"),
     }
@@ -45,40 +46,41 @@ fn the_parts_are_the_whole() {
 /// Other code, or a library with other roundings, may have made one of them.
 #[test]
 fn two_results_of_a_member_are_not_merged() {
-    let table = whole().csv().to_string();
-    let line = table.lines().nth(3).unwrap();
-    let number = line.split(',').nth(5).unwrap();
-    let digit = if number.ends_with('1') { "2" } else { "1" };
-    let edited = line.replacen(number, &format!("{}{digit}", &number[..number.len() - 1]), 1);
+    let table = whole().json_lines().to_string();
+    let line = table.lines().nth(2).unwrap();
+    let number = arrival(&whole(), 2).state.q[0];
+    let edited = line.replacen(&format!("{number:?}"), &format!("{:?}", number.next_up()), 1);
     let other = on_lanes(ensemble().resume(&table.replace(line, &edited)).unwrap());
     assert!(other != whole() && whole().merge(whole()).is_ok());
     let error = whole().merge(other).unwrap_err().to_string();
     assert!(error.contains("two results"), "{error}");
 }
 
+/// Any program that reads JSON finds the numbers by name.
 #[test]
-fn a_table_reads_back_the_same() {
-    let failing = || {
-        Ensemble::from_fn(COUNT, |index| {
-            let (system, start) = member(index);
-            (DoublePendulum { g: if index == 4 { f64::NAN } else { system.g }, ..system }, start)
-        })
-    };
-    let outcome = on_lanes(failing());
-    let table = outcome.csv().to_string();
-    let mut lines = table.lines();
-    assert_eq!(
-        lines.next(),
-        Some(
-            "member,system,run,start,t,a,b,a_dot,b_dot,accepted,rejected,evaluations,multipliers_are_unique,ending,samples,crossings,member_again"
-        )
-    );
-    assert_eq!(lines.clone().count(), COUNT);
-    let line = lines.nth(4).unwrap();
-    let (index, rest) = line.split_once(',').unwrap();
-    let cells: Vec<&str> = rest.splitn(4, ',').collect();
-    assert!(index == "4" && cells[..3].iter().all(|hash| hash.parse::<u32>().is_ok()), "{line}");
-    assert!(cells[3].starts_with(",,,,,,,,,\"the parameter `g` is NaN"), "{line}");
+fn rows_name_their_numbers() {
+    let failing = Ensemble::from_fn(COUNT, |index| {
+        let (system, start) = member(index);
+        (DoublePendulum { g: if index == 4 { f64::NAN } else { system.g }, ..system }, start)
+    });
+    let times = [0.0, END];
+    let outcome = on_lanes(failing.samples_at(times).quantity("late", |s| (s.time() - END).recip()));
+    let table = outcome.json_lines().to_string();
+    let rows: Vec<Value> = table.lines().map(|line| from_str(line).unwrap()).collect();
+    assert_eq!(rows.len(), COUNT);
+    for (row, member) in rows.iter().zip(outcome.members()).filter(|(_, member)| member.index != 4) {
+        let Arrival { state, samples, statistics, .. } = arrival(&outcome, member.index);
+        let numbers = |s: &State<f64, 2>| json!({ "t": s.t, "a": s.q[0], "b": s.q[1], "a_dot": s.v[0], "b_dot": s.v[1] });
+        let mut written: Vec<_> = samples.iter().map(numbers).collect();
+        written.iter_mut().zip([json!(-1.0), json!("inf")]).for_each(|(sample, late)| sample["late"] = late);
+        let expected = json!({
+            "member": member.index, "fingerprint": to_value(member.fingerprint).unwrap(), "ending": "complete",
+            "end": numbers(state), "statistics": to_value(statistics).unwrap(), "samples": written, "crossings": [],
+        });
+        assert_eq!(*row, expected);
+    }
+    let said = rows[4]["ending"].as_str().unwrap();
+    assert!(rows[4]["end"].is_null() && said.starts_with("the parameter `g` is NaN"), "{said}");
 }
 
 #[test]
@@ -160,17 +162,19 @@ fn parts_of_different_ensembles_are_not_put_together() {
 
 #[test]
 fn a_table_of_another_ensemble_is_refused() {
-    let table = whole().csv().to_string();
-    let fewer = Ensemble::from_fn(COUNT - 1, member);
-    assert_eq!(refused(fewer.resume(&table)), (COUNT + 1, 1, "there is no such member"));
-    assert_eq!(refused(ensemble().resume(&table.replace(",b,", ",c,"))), (1, 7, "its columns are others"));
-    let failed = format!("{COUNT},7,7,7{}\"why, no more\",,,{COUNT}\n", ",".repeat(10));
-    assert_eq!(refused(ensemble().resume(&failed)), (1, 1, "there is no such member"));
+    let table = whole().json_lines().to_string();
+    let fewer = Ensemble::from_fn(COUNT - 1, member).resume(&table).unwrap_err();
+    assert_eq!(fewer, Error::Ensemble(EnsembleError::NoSuchMember { member: COUNT - 1, count: COUNT - 1 }));
+    let renamed = table.replace(r#""b":"#, r#""c":"#);
+    assert_eq!(refused(ensemble().resume(&renamed)), (1, "its columns are others".into()));
+    // Not a table: nothing in it looks like a row that was cut off.
+    let other = ensemble().resume("member,t,a,b\n0,1.0,0.5,0.25\n");
+    assert_eq!(refused(other), (1, "a row is an object of JSON".into()));
 }
 
 #[test]
 fn members_integrated_to_another_time_are_refused_where_they_belong_to_the_part() {
-    let table = whole().get(4).unwrap().csv().to_string();
+    let table = whole().get(4).unwrap().json_line().to_string();
     let later = |part| {
         let resumed = ensemble().resume(&table).unwrap().shard(part, 3);
         resumed.integrate_on_lanes(END + 1.0, Dop853::default())
@@ -185,7 +189,7 @@ type Change = fn(&mut (DoublePendulum<f64>, State<f64, 2>));
 /// What the members of a table are computed with, and what another run has instead.
 #[test]
 fn rows_of_another_run_are_refused_by_name() {
-    let table = whole().csv().to_string();
+    let table = whole().json_lines().to_string();
     let resumed = |ensemble: Ensemble<'static, DoublePendulum<f64>>| ensemble.resume(&table).unwrap();
     let refused = |run: Result<Outcome<f64, Const<2>>, Error>| match run {
         Err(Error::Ensemble(EnsembleError::OtherRun { member, differs })) => (member, differs),
@@ -238,7 +242,7 @@ fn rows_of_another_run_are_refused_by_name() {
 /// Tables of parts one after the other, in one file, and twice.
 #[test]
 fn several_tables_are_taken_and_rows_given_twice_count_once() {
-    let tables = [2, 0].map(|k| on_lanes(ensemble().shard(k, 3)).csv().to_string());
+    let tables = [2, 0].map(|k| on_lanes(ensemble().shard(k, 3)).json_lines().to_string());
     let apart = tables.iter().fold(ensemble(), |ensemble, table| ensemble.resume(table).unwrap());
     let together = ensemble().resume(&tables.concat()).unwrap();
     let twice = ensemble().resume(&tables.concat()).unwrap().resume(&tables[1]).unwrap();
@@ -263,8 +267,8 @@ fn rows_of_another_number_type_are_refused() {
         let system = DoublePendulum { m: m.map(|x| x as f32), l: l.map(|x| x as f32), g: g as f32 };
         (system, State { t: t as f32, q: q.map(|x| x as f32), v: v.map(|x| x as f32) })
     });
-    let table = single.integrate(END as f32, Dop853::default()).unwrap().csv().to_string();
-    assert_eq!(refused(ensemble().resume(&table)), (2, 2, SYSTEM));
+    let table = single.integrate(END as f32, Dop853::default()).unwrap().json_lines().to_string();
+    assert_eq!(refused(ensemble().resume(&table)), (1, SYSTEM.into()));
 }
 
 /// The same struct with other equations.
@@ -292,13 +296,13 @@ fn rows_of_another_system_are_refused() {
     }
     let (start, method) = (State::new([0.0], [0.1]), Dop853::default());
     let outcome = Ensemble::from_fn(2, |_| (Runaway { k: 1.0 }, start)).integrate(END, method).unwrap();
-    let table = outcome.csv().to_string();
+    let table = outcome.json_lines().to_string();
     let renamed = || Ensemble::from_fn(2, |_| (Renamed { k: 1.0 }, start));
     let other = || Ensemble::from_fn(2, |_| (other::Runaway { k: 1.0 }, start));
-    assert_eq!(refused(renamed().resume(&table)), (2, 2, SYSTEM));
-    assert_eq!(refused(other().resume(&table)), (2, 2, SYSTEM));
+    assert_eq!(refused(renamed().resume(&table)), (1, SYSTEM.into()));
+    assert_eq!(refused(other().resume(&table)), (1, SYSTEM.into()));
     let error = MemberTable::read::<other::Runaway<f64>>(&table).unwrap_err();
-    assert!(matches!(error, Error::Ensemble(EnsembleError::Resume { line: 2, column: 2, reason: SYSTEM })));
+    assert_eq!(error, Error::Ensemble(EnsembleError::Resume { line: 1, reason: SYSTEM.into() }));
     let other = other().integrate(END, method).unwrap();
     let error = outcome.merge(other).unwrap_err();
     assert_eq!(error, Error::Ensemble(EnsembleError::Merge { reason: SYSTEM }));
@@ -309,9 +313,9 @@ fn rows_of_another_system_are_refused() {
 fn two_runs_are_not_put_together() {
     let coarse = ensemble().integrate_on_lanes(END, Dop853::with_tolerance(1e-8)).unwrap();
     let shifted = on_lanes(Ensemble::from_fn(COUNT, |index| member(index + 1)));
-    for (other, column, reason) in [(coarse, 3, RUN), (shifted, 4, MEMBER)] {
-        let mixed = whole().csv().to_string() + &other.csv().to_string();
-        assert_eq!(refused(ensemble().resume(&mixed)), (COUNT + 3, column, reason));
+    for (other, reason) in [(coarse, RUN), (shifted, MEMBER)] {
+        let mixed = whole().json_lines().to_string() + &other.json_lines().to_string();
+        assert_eq!(refused(ensemble().resume(&mixed)), (COUNT + 1, reason.into()));
         let error = whole().merge(other).unwrap_err();
         assert_eq!(error, Error::Ensemble(EnsembleError::Merge { reason }));
     }
@@ -333,8 +337,8 @@ fn a_table_is_read_and_cleaned_without_a_run() {
     let bad = on_lanes(Ensemble::from_fn(COUNT, bad));
     let read = |table: &str| MemberTable::read::<DoublePendulum<f64>>(table).unwrap();
     for outcome in [&limited, &whole, &bad] {
-        let table = read(&outcome.csv().to_string());
-        assert_eq!(table.to_string(), outcome.csv().to_string());
+        let table = read(&outcome.json_lines().to_string());
+        assert_eq!(table.to_string(), outcome.json_lines().to_string());
         for (row, member) in table.rows().iter().zip(outcome.members()) {
             assert_eq!((row.index, row.fingerprint), (member.index, member.fingerprint));
             let arrival = member.arrival();
@@ -350,11 +354,11 @@ fn a_table_is_read_and_cleaned_without_a_run() {
     }
     // Rows of both, in any order, twice, cut in the middle: those that arrived are kept.
     let rows: Vec<String> =
-        limited.members().iter().chain(whole.members()).map(|m| m.csv().to_string()).collect();
+        limited.members().iter().chain(whole.members()).map(|m| m.json_line().to_string()).collect();
     let shuffled: String = (0..rows.len()).map(|k| rows[k * 5 % rows.len()].as_str()).collect();
     for torn in [&rows[3][..20], &rows[7][..rows[7].len() - 2], ""] {
-        let table = read(&format!("{shuffled}{torn}{}{}{shuffled}", rows[COUNT + 1], whole.csv()));
-        assert_eq!(table.to_string(), whole.csv().to_string());
+        let table = read(&format!("{shuffled}{torn}{}{}{shuffled}", rows[COUNT + 1], whole.json_lines()));
+        assert_eq!(table.to_string(), whole.json_lines().to_string());
     }
 }
 
@@ -377,7 +381,7 @@ fn a_list_of_members_is_run_alone() {
     of_whole(&[8, 17], on_lanes(few().shard(1, 2)));
     of_whole(&[], on_lanes(ensemble().members([])));
     // Of the table's rows only those in the list are taken.
-    let table = on_lanes(ensemble().members([3, 4])).csv().to_string();
+    let table = on_lanes(ensemble().members([3, 4])).json_lines().to_string();
     of_whole(&[3, 8, 12, 17], on_lanes(few().resume(&table).unwrap()));
     let error = ensemble().members([3, COUNT]).integrate_on_lanes(END, Dop853::default()).unwrap_err();
     assert_eq!(error, Error::Ensemble(EnsembleError::NoSuchMember { member: COUNT, count: COUNT }));

@@ -47,11 +47,11 @@ fn rows_are_taken_over_by_tag_where_code_decides() {
         for tag in ["", "first"] {
             let tagged = |tag: &str| run().tag(tag);
             let whole = tagged(tag).integrate_on_lanes(END, method).unwrap();
-            let table = whole.csv().to_string();
+            let table = whole.json_lines().to_string();
             let untagged = run().resume(&table).unwrap().integrate_on_lanes(END, method).unwrap_err();
             assert_eq!(untagged, Error::Ensemble(EnsembleError::Untagged { code: code.into() }));
             let again = tagged(tag).resume(&table).unwrap().integrate_on_lanes(END, method).unwrap();
-            assert_eq!(again.csv().to_string(), table);
+            assert_eq!(again.json_lines().to_string(), table);
             let other = tagged("second").resume(&table).unwrap().integrate_on_lanes(END, method);
             assert!(matches!(other, Err(Error::Ensemble(EnsembleError::OtherRun { .. }))));
         }
@@ -63,13 +63,13 @@ fn rows_are_taken_over_by_tag_where_code_decides() {
 #[test]
 fn rows_of_runs_with_quantities_need_a_tag() {
     let run = || ensemble().samples_at([END]).quantity("energy", |sample| sample.energy());
-    let table = run().integrate_on_lanes(END, Dop853::default()).unwrap().csv().to_string();
+    let table = run().integrate_on_lanes(END, Dop853::default()).unwrap().json_lines().to_string();
     let untagged = run().resume(&table).unwrap().integrate_on_lanes(END, Dop853::default()).unwrap_err();
     assert_eq!(untagged, Error::Ensemble(EnsembleError::Untagged { code: "the quantity `energy`".into() }));
     assert!(run().tag("").resume(&table).unwrap().integrate_on_lanes(END, Dop853::default()).is_ok());
     // Samples alone need none.
     let run = || ensemble().samples_at([END]);
-    let table = run().integrate_on_lanes(END, Dop853::default()).unwrap().csv().to_string();
+    let table = run().integrate_on_lanes(END, Dop853::default()).unwrap().json_lines().to_string();
     assert!(run().resume(&table).unwrap().integrate_on_lanes(END, Dop853::default()).is_ok());
 }
 
@@ -77,7 +77,7 @@ fn rows_of_runs_with_quantities_need_a_tag() {
 #[test]
 fn rows_of_systems_with_supplied_functions_need_a_tag() {
     let run = || Ensemble::from_fn(9, trapped);
-    let table = run().integrate(3.0, Dop853::default()).unwrap().csv().to_string();
+    let table = run().integrate(3.0, Dop853::default()).unwrap().json_lines().to_string();
     let untagged = run().resume(&table).unwrap().integrate(3.0, Dop853::default()).unwrap_err();
     assert_eq!(
         untagged.to_string(),
@@ -89,7 +89,7 @@ fn rows_of_systems_with_supplied_functions_need_a_tag() {
 /// Without a tag of another name: what can be seen of an event is compared by itself.
 #[test]
 fn runs_with_other_events_are_told_apart() {
-    let table = up().tag("").integrate_on_lanes(END, Dop853::default()).unwrap().csv().to_string();
+    let table = up().tag("").integrate_on_lanes(END, Dop853::default()).unwrap().json_lines().to_string();
     let other = |event: fn(Watched) -> Watched| {
         let run = with(event).tag("").resume(&table).unwrap();
         run.integrate_on_lanes(END, Dop853::default())

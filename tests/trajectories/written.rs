@@ -4,8 +4,7 @@ use std::fmt::Debug;
 
 use lagrange_core::prelude::*;
 use lagrange_core::{
-    Ending, Solution, Statistics, ensemble::Arrival, hamiltonian::PhaseDerivative, nalgebra::Const,
-    trajectory::Records,
+    Ending, Solution, Statistics, hamiltonian::PhaseDerivative, nalgebra::Const, trajectory::Records,
 };
 use serde_json::{Value, from_str, from_value, json, to_string, to_value};
 
@@ -121,9 +120,9 @@ fn drift_and_members_are_written() {
     let members = [(&BOB, start()), (&BOB, State::at_rest([0.6, 0.0]))];
     let outcome = Ensemble::new(&members).integrate(1.0, Dop853::default()).unwrap();
     let written = to_value(outcome.members()).unwrap();
-    let Arrival { state, .. } = outcome.get(0).unwrap().arrival().unwrap();
-    assert_eq!(written[0]["result"]["Ok"]["state"], to_value(state).unwrap());
-    assert_eq!(written[0]["result"]["Ok"]["ending"]["ending"], json!("Complete"));
-    let said = written[1]["result"]["Err"].as_str().unwrap();
+    let State { t, q, v } = outcome.get(0).unwrap().arrival().unwrap().state;
+    assert_eq!(written[0]["ending"], json!("complete"));
+    assert_eq!(written[0]["end"], json!({ "t": t, "x": q[0], "y": q[1], "x_dot": v[0], "y_dot": v[1] }));
+    let said = written[1]["ending"].as_str().unwrap();
     assert!(said.starts_with("the state violates constraint `rod`"), "{said}");
 }

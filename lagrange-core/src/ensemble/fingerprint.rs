@@ -51,28 +51,27 @@ impl Fingerprint {
         Self { start: hash.0, ..self }
     }
 
-    /// First difference between two rows of one member: the index of its column in a table, and a description.
-    pub(super) fn difference(&self, other: &Self) -> Option<(usize, &'static str)> {
+    /// First difference between two rows of one member.
+    pub(super) fn difference(&self, other: &Self) -> Option<&'static str> {
         let Self { system, run, start } = *other;
         let differences = [
-            (2, OTHER_SYSTEM, self.system != system),
-            (
-                3,
-                "the method, one of its settings, a sample, a quantity, an event, the tag or the end is another",
-                self.run != run,
-            ),
-            (4, OTHER_START, self.start != start),
+            (OTHER_SYSTEM, self.system != system),
+            (OTHER_RUN, self.run != run),
+            (OTHER_START, self.start != start),
         ];
-        differences.into_iter().find_map(|(column, what, differs)| differs.then_some((column, what)))
+        differences.into_iter().find_map(|(what, differs)| differs.then_some(what))
     }
 
     /// Fingerprint of the run alone, to compare rows of different members.
+    #[cfg(feature = "tables")]
     pub(super) fn without_start(self) -> Self {
         Self { start: 0, ..self }
     }
 }
 
-pub(super) const OTHER_SYSTEM: &str = "the system or its equations are others";
+const OTHER_SYSTEM: &str = "the system or its equations are others";
+const OTHER_RUN: &str =
+    "the method, one of its settings, a sample, a quantity, an event, the tag or the end is another";
 pub(super) const OTHER_START: &str = "the start or the parameters of the member are others";
 
 /// FNV-1a hash of the bytes written so far.

@@ -9,7 +9,7 @@ use super::fingerprint::Fingerprint;
 use super::names::ColumnNames;
 use super::outcome::{Member, Outcome};
 use super::plan::{EnsembleProgress, Make, MemberObserver, MemberPlan, Plan, Watch};
-use super::table::{MemberRow, TWO_RESULTS};
+use super::row::{MemberRow, TWO_RESULTS};
 use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::progress::unless_broken;
 use crate::motion::record::{Arrival, Moving, Recorded};
@@ -166,12 +166,6 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
         self.part.len().saturating_sub(self.given.load(Ordering::Relaxed))
     }
 
-    /// Fingerprint of the run, common to all members.
-    #[cfg(feature = "mpi")]
-    pub(super) fn run(&self) -> Fingerprint {
-        self.run
-    }
-
     /// Names of the events.
     #[cfg(feature = "mpi")]
     pub(super) fn events(&self) -> Vec<&'static str> {
@@ -265,7 +259,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
 /// Rejects a member taken over from another run, or with another start or other parameters.
 fn check_run_of<T: Real, N: Length>(row: &MemberRow<T, N>, expected: &Fingerprint) -> Result<(), Error> {
     match row.fingerprint.difference(expected) {
-        Some((_, differs)) => Err(Error::Ensemble(EnsembleError::OtherRun { member: row.index, differs })),
+        Some(differs) => Err(Error::Ensemble(EnsembleError::OtherRun { member: row.index, differs })),
         None => Ok(()),
     }
 }

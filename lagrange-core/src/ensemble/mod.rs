@@ -14,6 +14,8 @@
 mod contacts;
 mod fingerprint;
 mod job;
+#[cfg(feature = "serde")]
+mod line;
 mod names;
 mod outcome;
 #[cfg(feature = "parquet")]
@@ -21,7 +23,9 @@ mod parquet;
 mod plan;
 #[cfg(feature = "mpi")]
 mod ranks;
+mod row;
 mod settings;
+#[cfg(feature = "tables")]
 mod table;
 #[cfg(test)]
 mod tests;
@@ -36,5 +40,7 @@ pub use parquet::ParquetTable;
 pub use plan::EnsembleProgress;
 #[cfg(feature = "mpi")]
 pub use ranks::OnRanks;
+pub use row::{MemberCrossing, MemberEnding, MemberRow};
 pub use settings::Ensemble;
-pub use table::{MemberCrossing, MemberEnding, MemberRow, MemberTable};
+#[cfg(feature = "tables")]
+pub use table::MemberTable;

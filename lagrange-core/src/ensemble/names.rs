@@ -5,33 +5,27 @@ use std::collections::BTreeSet;
 use crate::error::{EnsembleError, Error};
 use crate::names::Entry;
 
-/// Names of coordinates and quantities, shared by all members of a run.
+/// Names of the numbers of a sample, shared by all members of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ColumnNames {
-    pub(super) coordinates: &'static [&'static str],
+    /// Names of the entries of a state: `t`, coordinates, velocities.
+    pub(super) state: Vec<String>,
     /// Names of the quantities, in the order in which their values are stored.
     pub(super) quantities: Vec<String>,
 }
 
 impl ColumnNames {
-    /// Names of the entries of a state: `t`, coordinates, velocities.
-    pub(super) fn of_state(&self) -> impl Iterator<Item = String> {
-        let velocities = self.coordinates.iter().map(|name| Entry::Velocity(name).to_string());
-        core::iter::once("t".into())
-            .chain(self.coordinates.iter().copied().map(String::from))
-            .chain(velocities)
-    }
-
-    /// Names of the entries of a sample: those of its state, then the quantities.
-    pub(super) fn of_sample(&self) -> impl Iterator<Item = String> {
-        self.of_state().chain(self.quantities.iter().cloned())
+    pub(super) fn new(coordinates: &'static [&'static str], quantities: Vec<String>) -> Self {
+        let velocities = coordinates.iter().map(|name| Entry::Velocity(name).to_string());
+        let positions = coordinates.iter().copied().map(String::from);
+        Self { state: core::iter::once("t".into()).chain(positions).chain(velocities).collect(), quantities }
     }
 
     /// Checks that no two entries of a sample have one name: they are columns of a table.
     pub(super) fn check(&self) -> Result<(), Error> {
         let mut known = BTreeSet::new();
-        match self.of_sample().find(|name| !known.insert(name.clone())) {
-            Some(name) => Err(Error::Ensemble(EnsembleError::QuantityName { name })),
+        match self.state.iter().chain(&self.quantities).find(|name| !known.insert(*name)) {
+            Some(name) => Err(Error::Ensemble(EnsembleError::QuantityName { name: name.clone() })),
             None => Ok(()),
         }
     }

@@ -12,15 +12,14 @@ use crate::system::State;
 use crate::vector::{Element, Length};
 
 /// Result of one member.
+///
+/// With the feature `serde` it is serialized as its [row](super::MemberRow).
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
 pub struct Member<T: Element, N: Length> {
     /// Index of the member in the ensemble.
     pub index: usize,
     /// Hashes of the member's run, start and parameters.
     pub fingerprint: Fingerprint,
-    #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) names: Arc<ColumnNames>,
     /// End of the motion: its last state and the reason why it ended there; an error if the motion did not start.
     pub result: Result<Arrival<T, N>, Error>,
@@ -111,7 +110,7 @@ impl<T: Real, N: Length> Outcome<T, N> {
     /// [`EnsembleError::Merge`] if the parts differ in system, end time, method or settings, or if a member in both has
     /// another start, other parameters, or other numbers where it reached the end or an event.
     pub fn merge(mut self, other: Self) -> Result<Self, Error> {
-        if self.names.coordinates != other.names.coordinates {
+        if self.names.state != other.names.state {
             return Err(Error::Ensemble(EnsembleError::Merge { reason: "their coordinates differ" }));
         }
         if self.end != other.end {
@@ -124,7 +123,7 @@ impl<T: Real, N: Length> Outcome<T, N> {
             .iter()
             .filter_map(|member| Some((member.fingerprint, other.get(member.index)?.fingerprint)));
         let mut differences = core::iter::once((self.run, other.run)).chain(differences);
-        if let Some((_, reason)) = differences.find_map(|(one, other)| one.difference(&other)) {
+        if let Some(reason) = differences.find_map(|(one, other)| one.difference(&other)) {
             return Err(Error::Ensemble(EnsembleError::Merge { reason }));
         }
         let contradicts = |member: &Member<T, N>| {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::fingerprint::{Fingerprint, Hash};
 use super::names::ColumnNames;
 use super::outcome::Member;
-use super::table::MemberRow;
+use super::row::MemberRow;
 use crate::error::{EnsembleError, Error};
 use crate::motion::event::DynEvent;
 use crate::motion::record::plan::Observed;
@@ -140,7 +140,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
     /// Names of the coordinates and quantities.
     pub(super) fn names(&self) -> Arc<ColumnNames> {
         let quantities = self.samples.quantities().map(String::from).collect();
-        Arc::new(ColumnNames { coordinates: L::COORDINATES, quantities })
+        Arc::new(ColumnNames::new(L::COORDINATES, quantities))
     }
 
     /// Checks the settings that are the same for all members.

@@ -4,8 +4,6 @@
 //! sends to a rank that computes, so no send blocks on a receive that does not come. The thread that started the
 //! integration makes all MPI calls; on rank 0 another thread integrates meanwhile.
 
-mod message;
-
 use core::fmt::{self, Debug, Formatter};
 use core::time::Duration;
 use std::panic::resume_unwind;
@@ -15,19 +13,19 @@ use std::time::Instant;
 
 use mpi::Threading;
 use mpi::topology::SimpleCommunicator;
-use mpi::traits::{Communicator, CommunicatorCollectives, Destination, Source};
+use mpi::traits::{Communicator, CommunicatorCollectives, Destination, MatchedReceiveVec, Source};
 
 use super::fingerprint::Fingerprint;
 use super::job::Job;
 use super::outcome::Outcome;
 use super::settings::{Ensemble, everywhere};
+use super::table::rows;
 use crate::contact::Contacts;
 use crate::error::{EnsembleError, Error};
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method};
 use crate::number::{Lanes, Real};
 use crate::system::{Lagrangian, Pack, check_contacts};
-use message::MemberMessage;
 
 /// An ensemble on all ranks of an MPI communicator, from [`Ensemble::on_ranks`].
 #[must_use = "an ensemble does nothing until it is integrated"]
@@ -121,7 +119,7 @@ impl<L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, H
         let integrate = |list: Vec<usize>| {
             let batch = job.batch(list);
             everywhere(|| work(&batch));
-            MemberMessage::of(batch.outcome().members())
+            batch.outcome().json_lines().to_string()
         };
         if !is_first {
             follow(&self.world, integrate);
@@ -209,15 +207,22 @@ fn size(world: &SimpleCommunicator) -> usize {
 }
 
 /// Integrates the batches that rank 0 sends, until an empty batch arrives.
-fn follow(world: &SimpleCommunicator, integrate: impl Fn(Vec<usize>) -> MemberMessage) {
+fn follow(world: &SimpleCommunicator, integrate: impl Fn(Vec<usize>) -> String) {
     let first = world.process_at_rank(0);
     loop {
         let (list, _) = first.receive_vec();
         if list.is_empty() {
             return;
         }
-        integrate(list).send(&first);
+        first.send(integrate(list).as_bytes());
     }
+}
+
+/// Receives the first rows that have arrived from any rank; returns that rank and the rows as JSON lines.
+fn arrived(world: &SimpleCommunicator) -> Option<(usize, String)> {
+    let message = world.any_process().immediate_matched_probe()?;
+    let rank = message.1.source_rank().unsigned_abs() as usize;
+    Some((rank, String::from_utf8_lossy(&message.matched_receive_vec().0).into_owned()))
 }
 
 /// Distributes members and collects their results, while another thread integrates the batches of rank 0.
@@ -225,13 +230,13 @@ fn lead<L: Lagrangian<Scalar: Real>>(
     world: &SimpleCommunicator,
     job: &Job<'_, L>,
     batch: Duration,
-    integrate: impl Fn(Vec<usize>) -> MemberMessage + Send,
+    integrate: impl Fn(Vec<usize>) -> String + Send,
 ) {
     thread::scope(|scope| {
         let (own, lists) = channel();
         let (finished, parcels) = channel();
-        let hands = scope
-            .spawn(move || lists.into_iter().map(integrate).try_for_each(|message| finished.send(message)));
+        let hands =
+            scope.spawn(move || lists.into_iter().map(integrate).try_for_each(|lines| finished.send(lines)));
         let open = vec![None; size(world)];
         let mut desk = Desk { world, own, job, batch, open, members: 0, time: Duration::ZERO };
         desk.serve(&parcels, || hands.is_finished());
@@ -259,21 +264,21 @@ struct Desk<'w, 'a, L: Lagrangian<Scalar: Real>> {
 impl<L: Lagrangian<Scalar: Real>> Desk<'_, '_, L> {
     /// Serves ranks until all members are done, the job is stopped, or the integrating thread of this rank has
     /// panicked.
-    fn serve(&mut self, parcels: &Receiver<MemberMessage>, is_lost: impl Fn() -> bool) {
+    fn serve(&mut self, parcels: &Receiver<String>, is_lost: impl Fn() -> bool) {
         let events = self.job.events();
         (0..self.open.len()).for_each(|rank| self.hand_out(rank));
         while self.open.iter().any(Option::is_some) && !is_lost() {
-            let own = parcels.try_recv().ok().map(|message| (0, message));
-            let Some((rank, message)) = own.or_else(|| MemberMessage::arrived(self.world)) else {
+            let own = parcels.try_recv().ok().map(|lines| (0, lines));
+            let Some((rank, lines)) = own.or_else(|| arrived(self.world)) else {
                 thread::sleep(PAUSE);
                 continue;
             };
             // Hand out the next batch before unpacking: the rank is idle meanwhile.
             self.close(rank);
             self.hand_out(rank);
-            message
-                .members(self.job.run(), &events, &self.job.names)
-                .for_each(|member| self.job.report(member));
+            let rows = rows(&lines, L::COORDINATES).into_iter().flatten();
+            let members = rows.filter_map(|(_, row)| row.into_member(&events, &self.job.names).ok());
+            members.for_each(|member| self.job.report(member));
         }
     }
 

@@ -7,8 +7,7 @@ use super::fingerprint::Fingerprint;
 use super::job::Job;
 use super::outcome::Outcome;
 use super::plan::{EnsembleProgress, MemberPlan, Plan};
-use super::table::MemberTable;
-use crate::error::{EnsembleError, Error};
+use crate::error::Error;
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method};
 use crate::number::{Lanes, Real};
@@ -137,10 +136,12 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
     ///     let springs = Ensemble::from_fn(9, |n| (Spring { k: n as f64 }, State::at_rest([1.0])));
     ///     springs.event(rises).tag(format!("level {level}"))
     /// };
-    /// let table = springs(0.5).integrate(9.0, Dop853::default())?.csv().to_string();
+    /// # #[cfg(feature = "tables")] {
+    /// let table = springs(0.5).integrate(9.0, Dop853::default())?.json_lines().to_string();
     /// assert!(springs(0.5).resume(&table)?.integrate(9.0, Dop853::default()).is_ok());
     /// let other = springs(0.25).resume(&table)?.integrate(9.0, Dop853::default());
     /// assert!(matches!(other, Err(Error::Ensemble(EnsembleError::OtherRun { .. }))));
+    /// # }
     /// # Ok::<(), Error>(())
     /// ```
     pub fn tag(mut self, tag: impl Into<String>) -> Self {
@@ -151,10 +152,10 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
     /// Integrates all members to the time `end` by `method`, one after the other on each thread.
     ///
     /// # Errors
-    /// Errors of the whole ensemble: [`Error::Setting`], [`Error::EndNotFinite`], [`EnsembleError::Shard`],
-    /// [`EnsembleError::NoSuchMember`], [`EnsembleError::OtherRun`], [`EnsembleError::Untagged`],
-    /// [`EnsembleError::QuantityName`],
-    /// [`Error::SampleTime`]. The errors of single members are in the outcome.
+    /// Errors of the whole ensemble: [`Error::Setting`], [`Error::EndNotFinite`], [`Error::SampleTime`],
+    /// [`EnsembleError::Shard`](super::EnsembleError::Shard), [`NoSuchMember`](super::EnsembleError::NoSuchMember),
+    /// [`OtherRun`](super::EnsembleError::OtherRun), [`Untagged`](super::EnsembleError::Untagged),
+    /// [`QuantityName`](super::EnsembleError::QuantityName). The errors of single members are in the outcome.
     pub fn integrate<P: Method<L> + Sync>(
         self,
         end: L::Scalar,
@@ -164,64 +165,6 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
         method.check()?;
         let run = self.plan.fingerprint(&method, end, false);
         self.run(end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
-    }
-
-    /// Skips the members that this table contains, and takes their rows over into the outcome. The table
-    /// comes from [`Outcome::csv`] or from rows of [`Member::csv`](super::Member::csv); tables of several
-    /// runs may be concatenated. Repeated calls add tables. If a member has several rows, the first counts.
-    ///
-    /// Members that are taken over have their samples, quantities and crossings. Members that failed are integrated again: with the same settings they fail in the same way, except at a limit on
-    /// wall-clock time. Rows of another part are ignored. So are incomplete lines, even if another row was appended to
-    /// one. A row is taken over only if its [`Fingerprint`] shows that it was computed from the same start and
-    /// parameters, of the same equations, with the same method and settings (limits may differ) to the same end, with
-    /// or without SIMD lanes as here, and under the same [tag](Self::tag). For this check all members of the table are
-    /// made once more.
-    ///
-    /// ```
-    /// # use lagrange_core::prelude::*;
-    /// #[derive(Lagrangian)]
-    /// #[coordinates(x)]
-    /// #[lagrangian(x_dot^2/2 - k/2 * x^2)]
-    /// struct Spring<T> { k: T }
-    ///
-    /// let springs = || Ensemble::from_fn(100, |n| (Spring { k: n as f64 }, State::at_rest([1.0])));
-    /// let part = |k| springs().shard(k, 2).integrate(1.0, Dop853::default());
-    /// let table = part(0)?.csv().to_string();
-    /// let whole = springs().resume(&table)?.integrate(1.0, Dop853::default())?;
-    /// assert_eq!(whole, part(0)?.merge(part(1)?)?);
-    /// # Ok::<(), Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`EnsembleError::Resume`] if a line is no row of this system, if the rows are of different runs, or if two rows of a
-    /// member that reached the end or an event have different numbers.
-    /// [`integrate`](Self::integrate) returns [`EnsembleError::OtherRun`] for members of another run, end or start. It
-    /// returns [`EnsembleError::Untagged`] if code that no fingerprint sees can change the members and there is no
-    /// [tag](Self::tag).
-    pub fn resume(self, table: &str) -> Result<Self, Error>
-    where
-        L::Scalar: core::str::FromStr,
-    {
-        let system = Fingerprint::of_system::<L>();
-        let table = MemberTable::of(table, L::COORDINATES, system, self.plan.count)?;
-        self.resume_from(table)
-    }
-
-    /// Skips the members of this table, like [`resume`](Self::resume), which parses the table as well.
-    ///
-    /// # Errors
-    /// [`EnsembleError::NoSuchMember`] if the table contains a member that the ensemble does not have.
-    pub fn resume_from(mut self, table: MemberTable<L::Scalar, L::N>) -> Result<Self, Error> {
-        let count = self.plan.count;
-        match table.rows().last() {
-            Some(row) if row.index >= count => {
-                Err(Error::Ensemble(EnsembleError::NoSuchMember { member: row.index, count }))
-            }
-            _ => {
-                self.plan.done.extend(table.into_rows().filter(|row| !row.has_failed()));
-                Ok(self)
-            }
-        }
     }
 
     pub(super) fn run(

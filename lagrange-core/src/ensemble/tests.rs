@@ -1,5 +1,6 @@
 //! Ensembles with and without the feature `rayon`; the workspace's `tests/ensemble` covers only the build with it.
 
+#[cfg(feature = "tables")]
 use core::ops::ControlFlow;
 
 use crate::motion::{Adaptive, Pair};
@@ -106,6 +107,7 @@ where
     rejected.sum()
 }
 
+#[cfg(feature = "tables")]
 #[test]
 fn what_was_stopped_goes_on() {
     let method = Dop853::default();
@@ -115,7 +117,7 @@ fn what_was_stopped_goes_on() {
     });
     let first = stopped.integrate_on_lanes(END, method).expect("an outcome");
     assert_eq!(first.members().len(), 4);
-    let rest = springs().resume(&first.csv().to_string()).expect("the same ensemble");
+    let rest = springs().resume(&first.json_lines().to_string()).expect("the same ensemble");
     let whole = springs().integrate_on_lanes(END, method).expect("an outcome");
     assert_eq!(rest.integrate_on_lanes(END, method).expect("an outcome"), whole);
 }

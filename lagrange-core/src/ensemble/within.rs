@@ -38,7 +38,7 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
     /// ```
     ///
     /// The times must be in the order of the motion, and lie between the start of each member and the end. The row
-    /// of a member in a [table](super::Outcome::csv) has its samples, and a member [taken over](Self::resume) has them too.
+    /// of a member in a [table](super::Outcome::json_lines) has its samples, and a member [taken over](Self::resume) has them too.
     ///
     /// # Errors
     /// [`integrate`](Self::integrate) returns [`Error::SampleTime`](crate::Error::SampleTime) for times that are not

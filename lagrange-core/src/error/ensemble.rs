@@ -69,10 +69,8 @@ pub enum EnsembleError {
     Resume {
         /// Line of the table, counted from 1.
         line: usize,
-        /// Column of the table, counted from 1.
-        column: usize,
         /// Reason of the mismatch.
-        reason: &'static str,
+        reason: String,
     },
 }
 
@@ -115,10 +113,9 @@ impl Display for EnsembleError {
                 f,
                 "the quantity `{name}` has the name of another quantity, of the time, of a coordinate or of a velocity: give it a name of its own"
             ),
-            Self::Resume { line, column, reason } => write!(
-                f,
-                "line {line}, column {column} of the table of members does not belong there: {reason}"
-            ),
+            Self::Resume { line, reason } => {
+                write!(f, "line {line} of the table of members does not belong there: {reason}")
+            }
         }
     }
 }

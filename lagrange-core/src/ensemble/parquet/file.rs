@@ -1,250 +1,190 @@
-//! Reads and writes one Parquet file of a table, as columns of numbers and texts.
+//! Reads and writes one Parquet file of a table: rows of serde as columns.
 
 use std::fs::File;
 use std::io::Write;
 use std::sync::Arc;
 
 use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
-use parquet::column::reader::ColumnReader;
 use parquet::column::writer::ColumnWriter;
-use parquet::data_type::ByteArray;
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
-use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
+use parquet::record::Field;
 use parquet::schema::types::{Type, TypePtr};
+use serde::de::value::{Error as ReadError, MapDeserializer, SeqDeserializer};
+use serde::de::{DeserializeOwned, Deserializer, Error as _, IntoDeserializer, Visitor};
+use serde::{Deserialize, Serialize, forward_to_deserialize_any};
+use serde_json::Value;
 
 use crate::ensemble::fingerprint::Fingerprint;
+use crate::ensemble::line::Number;
+use crate::ensemble::names::ColumnNames;
 
-/// A column of a file.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Column {
-    /// Parquet group that contains the column; empty at the top level.
-    pub(super) group: &'static str,
-    pub(super) name: String,
-    pub(super) values: Values,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Values {
-    Integers(Vec<i64>),
-    Numbers(Vec<f64>),
-    Flags(Vec<bool>),
-    Texts(Vec<ByteArray>),
-}
-
-/// Optional group for the end of the motion; null for a member that did not start.
-pub(super) const END: &str = "end";
-/// List of the samples of a member.
-pub(super) const SAMPLES: &str = "samples";
-/// List of the crossings of a member.
-pub(super) const CROSSINGS: &str = "crossings";
-/// Groups with any number of entries in a row; [`END`] has at most one.
-const GROUPS: [&str; 3] = [END, SAMPLES, CROSSINGS];
-
-/// Columns of a file, and how many entries each row has in the groups [`END`], [`SAMPLES`] and [`CROSSINGS`].
-pub(super) struct Sheet {
-    pub(super) columns: Vec<Column>,
-    pub(super) counts: [Vec<usize>; GROUPS.len()],
-}
-
-impl Sheet {
-    /// Values of the columns of a group.
-    pub(super) fn group(&self, name: &str) -> Vec<&Values> {
-        self.columns.iter().filter(|column| column.group == name).map(|column| &column.values).collect()
+/// Schema of rows with the states and quantities `names` and these parameters: the fields of a
+/// [`MemberRow`](crate::ensemble::MemberRow), the start and the parameters of the member.
+pub(super) fn schema(names: &ColumnNames, parameters: &[&str]) -> Result<TypePtr> {
+    use Physical::{BOOLEAN, BYTE_ARRAY, INT64};
+    let required = Repetition::REQUIRED;
+    let integers = |names: &[&str]| leaves(names, INT64);
+    let state = |name, repetition| group(name, repetition, numbers(&names.state)?);
+    let crossing = [
+        leaves(&["event"], BYTE_ARRAY)?,
+        integers(&["index", "count"])?,
+        leaves(&["rising"], BOOLEAN)?,
+        vec![state("state", required)?],
+    ];
+    let statistics =
+        [integers(&["accepted", "rejected", "evaluations"])?, leaves(&["multipliers_are_unique"], BOOLEAN)?];
+    let mut fields = integers(&["member"])?;
+    fields.push(group("fingerprint", required, integers(&["system", "run", "start"])?)?);
+    fields.extend(leaves(&["ending"], BYTE_ARRAY)?);
+    fields.push(state("start", required)?);
+    // The format has no groups without fields.
+    if !parameters.is_empty() {
+        fields.push(group("parameters", required, numbers(parameters)?)?);
     }
+    fields.push(state("end", Repetition::OPTIONAL)?);
+    fields.push(group("statistics", required, statistics.concat())?);
+    fields.push(list("samples", [numbers(&names.state)?, numbers(&names.quantities)?].concat())?);
+    fields.push(list("crossings", crossing.concat())?);
+    group("members", required, fields)
 }
 
-/// Definition and repetition levels of the entries of a group: a row without an entry has the definition level 0, and the
-/// entries of a row after the first have the repetition level 1.
-fn levels(counts: &[usize]) -> (Vec<i16>, Vec<i16>) {
-    let of_row = |count: &usize| {
-        let count = *count;
-        (0..count.max(1)).map(move |k| (i16::from(count > 0), i16::from(k > 0)))
+fn numbers<S: AsRef<str>>(names: &[S]) -> Result<Vec<TypePtr>> {
+    leaves(names, Physical::DOUBLE)
+}
+
+fn leaves<S: AsRef<str>>(names: &[S], physical: Physical) -> Result<Vec<TypePtr>> {
+    let is_text = physical == Physical::BYTE_ARRAY;
+    let leaf = |name: &S| {
+        let leaf = Type::primitive_type_builder(name.as_ref(), physical)
+            .with_logical_type(is_text.then_some(LogicalType::String))
+            .with_repetition(Repetition::REQUIRED);
+        leaf.build().map(Arc::new)
     };
-    counts.iter().flat_map(of_row).unzip()
+    names.iter().map(leaf).collect()
 }
 
-/// Numbers of entries of the rows with these levels. There are no repetition levels where a row has at most one entry.
-fn counts(defined: &[i16], repeated: &[i16]) -> Vec<usize> {
-    let mut counts = Vec::new();
-    for (k, defined) in defined.iter().enumerate() {
-        match (repeated.get(k), counts.last_mut()) {
-            (Some(1..), Some(count)) => *count += 1,
-            _ => counts.push(usize::from(*defined > 0)),
-        }
-    }
-    counts
+fn group(name: &str, repetition: Repetition, fields: Vec<TypePtr>) -> Result<TypePtr> {
+    Type::group_type_builder(name).with_repetition(repetition).with_fields(fields).build().map(Arc::new)
 }
 
-impl Values {
-    pub(super) fn count(&self, place: usize) -> Option<usize> {
-        if let Self::Integers(values) = self { values.get(place)?.to_owned().try_into().ok() } else { None }
-    }
+/// A list of structs, in the three levels that the format prescribes.
+fn list(name: &str, fields: Vec<TypePtr>) -> Result<TypePtr> {
+    let element = group("element", Repetition::REQUIRED, fields)?;
+    let list = Type::group_type_builder(name)
+        .with_repetition(Repetition::REQUIRED)
+        .with_logical_type(Some(LogicalType::List))
+        .with_converted_type(ConvertedType::LIST)
+        .with_fields(vec![group("list", Repetition::REPEATED, vec![element])?]);
+    list.build().map(Arc::new)
+}
 
-    pub(super) fn number(&self, place: usize) -> Option<f64> {
-        if let Self::Numbers(values) = self { values.get(place).copied() } else { None }
-    }
+/// Key of the file metadata: the fingerprint of member 0 as JSON.
+const FIRST: &str = "lagrange.first";
+/// Keys for readers: the name and the equations of the system.
+const NAME: &str = "lagrange.system";
+const EQUATIONS: &str = "lagrange.equations";
 
-    pub(super) fn flag(&self, place: usize) -> Option<bool> {
-        if let Self::Flags(values) = self { values.get(place).copied() } else { None }
-    }
+/// Rows that are converted at once, a row group of the file. Meanwhile each of their numbers takes some hundred bytes: 10 MB
+/// for members with a hundred numbers.
+const ROWS_IN_GROUP: usize = 1024;
 
-    pub(super) fn text(&self, place: usize) -> Option<&str> {
-        if let Self::Texts(values) = self { values.get(place)?.as_utf8().ok() } else { None }
+/// Writes these rows to a file. `first` is the fingerprint of member 0.
+pub(super) fn write<R: Serialize>(
+    to: impl Write + Send,
+    schema: TypePtr,
+    rows: impl Iterator<Item = R>,
+    first: Fingerprint,
+    [name, equations]: [&str; 2],
+) -> Result<()> {
+    let first = serde_json::to_string(&first).map_err(|_| other_columns())?;
+    let head = [(FIRST, first), (NAME, name.into()), (EQUATIONS, equations.into())];
+    let head = head.into_iter().map(|(key, value)| KeyValue::new(key.into(), value)).collect();
+    let properties = WriterProperties::builder().set_key_value_metadata(Some(head)).build();
+    let mut writer = SerializedFileWriter::new(to, schema, Arc::new(properties))?;
+    let mut rows = rows.map(|row| serde_json::to_value(row).map_err(|_| other_columns())).peekable();
+    while rows.peek().is_some() {
+        write_group(&mut writer, &rows.by_ref().take(ROWS_IN_GROUP).collect::<Result<Vec<_>>>()?)?;
     }
+    writer.close().map(drop)
+}
 
-    fn physical(&self) -> Physical {
-        match self {
-            Self::Integers(_) => Physical::INT64,
-            Self::Numbers(_) => Physical::DOUBLE,
-            Self::Flags(_) => Physical::BOOLEAN,
-            Self::Texts(_) => Physical::BYTE_ARRAY,
-        }
+fn write_group(to: &mut SerializedFileWriter<impl Write + Send>, rows: &[Value]) -> Result<()> {
+    let columns = to.schema_descr().columns().to_vec();
+    let mut group = to.next_row_group()?;
+    for column in columns {
+        let mut entries = Entries::default();
+        rows.iter().for_each(|row| entries.push(row, column.path().parts(), 0));
+        let mut writer = group.next_column()?.ok_or_else(other_columns)?;
+        entries.write(writer.untyped())?;
+        writer.close()?;
     }
-
-    fn write(
-        &self,
-        to: &mut ColumnWriter<'_>,
-        defined: Option<&[i16]>,
-        repeated: Option<&[i16]>,
-    ) -> Result<usize> {
-        match (self, to) {
-            (Self::Integers(values), ColumnWriter::Int64ColumnWriter(to)) => {
-                to.write_batch(values, defined, repeated)
-            }
-            (Self::Numbers(values), ColumnWriter::DoubleColumnWriter(to)) => {
-                to.write_batch(values, defined, repeated)
-            }
-            (Self::Flags(values), ColumnWriter::BoolColumnWriter(to)) => {
-                to.write_batch(values, defined, repeated)
-            }
-            (Self::Texts(values), ColumnWriter::ByteArrayColumnWriter(to)) => {
-                to.write_batch(values, defined, repeated)
-            }
-            _ => Err(other_columns()),
-        }
-    }
-
-    /// Appends the next `rows` rows of a column, with their definition and repetition levels.
-    fn read(
-        &mut self,
-        from: ColumnReader,
-        rows: usize,
-        (defined, repeated): (&mut Vec<i16>, &mut Vec<i16>),
-    ) -> Result<(usize, usize, usize)> {
-        let (defined, repeated) = (Some(defined), Some(repeated));
-        match (self, from) {
-            (Self::Integers(to), ColumnReader::Int64ColumnReader(mut from)) => {
-                from.read_records(rows, defined, repeated, to)
-            }
-            (Self::Numbers(to), ColumnReader::DoubleColumnReader(mut from)) => {
-                from.read_records(rows, defined, repeated, to)
-            }
-            (Self::Flags(to), ColumnReader::BoolColumnReader(mut from)) => {
-                from.read_records(rows, defined, repeated, to)
-            }
-            (Self::Texts(to), ColumnReader::ByteArrayColumnReader(mut from)) => {
-                from.read_records(rows, defined, repeated, to)
-            }
-            _ => Err(other_columns()),
-        }
-    }
+    group.close().map(drop)
 }
 
 fn other_columns() -> ParquetError {
     ParquetError::General("its columns are others".into())
 }
 
-fn schema(columns: &[Column]) -> Result<TypePtr> {
-    let mut fields = Vec::new();
-    for group in columns.chunk_by(|one, next| one.group == next.group) {
-        let leaves = group.iter().map(leaf).collect::<Result<Vec<_>>>()?;
-        match group[0].group {
-            "" => fields.extend(leaves),
-            name @ (SAMPLES | CROSSINGS) => fields.push(list(name, leaves)?),
-            name => {
-                let needed = if name == END { Repetition::OPTIONAL } else { Repetition::REQUIRED };
-                fields.push(struct_of(name, needed, leaves)?);
+/// Entries of a column.
+#[derive(Default)]
+struct Entries<'v> {
+    values: Vec<&'v Value>,
+    /// Definition levels: 0 for a row without an entry, because its `end` is null or its list is empty.
+    defined: Vec<i16>,
+    /// Repetition levels: 1 for the entries of a list after the first.
+    repeated: Vec<i16>,
+}
+
+impl<'v> Entries<'v> {
+    /// Appends the entries of a value under this path of names.
+    fn push(&mut self, value: &'v Value, path: &[String], repeated: i16) {
+        match (value, path) {
+            (Value::Object(fields), [name, rest @ ..]) => {
+                self.push(fields.get(name).unwrap_or(&Value::Null), rest, repeated);
+            }
+            // Below a list, the path has the names `list` and `element`.
+            (Value::Array(elements), [_, _, rest @ ..]) if !elements.is_empty() => {
+                elements
+                    .iter()
+                    .enumerate()
+                    .for_each(|(k, element)| self.push(element, rest, i16::from(k > 0)));
+            }
+            (value, rest) => {
+                let is_defined = rest.is_empty();
+                self.values.extend(is_defined.then_some(value));
+                self.defined.push(is_defined.into());
+                self.repeated.push(repeated);
             }
         }
     }
-    Ok(Arc::new(Type::group_type_builder("members").with_fields(fields).build()?))
-}
 
-fn struct_of(name: &str, needed: Repetition, fields: Vec<TypePtr>) -> Result<TypePtr> {
-    Type::group_type_builder(name).with_repetition(needed).with_fields(fields).build().map(Arc::new)
-}
-
-/// A list of structs, in the three levels that the format prescribes.
-fn list(name: &str, fields: Vec<TypePtr>) -> Result<TypePtr> {
-    let element = struct_of("element", Repetition::REQUIRED, fields)?;
-    let entries = struct_of("list", Repetition::REPEATED, vec![element])?;
-    let list = Type::group_type_builder(name)
-        .with_repetition(Repetition::REQUIRED)
-        .with_logical_type(Some(LogicalType::List))
-        .with_converted_type(ConvertedType::LIST)
-        .with_fields(vec![entries]);
-    list.build().map(Arc::new)
-}
-
-/// Names of the fields of the list [`SAMPLES`] in this schema.
-fn fields_of_samples(schema: &Type) -> Option<Vec<String>> {
-    let inner = |group: &Type, name: &str| {
-        let fields = if group.is_group() { group.get_fields() } else { &[] };
-        fields.iter().find(|field| field.name() == name).cloned()
-    };
-    let element = inner(&*inner(&*inner(schema, SAMPLES)?, "list")?, "element")?;
-    Some(element.get_fields().iter().map(|field| field.name().to_string()).collect())
-}
-
-fn leaf(column: &Column) -> Result<TypePtr> {
-    let physical = column.values.physical();
-    let is_text = physical == Physical::BYTE_ARRAY;
-    let leaf = Type::primitive_type_builder(&column.name, physical)
-        .with_logical_type(is_text.then_some(LogicalType::String))
-        .with_repetition(Repetition::REQUIRED);
-    leaf.build().map(Arc::new)
-}
-
-/// Keys of the file metadata: [`Fingerprint::system`], [`Fingerprint::run`] and, of member 0, [`Fingerprint::start`];
-/// for readers, the name and the equations of the system.
-const SYSTEM: &str = "lagrange.fingerprint.system";
-const RUN: &str = "lagrange.fingerprint.run";
-const FIRST: &str = "lagrange.fingerprint.first";
-const NAME: &str = "lagrange.system";
-const EQUATIONS: &str = "lagrange.equations";
-
-/// Writes these columns to a file. `first` is the fingerprint of member 0.
-pub(super) fn write(
-    to: impl Write + Send,
-    Sheet { columns, counts }: &Sheet,
-    first: Fingerprint,
-    [name, equations]: [&str; 2],
-) -> Result<()> {
-    let head = [
-        (SYSTEM, first.system.to_string()),
-        (RUN, first.run.to_string()),
-        (FIRST, first.start.to_string()),
-        (NAME, name.into()),
-        (EQUATIONS, equations.into()),
-    ];
-    let head = head.into_iter().map(|(key, value)| KeyValue::new(key.into(), value)).collect();
-    let properties = WriterProperties::builder().set_key_value_metadata(Some(head)).build();
-    let mut writer = SerializedFileWriter::new(to, schema(columns)?, Arc::new(properties))?;
-    let mut group = writer.next_row_group()?;
-    let levels = counts.each_ref().map(|counts| levels(counts));
-    for column in columns {
-        let of_group = GROUPS.iter().position(|group| *group == column.group).map(|place| &levels[place]);
-        let mut writer = group.next_column()?.ok_or_else(other_columns)?;
-        let (defined, repeated) =
-            (of_group.map(|(defined, _)| &defined[..]), of_group.map(|(_, repeated)| &repeated[..]));
-        column.values.write(writer.untyped(), defined, repeated)?;
-        writer.close()?;
+    fn write(&self, to: &mut ColumnWriter<'_>) -> Result<usize> {
+        let levels = (Some(&self.defined[..]), Some(&self.repeated[..]));
+        match to {
+            ColumnWriter::Int64ColumnWriter(to) => {
+                to.write_batch(&self.typed(Value::as_i64)?, levels.0, levels.1)
+            }
+            ColumnWriter::BoolColumnWriter(to) => {
+                to.write_batch(&self.typed(Value::as_bool)?, levels.0, levels.1)
+            }
+            ColumnWriter::DoubleColumnWriter(to) => {
+                let number = |value: &Value| Number::deserialize(value).ok().map(|Number(x)| x);
+                to.write_batch(&self.typed(number)?, levels.0, levels.1)
+            }
+            ColumnWriter::ByteArrayColumnWriter(to) => {
+                to.write_batch(&self.typed(|value| value.as_str().map(Into::into))?, levels.0, levels.1)
+            }
+            _ => Err(other_columns()),
+        }
     }
-    group.close()?;
-    writer.close().map(drop)
+
+    fn typed<V>(&self, read: impl Fn(&Value) -> Option<V>) -> Result<Vec<V>> {
+        self.values.iter().map(|value| read(value).ok_or_else(other_columns)).collect()
+    }
 }
 
 /// Reason why a file cannot be read or written.
@@ -268,60 +208,64 @@ impl From<std::io::Error> for FileFault {
     }
 }
 
-/// Reads the fingerprint of member 0 from the metadata of a file. `columns` holds the expected schema.
-fn first(reader: &SerializedFileReader<File>, columns: &[Column]) -> Result<Fingerprint, FileFault> {
-    let head = reader.metadata().file_metadata();
-    if head.schema() != &*schema(columns)? {
-        return Err(FileFault::Other("its columns are others".into()));
+/// Reads the fingerprint of member 0 from the metadata of a file.
+pub(super) fn first(reader: &SerializedFileReader<File>) -> Result<Fingerprint, FileFault> {
+    let head = reader.metadata().file_metadata().key_value_metadata();
+    let entry = head.into_iter().flatten().find(|entry| entry.key == FIRST);
+    let first = entry.and_then(|entry| serde_json::from_str(entry.value.as_ref()?).ok());
+    first.ok_or(FileFault::Other("it does not say of which run it is".into()))
+}
+
+/// Rows of a file; `fields` chooses fields by name.
+pub(super) fn rows<R: DeserializeOwned>(
+    reader: &SerializedFileReader<File>,
+    fields: impl Fn(&str) -> bool,
+) -> Result<impl Iterator<Item = Result<R, FileFault>>, FileFault> {
+    let all = reader.metadata().file_metadata().schema();
+    let wanted = all.get_fields().iter().filter(|field| fields(field.name())).cloned().collect();
+    let wanted = Type::group_type_builder(all.name()).with_fields(wanted).build()?;
+    let read =
+        |row| R::deserialize(Entry(&Field::Group(row))).map_err(|error| FileFault::Other(error.to_string()));
+    Ok(reader.get_row_iter(Some(wanted))?.map(move |row| read(row?)))
+}
+
+/// An entry of a row, which serde reads.
+struct Entry<'f>(&'f Field);
+
+impl<'de> Deserializer<'de> for Entry<'de> {
+    type Error = ReadError;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        match self.0 {
+            Field::Bool(flag) => visitor.visit_bool(*flag),
+            Field::Long(integer) => visitor.visit_i64(*integer),
+            Field::Double(number) => visitor.visit_f64(*number),
+            Field::Str(text) => visitor.visit_str(text),
+            Field::Group(row) => {
+                let fields = row.get_column_iter().map(|(name, field)| (name.as_str(), Entry(field)));
+                visitor.visit_map(MapDeserializer::new(fields))
+            }
+            Field::ListInternal(list) => {
+                visitor.visit_seq(SeqDeserializer::new(list.elements().iter().map(Entry)))
+            }
+            _ => Err(ReadError::custom(other_columns())),
+        }
     }
-    let number = |key: &str| {
-        let entry = head.key_value_metadata()?.iter().find(|entry| entry.key == key)?;
-        entry.value.as_ref()?.parse().ok()
-    };
-    match (number(SYSTEM), number(RUN), number(FIRST)) {
-        (Some(system), Some(run), Some(start)) => Ok(Fingerprint { system, run, start }),
-        _ => Err(FileFault::Other("it does not say of which run it is".into())),
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, ReadError> {
+        if matches!(self.0, Field::Null) { visitor.visit_none() } else { visitor.visit_some(self) }
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf unit unit_struct newtype_struct seq tuple
+        tuple_struct map struct enum identifier ignored_any
     }
 }
 
-/// Reads a file, of its columns those that `is_wanted` chooses, and the fingerprint of member 0. `columns` makes the
-/// columns, without rows, from the fields of the samples.
-pub(super) fn read(
-    file: File,
-    columns: impl FnOnce(Vec<String>) -> Vec<Column>,
-    is_wanted: impl Fn(&Column) -> bool,
-) -> Result<(Sheet, Fingerprint), FileFault> {
-    let reader = SerializedFileReader::new(file)?;
-    let fields = fields_of_samples(reader.metadata().file_metadata().schema());
-    let columns = columns(fields.unwrap_or_default());
-    let first = first(&reader, &columns)?;
-    let mut sheet = Sheet { columns, counts: Default::default() };
-    for group in 0..reader.num_row_groups() {
-        read_group(&*reader.get_row_group(group)?, &mut sheet, &is_wanted)?;
-    }
-    Ok((sheet, first))
-}
+impl<'de> IntoDeserializer<'de> for Entry<'de> {
+    type Deserializer = Self;
 
-fn read_group(
-    from: &dyn RowGroupReader,
-    sheet: &mut Sheet,
-    is_wanted: impl Fn(&Column) -> bool,
-) -> Result<()> {
-    let rows = usize::try_from(from.metadata().num_rows()).map_err(|_| other_columns())?;
-    let (mut defined, mut repeated) = (Vec::new(), Vec::new());
-    let wanted = sheet.columns.iter_mut().enumerate().filter(|(_, column)| is_wanted(column));
-    for (k, column) in wanted {
-        defined.clear();
-        repeated.clear();
-        let levels = (&mut defined, &mut repeated);
-        let (read, ..) = column.values.read(from.get_column_reader(k)?, rows, levels)?;
-        if read != rows {
-            return Err(ParquetError::General("it has fewer rows than it says".into()));
-        }
-        let group = GROUPS.iter().position(|group| *group == column.group && column.name == "t");
-        if let Some(group) = group {
-            sheet.counts[group].extend(counts(&defined, &repeated));
-        }
+    fn into_deserializer(self) -> Self {
+        self
     }
-    Ok(())
 }

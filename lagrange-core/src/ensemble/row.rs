@@ -1,22 +1,26 @@
-//! One row of a table: its fields, its text.
+//! A row of a table: all data of one member, with names and errors as text.
 
 use core::fmt::{self, Display, Formatter};
-use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::cells::{Lists, Number, escaped, quoted, text};
-use crate::ensemble::fingerprint::Fingerprint;
-use crate::ensemble::names::ColumnNames;
-use crate::ensemble::outcome::Member;
+use super::fingerprint::Fingerprint;
+use super::names::ColumnNames;
+use super::outcome::Member;
 use crate::error::{Ending, EnsembleError, Error};
 use crate::motion::record::Arrival;
 use crate::number::Real;
 use crate::solution::crossing::Crossing;
 use crate::statistics::Statistics;
 use crate::system::State;
-use crate::vector::{Array, Element, Length, vector};
+use crate::vector::{Element, Length};
 
 /// Data of one member in a table.
+///
+/// With the feature `serde` it is serialized and deserialized as one object with the fields `member`, [`fingerprint`](Fingerprint), `ending`,
+/// `end`, `statistics`, `samples` and `crossings`. The same object is a line of [JSON](super::Outcome::json_lines) and a row of a
+/// Parquet file. States and samples are objects of numbers by name, `{"t":0.5,"x":0.7,"x_dot":-1.1,"energy":0.5}`. `end` is
+/// null if the motion did not start. The ending is `complete`, `cancelled`, `event: ` and the event's name, or the message of
+/// the error. Numbers are written as `f64`; NaN and infinities are the texts `"NaN"`, `"inf"` and `"-inf"`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MemberRow<T: Element, N: Length> {
     /// Index of the member in the ensemble.
@@ -113,6 +117,32 @@ impl From<&str> for MemberEnding {
     }
 }
 
+impl<T: Real, N: Length> Member<T, N> {
+    /// The member's row of a table.
+    pub fn row(&self) -> MemberRow<T, N> {
+        let arrival = self.arrival();
+        MemberRow {
+            index: self.index,
+            fingerprint: self.fingerprint,
+            state: arrival.map(|arrival| arrival.state),
+            statistics: arrival.map(|arrival| arrival.statistics).unwrap_or_default(),
+            ending: match &self.result {
+                Err(error) => MemberEnding::Failed(error.to_string()),
+                Ok(Arrival { ending: Ending::Complete { .. }, .. }) => MemberEnding::Complete,
+                Ok(Arrival { ending: Ending::Cancelled { .. }, .. }) => MemberEnding::Cancelled,
+                Ok(Arrival { ending: Ending::Event { event, .. }, .. }) => {
+                    MemberEnding::Event((*event).into())
+                }
+                Ok(Arrival { ending, .. }) => MemberEnding::Failed(ending.to_string()),
+            },
+            samples: arrival.map(|arrival| arrival.samples.clone()).unwrap_or_default(),
+            values: arrival.map(|arrival| arrival.values.clone()).unwrap_or_default(),
+            crossings: arrival.into_iter().flat_map(|arrival| &arrival.crossings).map(Into::into).collect(),
+            names: self.names.clone(),
+        }
+    }
+}
+
 impl<T: Real, N: Length> MemberRow<T, N> {
     /// True if an error, rather than the observer or an event, ended the motion early.
     pub fn has_failed(&self) -> bool {
@@ -166,116 +196,18 @@ impl<T: Real, N: Length> MemberRow<T, N> {
     pub(crate) fn contradicts(&self, other: &Self) -> bool {
         let is_repeatable = |ending: &_| matches!(ending, MemberEnding::Complete | MemberEnding::Event(_));
         let are_repeatable = [self, other].iter().all(|row| is_repeatable(&row.ending));
-        are_repeatable && self.csv().to_string() != other.csv().to_string()
+        // `Debug` prints numbers that read back to the same bits, and a NaN equals itself.
+        are_repeatable && self.result() != other.result()
     }
 
-    /// The row as a line of the table.
-    pub fn csv(&self) -> impl Display + '_ {
-        Line(Cow::Borrowed(self))
-    }
-}
-
-pub(super) const COMPLETE: &str = "complete";
-pub(super) const CANCELLED: &str = "cancelled";
-pub(super) const EVENT: &str = "event: ";
-
-pub(super) fn header(names: &ColumnNames) -> String {
-    let first = ["member", "system", "run", "start"].map(String::from).into_iter().chain(names.of_state());
-    let counts = ["accepted", "rejected", "evaluations", "multipliers_are_unique", "ending"];
-    let lists = ["samples", "crossings", "member_again"];
-    first.chain(counts.into_iter().chain(lists).map(String::from)).collect::<Vec<_>>().join(",")
-}
-
-/// Number of entries of a state: time, coordinates, velocities.
-pub(crate) const fn entries<N: Length>() -> usize {
-    1 + 2 * N::COUNT
-}
-
-/// An entry of a state.
-pub(crate) fn entry<T: Real, N: Length>(state: &State<T, N>, place: usize) -> T {
-    match place.checked_sub(1) {
-        None => state.t,
-        Some(i) if i < N::COUNT => state.q[i],
-        Some(i) => state.v[i - N::COUNT],
+    fn result(&self) -> String {
+        let Self { state, statistics, ending, samples, values, crossings, .. } = self;
+        format!("{:?}", (state, statistics, ending, samples, values, crossings))
     }
 }
 
-/// The state with these entries.
-pub(crate) fn state_of<T: Real, N: Length, E>(
-    mut entry: impl FnMut(usize) -> Result<T, E>,
-) -> Result<State<T, N>, E> {
-    let zero = vector(Array::<T, N>::filled(T::constant(0.0)));
-    let mut state = State { t: entry(0)?, q: zero, v: zero };
-    for (k, x) in (1..).zip(state.q.iter_mut().chain(&mut state.v)) {
-        *x = entry(k)?;
-    }
-    Ok(state)
-}
+const COMPLETE: &str = "complete";
+const CANCELLED: &str = "cancelled";
+const EVENT: &str = "event: ";
 
-/// Names of the columns of a crossing before those of its state.
-pub(crate) const CROSSING: [&str; 4] = ["event", "event_index", "event_count", "event_rising"];
-
-/// Prints one line of the table. The index stands at both ends, so that a truncated line with another row appended is
-/// not mistaken for the row of a third member.
-pub(super) struct Line<'m, T: Real, N: Length>(pub(super) Cow<'m, MemberRow<T, N>>);
-
-impl<T: Real, N: Length> Display for Line<'_, T, N> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let MemberRow { index, fingerprint, state, statistics, ending, .. } = &*self.0;
-        let Fingerprint { system, run, start } = fingerprint;
-        write!(f, "{index},{system},{run},{start}")?;
-        match state {
-            None => (0..2 * N::COUNT + 5).try_for_each(|_| write!(f, ","))?,
-            Some(state) => {
-                // `Debug` prints the fewest digits that read back to the same number.
-                write!(f, ",{:?}", state.t)?;
-                state.q.iter().chain(&state.v).try_for_each(|x| write!(f, ",{x:?}"))?;
-                let Statistics { accepted, rejected, evaluations, multipliers_are_unique } = statistics;
-                write!(f, ",{accepted},{rejected},{evaluations},{multipliers_are_unique}")?;
-            }
-        }
-        match ending {
-            MemberEnding::Complete | MemberEnding::Cancelled => write!(f, ",{ending}")?,
-            ending => write!(f, ",{}", quoted(&escaped(&ending.to_string(), "")))?,
-        }
-        writeln!(f, ",{},{},{index}", self.0.samples_cell(), self.0.crossings_cell())
-    }
-}
-
-impl<T: Real, N: Length> MemberRow<T, N> {
-    /// Samples and quantities as an object of lists; empty without samples.
-    fn samples_cell(&self) -> String {
-        if self.samples.is_empty() {
-            return String::new();
-        }
-        let (mut lists, names) = (Lists::default(), &self.names);
-        push_states(&mut lists, names, &self.samples);
-        let count = names.quantities.len();
-        for (place, name) in names.quantities.iter().enumerate() {
-            lists.push(name, self.values.iter().skip(place).step_by(count).map(|x| Number(*x)));
-        }
-        lists.cell()
-    }
-
-    /// Crossings as an object of lists; empty without crossings.
-    fn crossings_cell(&self) -> String {
-        let of = &self.crossings;
-        if of.is_empty() {
-            return String::new();
-        }
-        let [event, index, count, rising] = CROSSING;
-        let mut lists = Lists::default();
-        lists.push(event, of.iter().map(|crossing| text(&crossing.event)));
-        lists.push(index, of.iter().map(|crossing| crossing.index));
-        lists.push(count, of.iter().map(|crossing| crossing.count));
-        lists.push(rising, of.iter().map(|crossing| crossing.rising));
-        push_states(&mut lists, &self.names, &of.iter().map(|crossing| crossing.state).collect::<Vec<_>>());
-        lists.cell()
-    }
-}
-
-fn push_states<T: Real, N: Length>(lists: &mut Lists, names: &ColumnNames, states: &[State<T, N>]) {
-    for (place, name) in names.of_state().enumerate() {
-        lists.push(&name, states.iter().map(|state| Number(entry(state, place))));
-    }
-}
+pub(super) const TWO_RESULTS: &str = "an earlier row of the member has another result: other code, or a library with other roundings, was at work";

@@ -5,7 +5,6 @@
 //! final name is complete. Programs that read Parquet accept such a directory as one table.
 
 mod file;
-mod rows;
 
 use core::cell::OnceCell;
 use core::fmt::{self, Debug, Formatter};
@@ -15,12 +14,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use self::file::{Column, FileFault, Sheet};
-use self::rows::{fingerprints, rows, sheet};
+use parquet::file::reader::SerializedFileReader;
+use serde::{Deserialize, Serialize};
+
+use self::file::FileFault;
 use super::fingerprint::{Fingerprint, Hash, OTHER_START};
+use super::line::{Line, Numbers};
 use super::names::ColumnNames;
 use super::outcome::Member;
-use super::table::{MemberRow, MemberTable, entries};
+use super::row::MemberRow;
+use super::table::MemberTable;
 use crate::error::{EnsembleError, Error};
 use crate::linearized::{Linearized, check_parameters};
 use crate::number::Real;
@@ -29,12 +32,9 @@ use crate::vector::{Element, Length};
 
 /// A table of members in a directory of Parquet files; rows are appended as members finish.
 ///
-/// Each row holds the member's start, its parameters by name, and the entries of a row of [`csv`](super::Outcome::csv).
-/// The columns are `member`, `fingerprint` (of the start) and `ending`, and the groups `start`, `parameters` and `end`.
-/// The group `end` is null for a member that did not start. `samples` is a list of structs: time, coordinates,
-/// velocities and quantities. `crossings` is a list of structs: `event` (its name), `event_index`, `event_count`,
-/// `event_rising` and the state. In polars, `table.explode("samples").unnest("samples")` has a row per sample. The metadata of each file hold the [`Fingerprint`] of the
-/// run and the equations as text.
+/// The columns are the fields of a [`MemberRow`], and the groups `start` and `parameters`: the initial state of the member
+/// and its parameters by name. In polars, `table.explode("samples").unnest("samples")` has a row per sample. The metadata
+/// of each file hold the [`Fingerprint`] of member 0 and the equations as text.
 ///
 /// Files are written every 10 s ([`every`](Self::every)), when the table is dropped, and by [`flush`](Self::flush),
 /// which returns errors. A program that is killed loses the rows since the last file. Several tables, of programs on
@@ -120,7 +120,7 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
     pub fn push(&mut self, member: &Member<L::Scalar, L::N>) -> Result<(), Error> {
         let (system, start) = (self.member)(member.index);
         let known = self.waiting.first().map_or(member.fingerprint, |row| row.fingerprint);
-        if let Some((_, differs)) = known.with_start(&system, &start).difference(&member.fingerprint) {
+        if let Some(differs) = known.with_start(&system, &start).difference(&member.fingerprint) {
             return Err(Error::Ensemble(EnsembleError::OtherRun { member: member.index, differs }));
         }
         if self.waiting.is_empty() {
@@ -167,9 +167,7 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
                 Err(FileFault::Other(reason)) => return Err(wrong(&path, reason)),
             }
         }
-        MemberTable::gather(L::COORDINATES, Fingerprint::of_system::<L>(), found, |path, _, reason| {
-            wrong(&path, reason)
-        })
+        MemberTable::gather(Fingerprint::of_system::<L>(), found, |path, reason| wrong(&path, reason))
     }
 
     /// One error for each file that the last [`read`](Self::read) skipped.
@@ -208,28 +206,23 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
     }
 
     fn rows_in(&self, path: &Path) -> Result<Vec<MemberRow<L::Scalar, L::N>>, FileFault> {
-        let (sheet, first, names) = self.sheet_in(path, |_| true)?;
-        rows(&sheet, first, &Arc::new(names))
+        let mut names = Arc::new(ColumnNames::new(L::COORDINATES, Vec::new()));
+        let reader = self.reader(path)?;
+        let lines = file::rows(&reader, |_| true)?;
+        lines
+            .map(|line| Line::into_row(line?, &mut names).map_err(|reason| FileFault::Other(reason.into())))
+            .collect()
     }
 
-    /// Reads the columns that `is_wanted` chooses, and checks that member 0 of the file has the start and the parameters
-    /// that `member` gives.
-    fn sheet_in(
-        &self,
-        path: &Path,
-        is_wanted: impl Fn(&Column) -> bool,
-    ) -> Result<(Sheet, Fingerprint, ColumnNames), FileFault> {
+    /// Opens a file, and checks that its member 0 has the start and the parameters that `member` gives.
+    fn reader(&self, path: &Path) -> Result<SerializedFileReader<File>, FileFault> {
         let file = File::open(path).map_err(|error| FileFault::Other(error.to_string()))?;
-        let mut names = ColumnNames { coordinates: L::COORDINATES, quantities: Vec::new() };
-        let columns = |mut fields: Vec<String>| {
-            names.quantities = fields.split_off(entries::<L::N>().min(fields.len()));
-            sheet::<L>(&[], &[], &names).columns
-        };
-        let (sheet, first) = file::read(file, columns, is_wanted)?;
+        let reader = SerializedFileReader::new(file)?;
+        let first = file::first(&reader)?;
         if first.system == Fingerprint::of_system::<L>() && first.start != self.first() {
             return Err(FileFault::Other(OTHER_START.into()));
         }
-        Ok((sheet, first, names))
+        Ok(reader)
     }
 
     /// [`Fingerprint::start`] of member 0, which every run of an ensemble can compute.
@@ -243,37 +236,55 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
     /// Checks that the rows of a file belong to the run of the waiting rows, and that members below `end`
     /// have the starts and the parameters that `member` gives.
     fn compare(&self, path: &Path, end: usize) -> Result<(), Error> {
-        let (sheet, first, _) = match self.sheet_in(path, |column| column.group.is_empty()) {
-            Ok(read) => read,
+        match self.compare_rows(path, end) {
             // A damaged file contributes no rows, so there is nothing to compare.
-            Err(FileFault::Damaged(_)) => return Ok(()),
-            Err(FileFault::Other(reason)) => return Err(wrong(path, reason)),
-        };
+            Ok(()) | Err(FileFault::Damaged(_)) => Ok(()),
+            Err(FileFault::Other(reason)) => Err(wrong(path, reason)),
+        }
+    }
+
+    fn compare_rows(&self, path: &Path, end: usize) -> Result<(), FileFault> {
+        #[derive(Deserialize)]
+        struct Identity {
+            member: usize,
+            fingerprint: Fingerprint,
+        }
         let run = self.waiting[0].fingerprint;
-        for (index, found) in fingerprints(&sheet, first) {
+        let reader = self.reader(path)?;
+        for row in file::rows(&reader, |name| ["member", "fingerprint"].contains(&name))? {
+            let Identity { member, fingerprint } = row?;
             // The file may hold indices for which `member` cannot make a member.
-            let expected = if index < end {
-                let (system, start) = (self.member)(index);
+            let expected = if member < end {
+                let (system, start) = (self.member)(member);
                 run.with_start(&system, &start)
             } else {
-                Fingerprint { start: found.start, ..run }
+                Fingerprint { start: fingerprint.start, ..run }
             };
-            if let Some((_, reason)) = expected.difference(&found) {
-                return Err(wrong(path, reason));
+            if let Some(reason) = expected.difference(&fingerprint) {
+                return Err(FileFault::Other(reason.into()));
             }
         }
         Ok(())
     }
 
+    fn file_row<'r>(&self, row: &'r MemberRow<L::Scalar, L::N>) -> FileRow<'r> {
+        let (system, start) = (self.member)(row.index);
+        let mut parameters = Vec::new();
+        system.visit_parameters(&mut |_, x| parameters.push(x));
+        let parameters = Numbers::named(L::PARAMETERS, parameters);
+        FileRow { line: Line::of(row), start: Numbers::of(&row.names, &start), parameters }
+    }
+
     /// Writes a file of these rows under a temporary name, and renames it when it is complete.
     fn write(&self, rows: &[MemberRow<L::Scalar, L::N>]) -> Result<PathBuf, Error> {
-        let made: Vec<_> = rows.iter().map(|row| (self.member)(row.index)).collect();
-        let sheet = sheet(rows, &made, &rows[0].names);
+        let names = &rows[0].names;
+        let file_rows = rows.iter().map(|row| self.file_row(row));
         let first = Fingerprint { start: self.first(), ..rows[0].fingerprint };
         let path = self.directory.join(name(rows));
         let unfinished = path.with_extension(&UNFINISHED[1..]);
         let written = File::create(&unfinished).map_err(FileFault::from).and_then(|file| {
-            file::write(&file, &sheet, first, [L::NAME, L::EQUATIONS.text()])?;
+            let schema = file::schema(names, L::PARAMETERS)?;
+            file::write(&file, schema, file_rows, first, [L::NAME, L::EQUATIONS.text()])?;
             file.sync_all()?;
             Ok(rename(&unfinished, &path)?)
         });
@@ -287,6 +298,15 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
             Err(FileFault::Other(reason)) => Err(wrong(&path, reason)),
         }
     }
+}
+
+/// A row of a file.
+#[derive(Serialize)]
+struct FileRow<'r> {
+    #[serde(flatten)]
+    line: Line<'r>,
+    start: Numbers<'r>,
+    parameters: Numbers<'r>,
 }
 
 const UNFINISHED: &str = ".unfinished";
