@@ -26,6 +26,13 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// A state has more or fewer coordinates or velocities than its system has coordinates.
+    StateLength {
+        /// Number of the coordinates or velocities of the state.
+        found: usize,
+        /// Number of the coordinates of the system.
+        expected: usize,
+    },
     /// A parameter matrix lacks the property that its type or `#[parameter(…)]` declares.
     ParameterNotAsSaid {
         /// Name of the parameter.

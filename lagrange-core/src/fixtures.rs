@@ -9,8 +9,9 @@ use nalgebra::{Const, SMatrix, SVector};
 pub(crate) use random::RandomMatrix;
 
 use crate::generated::{self, LoopFactor, eliminate, vector};
+use crate::motion::LagrangianVectorField;
 use crate::number::Broadcast;
-use crate::system::{ConstraintKind, Facts, Lagrangian};
+use crate::system::{ConstraintKind, Facts, Lagrangian, System};
 use crate::{Solution, State};
 
 pub(crate) type At<const N: usize> = State<f64, N>;
@@ -41,10 +42,23 @@ const fn kinds<const M: usize>(holonomic: usize) -> [ConstraintKind; M] {
     kinds
 }
 
+impl<const N: usize, const M: usize, const H: usize> System for Mechanism<N, M, H> {
+    type Scalar = f64;
+    type Length = Const<N>;
+    type M = Const<M>;
+    type Field = LagrangianVectorField;
+
+    fn length(&self) -> Const<N> {
+        Const
+    }
+
+    fn accelerations(&self, t: f64, q: &[f64; N], v: &[f64; N], a: &mut [f64; N]) {
+        generated::write_accelerations(self, t, [q, v], a);
+    }
+}
+
 impl<const N: usize, const M: usize, const H: usize> Lagrangian for Mechanism<N, M, H> {
     type N = Const<N>;
-    type M = Const<M>;
-    type Scalar = f64;
     type Factor = LoopFactor<f64, N, M>;
     const NAME: &'static str = "Mechanism";
     const COORDINATES: &'static [&'static str] = first(&["x", "y", "z", "w[0]", "w[1]"], N);

@@ -4,6 +4,8 @@ use nalgebra::{ArrayStorage, Const, SMatrix, SVector};
 
 use crate::number::Scalar;
 use crate::solution::eliminate;
+use crate::system::{Lagrangian, State};
+use crate::vector::{StaticLength, ViewOf};
 
 pub use crate::linearized::bodies::{Joint, JointColumn, Tree, TreeNumbers};
 pub use crate::number::numeric::{only_where, sin_cos_of_small};
@@ -37,6 +39,18 @@ pub fn eliminate<T: Scalar, const N: usize, const M: usize>(
     gamma: [T; M],
 ) -> crate::Solution<T, N, M> {
     factor(m, f, [T::constant(0.0); M]).solve_completed(h.into(), gamma.into())
+}
+
+/// Writes the accelerations at coordinates and velocities to `a`, or NaN where the emitted elimination is not reliable.
+#[inline]
+pub fn write_accelerations<L: Lagrangian>(
+    system: &L,
+    t: L::Scalar,
+    [q, v]: [&ViewOf<L::Scalar, L::N>; 2],
+    a: &mut ViewOf<L::Scalar, L::N>,
+) {
+    let state = State { t, q: L::N::vector(*q), v: L::N::vector(*v) };
+    *a = L::N::entries(system.accelerations_unchecked(&state).accelerations);
 }
 
 /// Converts an array to a column vector, without a copy.

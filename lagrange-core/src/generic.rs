@@ -1,7 +1,8 @@
 //! Types over the lengths of vectors, for functions that are generic over the system.
 //!
 //! The number of coordinates of a system is a type, [`Lagrangian::N`](crate::Lagrangian::N), and so is the number
-//! of its constraints. For a known system they are [`Const<2>`](nalgebra::Const) and the like, and
+//! of its constraints. (That of a [`System`](crate::System) may be a value, a [`Dyn`](nalgebra::Dyn): its states are
+//! [`State<f64, Dyn>`](State), with vectors on the heap.) For a known system they are [`Const<2>`](nalgebra::Const) and the like, and
 //! [`State<f64, 2>`](crate::State) is short for [`State<f64, Const<2>>`](State).
 //!
 //! A function for any system writes `StateOf::<L>::new(q, v)` or `generic::State { t, q, v }`, because the `State` of
@@ -38,4 +39,9 @@
 
 pub use crate::hamiltonian::PhaseState;
 pub use crate::system::{Direction, ResidualChange, Solution, State};
-pub use crate::vector::{Array, Contiguous, Element, FixedArray, Length, Matrix, PhaseVector, Vector};
+pub use crate::vector::{
+    Array, Constant, Contiguous, Element, FixedArray, Kind, Length, Matrix, Numbers, PhaseVector,
+    StaticLength, Vector, VectorOf, ViewOf,
+};
+#[cfg(feature = "alloc")]
+pub use crate::vector::{RunTime, TwoParts};

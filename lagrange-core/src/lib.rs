@@ -214,7 +214,7 @@ pub use solution::Impact;
 pub use solution::Sample;
 pub use statistics::Statistics;
 pub use system::{
-    ConstraintKind, Entries, Lagrangian, Pack, Packed, Shared, SolutionOf, StateOf, TaylorSeries,
+    ConstraintKind, Entries, Lagrangian, Pack, Packed, Shared, SolutionOf, StateOf, System, TaylorSeries,
 };
 #[cfg(feature = "alloc")]
 pub use trajectory::{HybridTrajectory, Trajectory};

@@ -19,6 +19,8 @@ pub enum Entry {
     Momentum(&'static str),
     /// The parameter of this name.
     Parameter(&'static str),
+    /// An entry of a system whose coordinates have no names: its half, 0 for coordinates and 1 for velocities, and its index.
+    Numbered(usize, usize),
 }
 
 impl Display for Entry {
@@ -31,6 +33,7 @@ impl Display for Entry {
                 write!(f, "{base}_dot{index}")
             }
             Self::Momentum(name) => write!(f, "p({name})"),
+            Self::Numbered(half, index) => write!(f, "{}[{index}]", if *half == 0 { "q" } else { "q_dot" }),
         }
     }
 }
@@ -42,6 +45,8 @@ pub enum Row {
     Coordinate(&'static str),
     /// The constraint of this name.
     Constraint(&'static str),
+    /// The equation of the coordinate of this index, in a system whose coordinates have no names.
+    Numbered(usize),
 }
 
 impl Display for Row {
@@ -49,6 +54,7 @@ impl Display for Row {
         match self {
             Self::Coordinate(name) => write!(f, "coordinate `{name}`"),
             Self::Constraint(name) => write!(f, "constraint `{name}`"),
+            Self::Numbered(index) => write!(f, "coordinate `q[{index}]`"),
         }
     }
 }

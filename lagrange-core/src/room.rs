@@ -26,13 +26,18 @@ impl<X> Room<X> {
     }
 }
 
-impl<X: Copy, const K: usize> Room<[X; K]> {
+impl<X: Clone, const K: usize> Room<[X; K]> {
     /// Returns an array filled with `x`, built in its final place.
     pub(crate) fn filled(x: X) -> Self {
         #[cfg(feature = "alloc")]
-        return Self(alloc::vec![x; K].into_boxed_slice().try_into().unwrap_or_else(|_| Box::new([x; K])));
+        return Self(
+            alloc::vec![x.clone(); K]
+                .into_boxed_slice()
+                .try_into()
+                .unwrap_or_else(|_| Box::new(core::array::from_fn(|_| x.clone()))),
+        );
         #[cfg(not(feature = "alloc"))]
-        return Self([x; K]);
+        return Self(core::array::from_fn(|_| x.clone()));
     }
 }
 

@@ -41,9 +41,10 @@ impl<L: Lagrangian<Scalar = f64>, P: Method<L>> Method<L> for Searching<P> {
         system: &L,
         memory: &mut P::Memory,
         end: f64,
+        state: &mut StateOf<L>,
         statistics: &mut Statistics,
-    ) -> Step<f64, L::N> {
-        self.0.step(system, memory, end, statistics)
+    ) -> Step {
+        self.0.step(system, memory, end, state, statistics)
     }
 
     fn interpolant(

@@ -19,7 +19,7 @@ mod taylor_on_lanes;
 mod unseen;
 
 use lagrange_core::ensemble::{Arrival, Outcome};
-use lagrange_core::generic::Length;
+use lagrange_core::generic::StaticLength;
 use lagrange_core::nalgebra::Const;
 use lagrange_core::prelude::*;
 use lagrange_random::cases;
@@ -103,12 +103,12 @@ fn on_lanes<const LIVE: bool>(ensemble: Ensemble<'_, DoublePendulum<f64>, LIVE>)
     ensemble.integrate_on_lanes(END, Dop853::default()).expect("an outcome")
 }
 
-fn arrival<N: Length>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
+fn arrival<N: StaticLength>(outcome: &Outcome<f64, N>, index: usize) -> &Arrival<f64, N> {
     outcome.get(index).and_then(|member| member.arrival()).expect("a motion")
 }
 
 /// Accepted and refused steps.
-fn steps<N: Length>(arrival: &Arrival<f64, N>) -> [usize; 2] {
+fn steps<N: StaticLength>(arrival: &Arrival<f64, N>) -> [usize; 2] {
     [arrival.statistics.accepted, arrival.statistics.rejected]
 }
 

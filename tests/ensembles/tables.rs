@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use lagrange_core::ensemble::{EnsembleError, MemberEnding, MemberTable, Outcome};
-use lagrange_core::{Ending, contact::Contact, generic::Length, nalgebra::Const, prelude::*};
+use lagrange_core::{Ending, contact::Contact, generic::StaticLength, nalgebra::Const, prelude::*};
 
 use lagrange_random::cases;
 use lagrange_systems::{Ball, DoublePendulum};
@@ -64,7 +64,7 @@ fn killed(
 }
 
 /// The same in memory and in all bits: `Debug` prints numbers that read back to them, and a NaN equals itself.
-fn assert_same<N: Length>(resumed: &Outcome<f64, N>, whole: &Outcome<f64, N>) {
+fn assert_same<N: StaticLength>(resumed: &Outcome<f64, N>, whole: &Outcome<f64, N>) {
     assert_eq!(resumed.members().len(), whole.members().len());
     for (resumed, whole) in resumed.members().iter().zip(whole.members()) {
         assert_eq!(format!("{resumed:?}"), format!("{whole:?}"));

@@ -5,13 +5,13 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 
 use lagrange_core::prelude::*;
-use lagrange_core::{Ending, ensemble::Arrival, generic::Length};
+use lagrange_core::{Ending, ensemble::Arrival, generic::StaticLength};
 
 use lagrange_systems::{PushedSpring, Thrown};
 
 use crate::{COUNT, END, arrival, constraints, ensemble, far, fields, member, noise, on_threads};
 
-fn steps<N: Length>(arrival: &Arrival<f64, N>) -> [usize; 3] {
+fn steps<N: StaticLength>(arrival: &Arrival<f64, N>) -> [usize; 3] {
     let statistics = &arrival.statistics;
     [statistics.accepted, statistics.rejected, statistics.evaluations]
 }

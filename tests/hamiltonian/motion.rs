@@ -13,7 +13,7 @@ pub(crate) fn method() -> Dop853 {
 
 /// The motion by Hamilton's equations, equal to that by Lagrange's to 1e-8 in coordinates, velocities and multipliers
 /// at and between the steps; and the momenta are those of the velocities.
-pub(crate) fn check<L: Simulate<Scalar = f64>>(
+pub(crate) fn check<L: Lagrangian<Scalar = f64>>(
     system: &L,
     start: StateOf<L>,
 ) -> Trajectory<&L, HamiltonianVectorField> {

@@ -49,9 +49,10 @@ where
         system: &L,
         memory: &mut Memory<N>,
         end: f64,
+        state: &mut State<f64, N>,
         statistics: &mut Statistics,
-    ) -> Step<f64, Const<N>> {
-        let (from, left) = (memory.state, end - memory.state.t);
+    ) -> Step {
+        let (from, left) = (*state, end - state.t);
         let is_last = left.abs() <= memory.step * (1.0 + 1e-9);
         let time = if is_last { end } else { from.t + memory.step * left.signum() };
         let h = time - from.t;
@@ -77,8 +78,8 @@ where
         }
         match system.make_consistent(&State { t: time, q, v }) {
             Ok((next, _)) => {
-                (memory.before, memory.state) = (from, next);
-                Step::Accepted(next)
+                (memory.before, memory.state, *state) = (from, next, next);
+                Step::Accepted
             }
             Err(error) => failed(error),
         }
@@ -170,9 +171,9 @@ fn its_interpolant_meets_the_states() {
     let (system, method) = (damped(1.0), Heun { step: 0.3, tolerance: None });
     let mut statistics = Statistics::default();
     let mut memory = method.begin(&system, &sine(0.0), &mut statistics).unwrap();
-    let Step::Accepted(next) = method.step(&system, &mut memory, 1.0, &mut statistics) else {
-        panic!("a step")
-    };
+    let mut next = sine(0.0);
+    let step = method.step(&system, &mut memory, 1.0, &mut next, &mut statistics);
+    assert_eq!(step, Step::Accepted);
     let interpolant = method.interpolant(&system, &mut memory, &mut statistics).unwrap();
     for state in [sine(0.0), next] {
         let point = interpolant.at(state.t);

@@ -3,6 +3,7 @@
 
 mod combinations;
 mod heun;
+mod lengths;
 mod midpoint;
 mod radau;
 mod wrong;

@@ -23,9 +23,9 @@ impl Pair for Midpoint {
     const DAMPING: f64 = 0.0;
     const SHRINK: f64 = 0.2;
     const GROWTH: f64 = 5.0;
-    type Coefficients<X: Copy + Send + Sync + 'static> = [X; 4];
-    fn coefficients<X: Copy + Send + Sync + 'static>(all: X) -> [X; 4] {
-        [all; 4]
+    type Coefficients<X: Clone + Send + Sync + 'static> = [X; 4];
+    fn coefficients<X: Clone + Send + Sync + 'static>(all: X) -> [X; 4] {
+        std::array::from_fn(|_| all.clone())
     }
 }
 

@@ -46,8 +46,9 @@ impl Method<Spring> for Wrong {
         _: &Spring,
         (state, steps): &mut Self::Memory,
         end: f64,
+        next: &mut State<f64, 1>,
         _: &mut Statistics,
-    ) -> Step<f64, Const<1>> {
+    ) -> Step {
         *steps += 1;
         state.t = match self.0 {
             _ if *steps <= 3 => state.t + 0.1 * (end - state.t).signum(),
@@ -56,7 +57,8 @@ impl Method<Spring> for Wrong {
             Fault::Back => state.t - 0.1 * (end - state.t).signum(),
             Fault::NoNumber => f64::NAN,
         };
-        Step::Accepted(*state)
+        *next = *state;
+        Step::Accepted
     }
 
     fn interpolant(
@@ -130,9 +132,10 @@ impl Method<Spring> for Grudging {
         system: &Spring,
         memory: &mut Self::Memory,
         end: f64,
+        state: &mut State<f64, 1>,
         statistics: &mut Statistics,
-    ) -> Step<f64, Const<1>> {
-        Method::<Spring>::step(&Dopri5::default(), system, memory, end, statistics)
+    ) -> Step {
+        Method::<Spring>::step(&Dopri5::default(), system, memory, end, state, statistics)
     }
 
     fn interpolant(

@@ -17,9 +17,9 @@ use crate::motion::{
 use crate::names::name;
 use crate::number::Real;
 use crate::solution::{Adjustment, Sample};
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{Lagrangian, StateOf, System};
 use crate::trajectory::{Leg, Path, Trajectory};
-use crate::vector::{Length, zeros};
+use crate::vector::{StaticLength, zeros};
 
 /// Largest number of transitions unless [`max_transitions`](MotionBuilder::max_transitions) sets another.
 const TRANSITIONS: usize = 100_000;
@@ -55,7 +55,7 @@ impl<'w, L: Lagrangian, K: Kept<'w, L>, C> Kept<'w, L> for AcrossContacts<K, C> 
 )]
 pub trait CrossesContacts {}
 
-impl<T: Real, N: Length> CrossesContacts for Start<T, N, LagrangianVectorField> {}
+impl<T: Real, N: StaticLength> CrossesContacts for Start<T, N, LagrangianVectorField> {}
 
 /// Settings of a motion without events and samples, which its caller may take step by step: `()` and [`AllSteps`].
 #[diagnostic::on_unimplemented(
@@ -75,7 +75,7 @@ pub(super) type Builder<'a, 'w, L, P, E, K, C = Located> = MotionBuilder<
     'a,
     'w,
     L,
-    Start<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, LagrangianVectorField>,
+    Start<<L as System>::Scalar, <L as Lagrangian>::N, LagrangianVectorField>,
     P,
     E,
     AcrossContacts<K, C>,

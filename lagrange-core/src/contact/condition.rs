@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::motion::MultiplierBounds;
 use crate::number::{Real, Scalar, larger};
 use crate::system::StateOf;
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Condition under which a leg goes on; an event says where it fails.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,7 @@ impl<T: Real> LegCondition<T> {
 
     /// True if λ > 0, or μ λ_N > |λ_T|, for all multipliers within these bounds.
     #[inline]
-    pub(super) fn holds_within<M: Length>(&self, within: &MultiplierBounds<T, M>) -> bool {
+    pub(super) fn holds_within<M: StaticLength>(&self, within: &MultiplierBounds<T, M>) -> bool {
         let MultiplierBounds { lowest, highest } = within;
         match *self {
             Self::Pushes { row } => lowest[row] > T::constant(0.0),

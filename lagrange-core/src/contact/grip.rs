@@ -12,7 +12,7 @@ use super::{Contacts, Friction};
 use crate::error::Error;
 use crate::number::Real;
 use crate::system::StateOf;
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Halvings up to which is known what is left of the limits of friction: 2⁻³⁸ = 4·10⁻¹², four times the accuracy of forces.
 const HALVINGS: i32 = 38;

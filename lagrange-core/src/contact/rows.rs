@@ -16,7 +16,7 @@ use crate::names::Names;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve;
 use crate::system::StateOf;
-use crate::vector::{Array, Length, Vector, vector};
+use crate::vector::{Array, StaticLength, Vector, vector};
 
 /// Rows W of gaps, velocities of friction and constraints, in coordinates x = Lᵀ q̇ with M = L Lᵀ, in which |x|² is twice the kinetic
 /// energy: J = W L⁻ᵀ. Reactions r change the velocities by x = Jᵀ r.

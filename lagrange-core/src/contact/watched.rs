@@ -17,11 +17,11 @@ use crate::motion::{DynEvent, Simulate};
 use crate::names::name;
 use crate::number::{Real, Scalar, larger, smaller};
 use crate::solution::Sample;
-use crate::system::{Lagrangian, SolutionOf, StateOf};
-use crate::vector::{Length, Vector};
+use crate::system::{Lagrangian, SolutionOf, StateOf, System};
+use crate::vector::{StaticLength, Vector};
 
 /// An event, with the condition that it watches.
-pub(super) type ConditionEvent<'w, L> = (Box<DynEvent<'w, L>>, LegCondition<<L as Lagrangian>::Scalar>);
+pub(super) type ConditionEvent<'w, L> = (Box<DynEvent<'w, L>>, LegCondition<<L as System>::Scalar>);
 
 /// Quantities of a state that events share.
 pub(super) struct SharedValues<'l, L: Lagrangian> {

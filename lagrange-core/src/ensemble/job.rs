@@ -18,7 +18,7 @@ use crate::motion::{Batch, LaneMethod, LaneMotion, Method};
 use crate::number::Real;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Element, Length};
+use crate::vector::{Element, StaticLength};
 
 /// State of a running ensemble, shared by all threads.
 pub(super) struct Job<'a, L: Lagrangian<Scalar: Real>> {
@@ -89,7 +89,7 @@ impl Part {
 }
 
 /// Results of finished members, and the callback that follows the progress.
-struct Ledger<'a, T: Element, N: Length> {
+struct Ledger<'a, T: Element, N: StaticLength> {
     members: Vec<Member<T, N>>,
     of: usize,
     watch: Option<Watch<'a, T, N>>,
@@ -257,7 +257,10 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
 }
 
 /// Rejects a member taken over from another run, or with another start or other parameters.
-fn check_run_of<T: Real, N: Length>(row: &MemberRow<T, N>, expected: &Fingerprint) -> Result<(), Error> {
+fn check_run_of<T: Real, N: StaticLength>(
+    row: &MemberRow<T, N>,
+    expected: &Fingerprint,
+) -> Result<(), Error> {
     match row.fingerprint.difference(expected) {
         Some(differs) => Err(Error::Ensemble(EnsembleError::OtherRun { member: row.index, differs })),
         None => Ok(()),

@@ -14,7 +14,7 @@ use super::row::{MemberCrossing, MemberRow};
 use crate::number::Real;
 use crate::statistics::Statistics;
 use crate::system::State;
-use crate::vector::{Array, Length, vector};
+use crate::vector::{Array, StaticLength, vector};
 
 /// A row, as serde writes and reads it.
 #[derive(Serialize, Deserialize)]
@@ -46,7 +46,7 @@ pub(super) struct Numbers<'r>(Vec<(Cow<'r, str>, f64)>);
 pub(super) struct Number(pub(super) f64);
 
 impl<'r> Line<'r> {
-    pub(super) fn of<T: Real, N: Length>(row: &'r MemberRow<T, N>) -> Self {
+    pub(super) fn of<T: Real, N: StaticLength>(row: &'r MemberRow<T, N>) -> Self {
         let MemberRow { state, samples, values, crossings, names, .. } = row;
         // Without quantities there are no values, and each sample has an empty chunk of them.
         let values = values.chunks(names.quantities.len().max(1)).chain(core::iter::repeat(&[][..]));
@@ -77,7 +77,7 @@ impl<'r> Line<'r> {
     ///
     /// # Errors
     /// The reason why the line is no row of this system.
-    pub(super) fn into_row<T: Real, N: Length>(
+    pub(super) fn into_row<T: Real, N: StaticLength>(
         self,
         names: &mut Arc<ColumnNames>,
     ) -> Result<MemberRow<T, N>, &'static str> {
@@ -111,7 +111,7 @@ impl<'r> Line<'r> {
 }
 
 /// States of samples, and the values of their quantities.
-fn read_samples<T: Real, N: Length>(
+fn read_samples<T: Real, N: StaticLength>(
     samples: &[Numbers<'_>],
     names: &ColumnNames,
 ) -> Result<(Vec<State<T, N>>, Vec<T>), &'static str> {
@@ -128,7 +128,7 @@ fn read_samples<T: Real, N: Length>(
 }
 
 /// The state of these numbers. All must be finite and in the order of their names.
-fn read_state<T: Real, N: Length>(
+fn read_state<T: Real, N: StaticLength>(
     numbers: &[(Cow<'_, str>, f64)],
     names: &ColumnNames,
 ) -> Result<State<T, N>, &'static str> {
@@ -149,13 +149,13 @@ fn read_state<T: Real, N: Length>(
 const OTHER_COLUMNS: &str = "its columns are others";
 
 /// Number of entries of a state: time, coordinates, velocities.
-const fn entries<N: Length>() -> usize {
+const fn entries<N: StaticLength>() -> usize {
     1 + 2 * N::COUNT
 }
 
 impl<'r> Numbers<'r> {
     /// Numbers of a state.
-    pub(super) fn of<T: Real, N: Length>(names: &'r ColumnNames, state: &State<T, N>) -> Self {
+    pub(super) fn of<T: Real, N: StaticLength>(names: &'r ColumnNames, state: &State<T, N>) -> Self {
         Self::named(&names.state, [&state.t].into_iter().chain(&state.q).chain(&state.v).copied())
     }
 
@@ -172,7 +172,7 @@ impl<'r> Numbers<'r> {
     }
 
     /// Makes the quantities of this sample those of `names`.
-    fn name_quantities<N: Length>(&self, names: &mut Arc<ColumnNames>) {
+    fn name_quantities<N: StaticLength>(&self, names: &mut Arc<ColumnNames>) {
         let quantities = || self.names().skip(entries::<N>());
         if !quantities().eq(&names.quantities) {
             let quantities = quantities().map(ToString::to_string).collect();
@@ -244,13 +244,13 @@ impl Visitor<'_> for Number {
     }
 }
 
-impl<T: Real, N: Length> Serialize for MemberRow<T, N> {
+impl<T: Real, N: StaticLength> Serialize for MemberRow<T, N> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         Line::of(self).serialize(to)
     }
 }
 
-impl<'de, T: Real, N: Length> Deserialize<'de> for MemberRow<T, N> {
+impl<'de, T: Real, N: StaticLength> Deserialize<'de> for MemberRow<T, N> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let line = Line::deserialize(from)?;
         let state = line.end.iter().flat_map(Numbers::names).map(ToString::to_string).collect();
@@ -258,7 +258,7 @@ impl<'de, T: Real, N: Length> Deserialize<'de> for MemberRow<T, N> {
     }
 }
 
-impl<T: Real, N: Length> Serialize for Member<T, N> {
+impl<T: Real, N: StaticLength> Serialize for Member<T, N> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         self.row().serialize(to)
     }

@@ -28,7 +28,7 @@ use crate::error::{EnsembleError, Error};
 use crate::linearized::{Linearized, check_parameters};
 use crate::number::Real;
 use crate::system::StateOf;
-use crate::vector::{Element, Length};
+use crate::vector::{Element, StaticLength};
 
 /// A table of members in a directory of Parquet files; rows are appended as members finish.
 ///
@@ -317,7 +317,7 @@ fn is_file(name: &str) -> bool {
 
 /// File name derived from the rows: equal for equal rows, different otherwise. Programs that write into one directory
 /// do not overwrite each other's files.
-fn name<T: Element, N: Length>(rows: &[MemberRow<T, N>]) -> String {
+fn name<T: Element, N: StaticLength>(rows: &[MemberRow<T, N>]) -> String {
     let mut hash = Hash::new();
     for row in rows {
         let Fingerprint { system, run, start } = row.fingerprint;

@@ -16,7 +16,7 @@ use crate::motion::{Event, EventFunction, Method};
 use crate::number::Real;
 use crate::solution::Sample;
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Element, Length};
+use crate::vector::{Element, StaticLength};
 
 /// Settings of an ensemble, collected before it is integrated.
 pub(super) struct Plan<'a, L: Lagrangian<Scalar: Real>> {
@@ -85,7 +85,7 @@ pub(super) type Watch<'a, T, N> = Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> C
 
 /// Progress of an ensemble.
 #[derive(Clone, Copy, Debug)]
-pub struct EnsembleProgress<'m, T: Element, N: Length> {
+pub struct EnsembleProgress<'m, T: Element, N: StaticLength> {
     /// Number of finished members, including those taken over from an earlier run.
     pub done: usize,
     /// Number of members in this [part](crate::Ensemble::shard).

@@ -79,7 +79,7 @@ impl<L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, H
         end: L::Scalar,
         method: P,
     ) -> Result<Option<Outcome<L::Scalar, L::N>>, Error> {
-        const { check_contacts::<L>() };
+        const { check_contacts(L::HAS_CONTACTS) };
         let run = self.ensemble.plan.fingerprint(&method, end, false);
         self.run(method.check(), end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
     }
@@ -141,7 +141,7 @@ impl<L: Lagrangian<Scalar = f64>, const HAS_DENSE_OUTPUT: bool> OnRanks<'_, L, H
         L: Pack<Lanes, Packed: Lagrangian<N = L::N, M = L::M, Scalar = Lanes>>,
         P: LaneMethod<L> + Sync,
     {
-        const { check_contacts::<L>() };
+        const { check_contacts(L::HAS_CONTACTS) };
         let run = self.ensemble.plan.fingerprint(&method, end, true);
         self.run(method.check(), end, run, |job| job.on_lanes::<P, HAS_DENSE_OUTPUT>(&method))
     }

@@ -161,7 +161,7 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
         end: L::Scalar,
         method: P,
     ) -> Result<Outcome<L::Scalar, L::N>, Error> {
-        const { check_contacts::<L>() };
+        const { check_contacts(L::HAS_CONTACTS) };
         method.check()?;
         let run = self.plan.fingerprint(&method, end, false);
         self.run(end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
@@ -198,7 +198,7 @@ impl<L: Lagrangian<Scalar = f64>, const HAS_DENSE_OUTPUT: bool> Ensemble<'_, L, 
         L: Pack<Lanes, Packed: Lagrangian<N = L::N, M = L::M, Scalar = Lanes>>,
         P: LaneMethod<L> + Sync,
     {
-        const { check_contacts::<L>() };
+        const { check_contacts(L::HAS_CONTACTS) };
         method.check()?;
         let run = self.plan.fingerprint(&method, end, true);
         self.run(end, run, |job| job.on_lanes::<P, HAS_DENSE_OUTPUT>(&method))

@@ -17,7 +17,7 @@ use super::settings::Ensemble;
 use crate::error::{EnsembleError, Error};
 use crate::number::Real;
 use crate::system::Lagrangian;
-use crate::vector::{Element, Length};
+use crate::vector::{Element, StaticLength};
 
 /// Prints each item as an object of JSON on a line of its own.
 struct JsonLines<'m, R>(&'m [R]);
@@ -30,21 +30,21 @@ impl<R: Serialize> Display for JsonLines<'_, R> {
     }
 }
 
-impl<T: Real, N: Length> Member<T, N> {
+impl<T: Real, N: StaticLength> Member<T, N> {
     /// The member's [row](MemberRow) as a line of JSON, to be written as soon as the member is finished.
     pub fn json_line(&self) -> impl Display + '_ {
         JsonLines(slice::from_ref(self))
     }
 }
 
-impl<T: Real, N: Length> MemberRow<T, N> {
+impl<T: Real, N: StaticLength> MemberRow<T, N> {
     /// The row as a line of JSON.
     pub fn json_line(&self) -> impl Display + '_ {
         JsonLines(slice::from_ref(self))
     }
 }
 
-impl<T: Real, N: Length> Outcome<T, N> {
+impl<T: Real, N: StaticLength> Outcome<T, N> {
     /// Table as JSON lines, one [row](MemberRow) per member. Numbers have the fewest digits that read back to the same value.
     /// [`MemberTable`] reads the table.
     ///
@@ -80,11 +80,11 @@ impl<T: Real, N: Length> Outcome<T, N> {
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct MemberTable<T: Element, N: Length> {
+pub struct MemberTable<T: Element, N: StaticLength> {
     rows: Vec<MemberRow<T, N>>,
 }
 
-impl<T: Real, N: Length> MemberTable<T, N> {
+impl<T: Real, N: StaticLength> MemberTable<T, N> {
     /// Reads the rows of a table of systems `L`.
     ///
     /// # Errors
@@ -205,14 +205,14 @@ impl<L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'_, L, 
     }
 }
 
-impl<T: Real, N: Length> Display for MemberTable<T, N> {
+impl<T: Real, N: StaticLength> Display for MemberTable<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         JsonLines(&self.rows).fmt(f)
     }
 }
 
 /// Complete rows of a table, each with its line number, counted from 1. Incomplete rows are skipped.
-pub(super) fn rows<T: Real, N: Length>(
+pub(super) fn rows<T: Real, N: StaticLength>(
     table: &str,
     coordinates: &'static [&'static str],
 ) -> Result<Vec<(usize, MemberRow<T, N>)>, Error> {
@@ -226,7 +226,7 @@ pub(super) fn rows<T: Real, N: Length>(
 }
 
 /// Reads a row; `None` if its writer was interrupted.
-fn row<T: Real, N: Length>(
+fn row<T: Real, N: StaticLength>(
     text: &str,
     names: &mut Arc<ColumnNames>,
 ) -> Result<Option<MemberRow<T, N>>, String> {

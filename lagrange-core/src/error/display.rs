@@ -13,6 +13,10 @@ impl Display for Error {
             Self::StateNotFinite { entry, value } => {
                 write!(f, "`{entry}` is {value} in the state given: every entry must be finite")
             }
+            Self::StateLength { found, expected } => write!(
+                f,
+                "the state given has {found} coordinates or velocities, and the system {expected} coordinates: q and q̇ have one entry for each coordinate"
+            ),
             Self::ParameterNotAsSaid { name, wanted, defect } if !defect.is_finite() => {
                 write!(f, "the parameter `{name}` is not {wanted}: one of its entries is not finite")
             }

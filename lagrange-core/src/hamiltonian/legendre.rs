@@ -14,7 +14,7 @@ use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::{fault, not_finite};
 use crate::system::{Lagrangian, SolutionOf, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, from_fn, vector};
+use crate::vector::{Array, Element, Entrywise, StaticLength, from_fn, vector};
 
 /// Returns the state with these momenta. The velocity is sought from `guess` on the constraints `active`; for
 /// `None` an independent set is chosen.
@@ -39,7 +39,7 @@ struct Inversion<'a, L: Lagrangian> {
 }
 
 /// Trial velocity with its residual.
-struct VelocityTrial<T: Element, N: Length, M: Length> {
+struct VelocityTrial<T: Element, N: StaticLength, M: StaticLength> {
     state: State<T, N>,
     /// Multipliers μ.
     multipliers: Array<T, M>,
@@ -50,13 +50,13 @@ struct VelocityTrial<T: Element, N: Length, M: Length> {
 }
 
 /// Linear system of Newton's step at a trial, and the units in which its rows are compared.
-struct Linear<'a, T: Element, N: Length, M: Length> {
+struct Linear<'a, T: Element, N: StaticLength, M: StaticLength> {
     wanted: &'a PhaseState<T, N>,
     equations: KktSystem<T, N, M>,
     units: Units<T, N, M>,
 }
 
-impl<T: Real, N: Length, M: Length> Linear<'_, T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> Linear<'_, T, N, M> {
     /// Returns p(q, v) − p − Fᵀμ, and the sum of the magnitudes of its terms.
     fn momentum_residual(&self, trial: &VelocityTrial<T, N, M>, i: usize) -> (T, T) {
         let (given, wanted) = (trial.momentum[i], self.wanted.p[i]);

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve_near;
 use crate::system::{Entries, Lagrangian, StateOf, write_state};
-use crate::vector::{Array, Element, Entrywise, Length, Vector};
+use crate::vector::{Array, Element, Entrywise, StaticLength, Vector};
 
 /// The time `t`, the generalized coordinates `q` and the generalized momenta `p` = ∂L/∂q̇.
 ///
@@ -25,7 +25,7 @@ use crate::vector::{Array, Element, Entrywise, Length, Vector};
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
     ))
 )]
-pub struct PhaseState<T: Element, N: Length> {
+pub struct PhaseState<T: Element, N: StaticLength> {
     /// Time.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::system::serial::number"))]
     pub t: T,
@@ -37,7 +37,7 @@ pub struct PhaseState<T: Element, N: Length> {
     pub p: Vector<T, N>,
 }
 
-impl<T: Scalar, N: Length> PhaseState<T, N> {
+impl<T: Scalar, N: StaticLength> PhaseState<T, N> {
     /// Creates a phase state of coordinates and momenta at `t = 0`.
     pub fn new(q: impl Entries<T, N>, p: impl Entries<T, N>) -> Self {
         Self { t: T::constant(0.0), q: q.into_vector(), p: p.into_vector() }
@@ -52,7 +52,7 @@ impl<T: Scalar, N: Length> PhaseState<T, N> {
 
 /// Formats a phase state as `t = 1.0: q = (0.1, 0.0), p = (0.0, 2e-17)`. Format options apply to each number:
 /// `{state:.3}`.
-impl<T: Scalar, N: Length> Display for PhaseState<T, N> {
+impl<T: Scalar, N: StaticLength> Display for PhaseState<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write_state(f, &self.t, [("q", self.q.as_slice()), ("p", self.p.as_slice())])
     }
@@ -68,7 +68,7 @@ impl<T: Scalar, N: Length> Display for PhaseState<T, N> {
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
     ))
 )]
-pub struct PhaseDerivative<T: Element, N: Length, M: Length> {
+pub struct PhaseDerivative<T: Element, N: StaticLength, M: StaticLength> {
     /// q̇ = ∂H/∂p.
     #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub q: Vector<T, N>,

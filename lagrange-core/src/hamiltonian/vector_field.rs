@@ -3,12 +3,13 @@
 use super::legendre;
 use super::phase::{PhaseState, equations};
 use crate::error::Error;
-use crate::names::Entry;
+use crate::names::{Entry, Row, name};
 use crate::number::Real;
+use crate::solution::Consistent;
 use crate::solution::consistent::{Level, project};
-use crate::solution::vector_field::{ActiveConstraints, StagePoint, VectorField};
+use crate::solution::vector_field::{ActiveConstraints, LagrangianVectorField, StagePoint, VectorField};
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Length, PhaseVector, array, vector};
+use crate::vector::{Array, PhaseVector, StaticLength, Vector, array, vector};
 
 /// Hamilton's equations, in coordinates and momenta.
 ///
@@ -19,9 +20,35 @@ pub struct HamiltonianVectorField;
 
 impl<L: Lagrangian<Scalar: Real>> VectorField<L> for HamiltonianVectorField {
     const HOLDS_VELOCITY: bool = false;
+    const HAS_CONTACTS: bool = L::HAS_CONTACTS;
+    const HAS_FRICTION: bool = L::HAS_FRICTION;
+
+    fn name() -> &'static str {
+        L::NAME
+    }
+
+    fn check_entries(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        LagrangianVectorField::check_entries(system, state)
+    }
+
+    fn check_solution(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        LagrangianVectorField::check_solution(system, state)
+    }
+
+    fn check_constraints(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        LagrangianVectorField::check_constraints(system, state)
+    }
+
+    fn adjust(system: &L, state: &StateOf<L>) -> Result<Consistent<L::Scalar, L::N>, Error> {
+        LagrangianVectorField::adjust(system, state)
+    }
 
     fn phase(system: &L, state: &StateOf<L>) -> PhaseVector<L::Scalar, L::N> {
         PhaseVector::<_, L::N>::of(state.q, system.momentum(state))
+    }
+
+    fn momenta(system: &L, state: &StateOf<L>) -> Vector<L::Scalar, L::N> {
+        system.momentum(state)
     }
 
     fn evaluate(
@@ -30,7 +57,7 @@ impl<L: Lagrangian<Scalar: Real>> VectorField<L> for HamiltonianVectorField {
         active: Option<&Array<bool, L::M>>,
         rates: &mut PhaseVector<L::Scalar, L::N>,
     ) -> Result<ActiveConstraints<L::Scalar, L::M>, Error> {
-        let state = legendre::invert(system, &phase_state(point), &point.velocity, active)?;
+        let state = legendre::invert(system, &phase_state(point), &array(point.velocity), active)?;
         let (rate, rank, active) = equations(system, &state, active)?;
         *rates = PhaseVector::<_, L::N>::of(rate.q, rate.p);
         let multipliers = array(rate.multipliers);
@@ -38,27 +65,32 @@ impl<L: Lagrangian<Scalar: Real>> VectorField<L> for HamiltonianVectorField {
     }
 
     fn state(system: &L, point: &StagePoint<L::Scalar, L::N>) -> StateOf<L> {
-        legendre::invert(system, &phase_state(point), &point.velocity, None).unwrap_or(nearby(point))
+        legendre::invert(system, &phase_state(point), &array(point.velocity), None).unwrap_or(nearby(point))
     }
 
     fn project(system: &L, point: &StagePoint<L::Scalar, L::N>) -> Result<StateOf<L>, Error> {
         let mut state = nearby(point);
         project(system, &[Level::Position], &mut state)?;
         let phase = PhaseState { q: state.q, ..phase_state(point) };
-        legendre::invert(system, &phase, &point.velocity, None)
+        legendre::invert(system, &phase, &array(point.velocity), None)
     }
 
-    fn entry(coordinate: &'static str) -> Entry {
-        Entry::Momentum(coordinate)
+    fn entry(half: usize, coordinate: usize) -> Entry {
+        let name = name(L::COORDINATES, coordinate);
+        if half == 0 { Entry::Coordinate(name) } else { Entry::Momentum(name) }
+    }
+
+    fn row(coordinate: usize) -> Row {
+        <LagrangianVectorField as VectorField<L>>::row(coordinate)
     }
 }
 
-fn phase_state<T: Real, N: Length>(point: &StagePoint<T, N>) -> PhaseState<T, N> {
+fn phase_state<T: Real, N: StaticLength>(point: &StagePoint<T, N>) -> PhaseState<T, N> {
     PhaseState { t: point.t, q: vector(point.y.half(0)), p: vector(point.y.half(1)) }
 }
 
 /// Returns the state with the initial guess `point.velocity`, instead of the velocity that belongs to the
 /// momenta.
-fn nearby<T: Real, N: Length>(point: &StagePoint<T, N>) -> State<T, N> {
-    State { t: point.t, q: vector(point.y.half(0)), v: vector(point.velocity) }
+fn nearby<T: Real, N: StaticLength>(point: &StagePoint<T, N>) -> State<T, N> {
+    State { t: point.t, q: vector(point.y.half(0)), v: point.velocity }
 }

@@ -6,7 +6,7 @@ use super::Linearized;
 use crate::error::Error;
 use crate::names::Entry;
 use crate::system::{Direction, ResidualChange, SolutionOf, StateOf, lookup, unit};
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// A coordinate, a velocity or a parameter, by its index.
 #[derive(Clone, Copy, PartialEq)]

@@ -17,7 +17,7 @@ use super::{Jacobian, StateDerivatives, jacobian};
 use crate::error::Error;
 use crate::number::{Broadcast, Real};
 use crate::system::{Lagrangian, ResidualChange, SolutionOf, StateOf};
-use crate::vector::{Length, Vector};
+use crate::vector::{StaticLength, Vector};
 
 /// A system whose equations of motion can be differentiated by parameters too: Jacobians, sensitivities, equilibria,
 /// linearization.
@@ -73,7 +73,7 @@ pub trait Linearized: StateDerivatives {
     const PARAMETERS: &'static [&'static str];
 
     /// Number of the parameters.
-    type P: Length;
+    type P: StaticLength;
 
     /// Values of the parameters.
     fn parameters(&self) -> Vector<Self::Scalar, Self::P>;

@@ -12,7 +12,7 @@ use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::number::{Real, Scalar, order};
 use crate::system::finite::check_finite;
 use crate::system::{StateOf, check_contacts, entry};
-use crate::vector::{Length, from_fn, vector};
+use crate::vector::{StaticLength, from_fn, vector};
 
 /// Lyapunov exponents of a motion, with their standard errors.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub(super) fn spectrum<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     end: L::Scalar,
     method: &D,
 ) -> Result<LyapunovSpectrum<L::Scalar>, Error> {
-    const { check_contacts::<L>() };
+    const { check_contacts(L::HAS_CONTACTS) };
     check_finite(system, state)?;
     check_end(end)?;
     let (mut run, _) = Run::<L, _>::begin(system, state, method)?;

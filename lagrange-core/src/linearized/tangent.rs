@@ -23,10 +23,10 @@ use crate::solution::solve::{fault, first_row, solve};
 use crate::system::Direction;
 #[cfg(feature = "alloc")]
 use crate::system::{ConstraintKind, unit};
-use crate::system::{Lagrangian, ResidualChange, Solution, SolutionOf, State, StateOf};
+use crate::system::{Lagrangian, ResidualChange, Solution, SolutionOf, State, StateOf, System};
 #[cfg(feature = "alloc")]
 use crate::vector::from_fn;
-use crate::vector::{Array, Element, Entrywise, Length, Vector, rows, zeros};
+use crate::vector::{Array, Element, Entrywise, StaticLength, Vector, rows, zeros};
 
 /// Equations of motion at a state: solved, factorized and differentiated.
 pub(crate) struct Tangent<'a, L: StateDerivatives> {
@@ -39,11 +39,11 @@ pub(crate) struct Tangent<'a, L: StateDerivatives> {
 }
 
 /// SIMD type of preferred width for the numbers of the system.
-pub(crate) type WideOf<L> = <<L as Lagrangian>::Scalar as Real>::Wide;
+pub(crate) type WideOf<L> = <<L as System>::Scalar as Real>::Wide;
 
 /// Mass matrix, constraint Jacobian and factors of the general solver. They are used if the pivot of the
 /// emitted factorization is too small, or if rows and null spaces are needed.
-pub(crate) struct Matrices<T: Element, N: Length, M: Length> {
+pub(crate) struct Matrices<T: Element, N: StaticLength, M: StaticLength> {
     /// Mass matrix, row by row.
     #[cfg_attr(not(feature = "alloc"), allow(dead_code, reason = "what reads it allocates"))]
     pub(super) m: Room<Array<Array<T, N>, N>>,
@@ -68,7 +68,7 @@ fn constraint_rows<L: Lagrangian>(
     Room::of(rows(&system.constraint_jacobian(state)))
 }
 
-impl<T: Real, N: Length, M: Length> Matrices<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> Matrices<T, N, M> {
     fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(system: &L, state: &State<T, N>) -> Self {
         let (m, f) = (mass_rows(system, state), constraint_rows(system, state));
         // Off the constraints, dependent ones may contradict each other: rows left out as dependent are not
@@ -384,7 +384,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 /// True if all lanes are reliable: the pivots are large enough, and the sum of all magnitudes is finite, hence every
 /// number.
 #[inline]
-fn are_sound<T: Real, N: Length, M: Length>(
+fn are_sound<T: Real, N: StaticLength, M: StaticLength>(
     changes: &ResidualChange<T::Wide, N, M>,
     responses: &Solution<T::Wide, N, M>,
 ) -> bool {

@@ -10,7 +10,7 @@ use crate::number::Real;
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{StateOf, System};
 
 /// State of the last step of a motion: its dense output, and whether it is still valid.
 pub(super) struct LastStep<I> {
@@ -56,7 +56,7 @@ pub(super) struct GoPast<'m, L, I, T> {
 
 impl<L, F, P> Observer<L, P, F> for GoPast<'_, L, P::Interpolant, L::Scalar>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     P: Method<L, F>,
 {
@@ -82,17 +82,17 @@ where
 }
 
 /// Observer that steps to the first crossing, or to `end`.
-pub(super) struct FindCrossing<'m, 'e, L: Lagrangian, I> {
+pub(super) struct FindCrossing<'m, 'e, L: System, I> {
     pub(super) system: &'m L,
     pub(super) last_step: &'m mut LastStep<I>,
     pub(super) end: L::Scalar,
     pub(super) search: EventSearch<'m, &'e mut dyn AnyEvent<L>, L>,
     /// State up to which the events have been searched.
     pub(super) at: &'m mut StateOf<L>,
-    pub(super) found: Option<Crossing<L::Scalar, L::N>>,
+    pub(super) found: Option<Crossing<L::Scalar, L::Length>>,
 }
 
-impl<L: Lagrangian<Scalar: Real>, I: Interpolant<L::Scalar, L::N>> FindCrossing<'_, '_, L, I> {
+impl<L: System<Scalar: Real>, I: Interpolant<L::Scalar, L::Length>> FindCrossing<'_, '_, L, I> {
     /// Searches the rest of the last step for a crossing.
     pub(super) fn look<F: VectorField<L>>(
         &mut self,
@@ -109,7 +109,7 @@ impl<L: Lagrangian<Scalar: Real>, I: Interpolant<L::Scalar, L::N>> FindCrossing<
 
 impl<L, F, P> Observer<L, P, F> for FindCrossing<'_, '_, L, P::Interpolant>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     P: Method<L, F>,
 {

@@ -15,7 +15,7 @@ use super::store::Stored;
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, State, check_contacts};
+use crate::system::{State, System, check_contacts};
 use crate::trajectory::Trajectory;
 use crate::vector::{Element, Length};
 
@@ -27,7 +27,7 @@ use crate::vector::{Element, Length};
 /// sets another. The result is a [`Trajectory`] with all steps. After [`every`](Self::every) or
 /// [`samples_at`](Self::samples_at) it is an [`Arrival`](crate::motion::Arrival) with the chosen samples alone.
 #[must_use = "a motion is integrated by `to` or `towards`"]
-pub struct MotionBuilder<'a, 'w, L: Lagrangian, S, P = Dop853, E = (), K = AllSteps> {
+pub struct MotionBuilder<'a, 'w, L: System, S, P = Dop853, E = (), K = AllSteps> {
     pub(crate) system: &'a L,
     pub(crate) start: S,
     pub(crate) method: P,
@@ -62,7 +62,7 @@ impl<T: Element, N: Length, F> Start<T, N, F> {
 
 /// Settings of a motion without derivatives, with the equations of motion `F`.
 pub(crate) type MotionFrom<'a, 'w, L, F> =
-    MotionBuilder<'a, 'w, L, Start<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, F>>;
+    MotionBuilder<'a, 'w, L, Start<<L as System>::Scalar, <L as System>::Length, F>>;
 
 /// Events of a [`MotionBuilder`]; `()` for none.
 pub trait EventList<W: ?Sized> {
@@ -91,13 +91,13 @@ impl<W: ?Sized> EventList<W> for Vec<Box<W>> {
     }
 }
 
-impl<'a, 'w, L: Lagrangian, S> MotionBuilder<'a, 'w, L, S> {
+impl<'a, 'w, L: System, S> MotionBuilder<'a, 'w, L, S> {
     pub(crate) fn new(system: &'a L, start: S) -> Self {
         Self { system, start, method: Dop853::default(), events: (), on_progress: None, kept: AllSteps }
     }
 }
 
-impl<'a, 'w, L: Lagrangian, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
+impl<'a, 'w, L: System, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
     /// Sets the method.
     pub fn by<Q>(self, method: Q) -> MotionBuilder<'a, 'w, L, S, Q, E, K> {
         let Self { system, start, events, on_progress, kept, .. } = self;
@@ -122,9 +122,9 @@ impl<'a, 'w, L: Lagrangian, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
     }
 }
 
-impl<'a, 'w, L, F, P, E, K> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E, K>
+impl<'a, 'w, L, F, P, E, K> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E, K>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     E: EventList<DynEvent<'w, L>>,
 {
@@ -134,7 +134,7 @@ where
     pub fn event(
         self,
         event: impl AnyEvent<L> + 'w,
-    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, F>, P, Vec<Box<DynEvent<'w, L>>>, K> {
+    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, Vec<Box<DynEvent<'w, L>>>, K> {
         self.events([event])
     }
 
@@ -143,7 +143,7 @@ where
     pub fn events<W: AnyEvent<L> + 'w>(
         self,
         events: impl IntoIterator<Item = W>,
-    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, F>, P, Vec<Box<DynEvent<'w, L>>>, K> {
+    ) -> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, Vec<Box<DynEvent<'w, L>>>, K> {
         let more = events.into_iter().map(|event| Box::new(event) as Box<DynEvent<'w, L>>);
         self.with_events(|events| {
             let mut events = events.list();
@@ -153,9 +153,9 @@ where
     }
 }
 
-impl<'a, 'w, L, F, P, E> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E>
+impl<'a, 'w, L, F, P, E> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     E: EventList<DynEvent<'w, L>>,
 {
@@ -182,7 +182,7 @@ where
     where
         P: Method<L, F>,
     {
-        const { check_contacts::<L>() };
+        const { check_contacts(F::HAS_CONTACTS) };
         match const { E::HAS_EVENTS } {
             true => self.store::<true>(end),
             false => self.store::<false>(end),
@@ -203,19 +203,19 @@ where
         let mut stored = stored(system, &run.state, end, &mut events, on_progress)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let driven = run.drive(&method, &limits, &mut stored);
-        Ok(stored.finish(driven, run.statistics, *adjustment))
+        Ok(stored.finish(driven, run.statistics, adjustment.clone()))
     }
 }
 
 impl<L, S, P, E, K> Debug for MotionBuilder<'_, '_, L, S, P, E, K>
 where
-    L: Lagrangian,
+    L: System,
     S: Debug,
     P: Debug,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { start, method, .. } = self;
         let mut text = f.debug_struct("MotionBuilder");
-        text.field("system", &L::NAME).field("start", start).field("method", method).finish_non_exhaustive()
+        text.field("start", start).field("method", method).finish_non_exhaustive()
     }
 }

@@ -94,7 +94,9 @@ pub use crate::number::Parts;
 pub use crate::solution::consistent::assembly::Assembly;
 pub use crate::solution::crossing::Crossing;
 pub use crate::solution::interpolant::{HermiteNode, Interpolant, Polynomial};
-pub use crate::solution::vector_field::{ActiveConstraints, LagrangianVectorField, StagePoint, VectorField};
+pub use crate::solution::vector_field::{
+    AccelerationField, ActiveConstraints, LagrangianVectorField, StagePoint, VectorField, VelocityField,
+};
 pub use crate::solution::{Adjustment, Consistent};
 pub use crate::system::RightHandSides;
 pub use crate::vector::PhaseVector;

@@ -7,18 +7,16 @@ use super::method::{Limits, Method, Step};
 use crate::error::{Ending, Error, Pace};
 use crate::number::Real;
 use crate::solution::Adjustment;
-use crate::solution::consistent::{self, Consistent};
 use crate::solution::interpolant::Interpolant;
-use crate::solution::solve::solve;
-use crate::solution::vector_field::{LagrangianVectorField, VectorField};
+use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, StateOf};
-use crate::vector::Length;
+use crate::system::{StateOf, System};
+use crate::vector::{Length, StaticLength};
 
 /// A motion during its integration: state, working memory of the method, and statistics.
-pub(crate) struct Run<L, P, F = LagrangianVectorField>
+pub(crate) struct Run<L, P, F = <L as System>::Field>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     P: Method<L, F>,
     F: VectorField<L>,
 {
@@ -31,7 +29,7 @@ where
 
 impl<L, P, F> Run<L, P, F>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     P: Method<L, F>,
     F: VectorField<L>,
 {
@@ -41,13 +39,16 @@ where
         system: &L,
         state: &StateOf<L>,
         method: &P,
-    ) -> Result<(Self, Adjustment<L::Scalar, L::N>), Error> {
+    ) -> Result<(Self, Adjustment<L::Scalar, L::Length>), Error> {
         method.check()?;
-        let started = check_start(system, state);
-        let &(state, adjustment) = started.as_ref().map_err(Error::clone)?;
+        F::check_solution(system, state)?;
+        F::check_constraints(system, state)?;
+        let started = F::adjust(system, state);
+        let (state, adjustment) = started.as_ref().map_err(Error::clone)?;
         let mut statistics = Statistics::default();
-        let begun = method.begin(system, &state, &mut statistics);
-        begun.map(|memory| (Self { memory, state, before: state, statistics }, adjustment))
+        let begun = method.begin(system, state, &mut statistics);
+        let run = |memory| Self { memory, state: state.clone(), before: state.clone(), statistics };
+        begun.map(|memory| (run(memory), adjustment.clone()))
     }
 
     /// Takes one accepted step towards `end`.
@@ -65,14 +66,15 @@ where
             if let Some(ending) = limits.exceeded(&self.statistics, now.to_f64(), pace) {
                 return Err(ending);
             }
-            match method.step(system, &mut self.memory, end, &mut self.statistics) {
-                Step::Accepted(next) if !is_towards(now, next.t, end) => {
+            self.before.clone_from(&self.state);
+            match method.step(system, &mut self.memory, end, &mut self.state, &mut self.statistics) {
+                Step::Accepted if !is_towards(now, self.state.t, end) => {
+                    self.state.clone_from(&self.before);
                     let reason = "its step does not lead towards the end";
                     return Err(Ending::MethodFailed { time: now.to_f64(), reason });
                 }
-                Step::Accepted(next) => {
+                Step::Accepted => {
                     self.statistics.accepted += 1;
-                    (self.before, self.state) = (self.state, next);
                     return Ok(());
                 }
                 Step::Rejected => self.statistics.rejected += 1,
@@ -123,7 +125,7 @@ where
         loop {
             self.step(observer.system(), method, end, limits)?;
             let Err(ending) = observer.follow(method, self) else { return Ok(()) };
-            self.state = self.before;
+            self.state.clone_from(&self.before);
             self.statistics.accepted -= 1;
             self.statistics.rejected += 1;
             if !method.undo(&mut self.memory) {
@@ -135,9 +137,9 @@ where
 
 /// An observer of a motion: sets its goal, evaluates the dense output of its steps, records them, and may end the
 /// motion.
-pub(crate) trait Observer<L, P, F = LagrangianVectorField>
+pub(crate) trait Observer<L, P, F = <L as System>::Field>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     P: Method<L, F>,
     F: VectorField<L>,
 {
@@ -200,7 +202,7 @@ pub(super) fn put_interpolant<L, F, P>(
     within: &mut Within<P::Interpolant>,
 ) -> Result<(), Error>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     P: Method<L, F>,
 {
@@ -220,12 +222,15 @@ pub(super) fn resume<L, F, P>(
     statistics: &mut Statistics,
 ) -> Result<(), Error>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     P: Method<L, F>,
 {
-    if <L::M>::COUNT > 0 && <P::Interpolant as Interpolant<_, _>>::IS_PROJECTED {
-        consistent::check(system, state)?;
+    if <L::Length as Length>::CONSTANT.is_none() {
+        F::check_entries(system, state)?;
+    }
+    if <L::M as StaticLength>::COUNT > 0 && <P::Interpolant as Interpolant<_, _>>::IS_PROJECTED {
+        F::check_constraints(system, state)?;
     }
     method.resume(system, memory, state, statistics)
 }
@@ -238,16 +243,6 @@ pub(super) fn is_between<T: Real>(a: T, t: T, b: T) -> bool {
 /// True if a step from `now` to `next` leads towards `end`, and not past it.
 fn is_towards<T: Real>(now: T, next: T, end: T) -> bool {
     next > now && next <= end || next < now && next >= end
-}
-
-/// Checks the start, and projects it onto the constraints if it is off by round-off alone.
-fn check_start<L: Lagrangian<Scalar: Real>>(
-    system: &L,
-    state: &StateOf<L>,
-) -> Result<Consistent<L::Scalar, L::N>, Error> {
-    solve(system, state)?;
-    consistent::check(system, state)?;
-    consistent::project_to_round_off(system, state)
 }
 
 /// Checks that the end is finite.

@@ -15,22 +15,22 @@ use crate::error::Error;
 use crate::number::Real;
 use crate::solution::Sample;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, StateOf, check_contacts};
+use crate::system::{StateOf, System, check_contacts};
 
 /// Marks a motion that keeps samples alone: `to` returns an [`Arrival`].
-pub struct SamplesAlone<'w, L: Lagrangian> {
+pub struct SamplesAlone<'w, L: System> {
     pub(crate) plan: RecordPlan<'w, L>,
     /// Controller, and the copy of the system that it changes.
     pub(crate) steered: Option<(Steering<'w, L>, L)>,
 }
 
-impl<L: Lagrangian> Debug for SamplesAlone<'_, L> {
+impl<L: System> Debug for SamplesAlone<'_, L> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("SamplesAlone").field("is_steered", &self.steered.is_some()).finish_non_exhaustive()
     }
 }
 
-impl<'w, L: Lagrangian<Scalar: Real>> SamplesAlone<'w, L> {
+impl<'w, L: System<Scalar: Real>> SamplesAlone<'w, L> {
     /// Checks the sample times and the interval of the controller, as far as they do not depend on start and end.
     pub(crate) fn check(&self) -> Result<(), Error> {
         self.plan.check()?;
@@ -45,7 +45,7 @@ impl<'w, L: Lagrangian<Scalar: Real>> SamplesAlone<'w, L> {
         start: &Sample<&L>,
         (events, mut on_progress): (Vec<Box<DynEvent<'w, L>>>, Option<OnProgress<'w>>),
         end: L::Scalar,
-    ) -> Result<Arrival<L::Scalar, L::N>, Error> {
+    ) -> Result<Arrival<L::Scalar, L::Length>, Error> {
         let Self { plan, steered } = self;
         let (steering, mut own) = steered.unzip();
         let record = Record::begin(&plan, events, steering, start, end)?;
@@ -55,12 +55,12 @@ impl<'w, L: Lagrangian<Scalar: Real>> SamplesAlone<'w, L> {
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let mut recorded = Recorded::<_, _, _, true>::new(moving, record, accept);
         let driven = run.drive(method, &limits, &mut recorded);
-        Ok(recorded.finish(driven, run.state, run.statistics))
+        Ok(recorded.finish(driven, run.state.clone(), run.statistics))
     }
 }
 
 /// Selects what a motion keeps: all steps, or samples alone.
-pub trait Kept<'w, L: Lagrangian> {
+pub trait Kept<'w, L: System> {
     /// The same with samples alone.
     type Alone;
 
@@ -69,7 +69,7 @@ pub trait Kept<'w, L: Lagrangian> {
     fn samples_alone(self, change: impl FnOnce(&mut SamplesAlone<'w, L>)) -> Self::Alone;
 }
 
-impl<'w, L: Lagrangian<Scalar: Real> + 'w> Kept<'w, L> for AllSteps {
+impl<'w, L: System<Scalar: Real> + 'w> Kept<'w, L> for AllSteps {
     type Alone = SamplesAlone<'w, L>;
 
     fn samples_alone(self, change: impl FnOnce(&mut SamplesAlone<'w, L>)) -> SamplesAlone<'w, L> {
@@ -78,7 +78,7 @@ impl<'w, L: Lagrangian<Scalar: Real> + 'w> Kept<'w, L> for AllSteps {
     }
 }
 
-impl<'w, L: Lagrangian> Kept<'w, L> for SamplesAlone<'w, L> {
+impl<'w, L: System> Kept<'w, L> for SamplesAlone<'w, L> {
     type Alone = Self;
 
     fn samples_alone(mut self, change: impl FnOnce(&mut Self)) -> Self {
@@ -90,7 +90,7 @@ impl<'w, L: Lagrangian> Kept<'w, L> for SamplesAlone<'w, L> {
 /// Settings of a motion from the start `S` that keeps samples alone.
 type Sampled<'a, 'w, L, S, P, E, K> = MotionBuilder<'a, 'w, L, S, P, E, <K as Kept<'w, L>>::Alone>;
 
-impl<'a, 'w, L: Lagrangian<Scalar: Real>, S, P, E, K: Kept<'w, L>> MotionBuilder<'a, 'w, L, S, P, E, K> {
+impl<'a, 'w, L: System<Scalar: Real>, S, P, E, K: Kept<'w, L>> MotionBuilder<'a, 'w, L, S, P, E, K> {
     /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) returns an [`Arrival`] that holds one
     /// state per time; for a motion with derivatives a
     /// [`SampledSensitivity`](crate::linearized::SampledSensitivity).
@@ -143,9 +143,9 @@ impl<'a, 'w, L: Lagrangian<Scalar: Real>, S, P, E, K: Kept<'w, L>> MotionBuilder
     }
 }
 
-impl<'a, 'w, L, F, P, E, K> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E, K>
+impl<'a, 'w, L, F, P, E, K> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E, K>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     K: Kept<'w, L>,
 {
     /// Keeps this quantity of each sample in [`Arrival::values`]; with several quantities, all those of the first
@@ -158,7 +158,7 @@ where
         self,
         name: &'static str,
         function: impl Fn(&Sample<&L>) -> V + Send + Sync + 'w,
-    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E, K> {
+    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E, K> {
         self.sampled(|samples| samples.plan.quantity(name, function))
     }
 
@@ -202,7 +202,7 @@ where
         self,
         interval: L::Scalar,
         mut controller: impl FnMut(&mut L, &StateOf<L>) -> Result<(), X> + 'w,
-    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::N, F>, P, E, K>
+    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E, K>
     where
         L: Clone,
     {
@@ -214,8 +214,8 @@ where
     }
 }
 
-impl<'w, L: Lagrangian<Scalar: Real>, F, P, E>
-    MotionBuilder<'_, 'w, L, Start<L::Scalar, L::N, F>, P, E, SamplesAlone<'w, L>>
+impl<'w, L: System<Scalar: Real>, F, P, E>
+    MotionBuilder<'_, 'w, L, Start<L::Scalar, L::Length, F>, P, E, SamplesAlone<'w, L>>
 {
     /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the
     /// start, it integrates backwards.
@@ -224,7 +224,7 @@ impl<'w, L: Lagrangian<Scalar: Real>, F, P, E>
     /// The errors of a motion that is [stored](crate::Simulate::motion); [`Error::SampleTime`],
     /// [`Error::OutsideTrajectory`] and [`Error::Setting`] for samples that cannot be taken; errors of the function of
     /// a quantity at the start.
-    pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error>
+    pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::Length>, Error>
     where
         F: VectorField<L>,
         P: Method<L, F>,
@@ -238,19 +238,20 @@ impl<'w, L: Lagrangian<Scalar: Real>, F, P, E>
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
-    pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error>
+    pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::Length>, Error>
     where
         F: VectorField<L>,
         P: Method<L, F>,
         E: EventList<DynEvent<'w, L>>,
     {
-        const { check_contacts::<L>() };
+        const { check_contacts(F::HAS_CONTACTS) };
         let Self { system, start, method, events, on_progress, kept } = self;
         let state = start.state.as_ref().as_ref().map_err(Error::clone)?;
         check_end(end)?;
         kept.check()?;
         let mut begun = Run::<L, P, F>::begin(system, state, &method);
         let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
-        kept.record(run, &method, &Sample::of(system, run.state), (events.list(), on_progress), end)
+        let start = Sample::of(system, run.state.clone());
+        kept.record(run, &method, &start, (events.list(), on_progress), end)
     }
 }

@@ -17,20 +17,20 @@ use crate::solution::consistent::{self, Consistent};
 use crate::solution::impact::{Impact, impact};
 use crate::solution::reason::reason;
 use crate::solution::solve::solve;
-#[cfg(feature = "alloc")]
-use crate::solution::vector_field::LagrangianVectorField;
+use crate::solution::vector_field::VectorField;
 use crate::system::finite::check_finite;
-use crate::system::{Lagrangian, SolutionOf, StateOf};
+use crate::system::{Lagrangian, SolutionOf, StateOf, System};
 #[cfg(feature = "alloc")]
 use crate::system::{State, lookup};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Trajectory;
 use crate::vector::Array;
 #[cfg(feature = "alloc")]
-use crate::vector::{Length, from_fn};
+use crate::vector::{StaticLength, Vector, from_fn};
 
-/// Solves, initializes and integrates a system. It is implemented for every [`Lagrangian`] over `f64` or `f32`.
-pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
+/// Solves, initializes and integrates a system. It is implemented for every [`Lagrangian`] over `f64` or `f32`, and, as far as
+/// accelerations alone allow, for every other [`System`].
+pub trait Simulate: System<Scalar: Real, Field: VectorField<Self>> + Sized {
     /// Returns accelerations and multipliers at a state.
     ///
     /// They are the results of [`accelerations_unchecked`](Lagrangian::accelerations_unchecked) if its smallest pivot
@@ -46,7 +46,10 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     /// zero; [`Error::DependentToFirstOrder`] if the row of a combination of constraints is zero. Each names the
     /// coordinates or the constraint. [`check_consistent`](Self::check_consistent) checks that the state is on the
     /// constraints, and that no row is zero up to round-off.
-    fn solve(&self, state: &StateOf<Self>) -> Result<SolutionOf<Self>, Error> {
+    fn solve(&self, state: &StateOf<Self>) -> Result<SolutionOf<Self>, Error>
+    where
+        Self: Lagrangian,
+    {
         solve(self, state)
     }
 
@@ -55,7 +58,10 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     /// # Errors
     /// [`Error::StateNotFinite`] and [`Error::ParameterNotAsSaid`]; [`Error::Inconsistent`], with the first constraint
     /// that the state violates; [`Error::NoGradient`], with the first constraint that fixes no acceleration.
-    fn check_consistent(&self, state: &StateOf<Self>) -> Result<(), Error> {
+    fn check_consistent(&self, state: &StateOf<Self>) -> Result<(), Error>
+    where
+        Self: Lagrangian,
+    {
         check_finite(self, state)?;
         consistent::check(self, state)
     }
@@ -89,7 +95,10 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     /// # Errors
     /// [`Error::StateNotFinite`], [`Error::NotProjected`] if Newton's iteration does not converge, and
     /// [`Error::NoGradient`] if a constraint holds and its gradient vanishes.
-    fn make_consistent(&self, state: &StateOf<Self>) -> Result<Consistent<Self::Scalar, Self::N>, Error> {
+    fn make_consistent(&self, state: &StateOf<Self>) -> Result<Consistent<Self::Scalar, Self::N>, Error>
+    where
+        Self: Lagrangian,
+    {
         check_finite(self, state)?;
         consistent::make_consistent(self, state, &[Array::filled(false); 2])
             .map_err(|error| reason(self, state, error))
@@ -125,7 +134,10 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     ///
     /// # Errors
     /// [`Error::Conflicting`]; the errors of [`make_consistent`](Self::make_consistent).
-    fn assemble(&self, guess: &StateOf<Self>) -> Result<Assembly<Self::Scalar, Self::N>, Error> {
+    fn assemble(&self, guess: &StateOf<Self>) -> Result<Assembly<Self::Scalar, Self::N>, Error>
+    where
+        Self: Lagrangian,
+    {
         check_finite(self, guess)?;
         consistent::assembly::assemble(self, guess)
     }
@@ -158,7 +170,10 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
         &self,
         state: &StateOf<Self>,
         held: &[&str],
-    ) -> Result<Consistent<Self::Scalar, Self::N>, Error> {
+    ) -> Result<Consistent<Self::Scalar, Self::N>, Error>
+    where
+        Self: Lagrangian,
+    {
         check_finite(self, state)?;
         let known = lookup::entries::<Self>();
         let held = lookup::indices::<Self>(&known, "coordinate or velocity", held)?;
@@ -242,7 +257,10 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
         state: &StateOf<Self>,
         constraint: &str,
         restitution: Self::Scalar,
-    ) -> Result<Impact<Self>, Error> {
+    ) -> Result<Impact<Self>, Error>
+    where
+        Self: Lagrangian,
+    {
         let hit = lookup::index::<Self>(Self::CONSTRAINTS, "constraint", constraint)?;
         impact(self, state, hit, restitution)
     }
@@ -323,8 +341,8 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     /// # Ok::<(), Error>(())
     /// ```
     #[cfg(feature = "alloc")]
-    fn motion<'w>(&self, start: StateOf<Self>) -> MotionFrom<'_, 'w, Self, LagrangianVectorField> {
-        MotionBuilder::new(self, Start::new(check_finite(self, &start).map(|()| start)))
+    fn motion<'w>(&self, start: StateOf<Self>) -> MotionFrom<'_, 'w, Self, Self::Field> {
+        MotionBuilder::new(self, Start::new(Self::Field::check_entries(self, &start).map(|()| start)))
     }
 
     /// Returns a state at t = 0 from named entries: `x` for a coordinate, `x_dot` for its velocity, `r[0]` and
@@ -333,7 +351,10 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
     /// # Errors
     /// [`Error::UnknownName`], which suggests a name or lists all names, and [`Error::RepeatedName`].
     #[cfg(feature = "alloc")]
-    fn state_from(&self, entries: &[(&str, Self::Scalar)]) -> Result<StateOf<Self>, Error> {
+    fn state_from(&self, entries: &[(&str, Self::Scalar)]) -> Result<StateOf<Self>, Error>
+    where
+        Self: Lagrangian,
+    {
         let mut state = State::at_rest(Array::filled(Self::Scalar::constant(0.0)));
         let known = lookup::entries::<Self>();
         for (i, (name, value)) in entries.iter().enumerate() {
@@ -341,11 +362,11 @@ pub trait Simulate: Lagrangian<Scalar: Real> + Sized {
                 return Err(Error::RepeatedName { name: (*name).into() });
             }
             let index = lookup::index::<Self>(&known, "coordinate or velocity", name)?;
-            let half = if index < <Self::N>::COUNT { &mut state.q } else { &mut state.v };
+            let half: &mut Vector<_, _> = if index < <Self::N>::COUNT { &mut state.q } else { &mut state.v };
             half[index % <Self::N>::COUNT] = *value;
         }
         Ok(state)
     }
 }
 
-impl<L: Lagrangian<Scalar: Real>> Simulate for L {}
+impl<L: System<Scalar: Real, Field: VectorField<L>>> Simulate for L {}

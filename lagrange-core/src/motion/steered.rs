@@ -8,13 +8,11 @@ use super::event::{AnyEvent, EventSearch};
 use super::run::{Run, Watchdog, is_between, put_interpolant, resume};
 use crate::error::{Ending, Error};
 use crate::number::Real;
-use crate::solution::consistent;
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
-use crate::solution::vector_field::{LagrangianVectorField, VectorField};
+use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
-use crate::system::finite::check_finite;
-use crate::system::{Lagrangian, StateOf, check_contacts};
+use crate::system::{StateOf, System, check_contacts};
 
 /// A motion that its caller advances by a length of time or to a time, and can steer in between.
 ///
@@ -52,9 +50,9 @@ use crate::system::{Lagrangian, StateOf, check_contacts};
 ///
 /// Limits on steps and on wall-clock time apply to each advance separately. A system with contacts or dry friction moves by a
 /// [`ContactMotion`](crate::contact::ContactMotion).
-pub struct Motion<L, P, F = LagrangianVectorField>
+pub struct Motion<L, P, F = <L as System>::Field>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     P: Method<L, F>,
 {
@@ -66,25 +64,25 @@ where
     last_step: LastStep<P::Interpolant>,
 }
 
-impl<L: Lagrangian<Scalar: Real>, P: Method<L>> Motion<L, P> {
+impl<L: System<Scalar: Real, Field: VectorField<L>>, P: Method<L>> Motion<L, P> {
     /// Starts a motion of this system from a state, by the given method.
     ///
     /// # Errors
     /// Those of [`Simulate::integrate`](crate::Simulate::integrate) before the first step.
     pub fn new(system: L, state: StateOf<L>, method: P) -> Result<Self, Error> {
-        check_finite(&system, &state)?;
+        L::Field::check_entries(&system, &state)?;
         Self::begin(system, &state, method)
     }
 }
 
 impl<L, P, F> Motion<L, P, F>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     P: Method<L, F>,
 {
     pub(crate) fn begin(system: L, state: &StateOf<L>, method: P) -> Result<Self, Error> {
-        const { check_contacts::<L>() };
+        const { check_contacts(F::HAS_CONTACTS) };
         let (run, _) = Run::begin(&system, state, &method)?;
         let last_step = LastStep::none();
         Ok(Self { system, method, run, stop: None, last_step })
@@ -104,7 +102,7 @@ where
     /// Dense output of the last step by [`at`](Self::at) is then no longer available.
     pub fn system_mut(&mut self) -> &mut L {
         // Without a stop, no copy of the state onto itself: reading the state would wait for that store.
-        if let Some(stop) = self.stop {
+        if let Some(stop) = self.stop.take() {
             self.run.state = stop;
         }
         self.forget_step();
@@ -118,9 +116,9 @@ where
     /// [`Error::StateNotFinite`]; [`Error::Inconsistent`], and [`Error::NotProjected`]. The motion then keeps its
     /// state.
     pub fn set_state(&mut self, state: StateOf<L>) -> Result<(), Error> {
-        check_finite(&self.system, &state)?;
-        consistent::check(&self.system, &state)?;
-        let (state, _) = consistent::project_to_round_off(&self.system, &state)?;
+        F::check_entries(&self.system, &state)?;
+        F::check_constraints(&self.system, &state)?;
+        let (state, _) = F::adjust(&self.system, &state)?;
         self.go_on_from(state);
         Ok(())
     }
@@ -181,9 +179,9 @@ where
         &mut self,
         end: L::Scalar,
         events: &mut [&mut dyn AnyEvent<L>],
-    ) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending> {
+    ) -> Result<Option<Crossing<L::Scalar, L::Length>>, Ending> {
         self.refresh(end)?;
-        let mut at = *self.state();
+        let mut at = self.state().clone();
         let found = self.search(end, events, &mut at);
         self.stop = (at != self.run.state).then_some(at);
         found
@@ -218,7 +216,7 @@ where
         &mut self,
         end: L::Scalar,
         events: &'e mut [&'e mut dyn AnyEvent<L>],
-    ) -> impl Iterator<Item = Result<Crossing<L::Scalar, L::N>, Ending>> + use<'_, 'e, L, P, F> {
+    ) -> impl Iterator<Item = Result<Crossing<L::Scalar, L::Length>, Ending>> + use<'_, 'e, L, P, F> {
         let mut has_failed = false;
         core::iter::from_fn(move || {
             if has_failed {
@@ -236,7 +234,7 @@ where
         end: L::Scalar,
         events: &mut [&mut dyn AnyEvent<L>],
         at: &mut StateOf<L>,
-    ) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending> {
+    ) -> Result<Option<Crossing<L::Scalar, L::Length>>, Ending> {
         let Self { system, method, run, last_step, .. } = self;
         let limits = Watchdog::new(method.limits(), &run.statistics);
         let mut search = EventSearch::from(events, system, at, !last_step.is_there)
@@ -267,9 +265,9 @@ where
     /// [`Error::OutsideTrajectory`] for a time outside the last step; after a change of the state or of the system only
     /// the current time is available. Errors of evaluating the equations, and [`Error::NotProjected`].
     pub fn at(&mut self, t: L::Scalar) -> Result<StateOf<L>, Error> {
-        let (state, before) = (*self.state(), self.run.before);
+        let (state, before) = (self.state(), &self.run.before);
         if t == state.t {
-            return Ok(state);
+            return Ok(state.clone());
         }
         let start = if self.last_step.is_there { before.t } else { state.t };
         if !is_between(start, t, state.t) {
@@ -277,15 +275,17 @@ where
             return Err(Error::OutsideTrajectory { time, start, end });
         }
         if t == before.t {
-            return Ok(before);
+            return Ok(before.clone());
         }
         let Self { system, method, run: Run { memory, statistics, .. }, last_step, .. } = self;
         if last_step.interpolant().is_none() {
             let within = &mut last_step.within;
             put_interpolant::<L, F, P>(system, method, memory, statistics, within)?;
         }
-        let point = last_step.interpolant().map(|interpolant| interpolant.at(t));
-        point.map_or(Ok(state), |point| F::project(system, &point))
+        match last_step.interpolant() {
+            Some(interpolant) => F::project(system, &interpolant.at(t)),
+            None => Ok(self.state().clone()),
+        }
     }
 
     /// Iterates over the states at these times, each computed when the iterator is advanced; the motion is then at the
@@ -349,9 +349,8 @@ where
     fn refresh(&mut self, end: L::Scalar) -> Result<(), Ending> {
         let time = self.state().t.to_f64();
         super::run::check_end(end).map_err(|error| Ending::of(error, time))?;
-        if let Some(stop) = self.stop
-            && !is_between(stop.t, self.run.state.t, end)
-        {
+        let is_behind = |stop: &mut StateOf<L>| !is_between(stop.t, self.run.state.t, end);
+        if let Some(stop) = self.stop.take_if(is_behind) {
             self.go_on_from(stop);
         }
         if !self.last_step.is_current {
@@ -370,13 +369,13 @@ where
 
 impl<L, P, F> Debug for Motion<L, P, F>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     P: Method<L, F>,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Motion")
-            .field("system", &L::NAME)
+            .field("system", &F::name())
             .field("state", self.state())
             .field("statistics", self.statistics())
             .finish()

@@ -13,16 +13,16 @@ use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{StateOf, System};
 use crate::trajectory::{Leg, Path, Trajectory};
 
 /// Observer that stores the steps, their dense output and the crossings of the events `W`. Without events `HAS_EVENTS`
 /// is false, and the search is not compiled.
-pub(crate) struct Stored<'a, 'e, L: Lagrangian, W, I, const HAS_EVENTS: bool> {
+pub(crate) struct Stored<'a, 'e, L: System, W, I, const HAS_EVENTS: bool> {
     system: &'a L,
     end: L::Scalar,
-    path: Path<L::Scalar, L::N, Vec<I>>,
-    crossings: Vec<Crossing<L::Scalar, L::N>>,
+    path: Path<L::Scalar, L::Length, Vec<I>>,
+    crossings: Vec<Crossing<L::Scalar, L::Length>>,
     pub(crate) search: EventSearch<'e, W, L>,
     /// Ending at the start, if an event that is due there ends the motion.
     stopped: Option<Ending>,
@@ -31,9 +31,9 @@ pub(crate) struct Stored<'a, 'e, L: Lagrangian, W, I, const HAS_EVENTS: bool> {
 
 impl<'a, 'e, L, W, I, const HAS_EVENTS: bool> Stored<'a, 'e, L, W, I, HAS_EVENTS>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     W: AnyEvent<L>,
-    I: Interpolant<L::Scalar, L::N> + Send + Sync + 'static,
+    I: Interpolant<L::Scalar, L::Length> + Send + Sync + 'static,
 {
     pub(crate) fn begin(
         system: &'a L,
@@ -42,7 +42,7 @@ where
         events: &'e mut [W],
         on_progress: Option<OnProgress<'e>>,
     ) -> Result<Self, Error> {
-        let (path, mut crossings) = (Path::from(*start), Vec::new());
+        let (path, mut crossings) = (Path::from(start.clone()), Vec::new());
         let mut search = EventSearch::begin(events, system, start)?;
         let stopped = search.record_due(start, &mut crossings);
         Ok(Self { system, end, path, crossings, search, stopped, on_progress })
@@ -62,7 +62,7 @@ where
         self,
         driven: Result<(), Ending>,
         statistics: Statistics,
-        adjustment: Adjustment<L::Scalar, L::N>,
+        adjustment: Adjustment<L::Scalar, L::Length>,
     ) -> Trajectory<&'a L, F> {
         let time = self.end.to_f64();
         let (leg, crossings) = self.into_leg(driven.as_ref().err());
@@ -79,7 +79,7 @@ where
     pub(crate) fn into_leg<F>(
         self,
         ending: Option<&Ending>,
-    ) -> (Leg<&'a L, F>, Vec<Crossing<L::Scalar, L::N>>) {
+    ) -> (Leg<&'a L, F>, Vec<Crossing<L::Scalar, L::Length>>) {
         let boundary = match ending {
             Some(Ending::Event { event, .. }) => Some(*event),
             _ => None,
@@ -91,7 +91,7 @@ where
 impl<L, F, P, W, const HAS_EVENTS: bool> Observer<L, P, F>
     for Stored<'_, '_, L, W, P::Interpolant, HAS_EVENTS>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     P: Method<L, F>,
     W: AnyEvent<L>,
@@ -115,7 +115,7 @@ where
 
     #[inline(always)]
     fn keep(&mut self, _: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
-        self.path.push(run.state);
+        self.path.push(run.state.clone());
         if const { HAS_EVENTS } {
             let ends = [&run.before, &run.state];
             let Self { search, path, crossings, system, .. } = self;

@@ -25,8 +25,8 @@ pub use lanes::{FourLanes, Lanes};
 #[cfg(feature = "alloc")]
 pub(crate) use numeric::order;
 pub(crate) use numeric::{
-    beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two, smaller,
-    sum, unit_of,
+    are_finite, beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two,
+    smaller, sum, unit_of,
 };
 pub use parts::Parts;
 pub use real::Real;

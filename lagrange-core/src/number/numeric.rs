@@ -2,6 +2,7 @@
 
 use core::cmp::Ordering;
 
+use super::parts::Parts;
 use super::real::Real;
 use super::scalar::Scalar;
 
@@ -93,6 +94,26 @@ pub(crate) fn sum<T: Scalar>(count: usize, term: impl Fn(usize) -> T) -> T {
     }
     let [a, b, c, d] = parts;
     (count / 4 * 4..count).fold((a + b) + (c + d), |sum, i| sum + term(i))
+}
+
+/// True if all numbers are finite.
+#[inline(always)]
+pub(crate) fn are_finite<T: Parts>(x: &[T]) -> bool {
+    // Without branches, so that the compiler tests several numbers at once.
+    let all = |x: &[T]| x.iter().fold(true, |all, x| all & x.is_finite());
+    let (blocks, rest) = x.as_chunks::<8>();
+    if blocks.is_empty() {
+        return all(rest);
+    }
+    // Zero times an infinity or NaN is NaN.
+    let zero = T::constant(0.0);
+    let mut sums = [zero; 8];
+    for block in blocks {
+        for (sum, x) in sums.iter_mut().zip(block) {
+            *sum = *sum + zero * *x;
+        }
+    }
+    all(&sums) & all(rest)
 }
 
 /// Returns √Σx². It neither overflows nor underflows unless the entries do.

@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::motion::Simulate;
 use crate::number::{Real, Scalar, exceeds, norm};
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Distance from a branch point of the members from which it is interpolated, as part of a step. Nearer, their own errors grow; at
 /// 5·10⁻³ the ends of a narrow window are found to 10⁻⁹ in place of 3·10⁻¹¹ (`windows_of_mathieus_swing`).

@@ -11,7 +11,7 @@ use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::number::{Real, Scalar, larger, norm};
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Steps allowed. Ten are usual; a search that takes more has left the neighbourhood of its guess.
 const STEPS: usize = 50;

@@ -8,7 +8,7 @@ use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::motion::Simulate;
 use crate::number::{Real, Scalar, exceeds, power_of_epsilon, smaller};
 use crate::system::{StateOf, entry};
-use crate::vector::{Length, zeros};
+use crate::vector::{StaticLength, zeros};
 
 /// Times of the motion from the guess at which the potential is looked at.
 const SAMPLES: usize = 256;

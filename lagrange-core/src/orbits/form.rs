@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use crate::linearized::Linearized;
 use crate::number::{Real, Scalar, larger};
 use crate::system::{Direction, Solution, StateOf};
-use crate::vector::{Length, zeros};
+use crate::vector::{StaticLength, zeros};
 
 /// Matrix Ω of the form ω(x, y) = xᵀ Ω y = δp·δq′ − δp′·δq in (q, q̇).
 ///

@@ -8,7 +8,7 @@ use crate::linearized::Linearized;
 use crate::number::{Real, larger, norm, smaller, unit_of};
 use crate::system::{StateOf, has_velocity_constraints};
 use crate::trajectory::Trajectory;
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Units of an orbit: its largest coordinate and its largest velocity, 1 if all are zero.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::linearized::{Linearized, Stability, StateSensitivity};
 use crate::number::{Real, Scalar, power_of_epsilon};
 use crate::system::{StateOf, lookup};
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Derivative ∂(q, q̇)/∂(q, q̇) of the state at the end of a stretch of motion by the state at its start.
 ///
@@ -35,7 +35,7 @@ pub struct Monodromy<T> {
 }
 
 /// Derivatives by the initial state as one matrix, of the coordinates above those of the velocities.
-pub(super) fn stacked<T: Real, N: Length>(at: &StateSensitivity<T, N>, columns: usize) -> DMatrix<T> {
+pub(super) fn stacked<T: Real, N: StaticLength>(at: &StateSensitivity<T, N>, columns: usize) -> DMatrix<T> {
     DMatrix::from_fn(
         2 * N::COUNT,
         columns,

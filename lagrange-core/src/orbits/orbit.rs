@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Stability};
 use crate::number::{Real, Scalar, exceeds};
 use crate::system::StateOf;
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// A periodic orbit, with its stability.
 ///
@@ -211,7 +211,7 @@ impl<T: Real> Problem<T> {
         };
         let half = shot.segments[count - 1].end;
         let second = (count..2 * count).map(|k| match k == count {
-            true => StateOf::<L> { t: chain.nodes[0].t + duration * T::constant(k as f64), ..half },
+            true => half.at_time(chain.nodes[0].t + duration * T::constant(k as f64)),
             false => mirrored(&chain.nodes[2 * count - k], k),
         });
         let second: Vec<_> = second.collect();

@@ -31,7 +31,7 @@ pub struct OrbitSearch<L: Linearized, D = Dop853> {
 
 impl<L: Linearized<Scalar: Real> + Clone> OrbitSearch<L> {
     pub(super) fn new(system: &L, guess: &StateOf<L>) -> Self {
-        const { check_contacts::<L>() };
+        const { check_contacts(L::HAS_CONTACTS) };
         let conditions = Conditions {
             period: Period::Unknown,
             energy: None,

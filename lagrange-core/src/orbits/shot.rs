@@ -17,7 +17,7 @@ use crate::motion::Simulate;
 use crate::names::Entry;
 use crate::number::{Real, Scalar, larger};
 use crate::system::{StateOf, entry};
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Nodes of an orbit, its period, and the system with the parameter in question.
 #[derive(Clone)]

@@ -10,7 +10,7 @@ use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
 use crate::number::{Real, Scalar, exceeds, norm, power_of_epsilon, unit_of};
-use crate::system::Lagrangian;
+use crate::system::System;
 
 /// Least cosine of the angle between neighbours of a family; a step across which it turns more is halved. 20° are small
 /// enough that a step does not end on another family that crosses at a right angle.
@@ -63,7 +63,7 @@ pub(super) struct TracedOrbit<L: Linearized> {
 }
 
 /// A member at an arclength from an earlier one.
-pub(super) type AtLength<L> = (<L as Lagrangian>::Scalar, TracedOrbit<L>);
+pub(super) type AtLength<L> = (<L as System>::Scalar, TracedOrbit<L>);
 
 /// Equations of a family, with the method by which its members are computed.
 pub(super) struct Tracer<'m, L: Linearized, D> {

@@ -4,7 +4,7 @@ use crate::system::State;
 use crate::vector::{Element, Length};
 
 /// A located crossing of an event.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
 pub struct Crossing<T: Element, N: Length> {
@@ -19,3 +19,5 @@ pub struct Crossing<T: Element, N: Length> {
     /// State at the crossing.
     pub state: State<T, N>,
 }
+
+impl<T: Element, N: Length> Copy for Crossing<T, N> where State<T, N>: Copy {}

@@ -2,7 +2,7 @@
 
 use crate::number::{Broadcast, Scalar};
 use crate::system::Solution;
-use crate::vector::{Array, Element, Length, Vector, array, vector};
+use crate::vector::{Array, Element, StaticLength, Vector, array, vector};
 
 /// Solves M q̈ − Fᵀλ = h, F q̈ = −γ by LDLᵀ of M and of the Schur complement F M⁻¹ Fᵀ, without pivoting.
 ///
@@ -11,7 +11,7 @@ use crate::vector::{Array, Element, Length, Vector, array, vector};
 /// failure. (Golub and Van Loan, *Matrix Computations*, 4.1.2, and the range-space method of Nocedal and
 /// Wright, *Numerical Optimization*, 16.2.)
 #[inline]
-pub(crate) fn eliminate<T: Scalar, N: Length, M: Length>(
+pub(crate) fn eliminate<T: Scalar, N: StaticLength, M: StaticLength>(
     m: Array<Array<T, N>, N>,
     h: Array<T, N>,
     f: Array<Array<T, N>, M>,
@@ -24,7 +24,7 @@ pub(crate) fn eliminate<T: Scalar, N: Length, M: Length>(
 /// Factorizations of M and F M⁻¹ Fᵀ + c, computed in loops. The compliance c is zero, but 1 for a constraint that is
 /// switched off, whose row of F and γ are zero.
 #[derive(Clone, Copy, Debug)]
-pub struct LoopFactor<T: Element, N: Length, M: Length> {
+pub struct LoopFactor<T: Element, N: StaticLength, M: StaticLength> {
     mass: Ldl<T, N>,
     f: Array<Array<T, N>, M>,
     /// M⁻¹Fᵀ, one row per constraint.
@@ -34,7 +34,7 @@ pub struct LoopFactor<T: Element, N: Length, M: Length> {
     weights: Array<T, M>,
 }
 
-impl<T: Scalar, N: Length, M: Length> LoopFactor<T, N, M> {
+impl<T: Scalar, N: StaticLength, M: StaticLength> LoopFactor<T, N, M> {
     /// Factorizes the completed mass matrix M + FᵀσF, whose lower triangle is read row by row. `f` holds one
     /// row per constraint, `weights` is σ, `compliance` is c.
     #[inline]
@@ -124,12 +124,12 @@ impl<T: Scalar, N: Length, M: Length> LoopFactor<T, N, M> {
 
 /// LDLᵀ factorization: L below the diagonal, 1/D on it.
 #[derive(Clone, Copy, Debug)]
-struct Ldl<T: Element, K: Length> {
+struct Ldl<T: Element, K: StaticLength> {
     l: Array<Array<T, K>, K>,
     pivot: T,
 }
 
-impl<T: Scalar, K: Length> Ldl<T, K> {
+impl<T: Scalar, K: StaticLength> Ldl<T, K> {
     #[inline]
     fn of(mut a: Array<Array<T, K>, K>) -> Self {
         let one = T::constant(1.0);
@@ -194,7 +194,7 @@ pub(super) fn poison<T: Scalar>(x: T, y: T) -> T {
 }
 
 #[inline]
-fn dot<T: Scalar, K: Length>(a: &Array<T, K>, b: &Array<T, K>) -> T {
+fn dot<T: Scalar, K: StaticLength>(a: &Array<T, K>, b: &Array<T, K>) -> T {
     let mut sum = T::constant(0.0);
     for i in 0..K::COUNT {
         sum = sum + a[i] * b[i];

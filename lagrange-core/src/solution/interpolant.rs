@@ -2,7 +2,7 @@
 
 use crate::number::{Real, Scalar};
 use crate::solution::vector_field::StagePoint;
-use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
+use crate::vector::{Element, Length, Numbers, PhaseVector, VectorOf};
 
 /// Dense output of one step: a continuous function of time, equal to the states at both ends.
 ///
@@ -58,7 +58,7 @@ pub(crate) fn hermite<T: Scalar, N: Length>(
     coefficients: &mut [PhaseVector<T, N>],
 ) {
     for half in 0..2 {
-        for i in 0..N::COUNT {
+        for i in 0..start[half].len() {
             let rise = end[half][i] - start[half][i];
             let bend = length * first[half][i] - rise;
             let entries = [start[half][i], rise, bend, rise - length * last[half][i] - bend];
@@ -72,7 +72,7 @@ pub(crate) fn hermite<T: Scalar, N: Length>(
 impl<T: Real, N: Length> Polynomial<T, [PhaseVector<T, N>; 4]> {
     /// Cubic Hermite interpolant of a step, with an error of fourth order.
     pub fn hermite(start: T, length: T, first: &HermiteNode<T, N>, last: &HermiteNode<T, N>) -> Self {
-        let mut coefficients = [PhaseVector::filled(T::constant(0.0)); 4];
+        let mut coefficients = core::array::from_fn(|_| first.0.clone());
         hermite(length, (&first.0, &first.1), (&last.0, &last.1), &mut coefficients);
         Self::new(start, length, coefficients)
     }
@@ -82,23 +82,31 @@ impl<T: Real, N: Length, C: AsRef<[PhaseVector<T, N>]>> Interpolant<T, N> for Po
     // Inlined, so that an unused velocity is not computed.
     #[inline(always)]
     fn at(&self, t: T) -> StagePoint<T, N> {
-        let (y, velocity) = evaluate(self.coefficients.as_ref(), (t - self.start) / self.length);
-        StagePoint { t, y, velocity: velocity.map(|x| x / self.length) }
+        let (y, mut velocity) = evaluate(self.coefficients.as_ref(), (t - self.start) / self.length);
+        velocity.entries_mut().iter_mut().for_each(|x| *x /= self.length);
+        StagePoint { t, y, velocity }
     }
 }
 
-/// Returns the polynomial at θ, and the derivative of its first half by θ.
+/// Returns the polynomial at θ, and the derivative of its first half by θ; the latter has no entries where the length is known when
+/// the program runs.
 #[inline(always)]
 pub(crate) fn evaluate<T: Scalar, N: Length>(
     coefficients: &[PhaseVector<T, N>],
     theta: T,
-) -> (PhaseVector<T, N>, Array<T, N>) {
+) -> (PhaseVector<T, N>, VectorOf<T, N>) {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
-    let (mut sum, mut slope) = (PhaseVector::filled(zero), Array::filled(zero));
+    let mut sum = coefficients.first().map_or(PhaseVector::placeholder(zero), Clone::clone);
+    sum.flat_mut().fill(zero);
+    let mut slope = sum.half_if_constant(0);
     for (k, r) in coefficients.iter().enumerate().rev() {
         let (factor, sign) = if k % 2 == 0 { (theta, one) } else { (one - theta, -one) };
-        slope = Array::from_fn(|i| factor.multiply_add(slope[i], sign * sum[0][i]));
-        sum = from_fn(|half| Array::from_fn(|i| factor.multiply_add(sum[half][i], r[half][i])));
+        for (slope, sum) in slope.entries_mut().iter_mut().zip(&sum[0]) {
+            *slope = factor.multiply_add(*slope, sign * *sum);
+        }
+        for (sum, r) in sum.flat_mut().iter_mut().zip(r.flat()) {
+            *sum = factor.multiply_add(*sum, *r);
+        }
     }
     (sum, slope)
 }

@@ -11,7 +11,7 @@ mod tests;
 use super::consistent::level::Level;
 use crate::number::{Real, Scalar, sum};
 use crate::system::{Lagrangian, SolutionOf, State, StateOf};
-use crate::vector::{Array, Entrywise, Length, Vector, from_fn, vector, zeros};
+use crate::vector::{Array, Entrywise, StaticLength, Vector, from_fn, vector, zeros};
 
 /// Strategy of the corrections: when and how often to correct, and whether a correction of the coordinates
 /// also changes the velocities.
@@ -37,7 +37,7 @@ impl<T: Scalar> Corrections<T> {
 
     /// Tells, lane by lane, whether a correction is needed: zero if not.
     #[inline(always)]
-    fn wanted<M: Length>(self, residual: &Vector<T, M>, size: &Vector<T, M>, epsilon: f64) -> T {
+    fn wanted<M: StaticLength>(self, residual: &Vector<T, M>, size: &Vector<T, M>, epsilon: f64) -> T {
         match self {
             Self::ToRoundOff => excess(residual, size, 4.0 * epsilon),
             Self::OnceAfter(_) => T::constant(1.0),
@@ -148,7 +148,7 @@ pub(crate) fn exact_sum<T: Scalar>(x: T, y: T) -> [T; 2] {
 /// Compensated sum: x + change, and its rounding error. The old rounding error `rest` is added last: the change may be
 /// as large as the sum, and would absorb it.
 #[inline(always)]
-pub(crate) fn compensated<T: Scalar, N: Length>(
+pub(crate) fn compensated<T: Scalar, N: StaticLength>(
     x: &Array<T, N>,
     change: &Array<T, N>,
     rest: &Array<T, N>,
@@ -162,7 +162,7 @@ pub(crate) fn compensated<T: Scalar, N: Length>(
 
 /// Counts the entries above `part` of their size; NaN if an entry is NaN.
 #[inline]
-fn excess<T: Scalar, M: Length>(x: &Vector<T, M>, size: &Vector<T, M>, part: f64) -> T {
+fn excess<T: Scalar, M: StaticLength>(x: &Vector<T, M>, size: &Vector<T, M>, part: f64) -> T {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let excess = |x: T, size: T| x.abs().select_by_order(size * T::constant(part), zero, zero, one);
     sum(M::COUNT, |a| excess(x[a], size[a]))

@@ -5,7 +5,7 @@ use nalgebra::ComplexField;
 use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::system::{ConstraintKind, Lagrangian, StateOf};
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Largest residual of a unit quaternion, in units of ε: a sum of four squares, less 1.
 const ROUND_OFF: f64 = 8.0;

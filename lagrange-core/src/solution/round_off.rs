@@ -2,7 +2,7 @@
 
 use crate::number::Real;
 use crate::system::State;
-use crate::vector::{Entrywise, Length};
+use crate::vector::Length;
 
 /// Number of nearby states that are compared.
 const NEIGHBOURS: u64 = 8;
@@ -23,16 +23,12 @@ pub(crate) fn neighbours<T: Real, N: Length>(
 ) -> impl Iterator<Item = State<T, N>> {
     (0..NEIGHBOURS).map(move |neighbour| {
         let mut bits = neighbour;
-        let mut moved = |x: T, size: T| {
+        let moved = |x: T, size: T| {
             // SplitMix of Steele, Lea and Flood.
             bits =
                 (bits ^ (bits >> 30)).wrapping_add(0x9e37_79b9_7f4a_7c15).wrapping_mul(0xbf58_476d_1ce4_e5b9);
             x + size * T::constant(if bits >> 63 == 0 { part } else { -part })
         };
-        State {
-            t: moved(state.t, sizes.t),
-            q: state.q.each_with(&sizes.q, &mut moved),
-            v: state.v.each_with(&sizes.v, &mut moved),
-        }
+        state.each_with(sizes, moved)
     })
 }

@@ -11,7 +11,7 @@ use crate::number::Real;
 use crate::solution::solve::solve;
 #[cfg(feature = "alloc")]
 use crate::system::lookup::{index, unknown};
-use crate::system::{Lagrangian, SolutionOf, State, StateOf, check_names};
+use crate::system::{Lagrangian, SolutionOf, State, StateOf, System, check_names};
 use crate::vector::zeros;
 
 /// A state of a system with derived quantities: accelerations, multipliers, energy, observables.
@@ -21,15 +21,23 @@ use crate::vector::zeros;
 ///
 /// The sample holds the system `S` in the same way as its trajectory: borrowed, or as a copy. For a system in
 /// an `Arc` or an `Rc`, only the pointer is copied.
-#[derive(Clone, Copy)]
-pub struct Sample<S: Lagrangian> {
+pub struct Sample<S: System> {
     system: S,
     state: StateOf<S>,
     /// Accelerations and multipliers, if they are not those that the equations have at this state.
     given: Option<SolutionOf<S>>,
 }
 
-impl<S: Lagrangian> Sample<S> {
+impl<S: System + Clone> Clone for Sample<S> {
+    #[inline]
+    fn clone(&self) -> Self {
+        Self { system: self.system.clone(), state: self.state.clone(), given: self.given }
+    }
+}
+
+impl<S: System + Copy> Copy for Sample<S> where StateOf<S>: Copy {}
+
+impl<S: System> Sample<S> {
     #[inline]
     pub(crate) fn of(system: S, state: StateOf<S>) -> Self {
         Self { system, state, given: None }
@@ -48,19 +56,19 @@ impl<S: Lagrangian> Sample<S> {
     }
 }
 
-impl<L: Lagrangian> Sample<&L> {
+impl<L: System> Sample<&L> {
     /// The same sample of the system behind a pointer.
     #[inline]
     pub(crate) fn behind<K>(&self) -> Sample<&K>
     where
         L: Borrow<K>,
-        K: Lagrangian<N = L::N, M = L::M, Scalar = L::Scalar>,
+        K: System<Length = L::Length, M = L::M, Scalar = L::Scalar>,
     {
-        Sample { system: self.system.borrow(), state: self.state, given: self.given }
+        Sample { system: self.system.borrow(), state: self.state.clone(), given: self.given }
     }
 }
 
-impl<L: Lagrangian + Clone> Sample<&L> {
+impl<L: System + Clone> Sample<&L> {
     /// Returns the sample with its own copy of the system; the original may then change or be dropped.
     pub fn into_owned(self) -> Sample<L> {
         let Self { system, state, given } = self;
@@ -68,7 +76,7 @@ impl<L: Lagrangian + Clone> Sample<&L> {
     }
 }
 
-impl<S: Lagrangian<Scalar: Real>> Sample<S> {
+impl<S: System> Sample<S> {
     /// Returns the system.
     pub fn system(&self) -> &S {
         &self.system
@@ -83,7 +91,9 @@ impl<S: Lagrangian<Scalar: Real>> Sample<S> {
     pub fn time(&self) -> S::Scalar {
         self.state.t
     }
+}
 
+impl<S: Lagrangian<Scalar: Real>> Sample<S> {
     /// Returns accelerations and multipliers, solved for at this state; in a [motion by time steps](crate::contact::MoreauJean) the
     /// means over the step that leads there, and NaN for its events.
     ///
@@ -222,8 +232,8 @@ impl<S: Lagrangian> Display for Sample<S> {
     }
 }
 
-impl<S: Lagrangian> Debug for Sample<S> {
+impl<S: System> Debug for Sample<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Sample").field("system", &S::NAME).field("state", &self.state).finish()
+        f.debug_struct("Sample").field("state", &self.state).finish_non_exhaustive()
     }
 }

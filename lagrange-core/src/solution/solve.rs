@@ -12,7 +12,7 @@ use crate::solution::pivot::{is_trustworthy, least_pivot};
 use crate::solution::reason::reason;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, Solution, SolutionOf, StateOf};
-use crate::vector::{Array, Length, Vector, rows};
+use crate::vector::{Array, StaticLength, Vector, rows};
 
 /// Implements [`Simulate::solve`](crate::Simulate::solve).
 #[inline]

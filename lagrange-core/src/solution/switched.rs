@@ -16,8 +16,8 @@ use nalgebra::Const;
 
 use super::eliminate::{nan_if_ill_conditioned, poison};
 use crate::number::{Broadcast, Scalar};
-use crate::system::{Lagrangian, Solution, SolutionOf, StateOf};
-use crate::vector::{Array, Element, Length, Vector, array, vector, zeros};
+use crate::system::{Lagrangian, Solution, SolutionOf, StateOf, System};
+use crate::vector::{Array, Element, StaticLength, Vector, array, vector, zeros};
 
 /// Place of a constraint's numbers in the array of all rows. Its row of F comes first, then its row of B if that differs, then the diagonal
 /// entry of c, the entry of c beside the diagonal, the weight σ with which the constraint completes M, and γ.
@@ -61,7 +61,7 @@ impl ConstraintRow {
 
     /// Product of entries in the columns with a vector.
     #[inline(always)]
-    fn dot<T: Scalar, S: Broadcast<T>, N: Length>(&self, entries: &[T], x: &Array<S, N>) -> S {
+    fn dot<T: Scalar, S: Broadcast<T>, N: StaticLength>(&self, entries: &[T], x: &Array<S, N>) -> S {
         let mut sum = S::constant(0.0);
         if entries.len() == N::COUNT {
             for i in 0..N::COUNT {
@@ -77,7 +77,12 @@ impl ConstraintRow {
 
     /// Adds a multiple of entries in the columns to a vector.
     #[inline(always)]
-    fn add<T: Scalar, S: Broadcast<T>, N: Length>(&self, entries: &[T], factor: S, x: &mut Array<S, N>) {
+    fn add<T: Scalar, S: Broadcast<T>, N: StaticLength>(
+        &self,
+        entries: &[T],
+        factor: S,
+        x: &mut Array<S, N>,
+    ) {
         if entries.len() == N::COUNT {
             for i in 0..N::COUNT {
                 x[i] = x[i] + S::of(entries[i]) * factor;
@@ -95,9 +100,9 @@ pub trait Switched: Lagrangian {
     /// Factorization of the mass matrix, completed by constraints that always hold.
     type Inertia: Copy + Debug + Send + Sync;
     /// Length of the array with the numbers of all rows.
-    type Numbers: Length;
+    type Numbers: StaticLength;
     /// Largest number of rows that can hold at once.
-    type Held: Length;
+    type Held: StaticLength;
     /// All constraints, group by group. Those of a group are computed together: all that always hold, a contact with its friction,
     /// other friction, or what one field switches.
     const GROUPS: &'static [&'static [ConstraintRow]];
@@ -109,7 +114,7 @@ pub trait Switched: Lagrangian {
     fn rows(&self, group: usize, state: &StateOf<Self>, numbers: &mut Array<Self::Scalar, Self::Numbers>);
 
     /// Number of entries of the mass matrix that are not zero at every state.
-    type Masses: Length;
+    type Masses: StaticLength;
     /// Row and column of each of these entries, row by row.
     const MASSES: &'static [[usize; 2]];
 
@@ -129,7 +134,7 @@ pub trait Switched: Lagrangian {
 
 /// Factorization of the equations of motion of a system with constraints that can be switched off.
 #[derive(Clone, Copy, Debug)]
-pub struct SwitchedFactor<I, T: Element, N: Length, H: Length> {
+pub struct SwitchedFactor<I, T: Element, N: StaticLength, H: StaticLength> {
     inertia: I,
     numbers: Array<T, N>,
     /// Group and index of the rows that hold.
@@ -143,7 +148,7 @@ pub struct SwitchedFactor<I, T: Element, N: Length, H: Length> {
 /// The factorization of a system.
 pub type SwitchedFactorOf<L> = SwitchedFactor<
     <L as Switched>::Inertia,
-    <L as Lagrangian>::Scalar,
+    <L as System>::Scalar,
     <L as Switched>::Numbers,
     <L as Switched>::Held,
 >;
@@ -159,7 +164,7 @@ pub fn accelerations<L: Switched>(system: &L, state: &StateOf<L>) -> SolutionOf<
     factor.solve(system, &forcing, &bias)
 }
 
-impl<I, T: Scalar, N: Length, H: Length> SwitchedFactor<I, T, N, H> {
+impl<I, T: Scalar, N: StaticLength, H: StaticLength> SwitchedFactor<I, T, N, H> {
     /// Factorizes the equations of motion of a system.
     #[inline]
     pub fn of<L>(system: &L, state: &StateOf<L>) -> Self

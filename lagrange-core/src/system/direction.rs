@@ -1,11 +1,11 @@
 //! Directions in (t, q, q̇), and derivatives of the equations along them.
 
 use crate::number::{Scalar, Wide};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, vector, zeros};
+use crate::vector::{Array, Element, Entrywise, StaticLength, Vector, vector, zeros};
 
 /// Direction of differentiation: rate of change of the time and of each entry of the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Direction<T: Element, N: Length> {
+pub struct Direction<T: Element, N: StaticLength> {
     /// Rate of the time.
     pub t: T,
     /// Rates of the coordinates.
@@ -14,7 +14,7 @@ pub struct Direction<T: Element, N: Length> {
     pub v: Vector<T, N>,
 }
 
-impl<T: Scalar, N: Length> Direction<T, N> {
+impl<T: Scalar, N: StaticLength> Direction<T, N> {
     /// The zero direction.
     pub fn zero() -> Self {
         Self { t: T::constant(0.0), q: zeros(), v: zeros() }
@@ -56,14 +56,14 @@ impl<T: Scalar, N: Length> Direction<T, N> {
 }
 
 /// Returns unit vector `i`, or zero for `i` ≥ `K`.
-pub(crate) fn unit<T: Scalar, K: Length>(i: usize) -> Vector<T, K> {
+pub(crate) fn unit<T: Scalar, K: StaticLength>(i: usize) -> Vector<T, K> {
     vector(Array::from_fn(|j| T::constant(if i == j { 1.0 } else { 0.0 })))
 }
 
 /// Derivatives of the residuals of the equations of motion along a direction, at fixed accelerations and
 /// multipliers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ResidualChange<T: Element, N: Length, M: Length> {
+pub struct ResidualChange<T: Element, N: StaticLength, M: StaticLength> {
     /// Derivative of M q̈ − h − Fᵀλ.
     pub motion: Vector<T, N>,
     /// Derivative of F q̈ + γ.
@@ -74,7 +74,7 @@ pub struct ResidualChange<T: Element, N: Length, M: Length> {
     pub position: Vector<T, M>,
 }
 
-impl<T: Scalar, N: Length, M: Length> ResidualChange<T, N, M> {
+impl<T: Scalar, N: StaticLength, M: StaticLength> ResidualChange<T, N, M> {
     /// Returns the sum of two derivatives.
     #[cfg(feature = "alloc")]
     pub(crate) fn plus(&self, other: &Self) -> Self {

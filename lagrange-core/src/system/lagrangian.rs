@@ -6,10 +6,12 @@ use super::defect::Defect;
 use super::equations::{Equations, equations};
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
+use super::moving::System;
 use super::state::{Solution, SolutionOf, StateOf};
 use crate::names::Entry;
 use crate::number::{Broadcast, Scalar};
-use crate::vector::{Array, Length, Matrix, Vector, matrix, zeros};
+use crate::solution::vector_field::LagrangianVectorField;
+use crate::vector::{Array, Matrix, StaticLength, Vector, matrix, zeros};
 
 /// Form in which a constraint is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -57,15 +59,9 @@ pub enum ConstraintKind {
     note = "put `#[derive(Lagrangian)]`, `#[coordinates(…)]` and `#[lagrangian(…)]` on the struct",
     note = "a trajectory is a motion that is over: `.event(…)` and the other settings stand before `.to(…)`"
 )]
-pub trait Lagrangian {
-    /// Number type of the parameters and the state.
-    type Scalar: Scalar;
-
+pub trait Lagrangian: System<Length = <Self as Lagrangian>::N, Field = LagrangianVectorField> {
     /// Number of the generalized coordinates, the length of q: [`Const<2>`](nalgebra::Const) for two.
-    type N: Length;
-
-    /// Number of the scalar constraints, the length of λ.
-    type M: Length;
+    type N: StaticLength;
 
     /// Factorization of the matrix of the equations of motion at a state, without heap data.
     type Factor: Copy + Debug + Send + Sync;
@@ -317,17 +313,17 @@ pub(crate) fn entry<L: Lagrangian>(index: usize) -> Entry {
 }
 
 /// Asserts, at compile time, that no motion passes through contacts.
-pub(crate) const fn check_contacts<L: Lagrangian>() {
+pub(crate) const fn check_contacts(has_contacts: bool) {
     assert!(
-        !L::HAS_CONTACTS,
+        !has_contacts,
         "this system has contacts, or dry friction as of joints: move it by `motion(start).with_contacts().to(end)`, so that they open and close, stick and slide, step by step by `motion(start).with_contacts().begin()` in the place of a `Motion`, an ensemble by `integrate_with_contacts`; derivatives across contacts are `path.sensitivity(&[…], method)`, with the path that this motion returns"
     );
 }
 
 /// Asserts, at compile time, that no force is a multiple of a multiplier.
-pub(crate) const fn check_friction<L: Lagrangian>() {
+pub(crate) const fn check_friction(has_friction: bool) {
     assert!(
-        !L::HAS_FRICTION,
+        !has_friction,
         "the contacts of this system have friction, which takes energy: move it by `Dop853`, `Taylor`, `Radau` or another method that solves for accelerations"
     );
 }

@@ -13,7 +13,7 @@ use super::lagrangian::{Lagrangian, check_names, entry};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::names::similar::{listed, nearest};
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Returns the names of the coordinates, followed by those of the velocities.
 pub(crate) fn entries<L: Lagrangian>() -> Vec<String> {

@@ -12,6 +12,7 @@ mod lagrangian;
 #[cfg(feature = "alloc")]
 pub(crate) mod lookup;
 pub(crate) mod member;
+mod moving;
 mod pack;
 pub(crate) mod pointers;
 #[cfg(feature = "serde")]
@@ -30,6 +31,7 @@ pub use facts::{Conserved, EnergyForm, Facts, LinearPart, TotalDerivative};
 pub use integrability::{Classification, Extent, Integrability, Integrals};
 pub use lagrangian::{ConstraintKind, Lagrangian};
 pub(crate) use lagrangian::{check_contacts, check_friction, check_names, entry, has_velocity_constraints};
+pub use moving::System;
 pub use pack::{Pack, Packed, Shared};
 pub(crate) use state::write_state;
 pub use state::{Solution, SolutionOf, State, StateOf};

@@ -8,7 +8,7 @@ use nalgebra::{Isometry, Quaternion, Rotation, SMatrix, Translation, Unit};
 use crate::number::{Dual, Scalar};
 #[cfg(feature = "std")]
 use crate::number::{FourLanes, Lanes};
-use crate::vector::{Array, Element, Length, PhaseVector};
+use crate::vector::{Array, Element, PhaseVector, StaticLength};
 
 /// A system that can share SIMD lanes of type `V` with other systems of its type.
 ///
@@ -133,7 +133,7 @@ impl<P: Packed<X>, X, const K: usize> Packed<[X; K]> for [P; K] {
     }
 }
 
-impl<P: Packed<X> + Element, X: Element, N: Length> Packed<Array<X, N>> for Array<P, N> {
+impl<P: Packed<X> + Element, X: Element, N: StaticLength> Packed<Array<X, N>> for Array<P, N> {
     #[inline]
     fn splat(field: &Array<X, N>) -> Self {
         Self::from_fn(|i| P::splat(&field[i]))
@@ -145,7 +145,7 @@ impl<P: Packed<X> + Element, X: Element, N: Length> Packed<Array<X, N>> for Arra
     }
 }
 
-impl<P: Packed<X> + Element, X: Element, N: Length> Packed<PhaseVector<X, N>> for PhaseVector<P, N> {
+impl<P: Packed<X> + Element, X: Element, N: StaticLength> Packed<PhaseVector<X, N>> for PhaseVector<P, N> {
     #[inline]
     fn splat(field: &PhaseVector<X, N>) -> Self {
         Self::new(field.arrays().each_ref().map(Packed::splat))

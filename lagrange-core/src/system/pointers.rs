@@ -6,23 +6,44 @@ use super::equations::Equations;
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
 use super::lagrangian::{ConstraintKind, Lagrangian};
+use super::moving::System;
 use super::pack::Pack;
 use super::state::{Solution, State};
 use super::structure::{ConstantMassMatrix, HolonomicConstraints, Unconstrained, VelocityFreeForces};
 use super::taylor_series::{RightHandSides, TaylorSeries};
 use crate::number::{Broadcast, PowerSeries};
-use crate::vector::{Matrix, Vector};
+use crate::vector::{Matrix, Vector, ViewOf};
 
 /// Forwards every method and constant. Those with a default must be forwarded too, since the default would hide
 /// the system's own.
 macro_rules! forward {
     ($($pointer:ty),*) => {$(
         #[diagnostic::do_not_recommend]
-        impl<L: Lagrangian> Lagrangian for $pointer {
+        impl<L: System> System for $pointer {
             type Scalar = L::Scalar;
+            type Length = L::Length;
+            type M = L::M;
+            type Field = L::Field;
+
+            fn length(&self) -> L::Length {
+                L::length(self)
+            }
+
+            fn accelerations(
+                &self,
+                t: L::Scalar,
+                q: &ViewOf<L::Scalar, L::Length>,
+                v: &ViewOf<L::Scalar, L::Length>,
+                a: &mut ViewOf<L::Scalar, L::Length>,
+            ) {
+                L::accelerations(self, t, q, v, a);
+            }
+        }
+
+        #[diagnostic::do_not_recommend]
+        impl<L: Lagrangian> Lagrangian for $pointer {
             type Factor = L::Factor;
             type N = L::N;
-            type M = L::M;
             const NAME: &'static str = L::NAME;
             const COORDINATES: &'static [&'static str] = L::COORDINATES;
             const CONSTRAINTS: &'static [&'static str] = L::CONSTRAINTS;

@@ -9,7 +9,7 @@ use serde::de::{Error, IgnoredAny, SeqAccess, Visitor};
 use serde::ser::SerializeTuple;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::vector::{Array, Element, Length, Vector, vector};
+use crate::vector::{Element, Numbers};
 
 pub(crate) fn number<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<T, D::Error> {
     T::deserialize(from).map_err(explained)
@@ -19,50 +19,61 @@ pub(crate) fn number<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) ->
 pub(crate) mod numbers {
     use super::*;
 
-    pub(crate) fn serialize<S, T, N>(numbers: &Vector<T, N>, to: S) -> Result<S::Ok, S::Error>
+    pub(crate) fn serialize<S, T, V>(numbers: &V, to: S) -> Result<S::Ok, S::Error>
     where
         S: Serializer,
         T: Element + Serialize,
-        N: Length,
+        V: Numbers<T>,
     {
-        let mut sequence = to.serialize_tuple(N::COUNT)?;
-        numbers.iter().try_for_each(|x| sequence.serialize_element(x))?;
+        let entries = numbers.entries();
+        if V::COUNT.is_none() {
+            return to.collect_seq(entries);
+        }
+        let mut sequence = to.serialize_tuple(entries.len())?;
+        entries.iter().try_for_each(|x| sequence.serialize_element(x))?;
         sequence.end()
     }
 
-    pub(crate) fn deserialize<'de, D, T, N>(from: D) -> Result<Vector<T, N>, D::Error>
+    pub(crate) fn deserialize<'de, D, T, V>(from: D) -> Result<V, D::Error>
     where
         D: Deserializer<'de>,
         T: Element + Deserialize<'de>,
-        N: Length,
+        V: Numbers<T>,
     {
-        from.deserialize_tuple(N::COUNT, Numbers(PhantomData)).map(vector).map_err(explained)
+        let visitor = Sequence(PhantomData);
+        let found = match V::COUNT {
+            Some(count) => from.deserialize_tuple(count, visitor),
+            None => from.deserialize_seq(visitor),
+        };
+        found.map_err(explained)
     }
 }
 
-struct Numbers<T, N>(PhantomData<(T, N)>);
+struct Sequence<T, V>(PhantomData<(T, V)>);
 
-impl<'de, T: Element + Deserialize<'de>, N: Length> Visitor<'de> for Numbers<T, N> {
-    type Value = Array<T, N>;
+impl<'de, T: Element + Deserialize<'de>, V: Numbers<T>> Visitor<'de> for Sequence<T, V> {
+    type Value = V;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} numbers", N::COUNT)
+        match V::COUNT {
+            Some(count) => write!(f, "{count} numbers"),
+            None => f.write_str("numbers"),
+        }
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Array<T, N>, A::Error> {
-        let mut found = Vec::with_capacity(N::COUNT);
-        while found.len() < N::COUNT {
-            let Some(x) = sequence.next_element()? else {
-                return Err(A::Error::invalid_length(found.len(), &self));
-            };
+    fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<V, A::Error> {
+        let (mut found, wanted) = (Vec::new(), V::COUNT.unwrap_or(usize::MAX));
+        while found.len() < wanted
+            && let Some(x) = sequence.next_element()?
+        {
             found.push(x);
         }
-        let mut count = N::COUNT;
+        let mut count = found.len();
         while sequence.next_element::<IgnoredAny>()?.is_some() {
             count += 1;
         }
-        match count == N::COUNT {
-            true => Ok(Array::from_fn(|i| found[i])),
+        match V::COUNT.is_none_or(|wanted| wanted == count) {
+            true => Ok(V::from_entries(&found)),
             false => Err(A::Error::invalid_length(count, &self)),
         }
     }

@@ -3,9 +3,9 @@
 use core::fmt::{self, Debug, Display, Formatter};
 
 use super::entries::Entries;
-use super::lagrangian::Lagrangian;
+use super::moving::System;
 use crate::number::{Scalar, Wide};
-use crate::vector::{Array, Element, Entrywise, Length, Vector};
+use crate::vector::{Array, Element, Entrywise, Length, Numbers, StaticLength, Vector, VectorOf};
 
 /// The time `t`, the generalized coordinates `q` and the generalized velocities `v` = q̇.
 ///
@@ -27,7 +27,7 @@ use crate::vector::{Array, Element, Entrywise, Length, Vector};
 /// read. Numbers are read back to the last bit only with the feature `float_roundtrip`
 /// (`serde_json = { version = "1", features = ["float_roundtrip"] }`), otherwise with an error of up to one unit
 /// in the last place.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
@@ -42,13 +42,45 @@ pub struct State<T: Element, N: Length> {
     pub t: T,
     /// Generalized coordinates.
     #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
-    pub q: Vector<T, N>,
+    pub q: VectorOf<T, N>,
     /// Generalized velocities.
     #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
-    pub v: Vector<T, N>,
+    pub v: VectorOf<T, N>,
 }
 
-impl<T: Scalar, N: Length> State<T, N> {
+/// What is cloned to keeps its memory.
+impl<T: Element, N: Length> Clone for State<T, N> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        Self { t: self.t, q: self.q.clone(), v: self.v.clone() }
+    }
+
+    #[inline(always)]
+    fn clone_from(&mut self, source: &Self) {
+        self.t = source.t;
+        self.q.copy_from(&source.q);
+        self.v.copy_from(&source.v);
+    }
+}
+
+impl<T: Element, N: Length> Copy for State<T, N> where VectorOf<T, N>: Copy {}
+
+impl<T: Element, N: Length> State<T, N> {
+    /// Maps times, coordinates and velocities of two states, each with that of the other.
+    pub(crate) fn each_with(&self, other: &Self, mut what_becomes: impl FnMut(T, T) -> T) -> Self {
+        let mut state = self.clone();
+        state.t = what_becomes(self.t, other.t);
+        for (x, y) in state.q.entries_mut().iter_mut().zip(other.q.entries()) {
+            *x = what_becomes(*x, *y);
+        }
+        for (x, y) in state.v.entries_mut().iter_mut().zip(other.v.entries()) {
+            *x = what_becomes(*x, *y);
+        }
+        state
+    }
+}
+
+impl<T: Scalar, N: StaticLength> State<T, N> {
     /// Creates a state of coordinates and velocities at `t = 0`.
     pub fn new(q: impl Entries<T, N>, v: impl Entries<T, N>) -> Self {
         Self { t: T::constant(0.0), q: q.into_vector(), v: v.into_vector() }
@@ -70,7 +102,7 @@ impl<T: Scalar, N: Length> State<T, N> {
 /// `{state:.3}`.
 impl<T: Scalar, N: Length> Display for State<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write_state(f, &self.t, [("q", self.q.as_slice()), ("q̇", self.v.as_slice())])
+        write_state(f, &self.t, [("q", self.q.entries()), ("q̇", self.v.entries())])
     }
 }
 
@@ -106,7 +138,7 @@ pub(crate) fn write_state<T: Scalar>(f: &mut Formatter<'_>, t: &T, parts: [(&str
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
     ))
 )]
-pub struct Solution<T: Element, N: Length, M: Length> {
+pub struct Solution<T: Element, N: StaticLength, M: StaticLength> {
     /// Generalized accelerations q̈.
     #[cfg_attr(feature = "serde", serde(with = "crate::system::serial::numbers"))]
     pub accelerations: Vector<T, N>,
@@ -125,13 +157,14 @@ pub struct Solution<T: Element, N: Length, M: Length> {
 }
 
 /// State of a system: `StateOf<Pendulum>`, `StateOf<L>` in a generic function.
-pub type StateOf<L> = State<<L as Lagrangian>::Scalar, <L as Lagrangian>::N>;
+pub type StateOf<L> = State<<L as System>::Scalar, <L as System>::Length>;
 
 /// Solution of the equations of motion of a system.
-pub type SolutionOf<L> = Solution<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, <L as Lagrangian>::M>;
+pub type SolutionOf<L> =
+    Solution<<L as System>::Scalar, <<L as System>::Length as Length>::Static, <L as System>::M>;
 
 #[cfg(feature = "alloc")]
-impl<T: Scalar, N: Length, M: Length> Solution<T, N, M> {
+impl<T: Scalar, N: StaticLength, M: StaticLength> Solution<T, N, M> {
     /// Joins accelerations and multipliers that are given, not computed by an elimination.
     pub(crate) fn given(accelerations: Vector<T, N>, multipliers: Vector<T, M>) -> Self {
         Self { accelerations, multipliers, pivot: T::constant(1.0), rank: M::COUNT }
@@ -144,7 +177,7 @@ impl<T: Scalar, N: Length, M: Length> Solution<T, N, M> {
     }
 }
 
-impl<T: Element, N: Length, M: Length> Solution<T, N, M> {
+impl<T: Element, N: StaticLength, M: StaticLength> Solution<T, N, M> {
     /// Returns the solution in one SIMD lane.
     pub(crate) fn lane<X: Element>(&self, lane: usize) -> Solution<X, N, M>
     where

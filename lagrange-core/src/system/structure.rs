@@ -1,6 +1,7 @@
 //! Marker traits for the structure of a system.
 
 use super::lagrangian::Lagrangian;
+use super::moving::System;
 
 /// A system whose mass matrix M depends on the parameters alone.
 ///
@@ -30,14 +31,15 @@ pub trait ConstantMassMatrix: Lagrangian {}
 /// linear in the velocities is allowed if it adds no such force, as a total time derivative does.
 ///
 /// An implementation by hand promises that [`forcing`](Lagrangian::forcing) returns the same vector, up to round-off,
-/// for all velocities at the same coordinates and time.
+/// for all velocities at the same coordinates and time; for a [`System`] that is stated by its accelerations, that these do not
+/// depend on the velocities.
 #[diagnostic::on_unimplemented(
     message = "the forces on `{Self}` depend on the velocities",
     label = "its forces are not known to be free of velocities",
     note = "`Verlet` takes no damping, magnetic field, rotating frame or mass matrix that depends on the coordinates; in its place take `Gauss::<1>` without constraints, `Lobatto::<2>` with holonomic ones, `DAlembert` with constraints on velocities: all are of order 2",
     note = "if the forces do not depend on the velocities, but the derive macro cannot prove it, implement `VelocityFreeForces` by hand"
 )]
-pub trait VelocityFreeForces: Lagrangian {}
+pub trait VelocityFreeForces: System {}
 
 /// A system whose constraints are all holonomic, Φ(q, t) = 0, or that has none.
 ///
@@ -60,7 +62,7 @@ pub trait HolonomicConstraints: Lagrangian {}
 /// `#[derive(Lagrangian)]` implements it if there is no `#[constraint(…)]`, and no coordinate that implies one, as a
 /// unit quaternion does.
 ///
-/// An implementation by hand promises that [`M`](Lagrangian::M) is 0.
+/// An implementation by hand promises that [`M`](System::M) is 0.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has constraints",
     label = "not known to be free of constraints",

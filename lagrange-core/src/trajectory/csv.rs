@@ -11,7 +11,7 @@ use crate::number::{Real, Scalar};
 use crate::solution::Sample;
 use crate::solution::vector_field::{LagrangianVectorField, VectorField};
 use crate::system::Lagrangian;
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Table of a trajectory, one line per sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
 /// `lambda(no_slip)`, constraint forces `force(x)` and observables; on request the energy and the conserved
@@ -142,7 +142,7 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Display for Csv<'_, S, F> {
     }
 }
 
-impl<S: Lagrangian, F> Debug for Csv<'_, S, F> {
+impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Debug for Csv<'_, S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { motion, count, has_energy, has_conserved } = self;
         let mut fields = f.debug_struct("Csv");

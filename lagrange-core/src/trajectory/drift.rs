@@ -10,7 +10,7 @@ use crate::number::{Real, Scalar, exceeds};
 use crate::solution::Sample;
 use crate::solution::vector_field::VectorField;
 use crate::system::Lagrangian;
-use crate::vector::{Length, zeros};
+use crate::vector::{StaticLength, zeros};
 
 /// Nodes in a step and weights of Gauss's formula of order 16 (Abramowitz and Stegun, table 25.4). In the long steps of
 /// `Taylor` a formula of order 8 leaves errors 10⁶ times those of the motion

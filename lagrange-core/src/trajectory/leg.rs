@@ -9,14 +9,14 @@ use super::path::Path;
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::Sample;
-use crate::solution::vector_field::{LagrangianVectorField, VectorField};
-use crate::system::{Lagrangian, Solution, SolutionOf, StateOf};
+use crate::solution::vector_field::VectorField;
+use crate::system::{Solution, SolutionOf, StateOf, System};
 
 /// A part of a [`Trajectory`](super::Trajectory) between two transitions, with the system as it is there: a motion without contacts has
 /// one leg.
-pub struct Leg<S: Lagrangian, F = LagrangianVectorField> {
+pub struct Leg<S: System, F = <S as System>::Field> {
     pub(super) system: S,
-    pub(super) path: Path<S::Scalar, S::N>,
+    pub(super) path: Path<S::Scalar, S::Length>,
     /// Number of transitions of the motion before the leg.
     pub(super) transitions: usize,
     /// Event at its end, of the user or of a contact.
@@ -26,15 +26,15 @@ pub struct Leg<S: Lagrangian, F = LagrangianVectorField> {
 }
 
 /// Mean accelerations and multipliers in a motion by time steps, with the system to which they belong.
-struct Means<S: Lagrangian> {
+struct Means<S: System> {
     /// The system with all contacts closed and all friction sticking: each multiplier has its constraint.
     closed: S,
     /// Mean accelerations and multipliers of each step.
     of_steps: Vec<SolutionOf<S>>,
 }
 
-impl<S: Lagrangian, F> Leg<S, F> {
-    pub(crate) fn new(system: S, path: Path<S::Scalar, S::N>, boundary: Option<&'static str>) -> Self {
+impl<S: System, F> Leg<S, F> {
+    pub(crate) fn new(system: S, path: Path<S::Scalar, S::Length>, boundary: Option<&'static str>) -> Self {
         Self { system, path, transitions: 0, boundary, means: None, field: PhantomData }
     }
 
@@ -79,7 +79,7 @@ impl<S: Lagrangian, F> Leg<S, F> {
     }
 }
 
-impl<L: Lagrangian + Clone, F> Leg<&L, F> {
+impl<L: System + Clone, F> Leg<&L, F> {
     pub(crate) fn into_owned(self) -> Leg<L, F> {
         let Self { system, path, transitions, boundary, means, field } = self;
         let means = means.map(|Means { closed, of_steps }| Means { closed: closed.clone(), of_steps });
@@ -87,15 +87,15 @@ impl<L: Lagrangian + Clone, F> Leg<&L, F> {
     }
 }
 
-impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Leg<S, F> {
+impl<S: System<Scalar: Real> + Clone, F: VectorField<S>> Leg<S, F> {
     /// Returns its first state.
     pub fn start(&self) -> Sample<S> {
-        self.sample(*self.path.start).into_owned()
+        self.sample((*self.path.start).clone()).into_owned()
     }
 
     /// Returns its last state, which is that before the next transition.
     pub fn end(&self) -> Sample<S> {
-        self.sample(*self.path.last).into_owned()
+        self.sample((*self.path.last).clone()).into_owned()
     }
 
     /// Returns the sample at this time.
@@ -112,7 +112,7 @@ impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Leg<S, F> {
     }
 }
 
-impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
     /// A state of the leg, in a motion by time steps with the means of the step that leads there; at the start with those of the first.
     fn sample(&self, state: StateOf<S>) -> Sample<&S> {
         let Some(Means { closed, of_steps }) = &self.means else { return Sample::of(&self.system, state) };
@@ -122,7 +122,8 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
 
     pub(crate) fn samples_of_steps(&self) -> impl Iterator<Item = Sample<&S>> + '_ {
         let starts = (0..self.path.len()).filter_map(|i| self.path.start_of(i));
-        let states = starts.map(|point| F::state(&self.system, &point)).chain(once(*self.path.last));
+        let states =
+            starts.map(|point| F::state(&self.system, &point)).chain(once((*self.path.last).clone()));
         states.map(|state| self.sample(state))
     }
 
@@ -136,7 +137,7 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
     /// it is projected, unless it is between time steps, which violate them themselves.
     pub(super) fn sample_at(&self, t: S::Scalar) -> Result<Sample<&S>, Error> {
         if t == self.path.last.t {
-            return Ok(self.sample(*self.path.last));
+            return Ok(self.sample((*self.path.last).clone()));
         }
         let Some(point) = self.path.at(t) else {
             return Err(outside(t, [self.path.start.t, self.path.last.t]));
@@ -149,10 +150,10 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
     }
 }
 
-impl<S: Lagrangian, F> Debug for Leg<S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>> Debug for Leg<S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut text = f.debug_struct("Leg");
-        text.field("system", &S::NAME)
+        text.field("system", &F::name())
             .field("start", &*self.path.start)
             .field("end", &*self.path.last)
             .finish()

@@ -8,7 +8,7 @@ use crate::room::Room;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
 use crate::system::State;
-use crate::vector::{Element, Entrywise, Length, PhaseVector, array};
+use crate::vector::{Element, Length};
 
 /// States at the ends of the steps, and the interpolants between them. The type of the interpolants depends on
 /// the method; [`finish`](Path::finish) erases it.
@@ -42,14 +42,18 @@ impl<T: Real, N: Length> Interpolant<T, N> for Chord<T, N> {
         let Self([before, after]) = self;
         let part = (t - before.t) / (after.t - before.t);
         let between = |x: T, y: T| x + part * (y - x);
-        let (q, v) = (before.q.each_with(&after.q, between), before.v.each_with(&after.v, between));
-        StagePoint { t, y: PhaseVector::<T, N>::of(q, v), velocity: array(v) }
+        StagePoint::of(&State { t, ..before.each_with(after, between) })
     }
 }
 
 impl<T: Real, N: Length, I: Interpolant<T, N> + Send + Sync + 'static> Path<T, N, Vec<I>> {
     pub(crate) fn from(start: State<T, N>) -> Self {
-        Self { start: Room::of(start), last: Room::of(start), times: Vec::new(), interpolants: Vec::new() }
+        Self {
+            start: Room::of(start.clone()),
+            last: Room::of(start),
+            times: Vec::new(),
+            interpolants: Vec::new(),
+        }
     }
 
     /// Returns the start time.

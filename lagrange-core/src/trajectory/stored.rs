@@ -8,11 +8,10 @@ use super::transition::{Transition, write_counts};
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar};
 use crate::solution::crossing::Crossing;
-use crate::solution::vector_field::{LagrangianVectorField, VectorField};
+use crate::solution::vector_field::VectorField;
 use crate::solution::{Adjustment, Sample};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State};
-use crate::vector::{Array, vector};
+use crate::system::{State, System};
 
 /// Motion of a system from its start to the end of the integration. It prints as a summary.
 ///
@@ -56,19 +55,19 @@ assert!(text.contains("\n1 impact, 1 closing; closed at the end: `floor`\nreache
 /// [`into_owned`](Self::into_owned) returns a trajectory with its own copy of the system,
 /// `Trajectory<Pendulum>`; across contacts it has copies from the start. The vector field `F` tells which equations were integrated,
 /// Lagrange's or Hamilton's; samples have both velocities and momenta.
-pub struct Trajectory<S: Lagrangian, F = LagrangianVectorField> {
+pub struct Trajectory<S: System, F = <S as System>::Field> {
     /// At least one. Transitions at the end of the motion are followed by a leg without steps.
     pub(crate) legs: Vec<Leg<S, F>>,
     pub(crate) transitions: Vec<Transition<S::Scalar>>,
     /// Contacts that are closed at the end.
     pub(crate) closed: Vec<&'static str>,
-    pub(crate) crossings: Vec<Crossing<S::Scalar, S::N>>,
+    pub(crate) crossings: Vec<Crossing<S::Scalar, S::Length>>,
     pub(crate) ending: Ending,
     pub(crate) statistics: Statistics,
-    pub(crate) adjustment: Adjustment<S::Scalar, S::N>,
+    pub(crate) adjustment: Adjustment<S::Scalar, S::Length>,
 }
 
-impl<L: Lagrangian + Clone, F> Trajectory<&L, F> {
+impl<L: System + Clone, F> Trajectory<&L, F> {
     /// Returns the trajectory with its own copy of the system; the original may then change or be dropped.
     ///
     #[cfg_attr(
@@ -100,14 +99,14 @@ assert!(swing(2.0)?.end().coordinate("theta")? < 0.1);
     }
 }
 
-impl<S: Lagrangian, F> Trajectory<S, F> {
+impl<S: System, F> Trajectory<S, F> {
     /// A motion of one leg.
     pub(crate) fn of(
         leg: Leg<S, F>,
-        crossings: Vec<Crossing<S::Scalar, S::N>>,
+        crossings: Vec<Crossing<S::Scalar, S::Length>>,
         ending: Ending,
         statistics: Statistics,
-        adjustment: Adjustment<S::Scalar, S::N>,
+        adjustment: Adjustment<S::Scalar, S::Length>,
     ) -> Self {
         let (legs, transitions, closed) = (Vec::from([leg]), Vec::new(), Vec::new());
         Self { legs, transitions, closed, crossings, ending, statistics, adjustment }
@@ -173,7 +172,7 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
     /// Returns the crossings of the [events](crate::MotionBuilder::event), in the order of the motion; at a transition, the state
     /// is that before it. A function that jumps at a transition does not cross there. A terminal event ends the motion before
     /// the transition.
-    pub fn crossings(&self) -> &[Crossing<S::Scalar, S::N>] {
+    pub fn crossings(&self) -> &[Crossing<S::Scalar, S::Length>] {
         &self.crossings
     }
 
@@ -183,7 +182,7 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
     }
 
     /// Returns the displacement of the initial state by its projection onto the constraints.
-    pub fn adjustment(&self) -> &Adjustment<S::Scalar, S::N> {
+    pub fn adjustment(&self) -> &Adjustment<S::Scalar, S::Length> {
         &self.adjustment
     }
 
@@ -194,7 +193,7 @@ impl<S: Lagrangian, F> Trajectory<S, F> {
     }
 }
 
-impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Trajectory<S, F> {
+impl<S: System<Scalar: Real> + Clone, F: VectorField<S>> Trajectory<S, F> {
     /// Returns the sample at this time, with the system as it is then; at a transition, that after it.
     ///
     /// # Errors
@@ -227,16 +226,19 @@ impl<S: Lagrangian<Scalar: Real> + Clone, F: VectorField<S>> Trajectory<S, F> {
     }
 }
 
-impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
     /// Samples at evenly spaced times.
     pub(super) fn borrowed_samples(&self, count: usize) -> impl Iterator<Item = Sample<&S>> {
         let [first, last] = self.times();
         let intervals = count.saturating_sub(1).max(1);
-        let nowhere = vector(Array::filled(S::Scalar::constant(f64::NAN)));
+        let nowhere = self
+            .first_leg()
+            .first()
+            .each_with(self.first_leg().first(), |_, _| S::Scalar::constant(f64::NAN));
         (0..count).map(move |i| {
             let t = between(first, last, i as f64 / intervals as f64);
             let leg = self.leg_at(t);
-            leg.sample_at(t).unwrap_or(Sample::of(leg.system(), State { t, q: nowhere, v: nowhere }))
+            leg.sample_at(t).unwrap_or_else(|_| Sample::of(leg.system(), State { t, ..nowhere.clone() }))
         })
     }
 
@@ -258,11 +260,11 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
 
 /// A summary: first and last time, numbers of steps, evaluations and crossings, across contacts the transitions by their kind and the
 /// contacts that are closed at the end, and the ending.
-impl<S: Lagrangian<Scalar: Real>, F> Display for Trajectory<S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>> Display for Trajectory<S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Statistics { accepted, rejected, evaluations, .. } = self.statistics;
         let [start, end] = self.times();
-        write!(f, "{} from t = {start} to t = {end}:", S::NAME)?;
+        write!(f, "{} from t = {start} to t = {end}:", F::name())?;
         match self.first_leg().is_in_time_steps() {
             true => write!(f, " {accepted} time steps, {evaluations} evaluations")?,
             false => write!(f, " {accepted} steps, {rejected} rejected, {evaluations} evaluations")?,
@@ -272,7 +274,7 @@ impl<S: Lagrangian<Scalar: Real>, F> Display for Trajectory<S, F> {
             1 => write!(f, ", 1 crossing")?,
             count => write!(f, ", {count} crossings")?,
         }
-        if S::HAS_CONTACTS && !self.first_leg().is_in_time_steps() {
+        if F::HAS_CONTACTS && !self.first_leg().is_in_time_steps() {
             writeln!(f)?;
             write_counts(&self.transitions, f)?;
         }
@@ -285,10 +287,10 @@ impl<S: Lagrangian<Scalar: Real>, F> Display for Trajectory<S, F> {
     }
 }
 
-impl<S: Lagrangian, F> Debug for Trajectory<S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>> Debug for Trajectory<S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Trajectory")
-            .field("system", &S::NAME)
+            .field("system", &F::name())
             .field("start", self.first_leg().first())
             .field("end", self.last_leg().last())
             .field("ending", &self.ending)

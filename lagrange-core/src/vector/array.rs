@@ -5,13 +5,13 @@ use core::ops::{Deref, DerefMut};
 
 use nalgebra::Const;
 
-use super::{Element, Length};
+use super::{Element, StaticLength};
 
 /// Array of a length: `[T; K]` for [`Const<K>`](Const). It dereferences to a slice.
 #[derive(Clone, Copy)]
-pub struct Array<T: Element, N: Length>(pub N::Entries<T>);
+pub struct Array<T: Element, N: StaticLength>(pub N::Entries<T>);
 
-impl<T: Element, N: Length> Array<T, N> {
+impl<T: Element, N: StaticLength> Array<T, N> {
     /// Returns an array with `x` in every entry.
     #[inline]
     pub fn filled(x: T) -> Self {
@@ -31,7 +31,7 @@ impl<T: Element, N: Length> Array<T, N> {
     }
 }
 
-impl<T: Element, N: Length> Deref for Array<T, N> {
+impl<T: Element, N: StaticLength> Deref for Array<T, N> {
     type Target = [T];
 
     #[inline(always)]
@@ -40,14 +40,14 @@ impl<T: Element, N: Length> Deref for Array<T, N> {
     }
 }
 
-impl<T: Element, N: Length> DerefMut for Array<T, N> {
+impl<T: Element, N: StaticLength> DerefMut for Array<T, N> {
     #[inline(always)]
     fn deref_mut(&mut self) -> &mut [T] {
         self.0.as_mut()
     }
 }
 
-impl<T: Element, N: Length> IntoIterator for Array<T, N> {
+impl<T: Element, N: StaticLength> IntoIterator for Array<T, N> {
     type Item = T;
     type IntoIter = <N::Entries<T> as IntoIterator>::IntoIter;
 
@@ -57,7 +57,7 @@ impl<T: Element, N: Length> IntoIterator for Array<T, N> {
     }
 }
 
-impl<'a, T: Element, N: Length> IntoIterator for &'a Array<T, N> {
+impl<'a, T: Element, N: StaticLength> IntoIterator for &'a Array<T, N> {
     type Item = &'a T;
     type IntoIter = core::slice::Iter<'a, T>;
 
@@ -67,7 +67,7 @@ impl<'a, T: Element, N: Length> IntoIterator for &'a Array<T, N> {
     }
 }
 
-impl<'a, T: Element, N: Length> IntoIterator for &'a mut Array<T, N> {
+impl<'a, T: Element, N: StaticLength> IntoIterator for &'a mut Array<T, N> {
     type Item = &'a mut T;
     type IntoIter = core::slice::IterMut<'a, T>;
 
@@ -77,26 +77,26 @@ impl<'a, T: Element, N: Length> IntoIterator for &'a mut Array<T, N> {
     }
 }
 
-impl<T: Element, N: Length> Debug for Array<T, N> {
+impl<T: Element, N: StaticLength> Debug for Array<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         Debug::fmt(&**self, f)
     }
 }
 
-impl<T: Element, N: Length> PartialEq for Array<T, N> {
+impl<T: Element, N: StaticLength> PartialEq for Array<T, N> {
     fn eq(&self, other: &Self) -> bool {
         **self == **other
     }
 }
 
-impl<T: Element, N: Length> AsRef<[T]> for Array<T, N> {
+impl<T: Element, N: StaticLength> AsRef<[T]> for Array<T, N> {
     #[inline(always)]
     fn as_ref(&self) -> &[T] {
         self
     }
 }
 
-impl<T: Element, N: Length> AsMut<[T]> for Array<T, N> {
+impl<T: Element, N: StaticLength> AsMut<[T]> for Array<T, N> {
     #[inline(always)]
     fn as_mut(&mut self) -> &mut [T] {
         self
@@ -132,7 +132,7 @@ impl<X, const K: usize> FromFn for [X; K] {
     }
 }
 
-impl<X: Element, N: Length> FromFn for Array<X, N> {
+impl<X: Element, N: StaticLength> FromFn for Array<X, N> {
     type Item = X;
 
     #[inline]

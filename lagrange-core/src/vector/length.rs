@@ -5,7 +5,7 @@ use core::ops::IndexMut;
 
 use nalgebra::{ArrayStorage, Const, DimName, IsContiguous, RawStorageMut, SVector, Storage};
 
-use super::{Array, Matrix, Vector};
+use super::{Array, Constant, Length, Matrix, Vector};
 
 /// A number, or another plain value, that can be an entry of an [`Array`], a [`Vector`] or a [`Matrix`].
 pub trait Element: nalgebra::Scalar + Copy + Send + Sync {}
@@ -20,7 +20,7 @@ impl<T: nalgebra::Scalar + Copy + Send + Sync> Element for T {}
 /// ```
 /// # use lagrange_core::prelude::*;
 /// use lagrange_core::StateOf;
-/// use lagrange_core::generic::Length;
+/// use lagrange_core::generic::StaticLength;
 ///
 /// /// The velocity that p·q̇ weighs most.
 /// fn heaviest<L: Lagrangian<Scalar = f64>>(system: &L, state: &StateOf<L>) -> Option<usize> {
@@ -33,7 +33,7 @@ impl<T: nalgebra::Scalar + Copy + Send + Sync> Element for T {}
 /// # struct Pair { m: f64 }
 /// assert_eq!(heaviest(&Pair { m: 1.0 }, &State::new([0.0, 0.0], [1.0, 1.0])), Some(1));
 /// ```
-pub trait Length: DimName {
+pub trait StaticLength: DimName + Length<Kind = Constant, Static = Self> {
     /// The length as a number.
     const COUNT: usize;
 
@@ -45,6 +45,7 @@ pub trait Length: DimName {
         + PartialEq
         + AsRef<[T]>
         + AsMut<[T]>
+        + IndexMut<usize, Output = T>
         + IntoIterator<Item = T, IntoIter: DoubleEndedIterator + ExactSizeIterator>;
     /// Storage of a [`PhaseVector`](super::PhaseVector): `[[T; K]; 2]`.
     type Halves<T: Element>: Copy
@@ -54,7 +55,7 @@ pub trait Length: DimName {
         + PartialEq
         + IndexMut<usize, Output = Self::Entries<T>>;
     /// Storage of a [`Matrix`] with this number of rows.
-    type Storage<T: Element, C: Length>: Contiguous<T, Self, C>;
+    type Storage<T: Element, C: StaticLength>: Contiguous<T, Self, C>;
     /// Storage of a [`Matrix`] with `R` rows and this number of columns.
     type Columns<T: Element, const R: usize>: Contiguous<T, Const<R>, Self>;
 
@@ -70,10 +71,12 @@ pub trait Length: DimName {
     fn flat_mut<T: Element>(halves: &mut Self::Halves<T>) -> &mut [T];
     /// Converts entries to a vector.
     fn vector<T: Element>(entries: Self::Entries<T>) -> Vector<T, Self>;
+    /// Returns the entries of a vector.
+    fn view<T: Element>(vector: &Vector<T, Self>) -> &Self::Entries<T>;
     /// Converts a vector to its entries.
     fn entries<T: Element>(vector: Vector<T, Self>) -> Self::Entries<T>;
     /// Converts columns to a matrix.
-    fn matrix<T: Element, C: Length>(columns: Array<Array<T, Self>, C>) -> Matrix<T, Self, C>;
+    fn matrix<T: Element, C: StaticLength>(columns: Array<Array<T, Self>, C>) -> Matrix<T, Self, C>;
     /// Converts columns of fixed length to the storage of a matrix.
     fn columns<T: Element, const R: usize>(columns: Array<Array<T, Const<R>>, Self>) -> Self::Columns<T, R>;
 }
@@ -101,11 +104,11 @@ fn none<T, const K: usize>() -> [T; K] {
     core::array::from_fn(|_| unreachable!("the array has no entries"))
 }
 
-impl<const K: usize> Length for Const<K> {
+impl<const K: usize> StaticLength for Const<K> {
     const COUNT: usize = K;
     type Entries<T: Element> = [T; K];
     type Halves<T: Element> = [[T; K]; 2];
-    type Storage<T: Element, C: Length> = C::Columns<T, K>;
+    type Storage<T: Element, C: StaticLength> = C::Columns<T, K>;
     type Columns<T: Element, const R: usize> = ArrayStorage<T, R, K>;
 
     #[inline]
@@ -147,6 +150,12 @@ impl<const K: usize> Length for Const<K> {
         SVector::from_array_storage(ArrayStorage([entries]))
     }
 
+    #[inline(always)]
+    fn view<T: Element>(vector: &SVector<T, K>) -> &[T; K] {
+        let [entries] = &vector.data.0;
+        entries
+    }
+
     #[inline]
     fn entries<T: Element>(vector: SVector<T, K>) -> [T; K] {
         let [entries] = vector.data.0;
@@ -154,7 +163,7 @@ impl<const K: usize> Length for Const<K> {
     }
 
     #[inline]
-    fn matrix<T: Element, C: Length>(columns: Array<Array<T, Self>, C>) -> Matrix<T, Self, C> {
+    fn matrix<T: Element, C: StaticLength>(columns: Array<Array<T, Self>, C>) -> Matrix<T, Self, C> {
         nalgebra::Matrix::from_data(C::columns(columns))
     }
 

@@ -5,7 +5,8 @@ use core::ops::{Index, IndexMut};
 use nalgebra::Const;
 
 use super::array::FromFn;
-use super::{Array, Element, Length, Vector};
+use super::kind::HalvesOf;
+use super::{Array, Element, Kind, Length, StaticLength, Vector, VectorOf, ViewOf};
 
 /// Coordinates and velocities, or coordinates and momenta: the unknowns of a one-step method. `y[0]` and `y[1]` are
 /// slices of the entries of its halves.
@@ -16,10 +17,133 @@ use super::{Array, Element, Length, Vector};
 /// let y = PhaseVector::from([[1.0, 2.0], [3.0, 4.0]]);
 /// assert_eq!((y[1][0], y.half(0)[1], y.flat()), (3.0, 2.0, &[1.0, 2.0, 3.0, 4.0][..]));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PhaseVector<T: Element, N: Length>(N::Halves<T>);
+#[derive(Debug, PartialEq)]
+pub struct PhaseVector<T: Element, N: Length>(HalvesOf<T, N>);
+
+impl<T: Element, N: Length> Clone for PhaseVector<T, N> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        Self(self.0.clone())
+    }
+
+    #[inline(always)]
+    fn clone_from(&mut self, source: &Self) {
+        self.0.clone_from(&source.0);
+    }
+}
+
+impl<T: Element, N: Length> Copy for PhaseVector<T, N> where HalvesOf<T, N>: Copy {}
 
 impl<T: Element, N: Length> PhaseVector<T, N> {
+    /// Returns the vector of a length with `x` in every entry.
+    #[inline]
+    pub fn of_length(length: N, x: T) -> Self {
+        Self(N::Kind::halves(length.count(), x))
+    }
+
+    /// Returns a half, 0 or 1.
+    #[inline(always)]
+    pub fn view(&self, half: usize) -> &ViewOf<T, N> {
+        &self.0[half]
+    }
+
+    /// Returns a half, 0 or 1, for writing.
+    #[inline(always)]
+    pub fn view_mut(&mut self, half: usize) -> &mut ViewOf<T, N> {
+        &mut self.0[half]
+    }
+
+    /// Returns all entries, those of the first half before those of the second.
+    #[inline(always)]
+    pub fn flat(&self) -> &[T] {
+        N::Kind::flat(&self.0)
+    }
+
+    /// Returns all entries for writing, those of the first half before those of the second.
+    #[inline(always)]
+    pub fn flat_mut(&mut self) -> &mut [T] {
+        N::Kind::flat_mut(&mut self.0)
+    }
+}
+
+impl<T: Element, N: Length> PhaseVector<T, N> {
+    /// Returns a vector that holds the place of one that is not used: of entries `x` if the length is a constant, else without.
+    #[inline(always)]
+    pub(crate) fn placeholder(x: T) -> Self {
+        Self(N::Kind::halves(0, x))
+    }
+
+    /// Joins coordinates to velocities or momenta.
+    #[inline]
+    pub(crate) fn joined(first: &VectorOf<T, N>, second: &VectorOf<T, N>) -> Self {
+        SpareVectors::default().join(first, second)
+    }
+
+    /// Becomes a copy of another vector that is as long.
+    #[inline(always)]
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        N::Kind::copy(&mut self.0, &other.0);
+    }
+
+    /// Maps each entry with that of another vector.
+    #[inline]
+    pub(crate) fn each_with(&self, other: &Self, what_becomes: impl Fn(T, T) -> T) -> Self {
+        let mut result = self.clone();
+        for (x, y) in result.flat_mut().iter_mut().zip(other.flat()) {
+            *x = what_becomes(*x, *y);
+        }
+        result
+    }
+
+    /// Returns a half, 0 or 1, if its length is a constant; else a vector without entries.
+    #[inline(always)]
+    pub(crate) fn half_if_constant(&self, half: usize) -> VectorOf<T, N> {
+        N::Kind::half_if_constant(&self.0, half)
+    }
+}
+
+/// Phase vectors that are not in use, whose memory a step borrows; none for constant lengths.
+pub(crate) struct SpareVectors<T: Element, N: Length>(<N::Kind as Kind>::Spare<T>);
+
+impl<T: Element, N: Length> SpareVectors<T, N> {
+    /// Returns a vector to write to, as long as this one.
+    #[inline(always)]
+    pub(crate) fn lend(&mut self, like: &PhaseVector<T, N>) -> PhaseVector<T, N> {
+        PhaseVector(N::Kind::lend(&mut self.0, &like.0))
+    }
+
+    /// Joins coordinates to velocities or momenta.
+    #[inline(always)]
+    pub(crate) fn join(&mut self, first: &VectorOf<T, N>, second: &VectorOf<T, N>) -> PhaseVector<T, N> {
+        PhaseVector(N::Kind::join(&mut self.0, first, second))
+    }
+
+    /// Takes back a vector that is no longer used.
+    #[inline(always)]
+    pub(crate) fn give_back(&mut self, lent: PhaseVector<T, N>) {
+        N::Kind::give_back(&mut self.0, lent.0);
+    }
+}
+
+impl<T: Element, N: Length> Clone for SpareVectors<T, N> {
+    fn clone(&self) -> Self {
+        Self(self.0.clone())
+    }
+}
+
+impl<T: Element, N: Length> core::fmt::Debug for SpareVectors<T, N> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str("SpareVectors")
+    }
+}
+
+impl<T: Element, N: Length> Default for SpareVectors<T, N> {
+    fn default() -> Self {
+        Self(Default::default())
+    }
+}
+
+impl<T: Element, N: StaticLength> PhaseVector<T, N> {
     /// Joins two halves.
     #[inline]
     pub fn new(halves: [Array<T, N>; 2]) -> Self {
@@ -55,18 +179,6 @@ impl<T: Element, N: Length> PhaseVector<T, N> {
     pub fn set(&mut self, half: usize, to: Array<T, N>) {
         self.0[half] = to.0;
     }
-
-    /// Returns all entries, those of the first half before those of the second.
-    #[inline(always)]
-    pub fn flat(&self) -> &[T] {
-        N::flat(&self.0)
-    }
-
-    /// Returns all entries for writing, those of the first half before those of the second.
-    #[inline(always)]
-    pub fn flat_mut(&mut self) -> &mut [T] {
-        N::flat_mut(&mut self.0)
-    }
 }
 
 impl<T: Element, const K: usize> From<[[T; K]; 2]> for PhaseVector<T, Const<K>> {
@@ -92,7 +204,7 @@ impl<T: Element, N: Length> IndexMut<usize> for PhaseVector<T, N> {
 }
 
 /// The index counts the halves.
-impl<X: Element, N: Length> FromFn for PhaseVector<X, N> {
+impl<X: Element, N: StaticLength> FromFn for PhaseVector<X, N> {
     type Item = Array<X, N>;
 
     #[inline]

@@ -1,6 +1,6 @@
 //! Times counted from far away: the span asked for is integrated, whatever the numbers near the start are.
 
-use lagrange_core::{Ending, Sample, prelude::*};
+use lagrange_core::{Ending, prelude::*};
 
 use crate::spring_of;
 use crate::times::{allowed, exact};
@@ -28,12 +28,11 @@ pub(crate) struct Motion {
 macro_rules! motion {
     ($trajectory:expr) => {{
         let path = $trajectory.unwrap();
-        let place = |sample: Sample<&_>| (sample.time(), sample.state().q[0]);
         Motion {
             ending: path.ending().clone(),
             accepted: path.statistics().accepted,
-            steps: path.steps().map(place).collect(),
-            samples: path.samples(1000).map(place).collect(),
+            steps: path.steps().map(|sample| (sample.time(), sample.state().q[0])).collect(),
+            samples: path.samples(1000).map(|sample| (sample.time(), sample.state().q[0])).collect(),
             energy: *path.drift().iter().next().unwrap(),
         }
     }};

@@ -2,10 +2,11 @@
 
 use std::cell::Cell;
 
-use lagrange_core::generic::{Matrix, Solution, Vector};
+use lagrange_core::generic::{Matrix, Solution, Vector, ViewOf};
+use lagrange_core::motion::LagrangianVectorField;
 use lagrange_core::nalgebra::SVector;
 use lagrange_core::{
-    Broadcast, ConstraintKind, Hamiltonian, Lagrangian, SolutionOf, StateOf, facts::Facts, prelude::*,
+    Broadcast, ConstraintKind, Hamiltonian, Lagrangian, SolutionOf, StateOf, System, facts::Facts, prelude::*,
 };
 
 use crate::factor::{Body, Skate, rods};
@@ -31,10 +32,22 @@ macro_rules! handed_on {
     };
 }
 
-impl<L: Lagrangian<Scalar = f64>> Lagrangian for Counted<L> {
+impl<L: Lagrangian<Scalar = f64>> System for Counted<L> {
     type Scalar = f64;
-    type N = L::N;
+    type Length = L::N;
     type M = L::M;
+    type Field = LagrangianVectorField;
+
+    fn length(&self) -> L::N {
+        self.system.length()
+    }
+    fn accelerations(&self, t: f64, q: &ViewOf<f64, L::N>, v: &ViewOf<f64, L::N>, a: &mut ViewOf<f64, L::N>) {
+        self.system.accelerations(t, q, v, a);
+    }
+}
+
+impl<L: Lagrangian<Scalar = f64>> Lagrangian for Counted<L> {
+    type N = L::N;
     type Factor = L::Factor;
     const NAME: &'static str = L::NAME;
     const COORDINATES: &'static [&'static str] = L::COORDINATES;

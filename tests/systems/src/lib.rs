@@ -5,6 +5,7 @@
 mod balls;
 mod blocks;
 mod bobs;
+mod chains;
 mod floors;
 mod oscillators;
 mod pendulums;
@@ -16,6 +17,7 @@ mod tops;
 pub use balls::{Ball, Shaken, Slot, Walled};
 pub use blocks::{Belt, Block, Puck, Stack};
 pub use bobs::{DoubledRod, ShakenPendulum, TwoBobs};
+pub use chains::{Chain, ChainOf, ChainOfFive};
 pub use floors::{Flying, LeaningRod, SlidingRod, Thrown, Touching};
 pub use oscillators::{DrivenSpring, HenonHeiles, PushedSpring, Spring, Sticking};
 pub use pendulums::{BeadOnHoop, DoublePendulum, Foucault, Pendulum, PolarPendulum, SphericalPendulum};

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::names::name;
 use crate::number::Real;
 use crate::system::StateOf;
-use crate::vector::{Entrywise, Length};
+use crate::vector::{Entrywise, StaticLength};
 
 /// Largest number of Gauss–Newton corrections of a position. Convergence is quadratic, and the first violation that of a step.
 const CORRECTIONS: usize = 20;

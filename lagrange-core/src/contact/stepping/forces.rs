@@ -8,7 +8,7 @@ use crate::contact::{Contacts, ForceDerivatives};
 use crate::linearized::WideOf;
 use crate::number::{Real, Scalar, Wide};
 use crate::system::{Direction, StateOf};
-use crate::vector::{Entrywise, Length, Vector};
+use crate::vector::{Entrywise, StaticLength, Vector};
 
 /// Forces h f(t + θ h, q⁻ + θ h v, v) of a step of length h at the velocities v = v⁻ + θ (v⁺ − v⁻).
 pub(super) struct ThetaForces<L: Contacts<Scalar: Real>> {

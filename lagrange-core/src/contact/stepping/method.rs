@@ -81,13 +81,15 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Method<L> for TimeSteps {
         _: &L,
         memory: &mut TakenSteps<L>,
         end: L::Scalar,
+        state: &mut StateOf<L>,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, L::N> {
+    ) -> Step {
         memory.before = *memory.stepper.state();
         match memory.stepper.step_towards(end) {
             Ok(step) => {
                 statistics.evaluations += step.iterations;
-                Step::Accepted(step.state)
+                *state = step.state;
+                Step::Accepted
             }
             Err(ending) => Step::Failed(ending),
         }

@@ -13,7 +13,7 @@ use crate::error::{Error, Row};
 use crate::names::name;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
-use crate::vector::{Array, Entrywise, Length, Vector, vector};
+use crate::vector::{Array, Entrywise, StaticLength, Vector, vector};
 
 /// Gaps and residuals of constraints count as zero up to this part of what the free bodies move in a step: a hundred times what
 /// velocities whose residual is the default tolerance move them, so that contacts at rest stay closed.

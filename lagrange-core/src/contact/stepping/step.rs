@@ -20,7 +20,7 @@ use crate::contact::{Contacts, ForceDerivatives, FrictionRows};
 use crate::error::{Error, Row};
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
-use crate::vector::{Array, Entrywise, Length, Vector, vector};
+use crate::vector::{Array, Entrywise, StaticLength, Vector, vector};
 
 /// What is kept from step to step.
 pub(super) struct Steps<L: Contacts<Scalar: Real>> {

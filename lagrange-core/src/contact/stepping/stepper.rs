@@ -15,7 +15,7 @@ use crate::number::{Real, Scalar};
 use crate::solution::Sample;
 use crate::solution::solve::solve;
 use crate::system::StateOf;
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Part of a step by which the last one may be longer than the others, instead of one more.
 const LONGER: f64 = 1e-6;

@@ -27,7 +27,7 @@ use spatial::{Spatial, cross, dot, plus, product};
 
 use crate::number::{Broadcast, Scalar, Wide};
 use crate::system::Direction;
-use crate::vector::{Array, Element, Length, Vector};
+use crate::vector::{Array, Element, StaticLength, Vector};
 
 /// Structure of trees of rigid bodies.
 #[derive(Clone, Copy, Debug)]
@@ -83,14 +83,14 @@ pub struct TreeNumbers<'a, T, const J: usize, const C: usize> {
 
 /// Derivatives of the residuals of all equations of motion, one list for each coordinate and each velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MotionGradients<T: Element, N: Length> {
+pub struct MotionGradients<T: Element, N: StaticLength> {
     /// Derivatives by each coordinate.
     pub q: Array<Array<T, N>, N>,
     /// Derivatives by each velocity.
     pub v: Array<Array<T, N>, N>,
 }
 
-impl<T: Scalar, N: Length> MotionGradients<T, N> {
+impl<T: Scalar, N: StaticLength> MotionGradients<T, N> {
     /// Derivatives that are all zero.
     pub fn zero() -> Self {
         let zeros = Array::filled(Array::filled(T::constant(0.0)));
@@ -219,7 +219,7 @@ struct TreeMotion<T, const J: usize, const C: usize> {
 }
 
 impl<T: Scalar, const J: usize, const C: usize> TreeMotion<T, J, C> {
-    fn of<N: Length>(
+    fn of<N: StaticLength>(
         tree: &Tree,
         numbers: &TreeNumbers<T, J, C>,
         v: &Vector<T, N>,

@@ -17,7 +17,7 @@ use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::system::finite::check_finite;
 use crate::system::{StateOf, check_contacts, entry, lookup, unit};
-use crate::vector::{Array, Length, vector};
+use crate::vector::{Array, StaticLength, vector};
 
 /// A system in discrete time, x⁺ = f(x, u): the motion from a state x = (q, q̇) over an interval in which the inputs u
 /// are held, with the derivatives A = ∂f/∂x and B = ∂f/∂u.
@@ -77,7 +77,7 @@ impl<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>> DiscreteTime<L, D>
     /// allowed.
     pub fn new(system: L, method: D, inputs: &[&str]) -> Result<Self, Error> {
         const {
-            check_contacts::<L>();
+            check_contacts(L::HAS_CONTACTS);
             check_parameters::<L>();
         };
         method.check()?;

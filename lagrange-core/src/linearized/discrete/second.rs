@@ -15,7 +15,7 @@ use crate::names::Row;
 use crate::number::{Broadcast, Dual, Real, Scalar, Wide};
 use crate::system::finite::check_finite;
 use crate::system::{Pack, State, StateOf};
-use crate::vector::{Length, Vector, from_fn, vector};
+use crate::vector::{StaticLength, Vector, from_fn, vector};
 
 /// Numbers with first and second derivatives: by one argument in all lanes, and by one argument in each lane.
 type SecondDuals<L> = Dual<Dual<WideOf<L>>>;

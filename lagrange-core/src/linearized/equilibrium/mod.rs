@@ -17,7 +17,7 @@ use crate::solution::newton;
 use crate::solution::solve::solve;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Length, Vector};
+use crate::vector::{StaticLength, Vector};
 use point::Point;
 use search::EquilibriumSearch;
 

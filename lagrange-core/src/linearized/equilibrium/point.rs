@@ -8,7 +8,7 @@ use crate::linearized::argument::Argument;
 use crate::number::Real;
 use crate::solution::solve::row;
 use crate::system::{ResidualChange, Solution, StateOf};
-use crate::vector::{Entrywise, Length, Vector, zeros};
+use crate::vector::{Entrywise, StaticLength, Vector, zeros};
 
 /// Values of the unknowns: parameters of the system, state and multipliers.
 #[derive(Clone)]
@@ -86,7 +86,7 @@ impl<L: Linearized<Scalar: Real>> Point<L> {
     }
 }
 
-fn stacked<T: Real, N: Length, M: Length>(residual: &ResidualChange<T, N, M>) -> DVector<T> {
+fn stacked<T: Real, N: StaticLength, M: StaticLength>(residual: &ResidualChange<T, N, M>) -> DVector<T> {
     let ResidualChange { motion, acceleration, rate, position } = residual;
     let rows = motion.iter().chain(acceleration).chain(rate).chain(position);
     DVector::from_iterator(N::COUNT + 3 * M::COUNT, rows.copied())

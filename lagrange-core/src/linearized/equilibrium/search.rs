@@ -19,7 +19,7 @@ use crate::solution::consistent::{Level, project};
 use crate::solution::newton::{Left, Search};
 use crate::solution::solve::{row, solve};
 use crate::system::StateOf;
-use crate::vector::{Length, zeros};
+use crate::vector::{StaticLength, zeros};
 
 /// Unknowns of the search, and the units of rows and columns.
 pub(super) struct EquilibriumSearch<L: Linearized> {

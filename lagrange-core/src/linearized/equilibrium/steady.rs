@@ -10,7 +10,7 @@ use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::solve::row;
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Contributions of the moving coordinates (q̇ᵢ ≠ 0), one per column, to the time derivative of the residuals (M q̈ −
 /// h − Fᵀλ, F q̈ + γ) at q̈ = 0. If γ stays zero, so do F q̇ + b and Φ.

@@ -11,7 +11,7 @@ use crate::number::{Real, Scalar, exceeds, larger, power_of_epsilon, unit_of};
 use crate::solution::consistent;
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, StateOf, finite::check_finite, lookup};
-use crate::vector::{Length, Vector};
+use crate::vector::{StaticLength, Vector};
 
 /// See [`Linearized::complete_accelerations`](crate::linearized::Linearized::complete_accelerations).
 pub(in crate::linearized) fn complete<L: Lagrangian<Scalar: Real>>(

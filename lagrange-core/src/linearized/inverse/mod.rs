@@ -20,11 +20,11 @@ use crate::solution::consistent::gradient::check_parameters;
 use crate::solution::kkt::Units;
 use crate::solution::solve::{first_row, row};
 use crate::system::{Solution, StateOf, finite::check_finite, unit};
-use crate::vector::{Array, Element, Length, Vector, rows, zeros};
+use crate::vector::{Array, Element, StaticLength, Vector, rows, zeros};
 
 /// Inputs and multipliers that produce given accelerations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct InverseDynamics<T: Element, M: Length> {
+pub struct InverseDynamics<T: Element, M: StaticLength> {
     /// Generalized forces on the named coordinates, and values of the named parameters.
     pub inputs: DVector<T>,
     /// Multipliers λ of the constraints. If constraints are dependent, those of least norm, in units in which the rows
@@ -33,7 +33,7 @@ pub struct InverseDynamics<T: Element, M: Length> {
     names: Vec<String>,
 }
 
-impl<T: Element, M: Length> InverseDynamics<T, M> {
+impl<T: Element, M: StaticLength> InverseDynamics<T, M> {
     /// Names of the inputs, in their order.
     pub fn names(&self) -> &[String] {
         &self.names

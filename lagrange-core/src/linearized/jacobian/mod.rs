@@ -16,11 +16,11 @@ use crate::error::Error;
 use crate::names::Entry;
 use crate::number::Real;
 use crate::system::{Lagrangian, Solution, StateOf, entry};
-use crate::vector::{Array, Element, Length, Matrix, Vector, matrix, zeros};
+use crate::vector::{Array, Element, Matrix, StaticLength, Vector, matrix, zeros};
 
 /// Partial derivatives of `R` quantities by the time, `N` coordinates, `N` velocities and `P` parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PartialDerivatives<T: Element, R: Length, N: Length, P: Length> {
+pub struct PartialDerivatives<T: Element, R: StaticLength, N: StaticLength, P: StaticLength> {
     /// Derivatives by the time.
     pub t: Vector<T, R>,
     /// Derivatives by the coordinates, one column each.
@@ -33,7 +33,7 @@ pub struct PartialDerivatives<T: Element, R: Length, N: Length, P: Length> {
 
 /// Accelerations and multipliers at a state, with their partial derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jacobian<T: Element, N: Length, M: Length, P: Length> {
+pub struct Jacobian<T: Element, N: StaticLength, M: StaticLength, P: StaticLength> {
     /// Accelerations and multipliers.
     pub solution: Solution<T, N, M>,
     /// Derivatives of the accelerations q̈.
@@ -73,7 +73,7 @@ pub(super) fn jacobian<L: Linearized<Scalar: Real>>(
     Ok(jacobian)
 }
 
-impl<T: Real, N: Length, M: Length, P: Length> Jacobian<T, N, M, P> {
+impl<T: Real, N: StaticLength, M: StaticLength, P: StaticLength> Jacobian<T, N, M, P> {
     /// A Jacobian with all derivatives zero.
     fn of(solution: Solution<T, N, M>) -> Self {
         Self { solution, accelerations: PartialDerivatives::zero(), multipliers: PartialDerivatives::zero() }
@@ -96,9 +96,9 @@ pub(super) fn name_of<L: Lagrangian>(k: usize) -> Entry {
     k.checked_sub(1).map_or(Entry::Time, entry::<L>)
 }
 
-impl<T: Real, R: Length, N: Length, P: Length> PartialDerivatives<T, R, N, P> {
+impl<T: Real, R: StaticLength, N: StaticLength, P: StaticLength> PartialDerivatives<T, R, N, P> {
     fn zero() -> Self {
-        fn columns<T: Real, R: Length, C: Length>() -> Matrix<T, R, C> {
+        fn columns<T: Real, R: StaticLength, C: StaticLength>() -> Matrix<T, R, C> {
             matrix(Array::filled(Array::filled(T::constant(0.0))))
         }
         Self { t: zeros(), q: columns(), v: columns(), parameters: columns() }

@@ -10,11 +10,11 @@ use crate::linearized::argument::Argument;
 use crate::linearized::tangent::Tangent;
 use crate::number::Real;
 use crate::system::{Solution, SolutionOf, StateOf};
-use crate::vector::{Element, Length};
+use crate::vector::{Element, StaticLength};
 
 /// Accelerations and multipliers at a state, with their partial derivatives by selected arguments.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SelectedJacobian<T: Element, N: Length, M: Length> {
+pub struct SelectedJacobian<T: Element, N: StaticLength, M: StaticLength> {
     /// Accelerations and multipliers.
     pub solution: Solution<T, N, M>,
     /// Derivatives of the accelerations q̈: one row per coordinate, one column per argument.
@@ -25,7 +25,7 @@ pub struct SelectedJacobian<T: Element, N: Length, M: Length> {
     arguments: Vec<String>,
 }
 
-impl<T: Element, N: Length, M: Length> SelectedJacobian<T, N, M> {
+impl<T: Element, N: StaticLength, M: StaticLength> SelectedJacobian<T, N, M> {
     /// Names of the arguments, in the order of the columns.
     pub fn arguments(&self) -> &[String] {
         &self.arguments

@@ -24,7 +24,7 @@ use crate::solution::consistent;
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::finite::check_finite;
 use crate::system::{Direction, Solution, SolutionOf, StateOf, entry, lookup};
-use crate::vector::{Array, Length, Vector, zeros};
+use crate::vector::{Array, StaticLength, Vector, zeros};
 
 /// The linear system ż = A z + B u near a state; u is the change of the inputs.
 ///

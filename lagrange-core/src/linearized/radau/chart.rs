@@ -16,7 +16,7 @@ use crate::solution::kkt::{Factors, Rank};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::fault;
 use crate::system::{Lagrangian, StateOf, has_velocity_constraints};
-use crate::vector::{Array, Length, PhaseVector, rows, vector, zeros};
+use crate::vector::{Array, PhaseVector, StaticLength, rows, vector, zeros};
 
 /// Largest number of corrections towards the constraints. Those that are not round-off shrink by two each.
 const CORRECTIONS: usize = 60;

@@ -7,11 +7,11 @@ use super::tableau::{RadauStages, basis};
 use crate::number::Real;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
-use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
+use crate::vector::{Array, Element, PhaseVector, StaticLength, from_fn, vector};
 
 /// Dense output of a step of [`Radau`](super::Radau), of the order of the number of its stages.
 #[derive(Clone, Copy, Debug)]
-pub struct Collocation<T: Element, N: Length, const S: usize> {
+pub struct Collocation<T: Element, N: StaticLength, const S: usize> {
     pub(super) time: T,
     pub(super) length: T,
     pub(super) start: PhaseVector<T, N>,
@@ -19,7 +19,7 @@ pub struct Collocation<T: Element, N: Length, const S: usize> {
     pub(super) changes: StageChanges<T, N, S>,
 }
 
-impl<T: Real, N: Length, const S: usize> Collocation<T, N, S>
+impl<T: Real, N: StaticLength, const S: usize> Collocation<T, N, S>
 where
     Const<S>: RadauStages,
 {
@@ -30,13 +30,13 @@ where
     }
 }
 
-impl<T: Real, N: Length, const S: usize> Interpolant<T, N> for Collocation<T, N, S>
+impl<T: Real, N: StaticLength, const S: usize> Interpolant<T, N> for Collocation<T, N, S>
 where
     Const<S>: RadauStages,
 {
     fn at(&self, t: T) -> StagePoint<T, N> {
         let [change, slope] = self.change(((t - self.time) / self.length).to_f64());
         let y = zip(&change, &self.start, |change, start| change + start);
-        StagePoint { t, y, velocity: Array::from_fn(|i| slope[0][i] / self.length) }
+        StagePoint { t, y, velocity: vector(Array::from_fn(|i| slope[0][i] / self.length)) }
     }
 }

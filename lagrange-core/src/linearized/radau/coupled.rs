@@ -16,11 +16,11 @@ use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::number::Real;
 use crate::solution::solve::solve_near;
-use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
+use crate::system::{StateOf, System};
+use crate::vector::{Array, Element, PhaseVector, StaticLength, from_fn};
 
 /// Block LU factorization (Golub and Van Loan, *Matrix Computations*, 3.2).
-pub(super) struct Coupled<T: Element, N: Length, const S: usize> {
+pub(super) struct Coupled<T: Element, N: StaticLength, const S: usize> {
     /// W for a step of length 1, and the length of the step.
     slopes: [[f64; S]; S],
     h: T,
@@ -31,7 +31,7 @@ pub(super) struct Coupled<T: Element, N: Length, const S: usize> {
     diagonal: [Lu<T, N>; S],
 }
 
-impl<T: Real, N: Length, const S: usize> Coupled<T, N, S> {
+impl<T: Real, N: StaticLength, const S: usize> Coupled<T, N, S> {
     pub(super) fn new(slopes: [[f64; S]; S]) -> Self {
         let blocks = from_fn(|_| from_fn(|_| Square::filled(T::constant(0.0))));
         let h = T::constant(f64::NAN);
@@ -49,7 +49,7 @@ impl<T: Real, N: Length, const S: usize> Coupled<T, N, S> {
         &mut self,
         system: &L,
         (k, state): (usize, &StateOf<L>),
-        (chart, active): (&Chart<L>, &Array<bool, <L as Lagrangian>::M>),
+        (chart, active): (&Chart<L>, &Array<bool, <L as System>::M>),
     ) -> Result<(), Error> {
         let solution = solve_near(system, state, Some(active), |solution, _| *solution)?;
         self.derivatives[k].evaluate(system, state, solution, chart)
@@ -143,12 +143,12 @@ impl<T: Real, N: Length, const S: usize> Coupled<T, N, S> {
     }
 }
 
-fn subtract<T: Real, N: Length>(x: &mut Array<T, N>, y: &Array<T, N>) {
+fn subtract<T: Real, N: StaticLength>(x: &mut Array<T, N>, y: &Array<T, N>) {
     x.iter_mut().zip(y.iter()).for_each(|(x, y)| *x -= *y);
 }
 
 /// The product of a matrix, given by its columns, and a vector.
-fn times<T: Real, N: Length>(columns: &Square<T, N>, x: &Array<T, N>) -> Array<T, N> {
+fn times<T: Real, N: StaticLength>(columns: &Square<T, N>, x: &Array<T, N>) -> Array<T, N> {
     let mut sum = Array::filled(T::constant(0.0));
     for (column, x) in columns.iter().zip(x.iter()) {
         sum.iter_mut().zip(column.iter()).for_each(|(sum, a)| *sum += *a * *x);

@@ -18,17 +18,17 @@ use crate::number::{Real, Scalar, Wide};
 use crate::solution::consistent::BOTH;
 use crate::solution::consistent::level::Level;
 use crate::system::{Direction, SolutionOf, StateOf, unit};
-use crate::vector::{Array, Element, Length, PhaseVector, from_fn};
+use crate::vector::{Array, Element, PhaseVector, StaticLength, from_fn};
 
 /// Π ∂q̈/∂q Π and Π ∂q̈/∂q̇ Π at a state, column by column.
-pub(super) struct Derivatives<T: Element, N: Length> {
+pub(super) struct Derivatives<T: Element, N: StaticLength> {
     pub(super) by_q: Square<T, N>,
     pub(super) by_v: Square<T, N>,
     /// Directions Π, of the half in evaluation.
     directions: Square<T, N>,
 }
 
-impl<T: Real, N: Length> Derivatives<T, N> {
+impl<T: Real, N: StaticLength> Derivatives<T, N> {
     pub(super) fn new() -> Self {
         let [by_q, by_v, directions] = from_fn(|_| Square::filled(T::constant(0.0)));
         Self { by_q, by_v, directions }
@@ -106,7 +106,7 @@ impl<T: Real, N: Length> Derivatives<T, N> {
 }
 
 /// Factorizations for one step length.
-pub(super) struct Factorizations<T: Real, N: Length, const S: usize> {
+pub(super) struct Factorizations<T: Real, N: StaticLength, const S: usize> {
     /// Signed length of the step; NaN before the first.
     pub(super) h: T,
     real: Lu<T, N>,
@@ -114,7 +114,7 @@ pub(super) struct Factorizations<T: Real, N: Length, const S: usize> {
     complex: [Option<Lu<Complex<T>, N>>; S],
 }
 
-impl<T: Real, N: Length, const S: usize> Factorizations<T, N, S>
+impl<T: Real, N: StaticLength, const S: usize> Factorizations<T, N, S>
 where
     Const<S>: RadauStages,
 {

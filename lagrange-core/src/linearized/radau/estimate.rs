@@ -12,7 +12,7 @@ use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, entry};
-use crate::vector::{Array, Length, PhaseVector};
+use crate::vector::{Array, PhaseVector, StaticLength};
 
 /// Estimated error of a step.
 pub(super) struct Estimate<L: Lagrangian> {

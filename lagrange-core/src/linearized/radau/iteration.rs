@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::motion::method::control::Tolerance;
 use crate::number::{Real, Scalar, larger, smaller};
-use crate::vector::{Element, Length, PhaseVector};
+use crate::vector::{Element, PhaseVector, StaticLength};
 
 /// Largest number of iterations for `s` stages. Near the solution each multiplies the error by less than 10⁻².
 pub(super) const fn iterations(s: usize) -> usize {
@@ -50,7 +50,7 @@ impl From<Error> for NoSolution {
 }
 
 /// The products Σⱼ aₖⱼ xⱼ of a matrix and stages.
-pub(super) fn product<T: Real, N: Length, const S: usize>(
+pub(super) fn product<T: Real, N: StaticLength, const S: usize>(
     a: &[[f64; S]; S],
     x: &StageChanges<T, N, S>,
 ) -> StageChanges<T, N, S> {
@@ -58,7 +58,7 @@ pub(super) fn product<T: Real, N: Length, const S: usize>(
 }
 
 /// The sum Σⱼ aⱼ xⱼ.
-pub(super) fn combination<T: Real, N: Length, const S: usize>(
+pub(super) fn combination<T: Real, N: StaticLength, const S: usize>(
     a: &[f64; S],
     x: &StageChanges<T, N, S>,
 ) -> PhaseVector<T, N> {
@@ -71,7 +71,7 @@ pub(super) fn combination<T: Real, N: Length, const S: usize>(
 }
 
 /// Entries of x and y, combined.
-pub(super) fn zip<T: Element, N: Length>(
+pub(super) fn zip<T: Element, N: StaticLength>(
     x: &PhaseVector<T, N>,
     y: &PhaseVector<T, N>,
     of: impl Fn(T, T) -> T,
@@ -82,7 +82,7 @@ pub(super) fn zip<T: Element, N: Length>(
 }
 
 /// Accuracy of an iteration for the stages of a method.
-pub(super) struct Iteration<'a, T: Real, N: Length> {
+pub(super) struct Iteration<'a, T: Real, N: StaticLength> {
     /// An error counts in units of this tolerance at the state `y`, and may be `allowed` of them.
     pub(super) tolerance: Tolerance,
     pub(super) y: &'a PhaseVector<T, N>,
@@ -98,7 +98,7 @@ pub(super) struct Iteration<'a, T: Real, N: Length> {
     pub(super) floor: Option<PhaseVector<T, N>>,
 }
 
-impl<T: Real, N: Length> Iteration<'_, T, N> {
+impl<T: Real, N: StaticLength> Iteration<'_, T, N> {
     /// Iterates from the guess `z`. `rates` evaluates the equations at a stage with these changes, `corrections` solves the
     /// linear equations for stages and their rates, and `left` is what the stages leave of the equations, as changes.
     pub(super) fn solve<const S: usize>(

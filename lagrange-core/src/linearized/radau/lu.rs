@@ -4,16 +4,16 @@ use core::ops::{Deref, DerefMut};
 
 use nalgebra::ComplexField;
 
-use crate::vector::{Array, Element, Length};
+use crate::vector::{Array, Element, StaticLength};
 
 /// N rows, or columns, of N entries, on the heap if there is one: they are never on the stack together.
 #[derive(Clone)]
-pub(super) struct Square<F: Element, N: Length>(
+pub(super) struct Square<F: Element, N: StaticLength>(
     #[cfg(feature = "alloc")] alloc::vec::Vec<Array<F, N>>,
     #[cfg(not(feature = "alloc"))] Array<Array<F, N>, N>,
 );
 
-impl<F: Element, N: Length> Square<F, N> {
+impl<F: Element, N: StaticLength> Square<F, N> {
     pub(super) fn filled(x: F) -> Self {
         #[cfg(feature = "alloc")]
         return Self(alloc::vec![Array::filled(x); N::COUNT]);
@@ -22,7 +22,7 @@ impl<F: Element, N: Length> Square<F, N> {
     }
 }
 
-impl<F: Element, N: Length> Deref for Square<F, N> {
+impl<F: Element, N: StaticLength> Deref for Square<F, N> {
     type Target = [Array<F, N>];
 
     fn deref(&self) -> &Self::Target {
@@ -30,7 +30,7 @@ impl<F: Element, N: Length> Deref for Square<F, N> {
     }
 }
 
-impl<F: Element, N: Length> DerefMut for Square<F, N> {
+impl<F: Element, N: StaticLength> DerefMut for Square<F, N> {
     fn deref_mut(&mut self) -> &mut Self::Target {
         &mut self.0
     }
@@ -38,12 +38,12 @@ impl<F: Element, N: Length> DerefMut for Square<F, N> {
 
 /// L without its diagonal of ones, U, and the row that was exchanged with each row.
 #[derive(Clone)]
-pub(super) struct Lu<F: Element, N: Length> {
+pub(super) struct Lu<F: Element, N: StaticLength> {
     rows: Square<F, N>,
     exchanged: Array<usize, N>,
 }
 
-impl<F: ComplexField + Element, N: Length> Lu<F, N> {
+impl<F: ComplexField + Element, N: StaticLength> Lu<F, N> {
     pub(super) fn new() -> Self {
         Self { rows: Square::filled(F::zero()), exchanged: Array::filled(0) }
     }

@@ -23,8 +23,8 @@ use crate::number::smaller;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::solve::{solve, solve_near};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Length, PhaseVector, array, from_fn, vector};
+use crate::system::{Lagrangian, State, StateOf, System};
+use crate::vector::{Array, Element, PhaseVector, StaticLength, array, from_fn, vector};
 
 /// Contraction of the iteration below which derivatives are used again in the next step.
 const REUSED: f64 = 1e-3;
@@ -96,14 +96,14 @@ impl<L: Lagrangian<Scalar: Real>, const S: usize> Debug for RadauMemory<L, S> {
 
 /// A state with its rates, and the constraints that determine them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct KnownState<T: Element, N: Length, M: Length> {
+pub(super) struct KnownState<T: Element, N: StaticLength, M: StaticLength> {
     pub(super) y: PhaseVector<T, N>,
     pub(super) rates: PhaseVector<T, N>,
     pub(super) active: Array<bool, M>,
     pub(super) t: T,
 }
 
-impl<T: Real, N: Length, M: Length> KnownState<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> KnownState<T, N, M> {
     pub(super) fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(
         system: &L,
         state: &StateOf<L>,
@@ -137,8 +137,7 @@ impl<T: Real, N: Length, M: Length> KnownState<T, N, M> {
     }
 }
 
-pub(super) type KnownStateOf<L> =
-    KnownState<<L as Lagrangian>::Scalar, <L as Lagrangian>::N, <L as Lagrangian>::M>;
+pub(super) type KnownStateOf<L> = KnownState<<L as System>::Scalar, <L as Lagrangian>::N, <L as System>::M>;
 
 impl<L: StateDerivatives<Scalar: Real>, const S: usize> RadauMemory<L, S>
 where

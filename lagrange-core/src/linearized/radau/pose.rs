@@ -17,7 +17,7 @@ use crate::solution::interpolant::Interpolant;
 use crate::solution::solve::solve_near;
 use crate::solution::vector_field::{LagrangianVectorField, StagePoint, VectorField};
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Array, Element, Length, array};
+use crate::vector::{Array, Element, StaticLength, array};
 
 /// Number of bisections of a step, to 10⁻¹² of it.
 const BISECTIONS: usize = 40;
@@ -66,12 +66,12 @@ where
 }
 
 /// Magnitudes of the multipliers, and of the forces on each coordinate, Σₐ |Fₐᵢ λₐ| + |hᵢ|.
-struct Loads<T: Element, N: Length, M: Length> {
+struct Loads<T: Element, N: StaticLength, M: StaticLength> {
     multipliers: Array<T, M>,
     forces: Array<T, N>,
 }
 
-impl<T: Real, N: Length, M: Length> Loads<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> Loads<T, N, M> {
     /// Loads at a point, which is moved onto the constraints. `None` if rounding leaves less than half of the digits.
     fn at<L: Lagrangian<Scalar = T, N = N, M = M>>(
         system: &L,
@@ -109,7 +109,10 @@ fn is_turned<L: Lagrangian<Scalar: Real>>(
 }
 
 /// The point at a part of a step.
-fn within<T: Real, N: Length, const S: usize>(step: &Collocation<T, N, S>, part: f64) -> StagePoint<T, N>
+fn within<T: Real, N: StaticLength, const S: usize>(
+    step: &Collocation<T, N, S>,
+    part: f64,
+) -> StagePoint<T, N>
 where
     Const<S>: RadauStages,
 {

@@ -53,7 +53,7 @@ impl From<Error> for Rejection {
     }
 }
 
-impl<L: StateDerivatives<Scalar: Real>, const S: usize> Method<L> for Radau<S>
+impl<L: StateDerivatives<Scalar: Real>, const S: usize> Method<L, LagrangianVectorField> for Radau<S>
 where
     Const<S>: RadauStages,
 {
@@ -127,8 +127,9 @@ where
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
+        state: &mut StateOf<L>,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, L::N> {
+    ) -> Step {
         memory.clock.aim(end);
         if memory.planned == L::Scalar::constant(0.0) {
             memory.planned = self.first(memory);
@@ -147,7 +148,10 @@ where
         };
         let is_too_slow = matches!(attempt, Err(Rejection::TooSlow(_)));
         let (part, ending) = match attempt {
-            Ok(()) => return Step::Accepted(memory.at.state()),
+            Ok(()) => {
+                *state = memory.at.state();
+                return Step::Accepted;
+            }
             Err(Rejection::Inaccurate(error, entry)) => {
                 let shorter = 0.9 * reduction::<L::Scalar, S>(error);
                 let part = if memory.accepted.is_none() { 0.1 } else { shorter.max(0.2) };
@@ -305,7 +309,7 @@ where
             return Err(Rejection::Inaccurate(estimate.size, estimate.worst(&at.y, tolerance)));
         }
         let y = at.moved(h, &z[S - 1]);
-        let point = StagePoint { t: time, y: PhaseVector::of(y.q, y.v), velocity: array(y.v) };
+        let point = StagePoint { t: time, y: PhaseVector::of(y.q, y.v), velocity: y.v };
         let end = <LagrangianVectorField as VectorField<L>>::project(system, &point)?;
         z[S - 1] = at.change_to(&end);
         let next = KnownState::at(system, &end, statistics)?;

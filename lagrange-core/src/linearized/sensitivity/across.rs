@@ -134,7 +134,7 @@ pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
         &self,
         start: &StateSensitivity<Self::Scalar, Self::N>,
     ) -> MotionBuilder<'_, 'w, Self, StateSensitivity<Self::Scalar, Self::N>> {
-        const { check_contacts::<Self>() };
+        const { check_contacts(Self::HAS_CONTACTS) };
         MotionBuilder::new(self, start.clone())
     }
 

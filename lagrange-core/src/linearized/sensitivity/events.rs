@@ -16,7 +16,7 @@ use crate::solution::Sample;
 use crate::solution::solve::solve;
 use crate::system::lookup::index;
 use crate::system::{Direction, Solution, State, StateOf};
-use crate::vector::{Entrywise, Length, zeros};
+use crate::vector::{Entrywise, StaticLength, zeros};
 
 /// State of a system over dual numbers: values, and their derivatives by one argument, for functions to be
 /// differentiated.
@@ -149,7 +149,7 @@ impl<'a, L: Linearized<Scalar: Real>> DualSample<'a, L> {
 }
 
 /// Combines a solution and its derivatives to a solution over dual numbers.
-fn dual<T: Real, N: Length, M: Length>(
+fn dual<T: Real, N: StaticLength, M: StaticLength>(
     solution: &Solution<T, N, M>,
     change: &Solution<T, N, M>,
 ) -> Solution<Dual<T>, N, M> {

@@ -19,11 +19,11 @@ use crate::solution::Sample;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Element, Length};
+use crate::vector::{Element, StaticLength};
 
 /// End and samples of a motion, and their derivatives by entries of the start and by parameters.
 #[derive(Clone, Debug)]
-pub struct SampledSensitivity<T: Element, N: Length> {
+pub struct SampledSensitivity<T: Element, N: StaticLength> {
     /// End, samples and crossings of the motion, without derivatives.
     pub arrival: Arrival<T, N>,
     /// Samples of [`arrival`](Self::arrival) with their derivatives at fixed time.
@@ -31,7 +31,7 @@ pub struct SampledSensitivity<T: Element, N: Length> {
     end: Result<StateSensitivity<T, N>, Error>,
 }
 
-impl<T: Real, N: Length> SampledSensitivity<T, N> {
+impl<T: Real, N: StaticLength> SampledSensitivity<T, N> {
     /// Returns the last state and its derivatives, like [`TrajectorySensitivity::end`](crate::linearized::TrajectorySensitivity::end).
     ///
     /// # Errors

@@ -21,13 +21,13 @@ use crate::names::Entry;
 use crate::number::{Dual, Real, Scalar, larger, power_of_epsilon};
 use crate::solution::impact::impact;
 use crate::solution::solve::solve;
-use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, from_fn, vector, zeros};
+use crate::system::{Direction, Lagrangian, ResidualChange, Solution, State, StateOf, System};
+use crate::vector::{Array, Element, Entrywise, StaticLength, Vector, from_fn, vector, zeros};
 
 /// A state of a motion with its derivatives by some arguments: entries of the initial state, parameters, and numbers
 /// captured by events and resets.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StateSensitivity<T: Element, N: Length> {
+pub struct StateSensitivity<T: Element, N: StaticLength> {
     /// The state.
     pub state: State<T, N>,
     /// Derivatives of the time, one for each argument: nonzero at an event, whose time depends on the arguments; zero
@@ -40,7 +40,7 @@ pub struct StateSensitivity<T: Element, N: Length> {
     arguments: Vec<Entry>,
 }
 
-impl<T: Real, N: Length> StateSensitivity<T, N> {
+impl<T: Real, N: StaticLength> StateSensitivity<T, N> {
     /// A state with all derivatives zero.
     pub(super) fn of(state: State<T, N>, arguments: Vec<Entry>) -> Self {
         let count = arguments.len();
@@ -120,7 +120,7 @@ pub(super) fn start<L: Linearized<Scalar: Real>>(
 
 /// A state that changes along a direction, and with a parameter at unit rate if that is the argument.
 #[derive(Clone, Copy, Debug)]
-pub struct ChangingState<'s, T: Element, N: Length> {
+pub struct ChangingState<'s, T: Element, N: StaticLength> {
     pub(super) state: &'s State<T, N>,
     pub(super) direction: Direction<T, N>,
     /// `None` for a rate along the motion.
@@ -128,9 +128,9 @@ pub struct ChangingState<'s, T: Element, N: Length> {
 }
 
 /// Changing state of a system.
-pub(super) type ChangingStateOf<'s, L> = ChangingState<'s, <L as Lagrangian>::Scalar, <L as Lagrangian>::N>;
+pub(super) type ChangingStateOf<'s, L> = ChangingState<'s, <L as System>::Scalar, <L as Lagrangian>::N>;
 
-impl<'s, T: Real, N: Length> ChangingState<'s, T, N> {
+impl<'s, T: Real, N: StaticLength> ChangingState<'s, T, N> {
     /// The state along a direction of the motion, for all arguments alike.
     pub(super) fn along(state: &'s State<T, N>, direction: Direction<T, N>) -> Self {
         Self { state, direction, argument: None }
@@ -139,7 +139,7 @@ impl<'s, T: Real, N: Length> ChangingState<'s, T, N> {
 
 /// Derivative of the function of an event at a changing state.
 pub(super) type EventChange<'c, L> =
-    dyn Fn(&ChangingStateOf<'_, L>) -> Result<<L as Lagrangian>::Scalar, Error> + 'c;
+    dyn Fn(&ChangingStateOf<'_, L>) -> Result<<L as System>::Scalar, Error> + 'c;
 
 /// Converts derivatives at fixed time to derivatives at the event of this name. `before` is an earlier state of the motion,
 /// at which the rate of the event's function gives the scale for grazing.
@@ -188,7 +188,7 @@ fn rate<L: Linearized<Scalar: Real>>(
 }
 
 /// Vector with entry `i` of `x` alone, others zero.
-fn only<T: Real, N: Length>(i: usize, x: &Vector<T, N>) -> Vector<T, N> {
+fn only<T: Real, N: StaticLength>(i: usize, x: &Vector<T, N>) -> Vector<T, N> {
     vector(from_fn(|j| if i == j { x[j] } else { T::constant(0.0) }))
 }
 

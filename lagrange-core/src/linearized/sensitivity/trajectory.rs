@@ -20,7 +20,7 @@ use crate::solution::crossing::Crossing;
 use crate::system::finite::check_finite;
 use crate::system::{Direction, Lagrangian, StateOf, lookup};
 use crate::trajectory::Trajectory;
-use crate::vector::{Entrywise, Length, PhaseVector};
+use crate::vector::{Entrywise, PhaseVector, StaticLength};
 
 /// A motion with its derivatives by entries of the initial state and by parameters.
 ///

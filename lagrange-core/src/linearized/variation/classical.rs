@@ -11,14 +11,14 @@ use crate::number::{Broadcast, Real, Scalar};
 use crate::solution::interpolant::hermite;
 use crate::solution::solve::solve_near;
 use crate::system::{State, StateOf};
-use crate::vector::{Array, Element, Length, from_fn, vector};
+use crate::vector::{Array, Element, StaticLength, from_fn, vector};
 
 /// Fraction of the step that each stage goes along the slope of the stage before.
 const NODES: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
 
 /// A block of variations at the start of the last step, and their slopes at its stages.
 #[derive(Clone, Debug)]
-pub struct ClassicalStages<W: Element, N: Length> {
+pub struct ClassicalStages<W: Element, N: StaticLength> {
     start: PhaseVector<W, N>,
     slopes: [PhaseVector<W, N>; 4],
 }
@@ -127,14 +127,14 @@ fn go<L: Linearized<Scalar: Real>>(
 }
 
 /// Sum of the slopes of a step by their weights, in sixths.
-fn weighted<T: Scalar, N: Length>([a, b, c, d]: &[PhaseVector<T, N>; 4]) -> PhaseVector<T, N> {
+fn weighted<T: Scalar, N: StaticLength>([a, b, c, d]: &[PhaseVector<T, N>; 4]) -> PhaseVector<T, N> {
     let two = T::constant(2.0);
     let sum = |half: usize, i: usize| a[half][i] + two * (b[half][i] + c[half][i]) + d[half][i];
     from_fn(|half| Array::from_fn(|i| sum(half, i)))
 }
 
 /// start + length · slope
-fn along<T: Scalar, N: Length>(
+fn along<T: Scalar, N: StaticLength>(
     start: &PhaseVector<T, N>,
     length: T,
     slope: &PhaseVector<T, N>,

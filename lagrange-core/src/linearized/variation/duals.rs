@@ -6,7 +6,7 @@ use crate::linearized::argument::set_parameter;
 use crate::linearized::tangent::WideOf;
 use crate::number::{Broadcast, Dual, Real, Scalar, Wide};
 use crate::system::{Pack, State};
-use crate::vector::{Length, PhaseVector, Vector, from_fn, vector};
+use crate::vector::{PhaseVector, StaticLength, Vector, from_fn, vector};
 
 /// Dual numbers with derivatives along one direction per lane.
 pub(super) type Duals<L> = Dual<WideOf<L>>;
@@ -36,7 +36,7 @@ where
 }
 
 /// A state whose coordinates and velocities change along the variations.
-pub(super) fn with_slopes<T: Real<Wide = W>, W: Wide<T>, N: Length>(
+pub(super) fn with_slopes<T: Real<Wide = W>, W: Wide<T>, N: StaticLength>(
     state: &State<T, N>,
     y: &PhaseVector<W, N>,
 ) -> State<Dual<W>, N> {

@@ -16,14 +16,14 @@ use crate::motion::geometric::{CompensatedState, FixedStep, Scheme};
 use crate::number::{Broadcast, Dual, Parts, Real, Scalar, Wide, is_within, larger, power_of_epsilon};
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, State, StateOf};
-use crate::vector::{Array, Element, Length, PhaseVector, array};
+use crate::vector::{Array, Element, PhaseVector, StaticLength};
 
 /// Round-off of an iteration, in units of ε of the largest coordinate: at most the residual at which it may end.
 const ROUND_OFF: f64 = 4096.0;
 
 /// A system over dual numbers, and the last step computed with it.
 #[derive(Debug)]
-pub struct VariedSteps<S, C, W: Element, N: Length> {
+pub struct VariedSteps<S, C, W: Element, N: StaticLength> {
     /// System over dual numbers; the slope of each parameter is its rate of change in [`Block::rates`].
     system: S,
     last: Option<VariedStep<C, W, N>>,
@@ -31,7 +31,7 @@ pub struct VariedSteps<S, C, W: Element, N: Length> {
 
 /// A step over dual numbers.
 #[derive(Debug)]
-struct VariedStep<C, W: Element, N: Length> {
+struct VariedStep<C, W: Element, N: StaticLength> {
     ends: [State<Dual<W>, N>; 2],
     /// Data that the step left: the next one begins its iteration where that of the motion does.
     carried: C,
@@ -113,8 +113,8 @@ where
         run.look_within(system, self, within)?;
         for VariedSteps { system, last } in companion {
             let Some(VariedStep { ends: [start, end], .. }) = last else { continue };
-            let accelerations = |state: &_| array(system.accelerations_unchecked(state).accelerations);
-            let ends = [accelerations(start), accelerations(end)];
+            let accelerations = |state: &_| system.accelerations_unchecked(state).accelerations;
+            let ends = PhaseVector::of(accelerations(start), accelerations(end));
             let Ok(found) = self.coefficients::<PackedDuals<L>, Infallible>([start, end], &ends, |state| {
                 Ok(accelerations(state))
             });
@@ -130,7 +130,7 @@ where
 /// True if a step over dual numbers from `start` ends at the state of the motion, to half of the digits of each coordinate or
 /// to round-off of the largest. Iterations that end at one solution agree to their round-off; others are as far apart as the
 /// step is long.
-fn is_near<T: Real<Wide = W>, W: Wide<T>, N: Length>(
+fn is_near<T: Real<Wide = W>, W: Wide<T>, N: StaticLength>(
     start: &State<Dual<W>, N>,
     end: &State<Dual<W>, N>,
     motion: &State<T, N>,

@@ -30,7 +30,7 @@ use crate::room::Room;
 use crate::solution::consistent::factors_of_nearest;
 use crate::solution::kkt::{Factors, Fault, Rank};
 use crate::solution::solve::fault;
-use crate::vector::{Array, Element, Length, PhaseVector, Vector, zeros};
+use crate::vector::{Array, Element, PhaseVector, StaticLength, Vector, zeros};
 
 pub use differentiable::DifferentiableMethod;
 pub(super) use differentiable::VariedRun;
@@ -38,7 +38,7 @@ pub(super) use equations::VariationalEquations;
 
 /// Variations of a motion, one per SIMD lane.
 #[derive(Clone, Debug)]
-pub(crate) struct Block<W: Element, N: Length, P: Length> {
+pub(crate) struct Block<W: Element, N: StaticLength, P: StaticLength> {
     /// Variations δ(q, q̇).
     pub(crate) y: PhaseVector<W, N>,
     /// Variations at the stage of a step that is being computed.
@@ -202,7 +202,7 @@ impl<L: Linearized<Scalar: Real>> Variations<L> {
     }
 }
 
-impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
+impl<W: Scalar, N: StaticLength, P: StaticLength> Block<W, N, P> {
     /// Creates a block of variations that are zero, one per lane, from argument `first` on. Each is by the parameter of
     /// this index, or by an entry of the state if it is `None`.
     fn of<T: Real>(first: usize, parameters: &[Option<usize>], values: &Vector<T, P>) -> Self
@@ -219,7 +219,7 @@ impl<W: Scalar, N: Length, P: Length> Block<W, N, P> {
     }
 
     /// Adds to δq the correction that compensates these changes of Φ, lane by lane.
-    fn move_by<T: Real<Wide = W>, M: Length>(
+    fn move_by<T: Real<Wide = W>, M: StaticLength>(
         &mut self,
         nearest: &Factors<T, N, M>,
         position: &Vector<W, M>,

@@ -20,11 +20,11 @@ use crate::solution::interpolant::hermite;
 use crate::solution::solve::solve_near;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::{Solution, State, StateOf};
-use crate::vector::{Array, Element, Length, PhaseVector, vector, zeros};
+use crate::vector::{Array, Element, PhaseVector, StaticLength, vector, zeros};
 
 /// Stage slopes of a block of variations.
 #[derive(Clone, Debug)]
-pub struct Stages<W: Element, N: Length> {
+pub struct Stages<W: Element, N: StaticLength> {
     /// Variations at the start of the last step.
     start: PhaseVector<W, N>,
     /// Slopes of that step; the first is the slope at its start.
@@ -203,7 +203,7 @@ fn stages<Q: Pair, L: Linearized<Scalar: Real>>(
     Ok(())
 }
 
-fn state_at<T: Real, N: Length>(t: T, y: &PhaseVector<T, N>) -> State<T, N> {
+fn state_at<T: Real, N: StaticLength>(t: T, y: &PhaseVector<T, N>) -> State<T, N> {
     State { t, q: vector(y.half(0)), v: vector(y.half(1)) }
 }
 
@@ -226,7 +226,7 @@ fn tangent_at<'a, L: StateDerivatives<Scalar: Real>>(
     Ok(Tangent::of(system, state, Solution::given(vector(*accelerations), zeros())))
 }
 
-impl<W: Scalar, N: Length> Stages<W, N> {
+impl<W: Scalar, N: StaticLength> Stages<W, N> {
     /// Appends the coefficients of dense output for the step that led to `y`.
     fn push_coefficients<Q: Pair>(
         &self,

@@ -24,21 +24,21 @@ use crate::number::{Broadcast, Dual, Real, Scalar, Wide, exceeds, smaller};
 use crate::solution::pivot::least_pivot;
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, RightHandSides, Solution, State, StateOf, TaylorSeries};
-use crate::vector::{Array, Element, FixedArray, Length, PhaseVector, from_fn};
+use crate::vector::{Array, Element, FixedArray, PhaseVector, StaticLength, from_fn};
 use general::DualGeneral;
 
 type Sums<L> = <PackedDuals<L> as TaylorSeries>::Sums;
 
 /// A motion with one variation per lane, as a system and a series over dual numbers.
 #[derive(Debug)]
-pub struct Varied<S, U, W: Element, N: Length> {
+pub struct Varied<S, U, W: Element, N: StaticLength> {
     /// System over dual numbers; the slope of each parameter is its rate of change in [`Block::rates`].
     system: S,
     series: Expansion<U, Dual<W>, N>,
 }
 
 /// A step of a block of variations.
-struct BlockStep<W: Element, N: Length> {
+struct BlockStep<W: Element, N: StaticLength> {
     /// Variations at the start of the step.
     before: PhaseVector<W, N>,
     /// Rates of δq̇ at the end of the series.
@@ -132,7 +132,7 @@ where
 impl Taylor {
     /// Reciprocal scales for coefficients of variations. The scale of an entry is `SLACK` times the sum of the largest
     /// δq (or δq̇) and the scale of the motion, in units of the variations.
-    fn scales<S, T: Real, W: Wide<T>, N: Length>(
+    fn scales<S, T: Real, W: Wide<T>, N: StaticLength>(
         &self,
         ends: [&PhaseVector<W, N>; 2],
         unit: W,
@@ -174,9 +174,9 @@ impl Taylor {
     }
 }
 
-impl<S, U: FixedArray<Dual<W>>, W: Scalar, N: Length> Varied<S, U, W, N> {
+impl<S, U: FixedArray<Dual<W>>, W: Scalar, N: StaticLength> Varied<S, U, W, N> {
     /// Expands the motion and its variations in Taylor series about the present state.
-    fn expand<L, V, P: Length>(
+    fn expand<L, V, P: StaticLength>(
         &mut self,
         system: &L,
         memory: &TaylorMemory<V, L::Scalar, N, L::M>,
@@ -252,7 +252,7 @@ impl<S, U: FixedArray<Dual<W>>, W: Scalar, N: Length> Varied<S, U, W, N> {
     }
 
     /// Advances the variations to the end of the step that the motion has taken.
-    fn advance<T: Real<Wide = W>, V, P: Length>(
+    fn advance<T: Real<Wide = W>, V, P: StaticLength>(
         &mut self,
         block: &mut Block<W, N, P>,
         motion: &Expansion<V, T, N>,
@@ -291,6 +291,8 @@ impl<S, U: FixedArray<Dual<W>>, W: Scalar, N: Length> Varied<S, U, W, N> {
 }
 
 /// True if the pivots of the elimination are large enough in all lanes.
-fn is_sound<T: Real, W: Wide<T>, N: Length, M: Length>(solution: &Solution<Dual<W>, N, M>) -> bool {
+fn is_sound<T: Real, W: Wide<T>, N: StaticLength, M: StaticLength>(
+    solution: &Solution<Dual<W>, N, M>,
+) -> bool {
     (0..W::COUNT).all(|lane| solution.pivot.value.lane(lane) > least_pivot())
 }

@@ -12,7 +12,7 @@ use crate::number::{Dual, Real};
 use crate::solution::Sample;
 #[cfg(feature = "alloc")]
 use crate::system::Solution;
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{StateOf, System};
 
 /// A zero crossing of a function g of a motion, made by [`Simulate::event`](crate::Simulate::event).
 ///
@@ -67,13 +67,13 @@ use crate::system::{Lagrangian, StateOf};
 /// Each run counts its crossings from 1, even if it is one leg of a motion. The history for accumulating crossings is
 /// kept from leg to leg, and dropped when a run starts before the last crossing. A steered [`Motion`](crate::Motion)
 /// continues to count until another motion starts.
-pub struct Event<L: Lagrangian, G> {
+pub struct Event<L: System, G> {
     function: G,
     memory: EventState<L::Scalar>,
     system: PhantomData<fn(&L)>,
 }
 
-impl<L: Lagrangian<Scalar: Real>, G> Event<L, G> {
+impl<L: System<Scalar: Real>, G> Event<L, G> {
     pub(crate) fn new(name: &'static str, function: G) -> Self {
         Self { function, memory: EventState::new(name), system: PhantomData }
     }
@@ -186,7 +186,7 @@ impl<T> EventValue<T> for Result<T, Error> {
 }
 
 /// Function of an event: a closure over samples, or one over dual numbers (`MotionDerivatives::differentiable_event`).
-pub trait EventFunction<L: Lagrangian> {
+pub trait EventFunction<L: System> {
     /// Value of the function at a state.
     #[doc(hidden)]
     fn at(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error>;
@@ -194,7 +194,7 @@ pub trait EventFunction<L: Lagrangian> {
 
 impl<L, G, V> EventFunction<L> for G
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     G: Fn(&Sample<&L>) -> V,
     V: EventValue<L::Scalar>,
 {
@@ -211,7 +211,7 @@ where
     message = "`{Self}` is not an event of `{L}`",
     note = "make one by `system.event(\"name\", |sample| …)`, of the same system; a `Motion` takes `&mut [&mut event]`"
 )]
-pub trait AnyEvent<L: Lagrangian>: sealed::Sealed {
+pub trait AnyEvent<L: System>: sealed::Sealed {
     /// Value of the event's function for this sample.
     #[doc(hidden)]
     fn value_of(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error>;
@@ -220,7 +220,7 @@ pub trait AnyEvent<L: Lagrangian>: sealed::Sealed {
     #[doc(hidden)]
     #[inline]
     fn value(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
-        self.value_of(&Sample::of(system, *state))
+        self.value_of(&Sample::of(system, state.clone()))
     }
 
     /// Settings of the event, and the state of its search.
@@ -246,7 +246,7 @@ mod sealed {
     pub trait Sealed {}
 }
 
-impl<L: Lagrangian, G> sealed::Sealed for Event<L, G> {}
+impl<L: System, G> sealed::Sealed for Event<L, G> {}
 
 impl<W: sealed::Sealed + ?Sized> sealed::Sealed for &mut W {}
 
@@ -256,7 +256,7 @@ impl<W: sealed::Sealed + ?Sized> sealed::Sealed for Box<W> {}
 /// Implements [`AnyEvent`] for a pointer to an event.
 macro_rules! watched_behind {
     ($pointer:ty) => {
-        impl<L: Lagrangian, W: AnyEvent<L> + ?Sized> AnyEvent<L> for $pointer {
+        impl<L: System, W: AnyEvent<L> + ?Sized> AnyEvent<L> for $pointer {
             #[inline]
             fn value_of(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error> {
                 (**self).value_of(sample)
@@ -284,7 +284,7 @@ watched_behind!(&mut W);
 #[cfg(feature = "alloc")]
 watched_behind!(Box<W>);
 
-impl<L: Lagrangian<Scalar: Real>, G: EventFunction<L>> Event<L, G> {
+impl<L: System<Scalar: Real>, G: EventFunction<L>> Event<L, G> {
     #[inline]
     fn evaluate(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error> {
         let value = self.function.at(sample)?;
@@ -298,8 +298,8 @@ impl<L: Lagrangian<Scalar: Real>, G: EventFunction<L>> Event<L, G> {
 
 impl<L, K, G> AnyEvent<L> for Event<K, G>
 where
-    L: Lagrangian<Scalar: Real> + Borrow<K>,
-    K: Lagrangian<N = L::N, M = L::M, Scalar = L::Scalar>,
+    L: System<Scalar: Real> + Borrow<K>,
+    K: System<Length = L::Length, M = L::M, Scalar = L::Scalar>,
     G: EventFunction<K>,
 {
     #[inline]
@@ -309,7 +309,7 @@ where
 
     #[inline]
     fn value(&self, system: &L, state: &StateOf<L>) -> Result<L::Scalar, Error> {
-        self.evaluate(&Sample::of(system.borrow(), *state))
+        self.evaluate(&Sample::of(system.borrow(), state.clone()))
     }
 
     #[inline]
@@ -320,15 +320,15 @@ where
 
 /// An event in a motion by time steps. Its function does not know accelerations and multipliers, which are means over a step.
 #[cfg(feature = "alloc")]
-pub(crate) struct EventInSteps<'e, L: Lagrangian>(pub(crate) Box<DynEvent<'e, L>>);
+pub(crate) struct EventInSteps<'e, L: System>(pub(crate) Box<DynEvent<'e, L>>);
 
 #[cfg(feature = "alloc")]
-impl<L: Lagrangian> sealed::Sealed for EventInSteps<'_, L> {}
+impl<L: System> sealed::Sealed for EventInSteps<'_, L> {}
 
 #[cfg(feature = "alloc")]
-impl<L: Lagrangian<Scalar: Real>> AnyEvent<L> for EventInSteps<'_, L> {
+impl<L: System<Scalar: Real>> AnyEvent<L> for EventInSteps<'_, L> {
     fn value_of(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error> {
-        let value = self.0.value_of(&sample.with(Some(Solution::unknown())));
+        let value = self.0.value_of(&sample.clone().with(Some(Solution::unknown())));
         value.map_err(|error| match error {
             Error::EventNotFinite { event, time } => Error::EventInTimeSteps { event, time },
             error => error,
@@ -340,7 +340,7 @@ impl<L: Lagrangian<Scalar: Real>> AnyEvent<L> for EventInSteps<'_, L> {
     }
 }
 
-impl<L: Lagrangian, G> Debug for Event<L, G> {
+impl<L: System, G> Debug for Event<L, G> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Event").field(&self.memory).finish()
     }

@@ -8,10 +8,10 @@ use crate::error::Error;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{StateOf, System};
 
 /// An accepted step with its dense output.
-pub(crate) struct DenseStep<'a, L: Lagrangian, F, I> {
+pub(crate) struct DenseStep<'a, L: System, F, I> {
     pub(crate) system: &'a L,
     pub(crate) before: &'a StateOf<L>,
     pub(crate) after: &'a StateOf<L>,
@@ -21,15 +21,15 @@ pub(crate) struct DenseStep<'a, L: Lagrangian, F, I> {
 
 impl<L, F, I> DenseStep<'_, L, F, I>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
-    I: Interpolant<L::Scalar, L::N>,
+    I: Interpolant<L::Scalar, L::Length>,
 {
     /// State at a time within the step, projected onto the constraints.
     #[inline]
     pub(crate) fn at(&self, t: L::Scalar) -> Result<StateOf<L>, Error> {
         match t == self.after.t {
-            true => Ok(*self.after),
+            true => Ok(self.after.clone()),
             false if I::IS_PROJECTED => F::project(self.system, &self.interpolant.at(t)),
             false => Ok(F::state(self.system, &self.interpolant.at(t))),
         }

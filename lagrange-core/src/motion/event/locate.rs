@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::motion::Interpolant;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Entrywise, Length};
+use crate::system::{State, StateOf, System};
+use crate::vector::Length;
 
 /// Finds the state between the two given ones at which an event crosses zero. Its function there is zero; or it has the sign of
 /// the second state, or of the first one if it is a condition.
@@ -19,9 +19,9 @@ pub(super) fn locate<L, F, I>(
     (values, is_condition): ([L::Scalar; 2], bool),
 ) -> Result<StateOf<L>, Error>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
-    I: Interpolant<L::Scalar, L::N>,
+    I: Interpolant<L::Scalar, L::Length>,
 {
     let constant = L::Scalar::constant;
     let [a, b] = between;
@@ -30,16 +30,13 @@ where
     let resolution = round_off / Scalar::abs(length);
     let [low, high] = narrow(ends(between, values), resolution, |x| probe(stride, event, between, x))?;
     // No representable time lies between these two: interpolate between their states.
-    let between = |x: L::Scalar| State {
-        t: low.what.t + (high.what.t - low.what.t) * x,
-        q: low.what.q.each_with(&high.what.q, |low, high| low + (high - low) * x),
-        v: low.what.v.each_with(&high.what.v, |low, high| low + (high - low) * x),
-    };
+    let between = |x: L::Scalar| low.what.each_with(&high.what, |low, high| low + (high - low) * x);
     let finest = constant(L::Scalar::EPSILON);
     let [low, high] =
         narrow(ends([&low.what, &high.what], [low.value, high.value]), finest, |x| -> Result<_, Error> {
             let state = between(x);
-            Ok((state, event.value(stride.system, &state)?))
+            let value = event.value(stride.system, &state)?;
+            Ok((state, value))
         })?;
     let ends_low = is_condition && high.value != constant(0.0);
     Ok(if ends_low { low.what } else { high.what })
@@ -51,8 +48,8 @@ fn ends<T: Real, N: Length>(
     [at_low, at_high]: [T; 2],
 ) -> [Probe<T, State<T, N>>; 2] {
     [
-        Probe { x: T::constant(0.0), what: *low, value: at_low },
-        Probe { x: T::constant(1.0), what: *high, value: at_high },
+        Probe { x: T::constant(0.0), what: low.clone(), value: at_low },
+        Probe { x: T::constant(1.0), what: high.clone(), value: at_high },
     ]
 }
 
@@ -64,10 +61,11 @@ fn probe<L, F, I>(
     x: L::Scalar,
 ) -> Result<(StateOf<L>, L::Scalar), Error>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
-    I: Interpolant<L::Scalar, L::N>,
+    I: Interpolant<L::Scalar, L::Length>,
 {
     let state = stride.at(a.t + x * (b.t - a.t))?;
-    Ok((state, event.value(stride.system, &state)?))
+    let value = event.value(stride.system, &state)?;
+    Ok((state, value))
 }

@@ -7,7 +7,7 @@
 use crate::number::{Real, Scalar, smaller};
 
 /// A point x between 0 and 1, an attached result such as a state, and the value of the function.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct Probe<T, S> {
     pub(super) x: T,
     pub(super) what: S,
@@ -17,7 +17,7 @@ pub(super) struct Probe<T, S> {
 /// Narrows an interval around a zero. Returns the last point before the zero and the first one after it, where the
 /// function is zero or has the opposite sign, at most 2 `resolution` apart. `at` evaluates the result and the value at
 /// a point.
-pub(super) fn narrow<T: Real, S: Copy, E>(
+pub(super) fn narrow<T: Real, S: Clone, E>(
     [mut low, mut high]: [Probe<T, S>; 2],
     resolution: T,
     mut at: impl FnMut(T) -> Result<(S, T), E>,
@@ -63,12 +63,12 @@ mod tests {
     fn zero(resolution: f64, f: impl Fn(f64) -> f64) -> (f64, f64, usize) {
         let ends = [0.0, 1.0].map(|x| Probe { x, what: x, value: f(x) });
         let mut evaluations = 0;
+        let sign = ends[0].value.signum();
         let narrowed = narrow(ends, resolution, |x| {
             evaluations += 1;
             Ok::<_, ()>((x, f(x)))
         });
         let [low, high] = narrowed.expect("no error");
-        let sign = ends[0].value.signum();
         assert!(low.value * sign > 0.0 && high.value * sign <= 0.0);
         (high.what, high.what - low.what, evaluations)
     }

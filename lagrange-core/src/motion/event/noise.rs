@@ -3,12 +3,12 @@
 use super::definition::AnyEvent;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::round_off::{SAFETY, neighbours};
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{StateOf, System};
 
 /// Round-off of an event's function, below which it counts as zero. It is 16 times the largest change of the function
 /// at eight states whose entries and time are off by one unit of round-off each, up or down at random. The entries are
 /// not known more accurately, and the function's own rounding errors change along with them.
-pub(crate) fn noise<L: Lagrangian<Scalar: Real>>(
+pub(crate) fn noise<L: System<Scalar: Real>>(
     event: &impl AnyEvent<L>,
     system: &L,
     state: &StateOf<L>,
@@ -19,7 +19,7 @@ pub(crate) fn noise<L: Lagrangian<Scalar: Real>>(
 /// The same for entries that are known to a unit of round-off of those of `sizes`.
 #[cold]
 #[inline(never)]
-pub(crate) fn noise_beside<L: Lagrangian<Scalar: Real>>(
+pub(crate) fn noise_beside<L: System<Scalar: Real>>(
     event: &impl AnyEvent<L>,
     system: &L,
     state: &StateOf<L>,

@@ -18,7 +18,7 @@ use crate::number::{Real, Scalar};
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
-use crate::system::{Lagrangian, State, StateOf};
+use crate::system::{State, StateOf, System};
 #[cfg(feature = "alloc")]
 use crate::trajectory::Path;
 use crate::vector::{Element, Length};
@@ -37,14 +37,14 @@ enum Look {
 const MOST_INTERVALS: usize = 4096;
 
 /// Search of a motion for the events `W`.
-pub(crate) struct EventSearch<'e, W, L: Lagrangian> {
+pub(crate) struct EventSearch<'e, W, L: System> {
     pub(crate) events: &'e mut [W],
     /// Minimum number of parts in which every step is searched.
     pub(crate) subdivisions: usize,
     pub(crate) system: PhantomData<fn(&L)>,
 }
 
-impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
+impl<'e, W: AnyEvent<L>, L: System<Scalar: Real>> EventSearch<'e, W, L> {
     /// Begins the search at the start of a run, and counts crossings from 1.
     #[cfg(feature = "alloc")]
     pub(crate) fn begin(events: &'e mut [W], system: &L, state: &StateOf<L>) -> Result<Self, Error> {
@@ -74,7 +74,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
         events: &'e mut [W],
         system: &L,
         [end, sizes]: [&StateOf<L>; 2],
-        crossings: &mut Vec<Crossing<L::Scalar, L::N>>,
+        crossings: &mut Vec<Crossing<L::Scalar, L::Length>>,
     ) -> Result<Option<Ending>, Error> {
         for event in events.iter_mut() {
             let (value, noise) = (event.value(system, end)?, noise_beside(event, system, end, sizes)?);
@@ -105,13 +105,13 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     ///
     /// # Errors
     /// The reason why the motion ends at `from`.
-    pub(crate) fn next<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+    pub(crate) fn next<F: VectorField<L>, I: Interpolant<L::Scalar, L::Length>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         from: &mut StateOf<L>,
-    ) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending> {
+    ) -> Result<Option<Crossing<L::Scalar, L::Length>>, Ending> {
         if !self.wake(step, from).map_err(|error| Ending::of(error, from.t.to_f64()))? {
-            *from = *step.after;
+            from.clone_from(step.after);
             return Ok(None);
         }
         let (start, mut intervals) = (from.t, 0);
@@ -162,13 +162,16 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     }
 
     /// Returns a crossing at `state` that has not been reported yet.
-    pub(crate) fn due(&mut self, state: &StateOf<L>) -> Result<Option<Crossing<L::Scalar, L::N>>, Ending> {
+    pub(crate) fn due(
+        &mut self,
+        state: &StateOf<L>,
+    ) -> Result<Option<Crossing<L::Scalar, L::Length>>, Ending> {
         for (index, event) in self.events.iter_mut().enumerate() {
             let memory = event.memory();
             if let Some(rising) = memory.due.take() {
                 memory.cross(state.t)?;
                 let (event, count) = (memory.name, memory.count);
-                return Ok(Some(Crossing { event, index, count, rising, state: *state }));
+                return Ok(Some(Crossing { event, index, count, rising, state: state.clone() }));
             }
         }
         Ok(None)
@@ -177,12 +180,12 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     /// Records the crossings within a step. If the motion ends within it, returns the state there and the ending.
     #[cfg(feature = "alloc")]
     #[inline]
-    pub(crate) fn record<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+    pub(crate) fn record<F: VectorField<L>, I: Interpolant<L::Scalar, L::Length>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
-        crossings: &mut Vec<Crossing<L::Scalar, L::N>>,
+        crossings: &mut Vec<Crossing<L::Scalar, L::Length>>,
     ) -> Option<(StateOf<L>, Ending)> {
-        let mut at = *step.before;
+        let mut at = step.before.clone();
         loop {
             match self.next(step, &mut at) {
                 Ok(None) => return None,
@@ -202,14 +205,14 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     #[inline(always)]
     pub(crate) fn record_in<F, I>(
         &mut self,
-        path: &mut Path<L::Scalar, L::N, Vec<I>>,
-        crossings: &mut Vec<Crossing<L::Scalar, L::N>>,
+        path: &mut Path<L::Scalar, L::Length, Vec<I>>,
+        crossings: &mut Vec<Crossing<L::Scalar, L::Length>>,
         system: &L,
         [before, after]: [&StateOf<L>; 2],
     ) -> Option<Ending>
     where
         F: VectorField<L>,
-        I: Interpolant<L::Scalar, L::N> + Send + Sync + 'static,
+        I: Interpolant<L::Scalar, L::Length> + Send + Sync + 'static,
     {
         let interpolant = path.last_step()?;
         let step = DenseStep { system, before, after, interpolant, field: PhantomData::<F> };
@@ -224,7 +227,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     pub(crate) fn record_due(
         &mut self,
         at: &StateOf<L>,
-        crossings: &mut Vec<Crossing<L::Scalar, L::N>>,
+        crossings: &mut Vec<Crossing<L::Scalar, L::Length>>,
     ) -> Option<Ending> {
         loop {
             match self.due(at) {
@@ -240,7 +243,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
 
     /// Returns the ending if the last crossing is terminal.
     #[cfg(feature = "alloc")]
-    fn ending(&mut self, crossings: &[Crossing<L::Scalar, L::N>]) -> Option<Ending> {
+    fn ending(&mut self, crossings: &[Crossing<L::Scalar, L::Length>]) -> Option<Ending> {
         let Crossing { event, index, state, .. } = crossings.last()?;
         let is_terminal = self.events.get_mut(*index)?.memory().is_terminal();
         is_terminal.then(|| Ending::Event { time: state.t.to_f64(), event })
@@ -249,7 +252,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     /// Moves `from` to `t`, or to an earlier crossing. If a function may cross twice on the way and the
     /// interval can be halved, returns [`Look::Halve`] instead.
     #[inline]
-    fn look<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+    fn look<F: VectorField<L>, I: Interpolant<L::Scalar, L::Length>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         from: &mut StateOf<L>,
@@ -284,7 +287,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
         match any_crosses {
             true => self.go_to_first(step, from, to)?,
             false => {
-                *from = *to;
+                from.clone_from(to);
                 awake::<_, L>(self.events).for_each(|(_, event)| event.memory().go_on(t));
             }
         }
@@ -300,7 +303,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     /// True if each function crosses zero at most once between these times. The degree of the samples is raised as
     /// needed.
     #[inline]
-    fn is_plain<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+    fn is_plain<F: VectorField<L>, I: Interpolant<L::Scalar, L::Length>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         [from, to]: [L::Scalar; 2],
@@ -349,13 +352,13 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
     /// too. No condition is violated there.
     #[cold]
     #[inline(never)]
-    fn go_to_first<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+    fn go_to_first<F: VectorField<L>, I: Interpolant<L::Scalar, L::Length>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         from: &mut StateOf<L>,
         to: &StateOf<L>,
     ) -> Result<(), Error> {
-        let mut first = (usize::MAX, *to);
+        let mut first = (usize::MAX, to.clone());
         for (index, event) in awake::<_, L>(self.events) {
             let memory = event.memory();
             if memory.crosses() {
@@ -381,14 +384,14 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
 
     /// Moves the first crossing back to a state at which all conditions hold. One may be violated there though its own crossing was
     /// not found before: it may lie between the same two floating-point times. At the new place another one may be violated.
-    fn hold<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+    fn hold<F: VectorField<L>, I: Interpolant<L::Scalar, L::Length>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         from: &StateOf<L>,
         (first, place): &mut (usize, StateOf<L>),
     ) -> Result<(), Error> {
         for _ in 0..self.events.len() {
-            let before = *place;
+            let before = place.clone();
             for (index, event) in awake::<_, L>(self.events) {
                 let (value, next) = (event.memory().value, event.value(step.system, place)?);
                 if index != *first && event.memory().is_condition && next < L::Scalar::constant(0.0) {
@@ -406,9 +409,7 @@ impl<'e, W: AnyEvent<L>, L: Lagrangian<Scalar: Real>> EventSearch<'e, W, L> {
 
 /// Events that are searched for, with their indices.
 #[inline(always)]
-fn awake<W: AnyEvent<L>, L: Lagrangian<Scalar: Real>>(
-    events: &mut [W],
-) -> impl Iterator<Item = (usize, &mut W)> {
+fn awake<W: AnyEvent<L>, L: System<Scalar: Real>>(events: &mut [W]) -> impl Iterator<Item = (usize, &mut W)> {
     let is_awake = |(index, event)| {
         let event: &mut W = event;
         (!event.memory().is_away()).then_some((index, event))
@@ -427,9 +428,9 @@ fn judge<L, F, I>(
     degree: usize,
 ) -> Result<View, Error>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
-    I: Interpolant<L::Scalar, L::N>,
+    I: Interpolant<L::Scalar, L::Length>,
 {
     let view = event.memory().judge(degree, interval);
     if view != View::Rough {

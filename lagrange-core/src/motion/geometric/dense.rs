@@ -1,9 +1,11 @@
 //! Dense output of steps of any method, from the states at both ends.
 
+use core::array;
+
 use crate::number::Scalar;
 use crate::solution::interpolant::{evaluate, hermite};
 use crate::system::State;
-use crate::vector::{Array, Length, PhaseVector, array, from_fn, vector};
+use crate::vector::{Length, Numbers, PhaseVector, VectorOf};
 
 /// Coefficients of dense output; those beyond the cubic are zero for methods up to order 4.
 pub(crate) type Coefficients<T, N> = [PhaseVector<T, N>; 8];
@@ -23,13 +25,18 @@ const FROM_SLOPES: [[f64; 4]; 4] = [
 /// Cubic Hermite polynomial through states and rates at both ends: an error of fourth order in the step.
 pub(super) fn cubic<T: Scalar, N: Length>(
     [start, end]: [&State<T, N>; 2],
-    accelerations: &[Array<T, N>; 2],
+    accelerations: &PhaseVector<T, N>,
 ) -> Coefficients<T, N> {
-    let mut coefficients = [PhaseVector::filled(T::constant(0.0)); 8];
-    let node = |state: &State<T, N>, a: Array<T, N>| {
-        (PhaseVector::of(state.q, state.v), PhaseVector::new([array(state.v), a]))
+    let node = |state: &State<T, N>, end: usize| {
+        let y = PhaseVector::joined(&state.q, &state.v);
+        let mut rates = y.clone();
+        rates[0].copy_from_slice(&y[1]);
+        rates[1].copy_from_slice(&accelerations[end]);
+        (y, rates)
     };
-    let [(from, first), (to, last)] = [node(start, accelerations[0]), node(end, accelerations[1])];
+    let [(from, first), (to, last)] = [node(start, 0), node(end, 1)];
+    let mut coefficients: Coefficients<T, N> = array::from_fn(|_| from.clone());
+    coefficients.iter_mut().for_each(|r| r.flat_mut().fill(T::constant(0.0)));
     hermite(end.t - start.t, (&from, &first), (&to, &last), &mut coefficients);
     coefficients
 }
@@ -41,21 +48,22 @@ pub(super) fn cubic<T: Scalar, N: Length>(
 /// ends, whose error is of sixth order.
 pub(super) fn septic<T: Scalar, N: Length, E>(
     ends: [&State<T, N>; 2],
-    accelerations: &[Array<T, N>; 2],
-    mut between: impl FnMut(&State<T, N>) -> Result<Array<T, N>, E>,
+    accelerations: &PhaseVector<T, N>,
+    mut between: impl FnMut(&State<T, N>) -> Result<VectorOf<T, N>, E>,
 ) -> Result<Coefficients<T, N>, E> {
     let h = ends[1].t - ends[0].t;
     let mut coefficients = cubic(ends, accelerations);
-    let mut slopes = [Array::filled(T::constant(0.0)); 4];
+    let mut slopes = NODES.map(|_| accelerations.clone());
     for (slope, node) in slopes.iter_mut().zip(NODES) {
-        *slope = between(&quintic(ends, accelerations, h, T::constant(node)))?;
+        let found = between(&quintic(ends, accelerations, h, T::constant(node)))?;
+        slope[1].copy_from_slice(found.entries());
     }
     complete(&mut coefficients, 1, h, &slopes);
-    let velocities = NODES.map(|node| {
+    for (slope, node) in slopes.iter_mut().zip(NODES) {
         let (y, _) = evaluate(&coefficients, T::constant(node));
-        y.half(1)
-    });
-    complete(&mut coefficients, 0, h, &velocities);
+        slope[0].copy_from_slice(&y[1]);
+    }
+    complete(&mut coefficients, 0, h, &slopes);
     Ok(coefficients)
 }
 
@@ -64,18 +72,16 @@ fn complete<T: Scalar, N: Length>(
     coefficients: &mut Coefficients<T, N>,
     half: usize,
     h: T,
-    slopes: &[Array<T, N>; 4],
+    slopes: &[PhaseVector<T, N>; 4],
 ) {
     let cubic: [[T; 4]; 4] = NODES.map(|node| slopes_of_cubic(T::constant(node)));
-    let left: [Array<T, N>; 4] = from_fn(|k| {
-        Array::from_fn(|i| {
+    for i in 0..slopes[0][half].len() {
+        let left: [T; 4] = array::from_fn(|k| {
             let slope = (0..4).fold(T::constant(0.0), |sum, r| sum + cubic[k][r] * coefficients[r][half][i]);
-            h * slopes[k][i] - slope
-        })
-    });
-    for (r, row) in FROM_SLOPES.iter().enumerate() {
-        for i in 0..N::COUNT {
-            let entry = (0..4).fold(T::constant(0.0), |sum, k| sum + T::constant(row[k]) * left[k][i]);
+            h * slopes[k][half][i] - slope
+        });
+        for (r, row) in FROM_SLOPES.iter().enumerate() {
+            let entry = (0..4).fold(T::constant(0.0), |sum, k| sum + T::constant(row[k]) * left[k]);
             coefficients[4 + r][half][i] = entry;
         }
     }
@@ -91,32 +97,27 @@ fn slopes_of_cubic<T: Scalar>(theta: T) -> [T; 4] {
 /// State at θ of the quintic polynomial through coordinates, velocities and accelerations at both ends.
 fn quintic<T: Scalar, N: Length>(
     [start, end]: [&State<T, N>; 2],
-    ends: &[Array<T, N>; 2],
+    ends: &PhaseVector<T, N>,
     h: T,
     theta: T,
 ) -> State<T, N> {
     let number = T::constant;
     let square = theta * theta;
     let cube = square * theta;
-    // Deviation from the start's parabola: θ³ times a quadratic polynomial in θ.
-    let parts = |i: usize| {
+    let mut state = start.clone();
+    state.t = start.t + theta * h;
+    for i in 0..ends[0].len() {
+        // Deviation from the start's parabola: θ³ times a quadratic polynomial in θ.
         let (v, a) = (h * start.v[i], h * h * ends[0][i]);
         let position = end.q[i] - start.q[i] - v - number(0.5) * a;
         let velocity = h * end.v[i] - v - a;
         let acceleration = h * h * ends[1][i] - a;
-        let cubic = number(10.0) * position - number(4.0) * velocity + number(0.5) * acceleration;
-        let quartic = number(7.0) * velocity - number(15.0) * position - acceleration;
-        let quintic = number(6.0) * position - number(3.0) * velocity + number(0.5) * acceleration;
-        [v, a, cubic, quartic, quintic]
-    };
-    let q = Array::from_fn(|i| {
-        let [v, a, c, d, e] = parts(i);
-        start.q[i] + theta * v + number(0.5) * square * a + cube * (c + theta * (d + theta * e))
-    });
-    let v = Array::from_fn(|i| {
-        let [v, a, c, d, e] = parts(i);
+        let c = number(10.0) * position - number(4.0) * velocity + number(0.5) * acceleration;
+        let d = number(7.0) * velocity - number(15.0) * position - acceleration;
+        let e = number(6.0) * position - number(3.0) * velocity + number(0.5) * acceleration;
+        state.q[i] = start.q[i] + theta * v + number(0.5) * square * a + cube * (c + theta * (d + theta * e));
         let slope = number(3.0) * c + theta * (number(4.0) * d + theta * number(5.0) * e);
-        (v + theta * a + square * slope) / h
-    });
-    State { t: start.t + theta * h, q: vector(q), v: vector(v) }
+        state.v[i] = (v + theta * a + square * slope) / h;
+    }
+    state
 }

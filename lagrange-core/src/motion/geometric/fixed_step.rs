@@ -9,12 +9,12 @@ use super::settle::NotSettled;
 use crate::error::{Ending, Error};
 use crate::motion::method::clock::Clock;
 use crate::motion::method::contract::{Limits, Method, Step, check_settings, limit_setters};
-use crate::number::{Parts, Real, Scalar};
+use crate::number::{Parts, Real, Scalar, are_finite};
 use crate::solution::interpolant::Polynomial;
-use crate::solution::solve::{first_row, solve, solve_near};
+use crate::solution::vector_field::{StagePoint, VectorField, VelocityField};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State, StateOf, check_friction};
-use crate::vector::{Array, Element, Entrywise, Length, array};
+use crate::system::{State, StateOf, System, check_friction};
+use crate::vector::{Element, Length, Numbers, PhaseVector, StaticLength, VectorOf};
 
 /// A method whose steps all have one length, but for the last before an end, which may be shorter.
 ///
@@ -54,10 +54,10 @@ impl<S: Default> FixedStep<S> {
     }
 
     /// Moves a point by a step of length `h` to the time `to`. Returns the number of evaluations of the forces.
-    pub(crate) fn advance<L: Lagrangian<Scalar: Parts>>(
+    pub(crate) fn advance<L: System<Scalar: Parts>>(
         &self,
         system: &L,
-        point: &mut CompensatedState<L::Scalar, L::N>,
+        point: &mut CompensatedState<L::Scalar, L::Length>,
         carried: &mut S::Carried,
         (h, to): (L::Scalar, L::Scalar),
     ) -> Result<usize, NotSettled>
@@ -76,7 +76,7 @@ impl<S: Default> FixedStep<S> {
     }
 
     /// Order of the method.
-    fn order<L: Lagrangian<Scalar: Parts>>(&self) -> usize
+    fn order<L: System<Scalar: Parts>>(&self) -> usize
     where
         S: Scheme<L>,
     {
@@ -87,12 +87,12 @@ impl<S: Default> FixedStep<S> {
     ///
     /// # Errors
     /// Those of `between`.
-    pub(crate) fn coefficients<L: Lagrangian<Scalar: Parts>, E>(
+    pub(crate) fn coefficients<L: System<Scalar: Parts>, E>(
         &self,
         ends: [&StateOf<L>; 2],
-        accelerations: &[Array<L::Scalar, L::N>; 2],
-        between: impl FnMut(&StateOf<L>) -> Result<Array<L::Scalar, L::N>, E>,
-    ) -> Result<Coefficients<L::Scalar, L::N>, E>
+        accelerations: &PhaseVector<L::Scalar, L::Length>,
+        between: impl FnMut(&StateOf<L>) -> Result<VectorOf<L::Scalar, L::Length>, E>,
+    ) -> Result<Coefficients<L::Scalar, L::Length>, E>
     where
         S: Scheme<L>,
     {
@@ -116,13 +116,18 @@ pub struct FixedStepMemory<T: Element, N: Length, C> {
     point: CompensatedState<T, N>,
     carried: C,
     /// Accelerations at the ends of the last step with dense output, and the number of steps since.
-    accelerations: [Array<T, N>; 2],
+    accelerations: PhaseVector<T, N>,
     steps_since: usize,
 }
 
-impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedStep<S> {
-    type Memory = FixedStepMemory<L::Scalar, L::N, S::Carried>;
-    type Interpolant = Polynomial<L::Scalar, Coefficients<L::Scalar, L::N>>;
+impl<L, F, S> Method<L, F> for FixedStep<S>
+where
+    L: System<Scalar: Real>,
+    F: VelocityField<L>,
+    S: Scheme<L> + Default,
+{
+    type Memory = FixedStepMemory<L::Scalar, L::Length, S::Carried>;
+    type Interpolant = Polynomial<L::Scalar, Coefficients<L::Scalar, L::Length>>;
 
     fn limits(&self) -> Limits {
         self.limits
@@ -143,16 +148,16 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
         start: &StateOf<L>,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
-        const { check_friction::<L>() };
+        const { check_friction(F::HAS_FRICTION) };
         statistics.evaluations += 1;
         let planned = L::Scalar::constant(self.step);
         Ok(FixedStepMemory {
             clock: Clock::new(start.t, Some(planned)),
             planned,
-            before: *start,
+            before: start.clone(),
             point: CompensatedState::at(start),
             carried: S::start(system, start),
-            accelerations: [Array::filled(L::Scalar::constant(0.0)); 2],
+            accelerations: PhaseVector::joined(&start.q, &start.v),
             steps_since: NO_STEP,
         })
     }
@@ -166,7 +171,8 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
     ) -> Result<(), Error> {
         statistics.evaluations += 1;
         memory.clock.set(state.t);
-        (memory.before, memory.point) = (*state, CompensatedState::at(state));
+        memory.before.clone_from(state);
+        memory.point = CompensatedState::at(state);
         (memory.carried, memory.steps_since) = (S::start(system, state), NO_STEP);
         Ok(())
     }
@@ -177,12 +183,14 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
+        state: &mut StateOf<L>,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, L::N> {
+    ) -> Step {
         let FixedStepMemory { clock, planned, before, point, carried, steps_since, .. } = memory;
         clock.aim(end);
         let (h, time) = clock.next(*planned);
-        (*before, *steps_since) = (point.state, steps_since.saturating_add(1));
+        before.clone_from(&point.state);
+        *steps_since = steps_since.saturating_add(1);
         if !clock.is_ahead(time) {
             return Step::Failed(Ending::TimeTooCoarse { time: before.t.to_f64(), step: self.step });
         }
@@ -191,9 +199,10 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
             Ok(evaluations) if is_finite(&point.state) => {
                 statistics.evaluations += evaluations;
                 *planned = clock.tick((h, time), *planned, L::Scalar::constant(self.step));
-                Step::Accepted(point.state)
+                state.clone_from(&point.state);
+                Step::Accepted
             }
-            _ => Step::Failed(failure(system, (before, h), moved.map(|_| point.state))),
+            _ => Step::Failed(failure::<L, F>(system, (before, h), moved.map(|_| point.state.clone()))),
         }
     }
 
@@ -207,13 +216,17 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
         let end = &point.state;
         let mut evaluate = |state: &StateOf<L>| {
             statistics.evaluations += 1;
-            checked_accelerations(system, state)
+            checked_accelerations::<L, F>(system, state)
         };
-        accelerations[0] = if *steps_since == 1 { accelerations[1] } else { evaluate(before)? };
-        accelerations[1] = match S::accelerations(system, end, carried) {
-            Some(accelerations) => array(accelerations),
+        match *steps_since {
+            1 => accelerations.flat_mut().rotate_left(end.q.entries().len()),
+            _ => accelerations[0].copy_from_slice(evaluate(before)?.entries()),
+        }
+        let last = match S::accelerations(system, end, carried) {
+            Some(accelerations) => accelerations,
             None => evaluate(end)?,
         };
+        accelerations[1].copy_from_slice(last.entries());
         *steps_since = 0;
         let coefficients = self.coefficients::<L, Error>([before, end], accelerations, evaluate)?;
         Ok(Polynomial::new(before.t, point.state.t - before.t, coefficients))
@@ -221,44 +234,50 @@ impl<L: Lagrangian<Scalar: Real>, S: Scheme<L> + Default> Method<L> for FixedSte
 }
 
 #[inline(never)]
-fn checked_accelerations<L: Lagrangian<Scalar: Real>>(
+fn checked_accelerations<L: System<Scalar: Real>, F: VectorField<L>>(
     system: &L,
     state: &StateOf<L>,
-) -> Result<Array<L::Scalar, L::N>, Error> {
-    solve_near(system, state, None, |solution, _| array(solution.accelerations))
+) -> Result<VectorOf<L::Scalar, L::Length>, Error> {
+    let point = StagePoint::of(state);
+    let mut rates = point.y.clone();
+    F::evaluate(system, &point, None, &mut rates)?;
+    Ok(VectorOf::<_, L::Length>::from_entries(&rates[1]))
 }
 
 fn is_finite<T: Real, N: Length>(state: &State<T, N>) -> bool {
-    let all_finite = |x: &[T]| x.iter().fold(true, |all, x| all & Parts::is_finite(*x));
-    all_finite(state.q.as_slice()) & all_finite(state.v.as_slice())
+    are_finite(state.q.entries()) & are_finite(state.v.entries())
 }
 
 /// The reason why no step from `start` leads to a state: the equations have no solution there, the end is not finite,
 /// or the iteration does not converge.
 #[cold]
-fn failure<L: Lagrangian<Scalar: Real>>(
+fn failure<L: System<Scalar: Real>, F: VectorField<L>>(
     system: &L,
     (start, h): (&StateOf<L>, L::Scalar),
     end: Result<StateOf<L>, NotSettled>,
 ) -> Ending {
     let time = start.t.to_f64();
     // Where the equations end within the step, they have no solution beyond it either.
-    let beyond = State { t: start.t + h, q: start.q.each_with(&start.v, |q, v| q + v * h), v: start.v };
+    let mut beyond = start.clone();
+    beyond.t = start.t + h;
+    for (q, v) in beyond.q.entries_mut().iter_mut().zip(start.v.entries()) {
+        *q += *v * h;
+    }
     for state in [start, &beyond] {
-        match solve(system, state) {
+        match F::check_solution(system, state) {
             Err(error) if state.t == start.t => return Ending::of(error, time),
             Err(error @ Error::EquationsNotFinite { .. }) => return Ending::of(error, time),
             _ => {}
         }
     }
-    let momenta = system.momentum(start);
-    let end = end.unwrap_or(*start);
+    let momenta = F::momenta(system, start);
+    let end = end.unwrap_or_else(|NotSettled| start.clone());
     let is_finite = |i: usize| [momenta[i], end.q[i], end.v[i]].into_iter().all(Parts::is_finite);
-    match first_row::<L>(|i| !is_finite(i), |_| false) {
-        Some(row) => Ending::NotFinite { time, row },
+    match (0..end.q.entries().len()).find(|&i| !is_finite(i)) {
+        Some(i) => Ending::NotFinite { time, row: F::row(i) },
         None => Ending::MethodFailed {
             time,
-            reason: match <L::M>::COUNT {
+            reason: match <L::M as StaticLength>::COUNT {
                 0 => {
                     "the iteration of a step does not converge; take shorter steps, or with strong damping or stiff springs `Radau`"
                 }

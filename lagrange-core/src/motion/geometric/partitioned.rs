@@ -22,7 +22,7 @@ use crate::room::Room;
 use crate::solution::eliminate::LoopFactor;
 use crate::solution::near::compensated;
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf, has_velocity_constraints, unit};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, array, from_fn, rows, vector, zeros};
+use crate::vector::{Array, Element, Entrywise, StaticLength, Vector, array, from_fn, rows, vector, zeros};
 
 /// Fraction of the visible terms up to which a residual may be the round-off of hidden terms.
 const HIDDEN: f64 = 1e-3;
@@ -41,7 +41,7 @@ struct PartitionedStep<'a, L: Lagrangian, const S: usize> {
 type StageForces<T, N, const S: usize> = [Array<T, N>; S];
 
 /// Residuals of the stages.
-struct StageResiduals<T: Element, N: Length, M: Length, const S: usize> {
+struct StageResiduals<T: Element, N: StaticLength, M: StaticLength, const S: usize> {
     momenta: [Array<T, N>; S],
     constraints: [Array<T, M>; S],
 }
@@ -385,17 +385,24 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
 
 /// True if residuals may be the round-off of hidden terms: they are within a thousandth of the visible ones, or of the largest
 /// so far, because a motion that comes to rest leaves terms of the size of its whole way.
-fn are_hidden<T: Parts, N: Length>(size: &Array<T, N>, terms: &Array<T, N>, largest: &Array<T, N>) -> bool {
+fn are_hidden<T: Parts, N: StaticLength>(
+    size: &Array<T, N>,
+    terms: &Array<T, N>,
+    largest: &Array<T, N>,
+) -> bool {
     are_within(HIDDEN, size, &Array::from_fn(|k| terms[k] + largest[k]))
 }
 
 /// The move that changes constraint `a` by −1, and no other.
-fn moved_by<T: Parts, N: Length, M: Length>(matrices: &LoopFactor<T, N, M>, a: usize) -> Array<T, N> {
+fn moved_by<T: Parts, N: StaticLength, M: StaticLength>(
+    matrices: &LoopFactor<T, N, M>,
+    a: usize,
+) -> Array<T, N> {
     let none = Array::filled(T::constant(0.0));
     matrices.held(&none, &matrices.multipliers(&none, &unit::<T, M>(a).into()))
 }
 
 /// Sums of the magnitudes over the stages.
-fn sizes<T: Parts, K: Length, const S: usize>(of: &[Array<T, K>; S]) -> Array<T, K> {
+fn sizes<T: Parts, K: StaticLength, const S: usize>(of: &[Array<T, K>; S]) -> Array<T, K> {
     Array::from_fn(|k| of.iter().fold(T::constant(0.0), |sum, x| sum + x[k].magnitude()))
 }

@@ -5,8 +5,10 @@ use core::fmt::{self, Debug};
 use super::settle::NotSettled;
 use crate::number::{Parts, Scalar};
 use crate::solution::near::exact_sum;
-use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Length, Vector, array, vector};
+use crate::system::{ConstraintKind, Lagrangian, State, StateOf, System};
+use crate::vector::{
+    Array, Element, Length, Numbers, PhaseVector, StaticLength, Vector, VectorOf, array, is_short, vector,
+};
 
 /// A one-step method, for any number type: a map (q, q̇) → (q, q̇) over a given time.
 ///
@@ -68,7 +70,7 @@ use crate::vector::{Array, Element, Length, Vector, array, vector};
     message = "`{Self}` is not a scheme for the steps of `{L}`",
     note = "`Verlet`, `Gauss`, `Lobatto` and `DAlembert` are methods with steps of one length; `FixedStep` takes the scheme of one of them"
 )]
-pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
+pub trait Scheme<L: System<Scalar: Parts>> {
     /// Data carried from the end of a step to the start of the next one.
     type Carried: Clone + Debug + Send + Sync;
 
@@ -98,7 +100,7 @@ pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
     /// If an iteration does not converge.
     fn advance(
         system: &L,
-        point: &mut CompensatedState<L::Scalar, L::N>,
+        point: &mut CompensatedState<L::Scalar, L::Length>,
         carried: &mut Self::Carried,
         step: (L::Scalar, L::Scalar),
     ) -> Result<usize, NotSettled>;
@@ -110,7 +112,7 @@ pub trait Scheme<L: Lagrangian<Scalar: Parts>> {
         system: &L,
         end: &StateOf<L>,
         carried: &Self::Carried,
-    ) -> Option<Vector<L::Scalar, L::N>> {
+    ) -> Option<VectorOf<L::Scalar, L::Length>> {
         None
     }
 }
@@ -129,15 +131,24 @@ pub(super) type Compensated<T, N> = [Array<T, N>; 2];
 
 /// A state, and the rounding errors of its coordinates and velocities: sums of many small changes keep the digits that
 /// rounding would take from each (compensated summation).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct CompensatedState<T: Element, N: Length> {
     pub(crate) state: State<T, N>,
-    rest: [Array<T, N>; 2],
+    rest: PhaseVector<T, N>,
+}
+
+impl<T: Element, N: Length> Copy for CompensatedState<T, N>
+where
+    State<T, N>: Copy,
+    PhaseVector<T, N>: Copy,
+{
 }
 
 impl<T: Parts, N: Length> CompensatedState<T, N> {
     pub(crate) fn at(state: &State<T, N>) -> Self {
-        Self { state: *state, rest: [Array::filled(T::constant(0.0)); 2] }
+        let mut rest = PhaseVector::joined(&state.q, &state.v);
+        rest.flat_mut().fill(T::constant(0.0));
+        Self { state: state.clone(), rest }
     }
 
     /// The state, rounded.
@@ -150,58 +161,78 @@ impl<T: Parts, N: Length> CompensatedState<T, N> {
         self.state.t = t;
     }
 
+    /// Adds a change to each coordinate in place, from its velocity and its acceleration.
+    #[inline(always)]
+    pub(super) fn move_by(&mut self, accelerations: &[T], change: impl Fn(T, T) -> T) {
+        let Self { state: State { q, v, .. }, rest } = self;
+        add::<T, N>(q.entries_mut(), &mut rest[0], [v.entries(), accelerations], change);
+    }
+
+    /// Adds a change to each velocity in place, from the accelerations at both ends.
+    #[inline(always)]
+    pub(super) fn push_by(&mut self, ends: [&[T]; 2], change: impl Fn(T, T) -> T) {
+        let Self { state: State { v, .. }, rest } = self;
+        add::<T, N>(v.entries_mut(), &mut rest[1], ends, change);
+    }
+}
+
+impl<T: Parts, N: StaticLength> CompensatedState<T, N> {
     /// Adds to each coordinate its change, from the state before and the index.
     pub fn change_coordinates(&mut self, change: impl Fn(&State<T, N>, usize) -> T) {
         let [q, rest] = self.moved(&Array::from_fn(|i| change(&self.state, i)));
-        (self.state.q, self.rest[0]) = (vector(q), rest);
+        self.state.q = vector(q);
+        self.rest.set(0, rest);
     }
 
     /// Adds to each velocity its change, from the state before and the index.
     pub fn change_velocities(&mut self, change: impl Fn(&State<T, N>, usize) -> T) {
         let [v, rest] = self.pushed(&Array::from_fn(|i| change(&self.state, i)));
-        (self.state.v, self.rest[1]) = (vector(v), rest);
-    }
-
-    /// Adds a change to each coordinate in place, from its velocity and its acceleration.
-    #[inline(always)]
-    pub(super) fn move_by(&mut self, accelerations: &Vector<T, N>, change: impl Fn(T, T) -> T) {
-        let Self { state: State { q, v, .. }, rest: [rest, _] } = self;
-        let known = v.as_slice().iter().zip(accelerations.as_slice());
-        for ((x, rest), (v, a)) in q.as_mut_slice().iter_mut().zip(rest.iter_mut()).zip(known) {
-            [*x, *rest] = exact_sum(*x, change(*v, *a) + *rest);
-        }
-    }
-
-    /// Adds a change to each velocity in place, from the accelerations at both ends.
-    #[inline(always)]
-    pub(super) fn push_by(&mut self, ends: [&Vector<T, N>; 2], change: impl Fn(T, T) -> T) {
-        let Self { state: State { v, .. }, rest: [_, rest] } = self;
-        let known = ends[0].as_slice().iter().zip(ends[1].as_slice());
-        for ((x, rest), (a, b)) in v.as_mut_slice().iter_mut().zip(rest.iter_mut()).zip(known) {
-            [*x, *rest] = exact_sum(*x, change(*a, *b) + *rest);
-        }
+        self.state.v = vector(v);
+        self.rest.set(1, rest);
     }
 
     /// Adds a change to the coordinates, and returns them with their rounding errors.
     pub(super) fn moved(&self, change: &Array<T, N>) -> Compensated<T, N> {
-        summed(&self.state.q, change, &self.rest[0])
+        summed(&self.state.q, change, &self.rest.half(0))
     }
 
     /// Adds a change to the velocities, and returns them with their rounding errors.
     pub(super) fn pushed(&self, change: &Array<T, N>) -> Compensated<T, N> {
-        summed(&self.state.v, change, &self.rest[1])
+        summed(&self.state.v, change, &self.rest.half(1))
     }
 
     /// Sets the point, from coordinates and velocities with their rounding errors.
     pub(super) fn set(&mut self, t: T, [q, rest_q]: Compensated<T, N>, [v, rest_v]: Compensated<T, N>) {
         self.state = State { t, q: vector(q), v: vector(v) };
-        self.rest = [rest_q, rest_v];
+        self.rest = PhaseVector::new([rest_q, rest_v]);
+    }
+}
+
+/// Adds a change to each x, with its rounding error in `rest`, from two known numbers.
+#[inline(always)]
+fn add<T: Parts, N: Length>(x: &mut [T], rest: &mut [T], known: [&[T]; 2], change: impl Fn(T, T) -> T) {
+    match const { is_short::<N>() } {
+        true => add_here(x, rest, known, change),
+        false => add_apart(x, rest, known, change),
+    }
+}
+
+/// Not inlined: from its arguments the compiler knows that what is written does not overlap what is read.
+#[inline(never)]
+fn add_apart<T: Parts>(x: &mut [T], rest: &mut [T], [one, other]: [&[T]; 2], change: impl Fn(T, T) -> T) {
+    add_here(x, rest, [one, other], change);
+}
+
+#[inline(always)]
+fn add_here<T: Parts>(x: &mut [T], rest: &mut [T], [one, other]: [&[T]; 2], change: impl Fn(T, T) -> T) {
+    for ((x, rest), (one, other)) in x.iter_mut().zip(rest).zip(one.iter().zip(other)) {
+        [*x, *rest] = exact_sum(*x, change(*one, *other) + *rest);
     }
 }
 
 /// Compensated sum: x + change + rest, and its rounding error.
 #[inline(always)]
-fn summed<T: Parts, N: Length>(
+fn summed<T: Parts, N: StaticLength>(
     x: &Vector<T, N>,
     change: &Array<T, N>,
     rest: &Array<T, N>,
@@ -215,7 +246,7 @@ fn summed<T: Parts, N: Length>(
 
 /// Returns Σₖ `weights`ₖ `terms`ₖ.
 #[inline]
-pub(super) fn combined<T: Parts, N: Length, const S: usize>(
+pub(super) fn combined<T: Parts, N: StaticLength, const S: usize>(
     weights: &[f64; S],
     terms: &[Array<T, N>; S],
 ) -> Array<T, N> {
@@ -230,7 +261,7 @@ pub(super) fn combined<T: Parts, N: Length, const S: usize>(
 
 /// Returns the magnitude of each entry.
 #[inline]
-pub(super) fn magnitudes<T: Parts, K: Length>(x: &Vector<T, K>) -> Array<T, K> {
+pub(super) fn magnitudes<T: Parts, K: StaticLength>(x: &Vector<T, K>) -> Array<T, K> {
     Array::from_fn(|k| x[k].magnitude())
 }
 

@@ -5,7 +5,7 @@
 //! energy drift.
 
 use crate::number::Parts;
-use crate::vector::{Array, Length, Matrix};
+use crate::vector::{Array, Matrix, StaticLength};
 
 /// Largest number of sweeps. An iteration that contracts by a factor of ½ reaches round-off in 52.
 const SWEEPS: usize = 60;
@@ -28,7 +28,7 @@ const TURN: f64 = 0.25;
 pub struct NotSettled;
 
 /// Residuals of an iteration so far, one per equation.
-pub(super) struct Residuals<T: Parts, K: Length> {
+pub(super) struct Residuals<T: Parts, K: StaticLength> {
     /// Least residuals of the sweeps so far; `None` before the first.
     least: Option<Array<T, K>>,
     sweeps: usize,
@@ -36,7 +36,7 @@ pub(super) struct Residuals<T: Parts, K: Length> {
     recent: [Option<Array<T, K>>; LONGEST],
 }
 
-impl<T: Parts, K: Length> Residuals<T, K> {
+impl<T: Parts, K: StaticLength> Residuals<T, K> {
     pub(super) fn new() -> Self {
         Self { least: None, sweeps: 0, recent: [None; LONGEST] }
     }
@@ -92,14 +92,14 @@ impl<T: Parts, K: Length> Residuals<T, K> {
 
 /// True if each entry is at most `part` of its bound, and the slopes together are too: a single slope and its terms may
 /// vanish by symmetry.
-pub(super) fn are_within<T: Parts, K: Length>(part: f64, x: &Array<T, K>, bound: &Array<T, K>) -> bool {
+pub(super) fn are_within<T: Parts, K: StaticLength>(part: f64, x: &Array<T, K>, bound: &Array<T, K>) -> bool {
     let total = |x: &Array<T, K>| x.iter().fold(T::constant(0.0), |sum, x| sum + *x);
     (0..K::COUNT).all(|k| x[k].is_value_within(part, bound[k])) && total(x).is_within(part, total(bound))
 }
 
 /// True if the constraints in `jacobian` differ little from those factorized. `moves(a)` returns the displacement that changes
 /// factorized constraint a by −1 and no other.
-pub(super) fn have_hardly_turned<T: Parts, N: Length, M: Length>(
+pub(super) fn have_hardly_turned<T: Parts, N: StaticLength, M: StaticLength>(
     jacobian: &Matrix<T, M, N>,
     moves: impl Fn(usize) -> Array<T, N>,
 ) -> bool {

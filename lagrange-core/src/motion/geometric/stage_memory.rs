@@ -2,7 +2,7 @@
 
 use crate::number::{Parts, Scalar};
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Array, Element, Length, array, from_fn};
+use crate::vector::{Array, Element, StaticLength, array, from_fn};
 
 /// Largest ratio of a step to the step before up to which the stages of the step before are extrapolated. A polynomial of
 /// degree S − 1 amplifies their rounding errors by the ratio to the power S − 1.
@@ -10,7 +10,7 @@ const FARTHEST: f64 = 16.0;
 
 /// Data carried from step to step.
 #[derive(Clone, Debug)]
-pub struct StageMemory<F, T: Element, N: Length, M: Length, const S: usize> {
+pub struct StageMemory<F, T: Element, N: StaticLength, M: StaticLength, const S: usize> {
     /// Factorization of the equations at the state.
     pub(super) factor: F,
     /// Momenta, and their rounding errors.
@@ -26,7 +26,7 @@ pub struct StageMemory<F, T: Element, N: Length, M: Length, const S: usize> {
     pub(super) largest: Array<T, N>,
 }
 
-impl<F: Copy, T: Parts, N: Length, M: Length, const S: usize> StageMemory<F, T, N, M, S> {
+impl<F: Copy, T: Parts, N: StaticLength, M: StaticLength, const S: usize> StageMemory<F, T, N, M, S> {
     /// Evaluates what the first step from a state needs.
     pub(super) fn start<L>(system: &L, state: &StateOf<L>) -> Self
     where
@@ -109,7 +109,7 @@ fn without_last<T: Scalar, const S: usize>(nodes: &[f64; S], x: T) -> [T; S] {
     })
 }
 
-fn interpolated<T: Scalar, K: Length, const S: usize>(
+fn interpolated<T: Scalar, K: StaticLength, const S: usize>(
     weights: &[T; S],
     values: &[Array<T, K>; S],
 ) -> Array<T, K> {

@@ -4,6 +4,7 @@
 //! lead to coordinates on the constraints, those of the second half to velocities along them (Andersen, *Journal of
 //! Computational Physics* 52, 1983; Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VII.1.3).
 
+use core::convert::Infallible;
 use core::fmt::{self, Debug};
 
 use super::fixed_step::FixedStep;
@@ -13,9 +14,13 @@ use super::scheme::{
 use super::settle::{NotSettled, Residuals, have_hardly_turned};
 use crate::number::{Parts, Scalar};
 use crate::solution::near::compensated;
+use crate::solution::vector_field::{AccelerationField, LagrangianVectorField};
 use crate::structure::{ConstantMassMatrix, HolonomicConstraints, VelocityFreeForces};
-use crate::system::{Lagrangian, State, StateOf, unit};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, array, vector, zeros};
+use crate::system::{Lagrangian, State, StateOf, System, unit};
+use crate::vector::{
+    Array, Element, Entrywise, Length, Numbers, PhaseVector, StaticLength, Vector, VectorOf, ViewOf, array,
+    vector, view_of, zeros,
+};
 
 /// The method of Störmer and Verlet, symplectic and of order 2; with holonomic constraints it is RATTLE.
 ///
@@ -53,19 +58,52 @@ pub struct StormerVerlet;
 impl SymmetricScheme for StormerVerlet {}
 
 /// Forces at a state.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Forces<F, T: Element, N: Length> {
     /// Factorization of the equations; `None` without constraints.
     factor: Option<F>,
-    /// Accelerations without constraints, h with constraints.
-    push: Vector<T, N>,
+    /// Accelerations without constraints, h with constraints: of the last two states, in turns.
+    pushes: PhaseVector<T, N>,
+    /// Which of them is that of the last state.
+    last: usize,
+}
+
+/// Equations of motion whose forces depend on coordinates and time alone.
+pub trait PositionForces<L: System<Scalar: Parts>> {
+    /// Factorization of the equations with constraints.
+    type Factor: Clone + Debug + Send + Sync;
+
+    /// Writes the accelerations at a state to `push`; with constraints h, and returns the factorization.
+    #[doc(hidden)]
+    fn evaluate(
+        system: &L,
+        state: &StateOf<L>,
+        push: &mut ViewOf<L::Scalar, L::Length>,
+    ) -> Option<Self::Factor>;
+
+    /// Takes a step on constraints.
+    #[doc(hidden)]
+    fn advance(
+        system: &L,
+        point: &mut CompensatedState<L::Scalar, L::Length>,
+        forces: &mut Forces<Self::Factor, L::Scalar, L::Length>,
+        step: (L::Scalar, L::Scalar),
+    ) -> Result<usize, NotSettled>;
+
+    /// Returns the accelerations at the end of a step on constraints.
+    #[doc(hidden)]
+    fn accelerations(
+        system: &L,
+        end: &StateOf<L>,
+        forces: &Forces<Self::Factor, L::Scalar, L::Length>,
+    ) -> Option<VectorOf<L::Scalar, L::Length>>;
 }
 
 impl<L> Scheme<L> for StormerVerlet
 where
-    L: Lagrangian<Scalar: Parts> + ConstantMassMatrix + VelocityFreeForces + HolonomicConstraints,
+    L: System<Scalar: Parts, Field: PositionForces<L>>,
 {
-    type Carried = Forces<L::Factor, L::Scalar, L::N>;
+    type Carried = Forces<<L::Field as PositionForces<L>>::Factor, L::Scalar, L::Length>;
 
     const ORDER: usize = 2;
 
@@ -75,32 +113,115 @@ where
 
     #[inline]
     fn start(system: &L, state: &StateOf<L>) -> Self::Carried {
-        match <L::M>::COUNT {
-            0 => Forces { factor: None, push: system.accelerations_unchecked(state).accelerations },
-            _ => Forces { factor: Some(system.factor(state)), push: system.forcing(state) },
+        let mut pushes = PhaseVector::joined(&state.q, &state.v);
+        let factor = L::Field::evaluate(system, state, pushes.view_mut(0));
+        Forces { factor, pushes, last: 0 }
+    }
+
+    #[inline]
+    fn advance(
+        system: &L,
+        point: &mut CompensatedState<L::Scalar, L::Length>,
+        forces: &mut Self::Carried,
+        (h, to): (L::Scalar, L::Scalar),
+    ) -> Result<usize, NotSettled> {
+        if forces.factor.is_some() {
+            return L::Field::advance(system, point, forces, (h, to));
         }
+        let half = h * L::Scalar::constant(0.5);
+        let Forces { pushes, last, .. } = forces;
+        let (before, after) = (*last, 1 - *last);
+        point.move_by(&pushes[before], |v, a| h * (v + half * a));
+        point.state.t = to;
+        L::Field::evaluate(system, &point.state, pushes.view_mut(after));
+        point.push_by([&pushes[before], &pushes[after]], |a, b| half * (a + b));
+        *last = after;
+        Ok(1)
+    }
+
+    #[inline]
+    fn accelerations(
+        system: &L,
+        end: &StateOf<L>,
+        forces: &Self::Carried,
+    ) -> Option<VectorOf<L::Scalar, L::Length>> {
+        match &forces.factor {
+            None => Some(VectorOf::<_, L::Length>::from_entries(&forces.pushes[forces.last])),
+            Some(_) => L::Field::accelerations(system, end, forces),
+        }
+    }
+}
+
+impl<L: System<Scalar: Parts> + VelocityFreeForces> PositionForces<L> for AccelerationField {
+    type Factor = Infallible;
+
+    #[inline(always)]
+    fn evaluate(
+        system: &L,
+        state: &StateOf<L>,
+        push: &mut ViewOf<L::Scalar, L::Length>,
+    ) -> Option<Infallible> {
+        system.accelerations(
+            state.t,
+            view_of::<_, L::Length>(&state.q),
+            view_of::<_, L::Length>(&state.v),
+            push,
+        );
+        None
+    }
+
+    fn advance(
+        _: &L,
+        _: &mut CompensatedState<L::Scalar, L::Length>,
+        _: &mut Forces<Infallible, L::Scalar, L::Length>,
+        _: (L::Scalar, L::Scalar),
+    ) -> Result<usize, NotSettled> {
+        Err(NotSettled)
+    }
+
+    fn accelerations(
+        _: &L,
+        _: &StateOf<L>,
+        _: &Forces<Infallible, L::Scalar, L::Length>,
+    ) -> Option<VectorOf<L::Scalar, L::Length>> {
+        None
+    }
+}
+
+impl<L> PositionForces<L> for LagrangianVectorField
+where
+    L: Lagrangian<Scalar: Parts> + ConstantMassMatrix + VelocityFreeForces + HolonomicConstraints,
+{
+    type Factor = L::Factor;
+
+    #[inline(always)]
+    fn evaluate(system: &L, state: &StateOf<L>, push: &mut ViewOf<L::Scalar, L::N>) -> Option<L::Factor> {
+        if const { <L::M>::COUNT == 0 } {
+            system.accelerations(
+                state.t,
+                view_of::<_, L::Length>(&state.q),
+                view_of::<_, L::Length>(&state.v),
+                push,
+            );
+            return None;
+        }
+        *push = L::N::entries(system.forcing(state));
+        Some(system.factor(state))
     }
 
     #[inline]
     fn advance(
         system: &L,
         point: &mut CompensatedState<L::Scalar, L::N>,
-        forces: &mut Self::Carried,
+        forces: &mut Forces<L::Factor, L::Scalar, L::N>,
         (h, to): (L::Scalar, L::Scalar),
     ) -> Result<usize, NotSettled> {
+        let Some(factor) = forces.factor else { return Err(NotSettled) };
         let half = h * L::Scalar::constant(0.5);
-        let Some(factor) = forces.factor else {
-            let before = forces.push;
-            point.move_by(&before, |v, a| h * (v + half * a));
-            point.state.t = to;
-            forces.push = system.accelerations_unchecked(&point.state).accelerations;
-            point.push_by([&before, &forces.push], |a, b| half * (a + b));
-            return Ok(1);
-        };
-        let kick = onto_constraints(system, point, (&factor, &forces.push), (h, to))?;
+        let kick = onto_constraints(system, point, (&factor, &forces.push()), (h, to))?;
         let q = point.moved(&Array::from_fn(|i| h * (point.state.v[i] + kick[i])));
         let state = State { t: to, q: vector(q[0]), v: point.state.v.plus(&kick) };
-        *forces = Self::start(system, &state);
+        *forces = StormerVerlet::start(system, &state);
         let v = along_constraints(system, point, &kick, forces, (half, &state))?;
         point.set(to, q, v);
         Ok(1)
@@ -110,14 +231,17 @@ where
     fn accelerations(
         system: &L,
         end: &StateOf<L>,
-        forces: &Self::Carried,
+        forces: &Forces<L::Factor, L::Scalar, L::N>,
     ) -> Option<Vector<L::Scalar, L::N>> {
-        Some(match &forces.factor {
-            None => forces.push,
-            Some(factor) => {
-                system.solve_with(factor, &forces.push, &system.constraint_bias(end)).accelerations
-            }
-        })
+        let bias = system.constraint_bias(end);
+        forces.factor.as_ref().map(|factor| system.solve_with(factor, &forces.push(), &bias).accelerations)
+    }
+}
+
+impl<F, T: Element, N: StaticLength> Forces<F, T, N> {
+    /// Forces at the last state.
+    fn push(&self) -> Vector<T, N> {
+        vector(self.pushes.half(self.last))
     }
 }
 
@@ -167,7 +291,7 @@ fn along_constraints<L: Lagrangian<Scalar: Parts>>(
     (half, state): (L::Scalar, &StateOf<L>),
 ) -> Result<Compensated<L::Scalar, L::N>, NotSettled> {
     let Some(factor) = &forces.factor else { return Err(NotSettled) };
-    let push = forces.push.each(|x| half * x);
+    let push = forces.push().each(|x| half * x);
     let second = system.solve_with(factor, &push, &system.constraint_rate(state));
     let [mut v, mut rest] = point.pushed(&array(kick.plus(&second.accelerations)));
     let mut residuals = Residuals::new();

@@ -9,6 +9,7 @@ use crate::motion::record::Record;
 use crate::motion::run::{Run, Watchdog, resume};
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::{Lagrangian, State};
+use crate::vector::zeros;
 
 impl<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> LaneMotion<'o, L, P> {
     /// Makes the start consistent, and prepares the first step. Returns the motion and its consistent start.
@@ -86,8 +87,10 @@ impl<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> LaneMotion<'o, L, P> {
     pub(super) fn step_alone<const HAS_DENSE_OUTPUT: bool>(&mut self, method: &P) -> LaneOutcome {
         let now = self.now();
         let Self { system, memory, end, statistics, .. } = self;
-        self.failure = match method.step(system, memory, *end, statistics) {
-            Step::Accepted(_) => match self.look_within::<HAS_DENSE_OUTPUT>(now, method) {
+        // A method with lanes has the state in its memory.
+        let mut state = State { t: now, q: zeros(), v: zeros() };
+        self.failure = match method.step(system, memory, *end, &mut state, statistics) {
+            Step::Accepted => match self.look_within::<HAS_DENSE_OUTPUT>(now, method) {
                 Ok(()) => {
                     self.statistics.accepted += 1;
                     self.failure = self.prepare(method).err();

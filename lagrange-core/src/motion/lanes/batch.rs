@@ -10,7 +10,7 @@ use crate::motion::event::DenseStep;
 use crate::number::Lanes;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::{Lagrangian, State};
-use crate::vector::{Length, PhaseVector, from_fn, vector};
+use crate::vector::{PhaseVector, StaticLength, from_fn, vector};
 
 /// Motions in lock-step, at most one per lane.
 pub(crate) struct Batch<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> {
@@ -160,6 +160,6 @@ impl<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> Batch<'o, L, P> {
     }
 }
 
-fn state<N: Length>(y: PhaseVector<f64, N>, t: f64) -> State<f64, N> {
+fn state<N: StaticLength>(y: PhaseVector<f64, N>, t: f64) -> State<f64, N> {
     State { t, q: vector(y.half(0)), v: vector(y.half(1)) }
 }

@@ -4,9 +4,10 @@ use super::motion::{LaneMotion, LaneOutcome};
 use crate::error::Error;
 use crate::motion::{Interpolant, Method};
 use crate::number::Lanes;
+use crate::solution::vector_field::LagrangianVectorField;
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
-use crate::vector::{Array, Length, PhaseVector};
+use crate::vector::{Array, PhaseVector, StaticLength};
 
 /// A method that integrates several members of an ensemble at once: [`Dop853`](crate::Dop853),
 /// [`Dopri5`](crate::Dopri5) and every other [`Pair`](crate::motion::Pair), and [`Taylor`](crate::Taylor) if the system
@@ -18,7 +19,7 @@ use crate::vector::{Array, Length, PhaseVector};
     note = "`Dop853` and `Dopri5` do, and `Taylor` where the equations of motion have a Taylor series",
     note = "`Ensemble::integrate` takes every method, and integrates one member at a time"
 )]
-pub trait LaneMethod<L: Lagrangian<Scalar = f64>>: Method<L> + Sized {
+pub trait LaneMethod<L: Lagrangian<Scalar = f64>>: Method<L, LagrangianVectorField> + Sized {
     /// Systems and states of all lanes, with the working arrays of a step.
     #[doc(hidden)]
     type LaneMemory;
@@ -89,7 +90,7 @@ pub(crate) type LaneMotions<'o, L, P> = [Option<LaneMotion<'o, L, P>>; Lanes::CO
 
 /// Extracts the numbers of one lane.
 #[inline(always)]
-pub(crate) fn unpacked<N: Length>(packed: &Array<Lanes, N>, lane: usize) -> Array<f64, N> {
+pub(crate) fn unpacked<N: StaticLength>(packed: &Array<Lanes, N>, lane: usize) -> Array<f64, N> {
     // Not by `map`: the compiler does not inline it, and the caller would wait for its result.
     let mut numbers = Array::filled(0.0);
     for (x, packed) in numbers.iter_mut().zip(packed) {
@@ -100,7 +101,10 @@ pub(crate) fn unpacked<N: Length>(packed: &Array<Lanes, N>, lane: usize) -> Arra
 
 /// Extracts the phase of one lane.
 #[inline(always)]
-pub(crate) fn unpacked_phase<N: Length>(packed: &PhaseVector<Lanes, N>, lane: usize) -> PhaseVector<f64, N> {
+pub(crate) fn unpacked_phase<N: StaticLength>(
+    packed: &PhaseVector<Lanes, N>,
+    lane: usize,
+) -> PhaseVector<f64, N> {
     let mut phase = PhaseVector::filled(0.0);
     for (x, packed) in phase.flat_mut().iter_mut().zip(packed.flat()) {
         *x = packed.to_array()[lane];

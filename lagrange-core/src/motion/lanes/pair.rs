@@ -15,11 +15,11 @@ use crate::solution::near::{self, Corrections};
 use crate::solution::vector_field::{LagrangianVectorField, StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, Pack, Packed, State};
-use crate::vector::{Array, Length, PhaseVector, array, from_fn, vector};
+use crate::vector::{Array, Entrywise, PhaseVector, SpareVectors, StaticLength, array, from_fn, vector};
 
 /// Motions in lock-step, with the working arrays of a step.
 #[derive(Debug)]
-pub struct PairLanes<S, P: Pair, N: Length> {
+pub struct PairLanes<S, P: Pair, N: StaticLength> {
     system: S,
     y: PhaseVector<Lanes, N>,
     /// Slopes of the step; the first is the slope at `y`.
@@ -164,7 +164,9 @@ impl<S: Lagrangian<Scalar = Lanes>, P: Pair> PairLanes<S, P, S::N> {
             self.slope(last::<P>(), end, &next, &mut reliability);
         }
         let tolerance = method.tolerance::<f64>();
-        let error = tolerance.error::<P, _, S::N>(&self.slopes, h, &self.y, &next).to_array();
+        let error = tolerance
+            .error::<P, _, S::N>(&self.slopes, h, [&self.y, &next], &mut SpareVectors::default())
+            .to_array();
         let projected = match <S::M>::COUNT {
             0 => [true; Lanes::COUNT],
             _ => self.project(&mut next, method, motions, &error),
@@ -227,7 +229,7 @@ impl<S: Lagrangian<Scalar = Lanes>, P: Pair> PairLanes<S, P, S::N> {
         from_fn(|lane| match &motions[lane] {
             Some(motion) if !is_there[lane] && method.accepts(error[lane]) => {
                 let y = unpacked_phase(next, lane);
-                let point = StagePoint { t: self.end[lane], y, velocity: y.half(1) };
+                let point = StagePoint::at(self.end[lane], y);
                 let projected = <LagrangianVectorField as VectorField<L>>::project(&motion.system, &point);
                 projected.map(|state| next.place(lane, &PhaseVector::of(state.q, state.v))).is_ok()
             }
@@ -267,7 +269,7 @@ impl<S: Lagrangian<Scalar = Lanes>, P: Pair> PairLanes<S, P, S::N> {
 }
 
 /// Accepts or rejects a step computed on lanes. Returns `None` if the scalar method must take it.
-fn decide<P: Pair, N: Length, M: Length>(
+fn decide<P: Pair, N: StaticLength, M: StaticLength>(
     method: &Adaptive<P>,
     memory: &mut PairMemory<f64, N, M>,
     (h, time): (f64, f64),
@@ -291,7 +293,7 @@ fn decide<P: Pair, N: Length, M: Length>(
 }
 
 /// Counts the evaluations that the scalar method would need for the step, with or without dense output.
-fn count<P: Pair, N: Length, M: Length>(
+fn count<P: Pair, N: StaticLength, M: StaticLength>(
     method: &Adaptive<P>,
     PairMemory { has_slope, .. }: &mut PairMemory<f64, N, M>,
     statistics: &mut Statistics,
@@ -319,12 +321,12 @@ struct LaneOf<'c, C> {
     coefficients: &'c C,
 }
 
-impl<N: Length, C: AsRef<[PhaseVector<Lanes, N>]>> Interpolant<f64, N> for LaneOf<'_, C> {
+impl<N: StaticLength, C: AsRef<[PhaseVector<Lanes, N>]>> Interpolant<f64, N> for LaneOf<'_, C> {
     #[inline(always)]
     fn at(&self, t: f64) -> StagePoint<f64, N> {
         let theta = Lanes::constant((t - self.start) / self.length);
         let (y, velocity) = evaluate(self.coefficients.as_ref(), theta);
-        let velocity = velocity.map(|x| x.to_array()[self.lane] / self.length);
+        let velocity = velocity.each(|x| x.to_array()[self.lane] / self.length);
         StagePoint { t, y: unpacked_phase(&y, self.lane), velocity }
     }
 }

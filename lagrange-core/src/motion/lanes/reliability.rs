@@ -3,7 +3,7 @@
 use crate::number::{Lanes, Scalar, sum};
 use crate::solution::pivot::least_pivot;
 use crate::system::Solution;
-use crate::vector::{Length, from_fn};
+use crate::vector::{StaticLength, from_fn};
 
 /// Collects, during a step, the evidence whether the numbers of each lane are reliable.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,7 @@ impl LaneReliability {
     }
 
     #[inline(always)]
-    pub(crate) fn solution<N: Length, M: Length>(&mut self, solution: &Solution<Lanes, N, M>) {
+    pub(crate) fn solution<N: StaticLength, M: StaticLength>(&mut self, solution: &Solution<Lanes, N, M>) {
         self.numbers(solution.accelerations.as_slice());
         self.numbers(solution.multipliers.as_slice());
         self.pivot(solution.pivot);

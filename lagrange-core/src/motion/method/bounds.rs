@@ -7,12 +7,12 @@ use crate::error::Error;
 use crate::number::{Real, Scalar, larger, smaller};
 use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
-use crate::system::Lagrangian;
-use crate::vector::{Array, Element, Length};
+use crate::system::System;
+use crate::vector::{Array, Element, StaticLength};
 
 /// Bounds on the multiplier of each constraint within a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MultiplierBounds<T: Element, M: Length> {
+pub struct MultiplierBounds<T: Element, M: StaticLength> {
     /// Number that no multiplier falls below.
     pub lowest: Array<T, M>,
     /// Number that no multiplier exceeds.
@@ -36,9 +36,9 @@ const fn count<P: Pair>() -> usize {
 
 /// Bounds on the multipliers within the last accepted step, whose dense output is known. Where the stages leave too wide a gap, they
 /// are evaluated in its middle too.
-pub(super) fn multiplier_bounds<P: Pair, L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
+pub(super) fn multiplier_bounds<P: Pair, L: System<Scalar: Real>, F: VectorField<L>>(
     system: &L,
-    memory: &PairMemory<L::Scalar, L::N, L::M>,
+    memory: &PairMemory<L::Scalar, L::Length, L::M>,
     statistics: &mut Statistics,
 ) -> Option<MultiplierBounds<L::Scalar, L::M>> {
     let taken = memory.taken.as_ref()?;
@@ -57,17 +57,17 @@ pub(super) fn multiplier_bounds<P: Pair, L: Lagrangian<Scalar: Real>, F: VectorF
 }
 
 /// Multipliers in the middle of the widest gap between stages.
-fn in_the_middle<P: Pair, L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
+fn in_the_middle<P: Pair, L: System<Scalar: Real>, F: VectorField<L>>(
     system: &L,
-    Taken { from, h, .. }: &Taken<L::Scalar, L::N, L::M>,
-    slopes: &Slopes<L::Scalar, L::N>,
+    Taken { from, h, .. }: &Taken<L::Scalar, L::Length, L::M>,
+    slopes: &Slopes<L::Scalar, L::Length>,
     statistics: &mut Statistics,
 ) -> Result<Array<L::Scalar, L::M>, Error> {
     let t = from.t + *h * L::Scalar::constant(const { middle::<P>() });
-    let mut point = StagePoint { t, y: from.y, velocity: slopes[0].half(0) };
+    let mut point = StagePoint { t, y: from.y.clone(), velocity: slopes[0].half_if_constant(0) };
     let row = &const { row_at::<P>(middle::<P>()) }[..const { count::<P>() }];
     advance(&from.y, *h, slopes, row, &mut point.y);
-    let mut rates = point.y;
+    let mut rates = point.y.clone();
     Ok(slope::<L, F>(system, &point, Some(&from.active), &mut rates, statistics)?.multipliers)
 }
 
@@ -105,7 +105,10 @@ const fn add(row: &mut [(usize, f64); SLOPES], of: TableauRow, factor: f64) {
 /// A function λ stays within 1 + 2Λ half ranges of the middle of these values, if it is off a cubic polynomial p by at most a half
 /// range R: |p − middle| ≤ 2R at the stages, and ≤ 2ΛR between them, with their Lebesgue constant Λ.
 #[inline]
-fn bounds<P: Pair, T: Real, M: Length>(all: &[Array<T, M>], another: &Array<T, M>) -> MultiplierBounds<T, M> {
+fn bounds<P: Pair, T: Real, M: StaticLength>(
+    all: &[Array<T, M>],
+    another: &Array<T, M>,
+) -> MultiplierBounds<T, M> {
     // Halves: half as many comparisons wait for one another. If the values at the start are unknown, NaN remains.
     let (one, other) = all.split_at(const { count::<P>() / 2 });
     let [mut lowest, mut highest] = [all[0]; 2];

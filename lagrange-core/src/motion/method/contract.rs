@@ -8,10 +8,9 @@ use super::bounds::MultiplierBounds;
 use crate::error::{Ending, Error, Pace};
 use crate::number::Real;
 use crate::solution::interpolant::Interpolant;
-use crate::solution::vector_field::{LagrangianVectorField, VectorField};
+use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, SolutionOf, State, StateOf};
-use crate::vector::{Element, Length};
+use crate::system::{SolutionOf, StateOf, System};
 
 /// An integration method: a value with settings that proposes steps from one state to the next. Its bounds say to which
 /// systems it applies, and `F` whether it integrates Lagrange's or Hamilton's equations.
@@ -24,15 +23,15 @@ use crate::vector::{Element, Length};
     note = "motions in (q, p), `motion_in_momenta`, are integrated by `Dop853`, `Dopri5` and other pairs alone",
     note = "the order is `integrate(start, end, method)`; time steps across contacts are `motion(start).by_time_stepping(scheme)`"
 )]
-pub trait Method<L, F = LagrangianVectorField>
+pub trait Method<L, F = <L as System>::Field>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
 {
     /// State of the method that is carried from step to step, including its working arrays.
     type Memory;
     /// Dense output of one step.
-    type Interpolant: Interpolant<L::Scalar, L::N> + Send + Sync + 'static;
+    type Interpolant: Interpolant<L::Scalar, L::Length> + Send + Sync + 'static;
 
     /// Limits on steps and wall-clock time.
     fn limits(&self) -> Limits;
@@ -83,14 +82,16 @@ where
 
     /// Tries one step towards the time `end`, which may lie before the state. A step must not pass the end, and must be
     /// able to reach it exactly; the caller turns a step that does not lead towards the end into
-    /// [`Ending::MethodFailed`]. The method must count its evaluations in `statistics`.
+    /// [`Ending::MethodFailed`]. `state` is the state at its start; an accepted step replaces it by that at its end, which
+    /// satisfies the constraints, and no other changes it. The method must count its evaluations in `statistics`.
     fn step(
         &self,
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
+        state: &mut StateOf<L>,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, L::N>;
+    ) -> Step;
 
     /// Returns the dense output of the last accepted step. It is called only when needed, before the next step and
     /// before a change of the system.
@@ -168,9 +169,9 @@ pub(crate) fn check_settings<const K: usize>(
 
 /// Result of an attempted step.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Step<T: Element, N: Length> {
-    /// The step reached a new state, which satisfies the constraints.
-    Accepted(State<T, N>),
+pub enum Step {
+    /// The step reached a new state.
+    Accepted,
     /// The step was too long; the next attempt is shorter.
     Rejected,
     /// No shorter step exists, or no step can succeed. Reasons specific to the method are [`Ending::MethodFailed`].

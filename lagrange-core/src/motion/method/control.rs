@@ -9,7 +9,9 @@ use super::pair::{Pair, Slopes, combine};
 #[cfg(feature = "alloc")]
 use crate::number::Broadcast;
 use crate::number::{Real, Scalar, exceeds, larger, smaller, sum};
-use crate::vector::{Array, Length, PhaseVector, from_fn};
+#[cfg(feature = "alloc")]
+use crate::vector::{Array, StaticLength, from_fn};
+use crate::vector::{Length, PhaseVector, SpareVectors};
 
 /// Length of the next step, and the memory of the controller.
 #[derive(Clone, Debug)]
@@ -70,7 +72,7 @@ pub(crate) type StateEntry = (usize, usize);
 /// Variations at both ends of a step, the states there, and the factor that converts changes of the state to the unit of the
 /// variations.
 #[cfg(feature = "alloc")]
-pub(crate) struct VariedEnds<'a, T: Scalar, W: Scalar, N: Length> {
+pub(crate) struct VariedEnds<'a, T: Scalar, W: Scalar, N: StaticLength> {
     pub(crate) variations: [&'a PhaseVector<W, N>; 2],
     pub(crate) places: [&'a PhaseVector<T, N>; 2],
     pub(crate) unit: W,
@@ -90,38 +92,44 @@ impl Tolerance {
         self,
         slopes: &Slopes<T, N>,
         h: T,
-        before: &PhaseVector<T, N>,
-        after: &PhaseVector<T, N>,
+        [before, after]: [&PhaseVector<T, N>; 2],
+        spare: &mut SpareVectors<T, N>,
     ) -> T {
-        estimate::<P, T, N>(slopes, h, &self.scale(before, after))
+        let mut sum = spare.lend(before);
+        let error = estimate::<P, T, N>(slopes, h, self.allowed(before, after), &mut sum);
+        spare.give_back(sum);
+        error
     }
 
     /// Error of variations over a step of a pair.
     #[cfg(feature = "alloc")]
-    pub(crate) fn error_of_variations<P: Pair, T: Scalar, W: Broadcast<T>, N: Length>(
+    pub(crate) fn error_of_variations<P: Pair, T: Scalar, W: Broadcast<T>, N: StaticLength>(
         self,
         slopes: &Slopes<W, N>,
         h: T,
         step: &VariedEnds<'_, T, W, N>,
     ) -> W {
-        estimate::<P, W, N>(slopes, W::of(h), &self.scale_of_variations(SLACK, step))
+        let scale = self.scale_of_variations(SLACK, step);
+        let mut sum = scale;
+        estimate::<P, W, N>(slopes, W::of(h), |i| scale.flat()[i], &mut sum)
     }
 
     /// Size of the `errors` of variations over a step, in units of the allowed ones.
     #[cfg(all(feature = "alloc", any(feature = "std", feature = "libm")))]
-    pub(crate) fn part_of_variations<T: Scalar, W: Broadcast<T>, N: Length>(
+    pub(crate) fn part_of_variations<T: Scalar, W: Broadcast<T>, N: StaticLength>(
         self,
         slack: f64,
         errors: &PhaseVector<W, N>,
         step: &VariedEnds<'_, T, W, N>,
     ) -> W {
-        norm(W::constant(1.0), errors, &self.scale_of_variations(slack, step))
+        let scale = self.scale_of_variations(slack, step);
+        norm(W::constant(1.0), errors, |i| scale.flat()[i])
     }
 
     /// Error allowed in variations, for their coordinates and for their velocities: `slack` times the relative tolerance of the
     /// largest entry of that half, plus the error allowed in the state itself in the unit of the variations.
     #[cfg(feature = "alloc")]
-    fn scale_of_variations<T: Scalar, W: Broadcast<T>, N: Length>(
+    fn scale_of_variations<T: Scalar, W: Broadcast<T>, N: StaticLength>(
         self,
         slack: f64,
         VariedEnds { variations: [before, after], places, unit }: &VariedEnds<'_, T, W, N>,
@@ -130,11 +138,11 @@ impl Tolerance {
             let sizes = (0..N::COUNT).map(|i| before[half][i].abs().max(after[half][i].abs()));
             sizes.fold(W::constant(0.0), |most, size| size.max(most))
         };
-        let own = self.scale(places[0], places[1]);
+        let own = self.allowed(places[0], places[1]);
         let [relative, slack] = [self.relative, slack].map(W::constant);
         from_fn(|half| {
             let largest = relative * largest(half);
-            Array::from_fn(|i| slack * (largest + W::of(own[half][i]) * *unit))
+            Array::from_fn(|i| slack * (largest + W::of(own(N::COUNT * half + i)) * *unit))
         })
     }
 
@@ -145,7 +153,7 @@ impl Tolerance {
         rates: &PhaseVector<T, N>,
         place: &PhaseVector<T, N>,
     ) -> T {
-        norm(h, rates, &self.scale(place, place))
+        norm(h, rates, self.allowed(place, place))
     }
 
     /// First guess of the first step: it changes the state by a hundredth of its size.
@@ -155,8 +163,8 @@ impl Tolerance {
         slope: &PhaseVector<T, N>,
         span: T,
     ) -> T {
-        let (scale, one) = (self.scale(y, y), T::constant(1.0));
-        let (size, speed) = (norm(one, y, &scale), norm(one, slope, &scale));
+        let (allowed, one) = (self.allowed(y, y), T::constant(1.0));
+        let (size, speed) = (norm(one, y, &allowed), norm(one, slope, &allowed));
         let least = T::constant(1e-5);
         let usable = size > least && speed > least && speed.is_finite();
         smaller(if usable { T::constant(0.01) * size / speed } else { span * T::constant(1e-6) }, span)
@@ -166,34 +174,48 @@ impl Tolerance {
     pub(crate) fn worst<P: Pair, T: Real, N: Length>(
         self,
         slopes: &Slopes<T, N>,
-        before: &PhaseVector<T, N>,
-        after: &PhaseVector<T, N>,
+        [before, after]: [&PhaseVector<T, N>; 2],
+        spare: &mut SpareVectors<T, N>,
     ) -> StateEntry {
-        let (error, scale) = (combine(slopes, P::ERROR), self.scale(before, after));
-        let part = |(half, i): StateEntry| Scalar::abs(error[half][i]) / scale[half][i];
-        let places = (0..2).flat_map(|half| (0..N::COUNT).map(move |i| (half, i)));
-        places.fold((0, 0), |worst, place| if part(place) > part(worst) { place } else { worst })
+        let mut error = spare.lend(before);
+        combine(slopes, P::ERROR, &mut error);
+        let (allowed, count) = (self.allowed(before, after), before[0].len());
+        let part = |(half, i): StateEntry| Scalar::abs(error[half][i]) / allowed(count * half + i);
+        let places = (0..2).flat_map(|half| (0..count).map(move |i| (half, i)));
+        let worst = places.fold((0, 0), |worst, place| if part(place) > part(worst) { place } else { worst });
+        spare.give_back(error);
+        worst
     }
 
-    /// Error allowed in each entry over a step between two states.
-    #[inline]
-    fn scale<T: Scalar, N: Length>(self, a: &PhaseVector<T, N>, b: &PhaseVector<T, N>) -> PhaseVector<T, N> {
-        let relative = T::constant(self.relative);
-        let absolute = T::constant(self.absolute);
-        let size = |half: usize, i: usize| a[half][i].abs().max(b[half][i].abs());
-        from_fn(|half| Array::from_fn(|i| absolute + relative * size(half, i)))
+    /// Error allowed in each entry, by its index in the flat vectors, over a step between two states.
+    #[inline(always)]
+    fn allowed<T: Scalar, N: Length>(
+        self,
+        a: &PhaseVector<T, N>,
+        b: &PhaseVector<T, N>,
+    ) -> impl Fn(usize) -> T {
+        let [relative, absolute] = [self.relative, self.absolute].map(T::constant);
+        let (a, b) = (a.flat(), b.flat());
+        move |i| absolute + relative * a[i].abs().max(b[i].abs())
     }
 }
 
-/// Error estimate of a step, in units of the allowed errors.
-#[inline]
-fn estimate<P: Pair, T: Scalar, N: Length>(slopes: &Slopes<T, N>, h: T, scale: &PhaseVector<T, N>) -> T {
+/// Error estimate of a step, in units of the allowed errors; `sum` is memory for its sums of slopes.
+#[inline(always)]
+fn estimate<P: Pair, T: Scalar, N: Length>(
+    slopes: &Slopes<T, N>,
+    h: T,
+    allowed: impl Fn(usize) -> T,
+    sum: &mut PhaseVector<T, N>,
+) -> T {
     // Multiply by h before squaring: slopes depend on the unit of time, and their squares could overflow or underflow.
-    let first = norm(h, &combine(slopes, P::ERROR), scale);
+    combine(slopes, P::ERROR, sum);
+    let first = norm(h, sum, &allowed);
     if P::LOWER_ERROR.is_empty() {
         return first;
     }
-    let second = norm(h, &combine(slopes, P::LOWER_ERROR), scale);
+    combine(slopes, P::LOWER_ERROR, sum);
+    let second = norm(h, sum, &allowed);
     let both = (first * first + T::constant(0.01) * second * second).sqrt();
     // Lanes cannot branch if both vanish, so the denominator has a lower bound; an error that small counts as zero.
     first * first / both.max(T::constant(1e-30))
@@ -264,10 +286,10 @@ impl<P: Pair> Adaptive<P> {
         before: &PhaseVector<T, N>,
         after: &PhaseVector<T, N>,
     ) -> T {
-        let scale = self.tolerance::<T>().scale(y, y);
-        let change: PhaseVector<T, N> = from_fn(|half| Array::from_fn(|i| after[half][i] - before[half][i]));
+        let allowed = self.tolerance::<T>().allowed(y, y);
+        let change = before.each_with(after, |before, after| after - before);
         let one = T::constant(1.0);
-        let fastest = larger(norm(one, &change, &scale) / guess, norm(one, before, &scale));
+        let fastest = larger(norm(one, &change, &allowed) / guess, norm(one, before, &allowed));
         let step = if fastest > T::constant(1e-15) && fastest.is_finite() {
             Scalar::powf(T::constant(0.01) / fastest, T::constant(1.0 / P::ORDER))
         } else {
@@ -282,13 +304,13 @@ impl<P: Pair> Adaptive<P> {
 #[cfg(feature = "alloc")]
 pub(crate) const SLACK: f64 = 10.0;
 
-/// Root mean square of h x/scale: √(mean (h x/scale)²).
-#[inline]
-fn norm<T: Scalar, N: Length>(h: T, x: &PhaseVector<T, N>, scale: &PhaseVector<T, N>) -> T {
-    let (x, scale) = (x.flat(), scale.flat());
-    let squares = sum(2 * N::COUNT, |i| {
-        let part = h * x[i] / scale[i];
+/// Root mean square of h x/allowed: √(mean (h x/allowed)²).
+#[inline(always)]
+fn norm<T: Scalar, N: Length>(h: T, x: &PhaseVector<T, N>, allowed: impl Fn(usize) -> T) -> T {
+    let x = x.flat();
+    let squares = sum(x.len(), |i| {
+        let part = h * x[i] / allowed(i);
         part * part
     });
-    (squares / T::constant((2 * N::COUNT) as f64)).sqrt()
+    (squares / T::constant(x.len().max(1) as f64)).sqrt()
 }

@@ -209,9 +209,9 @@ impl Pair for DormandPrince853 {
     const SHRINK: f64 = 0.333;
     const GROWTH: f64 = 6.0;
 
-    type Coefficients<X: Copy + Send + Sync + 'static> = [X; 8];
+    type Coefficients<X: Clone + Send + Sync + 'static> = [X; 8];
 
-    fn coefficients<X: Copy + Send + Sync + 'static>(all: X) -> [X; 8] {
-        [all; 8]
+    fn coefficients<X: Clone + Send + Sync + 'static>(all: X) -> [X; 8] {
+        core::array::from_fn(|_| all.clone())
     }
 }

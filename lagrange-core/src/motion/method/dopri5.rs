@@ -57,9 +57,9 @@ impl Pair for DormandPrince54 {
     const SHRINK: f64 = 0.2;
     const GROWTH: f64 = 10.0;
 
-    type Coefficients<X: Copy + Send + Sync + 'static> = [X; 5];
+    type Coefficients<X: Clone + Send + Sync + 'static> = [X; 5];
 
-    fn coefficients<X: Copy + Send + Sync + 'static>(all: X) -> [X; 5] {
-        [all; 5]
+    fn coefficients<X: Clone + Send + Sync + 'static>(all: X) -> [X; 5] {
+        core::array::from_fn(|_| all.clone())
     }
 }

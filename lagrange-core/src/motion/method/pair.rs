@@ -1,5 +1,7 @@
 //! Coefficients of embedded Runge–Kutta pairs, and weighted sums of their slopes.
 
+use core::array;
+
 use crate::number::Scalar;
 use crate::vector::{Array, Length, PhaseVector};
 
@@ -32,9 +34,9 @@ pub type TableauRow = &'static [(usize, f64)];
 ///     const DAMPING: f64 = 0.0;
 ///     const SHRINK: f64 = 0.2;
 ///     const GROWTH: f64 = 5.0;
-///     type Coefficients<X: Copy + Send + Sync + 'static> = [X; 4];
-///     fn coefficients<X: Copy + Send + Sync + 'static>(all: X) -> [X; 4] {
-///         [all; 4]
+///     type Coefficients<X: Clone + Send + Sync + 'static> = [X; 4];
+///     fn coefficients<X: Clone + Send + Sync + 'static>(all: X) -> [X; 4] {
+///         core::array::from_fn(|_| all.clone())
 ///     }
 /// }
 ///
@@ -73,10 +75,15 @@ pub trait Pair {
 
     /// All coefficients of the interpolant: an array of 4 more elements than [`INTERPOLATION`](Self::INTERPOLATION) has
     /// rows.
-    type Coefficients<X: Copy + Send + Sync + 'static>: AsRef<[X]> + AsMut<[X]> + Copy + Send + Sync + 'static;
+    type Coefficients<X: Clone + Send + Sync + 'static>: AsRef<[X]>
+        + AsMut<[X]>
+        + Clone
+        + Send
+        + Sync
+        + 'static;
 
     /// Creates the array of coefficients with `all` in every element.
-    fn coefficients<X: Copy + Send + Sync + 'static>(all: X) -> Self::Coefficients<X>;
+    fn coefficients<X: Clone + Send + Sync + 'static>(all: X) -> Self::Coefficients<X>;
 }
 
 /// Index of the slope at the end of the step.
@@ -144,7 +151,7 @@ pub(crate) type Slopes<T, N> = [PhaseVector<T, N>; SLOPES];
 pub(crate) type StageMultipliers<T, M> = [Array<T, M>; SLOPES];
 
 /// Sets `end` to start + h Σ cᵢ slopeᵢ.
-#[inline]
+#[inline(always)]
 pub(crate) fn advance<T: Scalar, N: Length>(
     start: &PhaseVector<T, N>,
     h: T,
@@ -153,13 +160,34 @@ pub(crate) fn advance<T: Scalar, N: Length>(
     end: &mut PhaseVector<T, N>,
 ) {
     let start = start.flat();
-    sums(slopes, row, |i, sum| start[i] + h * sum, end);
+    match const { N::CONSTANT.is_some() } {
+        true => sums(slopes, row, |i, sum| start[i] + h * sum, end),
+        false => long_sums(Some(start), h, slopes, row, end),
+    }
+}
+
+/// Sets `end` to h Σ cᵢ slopeᵢ.
+#[inline]
+pub(crate) fn advance_by<T: Scalar, N: Length>(
+    h: T,
+    slopes: &Slopes<T, N>,
+    row: &[(usize, f64)],
+    end: &mut PhaseVector<T, N>,
+) {
+    match const { N::CONSTANT.is_some() } {
+        // Adds zero, so that no coefficient is −0.
+        true => sums(slopes, row, |_, sum| T::constant(0.0) + h * sum, end),
+        false => long_sums(None, h, slopes, row, end),
+    }
 }
 
 /// True if slopes are short enough to stay in registers from stage to stage. Numbers written to memory one by one
 /// cannot be loaded as a vector before they reach the cache: every stage would wait for the last slope.
 pub(crate) const fn is_carried<N: Length>() -> bool {
-    2 * N::COUNT <= BLOCK
+    match N::CONSTANT {
+        Some(count) => 2 * count <= BLOCK,
+        None => false,
+    }
 }
 
 /// Like [`advance`], with the slope `number`, evaluated last, also in `newest`. If slopes are carried in registers,
@@ -183,14 +211,64 @@ pub(crate) fn advance_from<T: Scalar, N: Length>(
     }
 }
 
-#[inline]
+/// Sets `to` to Σ cᵢ slopeᵢ.
+#[inline(always)]
 pub(crate) fn combine<T: Scalar, N: Length>(
     slopes: &Slopes<T, N>,
     row: &[(usize, f64)],
-) -> PhaseVector<T, N> {
-    let mut combined = PhaseVector::filled(T::constant(0.0));
-    sums(slopes, row, |_, sum| sum, &mut combined);
-    combined
+    to: &mut PhaseVector<T, N>,
+) {
+    match const { N::CONSTANT.is_some() } {
+        true => sums(slopes, row, |_, sum| sum, to),
+        false => long_sums(None, T::constant(1.0), slopes, row, to),
+    }
+}
+
+/// Sets `results` to start + h Σ cᵢ slopeᵢ, or without a start to h Σ cᵢ slopeᵢ, where lengths are known when the program runs.
+fn long_sums<T: Scalar, N: Length>(
+    start: Option<&[T]>,
+    h: T,
+    slopes: &Slopes<T, N>,
+    row: &[(usize, f64)],
+    results: &mut PhaseVector<T, N>,
+) {
+    macro_rules! by_number_of_terms {
+        ($($count:literal)*) => {
+            match row.len() {
+                $($count => {
+                    let terms = array::from_fn::<_, $count, _>(|k| slopes[row[k].0].flat());
+                    let coefficients = array::from_fn(|k| T::constant(row[k].1));
+                    long_sum(start, h, terms, coefficients, results.flat_mut());
+                })*
+                _ => unreachable!("a row has at most as many terms as there are slopes"),
+            }
+        };
+    }
+    by_number_of_terms!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
+}
+
+/// The loop of [`long_sums`]. Not inlined: from its arguments the compiler knows that the results do not overlap the terms.
+#[inline(never)]
+fn long_sum<T: Scalar, const S: usize>(
+    start: Option<&[T]>,
+    h: T,
+    terms: [&[T]; S],
+    coefficients: [T; S],
+    results: &mut [T],
+) {
+    let count = results.len();
+    let terms = terms.map(|term| &term[..count]);
+    let sum = |i: usize| {
+        let terms = coefficients.iter().zip(&terms);
+        terms.fold(T::constant(0.0), |sum, (coefficient, term)| coefficient.multiply_add(term[i], sum))
+    };
+    match start {
+        Some(start) => {
+            let start = &start[..count];
+            (0..count).for_each(|i| results[i] = start[i] + h * sum(i));
+        }
+        None => (0..count).for_each(|i| results[i] = T::constant(0.0) + h * sum(i)),
+    }
 }
 
 /// Number of sums accumulated in registers at a time.

@@ -8,13 +8,12 @@ use nalgebra::ComplexField;
 use super::clock::Clock;
 use super::contract::{Limits, Method, Step, check_settings, limit_setters};
 use crate::error::{Ending, Error};
-use crate::number::{Real, Scalar};
-use crate::solution::consistent::{BOTH, project};
+use crate::number::{Real, Scalar, are_finite};
 use crate::solution::interpolant::Polynomial;
-use crate::solution::solve::{first_row, solve, solve_near};
+use crate::solution::vector_field::{StagePoint, VectorField, VelocityField};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, Solution, State, StateOf};
-use crate::vector::{Array, Element, Length, PhaseVector, Vector, array, from_fn, vector};
+use crate::system::{State, StateOf, System};
+use crate::vector::{Element, Length, Numbers, PhaseVector, SpareVectors, StaticLength, each};
 
 /// Returns the state a time `h` later, or earlier if `h` is negative, by one step of the classical Runge–Kutta method
 /// of order 4 (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, table II.1.2).
@@ -48,37 +47,65 @@ use crate::vector::{Array, Element, Length, PhaseVector, Vector, array, from_fn,
 /// ```
 #[inline]
 #[must_use]
-pub fn runge_kutta_step<L: Lagrangian>(system: &L, state: &StateOf<L>, h: L::Scalar) -> StateOf<L> {
-    let stepped =
-        step(state, h, |at| Ok::<_, Infallible>(system.accelerations_unchecked(at).accelerations.into()));
-    match stepped {
-        Ok(next) => next,
+pub fn runge_kutta_step<L: System>(system: &L, state: &StateOf<L>, h: L::Scalar) -> StateOf<L> {
+    let mut next = state.clone();
+    unchecked(system, h, &mut next, &mut SpareVectors::default());
+    next
+}
+
+/// Moves a state by one step, with the accelerations as the system states them.
+#[inline(always)]
+fn unchecked<L: System>(
+    system: &L,
+    h: L::Scalar,
+    state: &mut StateOf<L>,
+    spare: &mut SpareVectors<L::Scalar, L::Length>,
+) {
+    let moved = step(h, state, spare, |t, y, rates| {
+        rates[0].copy_from_slice(&y[1]);
+        system.accelerations(t, y.view(0), y.view(1), rates.view_mut(1));
+        Ok::<_, Infallible>(())
+    });
+    match moved {
+        Ok(()) => {}
         Err(never) => match never {},
     }
 }
 
-/// One step, with any function for the accelerations.
+/// Moves a state by one step, with any function for the rates.
 #[inline(always)]
 fn step<T: Scalar, E, N: Length>(
-    state: &State<T, N>,
     h: T,
-    mut accelerations: impl FnMut(&State<T, N>) -> Result<Array<T, N>, E>,
-) -> Result<State<T, N>, E> {
-    let (half, start) = (h * T::constant(0.5), [array(state.q), array(state.v)]);
-    let moved = |by: T, slope: &[Array<T, N>; 2]| -> [Array<T, N>; 2] {
-        from_fn(|half| from_fn(|i| start[half][i] + by * slope[half][i]))
+    state: &mut State<T, N>,
+    spare: &mut SpareVectors<T, N>,
+    mut evaluate: impl FnMut(T, &PhaseVector<T, N>, &mut PhaseVector<T, N>) -> Result<(), E>,
+) -> Result<(), E> {
+    let start = spare.join(&state.q, &state.v);
+    let [zero, half, two] = [0.0, 0.5, 2.0].map(T::constant);
+    let moved = |by: T, slope: &PhaseVector<T, N>, mut to: PhaseVector<T, N>| {
+        each::<T, N, 2>([start.flat(), slope.flat()], to.flat_mut(), |_, [x, slope]| x + by * slope);
+        to
     };
-    let mut slope = |after: T, [q, v]: [Array<T, N>; 2]| -> Result<[Array<T, N>; 2], E> {
-        Ok([v, accelerations(&State { t: state.t + after, q: vector(q), v: vector(v) })?])
+    let mut slope = |after: T, y: &PhaseVector<T, N>, mut rates: PhaseVector<T, N>| {
+        evaluate(state.t + after, y, &mut rates).map(|()| rates)
     };
-    let a = slope(T::constant(0.0), start)?;
-    let b = slope(half, moved(half, &a))?;
-    let c = slope(half, moved(half, &b))?;
-    let d = slope(h, moved(h, &c))?;
-    let two = T::constant(2.0);
-    let sum = from_fn(|half| from_fn(|i| a[half][i] + two * (b[half][i] + c[half][i]) + d[half][i]));
-    let [q, v] = moved(h / T::constant(6.0), &sum);
-    Ok(State { t: state.t + h, q: vector(q), v: vector(v) })
+    let point = spare.lend(&start);
+    let mut a = slope(zero, &start, spare.lend(&start))?;
+    let point = moved(h * half, &a, point);
+    let b = slope(h * half, &point, spare.lend(&start))?;
+    let point = moved(h * half, &b, point);
+    let c = slope(h * half, &point, spare.lend(&start))?;
+    let point = moved(h, &c, point);
+    let d = slope(h, &point, spare.lend(&start))?;
+    each::<T, N, 3>([b.flat(), c.flat(), d.flat()], a.flat_mut(), |a, [b, c, d]| a + two * (b + c) + d);
+    let end = moved(h / T::constant(6.0), &a, point);
+    state.t = state.t + h;
+    state.q.entries_mut().copy_from_slice(&end[0]);
+    state.v.entries_mut().copy_from_slice(&end[1]);
+    for lent in [start, a, b, c, d, end] {
+        spare.give_back(lent);
+    }
+    Ok(())
 }
 
 /// The classical Runge–Kutta method of order 4 with fixed steps: [`runge_kutta_step`], with each step projected onto
@@ -112,11 +139,12 @@ pub struct FixedStepState<T: Element, N: Length> {
     planned: T,
     before: State<T, N>,
     state: State<T, N>,
+    spare: SpareVectors<T, N>,
 }
 
-impl<L: Lagrangian<Scalar: Real>> Method<L> for RungeKutta4 {
-    type Memory = FixedStepState<L::Scalar, L::N>;
-    type Interpolant = Polynomial<L::Scalar, [PhaseVector<L::Scalar, L::N>; 4]>;
+impl<L: System<Scalar: Real>, F: VelocityField<L>> Method<L, F> for RungeKutta4 {
+    type Memory = FixedStepState<L::Scalar, L::Length>;
+    type Interpolant = Polynomial<L::Scalar, [PhaseVector<L::Scalar, L::Length>; 4]>;
 
     fn limits(&self) -> Limits {
         self.limits
@@ -135,8 +163,9 @@ impl<L: Lagrangian<Scalar: Real>> Method<L> for RungeKutta4 {
         Ok(FixedStepState {
             clock: Clock::new(start.t, Some(planned)),
             planned,
-            before: *start,
-            state: *start,
+            before: start.clone(),
+            state: start.clone(),
+            spare: SpareVectors::default(),
         })
     }
 
@@ -146,24 +175,28 @@ impl<L: Lagrangian<Scalar: Real>> Method<L> for RungeKutta4 {
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
+        state: &mut StateOf<L>,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, L::N> {
-        let FixedStepState { clock, planned, before, state } = memory;
+    ) -> Step {
+        let FixedStepState { clock, planned, before, state: current, spare } = memory;
         clock.aim(end);
         let (h, time) = clock.next(*planned);
         if !clock.is_ahead(time) {
             return Step::Failed(Ending::TimeTooCoarse { time: time.to_f64(), step: self.step });
         }
         statistics.evaluations += 4;
-        let mut next = State { t: time, ..runge_kutta_step(system, state, h) };
-        if (<L::M>::COUNT > 0 || !is_finite(&next))
-            && let Err(error) = mend(system, state, h, &mut next, statistics)
+        before.clone_from(current);
+        unchecked(system, h, current, spare);
+        current.t = time;
+        if (const { <L::M as StaticLength>::COUNT > 0 } || !is_finite(current))
+            && let Err(error) = mend::<L, F>(system, before, h, current, statistics)
         {
-            return Step::Failed(Ending::of(error, state.t.to_f64()));
+            current.clone_from(before);
+            return Step::Failed(Ending::of(error, before.t.to_f64()));
         }
         *planned = clock.tick((h, time), *planned, L::Scalar::constant(self.step));
-        (*before, *state) = (*state, next);
-        Step::Accepted(next)
+        state.clone_from(current);
+        Step::Accepted
     }
 
     #[inline]
@@ -178,7 +211,8 @@ impl<L: Lagrangian<Scalar: Real>> Method<L> for RungeKutta4 {
         // Copy only if the states differ: the processor overlaps the comparison with the integration, but a copy
         // stalls on recent stores.
         if memory.state != *state {
-            (memory.before, memory.state) = (*state, *state);
+            memory.before.clone_from(state);
+            memory.state.clone_from(state);
         }
         Ok(())
     }
@@ -192,8 +226,10 @@ impl<L: Lagrangian<Scalar: Real>> Method<L> for RungeKutta4 {
         let FixedStepState { before, state, .. } = memory;
         let mut node = |state: &StateOf<L>| -> Result<_, Error> {
             statistics.evaluations += 1;
-            let rates = PhaseVector::of(state.v, solve(system, state)?.accelerations);
-            Ok((PhaseVector::of(state.q, state.v), rates))
+            let point = StagePoint::of(state);
+            let mut rates = point.y.clone();
+            F::evaluate(system, &point, None, &mut rates)?;
+            Ok((point.y, rates))
         };
         let (first, last) = (node(before)?, node(state)?);
         Ok(Polynomial::hermite(before.t, state.t - before.t, &first, &last))
@@ -201,34 +237,37 @@ impl<L: Lagrangian<Scalar: Real>> Method<L> for RungeKutta4 {
 }
 
 fn is_finite<T: Real, N: Length>(state: &State<T, N>) -> bool {
-    // `&` instead of `&&` avoids a branch for each entry.
-    let all_finite = |x: &Vector<T, N>| x.iter().fold(true, |all, x| all & x.is_finite());
-    all_finite(&state.q) & all_finite(&state.v)
+    are_finite(state.q.entries()) & are_finite(state.v.entries())
 }
 
 /// Completes a step of `h` from `start`: repeats it by the general solver if the elimination is not reliable, and
 /// projects the end onto the constraints. An error rejects the step.
-fn mend<L: Lagrangian<Scalar: Real>>(
+fn mend<L: System<Scalar: Real>, F: VectorField<L>>(
     system: &L,
     start: &StateOf<L>,
     h: L::Scalar,
     end: &mut StateOf<L>,
     statistics: &mut Statistics,
 ) -> Result<(), Error> {
+    let time = end.t;
     if !is_finite(end) {
         // Later stages are off the constraints, so they use the constraints that are independent at the start.
         let mut at_start = None;
-        let solved = step(start, h, |at| {
-            let of = |solution: &Solution<_, L::N, L::M>, active: &_| (*solution, *active);
-            let (solution, active) = solve_near(system, at, at_start.as_ref(), of)?;
-            at_start.get_or_insert(active);
-            statistics.multipliers_are_unique &= solution.multipliers_are_unique();
-            Ok::<_, Error>(solution.accelerations.into())
+        end.clone_from(start);
+        step(h, end, &mut SpareVectors::default(), |t, y, rates| {
+            let point = StagePoint::at(t, y.clone());
+            let found = F::evaluate(system, &point, at_start.as_ref(), rates)?;
+            at_start.get_or_insert(found.active);
+            statistics.multipliers_are_unique &= found.multipliers_are_unique;
+            Ok::<_, Error>(())
         })?;
-        *end = State { t: end.t, ..solved };
+        end.t = time;
     }
-    match first_row::<L>(|i| !(end.q[i].is_finite() && end.v[i].is_finite()), |_| false) {
-        Some(row) => Err(Error::EquationsNotFinite { row, time: start.t.to_f64() }),
-        None => project(system, &BOTH, end),
+    let halves = [end.q.entries(), end.v.entries()];
+    if let Some(i) = (0..halves[0].len()).find(|&i| !(halves[0][i].is_finite() && halves[1][i].is_finite())) {
+        return Err(Error::EquationsNotFinite { row: F::row(i), time: start.t.to_f64() });
     }
+    let point = StagePoint::of(end);
+    *end = F::project(system, &point)?;
+    Ok(())
 }

@@ -10,11 +10,11 @@ use super::clock::Clock;
 use super::contract::{Limits, Method, Step};
 use super::control::{Control, StateEntry};
 use super::pair::{
-    Pair, Slopes, StageMultipliers, TableauRow, advance, advance_from, check, error_needs_last, is_carried,
-    last,
+    Pair, Slopes, StageMultipliers, TableauRow, advance, advance_by, advance_from, check, error_needs_last,
+    is_carried, last,
 };
 use super::pair_memory::{PairMemory, StepStart, Taken};
-use super::slope::{check_finite, entry, inlined_slope, slope};
+use super::slope::{check_finite, inlined_slope, slope};
 use crate::error::{Ending, Error, Pace};
 #[cfg(feature = "alloc")]
 use crate::number::larger;
@@ -23,8 +23,8 @@ use crate::room::Room;
 use crate::solution::interpolant::{Polynomial, hermite};
 use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Length, PhaseVector, from_fn, vector};
+use crate::system::{StateOf, System};
+use crate::vector::{Array, Element, Length, Numbers, PhaseVector, SpareVectors, StaticLength};
 
 /// Reason to reject a step.
 enum Refusal<T> {
@@ -41,7 +41,7 @@ impl<T> From<Error> for Refusal<T> {
 }
 
 /// End of a step, its error in units of the tolerance, and the constraints that determine the slope there.
-struct Reached<T: Element, N: Length, M: Length> {
+struct Reached<T: Element, N: Length, M: StaticLength> {
     y: PhaseVector<T, N>,
     error: T,
     active: Array<bool, M>,
@@ -50,11 +50,11 @@ struct Reached<T: Element, N: Length, M: Length> {
 impl<P, L, F> Method<L, F> for Adaptive<P>
 where
     P: Pair,
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
 {
-    type Memory = PairMemory<L::Scalar, L::N, L::M>;
-    type Interpolant = Polynomial<L::Scalar, P::Coefficients<PhaseVector<L::Scalar, L::N>>>;
+    type Memory = PairMemory<L::Scalar, L::Length, L::M>;
+    type Interpolant = Polynomial<L::Scalar, P::Coefficients<PhaseVector<L::Scalar, L::Length>>>;
 
     fn limits(&self) -> Limits {
         self.limits()
@@ -78,20 +78,21 @@ where
         start: &StateOf<L>,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
-        let zero = PhaseVector::filled(L::Scalar::constant(0.0));
+        let zero = PhaseVector::of_length(system.length(), L::Scalar::constant(0.0));
         let unknown = Array::filled(L::Scalar::constant(f64::NAN));
         let mut memory = PairMemory {
             clock: Clock::new(start.t, self.fixed_step.map(L::Scalar::constant)),
             control: Control::new(L::Scalar::constant(0.0)),
             is_planned: false,
-            y: zero,
+            y: zero.clone(),
             has_slope: false,
-            slope: zero,
+            slope: zero.clone(),
             active: Array::filled(true),
             multipliers: unknown,
             slopes: Room::filled(zero),
             stage_multipliers: Room::filled(unknown),
             taken: None,
+            spare: SpareVectors::default(),
         };
         Method::<L, F>::resume(self, system, &mut memory, start, statistics)?;
         Ok(memory)
@@ -107,7 +108,7 @@ where
         memory.clock.set(state.t);
         // The velocity is the initial guess for the Legendre inversion of the first rate.
         memory.y = F::phase(system, state);
-        memory.slope.set(0, state.v.into());
+        memory.slope[0].copy_from_slice(state.v.entries());
         (memory.has_slope, memory.taken) = (false, None);
         memory.ensure_slope::<L, F>(system, statistics)
     }
@@ -117,8 +118,9 @@ where
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
+        state: &mut StateOf<L>,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, L::N> {
+    ) -> Step {
         self.aim::<L, F>(system, memory, end, statistics);
         let (h, time) = memory.next();
         let now = memory.clock.now.to_f64();
@@ -131,10 +133,13 @@ where
             false => self.attempt::<L, F, false>(system, memory, (h, time), statistics),
         };
         let ending = match attempt {
-            Ok(reached) => return Step::Accepted(self.take::<L, F>(memory, (h, time), &reached)),
+            Ok(reached) => {
+                self.take::<L, F>(memory, (h, time), reached, state);
+                return Step::Accepted;
+            }
             Err(Refusal::Inaccurate(error, place)) => {
                 memory.control.refuse::<P>(h, error);
-                Ending::StepTooSmall { time: now, entry: entry::<L, F>(place) }
+                Ending::StepTooSmall { time: now, entry: F::entry(place.0, place.1) }
             }
             Err(Refusal::Unsolved(error)) => {
                 memory.control.halve(h);
@@ -153,8 +158,9 @@ where
     ) -> Result<Self::Interpolant, Error> {
         let (start, length) = look_within::<P, L, F>(system, memory, statistics)?;
         // Build the coefficients in place: the only copy is into the trajectory.
-        let mut coefficients = P::coefficients(PhaseVector::filled(L::Scalar::constant(0.0)));
-        interpolate::<P, _, L::N, L::M>(memory, coefficients.as_mut());
+        let zero = PhaseVector::of_length(system.length(), L::Scalar::constant(0.0));
+        let mut coefficients = P::coefficients(zero);
+        interpolate::<P, _, L::Length, L::M>(memory, coefficients.as_mut());
         Ok(Polynomial::new(start, length, coefficients))
     }
 
@@ -168,13 +174,10 @@ where
         to: &mut Vec<Self::Interpolant>,
     ) -> Result<(), Error> {
         let (start, length) = look_within::<P, L, F>(system, memory, statistics)?;
-        to.push(Polynomial::new(
-            start,
-            length,
-            P::coefficients(PhaseVector::filled(L::Scalar::constant(0.0))),
-        ));
+        let zero = PhaseVector::of_length(system.length(), L::Scalar::constant(0.0));
+        to.push(Polynomial::new(start, length, P::coefficients(zero)));
         if let Some(last) = to.last_mut() {
-            interpolate::<P, _, L::N, L::M>(memory, last.coefficients_mut());
+            interpolate::<P, _, L::Length, L::M>(memory, last.coefficients_mut());
         }
         Ok(())
     }
@@ -191,8 +194,11 @@ where
 
     fn undo(&self, memory: &mut Self::Memory) -> bool {
         let Some(Taken { from, h, control }) = memory.taken.take() else { return false };
-        (memory.clock.now, memory.y, memory.active) = (from.t, from.y, from.active);
-        (memory.has_slope, memory.slope, memory.control) = (true, memory.slopes[0], control);
+        (memory.clock.now, memory.active) = (from.t, from.active);
+        (memory.has_slope, memory.control) = (true, control);
+        memory.y.copy_from(&from.y);
+        memory.spare.give_back(from.y);
+        memory.slope.copy_from(&memory.slopes[0]);
         memory.multipliers = memory.stage_multipliers[0];
         memory.control.halve(h);
         self.can_try_again(memory)
@@ -211,10 +217,10 @@ where
 
 impl<P: Pair> Adaptive<P> {
     /// Sets the end, and chooses the length of the first step if this is the first call.
-    pub(crate) fn aim<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
+    pub(crate) fn aim<L: System<Scalar: Real>, F: VectorField<L>>(
         &self,
         system: &L,
-        memory: &mut PairMemory<L::Scalar, L::N, L::M>,
+        memory: &mut PairMemory<L::Scalar, L::Length, L::M>,
         end: L::Scalar,
         statistics: &mut Statistics,
     ) {
@@ -232,7 +238,7 @@ impl<P: Pair> Adaptive<P> {
     /// Chooses the next step after a step on which another quantity was integrated as well, with `error` in units of
     /// its tolerance. The larger of both errors counts.
     #[cfg(feature = "alloc")]
-    pub(crate) fn accept_with<T: Real, N: Length, M: Length>(
+    pub(crate) fn accept_with<T: Real, N: Length, M: StaticLength>(
         &self,
         memory: &mut PairMemory<T, N, M>,
         error: T,
@@ -245,61 +251,103 @@ impl<P: Pair> Adaptive<P> {
     }
 
     /// True if a shorter step can be tried; never for fixed steps.
-    fn can_try_again<T: Real, N: Length, M: Length>(&self, memory: &PairMemory<T, N, M>) -> bool {
+    fn can_try_again<T: Real, N: Length, M: StaticLength>(&self, memory: &PairMemory<T, N, M>) -> bool {
         self.fixed_step.is_none() && memory.clock.advances_by(memory.control.step)
     }
 
     /// Accepts a step: moves to its end.
-    fn take<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
+    fn take<L: System<Scalar: Real>, F: VectorField<L>>(
         &self,
-        memory: &mut PairMemory<L::Scalar, L::N, L::M>,
+        memory: &mut PairMemory<L::Scalar, L::Length, L::M>,
         (h, time): (L::Scalar, L::Scalar),
-        reached: &Reached<L::Scalar, L::N, L::M>,
-    ) -> StateOf<L> {
-        memory.taken = Some(Taken { from: memory.origin(), h, control: memory.control.clone() });
-        (memory.y, memory.active, memory.slope) = (reached.y, reached.active, memory.slopes[last::<P>()]);
+        Reached { y, error, active }: Reached<L::Scalar, L::Length, L::M>,
+        state: &mut StateOf<L>,
+    ) {
+        let from = memory.origin();
+        let earlier = memory.taken.replace(Taken { from, h, control: memory.control.clone() });
+        if let Some(Taken { from, .. }) = earlier {
+            memory.spare.give_back(from.y);
+        }
+        memory.y.copy_from(&y);
+        memory.spare.give_back(y);
+        memory.slope.copy_from(&memory.slopes[last::<P>()]);
+        memory.active = active;
         memory.multipliers = memory.stage_multipliers[last::<P>()];
         memory.has_slope = !(self.ignores_error() && F::HOLDS_VELOCITY);
-        self.after_acceptance(&mut memory.control, &mut memory.clock, (h, time), reached.error);
-        let velocity = if F::HOLDS_VELOCITY { memory.y.half(1) } else { memory.slope.half(0) };
-        State { t: time, q: vector(memory.y.half(0)), v: vector(velocity) }
+        self.after_acceptance(&mut memory.control, &mut memory.clock, (h, time), error);
+        let velocity = if F::HOLDS_VELOCITY { &memory.y[1] } else { &memory.slope[0] };
+        state.t = time;
+        state.q.entries_mut().copy_from_slice(&memory.y[0]);
+        state.v.entries_mut().copy_from_slice(velocity);
     }
 
     /// Computes stages, error and projection of a step; any failure rejects it.
-    fn attempt<L: Lagrangian<Scalar: Real>, F: VectorField<L>, const IS_FIXED: bool>(
+    fn attempt<L: System<Scalar: Real>, F: VectorField<L>, const IS_FIXED: bool>(
         &self,
         system: &L,
-        memory: &mut PairMemory<L::Scalar, L::N, L::M>,
-        (h, time): (L::Scalar, L::Scalar),
+        memory: &mut PairMemory<L::Scalar, L::Length, L::M>,
+        step: (L::Scalar, L::Scalar),
         statistics: &mut Statistics,
-    ) -> Result<Reached<L::Scalar, L::N, L::M>, Refusal<L::Scalar>> {
+    ) -> Result<Reached<L::Scalar, L::Length, L::M>, Refusal<L::Scalar>> {
         const { check::<P>() };
         if IS_FIXED {
             memory.ensure_slope::<L, F>(system, statistics)?;
         }
-        let (from, slopes, multipliers) =
-            (memory.origin(), &mut *memory.slopes, &mut *memory.stage_multipliers);
-        (slopes[0], multipliers[0]) = (memory.slope, memory.multipliers);
-        stages::<P, L, F>(system, &from, h, (slopes, multipliers), (1, P::STAGES), statistics)?;
-        let mut next = StagePoint { t: time, y: from.y, velocity: slopes[0].half(0) };
+        memory.slopes[0].copy_from(&memory.slope);
+        memory.stage_multipliers[0] = memory.multipliers;
+        let from = memory.origin();
+        let mut next = StagePoint {
+            t: from.t,
+            y: memory.spare.lend(&from.y),
+            velocity: memory.slope.half_if_constant(0),
+        };
+        let reached = self.reach::<L, F, IS_FIXED>(system, memory, &from, &mut next, step, statistics);
+        memory.spare.give_back(from.y);
+        match reached {
+            Ok((error, active)) => Ok(Reached { y: next.y, error, active }),
+            Err(refusal) => {
+                memory.spare.give_back(next.y);
+                Err(refusal)
+            }
+        }
+    }
+
+    /// Moves `next` from the start of a step to its end. Returns the error, and the constraints that determine the slope there.
+    #[inline(always)]
+    fn reach<L: System<Scalar: Real>, F: VectorField<L>, const IS_FIXED: bool>(
+        &self,
+        system: &L,
+        memory: &mut PairMemory<L::Scalar, L::Length, L::M>,
+        from: &StepStart<L::Scalar, L::Length, L::M>,
+        next: &mut StagePoint<L::Scalar, L::Length>,
+        (h, time): (L::Scalar, L::Scalar),
+        statistics: &mut Statistics,
+    ) -> Result<(L::Scalar, Array<bool, L::M>), Refusal<L::Scalar>> {
+        let has_constraints = const { <L::M as StaticLength>::COUNT > 0 };
+        let PairMemory { slopes, stage_multipliers: multipliers, spare, .. } = memory;
+        let (slopes, multipliers) = (&mut **slopes, &mut **multipliers);
+        stages::<P, L, F>(system, from, h, (slopes, multipliers, spare), (1, P::STAGES), statistics)?;
         advance(&from.y, h, slopes, P::WEIGHTS, &mut next.y);
-        check_finite::<L>(time, &next.y)?;
+        next.t = time;
+        check_finite::<L, F>(time, &next.y)?;
         let mut active = from.active;
         let needs_last = !IS_FIXED && error_needs_last::<P>();
         if needs_last {
-            let found = slope::<L, F>(system, &next, Some(&active), &mut slopes[last::<P>()], statistics)?;
+            let found = slope::<L, F>(system, next, Some(&active), &mut slopes[last::<P>()], statistics)?;
             (active, multipliers[last::<P>()]) = (found.active, found.multipliers);
         }
-        let error =
-            if IS_FIXED { L::Scalar::constant(0.0) } else { self.check_error(slopes, h, &from.y, &next.y)? };
-        if <L::M>::COUNT > 0 {
-            next.y = F::phase(system, &F::project(system, &next)?);
+        let error = match IS_FIXED {
+            true => L::Scalar::constant(0.0),
+            false => self.check_error(slopes, h, [&from.y, &next.y], spare)?,
+        };
+        if has_constraints {
+            next.y = F::phase(system, &F::project(system, next)?);
         }
-        if !(IS_FIXED && F::HOLDS_VELOCITY) && (<L::M>::COUNT > 0 || !needs_last) {
-            let found = slope::<L, F>(system, &next, None, &mut slopes[last::<P>()], statistics)?;
+        if !(IS_FIXED && F::HOLDS_VELOCITY) && (has_constraints || !needs_last) {
+            let found = slope::<L, F>(system, next, None, &mut slopes[last::<P>()], statistics)?;
             (active, multipliers[last::<P>()]) = (found.active, found.multipliers);
         }
-        Ok(Reached { y: next.y, error, active })
+        Ok((error, active))
     }
 
     /// Error in units of the tolerance; an error above 1 rejects the step.
@@ -307,13 +355,13 @@ impl<P: Pair> Adaptive<P> {
         &self,
         slopes: &Slopes<T, N>,
         h: T,
-        before: &PhaseVector<T, N>,
-        after: &PhaseVector<T, N>,
+        [before, after]: [&PhaseVector<T, N>; 2],
+        spare: &mut SpareVectors<T, N>,
     ) -> Result<T, Refusal<T>> {
-        let tolerance = self.tolerance::<T>();
-        let error = tolerance.error::<P, T, N>(slopes, h, before, after);
+        let (tolerance, ends) = (self.tolerance::<T>(), [before, after]);
+        let error = tolerance.error::<P, T, N>(slopes, h, ends, spare);
         if !self.accepts(error) {
-            return Err(Refusal::Inaccurate(error, tolerance.worst::<P, T, N>(slopes, before, after)));
+            return Err(Refusal::Inaccurate(error, tolerance.worst::<P, T, N>(slopes, ends, spare)));
         }
         Ok(error)
     }
@@ -322,35 +370,35 @@ impl<P: Pair> Adaptive<P> {
     /// evaluated at rounded times. The spacing is too coarse if the rates change so much over it that the
     /// error of a step is half the tolerance or more.
     #[cold]
-    fn find_coarseness<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
+    fn find_coarseness<L: System<Scalar: Real>, F: VectorField<L>>(
         &self,
         system: &L,
-        memory: &PairMemory<L::Scalar, L::N, L::M>,
+        memory: &PairMemory<L::Scalar, L::Length, L::M>,
     ) -> Option<f64> {
         let PairMemory { clock, control, y, slope: here, active, .. } = memory;
         // 0.75 to 1.5 of the distance to the next number: the sum rounds to that number.
         let next = clock.now + L::Scalar::constant(0.75 * L::Scalar::EPSILON) * Scalar::abs(clock.now);
-        let point = StagePoint { t: next, y: *y, velocity: here.half(0) };
-        let mut there = *here;
+        let point = StagePoint { t: next, y: y.clone(), velocity: here.half_if_constant(0) };
+        let mut there = here.clone();
         let (active, mut statistics) = (memory.has_slope.then_some(active)?, Statistics::default());
         slope::<L, F>(system, &point, Some(active), &mut there, &mut statistics).ok()?;
-        let change: PhaseVector<_, L::N> = from_fn(|half| Array::from_fn(|i| there[half][i] - here[half][i]));
+        let change = there.each_with(here, |there, here| there - here);
         let lost = self.tolerance::<L::Scalar>().part(control.step, &change, y);
         (lost >= L::Scalar::constant(0.5)).then(|| (next - clock.now).to_f64())
     }
 
-    fn estimate_step<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
+    fn estimate_step<L: System<Scalar: Real>, F: VectorField<L>>(
         &self,
         system: &L,
-        memory: &PairMemory<L::Scalar, L::N, L::M>,
+        memory: &PairMemory<L::Scalar, L::Length, L::M>,
         statistics: &mut Statistics,
     ) -> L::Scalar {
         let PairMemory { clock, y, slope: first, active, .. } = memory;
         let guess = self.tolerance::<L::Scalar>().guess_step(y, first, clock.left());
         let h = clock.directed(guess);
-        let euler: PhaseVector<_, L::N> = from_fn(|half| Array::from_fn(|i| y[half][i] + h * first[half][i]));
-        let point = StagePoint { t: clock.now + h, y: euler, velocity: first.half(0) };
-        let mut second = *first;
+        let euler = y.each_with(first, |y, slope| y + h * slope);
+        let point = StagePoint { t: clock.now + h, y: euler, velocity: first.half_if_constant(0) };
+        let mut second = first.clone();
         match slope::<L, F>(system, &point, Some(active), &mut second, statistics) {
             Ok(_) => self.first_step_from(guess, y, first, &second),
             Err(_) => guess,
@@ -363,66 +411,94 @@ impl<P: Pair> Adaptive<P> {
 #[inline(always)]
 fn look_within<P, L, F>(
     system: &L,
-    memory: &mut PairMemory<L::Scalar, L::N, L::M>,
+    memory: &mut PairMemory<L::Scalar, L::Length, L::M>,
     statistics: &mut Statistics,
 ) -> Result<(L::Scalar, L::Scalar), Error>
 where
     P: Pair,
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
 {
     memory.ensure_slope::<L, F>(system, statistics)?;
-    memory.slopes[last::<P>()] = memory.slope;
+    memory.slopes[last::<P>()].copy_from(&memory.slope);
     memory.stage_multipliers[last::<P>()] = memory.multipliers;
     let now = memory.clock.now.to_f64();
     let no_step = Error::OutsideTrajectory { time: now, start: now, end: now };
     let Taken { from, h, .. } = memory.taken.as_ref().ok_or(no_step)?;
     let more = (last::<P>() + 1, P::INTERPOLATION_STAGES);
-    let stage_memory = (&mut *memory.slopes, &mut *memory.stage_multipliers);
+    let stage_memory = (&mut *memory.slopes, &mut *memory.stage_multipliers, &mut memory.spare);
     stages::<P, L, F>(system, from, *h, stage_memory, more, statistics)?;
     Ok((from.t, *h))
 }
 
 /// Computes the coefficients of the dense output of the last accepted step from its slopes.
 #[inline(always)]
-fn interpolate<P: Pair, T: Real, N: Length, M: Length>(
+fn interpolate<P: Pair, T: Real, N: Length, M: StaticLength>(
     memory: &PairMemory<T, N, M>,
     coefficients: &mut [PhaseVector<T, N>],
 ) {
-    let (slopes, zero) = (&*memory.slopes, PhaseVector::filled(T::constant(0.0)));
+    let slopes = &*memory.slopes;
     let Some(Taken { from, h, .. }) = &memory.taken else { return };
     let (start, end) = ((&from.y, &slopes[0]), (&memory.y, &slopes[last::<P>()]));
     let (cubic, beyond) = coefficients.split_at_mut(4);
     hermite(*h, start, end, cubic);
     for (coefficient, row) in beyond.iter_mut().zip(P::INTERPOLATION) {
-        advance(&zero, *h, slopes, row, coefficient);
+        advance_by(*h, slopes, row, coefficient);
     }
 }
+
+/// Slopes and multipliers of the stages of a step, and memory for their states.
+type StageMemory<'a, T, N, M> =
+    (&'a mut Slopes<T, N>, &'a mut StageMultipliers<T, M>, &'a mut SpareVectors<T, N>);
 
 /// Evaluates the rates and multipliers of consecutive stages, beginning with stage `first`.
 fn stages<P, L, F>(
     system: &L,
-    from: &StepStart<L::Scalar, L::N, L::M>,
+    from: &StepStart<L::Scalar, L::Length, L::M>,
     h: L::Scalar,
-    (slopes, multipliers): (&mut Slopes<L::Scalar, L::N>, &mut StageMultipliers<L::Scalar, L::M>),
+    (slopes, multipliers, spare): StageMemory<'_, L::Scalar, L::Length, L::M>,
     (first, rows): (usize, &[TableauRow]),
     statistics: &mut Statistics,
 ) -> Result<(), Error>
 where
     P: Pair,
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
 {
-    let mut point = StagePoint { t: from.t, y: from.y, velocity: slopes[0].half(0) };
-    let mut newest = slopes[first - 1];
+    let velocity = slopes[0].half_if_constant(0);
+    let mut point = StagePoint { t: from.t, y: spare.lend(&from.y), velocity };
+    let stage_memory = (slopes, multipliers);
+    let found = stages_at::<P, L, F>(system, from, h, stage_memory, (first, rows), &mut point, statistics);
+    spare.give_back(point.y);
+    found
+}
+
+/// Evaluates stages at `point`, which moves from each to the next.
+#[inline(always)]
+fn stages_at<P, L, F>(
+    system: &L,
+    from: &StepStart<L::Scalar, L::Length, L::M>,
+    h: L::Scalar,
+    (slopes, multipliers): (&mut Slopes<L::Scalar, L::Length>, &mut StageMultipliers<L::Scalar, L::M>),
+    (first, rows): (usize, &[TableauRow]),
+    point: &mut StagePoint<L::Scalar, L::Length>,
+    statistics: &mut Statistics,
+) -> Result<(), Error>
+where
+    P: Pair,
+    L: System<Scalar: Real>,
+    F: VectorField<L>,
+{
+    let is_carried = const { is_carried::<L::Length>() };
+    let mut newest = if is_carried { slopes[first - 1].clone() } else { PhaseVector::placeholder(h) };
     for (number, row) in rows.iter().enumerate().map(|(i, row)| (first + i, row)) {
         advance_from((number - 1, &newest), &from.y, h, slopes, row, &mut point.y);
         point.t = from.t + h * L::Scalar::constant(P::NODES[number]);
-        let rates = if const { is_carried::<L::N>() } { &mut newest } else { &mut slopes[number] };
-        let found = inlined_slope::<L, F>(system, &point, Some(&from.active), rates, statistics)?;
+        let rates = if is_carried { &mut newest } else { &mut slopes[number] };
+        let found = inlined_slope::<L, F>(system, point, Some(&from.active), rates, statistics)?;
         multipliers[number] = found.multipliers;
-        if const { is_carried::<L::N>() } {
-            slopes[number] = newest;
+        if is_carried {
+            slopes[number].copy_from(&newest);
         }
     }
     Ok(())

@@ -9,10 +9,10 @@ use super::contract::{Method, Step};
 use super::pair::{Pair, SLOPES, TableauRow, combine, last};
 use super::pair_memory::{PairMemory, Taken};
 use crate::number::{Real, Scalar};
-use crate::solution::vector_field::VectorField;
+use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
-use crate::system::Lagrangian;
-use crate::vector::{Array, Length};
+use crate::system::System;
+use crate::vector::{Length, StaticLength};
 
 /// Number of trial steps. The problem counts as stiff if more than a third of them are at the stability limit.
 const STEPS: usize = 15;
@@ -21,20 +21,22 @@ impl<P: Pair> Adaptive<P> {
     /// Returns [`Pace::stiffness`](crate::error::Pace::stiffness). Only this call costs time: it tries the next steps
     /// on a copy.
     #[cold]
-    pub(super) fn find_stiffness<L: Lagrangian<Scalar: Real>, F: VectorField<L>>(
+    pub(super) fn find_stiffness<L: System<Scalar: Real>, F: VectorField<L>>(
         &self,
         system: &L,
-        memory: &PairMemory<L::Scalar, L::N, L::M>,
+        memory: &PairMemory<L::Scalar, L::Length, L::M>,
         end: L::Scalar,
     ) -> Option<f64> {
         let limit = L::Scalar::constant(0.9 * stability_limit::<P>());
         let (mut memory, mut statistics) = (memory.clone(), Statistics::default());
+        let velocity = memory.slope.half_if_constant(0);
+        let mut state = F::state(system, &StagePoint { t: memory.clock.now, y: memory.y.clone(), velocity });
         let (mut seen, mut longest, mut rate) = (0, 0, None);
         while seen < STEPS {
-            match Method::<L, F>::step(self, system, &mut memory, end, &mut statistics) {
+            match Method::<L, F>::step(self, system, &mut memory, end, &mut state, &mut statistics) {
                 Step::Rejected => continue,
                 Step::Failed(_) => return None,
-                Step::Accepted(_) => seen += 1,
+                Step::Accepted => seen += 1,
             }
             if let Some((h, fastest)) = memory.fastest::<P>()
                 && h * fastest > limit
@@ -46,7 +48,7 @@ impl<P: Pair> Adaptive<P> {
     }
 }
 
-impl<T: Real, N: Length, M: Length> PairMemory<T, N, M> {
+impl<T: Real, N: Length, M: StaticLength> PairMemory<T, N, M> {
     /// Length of the last step, and the rate |λ| of the mode that grows or decays fastest; `None` if round-off hides
     /// it.
     ///
@@ -56,15 +58,17 @@ impl<T: Real, N: Length, M: Length> PairMemory<T, N, M> {
         let Taken { h, .. } = self.taken.as_ref()?;
         let (stage, end) = (&self.slopes[P::STAGES.len()], &self.slopes[last::<P>()]);
         // Leave out the common start of both states: its round-off may exceed their difference.
-        let (to_stage, to_end) =
-            (combine(&self.slopes, P::STAGES.last()?), combine(&self.slopes, P::WEIGHTS));
+        let difference = |row| {
+            let mut sum = self.y.clone();
+            combine(&self.slopes, row, &mut sum);
+            sum
+        };
+        let (to_stage, to_end) = (difference(P::STAGES.last()?), difference(P::WEIGHTS));
         let ratio = |half: usize| {
             let apart = squared_distance(&to_end[half], &to_stage[half]);
             let round_off = T::constant(128.0 * T::EPSILON);
-            let shows = apart
-                > round_off
-                    * round_off
-                    * squared_distance(&to_end[half], &Array::<T, N>::filled(T::constant(0.0)));
+            let size = to_end[half].iter().fold(T::constant(0.0), |sum, &x| sum + x * x);
+            let shows = apart > round_off * round_off * size;
             shows.then(|| squared_distance(&end[half], &stage[half]) / apart)
         };
         // The ratio of differences of slopes, divided by h, is the ratio of differences of slopes to differences of

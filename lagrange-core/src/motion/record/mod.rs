@@ -20,7 +20,7 @@ use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, SolutionOf, State, StateOf};
+use crate::system::{SolutionOf, State, StateOf, System};
 use crate::trajectory::Transition;
 use crate::vector::{Element, Length};
 
@@ -60,12 +60,12 @@ impl<T: Element, N: Length> Arrival<T, N> {
 pub(crate) type Controller<'o, L> = dyn FnMut(&mut L, &StateOf<L>) -> Result<(), String> + 'o;
 
 /// Controller, with the interval of time between its calls.
-pub(crate) struct Steering<'o, L: Lagrangian> {
+pub(crate) struct Steering<'o, L: System> {
     pub(crate) interval: L::Scalar,
     pub(crate) controller: Box<Controller<'o, L>>,
 }
 
-impl<L: Lagrangian<Scalar: Real>> Steering<'_, L> {
+impl<L: System<Scalar: Real>> Steering<'_, L> {
     /// Checks that the interval is positive and finite.
     pub(crate) fn check(&self) -> Result<(), Error> {
         check_interval(CONTROLLER, self.interval)
@@ -76,12 +76,12 @@ impl<L: Lagrangian<Scalar: Real>> Steering<'_, L> {
 pub(crate) const CONTROLLER: &str = "interval of the controller";
 
 /// Record of one motion.
-pub(crate) struct Record<'o, L: Lagrangian> {
+pub(crate) struct Record<'o, L: System> {
     plan: &'o RecordPlan<'o, L>,
     samples: Vec<StateOf<L>>,
     /// Quantities of the first sample, then of the second, …
     values: Vec<L::Scalar>,
-    crossings: Vec<Crossing<L::Scalar, L::N>>,
+    crossings: Vec<Crossing<L::Scalar, L::Length>>,
     events: Vec<Box<DynEvent<'o, L>>>,
     /// Minimum number of parts in which every step is searched for events.
     subdivisions: usize,
@@ -98,7 +98,7 @@ pub(crate) struct Record<'o, L: Lagrangian> {
     calls: usize,
 }
 
-impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
+impl<'o, L: System<Scalar: Real>> Record<'o, L> {
     /// Begins the record: takes the samples and crossings that are due at the start.
     pub(crate) fn begin(
         plan: &'o RecordPlan<'o, L>,
@@ -152,7 +152,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
     /// Takes the samples at the time of this state.
     pub(crate) fn take_due(&mut self, system: &L, state: &StateOf<L>) -> Result<(), Error> {
         while self.next_time().is_some_and(|t| t == state.t) {
-            self.push(system, *state)?;
+            self.push(system, state.clone())?;
         }
         Ok(())
     }
@@ -163,7 +163,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
     }
 
     fn push(&mut self, system: &L, state: StateOf<L>) -> Result<(), Error> {
-        let (sample, before) = (Sample::of(system, state).with(self.given), self.values.len());
+        let (sample, before) = (Sample::of(system, state.clone()).with(self.given), self.values.len());
         for (_, value) in &self.plan.quantities {
             match value(&sample) {
                 Ok(value) => self.values.push(value),
@@ -184,7 +184,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
 
     /// Records the samples and crossings in this step. If the motion stops within the step, moves `end` there and
     /// returns the ending.
-    pub(crate) fn keep<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+    pub(crate) fn keep<F: VectorField<L>, I: Interpolant<L::Scalar, L::Length>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         end: &mut StateOf<L>,
@@ -205,24 +205,25 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
 
     /// Records the samples in this step up to `end`, and at its time if `has_end` is true. If one fails, moves `end` to the last
     /// sample and returns the ending.
-    pub(crate) fn keep_samples<F: VectorField<L>, I: Interpolant<L::Scalar, L::N>>(
+    pub(crate) fn keep_samples<F: VectorField<L>, I: Interpolant<L::Scalar, L::Length>>(
         &mut self,
         step: &DenseStep<'_, L, F, I>,
         end: &mut StateOf<L>,
         has_end: bool,
     ) -> Option<Ending> {
-        let mut at = *step.before;
+        let mut at = step.before.clone();
         while let Some(t) = self.next_time()
             && is_between(step.before.t, t, end.t)
             && (has_end || t != end.t)
         {
             let kept = step.at(t).and_then(|state| {
-                at = state;
+                at.clone_from(&state);
                 self.push(step.system, state)
             });
             if let Err(error) = kept {
+                let time = at.t.to_f64();
                 *end = at;
-                return Some(Ending::of(error, at.t.to_f64()));
+                return Some(Ending::of(error, time));
             }
         }
         None
@@ -271,7 +272,7 @@ impl<'o, L: Lagrangian<Scalar: Real>> Record<'o, L> {
         state: StateOf<L>,
         ending: Ending,
         statistics: Statistics,
-    ) -> Arrival<L::Scalar, L::N> {
+    ) -> Arrival<L::Scalar, L::Length> {
         let Self { samples, values, crossings, .. } = self;
         Arrival { state, ending, statistics, samples, values, crossings, transitions: Vec::new() }
     }
@@ -297,7 +298,7 @@ impl<L> Deref for Moving<'_, L> {
 
 /// Observer that records one motion, and calls its controller. If `HAS_DENSE_OUTPUT` is false, no samples, events or
 /// controller exist, and their code is not compiled.
-pub(crate) struct Recorded<'o, 'r, L: Lagrangian, I, A, const HAS_DENSE_OUTPUT: bool> {
+pub(crate) struct Recorded<'o, 'r, L: System, I, A, const HAS_DENSE_OUTPUT: bool> {
     system: Moving<'r, L>,
     record: Record<'o, L>,
     /// Interpolant of the last step, if samples or events need it.
@@ -308,7 +309,7 @@ pub(crate) struct Recorded<'o, 'r, L: Lagrangian, I, A, const HAS_DENSE_OUTPUT: 
 
 impl<'o, 'r, L, I, A, const HAS_DENSE_OUTPUT: bool> Recorded<'o, 'r, L, I, A, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
 {
     pub(crate) fn new(system: Moving<'r, L>, record: Record<'o, L>, accept: A) -> Self {
         Self { system, record, within: None, accept }
@@ -320,7 +321,7 @@ where
         driven: Result<(), Ending>,
         state: StateOf<L>,
         statistics: Statistics,
-    ) -> Arrival<L::Scalar, L::N> {
+    ) -> Arrival<L::Scalar, L::Length> {
         let ending = driven.err().unwrap_or(Ending::Complete { time: self.record.end.to_f64() });
         self.record.arrive(state, ending, statistics)
     }
@@ -329,7 +330,7 @@ where
 impl<L, F, P, A, const HAS_DENSE_OUTPUT: bool> Observer<L, P, F>
     for Recorded<'_, '_, L, P::Interpolant, A, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: System<Scalar: Real>,
     F: VectorField<L>,
     P: Method<L, F>,
     A: FnMut(&StateOf<L>, usize) -> Result<(), Ending>,
@@ -371,7 +372,7 @@ where
     #[inline(always)]
     fn keep(&mut self, method: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
         if let (true, Some(interpolant)) = (const { HAS_DENSE_OUTPUT }, &self.within) {
-            let (before, after, field) = (&run.before, &{ run.state }, PhantomData::<F>);
+            let (before, after, field) = (&run.before, &run.state.clone(), PhantomData::<F>);
             let step = DenseStep { system: &*self.system, before, after, interpolant, field };
             self.record.given = method.means(&run.memory);
             self.record.keep(&step, &mut run.state).map_or(Ok(()), Err)?;

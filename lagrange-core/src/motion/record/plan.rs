@@ -12,17 +12,17 @@ use crate::motion::event::EventValue;
 use crate::motion::run::is_between;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::Sample;
-use crate::system::Lagrangian;
+use crate::system::System;
 
 /// Times of the samples of a motion, or of each member of an ensemble, and the quantities to evaluate there.
-pub(crate) struct RecordPlan<'a, L: Lagrangian> {
+pub(crate) struct RecordPlan<'a, L: System> {
     pub(crate) times: SampleTimes<L::Scalar>,
     pub(super) quantities: Vec<(&'static str, Box<Observed<'a, L>>)>,
 }
 
 /// A number computed from a state.
 pub(crate) type Observed<'a, L> =
-    dyn Fn(&Sample<&L>) -> Result<<L as Lagrangian>::Scalar, Error> + Send + Sync + 'a;
+    dyn Fn(&Sample<&L>) -> Result<<L as System>::Scalar, Error> + Send + Sync + 'a;
 
 /// Times of the samples.
 pub(crate) enum SampleTimes<T> {
@@ -121,7 +121,7 @@ pub(crate) fn check_interval<T: Real>(name: &'static str, interval: T) -> Result
     if is_right { Ok(()) } else { Err(Error::Setting { name, value: interval.to_f64() }) }
 }
 
-impl<'a, L: Lagrangian<Scalar: Real>> RecordPlan<'a, L> {
+impl<'a, L: System<Scalar: Real>> RecordPlan<'a, L> {
     /// Creates a plan with samples at these times, without quantities.
     pub(crate) fn of(times: SampleTimes<L::Scalar>) -> Self {
         Self { times, quantities: Vec::new() }

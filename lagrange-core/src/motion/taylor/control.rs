@@ -7,7 +7,7 @@ use crate::motion::method::clock::Clock;
 use crate::motion::method::control::{FIRST, Tolerance};
 use crate::number::{ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
-use crate::vector::{Length, PhaseVector};
+use crate::vector::{PhaseVector, StaticLength};
 
 /// The first omitted term is e⁻⁵ of the tolerance. With this value, measured errors are between half of those of
 /// Jorba and Zou's order (3-11) with their step length, and equal to them.
@@ -28,7 +28,7 @@ impl Taylor {
 
     /// Largest first step, as for embedded pairs (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations
     /// I*, II.4): it changes the state by at most its size.
-    pub(crate) fn first<T: Real, N: Length, M: Length>(
+    pub(crate) fn first<T: Real, N: StaticLength, M: StaticLength>(
         &self,
         state: &State<T, N>,
         solved: &SolvedState<T, N, M>,

@@ -10,7 +10,7 @@ use super::last::log2_roughly;
 use super::settings::Taylor;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::pivot::is_trustworthy;
-use crate::vector::{FixedArray, Length};
+use crate::vector::{FixedArray, StaticLength};
 
 /// Signs of a nearby singular pose: an independence of the constraints, from 0 to 1, below `NEAR`, or a ratio
 /// of a step to the step before below `COLLAPSE`.
@@ -34,7 +34,7 @@ const ROUNDING: f64 = 1.2;
 /// Number of longer attempts after a step by a truncated series is rejected.
 const LONGER: usize = 2;
 
-impl<T: Real, N: Length, M: Length> SolvedState<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> SolvedState<T, N, M> {
     /// Independence of the constraints, from 0 to 1.
     fn independence(&self) -> T {
         // The diagonal of the elimination holds squares.
@@ -69,7 +69,7 @@ impl<T: Real, N: Length, M: Length> SolvedState<T, N, M> {
 impl Taylor {
     /// Plans a step by a truncated series, if it is much longer than the planned step.
     #[cold]
-    pub(super) fn cross<S: FixedArray<T>, T: Real, N: Length>(
+    pub(super) fn cross<S: FixedArray<T>, T: Real, N: StaticLength>(
         &self,
         series: &mut Expansion<S, T, N>,
         planned: T,

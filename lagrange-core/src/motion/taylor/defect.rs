@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::number::{Real, Scalar, exceeds, larger};
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
-use crate::vector::{Array, Element, FixedArray, Length, from_fn, vector};
+use crate::vector::{Array, Element, FixedArray, StaticLength, from_fn, vector};
 
 /// Smallest limit, in units of ε, on the defect of a step relative to the velocities; a larger tolerance raises the
 /// limit. Omitted terms give at most a sixteenth of the tolerance, and rounding errors at most 100 ε (pendulums of one
@@ -28,7 +28,7 @@ const STRICT: f64 = 64.0;
 const ROUNDING: [f64; 2] = [4.0, 16.0];
 
 /// A step to check before it is accepted.
-pub(super) struct CandidateStep<'a, S, T: Element, N: Length, M: Length> {
+pub(super) struct CandidateStep<'a, S, T: Element, N: StaticLength, M: StaticLength> {
     pub(super) series: &'a Expansion<S, T, N>,
     pub(super) start: &'a State<T, N>,
     pub(super) end: &'a State<T, N>,
@@ -43,7 +43,7 @@ pub(super) struct CandidateStep<'a, S, T: Element, N: Length, M: Length> {
     pub(super) is_near_dependence: bool,
 }
 
-impl<S: FixedArray<T>, T: Real, N: Length, M: Length> CandidateStep<'_, S, T, N, M> {
+impl<S: FixedArray<T>, T: Real, N: StaticLength, M: StaticLength> CandidateStep<'_, S, T, N, M> {
     /// Index of the coordinate with the largest defect, if that is too large; `None` if the step is accurate.
     pub(super) fn inaccurate<L: TaylorSeries<N = N, M = M, Scalar = T, Sums = S>>(
         &self,
@@ -98,7 +98,10 @@ impl<S: FixedArray<T>, T: Real, N: Length, M: Length> CandidateStep<'_, S, T, N,
 impl Taylor {
     /// Index of a coordinate whose value or velocity is changed too much by the projection, if there is one. Near a
     /// pose where constraints become dependent, a projection may lead onto another branch of the motion.
-    pub(super) fn moved<T: Real, N: Length>(&self, sums: [(&Array<T, N>, &Array<T, N>); 2]) -> Option<usize> {
+    pub(super) fn moved<T: Real, N: StaticLength>(
+        &self,
+        sums: [(&Array<T, N>, &Array<T, N>); 2],
+    ) -> Option<usize> {
         let (slack, bound) = (T::constant(self.slack::<T>()), T::constant(self.jump_allowed::<T>()));
         let is_moved = |(sum, projected): &(&Array<T, N>, &Array<T, N>), i: usize| {
             exceeds(Scalar::abs(projected[i] - sum[i]), bound * (Scalar::abs(sum[i]) + slack))

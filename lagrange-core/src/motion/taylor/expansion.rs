@@ -12,7 +12,7 @@ use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::{fault, not_finite, solve_near};
 use crate::system::{Direction, Lagrangian, RightHandSides, Solution, State, TaylorSeries};
-use crate::vector::{Array, Element, FixedArray, Length, array, from_fn, rows, vector};
+use crate::vector::{Array, Element, FixedArray, StaticLength, array, from_fn, rows, vector};
 
 /// Largest number of units of time tried for one expansion.
 const UNITS: usize = 40;
@@ -29,12 +29,12 @@ const LEAST: f64 = 2.0;
 
 /// Accelerations and multipliers at a state, and the constraints that determine them.
 #[derive(Clone, Debug)]
-pub(crate) struct SolvedState<T: Element, N: Length, M: Length> {
+pub(crate) struct SolvedState<T: Element, N: StaticLength, M: StaticLength> {
     pub(crate) solution: Solution<T, N, M>,
     pub(crate) active: Array<bool, M>,
 }
 
-impl<T: Real, N: Length, M: Length> SolvedState<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> SolvedState<T, N, M> {
     pub(crate) fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(
         system: &L,
         state: &State<T, N>,
@@ -52,7 +52,7 @@ impl<T: Real, N: Length, M: Length> SolvedState<T, N, M> {
 
 /// Taylor coefficients of coordinates and velocities about a state, in powers of (t − t₀)/unit.
 #[derive(Clone, Debug)]
-pub(crate) struct Expansion<S, T: Element, N: Length> {
+pub(crate) struct Expansion<S, T: Element, N: StaticLength> {
     pub(crate) start: T,
     /// Unit of time. One near the length of a step avoids overflow and underflow of the coefficients.
     pub(crate) unit: T,
@@ -70,7 +70,7 @@ pub(crate) struct Expansion<S, T: Element, N: Length> {
     arguments: Vec<PowerSeries<T>>,
 }
 
-impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Scalar, N: StaticLength> Expansion<S, T, N> {
     /// Allocates a series of this order.
     pub(crate) fn new<L: TaylorSeries<N = N, Scalar = T, Sums = S>>(order: usize) -> Self {
         let zero = T::constant(0.0);
@@ -148,7 +148,7 @@ impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
 
     /// Sets the coefficients of this order, from the accelerations of the order before, and returns them.
     #[inline(always)]
-    fn advance<M: Length>(&mut self, order: usize, newest: &Solution<T, N, M>) -> Direction<T, N> {
+    fn advance<M: StaticLength>(&mut self, order: usize, newest: &Solution<T, N, M>) -> Direction<T, N> {
         let factor = unit_over(self.unit, order);
         let q = scaled(&self.v[order - 1], factor);
         let v = scaled(&array(newest.accelerations), factor);
@@ -188,7 +188,7 @@ impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
     }
 }
 
-impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Real, N: StaticLength> Expansion<S, T, N> {
     /// Expands the motion about a state, given the solution of the equations there. Returns the sizes of the last
     /// coefficients.
     pub(crate) fn about<L: TaylorSeries<N = N, Scalar = T, Sums = S>>(
@@ -297,13 +297,13 @@ fn unit_over<T: Scalar>(unit: T, order: usize) -> T {
 }
 
 #[inline(always)]
-fn scaled<T: Scalar, N: Length>(x: &Array<T, N>, factor: T) -> Array<T, N> {
+fn scaled<T: Scalar, N: StaticLength>(x: &Array<T, N>, factor: T) -> Array<T, N> {
     from_fn(|i| factor * x[i])
 }
 
 /// Sums c₀ + c₁ θ + c₂ θ² + …, even and odd powers in parallel: in a single chain, each term waits for the one before.
 #[inline(always)]
-fn polynomial<T: Scalar, N: Length>(
+fn polynomial<T: Scalar, N: StaticLength>(
     coefficients: impl DoubleEndedIterator<Item = Array<T, N>>,
     theta: T,
 ) -> Array<T, N> {
@@ -316,18 +316,18 @@ fn polynomial<T: Scalar, N: Length>(
 }
 
 #[inline(always)]
-fn horner<T: Scalar, N: Length>(sum: &Array<T, N>, theta: T, coefficient: &Array<T, N>) -> Array<T, N> {
+fn horner<T: Scalar, N: StaticLength>(sum: &Array<T, N>, theta: T, coefficient: &Array<T, N>) -> Array<T, N> {
     from_fn(|i| sum[i].multiply_add(theta, coefficient[i]))
 }
 
 /// Factors of the general solver at a state, for the constraints that are independent there.
-pub(crate) struct General<T: Element, N: Length, M: Length> {
+pub(crate) struct General<T: Element, N: StaticLength, M: StaticLength> {
     factors: kkt::Factors<T, N, M>,
     active: Array<bool, M>,
     time: f64,
 }
 
-impl<T: Real, N: Length, M: Length> General<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> General<T, N, M> {
     #[cold]
     pub(crate) fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(
         system: &L,

@@ -20,11 +20,11 @@ use crate::solution::consistent::BOTH;
 use crate::solution::near::{self, Corrections, compensated};
 use crate::statistics::Statistics;
 use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries};
-use crate::vector::{Array, Entrywise, FixedArray, Length, PhaseVector, from_fn, vector};
+use crate::vector::{Array, Entrywise, FixedArray, PhaseVector, StaticLength, from_fn, vector};
 
 /// Motions in lock-step, with the working arrays of a step.
 #[derive(Debug)]
-pub struct TaylorLanes<S, U, N: Length, M: Length> {
+pub struct TaylorLanes<S, U, N: StaticLength, M: StaticLength> {
     system: S,
     here: LaneState<N, M>,
     /// Series about the start of the last step tried.
@@ -35,7 +35,7 @@ pub struct TaylorLanes<S, U, N: Length, M: Length> {
 
 /// States of the motions, their compensation terms, and the solution of the equations at these states.
 #[derive(Clone, Copy, Debug)]
-struct LaneState<N: Length, M: Length> {
+struct LaneState<N: StaticLength, M: StaticLength> {
     y: PhaseVector<Lanes, N>,
     rest: [Array<Lanes, N>; 2],
     solution: Solution<Lanes, N, M>,
@@ -285,7 +285,7 @@ impl<S: TaylorSeries<Scalar = Lanes, Sums = U>, U: FixedArray<Lanes>> TaylorLane
     }
 }
 
-impl<N: Length, M: Length> LaneState<N, M> {
+impl<N: StaticLength, M: StaticLength> LaneState<N, M> {
     /// Returns the lanes of `self` where `chosen` is positive, else those of `other`.
     fn select(&self, chosen: Lanes, other: &Self) -> Self {
         let select = |x: Lanes, y: Lanes| x.select(chosen, y);

@@ -5,11 +5,11 @@ use super::expansion::{Expansion, SolvedState};
 use super::sampling::Sampling;
 use crate::motion::method::clock::Clock;
 use crate::system::State;
-use crate::vector::{Array, Element, Length};
+use crate::vector::{Array, Element, StaticLength};
 
 /// State that Taylor's method carries from step to step.
 #[derive(Clone, Debug)]
-pub struct TaylorMemory<S, T: Element, N: Length, M: Length> {
+pub struct TaylorMemory<S, T: Element, N: StaticLength, M: StaticLength> {
     pub(crate) clock: Clock<T>,
     pub(crate) state: State<T, N>,
     pub(crate) solved: SolvedState<T, N, M>,
@@ -29,7 +29,7 @@ pub struct TaylorMemory<S, T: Element, N: Length, M: Length> {
 
 /// Data of a state that its series does not contain.
 #[derive(Clone, Debug)]
-pub(super) struct Before<T: Element, N: Length, M: Length> {
+pub(super) struct Before<T: Element, N: StaticLength, M: StaticLength> {
     pub(super) solved: SolvedState<T, N, M>,
     pub(super) rest: [Array<T, N>; 2],
     pub(super) sampling: Sampling<T>,

@@ -24,6 +24,7 @@ use super::method::{Limits, Method, Step};
 use crate::error::{Ending, Error, Pace};
 use crate::names::{Entry, name};
 use crate::number::{Real, Scalar};
+use crate::solution::vector_field::LagrangianVectorField;
 use crate::statistics::Statistics;
 use crate::system::{State, StateOf, TaylorSeries};
 use crate::vector::{Array, vector};
@@ -35,7 +36,7 @@ use sampling::Sampling;
 pub use settings::Taylor;
 use step::Attempt;
 
-impl<L: TaylorSeries<Scalar: Real>> Method<L> for Taylor {
+impl<L: TaylorSeries<Scalar: Real>> Method<L, LagrangianVectorField> for Taylor {
     type Memory = TaylorMemory<L::Sums, L::Scalar, L::N, L::M>;
     type Interpolant = TaylorPolynomial<L::Scalar, L::N>;
 
@@ -104,8 +105,9 @@ impl<L: TaylorSeries<Scalar: Real>> Method<L> for Taylor {
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
+        state: &mut StateOf<L>,
         statistics: &mut Statistics,
-    ) -> Step<L::Scalar, L::N> {
+    ) -> Step {
         self.aim(memory, end);
         let now = memory.clock.now.to_f64();
         if let Err(error) = self.expand(system, memory, statistics) {
@@ -119,7 +121,8 @@ impl<L: TaylorSeries<Scalar: Real>> Method<L> for Taylor {
         let ending = match self.attempt(system, memory, (h, time), statistics) {
             Ok(Attempt::Reached(next)) => {
                 statistics.multipliers_are_unique &= memory.solved.solution.multipliers_are_unique();
-                return Step::Accepted(next);
+                *state = next;
+                return Step::Accepted;
             }
             Ok(Attempt::Inaccurate(i)) => {
                 Ending::StepTooSmall { time: now, entry: Entry::Velocity(name(L::COORDINATES, i)) }

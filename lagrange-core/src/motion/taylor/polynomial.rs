@@ -3,18 +3,18 @@
 use crate::number::{ROOM, Real};
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::StagePoint;
-use crate::vector::{Array, Element, Length, PhaseVector};
+use crate::vector::{Array, Element, PhaseVector, StaticLength, vector};
 
 /// The Taylor series of the coordinates about the start of a step; the velocities are its derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TaylorPolynomial<T: Element, N: Length> {
+pub struct TaylorPolynomial<T: Element, N: StaticLength> {
     start: T,
     unit: T,
     count: usize,
     coefficients: [Array<T, N>; ROOM],
 }
 
-impl<T: Real, N: Length> TaylorPolynomial<T, N> {
+impl<T: Real, N: StaticLength> TaylorPolynomial<T, N> {
     /// Creates the polynomial from its coefficients of powers of (t − start)/unit, at most [`ROOM`] of them.
     pub(super) fn new(start: T, unit: T, coefficients: impl ExactSizeIterator<Item = Array<T, N>>) -> Self {
         let mut polynomial = Self::empty(start, unit);
@@ -34,7 +34,7 @@ impl<T: Real, N: Length> TaylorPolynomial<T, N> {
     }
 }
 
-impl<T: Real, N: Length> Interpolant<T, N> for TaylorPolynomial<T, N> {
+impl<T: Real, N: StaticLength> Interpolant<T, N> for TaylorPolynomial<T, N> {
     fn at(&self, t: T) -> StagePoint<T, N> {
         let theta = (t - self.start) / self.unit;
         let zero = T::constant(0.0);
@@ -46,6 +46,6 @@ impl<T: Real, N: Length> Interpolant<T, N> for TaylorPolynomial<T, N> {
             }
         }
         let v = slope.map(|x| x / self.unit);
-        StagePoint { t, y: PhaseVector::new([q, v]), velocity: v }
+        StagePoint { t, y: PhaseVector::new([q, v]), velocity: vector(v) }
     }
 }

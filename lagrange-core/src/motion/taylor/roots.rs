@@ -4,7 +4,7 @@
 use super::expansion::Expansion;
 use crate::number::{Real, Scalar, exceeds};
 use crate::system::TaylorSeries;
-use crate::vector::{FixedArray, Length};
+use crate::vector::{FixedArray, StaticLength};
 
 /// Search for the minimum of a series over a step: number of points to compare, then number of reductions of
 /// the interval around the lowest point, by a third each.
@@ -64,7 +64,7 @@ impl<T: Real, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
     }
 }
 
-impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Scalar, N: StaticLength> Expansion<S, T, N> {
     /// Series of the roots, in powers of (t − t₀)/unit.
     pub(super) fn series_of_roots<L: TaylorSeries<Scalar = T, Sums = S>>(
         &self,
@@ -78,7 +78,7 @@ impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
     }
 }
 
-impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Real, N: StaticLength> Expansion<S, T, N> {
     /// For each root whose series becomes negative in a step of this length, a position with a negative value.
     pub(super) fn roots_below_zero<L: TaylorSeries<Scalar = T, Sums = S>>(
         &self,

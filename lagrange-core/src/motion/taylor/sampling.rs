@@ -10,7 +10,7 @@ use super::expansion::{Expansion, is_linear};
 use super::roots::WatchedSeries;
 use crate::number::{Real, Scalar, smaller};
 use crate::system::TaylorSeries;
-use crate::vector::{FixedArray, Length};
+use crate::vector::{FixedArray, StaticLength};
 
 /// Largest number of samples within a step. Each costs an evaluation of the equations, about a thirtieth of a step.
 const MOST: usize = 128;
@@ -71,7 +71,7 @@ impl<T: Real> Sampling<T> {
     }
 }
 
-impl<S: FixedArray<T>, T: Scalar, N: Length> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Scalar, N: StaticLength> Expansion<S, T, N> {
     /// Arguments of steep functions: each with its value, a bound on its change in a step of this length, and its
     /// exponent.
     pub(super) fn steep<L: TaylorSeries<Scalar = T, Sums = S>>(
@@ -100,7 +100,7 @@ pub(super) fn samples_of_steep([value, change]: [f64; 2], exponent: usize) -> us
     }
 }
 
-impl<S: FixedArray<T>, T: Real, N: Length> Expansion<S, T, N> {
+impl<S: FixedArray<T>, T: Real, N: StaticLength> Expansion<S, T, N> {
     /// True if terms of middle orders are significant in a step of this length. If they are not, the series
     /// may lack a force that is negligible at the start of the step.
     #[cold]

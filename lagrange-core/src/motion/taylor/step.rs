@@ -15,9 +15,9 @@ use crate::solution::near::{Corrections, compensated};
 use crate::solution::solve::first_row;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
-use crate::vector::{Array, Element, FixedArray, Length, array, vector};
+use crate::vector::{Array, Element, FixedArray, StaticLength, array, vector};
 
-impl<S: FixedArray<T>, T: Real, N: Length, M: Length> TaylorMemory<S, T, N, M> {
+impl<S: FixedArray<T>, T: Real, N: StaticLength, M: StaticLength> TaylorMemory<S, T, N, M> {
     /// End of a step of this length, before its projection.
     #[inline]
     fn sum(&self, h: T) -> Sum<T, N> {
@@ -46,7 +46,7 @@ impl<S: FixedArray<T>, T: Real, N: Length, M: Length> TaylorMemory<S, T, N, M> {
 }
 
 /// Result of an attempted step.
-pub(super) enum Attempt<T: Element, N: Length> {
+pub(super) enum Attempt<T: Element, N: StaticLength> {
     Reached(State<T, N>),
     /// Rejected; index of the coordinate whose acceleration or state is most inaccurate.
     Inaccurate(usize),
@@ -54,7 +54,7 @@ pub(super) enum Attempt<T: Element, N: Length> {
 
 impl Taylor {
     /// Plans another step after one of length `h` was rejected. Returns false if it would not advance the time.
-    pub(super) fn can_be_shorter<S: FixedArray<T>, T: Real, N: Length, M: Length>(
+    pub(super) fn can_be_shorter<S: FixedArray<T>, T: Real, N: StaticLength, M: StaticLength>(
         &self,
         memory: &mut TaylorMemory<S, T, N, M>,
         h: T,
@@ -65,7 +65,7 @@ impl Taylor {
     }
 
     /// Sets the end; before the first step, also plans the longest allowed first step.
-    pub(crate) fn aim<S, T: Real, N: Length, M: Length>(
+    pub(crate) fn aim<S, T: Real, N: StaticLength, M: StaticLength>(
         &self,
         memory: &mut TaylorMemory<S, T, N, M>,
         end: T,
@@ -179,7 +179,7 @@ impl Taylor {
 }
 
 /// End of a step before its projection.
-struct Sum<T: Element, N: Length> {
+struct Sum<T: Element, N: StaticLength> {
     phase: [Array<T, N>; 2],
     /// Compensation terms of `phase`: its rounding errors.
     rest: [Array<T, N>; 2],

@@ -14,7 +14,7 @@ use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Rank, Rows};
 use crate::solution::pivot::is_trustworthy;
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, rows};
+use crate::vector::{Array, Element, Entrywise, StaticLength, Vector, rows};
 
 /// Largest number of steps of the search for the least residuals.
 const STEPS: usize = 300;
@@ -27,7 +27,7 @@ const DAMPING: [f64; 2] = [0.3, 4.0];
 
 /// A mechanism that satisfies its constraints, as [`assemble`](crate::Simulate::assemble) finds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Assembly<T: Element, N: Length> {
+pub struct Assembly<T: Element, N: StaticLength> {
     /// Consistent state.
     pub state: State<T, N>,
     /// Displacement of the state from the guess.
@@ -40,7 +40,7 @@ pub struct Assembly<T: Element, N: Length> {
     pub redundant: Names,
 }
 
-impl<T: Real, N: Length> Display for Assembly<T, N> {
+impl<T: Real, N: StaticLength> Display for Assembly<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { adjustment, rank, degrees_of_freedom, redundant, .. } = self;
         write!(
@@ -80,13 +80,13 @@ pub(crate) fn assemble<L: Lagrangian<Scalar: Real>>(
 
 /// Residuals of the holonomic constraints in units of their gradients at the guess, with the Jacobian in
 /// these units.
-struct LinearResiduals<T: Element, N: Length, M: Length> {
+struct LinearResiduals<T: Element, N: StaticLength, M: StaticLength> {
     value: Array<T, M>,
     jacobian: Array<Array<T, N>, M>,
     square: T,
 }
 
-impl<T: Real, N: Length, M: Length> LinearResiduals<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> LinearResiduals<T, N, M> {
     fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(
         system: &L,
         state: &StateOf<L>,

@@ -12,7 +12,7 @@ use crate::names::Names;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::kkt::{Rank, Rows};
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Entrywise, Length, Vector, zeros};
+use crate::vector::{Array, Entrywise, StaticLength, Vector, zeros};
 
 /// Number of directions, beside the remainders of the dependent rows, along which second derivatives are taken.
 /// A nonzero quadratic form H may vanish along one of them by chance, but hardly along three.
@@ -64,7 +64,7 @@ fn second_derivatives<L: Lagrangian<Scalar: Real>>(
     direction: Vector<L::Scalar, L::N>,
 ) -> Array<L::Scalar, L::M> {
     let (zero, half) = (L::Scalar::constant(0.0), L::Scalar::constant(0.5));
-    let bias = |v| system.constraint_bias(&State { v, ..*state });
+    let bias = |v| system.constraint_bias(&State { t: state.t, q: state.q, v });
     let [ahead, back] = [direction, direction.negated()].map(bias);
     let rest = bias(zeros());
     let is_holonomic = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);

@@ -10,7 +10,7 @@ use crate::names::name;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::round_off::{SAFETY, neighbours};
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Entrywise, Length, from_fn};
+use crate::vector::{Array, Entrywise, StaticLength, from_fn};
 
 /// Largest entry of a row that is its rounding error, in units of ε times [`jacobian_round_off`]. An entry that is larger is
 /// correct to a quarter of itself. In 10⁵ random linkages whose planes agree, no entry across the plane exceeded 1.

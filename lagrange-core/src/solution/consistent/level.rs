@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::names::name;
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, smaller, sum};
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Length, Vector, from_fn};
+use crate::vector::{Array, Element, StaticLength, Vector, from_fn};
 
 /// Unknowns of a projection: the coordinates, projected onto the holonomic constraints, or the velocities,
 /// projected onto all constraints.
@@ -50,7 +50,7 @@ impl Level {
     }
 
     /// Unknowns of this level: coordinates or velocities.
-    pub(crate) fn unknowns<T: Element, N: Length>(self, state: &mut State<T, N>) -> &mut Vector<T, N> {
+    pub(crate) fn unknowns<T: Element, N: StaticLength>(self, state: &mut State<T, N>) -> &mut Vector<T, N> {
         match self {
             Self::Position => &mut state.q,
             Self::Velocity => &mut state.v,
@@ -66,7 +66,7 @@ impl Level {
 pub(super) const NEGLIGIBLE: f64 = 16.0;
 
 /// Residual of a level, with its Jacobian and the magnitude of its terms.
-pub(super) struct Residual<T: Element, N: Length, M: Length> {
+pub(super) struct Residual<T: Element, N: StaticLength, M: StaticLength> {
     pub(super) value: Array<T, M>,
     pub(super) jacobian: Array<Array<T, N>, M>,
     /// Σ |F_αa| |x_a|, the magnitude of the terms; ε times it is their round-off.
@@ -75,7 +75,7 @@ pub(super) struct Residual<T: Element, N: Length, M: Length> {
     pub(super) sensitivity: Array<T, M>,
 }
 
-impl<T: Real, N: Length, M: Length> Residual<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> Residual<T, N, M> {
     pub(crate) fn of<L: Lagrangian<N = N, M = M, Scalar = T>>(
         system: &L,
         level: Level,

@@ -27,28 +27,38 @@ use crate::solution::near::{self, Corrections};
 use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::pivot::is_trustworthy;
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, from_fn, vector};
+use crate::vector::{
+    Array, Element, Entrywise, Length, Numbers, StaticLength, Vector, VectorOf, from_fn, vector, vector_of,
+};
 pub(crate) use level::{BOTH, Level, check_level};
 use level::{NEGLIGIBLE, Residual};
 
 /// Displacement of a state by a projection onto the constraints.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Adjustment<T: Element, N: Length> {
     /// Projected minus given generalized coordinates.
-    pub q: Vector<T, N>,
+    pub q: VectorOf<T, N>,
     /// Projected minus given generalized velocities.
-    pub v: Vector<T, N>,
+    pub v: VectorOf<T, N>,
 }
 
+impl<T: Element, N: Length> Copy for Adjustment<T, N> where VectorOf<T, N>: Copy {}
+
 impl<T: Real, N: Length> Adjustment<T, N> {
+    /// Returns the displacement of a state that no constraint moves.
+    pub(crate) fn none(length: N) -> Self {
+        let none = vector_of::<_, N>(length.count(), T::constant(0.0));
+        Self { q: none.clone(), v: none }
+    }
+
     /// Returns the largest change of a coordinate, in magnitude.
     pub fn largest_coordinate_change(&self) -> T {
-        largest(self.q.as_slice())
+        largest(self.q.entries())
     }
 
     /// Returns the largest change of a velocity, in magnitude.
     pub fn largest_velocity_change(&self) -> T {
-        largest(self.v.as_slice())
+        largest(self.v.entries())
     }
 }
 
@@ -115,7 +125,7 @@ pub(crate) fn project<L: Lagrangian<Scalar: Real>>(
 }
 
 /// Zero rounding errors of coordinates and velocities.
-fn none<T: Scalar, N: Length>() -> [Array<T, N>; 2] {
+fn none<T: Scalar, N: StaticLength>() -> [Array<T, N>; 2] {
     [Array::filled(T::constant(0.0)); 2]
 }
 
@@ -290,7 +300,7 @@ impl<L: Lagrangian<Scalar: Real>> Search for Projection<'_, L> {
 }
 
 #[inline(never)]
-fn fast_correction<T: Real, N: Length, M: Length>(
+fn fast_correction<T: Real, N: StaticLength, M: StaticLength>(
     m: &Array<Array<T, N>, N>,
     f: &Array<Array<T, N>, M>,
     left: &Array<T, M>,
@@ -302,7 +312,7 @@ fn fast_correction<T: Real, N: Length, M: Length>(
 /// Factorization for the least x with F x + γ = 0, in the metric of the mass matrix. If F leaves a direction
 /// without mass, the metric is the diagonal of M. Holonomic constraints alone leave such a direction if a
 /// velocity constraint ties a massless coordinate.
-pub(crate) fn factors_of_nearest<T: Real, N: Length, M: Length>(
+pub(crate) fn factors_of_nearest<T: Real, N: StaticLength, M: StaticLength>(
     m: &Array<Array<T, N>, N>,
     f: &Array<Array<T, N>, M>,
     rank: Rank<T>,
@@ -312,7 +322,7 @@ pub(crate) fn factors_of_nearest<T: Real, N: Length, M: Length>(
 }
 
 /// Removes held entries from the equations: zero columns in the constraints, and a unit mass without coupling.
-fn hold<T: Real, N: Length>(held: &Array<bool, N>, m: &mut [Array<T, N>], f: &mut [Array<T, N>]) {
+fn hold<T: Real, N: StaticLength>(held: &Array<bool, N>, m: &mut [Array<T, N>], f: &mut [Array<T, N>]) {
     for i in (0..N::COUNT).filter(|&i| held[i]) {
         m.iter_mut().chain(&mut *f).for_each(|row| row[i] = T::constant(0.0));
         if let Some(row) = m.get_mut(i) {
@@ -332,7 +342,7 @@ fn mass_matrix<L: Lagrangian<Scalar: Real>>(
 
 /// Diagonal part of the mass matrix, with 1 in place of zero masses.
 #[inline(never)]
-fn diagonal<T: Real, N: Length>(m: &Array<Array<T, N>, N>) -> Room<Array<Array<T, N>, N>> {
+fn diagonal<T: Real, N: StaticLength>(m: &Array<Array<T, N>, N>) -> Room<Array<Array<T, N>, N>> {
     let (zero, one) = (T::constant(0.0), T::constant(1.0));
     let mass = |i: usize| if m[i][i] == zero { one } else { Scalar::abs(m[i][i]) };
     Room::of(from_fn(|i| Array::from_fn(|j| if i == j { mass(i) } else { zero })))

@@ -23,7 +23,7 @@ use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::newton::halvings;
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, Element, Entrywise, Length, Vector, from_fn, vector};
+use crate::vector::{Array, Element, Entrywise, StaticLength, Vector, from_fn, vector};
 
 /// Limit on Newton steps. Usually about five suffice; far from the constraints and at flat minima more, 31 for
 /// a chain of 50 rods.
@@ -79,13 +79,16 @@ fn gradients<L: Lagrangian<Scalar: Real>>(
 
 /// True if no direction has negative mass.
 #[inline(never)]
-fn is_semidefinite<T: Real, N: Length>(m: &Array<Array<T, N>, N>) -> bool {
+fn is_semidefinite<T: Real, N: StaticLength>(m: &Array<Array<T, N>, N>) -> bool {
     Factors::<T, N, Const<0>>::of(m, &Array([]), Rank::off_constraints()).is_semidefinite()
 }
 
 /// True if every direction that the constraints leave free has mass.
 #[inline(never)]
-fn is_regular<T: Real, N: Length, M: Length>(m: &Array<Array<T, N>, N>, f: &Array<Array<T, N>, M>) -> bool {
+fn is_regular<T: Real, N: StaticLength, M: StaticLength>(
+    m: &Array<Array<T, N>, N>,
+    f: &Array<Array<T, N>, M>,
+) -> bool {
     Factors::of(m, f, Rank::off_constraints()).are_regular()
 }
 
@@ -98,7 +101,7 @@ struct Nearest<'a, L: Lagrangian> {
 }
 
 /// A point on the constraints, with its distance from the given point q₀.
-struct ConstrainedPoint<T: Element, N: Length, M: Length> {
+struct ConstrainedPoint<T: Element, N: StaticLength, M: StaticLength> {
     state: State<T, N>,
     f: Room<Array<Array<T, N>, M>>,
     /// Gradient of half the squared distance, with opposite sign: M (q₀ − q).

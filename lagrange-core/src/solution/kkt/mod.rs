@@ -14,13 +14,13 @@ mod units;
 use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, smaller};
 
 use crate::system::Solution;
-use crate::vector::{Array, Element, Length, Vector, from_fn, vector};
+use crate::vector::{Array, Element, StaticLength, Vector, from_fn, vector};
 use qr::{Qr, dot};
 use symmetric::Symmetric;
 pub(crate) use units::Units;
 
 /// Coefficients of M q̈ − Fᵀλ = h, F q̈ + γ = 0; matrices as arrays of rows.
-pub(crate) struct KktSystem<T: Element, N: Length, M: Length> {
+pub(crate) struct KktSystem<T: Element, N: StaticLength, M: StaticLength> {
     pub(crate) m: Array<Array<T, N>, N>,
     pub(crate) h: Array<T, N>,
     pub(crate) f: Array<Array<T, N>, M>,
@@ -29,7 +29,7 @@ pub(crate) struct KktSystem<T: Element, N: Length, M: Length> {
 
 /// Reason why the equations have no solution, or more than one.
 #[derive(Debug)]
-pub(crate) enum Fault<T: Element, N: Length> {
+pub(crate) enum Fault<T: Element, N: StaticLength> {
     /// Undetermined accelerations: share of each coordinate in them, in its natural unit.
     Singular(Array<T, N>),
     /// Index of a constraint that contradicts those on which it depends.
@@ -76,7 +76,7 @@ pub(crate) type Solved<T, N, M> = (Solution<T, N, M>, Array<bool, M>);
 const REFINEMENTS: usize = 4;
 
 /// Solves the equations; see [`Factors`].
-pub(crate) fn solve<T: Real, N: Length, M: Length>(
+pub(crate) fn solve<T: Real, N: StaticLength, M: StaticLength>(
     equations: &KktSystem<T, N, M>,
     rank: Rank<T>,
 ) -> Result<Solved<T, N, M>, Fault<T, N>> {
@@ -89,7 +89,7 @@ pub(crate) fn solve<T: Real, N: Length, M: Length>(
 /// Solves the equations for the residuals of a solution, and adds the result to it (iterative refinement: Higham, *Accuracy
 /// and Stability of Numerical Algorithms*, 12.2). In natural units, a multiplier may be tiny beside the others, and has the
 /// round-off of the others; each refinement reduces this error.
-fn refined<T: Real, N: Length, M: Length>(
+fn refined<T: Real, N: StaticLength, M: StaticLength>(
     equations: &KktSystem<T, N, M>,
     factors: &Factors<T, N, M>,
     solution: Solution<T, N, M>,
@@ -114,7 +114,7 @@ fn refined<T: Real, N: Length, M: Length>(
 ///
 /// In these units a direction counts as massless if its pivot is less than ε^(3/4) of the largest entry of M
 /// (ε: the round-off unit of `T`).
-pub(crate) struct Factors<T: Element, N: Length, M: Length> {
+pub(crate) struct Factors<T: Element, N: StaticLength, M: StaticLength> {
     pub(crate) rows: Rows<T, N, M>,
     /// QᵀMQ.
     m: Array<Array<T, N>, N>,
@@ -126,7 +126,7 @@ pub(crate) struct Factors<T: Element, N: Length, M: Length> {
     must_agree: bool,
 }
 
-impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> Factors<T, N, M> {
     pub(crate) fn of(m: &Array<Array<T, N>, N>, f: &Array<Array<T, N>, M>, rank: Rank<T>) -> Self {
         let rows = Rows::of(m, f, rank);
         let mut m = *m;
@@ -222,12 +222,12 @@ impl<T: Real, N: Length, M: Length> Factors<T, N, M> {
 }
 
 /// QR factorization of the constraint rows in natural units, each row of length 1 (or zero).
-pub(crate) struct Rows<T: Element, N: Length, M: Length> {
+pub(crate) struct Rows<T: Element, N: StaticLength, M: StaticLength> {
     pub(crate) units: Units<T, N, M>,
     split: Qr<T, N, M>,
 }
 
-impl<T: Real, N: Length, M: Length> Rows<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> Rows<T, N, M> {
     pub(crate) fn of(m: &Array<Array<T, N>, N>, f: &Array<Array<T, N>, M>, rank: Rank<T>) -> Self {
         let units = Units::of(m, f);
         let rows = from_fn(|a| units.unit_row(a, &f[a]));
@@ -336,7 +336,10 @@ impl<T: Real, N: Length, M: Length> Rows<T, N, M> {
 }
 
 /// Replaces symmetric m by Qᵀ m Q in place: large arrays are not copied.
-fn to_range_basis<T: Real, N: Length, M: Length>(split: &Qr<T, N, M>, m: &mut Array<Array<T, N>, N>) {
+fn to_range_basis<T: Real, N: StaticLength, M: StaticLength>(
+    split: &Qr<T, N, M>,
+    m: &mut Array<Array<T, N>, N>,
+) {
     for _ in 0..2 {
         for row in m.iter_mut() {
             split.enter_basis(row);
@@ -350,7 +353,7 @@ fn to_range_basis<T: Real, N: Length, M: Length>(split: &Qr<T, N, M>, m: &mut Ar
 }
 
 /// Factorizes ZᵀMZ, given QᵀMQ and its largest entry.
-fn along_constraints<T: Real, N: Length>(
+fn along_constraints<T: Real, N: StaticLength>(
     m: &Array<Array<T, N>, N>,
     rank: usize,
     largest: T,
@@ -364,7 +367,7 @@ fn along_constraints<T: Real, N: Length>(
 }
 
 /// Returns the share of each coordinate in the undetermined motions.
-fn undetermined<T: Real, N: Length, M: Length>(
+fn undetermined<T: Real, N: StaticLength, M: StaticLength>(
     split: &Qr<T, N, M>,
     factors: &Symmetric<T, N>,
     size: usize,
@@ -381,7 +384,7 @@ fn undetermined<T: Real, N: Length, M: Length>(
 }
 
 /// Returns the QR factorization of Rᵀ, with one column per constraint, for the least-norm solution of R λ = force, λ = Q R⁻ᵀ force.
-fn least_norm<T: Real, N: Length, M: Length>(split: &Qr<T, N, M>) -> Qr<T, M, N> {
+fn least_norm<T: Real, N: StaticLength, M: StaticLength>(split: &Qr<T, N, M>) -> Qr<T, M, N> {
     let zero = T::constant(0.0);
     let mut transposed = Array::filled(Array::filled(zero));
     for (i, column) in transposed.iter_mut().enumerate().take(split.rank) {
@@ -392,6 +395,6 @@ fn least_norm<T: Real, N: Length, M: Length>(split: &Qr<T, N, M>) -> Qr<T, M, N>
     Qr::of(transposed, zero)
 }
 
-fn smallest_diagonal<T: Real, N: Length, M: Length>(split: &Qr<T, N, M>) -> T {
+fn smallest_diagonal<T: Real, N: StaticLength, M: StaticLength>(split: &Qr<T, N, M>) -> T {
     (0..split.rank).fold(T::constant(1.0), |least, i| smaller(least, Scalar::abs(split.entry(i, i))))
 }

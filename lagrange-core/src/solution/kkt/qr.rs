@@ -1,10 +1,10 @@
 //! Rank-revealing Householder QR with column pivoting.
 
 use crate::number::{Real, Scalar, norm, power_of_two};
-use crate::vector::{Array, Element, Length, from_fn};
+use crate::vector::{Array, Element, StaticLength, from_fn};
 
 /// Factorization A P = Q R of a K×C matrix A (Golub and Van Loan, *Matrix Computations*, 5.4.2).
-pub(super) struct Qr<T: Element, K: Length, C: Length> {
+pub(super) struct Qr<T: Element, K: StaticLength, C: StaticLength> {
     /// Columns of R, in pivoted order.
     r: Array<Array<T, K>, C>,
     /// Reflection k is I − v vᵀ with v = `reflectors[k]`, which is zero above entry k.
@@ -15,7 +15,7 @@ pub(super) struct Qr<T: Element, K: Length, C: Length> {
     pub(super) rank: usize,
 }
 
-impl<T: Real, K: Length, C: Length> Qr<T, K, C> {
+impl<T: Real, K: StaticLength, C: StaticLength> Qr<T, K, C> {
     /// Factorizes the matrix with these columns; a remainder up to `tolerance` counts as zero.
     pub(super) fn of(columns: Array<Array<T, K>, C>, tolerance: T) -> Self {
         let zero = T::constant(0.0);

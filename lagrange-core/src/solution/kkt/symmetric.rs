@@ -1,14 +1,14 @@
 //! Factorization of a symmetric matrix, definite or indefinite.
 
 use crate::number::{Real, Scalar, smaller};
-use crate::vector::{Array, Element, Length, from_fn};
+use crate::vector::{Array, Element, StaticLength, from_fn};
 
 /// Factorization P A Pᵀ = L D Lᵀ of a symmetric matrix of order `size` ≤ N. D has 1×1 and 2×2 blocks, by
 /// complete pivoting (Bunch and Parlett 1971; Golub and Van Loan, *Matrix Computations*, 4.4.4).
 ///
 /// In a positive definite matrix the largest entry is on the diagonal, so this is Cholesky's method with
 /// pivoting.
-pub(super) struct Symmetric<T: Element, N: Length> {
+pub(super) struct Symmetric<T: Element, N: StaticLength> {
     size: usize,
     /// L below the diagonal (or the 2×2 block), D on it.
     a: Array<Array<T, N>, N>,
@@ -20,7 +20,7 @@ pub(super) struct Symmetric<T: Element, N: Length> {
     pub(super) smallest: T,
 }
 
-impl<T: Real, N: Length> Symmetric<T, N> {
+impl<T: Real, N: StaticLength> Symmetric<T, N> {
     /// Factorizes the leading block of order `size`; a remainder with no entry above `tolerance` counts as
     /// zero.
     pub(super) fn of(a: Array<Array<T, N>, N>, size: usize, tolerance: T) -> Self {

@@ -1,13 +1,13 @@
 //! Natural units, in which masses are about 1 and constraint rows have length 1.
 
 use crate::number::{Real, Scalar, larger, largest, norm, power_of_two, unit_of};
-use crate::vector::{Array, Element, Length};
+use crate::vector::{Array, Element, StaticLength};
 
 /// The natural units of a mass matrix and a constraint Jacobian.
 ///
 /// The length of a row is stored as a product of two factors: the entries and the units of the coordinates may
 /// be so large or small that the length itself overflows or underflows.
-pub(crate) struct Units<T: Element, N: Length, M: Length> {
+pub(crate) struct Units<T: Element, N: StaticLength, M: StaticLength> {
     /// For each coordinate, the unit in which its mass is ±1; for a massless coordinate, the unit in which its
     /// strongest coupling is 1.
     pub(crate) coordinates: Array<T, N>,
@@ -17,7 +17,7 @@ pub(crate) struct Units<T: Element, N: Length, M: Length> {
     pub(super) lengths: Array<T, M>,
 }
 
-impl<T: Real, N: Length, M: Length> Units<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> Units<T, N, M> {
     pub(crate) fn of(m: &Array<Array<T, N>, N>, f: &Array<Array<T, N>, M>) -> Self {
         let (zero, one) = (T::constant(0.0), T::constant(1.0));
         let mass = |i: usize| Scalar::abs(m[i][i]);

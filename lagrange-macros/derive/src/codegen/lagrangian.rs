@@ -6,6 +6,7 @@ use quote::quote;
 use super::emitter::{Emitter, Written, too_long};
 use super::kernel::Kernel;
 use super::markers::markers;
+use super::moving::moving;
 use super::observables::OBSERVABLE;
 use super::pack;
 use super::shape::ResultShape;
@@ -79,11 +80,10 @@ impl Emitter<'_> {
         let switched = switched
             .iter()
             .map(|Written { tokens, .. }| self.implementation(&name_of_switched, &generics, tokens));
+        let moving = self.implementation(&quote!(System), &generics, &moving(scalar, m));
         let items = quote! {
-            type Scalar = #scalar;
             type Factor = #factor;
             type N = __lagrange::nalgebra::Const<#n>;
-            type M = __lagrange::nalgebra::Const<#m>;
             const NAME: &'static str = #name;
             const COORDINATES: &'static [&'static str] = &[#(#coordinates),*];
             const CONSTRAINTS: &'static [&'static str] = &[#(#constraints),*];
@@ -106,6 +106,7 @@ impl Emitter<'_> {
         };
         let lagrangian = self.implementation(&quote!(Lagrangian), &generics, &items);
         let items = quote! {
+            #moving
             #lagrangian
 
             #[doc = #doc]

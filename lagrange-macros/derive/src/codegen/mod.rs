@@ -17,6 +17,7 @@ mod lagrangian;
 mod linearized;
 mod markers;
 mod members;
+mod moving;
 mod observables;
 mod operation;
 mod pack;

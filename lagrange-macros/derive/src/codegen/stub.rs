@@ -7,6 +7,7 @@ use quote::quote;
 use super::bounds::bounded_generics;
 use super::emitter::runtime;
 use super::markers::markers;
+use super::moving::moving;
 use super::observables::method_name;
 use super::pack::pack;
 use super::signature::{Types, wide};
@@ -99,17 +100,22 @@ pub(crate) fn stub(
         quote! { #visibility #signature { loop {} } }
     });
     let (markers, pack) = (markers(declaration, &generics, &Marker::ALL), pack(declaration, scalar));
+    let moving = moving(scalar, constraints);
     quote! {
         const _: () = {
             use #runtime as __lagrange;
 
             #[automatically_derived]
+            #[allow(clippy::all)]
+            impl #impl_generics __lagrange::System for #ident #type_generics #where_clause {
+                #moving
+            }
+
+            #[automatically_derived]
             #[allow(unused_variables, clippy::all)]
             impl #impl_generics __lagrange::Lagrangian for #ident #type_generics #where_clause {
-                type Scalar = #scalar;
                 type Factor = ();
                 type N = __lagrange::nalgebra::Const<#n>;
-                type M = __lagrange::nalgebra::Const<#constraints>;
                 const NAME: &'static str = "";
                 const COORDINATES: &'static [&'static str] = &[];
                 const CONSTRAINTS: &'static [&'static str] = &[];

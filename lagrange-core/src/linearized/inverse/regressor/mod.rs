@@ -19,7 +19,7 @@ use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, exceeds, larger, largest, power_of_epsilon};
 use crate::solution::solve::first_row;
 use crate::system::{Solution, StateOf, finite::check_finite, unit};
-use crate::vector::{Length, Vector, zeros};
+use crate::vector::{StaticLength, Vector, zeros};
 
 /// Generalized forces τ = M q̈ − h = Y π + τ₀ at a state with given accelerations, linear in the inertial parameters π of
 /// bodies.

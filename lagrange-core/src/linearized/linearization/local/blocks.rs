@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use crate::linearized::StateDerivatives;
 use crate::names::Entry;
 use crate::number::Real;
-use crate::vector::Length;
+use crate::vector::StaticLength;
 
 /// Coordinates in blocks: the four numbers of a quaternion, or one other coordinate.
 pub(super) struct Blocks {

@@ -22,7 +22,7 @@ use crate::number::Real;
 use crate::solution::consistent;
 use crate::system::finite::check_finite;
 use crate::system::{StateOf, lookup};
-use crate::vector::Length;
+use crate::vector::StaticLength;
 use blocks::Blocks;
 pub(in crate::linearized) use finite::{change, changed};
 

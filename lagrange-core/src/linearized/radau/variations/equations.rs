@@ -19,7 +19,7 @@ use crate::linearized::variation::Variations;
 use crate::number::{Real, Scalar, Wide};
 use crate::solution::consistent::BOTH;
 use crate::solution::solve::solve_near;
-use crate::vector::{Length, PhaseVector};
+use crate::vector::{PhaseVector, StaticLength};
 
 /// Linearized equations of a step.
 pub(super) struct StepEquations<'a, T, const S: usize> {
@@ -146,7 +146,7 @@ pub(super) struct StageVariations<T>(Vec<[DMatrix<T>; 2]>);
 
 impl<T: Real> StageVariations<T> {
     /// Variations of a block at a stage.
-    pub(super) fn at<N: Length>(&self, stage: usize, block: usize) -> PhaseVector<T::Wide, N> {
+    pub(super) fn at<N: StaticLength>(&self, stage: usize, block: usize) -> PhaseVector<T::Wide, N> {
         let (lanes, mut y) = (T::Wide::COUNT, PhaseVector::filled(T::Wide::constant(0.0)));
         for (half, columns) in self.0[stage].iter().enumerate() {
             for lane in 0..lanes.min(columns.ncols() - block * lanes) {
@@ -158,7 +158,7 @@ impl<T: Real> StageVariations<T> {
     }
 
     /// How much the variations of one block of lanes change from the `start` of the step to a stage.
-    pub(super) fn change<N: Length>(
+    pub(super) fn change<N: StaticLength>(
         &self,
         stage: usize,
         block: usize,

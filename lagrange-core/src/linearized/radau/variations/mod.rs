@@ -19,12 +19,12 @@ use crate::linearized::tangent::WideOf;
 use crate::linearized::variation::{DifferentiableMethod, Variations, VariedRun};
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::system::StateOf;
-use crate::vector::{Element, Length, PhaseVector};
+use crate::vector::{Element, PhaseVector, StaticLength};
 use equations::StepEquations;
 
 /// Variations at the start and the stages of the last step.
 #[derive(Debug)]
-pub struct RadauVariations<W: Element, N: Length, const S: usize> {
+pub struct RadauVariations<W: Element, N: StaticLength, const S: usize> {
     /// The method's matrix.
     a: [[f64; S]; S],
     /// For each block, the variations at the start of the step, then their changes up to each stage.

@@ -15,7 +15,7 @@ use crate::linearized::variation::Variations;
 use crate::number::{Real, Wide};
 use crate::solution::consistent::level::Level;
 use crate::system::unit;
-use crate::vector::{Entrywise, Length};
+use crate::vector::{Entrywise, StaticLength};
 
 /// Directions along which the chart moves states onto the constraints of a level, one for each that determines them.
 pub(super) struct Normals<T> {

@@ -9,7 +9,7 @@ use crate::linearized::sensitivity::state::{ChangingStateOf, StateSensitivity, a
 use crate::linearized::tangent::Tangent;
 use crate::names::{Entry, name};
 use crate::number::{Real, Scalar};
-use crate::system::{Lagrangian, ResidualChange, Solution, StateOf};
+use crate::system::{ResidualChange, Solution, StateOf, System};
 use crate::trajectory::Leg;
 use crate::vector::{Vector, zeros};
 
@@ -120,7 +120,7 @@ fn hold<L: Linearized<Scalar: Real> + Contacts + Clone>(
 
 /// Multipliers, and their derivatives.
 type ForcesAndChanges<L> = (MultipliersOf<L>, MultipliersOf<L>);
-type MultipliersOf<L> = Vector<<L as Lagrangian>::Scalar, <L as Lagrangian>::M>;
+type MultipliersOf<L> = Vector<<L as System>::Scalar, <L as System>::M>;
 
 fn multipliers<L: Linearized<Scalar: Real>>(
     system: &L,

@@ -11,7 +11,7 @@ use crate::linearized::sensitivity::state::StateSensitivity;
 use crate::number::{Real, Scalar, power_of_epsilon};
 use crate::solution::solve::solve;
 use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Length, Vector, zeros};
+use crate::vector::{StaticLength, Vector, zeros};
 
 /// A transition: the states before and after it, and the systems whose contacts are as then.
 pub(super) struct Change<'a, L: Linearized> {

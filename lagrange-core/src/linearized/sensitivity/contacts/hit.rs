@@ -12,7 +12,7 @@ use crate::linearized::Linearized;
 use crate::linearized::sensitivity::state::{StateSensitivity, impact_sensitivity};
 use crate::names::name;
 use crate::number::{Real, Scalar, largest, power_of_epsilon};
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{StateOf, System};
 use crate::trajectory::Leg;
 use crate::vector::Entrywise;
 
@@ -25,7 +25,7 @@ pub(super) struct Hit<L> {
 }
 
 /// Names and impulses of an impact.
-type Impulses<L> = [(&'static str, <L as Lagrangian>::Scalar)];
+type Impulses<L> = [(&'static str, <L as System>::Scalar)];
 
 impl<L: Linearized<Scalar: Real> + Contacts + Clone> Hit<L> {
     pub(super) fn of(leg: &Leg<L>, impulses: &Impulses<L>, after: &StateOf<L>) -> Result<Self, Error> {

@@ -8,7 +8,7 @@ use crate::linearized::argument::parameter;
 use crate::linearized::sensitivity::state::{ChangingState, ChangingStateOf};
 use crate::number::{Real, Scalar, larger, largest, unit_of};
 use crate::system::{Direction, State, StateOf};
-use crate::vector::{Entrywise, Length};
+use crate::vector::{Entrywise, StaticLength};
 
 /// First step of the differences of a law, in units of its arguments. The formula of order six is off by h⁶/140 of the
 /// seventh derivative, 2·10⁻¹⁷ for one that varies over its arguments, and by some ε/h of the value, 6·10⁻¹⁴.
@@ -90,7 +90,11 @@ fn differences<T: Real>(at: impl Fn(f64) -> Result<T, Error>) -> Result<[T; 2], 
 
 /// First step of the differences: [`STEP`] of the time, the largest coordinate, the largest velocity and the parameter, or of
 /// one if they are zero.
-fn step<T: Real, N: Length>(state: &State<T, N>, direction: &Direction<T, N>, parameter: Option<T>) -> T {
+fn step<T: Real, N: StaticLength>(
+    state: &State<T, N>,
+    direction: &Direction<T, N>,
+    parameter: Option<T>,
+) -> T {
     let rate = |size: T, change: T| change / unit_of(size);
     let rates = [
         rate(Scalar::abs(state.t), Scalar::abs(direction.t)),

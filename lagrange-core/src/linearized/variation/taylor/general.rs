@@ -4,17 +4,17 @@ use crate::error::Error;
 use crate::motion::taylor::expansion::General;
 use crate::number::{Dual, Real, Wide};
 use crate::system::{Lagrangian, RightHandSides, Solution, State};
-use crate::vector::{Array, Element, Entrywise, Length, from_fn, vector};
+use crate::vector::{Array, Element, Entrywise, StaticLength, from_fn, vector};
 
 /// Factors of the general solver at a state, with the derivatives of M and F.
-pub(super) struct DualGeneral<T: Element, W: Element, N: Length, M: Length> {
+pub(super) struct DualGeneral<T: Element, W: Element, N: StaticLength, M: StaticLength> {
     general: General<T, N, M>,
     /// δM and δF, row by row.
     m: Array<Array<W, N>, N>,
     f: Array<Array<W, N>, M>,
 }
 
-impl<T: Real<Wide = W>, W: Wide<T>, N: Length, M: Length> DualGeneral<T, W, N, M> {
+impl<T: Real<Wide = W>, W: Wide<T>, N: StaticLength, M: StaticLength> DualGeneral<T, W, N, M> {
     #[cold]
     pub(super) fn at<L, S>(
         system: &L,

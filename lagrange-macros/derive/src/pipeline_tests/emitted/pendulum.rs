@@ -2,11 +2,31 @@ const _: () = {
     use ::lagrange_core as __lagrange;
     #[automatically_derived]
     #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
-    impl __lagrange::Lagrangian for Pendulum {
+    impl __lagrange::System for Pendulum {
         type Scalar = f64;
+        type Length = <Self as __lagrange::Lagrangian>::N;
+        type M = __lagrange::nalgebra::Const<0usize>;
+        type Field = __lagrange::motion::LagrangianVectorField;
+        #[inline(always)]
+        fn length(&self) -> Self::Length {
+            __lagrange::nalgebra::Const
+        }
+        #[inline]
+        fn accelerations(
+            &self,
+            t: Self::Scalar,
+            q: &__lagrange::generic::ViewOf<Self::Scalar, Self::Length>,
+            v: &__lagrange::generic::ViewOf<Self::Scalar, Self::Length>,
+            a: &mut __lagrange::generic::ViewOf<Self::Scalar, Self::Length>,
+        ) {
+            __lagrange::generated::write_accelerations(self, t, [q, v], a);
+        }
+    }
+    #[automatically_derived]
+    #[allow(clippy::all, clippy::pedantic, clippy::nursery, unused_parens)]
+    impl __lagrange::Lagrangian for Pendulum {
         type Factor = [f64; 2usize];
         type N = __lagrange::nalgebra::Const<1usize>;
-        type M = __lagrange::nalgebra::Const<0usize>;
         const NAME: &'static str = "Pendulum";
         const COORDINATES: &'static [&'static str] = &["theta"];
         const CONSTRAINTS: &'static [&'static str] = &[];
