@@ -41,19 +41,21 @@ impl<L: Lagrangian<Scalar = f64>, P: Method<L>> Method<L> for Searching<P> {
         system: &L,
         memory: &mut P::Memory,
         end: f64,
-        state: &mut StateOf<L>,
+        from: &StateOf<L>,
+        to: &mut StateOf<L>,
         statistics: &mut Statistics,
     ) -> Step {
-        self.0.step(system, memory, end, state, statistics)
+        self.0.step(system, memory, end, from, to, statistics)
     }
 
     fn interpolant(
         &self,
         system: &L,
         memory: &mut P::Memory,
+        ends: [&StateOf<L>; 2],
         statistics: &mut Statistics,
     ) -> Result<P::Interpolant, Error> {
-        self.0.interpolant(system, memory, statistics)
+        self.0.interpolant(system, memory, ends, statistics)
     }
 
     fn multiplier_bounds(

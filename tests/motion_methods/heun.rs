@@ -14,18 +14,12 @@ struct Heun {
     tolerance: Option<f64>,
 }
 
-/// The last step leads from `before` to `state`.
-struct Memory<const N: usize> {
-    before: State<f64, N>,
-    state: State<f64, N>,
-    step: f64,
-}
-
 impl<L, const N: usize> Method<L> for Heun
 where
     L: Lagrangian<N = Const<N>, Scalar = f64>,
 {
-    type Memory = Memory<N>;
+    /// Length of the next step.
+    type Memory = f64;
     type Interpolant = Dense<N>;
 
     fn limits(&self) -> Limits {
@@ -40,26 +34,27 @@ where
         if self.step > 0.0 { Ok(()) } else { Err(Error::Setting { name: "step", value: self.step }) }
     }
 
-    fn begin(&self, _: &L, start: &State<f64, N>, _: &mut Statistics) -> Result<Memory<N>, Error> {
-        Ok(Memory { before: *start, state: *start, step: self.step })
+    fn begin(&self, _: &L, _: &State<f64, N>, _: &mut Statistics) -> Result<f64, Error> {
+        Ok(self.step)
     }
 
     fn step(
         &self,
         system: &L,
-        memory: &mut Memory<N>,
+        planned: &mut f64,
         end: f64,
-        state: &mut State<f64, N>,
+        from: &State<f64, N>,
+        to: &mut State<f64, N>,
         statistics: &mut Statistics,
     ) -> Step {
-        let (from, left) = (*state, end - state.t);
-        let is_last = left.abs() <= memory.step * (1.0 + 1e-9);
-        let time = if is_last { end } else { from.t + memory.step * left.signum() };
+        let left = end - from.t;
+        let is_last = left.abs() <= *planned * (1.0 + 1e-9);
+        let time = if is_last { end } else { from.t + *planned * left.signum() };
         let h = time - from.t;
         let failed =
             |_| Step::Failed(Ending::MethodFailed { time: from.t, reason: "a stage has no solution" });
         statistics.evaluations += 2;
-        let first = match system.solve(&from) {
+        let first = match system.solve(from) {
             Ok(solution) => solution.accelerations,
             Err(error) => return failed(error),
         };
@@ -71,27 +66,32 @@ where
         let (q, v) = (from.q + (from.v + euler.v) * (h / 2.0), from.v + (first + last) * (h / 2.0));
         if let Some(tolerance) = self.tolerance {
             let error = (q - euler.q).norm().max((v - euler.v).norm()) / tolerance;
-            memory.step = h.abs() * (0.9 * error.max(1e-9).powf(-0.5)).clamp(0.2, 5.0);
+            *planned = h.abs() * (0.9 * error.max(1e-9).powf(-0.5)).clamp(0.2, 5.0);
             if error > 1.0 {
                 return Step::Rejected;
             }
         }
         match system.make_consistent(&State { t: time, q, v }) {
             Ok((next, _)) => {
-                (memory.before, memory.state, *state) = (from, next, next);
+                *to = next;
                 Step::Accepted
             }
             Err(error) => failed(error),
         }
     }
 
-    fn interpolant(&self, system: &L, memory: &mut Memory<N>, _: &mut Statistics) -> Result<Dense<N>, Error> {
+    fn interpolant(
+        &self,
+        system: &L,
+        _: &mut f64,
+        [from, to]: [&State<f64, N>; 2],
+        _: &mut Statistics,
+    ) -> Result<Dense<N>, Error> {
         let node = |state: &State<f64, N>| {
             let rates = PhaseVector::of(state.v, system.solve(state)?.accelerations);
             Ok::<_, Error>((PhaseVector::of(state.q, state.v), rates))
         };
-        let Memory { before, state, .. } = memory;
-        Ok(Dense(Polynomial::hermite(before.t, state.t - before.t, &node(before)?, &node(state)?)))
+        Ok(Dense(Polynomial::hermite(from.t, to.t - from.t, &node(from)?, &node(to)?)))
     }
 }
 
@@ -172,9 +172,9 @@ fn its_interpolant_meets_the_states() {
     let mut statistics = Statistics::default();
     let mut memory = method.begin(&system, &sine(0.0), &mut statistics).unwrap();
     let mut next = sine(0.0);
-    let step = method.step(&system, &mut memory, 1.0, &mut next, &mut statistics);
+    let step = method.step(&system, &mut memory, 1.0, &sine(0.0), &mut next, &mut statistics);
     assert_eq!(step, Step::Accepted);
-    let interpolant = method.interpolant(&system, &mut memory, &mut statistics).unwrap();
+    let interpolant = method.interpolant(&system, &mut memory, [&sine(0.0), &next], &mut statistics).unwrap();
     for state in [sine(0.0), next] {
         let point = interpolant.at(state.t);
         let off = [point.y[0][0] - state.q[0], point.y[1][0] - state.v[0], point.velocity[0] - state.v[0]];

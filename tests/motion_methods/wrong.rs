@@ -22,7 +22,8 @@ enum Fault {
 struct Wrong(Fault);
 
 impl Method<Spring> for Wrong {
-    type Memory = (State<f64, 1>, usize);
+    /// Number of steps.
+    type Memory = usize;
     type Interpolant = Polynomial<f64, [PhaseVector<f64, Const<1>>; 4]>;
 
     fn limits(&self) -> Limits {
@@ -37,38 +38,39 @@ impl Method<Spring> for Wrong {
         Ok(())
     }
 
-    fn begin(&self, _: &Spring, start: &State<f64, 1>, _: &mut Statistics) -> Result<Self::Memory, Error> {
-        Ok((*start, 0))
+    fn begin(&self, _: &Spring, _: &State<f64, 1>, _: &mut Statistics) -> Result<usize, Error> {
+        Ok(0)
     }
 
     fn step(
         &self,
         _: &Spring,
-        (state, steps): &mut Self::Memory,
+        steps: &mut usize,
         end: f64,
-        next: &mut State<f64, 1>,
+        _: &State<f64, 1>,
+        to: &mut State<f64, 1>,
         _: &mut Statistics,
     ) -> Step {
         *steps += 1;
-        state.t = match self.0 {
-            _ if *steps <= 3 => state.t + 0.1 * (end - state.t).signum(),
-            Fault::Beyond => end + (end - state.t),
-            Fault::Nowhere => state.t,
-            Fault::Back => state.t - 0.1 * (end - state.t).signum(),
+        to.t = match self.0 {
+            _ if *steps <= 3 => to.t + 0.1 * (end - to.t).signum(),
+            Fault::Beyond => end + (end - to.t),
+            Fault::Nowhere => to.t,
+            Fault::Back => to.t - 0.1 * (end - to.t).signum(),
             Fault::NoNumber => f64::NAN,
         };
-        *next = *state;
         Step::Accepted
     }
 
     fn interpolant(
         &self,
         _: &Spring,
-        (state, _): &mut Self::Memory,
+        _: &mut usize,
+        [from, to]: [&State<f64, 1>; 2],
         _: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
-        let node = (PhaseVector::of(state.q, state.v), PhaseVector::filled(0.0));
-        Ok(Polynomial::hermite(state.t - 0.1, 0.1, &node, &node))
+        let node = (PhaseVector::of(from.q, from.v), PhaseVector::filled(0.0));
+        Ok(Polynomial::hermite(from.t, to.t - from.t, &node, &node))
     }
 }
 
@@ -132,23 +134,25 @@ impl Method<Spring> for Grudging {
         system: &Spring,
         memory: &mut Self::Memory,
         end: f64,
-        state: &mut State<f64, 1>,
+        from: &State<f64, 1>,
+        to: &mut State<f64, 1>,
         statistics: &mut Statistics,
     ) -> Step {
-        Method::<Spring>::step(&Dopri5::default(), system, memory, end, state, statistics)
+        Method::<Spring>::step(&Dopri5::default(), system, memory, end, from, to, statistics)
     }
 
     fn interpolant(
         &self,
         system: &Spring,
         memory: &mut Self::Memory,
+        ends: [&State<f64, 1>; 2],
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
         if self.failures.get() > 0 {
             self.failures.set(self.failures.get() - 1);
             return Err(Error::EndNotFinite { end: f64::NAN });
         }
-        Method::<Spring>::interpolant(&Dopri5::default(), system, memory, statistics)
+        Method::<Spring>::interpolant(&Dopri5::default(), system, memory, ends, statistics)
     }
 
     fn undo(&self, memory: &mut Self::Memory) -> bool {

@@ -270,8 +270,8 @@ where
     }
 
     fn follow(&mut self, method: &P, run: &mut Run<L, P>) -> Result<(), Ending> {
-        let Run { memory, statistics, before, .. } = run;
-        let within = method.interpolant(self.system, memory, statistics);
+        let Run { memory, state, before, statistics } = run;
+        let within = method.interpolant(self.system, memory, [before, state], statistics);
         self.within = Some(within.map_err(|error| Ending::of(error, before.t.to_f64()))?);
         Ok(())
     }

@@ -67,18 +67,25 @@ where
                 return Err(ending);
             }
             self.before.clone_from(&self.state);
-            match method.step(system, &mut self.memory, end, &mut self.state, &mut self.statistics) {
-                Step::Accepted if !is_towards(now, self.state.t, end) => {
-                    self.state.clone_from(&self.before);
+            let Self { memory, state, before, statistics } = self;
+            match method.step(system, memory, end, before, state, statistics) {
+                Step::Accepted if is_towards(now, state.t, end) => {
+                    statistics.accepted += 1;
+                    return Ok(());
+                }
+                Step::Accepted => {
+                    state.clone_from(before);
                     let reason = "its step does not lead towards the end";
                     return Err(Ending::MethodFailed { time: now.to_f64(), reason });
                 }
-                Step::Accepted => {
-                    self.statistics.accepted += 1;
-                    return Ok(());
+                Step::Rejected => {
+                    state.clone_from(before);
+                    statistics.rejected += 1;
                 }
-                Step::Rejected => self.statistics.rejected += 1,
-                Step::Failed(ending) => return Err(ending),
+                Step::Failed(ending) => {
+                    state.clone_from(before);
+                    return Err(ending);
+                }
             }
         }
     }
@@ -91,8 +98,8 @@ where
         method: &P,
         within: &mut Within<P::Interpolant>,
     ) -> Result<(), Ending> {
-        let Self { memory, statistics, before, .. } = self;
-        let found = put_interpolant(system, method, memory, statistics, within);
+        let Self { memory, state, before, statistics } = self;
+        let found = put_interpolant(system, method, (memory, statistics), [before, state], within);
         found.map_err(|error| Ending::of(error, before.t.to_f64()))
     }
 
@@ -197,8 +204,8 @@ pub(super) fn clear<I>(within: &mut Within<I>) {
 pub(super) fn put_interpolant<L, F, P>(
     system: &L,
     method: &P,
-    memory: &mut P::Memory,
-    statistics: &mut Statistics,
+    (memory, statistics): (&mut P::Memory, &mut Statistics),
+    ends: [&StateOf<L>; 2],
     within: &mut Within<P::Interpolant>,
 ) -> Result<(), Error>
 where
@@ -207,9 +214,9 @@ where
     P: Method<L, F>,
 {
     #[cfg(feature = "alloc")]
-    return method.push_interpolant(system, memory, statistics, within);
+    return method.push_interpolant(system, memory, ends, statistics, within);
     #[cfg(not(feature = "alloc"))]
-    return method.interpolant(system, memory, statistics).map(|interpolant| *within = Some(interpolant));
+    return method.interpolant(system, memory, ends, statistics).map(|interpolant| *within = Some(interpolant));
 }
 
 /// Resumes the method after a change of the system or of the state.

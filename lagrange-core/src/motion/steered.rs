@@ -277,10 +277,10 @@ where
         if t == before.t {
             return Ok(before.clone());
         }
-        let Self { system, method, run: Run { memory, statistics, .. }, last_step, .. } = self;
+        let Self { system, method, run: Run { memory, state, before, statistics }, last_step, .. } = self;
         if last_step.interpolant().is_none() {
             let within = &mut last_step.within;
-            put_interpolant::<L, F, P>(system, method, memory, statistics, within)?;
+            put_interpolant::<L, F, P>(system, method, (memory, statistics), [before, state], within)?;
         }
         match last_step.interpolant() {
             Some(interpolant) => F::project(system, &interpolant.at(t)),

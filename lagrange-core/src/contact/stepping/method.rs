@@ -23,8 +23,6 @@ pub(super) struct TimeSteps(pub(super) MoreauJean);
 /// The steps of a motion so far.
 pub(super) struct TakenSteps<L: Contacts<Scalar: Real>> {
     pub(super) stepper: ContactStepper<L>,
-    /// State before the last step.
-    before: StateOf<L>,
     /// Mean accelerations and multipliers of each step whose dense output is stored.
     means: Vec<SolutionOf<L>>,
 }
@@ -62,7 +60,7 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Method<L> for TimeSteps {
 
     fn begin(&self, system: &L, start: &StateOf<L>, _: &mut Statistics) -> Result<TakenSteps<L>, Error> {
         let stepper = ContactStepper::new(system, start, self.0)?;
-        Ok(TakenSteps { stepper, before: *start, means: Vec::new() })
+        Ok(TakenSteps { stepper, means: Vec::new() })
     }
 
     fn resume(
@@ -81,14 +79,14 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Method<L> for TimeSteps {
         _: &L,
         memory: &mut TakenSteps<L>,
         end: L::Scalar,
-        state: &mut StateOf<L>,
+        _: &StateOf<L>,
+        to: &mut StateOf<L>,
         statistics: &mut Statistics,
     ) -> Step {
-        memory.before = *memory.stepper.state();
         match memory.stepper.step_towards(end) {
             Ok(step) => {
                 statistics.evaluations += step.iterations;
-                *state = step.state;
+                *to = step.state;
                 Step::Accepted
             }
             Err(ending) => Step::Failed(ending),
@@ -98,20 +96,22 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Method<L> for TimeSteps {
     fn interpolant(
         &self,
         _: &L,
-        memory: &mut TakenSteps<L>,
+        _: &mut TakenSteps<L>,
+        [before, after]: [&StateOf<L>; 2],
         _: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
-        Ok(Chord([memory.before, *memory.stepper.state()]))
+        Ok(Chord([*before, *after]))
     }
 
     fn push_interpolant(
         &self,
         system: &L,
         memory: &mut TakenSteps<L>,
+        ends: [&StateOf<L>; 2],
         statistics: &mut Statistics,
         to: &mut Vec<Self::Interpolant>,
     ) -> Result<(), Error> {
-        to.push(self.interpolant(system, memory, statistics)?);
+        to.push(self.interpolant(system, memory, ends, statistics)?);
         memory.means.extend(self.means(memory));
         Ok(())
     }

@@ -127,7 +127,8 @@ where
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
-        state: &mut StateOf<L>,
+        _: &StateOf<L>,
+        to: &mut StateOf<L>,
         statistics: &mut Statistics,
     ) -> Step {
         memory.clock.aim(end);
@@ -149,7 +150,7 @@ where
         let is_too_slow = matches!(attempt, Err(Rejection::TooSlow(_)));
         let (part, ending) = match attempt {
             Ok(()) => {
-                *state = memory.at.state();
+                *to = memory.at.state();
                 return Step::Accepted;
             }
             Err(Rejection::Inaccurate(error, entry)) => {
@@ -190,6 +191,7 @@ where
         &self,
         _: &L,
         memory: &mut Self::Memory,
+        _: [&StateOf<L>; 2],
         _: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
         let now = memory.clock.now.to_f64();

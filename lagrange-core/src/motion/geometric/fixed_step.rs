@@ -112,7 +112,7 @@ pub struct FixedStepMemory<T: Element, N: Length, C> {
     clock: Clock<T>,
     /// Length of the next step.
     planned: T,
-    before: State<T, N>,
+    /// Current state. Here, and not in the loop, whose copies of it a step would wait for.
     point: CompensatedState<T, N>,
     carried: C,
     /// Accelerations at the ends of the last step with dense output, and the number of steps since.
@@ -154,7 +154,6 @@ where
         Ok(FixedStepMemory {
             clock: Clock::new(start.t, Some(planned)),
             planned,
-            before: start.clone(),
             point: CompensatedState::at(start),
             carried: S::start(system, start),
             accelerations: PhaseVector::joined(&start.q, &start.v),
@@ -171,7 +170,6 @@ where
     ) -> Result<(), Error> {
         statistics.evaluations += 1;
         memory.clock.set(state.t);
-        memory.before.clone_from(state);
         memory.point = CompensatedState::at(state);
         (memory.carried, memory.steps_since) = (S::start(system, state), NO_STEP);
         Ok(())
@@ -183,26 +181,26 @@ where
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
-        state: &mut StateOf<L>,
+        from: &StateOf<L>,
+        to: &mut StateOf<L>,
         statistics: &mut Statistics,
     ) -> Step {
-        let FixedStepMemory { clock, planned, before, point, carried, steps_since, .. } = memory;
+        let FixedStepMemory { clock, planned, point, carried, steps_since, .. } = memory;
         clock.aim(end);
         let (h, time) = clock.next(*planned);
-        before.clone_from(&point.state);
         *steps_since = steps_since.saturating_add(1);
         if !clock.is_ahead(time) {
-            return Step::Failed(Ending::TimeTooCoarse { time: before.t.to_f64(), step: self.step });
+            return Step::Failed(Ending::TimeTooCoarse { time: from.t.to_f64(), step: self.step });
         }
         let moved = self.advance(system, point, carried, (h, time));
         match moved {
             Ok(evaluations) if is_finite(&point.state) => {
                 statistics.evaluations += evaluations;
                 *planned = clock.tick((h, time), *planned, L::Scalar::constant(self.step));
-                state.clone_from(&point.state);
+                to.clone_from(&point.state);
                 Step::Accepted
             }
-            _ => Step::Failed(failure::<L, F>(system, (before, h), moved.map(|_| point.state.clone()))),
+            _ => Step::Failed(failure::<L, F>(system, (from, h), moved.map(|_| &point.state))),
         }
     }
 
@@ -210,26 +208,26 @@ where
         &self,
         system: &L,
         memory: &mut Self::Memory,
+        [from, to]: [&StateOf<L>; 2],
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
-        let FixedStepMemory { before, point, carried, accelerations, steps_since, .. } = memory;
-        let end = &point.state;
+        let FixedStepMemory { carried, accelerations, steps_since, .. } = memory;
         let mut evaluate = |state: &StateOf<L>| {
             statistics.evaluations += 1;
             checked_accelerations::<L, F>(system, state)
         };
         match *steps_since {
-            1 => accelerations.flat_mut().rotate_left(end.q.entries().len()),
-            _ => accelerations[0].copy_from_slice(evaluate(before)?.entries()),
+            1 => accelerations.flat_mut().rotate_left(to.q.entries().len()),
+            _ => accelerations[0].copy_from_slice(evaluate(from)?.entries()),
         }
-        let last = match S::accelerations(system, end, carried) {
+        let last = match S::accelerations(system, to, carried) {
             Some(accelerations) => accelerations,
-            None => evaluate(end)?,
+            None => evaluate(to)?,
         };
         accelerations[1].copy_from_slice(last.entries());
         *steps_since = 0;
-        let coefficients = self.coefficients::<L, Error>([before, end], accelerations, evaluate)?;
-        Ok(Polynomial::new(before.t, point.state.t - before.t, coefficients))
+        let coefficients = self.coefficients::<L, Error>([from, to], accelerations, evaluate)?;
+        Ok(Polynomial::new(from.t, to.t - from.t, coefficients))
     }
 }
 
@@ -254,7 +252,7 @@ fn is_finite<T: Real, N: Length>(state: &State<T, N>) -> bool {
 fn failure<L: System<Scalar: Real>, F: VectorField<L>>(
     system: &L,
     (start, h): (&StateOf<L>, L::Scalar),
-    end: Result<StateOf<L>, NotSettled>,
+    end: Result<&StateOf<L>, NotSettled>,
 ) -> Ending {
     let time = start.t.to_f64();
     // Where the equations end within the step, they have no solution beyond it either.
@@ -271,7 +269,7 @@ fn failure<L: System<Scalar: Real>, F: VectorField<L>>(
         }
     }
     let momenta = F::momenta(system, start);
-    let end = end.unwrap_or_else(|NotSettled| start.clone());
+    let end = end.unwrap_or(start);
     let is_finite = |i: usize| [momenta[i], end.q[i], end.v[i]].into_iter().all(Parts::is_finite);
     match (0..end.q.entries().len()).find(|&i| !is_finite(i)) {
         Some(i) => Ending::NotFinite { time, row: F::row(i) },

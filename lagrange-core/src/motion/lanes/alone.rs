@@ -8,8 +8,7 @@ use crate::motion::Step;
 use crate::motion::record::Record;
 use crate::motion::run::{Run, Watchdog, resume};
 use crate::solution::vector_field::LagrangianVectorField;
-use crate::system::{Lagrangian, State};
-use crate::vector::zeros;
+use crate::system::{Lagrangian, State, StateOf};
 
 impl<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> LaneMotion<'o, L, P> {
     /// Makes the start consistent, and prepares the first step. Returns the motion and its consistent start.
@@ -85,12 +84,11 @@ impl<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> LaneMotion<'o, L, P> {
     /// need it, and undoes the step if that fails.
     #[cold]
     pub(super) fn step_alone<const HAS_DENSE_OUTPUT: bool>(&mut self, method: &P) -> LaneOutcome {
-        let now = self.now();
+        let (now, before) = (self.now(), P::state(&self.memory));
         let Self { system, memory, end, statistics, .. } = self;
-        // A method with lanes has the state in its memory.
-        let mut state = State { t: now, q: zeros(), v: zeros() };
-        self.failure = match method.step(system, memory, *end, &mut state, statistics) {
-            Step::Accepted => match self.look_within::<HAS_DENSE_OUTPUT>(now, method) {
+        let mut state = before;
+        self.failure = match method.step(system, memory, *end, &before, &mut state, statistics) {
+            Step::Accepted => match self.look_within::<HAS_DENSE_OUTPUT>([&before, &state], method) {
                 Ok(()) => {
                     self.statistics.accepted += 1;
                     self.failure = self.prepare(method).err();
@@ -111,10 +109,14 @@ impl<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> LaneMotion<'o, L, P> {
         LaneOutcome::Rejected
     }
 
-    fn look_within<const HAS_DENSE_OUTPUT: bool>(&mut self, before: f64, method: &P) -> Result<(), Error> {
-        if const { HAS_DENSE_OUTPUT } && self.record.looks_into(before, self.now()) {
+    fn look_within<const HAS_DENSE_OUTPUT: bool>(
+        &mut self,
+        ends: [&StateOf<L>; 2],
+        method: &P,
+    ) -> Result<(), Error> {
+        if const { HAS_DENSE_OUTPUT } && self.record.looks_into(ends[0].t, ends[1].t) {
             let Self { system, memory, statistics, .. } = self;
-            self.within = Some(method.interpolant(system, memory, statistics)?);
+            self.within = Some(method.interpolant(system, memory, ends, statistics)?);
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use crate::motion::{Interpolant, Method};
 use crate::number::Lanes;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::statistics::Statistics;
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, StateOf};
 use crate::vector::{Array, PhaseVector, StaticLength};
 
 /// A method that integrates several members of an ensemble at once: [`Dop853`](crate::Dop853),
@@ -27,6 +27,10 @@ pub trait LaneMethod<L: Lagrangian<Scalar = f64>>: Method<L, LagrangianVectorFie
     /// Current time of a motion.
     #[doc(hidden)]
     fn now(memory: &Self::Memory) -> f64;
+
+    /// Current state of a motion.
+    #[doc(hidden)]
+    fn state(memory: &Self::Memory) -> StateOf<L>;
 
     /// True if a motion has reached its end.
     #[doc(hidden)]

@@ -14,7 +14,7 @@ use crate::solution::interpolant::{evaluate, hermite};
 use crate::solution::near::{self, Corrections};
 use crate::solution::vector_field::{LagrangianVectorField, StagePoint, VectorField};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, Pack, Packed, State};
+use crate::system::{Lagrangian, Pack, Packed, State, StateOf};
 use crate::vector::{Array, Entrywise, PhaseVector, SpareVectors, StaticLength, array, from_fn, vector};
 
 /// Motions in lock-step, with the working arrays of a step.
@@ -50,6 +50,11 @@ where
 
     fn now(memory: &PairMemory<f64, L::N, L::M>) -> f64 {
         memory.clock.now
+    }
+
+    fn state(memory: &PairMemory<f64, L::N, L::M>) -> StateOf<L> {
+        let [q, v] = memory.y.arrays().map(vector);
+        State { t: memory.clock.now, q, v }
     }
 
     fn is_at_end(memory: &PairMemory<f64, L::N, L::M>) -> bool {

@@ -82,19 +82,20 @@ where
 
     /// Tries one step towards the time `end`, which may lie before the state. A step must not pass the end, and must be
     /// able to reach it exactly; the caller turns a step that does not lead towards the end into
-    /// [`Ending::MethodFailed`]. `state` is the state at its start; an accepted step replaces it by that at its end, which
-    /// satisfies the constraints, and no other changes it. The method must count its evaluations in `statistics`.
+    /// [`Ending::MethodFailed`]. `from` is the state at its start, and `to` a copy of it, which an accepted step replaces
+    /// by the state at its end, which satisfies the constraints. What other steps leave there is not used. The method must count its evaluations in `statistics`.
     fn step(
         &self,
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
-        state: &mut StateOf<L>,
+        from: &StateOf<L>,
+        to: &mut StateOf<L>,
         statistics: &mut Statistics,
     ) -> Step;
 
-    /// Returns the dense output of the last accepted step. It is called only when needed, before the next step and
-    /// before a change of the system.
+    /// Returns the dense output of the last accepted step, between the states `ends`. It is called only when needed, before the next
+    /// step and before a change of the system.
     ///
     /// # Errors
     /// Those of evaluating the equations within the step.
@@ -102,6 +103,7 @@ where
         &self,
         system: &L,
         memory: &mut Self::Memory,
+        ends: [&StateOf<L>; 2],
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error>;
 
@@ -115,10 +117,11 @@ where
         &self,
         system: &L,
         memory: &mut Self::Memory,
+        ends: [&StateOf<L>; 2],
         statistics: &mut Statistics,
         to: &mut Vec<Self::Interpolant>,
     ) -> Result<(), Error> {
-        to.push(self.interpolant(system, memory, statistics)?);
+        to.push(self.interpolant(system, memory, ends, statistics)?);
         Ok(())
     }
 

@@ -137,7 +137,7 @@ pub struct FixedStepState<T: Element, N: Length> {
     clock: Clock<T>,
     /// Length of the next step.
     planned: T,
-    before: State<T, N>,
+    /// Current state. Here, and not in the loop, whose copies of it a step would wait for.
     state: State<T, N>,
     spare: SpareVectors<T, N>,
 }
@@ -163,7 +163,6 @@ impl<L: System<Scalar: Real>, F: VelocityField<L>> Method<L, F> for RungeKutta4 
         Ok(FixedStepState {
             clock: Clock::new(start.t, Some(planned)),
             planned,
-            before: start.clone(),
             state: start.clone(),
             spare: SpareVectors::default(),
         })
@@ -175,27 +174,27 @@ impl<L: System<Scalar: Real>, F: VelocityField<L>> Method<L, F> for RungeKutta4 
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
-        state: &mut StateOf<L>,
+        from: &StateOf<L>,
+        to: &mut StateOf<L>,
         statistics: &mut Statistics,
     ) -> Step {
-        let FixedStepState { clock, planned, before, state: current, spare } = memory;
+        let FixedStepState { clock, planned, state, spare } = memory;
         clock.aim(end);
         let (h, time) = clock.next(*planned);
         if !clock.is_ahead(time) {
             return Step::Failed(Ending::TimeTooCoarse { time: time.to_f64(), step: self.step });
         }
         statistics.evaluations += 4;
-        before.clone_from(current);
-        unchecked(system, h, current, spare);
-        current.t = time;
-        if (const { <L::M as StaticLength>::COUNT > 0 } || !is_finite(current))
-            && let Err(error) = mend::<L, F>(system, before, h, current, statistics)
+        unchecked(system, h, state, spare);
+        state.t = time;
+        if (const { <L::M as StaticLength>::COUNT > 0 } || !is_finite(state))
+            && let Err(error) = mend::<L, F>(system, from, h, state, statistics)
         {
-            current.clone_from(before);
-            return Step::Failed(Ending::of(error, before.t.to_f64()));
+            state.clone_from(from);
+            return Step::Failed(Ending::of(error, from.t.to_f64()));
         }
         *planned = clock.tick((h, time), *planned, L::Scalar::constant(self.step));
-        state.clone_from(current);
+        to.clone_from(state);
         Step::Accepted
     }
 
@@ -211,7 +210,6 @@ impl<L: System<Scalar: Real>, F: VelocityField<L>> Method<L, F> for RungeKutta4 
         // Copy only if the states differ: the processor overlaps the comparison with the integration, but a copy
         // stalls on recent stores.
         if memory.state != *state {
-            memory.before.clone_from(state);
             memory.state.clone_from(state);
         }
         Ok(())
@@ -220,10 +218,10 @@ impl<L: System<Scalar: Real>, F: VelocityField<L>> Method<L, F> for RungeKutta4 
     fn interpolant(
         &self,
         system: &L,
-        memory: &mut Self::Memory,
+        _: &mut Self::Memory,
+        [from, to]: [&StateOf<L>; 2],
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
-        let FixedStepState { before, state, .. } = memory;
         let mut node = |state: &StateOf<L>| -> Result<_, Error> {
             statistics.evaluations += 1;
             let point = StagePoint::of(state);
@@ -231,8 +229,8 @@ impl<L: System<Scalar: Real>, F: VelocityField<L>> Method<L, F> for RungeKutta4 
             F::evaluate(system, &point, None, &mut rates)?;
             Ok((point.y, rates))
         };
-        let (first, last) = (node(before)?, node(state)?);
-        Ok(Polynomial::hermite(before.t, state.t - before.t, &first, &last))
+        let (first, last) = (node(from)?, node(to)?);
+        Ok(Polynomial::hermite(from.t, to.t - from.t, &first, &last))
     }
 }
 

@@ -118,7 +118,8 @@ where
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
-        state: &mut StateOf<L>,
+        _: &StateOf<L>,
+        to: &mut StateOf<L>,
         statistics: &mut Statistics,
     ) -> Step {
         self.aim::<L, F>(system, memory, end, statistics);
@@ -134,7 +135,7 @@ where
         };
         let ending = match attempt {
             Ok(reached) => {
-                self.take::<L, F>(memory, (h, time), reached, state);
+                self.take::<L, F>(memory, (h, time), reached, to);
                 return Step::Accepted;
             }
             Err(Refusal::Inaccurate(error, place)) => {
@@ -154,6 +155,7 @@ where
         &self,
         system: &L,
         memory: &mut Self::Memory,
+        _: [&StateOf<L>; 2],
         statistics: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
         let (start, length) = look_within::<P, L, F>(system, memory, statistics)?;
@@ -170,6 +172,7 @@ where
         &self,
         system: &L,
         memory: &mut Self::Memory,
+        _: [&StateOf<L>; 2],
         statistics: &mut Statistics,
         to: &mut Vec<Self::Interpolant>,
     ) -> Result<(), Error> {

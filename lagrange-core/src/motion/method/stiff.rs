@@ -30,10 +30,10 @@ impl<P: Pair> Adaptive<P> {
         let limit = L::Scalar::constant(0.9 * stability_limit::<P>());
         let (mut memory, mut statistics) = (memory.clone(), Statistics::default());
         let velocity = memory.slope.half_if_constant(0);
-        let mut state = F::state(system, &StagePoint { t: memory.clock.now, y: memory.y.clone(), velocity });
+        let start = F::state(system, &StagePoint { t: memory.clock.now, y: memory.y.clone(), velocity });
         let (mut seen, mut longest, mut rate) = (0, 0, None);
         while seen < STEPS {
-            match Method::<L, F>::step(self, system, &mut memory, end, &mut state, &mut statistics) {
+            match Method::<L, F>::step(self, system, &mut memory, end, &start, &mut start.clone(), &mut statistics) {
                 Step::Rejected => continue,
                 Step::Failed(_) => return None,
                 Step::Accepted => seen += 1,

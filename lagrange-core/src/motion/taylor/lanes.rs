@@ -19,7 +19,7 @@ use crate::number::{Lanes, Scalar};
 use crate::solution::consistent::BOTH;
 use crate::solution::near::{self, Corrections, compensated};
 use crate::statistics::Statistics;
-use crate::system::{Pack, Packed, RightHandSides, Solution, State, TaylorSeries};
+use crate::system::{Pack, Packed, RightHandSides, Solution, State, StateOf, TaylorSeries};
 use crate::vector::{Array, Entrywise, FixedArray, PhaseVector, StaticLength, from_fn, vector};
 
 /// Motions in lock-step, with the working arrays of a step.
@@ -58,6 +58,10 @@ where
 
     fn now(memory: &Self::Memory) -> f64 {
         memory.clock.now
+    }
+
+    fn state(memory: &Self::Memory) -> StateOf<L> {
+        memory.state
     }
 
     fn is_at_end(memory: &Self::Memory) -> bool {

@@ -105,7 +105,8 @@ impl<L: TaylorSeries<Scalar: Real>> Method<L, LagrangianVectorField> for Taylor 
         system: &L,
         memory: &mut Self::Memory,
         end: L::Scalar,
-        state: &mut StateOf<L>,
+        _: &StateOf<L>,
+        to: &mut StateOf<L>,
         statistics: &mut Statistics,
     ) -> Step {
         self.aim(memory, end);
@@ -121,7 +122,7 @@ impl<L: TaylorSeries<Scalar: Real>> Method<L, LagrangianVectorField> for Taylor 
         let ending = match self.attempt(system, memory, (h, time), statistics) {
             Ok(Attempt::Reached(next)) => {
                 statistics.multipliers_are_unique &= memory.solved.solution.multipliers_are_unique();
-                *state = next;
+                *to = next;
                 return Step::Accepted;
             }
             Ok(Attempt::Inaccurate(i)) => {
@@ -136,6 +137,7 @@ impl<L: TaylorSeries<Scalar: Real>> Method<L, LagrangianVectorField> for Taylor 
         &self,
         _: &L,
         memory: &mut Self::Memory,
+        _: [&StateOf<L>; 2],
         _: &mut Statistics,
     ) -> Result<Self::Interpolant, Error> {
         let Expansion { start, unit, q, summed, .. } = &memory.series;
@@ -146,6 +148,7 @@ impl<L: TaylorSeries<Scalar: Real>> Method<L, LagrangianVectorField> for Taylor 
         &self,
         _: &L,
         memory: &mut Self::Memory,
+        _: [&StateOf<L>; 2],
         _: &mut Statistics,
         to: &mut Vec<Self::Interpolant>,
     ) -> Result<(), Error> {
