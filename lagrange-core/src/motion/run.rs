@@ -216,7 +216,9 @@ where
     #[cfg(feature = "alloc")]
     return method.push_interpolant(system, memory, ends, statistics, within);
     #[cfg(not(feature = "alloc"))]
-    return method.interpolant(system, memory, ends, statistics).map(|interpolant| *within = Some(interpolant));
+    return method
+        .interpolant(system, memory, ends, statistics)
+        .map(|interpolant| *within = Some(interpolant));
 }
 
 /// Resumes the method after a change of the system or of the state.

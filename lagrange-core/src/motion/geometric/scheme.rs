@@ -4,7 +4,6 @@ use core::fmt::{self, Debug};
 
 use super::settle::NotSettled;
 use crate::number::{Parts, Scalar};
-use crate::solution::near::exact_sum;
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf, System};
 use crate::vector::{
     Array, Element, Length, Numbers, PhaseVector, StaticLength, Vector, VectorOf, array, is_short, vector,
@@ -226,8 +225,17 @@ fn add_apart<T: Parts>(x: &mut [T], rest: &mut [T], [one, other]: [&[T]; 2], cha
 #[inline(always)]
 fn add_here<T: Parts>(x: &mut [T], rest: &mut [T], [one, other]: [&[T]; 2], change: impl Fn(T, T) -> T) {
     for ((x, rest), (one, other)) in x.iter_mut().zip(rest).zip(one.iter().zip(other)) {
-        [*x, *rest] = exact_sum(*x, change(*one, *other) + *rest);
+        [*x, *rest] = compensated_sum(*x, change(*one, *other) + *rest);
     }
+}
+
+/// Returns x + y and its rounding error, exactly if y is the smaller of the two (Kahan, *Communications of the ACM* 8, 1965, 40; Hairer,
+/// Lubich and Wanner, *Geometric Numerical Integration*, VIII.5). Where a coordinate passes zero, y may be the larger; the error is then
+/// off by the round-off of y, which is small.
+#[inline(always)]
+fn compensated_sum<T: Parts>(x: T, y: T) -> [T; 2] {
+    let sum = x + y;
+    [sum, y - (sum - x)]
 }
 
 /// Compensated sum: x + change + rest, and its rounding error.
@@ -239,7 +247,7 @@ fn summed<T: Parts, N: StaticLength>(
 ) -> Compensated<T, N> {
     let [mut sums, mut errors] = [*change, *rest];
     for i in 0..N::COUNT {
-        [sums[i], errors[i]] = exact_sum(x[i], change[i] + rest[i]);
+        [sums[i], errors[i]] = compensated_sum(x[i], change[i] + rest[i]);
     }
     [sums, errors]
 }

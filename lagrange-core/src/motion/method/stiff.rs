@@ -33,7 +33,15 @@ impl<P: Pair> Adaptive<P> {
         let start = F::state(system, &StagePoint { t: memory.clock.now, y: memory.y.clone(), velocity });
         let (mut seen, mut longest, mut rate) = (0, 0, None);
         while seen < STEPS {
-            match Method::<L, F>::step(self, system, &mut memory, end, &start, &mut start.clone(), &mut statistics) {
+            match Method::<L, F>::step(
+                self,
+                system,
+                &mut memory,
+                end,
+                &start,
+                &mut start.clone(),
+                &mut statistics,
+            ) {
                 Step::Rejected => continue,
                 Step::Failed(_) => return None,
                 Step::Accepted => seen += 1,

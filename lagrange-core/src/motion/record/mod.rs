@@ -363,7 +363,9 @@ where
         if const { HAS_DENSE_OUTPUT } {
             let Run { memory, statistics, before, state } = run;
             let is_wanted = self.record.looks_into(before.t, state.t);
-            let within = is_wanted.then(|| method.interpolant(&self.system, memory, [before, state], statistics)).transpose();
+            let within = is_wanted
+                .then(|| method.interpolant(&self.system, memory, [before, state], statistics))
+                .transpose();
             self.within = within.map_err(|error| Ending::of(error, before.t.to_f64()))?;
         }
         Ok(())
