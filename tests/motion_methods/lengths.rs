@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use lagrange_core::motion::Composition;
-use lagrange_core::nalgebra::{DVector, Dyn};
-use lagrange_core::{Ending, Method, generic, prelude::*};
+use lagrange_core::motion::{AccelerationField, Composition};
+use lagrange_core::nalgebra::{Const, DVector, Dyn};
+use lagrange_core::{Ending, Method, System, generic, prelude::*};
 
 use lagrange_systems::{Chain, ChainOf, ChainOfFive};
 
@@ -186,6 +186,118 @@ fn what_does_not_fit_is_refused() {
     let ending = motion.advance_to(2.0).unwrap_err();
     assert!(ending.to_string().contains("5 coordinates or velocities, and the system 6"), "{ending}");
     assert_eq!(motion.state().t, 1.0);
+}
+
+/// A chain may grow and shrink on the way, if its state does.
+#[test]
+fn a_motion_goes_on_with_another_length() {
+    fn check(method: impl Method<Chain> + Clone) {
+        for (n, looks) in [(3, false), (8, true), (20, false)] {
+            let mut motion =
+                Motion::new(Chain { masses: 5, beta: BETA }, Chain::start(5), method.clone()).unwrap();
+            motion.advance_to(2.0).unwrap();
+            if looks {
+                motion.at(1.9995).unwrap();
+            }
+            motion.system_mut().masses = n;
+            motion.set_state(Chain::start(n)).unwrap();
+            motion.advance_to(1.0).unwrap();
+            let mut first = motion.system().event("first", |sample| sample.state().q[0]);
+            motion.advance_to_event(1.5, &mut [&mut first]).unwrap();
+            motion.advance_to(1.5).unwrap();
+            let chain = Chain { masses: n, beta: BETA };
+            let path = chain.integrate(Chain::start(n), 1.5, method.clone()).unwrap();
+            for (x, y) in motion.state().q.iter().zip(&path.end().state().q) {
+                assert!((x - y).abs() < 1e-5, "{x}, not {y}");
+            }
+        }
+    }
+    check(Dop853::with_tolerance(1e-9));
+    check(Dopri5::default().fixed_step(0.01));
+    check(RungeKutta4::with_step(0.01));
+    check(Verlet::with_step(0.001));
+    check(Verlet::with_step(0.05).composed(Composition::KahanLi8));
+}
+
+/// A chain whose length its controller changes stops, and says so before an event sees a state that does not fit.
+#[test]
+fn a_controller_cannot_change_the_length() {
+    let chain = Chain { masses: 5, beta: BETA };
+    let last = chain.event("last", |sample| sample.state().q[sample.system().masses - 1]);
+    let motion = chain.motion(Chain::start(5)).every(0.5).event(last);
+    let arrival = motion.controlled(0.25, |chain, state| {
+        chain.masses = if state.t > 1.0 { 7 } else { 5 };
+        Ok::<(), &str>(())
+    });
+    let arrival = arrival.towards(3.0).unwrap();
+    assert!(arrival.ending.to_string().contains("and the system 7"), "{}", arrival.ending);
+    assert_eq!(arrival.state.t, 1.25);
+}
+
+/// Two masses on springs, of whose accelerations one is not written, or added to what was there.
+#[derive(Clone, Copy)]
+enum Unwritten {
+    Left,
+    Added,
+}
+
+impl System for Unwritten {
+    type Scalar = f64;
+    type Length = Dyn;
+    type M = Const<0>;
+    type Field = AccelerationField;
+
+    fn length(&self) -> Dyn {
+        Dyn(2)
+    }
+
+    fn accelerations(&self, _: f64, q: &[f64], _: &[f64], a: &mut [f64]) {
+        a[0] = -q[0];
+        if let Self::Added = self {
+            a[1] += -q[1];
+        }
+    }
+}
+
+#[test]
+fn accelerations_that_are_not_written_are_found_at_the_start() {
+    for system in [Unwritten::Left, Unwritten::Added] {
+        let error = system.integrate(Chain::start(2), 1.0, RungeKutta4::with_step(0.1)).unwrap_err();
+        assert!(error.to_string().contains("`q[1]`"), "{error}");
+    }
+}
+
+/// A motion that stopped because its accelerations had no value goes on once they have one.
+#[test]
+fn a_motion_goes_on_after_a_failure() {
+    let mut motion = Motion::new(Until(4.0), Chain::start(3), Dop853::default()).unwrap();
+    motion.advance_to(6.0).unwrap_err();
+    assert!((motion.state().t - 4.0).abs() < 1e-6);
+    motion.system_mut().0 = f64::INFINITY;
+    motion.advance_to(6.0).unwrap();
+    let sound = Until(f64::INFINITY);
+    let path = sound.integrate(Chain::start(3), 6.0, Dop853::default()).unwrap();
+    assert!((motion.state().q[1] - path.end().state().q[1]).abs() < 1e-7);
+}
+
+/// Three masses on springs, whose accelerations have no value after this time.
+struct Until(f64);
+
+impl System for Until {
+    type Scalar = f64;
+    type Length = Dyn;
+    type M = Const<0>;
+    type Field = AccelerationField;
+
+    fn length(&self) -> Dyn {
+        Dyn(3)
+    }
+
+    fn accelerations(&self, t: f64, q: &[f64], _: &[f64], a: &mut [f64]) {
+        for (a, q) in a.iter_mut().zip(q) {
+            *a = if t > self.0 { f64::NAN } else { -q };
+        }
+    }
 }
 
 /// A chain without masses rests.

@@ -13,6 +13,7 @@ use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{StateOf, System, check_contacts};
+use crate::vector::Numbers;
 
 /// A motion that its caller advances by a length of time or to a time, and can steer in between.
 ///
@@ -110,7 +111,7 @@ where
     }
 
     /// Continues from another state, without a step that leads there. A violation of the constraints of the order of
-    /// round-off is projected away.
+    /// round-off is projected away. With a state of another length, after a change of that of the system, the method begins anew.
     ///
     /// # Errors
     /// [`Error::StateNotFinite`]; [`Error::Inconsistent`], and [`Error::NotProjected`]. The motion then keeps its
@@ -119,6 +120,10 @@ where
         F::check_entries(&self.system, &state)?;
         F::check_constraints(&self.system, &state)?;
         let (state, _) = F::adjust(&self.system, &state)?;
+        if state.q.entries().len() != self.run.state.q.entries().len() {
+            let statistics = &mut self.run.statistics;
+            self.run.memory = self.method.begin(&self.system, &state, statistics)?;
+        }
         self.go_on_from(state);
         Ok(())
     }

@@ -6,7 +6,7 @@ use super::consistent::{Adjustment, BOTH, Consistent, check, project, project_to
 use super::solve::{solve, solve_near};
 use crate::error::Error;
 use crate::names::{Entry, Row, name};
-use crate::number::{Parts, Real, are_finite};
+use crate::number::{Parts, Real, Scalar, are_finite};
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State, StateOf, System};
 use crate::vector::{
@@ -221,6 +221,15 @@ impl<L: Lagrangian<Scalar: Real>> VectorField<L> for LagrangianVectorField {
 
 impl<L: Lagrangian<Scalar: Real>> VelocityField<L> for LagrangianVectorField {}
 
+/// Checks that a state has as many coordinates and velocities as its system has coordinates.
+pub(crate) fn check_length<L: System>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+    let expected = system.length().count();
+    match [state.q.entries(), state.v.entries()].iter().find(|half| half.len() != expected) {
+        None => Ok(()),
+        Some(half) => Err(Error::StateLength { found: half.len(), expected }),
+    }
+}
+
 /// The accelerations of a [`System`] that is stated by them alone.
 #[derive(Clone, Copy, Debug)]
 pub struct AccelerationField;
@@ -232,16 +241,15 @@ impl<L: System<Scalar: Real, M = Const<0>>> VectorField<L> for AccelerationField
 
     fn name() -> &'static str {
         let path = core::any::type_name::<L>();
-        let path = path.split('<').next().unwrap_or(path);
+        let pointers = ["alloc::sync::Arc<", "alloc::rc::Rc<", "alloc::boxed::Box<"];
+        let path = pointers.iter().fold(path, |path, pointer| path.strip_prefix(pointer).unwrap_or(path));
+        let path = path.split(['<', '>']).next().unwrap_or(path);
         path.rsplit(':').next().unwrap_or(path)
     }
 
     fn check_entries(system: &L, state: &StateOf<L>) -> Result<(), Error> {
-        let count = system.length().count();
+        check_length(system, state)?;
         let halves = [state.q.entries(), state.v.entries()];
-        if let Some(wrong) = halves.iter().find(|half| half.len() != count) {
-            return Err(Error::StateLength { found: wrong.len(), expected: count });
-        }
         let numbered = |half: usize| {
             let entries = halves[half].iter().enumerate();
             entries.map(move |(i, &x)| (<Self as VectorField<L>>::entry(half, i), x))
@@ -256,6 +264,8 @@ impl<L: System<Scalar: Real, M = Const<0>>> VectorField<L> for AccelerationField
     fn check_solution(system: &L, state: &StateOf<L>) -> Result<(), Error> {
         let point = StagePoint::of(state);
         let mut rates = point.y.clone();
+        // What is not written, or added to what was there, is found out at the start.
+        rates[1].fill(L::Scalar::constant(f64::NAN));
         <Self as VectorField<L>>::evaluate(system, &point, None, &mut rates).map(|_| ())
     }
 

@@ -70,7 +70,8 @@ pub trait System {
     fn length(&self) -> Self::Length;
 
     /// Writes the generalized accelerations q̈ at the time `t`, the coordinates `q` and the velocities `v` to `a`, all of the length
-    /// [`length`](Self::length). What cannot be computed is NaN, which ends the motion.
+    /// [`length`](Self::length). `a` holds any numbers before: each entry must be written, not added to. What cannot be computed is NaN,
+    /// which ends the motion.
     fn accelerations(
         &self,
         t: Self::Scalar,

@@ -24,6 +24,8 @@ use crate::vector::{Element, Length, Numbers, PhaseVector, SpareVectors, StaticL
 /// with a run at half the step. The state is NaN, lane by lane, if the elimination for the accelerations is not
 /// reliable.
 ///
+/// The state must have as many coordinates and velocities as the system has coordinates, which is not checked.
+///
 /// Only the accelerations satisfy the constraints: coordinates and velocities drift off as the errors of the steps
 /// accumulate. [`RungeKutta4`] projects every step; [`make_consistent`](crate::Simulate::make_consistent) can project
 /// from time to time.

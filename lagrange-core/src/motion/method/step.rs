@@ -106,6 +106,8 @@ where
         statistics: &mut Statistics,
     ) -> Result<(), Error> {
         memory.clock.set(state.t);
+        // After a failure the step may be shorter than times are apart.
+        memory.is_planned &= memory.control.step >= memory.clock.at_least(L::Scalar::constant(0.0));
         // The velocity is the initial guess for the Legendre inversion of the first rate.
         memory.y = F::phase(system, state);
         memory.slope[0].copy_from_slice(state.v.entries());

@@ -18,7 +18,7 @@ use crate::number::{Real, Scalar};
 use crate::solution::Sample;
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
-use crate::solution::vector_field::VectorField;
+use crate::solution::vector_field::{VectorField, check_length};
 use crate::statistics::Statistics;
 use crate::system::{SolutionOf, State, StateOf, System};
 use crate::trajectory::Transition;
@@ -246,7 +246,9 @@ impl<'o, L: System<Scalar: Real>> Record<'o, L> {
         if self.goal == state.t {
             return Err(Ending::TimeTooCoarse { time, step: interval.to_f64() });
         }
-        EventSearch::from(&mut self.events, system, state, true).map_err(|error| Ending::of(error, time))?;
+        check_length(system, state)
+            .and_then(|()| EventSearch::from(&mut self.events, system, state, true))
+            .map_err(|error| Ending::of(error, time))?;
         Ok(())
     }
 
