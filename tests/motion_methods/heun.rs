@@ -1,9 +1,12 @@
 //! Heun's method of order 2, written against the contract of methods alone. It chooses its steps by the error of Euler's
 //! method and rejects those that are too long, returns to the constraints, and has an interpolant of its own.
 
-use lagrange_core::motion::{Interpolant, Limits, PhaseVector, Polynomial, StagePoint, Step};
-use lagrange_core::{Ending, Method, Statistics, nalgebra::Const, prelude::*};
-use lagrange_systems::DrivenSpring;
+use lagrange_core::generic::Length;
+use lagrange_core::motion::{
+    Interpolant, LagrangianVectorField, Limits, PhaseVector, Polynomial, StagePoint, Step, VelocityField,
+};
+use lagrange_core::{Ending, Method, StateOf, Statistics, System, nalgebra::Const, prelude::*};
+use lagrange_systems::{Chain, DrivenSpring};
 
 use crate::midpoint::Bead;
 
@@ -14,13 +17,38 @@ struct Heun {
     tolerance: Option<f64>,
 }
 
-impl<L, const N: usize> Method<L> for Heun
+/// Rates at a point.
+fn rates<L, F>(
+    system: &L,
+    point: &StagePoint<f64, L::Length>,
+    statistics: &mut Statistics,
+) -> Result<PhaseVector<f64, L::Length>, Error>
 where
-    L: Lagrangian<N = Const<N>, Scalar = f64>,
+    L: System<Scalar = f64>,
+    F: VelocityField<L>,
 {
+    statistics.evaluations += 1;
+    let mut rates = point.y.clone();
+    F::evaluate(system, point, None, &mut rates).map(|_| rates)
+}
+
+/// The point at the time `t` that is as far from another as these rates lead in the time h.
+fn moved<N: Length>(
+    from: &StagePoint<f64, N>,
+    t: f64,
+    h: f64,
+    rates: &PhaseVector<f64, N>,
+) -> StagePoint<f64, N> {
+    let mut y = from.y.clone();
+    y.flat_mut().iter_mut().zip(rates.flat()).for_each(|(y, rate)| *y += h * rate);
+    StagePoint::at(t, y)
+}
+
+/// For every system: of any length, with a Lagrangian or accelerations of its own.
+impl<L: System<Scalar = f64>, F: VelocityField<L>> Method<L, F> for Heun {
     /// Length of the next step.
     type Memory = f64;
-    type Interpolant = Dense<N>;
+    type Interpolant = Dense<L::Length>;
 
     fn limits(&self) -> Limits {
         Limits::default()
@@ -34,7 +62,7 @@ where
         if self.step > 0.0 { Ok(()) } else { Err(Error::Setting { name: "step", value: self.step }) }
     }
 
-    fn begin(&self, _: &L, _: &State<f64, N>, _: &mut Statistics) -> Result<f64, Error> {
+    fn begin(&self, _: &L, _: &StateOf<L>, _: &mut Statistics) -> Result<f64, Error> {
         Ok(self.step)
     }
 
@@ -43,63 +71,57 @@ where
         system: &L,
         planned: &mut f64,
         end: f64,
-        from: &State<f64, N>,
-        to: &mut State<f64, N>,
+        from: &StateOf<L>,
+        to: &mut StateOf<L>,
         statistics: &mut Statistics,
     ) -> Step {
         let left = end - from.t;
         let is_last = left.abs() <= *planned * (1.0 + 1e-9);
         let time = if is_last { end } else { from.t + *planned * left.signum() };
-        let h = time - from.t;
-        let failed =
-            |_| Step::Failed(Ending::MethodFailed { time: from.t, reason: "a stage has no solution" });
-        statistics.evaluations += 2;
-        let first = match system.solve(from) {
-            Ok(solution) => solution.accelerations,
-            Err(error) => return failed(error),
+        let (h, start) = (time - from.t, StagePoint::of(from));
+        let mut attempt = || {
+            let first = rates::<L, F>(system, &start, statistics)?;
+            let euler = moved(&start, time, h, &first);
+            let last = rates::<L, F>(system, &euler, statistics)?;
+            let next = moved(&moved(&start, time, h / 2.0, &first), time, h / 2.0, &last);
+            let apart = next.y.flat().iter().zip(euler.y.flat()).map(|(next, euler)| (next - euler).abs());
+            Ok::<_, Error>((apart.fold(0.0, f64::max), F::project(system, &next)?))
         };
-        let euler = State { t: time, q: from.q + from.v * h, v: from.v + first * h };
-        let last = match system.solve(&euler) {
-            Ok(solution) => solution.accelerations,
-            Err(error) => return failed(error),
+        let Ok((error, next)) = attempt() else {
+            return Step::Failed(Ending::MethodFailed { time: from.t, reason: "a stage has no solution" });
         };
-        let (q, v) = (from.q + (from.v + euler.v) * (h / 2.0), from.v + (first + last) * (h / 2.0));
         if let Some(tolerance) = self.tolerance {
-            let error = (q - euler.q).norm().max((v - euler.v).norm()) / tolerance;
+            let error = error / tolerance;
             *planned = h.abs() * (0.9 * error.max(1e-9).powf(-0.5)).clamp(0.2, 5.0);
             if error > 1.0 {
                 return Step::Rejected;
             }
         }
-        match system.make_consistent(&State { t: time, q, v }) {
-            Ok((next, _)) => {
-                *to = next;
-                Step::Accepted
-            }
-            Err(error) => failed(error),
-        }
+        *to = next;
+        Step::Accepted
     }
 
     fn interpolant(
         &self,
         system: &L,
         _: &mut f64,
-        [from, to]: [&State<f64, N>; 2],
-        _: &mut Statistics,
-    ) -> Result<Dense<N>, Error> {
-        let node = |state: &State<f64, N>| {
-            let rates = PhaseVector::of(state.v, system.solve(state)?.accelerations);
-            Ok::<_, Error>((PhaseVector::of(state.q, state.v), rates))
+        ends: [&StateOf<L>; 2],
+        statistics: &mut Statistics,
+    ) -> Result<Dense<L::Length>, Error> {
+        let mut node = |state: &StateOf<L>| {
+            let point = StagePoint::of(state);
+            rates::<L, F>(system, &point, statistics).map(|rates| (point.y, rates))
         };
-        Ok(Dense(Polynomial::hermite(from.t, to.t - from.t, &node(from)?, &node(to)?)))
+        let (first, last) = (node(ends[0])?, node(ends[1])?);
+        Ok(Dense(Polynomial::hermite(ends[0].t, ends[1].t - ends[0].t, &first, &last)))
     }
 }
 
 /// The states within a step.
-struct Dense<const N: usize>(Polynomial<f64, [PhaseVector<f64, Const<N>>; 4]>);
+struct Dense<N: Length>(Polynomial<f64, [PhaseVector<f64, N>; 4]>);
 
-impl<const N: usize> Interpolant<f64, Const<N>> for Dense<N> {
-    fn at(&self, t: f64) -> StagePoint<f64, Const<N>> {
+impl<N: Length> Interpolant<f64, N> for Dense<N> {
+    fn at(&self, t: f64) -> StagePoint<f64, N> {
         self.0.at(t)
     }
 }
@@ -165,16 +187,34 @@ fn its_steps_are_rejected_until_they_are_short_enough() {
     }
 }
 
+/// Of a chain whose length is known when the program runs, with an event.
+#[test]
+fn it_moves_systems_of_any_length() {
+    let chain = Chain { masses: 7, beta: 0.5 };
+    let exact = chain.integrate(Chain::start(7), 8.0, Dop853::with_tolerance(1e-12)).unwrap();
+    let errors = |step: f64| {
+        let first = chain.event("first", |sample| sample.state().q[0]);
+        let motion = chain.motion(Chain::start(7)).by(Heun { step, tolerance: None }).event(first);
+        let path = motion.to(8.0).unwrap();
+        let crossing = &path.crossings()[0].state;
+        let off = |at: &StateOf<Chain>| (&at.q - &exact.at(at.t).unwrap().state().q).norm();
+        [off(path.end().state()), off(crossing)]
+    };
+    let (coarse, fine) = (errors(0.02), errors(0.02 / 8.0));
+    let orders = [0, 1].map(|k| (coarse[k] / fine[k]).log2() / 3.0);
+    assert!(orders.iter().all(|order| (order - 2.0).abs() < 0.15), "{orders:?}");
+}
+
 /// The interpolant meets both ends, with its velocity.
 #[test]
 fn its_interpolant_meets_the_states() {
-    let (system, method) = (damped(1.0), Heun { step: 0.3, tolerance: None });
-    let mut statistics = Statistics::default();
-    let mut memory = method.begin(&system, &sine(0.0), &mut statistics).unwrap();
-    let mut next = sine(0.0);
-    let step = method.step(&system, &mut memory, 1.0, &sine(0.0), &mut next, &mut statistics);
+    let (system, start, mut next) = (damped(1.0), sine(0.0), sine(0.0));
+    let method: &dyn Method<_, LagrangianVectorField, Memory = f64, Interpolant = Dense<Const<1>>> =
+        &Heun { step: 0.3, tolerance: None };
+    let (mut planned, mut statistics) = (0.3, Statistics::default());
+    let step = method.step(&system, &mut planned, 1.0, &start, &mut next, &mut statistics);
     assert_eq!(step, Step::Accepted);
-    let interpolant = method.interpolant(&system, &mut memory, [&sine(0.0), &next], &mut statistics).unwrap();
+    let interpolant = method.interpolant(&system, &mut planned, [&start, &next], &mut statistics).unwrap();
     for state in [sine(0.0), next] {
         let point = interpolant.at(state.t);
         let off = [point.y[0][0] - state.q[0], point.y[1][0] - state.v[0], point.velocity[0] - state.v[0]];

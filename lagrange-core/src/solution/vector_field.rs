@@ -108,13 +108,13 @@ pub struct StagePoint<T: Element, N: Length> {
 
 impl<T: Element, N: Length> StagePoint<T, N> {
     /// Returns the point of a state, with its velocities as the second half.
-    pub(crate) fn of(state: &State<T, N>) -> Self {
+    pub fn of(state: &State<T, N>) -> Self {
         Self::at(state.t, PhaseVector::joined(&state.q, &state.v))
     }
 
     /// Returns the point of coordinates and velocities.
     #[inline(always)]
-    pub(crate) fn at(t: T, y: PhaseVector<T, N>) -> Self {
+    pub fn at(t: T, y: PhaseVector<T, N>) -> Self {
         Self { t, velocity: y.half_if_constant(1), y }
     }
 }
