@@ -22,9 +22,9 @@ pub(super) struct Line<'r> {
     member: usize,
     fingerprint: Fingerprint,
     ending: String,
-    end: Option<Numbers<'r>>,
+    end: Option<NamedNumbers<'r>>,
     statistics: Statistics,
-    samples: Vec<Numbers<'r>>,
+    samples: Vec<NamedNumbers<'r>>,
     crossings: Vec<CrossingLine<'r>>,
 }
 
@@ -35,12 +35,12 @@ struct CrossingLine<'r> {
     index: usize,
     count: usize,
     rising: bool,
-    state: Numbers<'r>,
+    state: NamedNumbers<'r>,
 }
 
 /// Numbers by name, in the order of their columns: an object.
 #[derive(Default)]
-pub(super) struct Numbers<'r>(Vec<(Cow<'r, str>, f64)>);
+pub(super) struct NamedNumbers<'r>(Vec<(Cow<'r, str>, f64)>);
 
 /// A number, for formats without NaN and infinities: these are the texts "NaN", "inf" and "-inf".
 pub(super) struct Number(pub(super) f64);
@@ -51,8 +51,8 @@ impl<'r> Line<'r> {
         // Without quantities there are no values, and each sample has an empty chunk of them.
         let values = values.chunks(names.quantities.len().max(1)).chain(core::iter::repeat(&[][..]));
         let sample = |(state, values): (&State<T, N>, &[T])| {
-            let mut numbers = Numbers::of(names, state);
-            numbers.0.extend(Numbers::named(&names.quantities, values.iter().copied()).0);
+            let mut numbers = NamedNumbers::of(names, state);
+            numbers.0.extend(NamedNumbers::named(&names.quantities, values.iter().copied()).0);
             numbers
         };
         let crossing = |crossing: &'r MemberCrossing<T, N>| CrossingLine {
@@ -60,13 +60,13 @@ impl<'r> Line<'r> {
             index: crossing.index,
             count: crossing.count,
             rising: crossing.rising,
-            state: Numbers::of(names, &crossing.state),
+            state: NamedNumbers::of(names, &crossing.state),
         };
         Self {
             member: row.index,
             fingerprint: row.fingerprint,
             ending: row.ending.to_string(),
-            end: state.as_ref().map(|state| Numbers::of(names, state)),
+            end: state.as_ref().map(|state| NamedNumbers::of(names, state)),
             statistics: row.statistics,
             samples: samples.iter().zip(values).map(sample).collect(),
             crossings: crossings.iter().map(crossing).collect(),
@@ -112,11 +112,11 @@ impl<'r> Line<'r> {
 
 /// States of samples, and the values of their quantities.
 fn read_samples<T: Real, N: StaticLength>(
-    samples: &[Numbers<'_>],
+    samples: &[NamedNumbers<'_>],
     names: &ColumnNames,
 ) -> Result<(Vec<State<T, N>>, Vec<T>), &'static str> {
     let (mut states, mut values) = (Vec::with_capacity(samples.len()), Vec::new());
-    for Numbers(sample) in samples {
+    for NamedNumbers(sample) in samples {
         let (of_state, of_quantities) = sample.split_at_checked(entries::<N>()).ok_or(OTHER_COLUMNS)?;
         states.push(read_state(of_state, names)?);
         if !of_quantities.iter().map(|(name, _)| name).eq(&names.quantities) {
@@ -153,7 +153,7 @@ const fn entries<N: StaticLength>() -> usize {
     1 + 2 * N::COUNT
 }
 
-impl<'r> Numbers<'r> {
+impl<'r> NamedNumbers<'r> {
     /// Numbers of a state.
     pub(super) fn of<T: Real, N: StaticLength>(names: &'r ColumnNames, state: &State<T, N>) -> Self {
         Self::named(&names.state, [&state.t].into_iter().chain(&state.q).chain(&state.v).copied())
@@ -181,19 +181,19 @@ impl<'r> Numbers<'r> {
     }
 }
 
-impl Serialize for Numbers<'_> {
+impl Serialize for NamedNumbers<'_> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         to.collect_map(self.0.iter().map(|(name, x)| (name, Number(*x))))
     }
 }
 
-impl<'de> Deserialize<'de> for Numbers<'_> {
+impl<'de> Deserialize<'de> for NamedNumbers<'_> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         from.deserialize_map(Self::default())
     }
 }
 
-impl<'de> Visitor<'de> for Numbers<'_> {
+impl<'de> Visitor<'de> for NamedNumbers<'_> {
     type Value = Self;
 
     fn expecting(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -253,7 +253,7 @@ impl<T: Real, N: StaticLength> Serialize for MemberRow<T, N> {
 impl<'de, T: Real, N: StaticLength> Deserialize<'de> for MemberRow<T, N> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let line = Line::deserialize(from)?;
-        let state = line.end.iter().flat_map(Numbers::names).map(ToString::to_string).collect();
+        let state = line.end.iter().flat_map(NamedNumbers::names).map(ToString::to_string).collect();
         line.into_row(&mut Arc::new(ColumnNames { state, quantities: Vec::new() })).map_err(D::Error::custom)
     }
 }

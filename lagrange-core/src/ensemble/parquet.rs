@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use self::file::FileFault;
 use super::fingerprint::{Fingerprint, Hash, OTHER_START};
-use super::line::{Line, Numbers};
+use super::line::{Line, NamedNumbers};
 use super::names::ColumnNames;
 use super::outcome::Member;
 use super::row::MemberRow;
@@ -271,8 +271,8 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
         let (system, start) = (self.member)(row.index);
         let mut parameters = Vec::new();
         system.visit_parameters(&mut |_, x| parameters.push(x));
-        let parameters = Numbers::named(L::PARAMETERS, parameters);
-        FileRow { line: Line::of(row), start: Numbers::of(&row.names, &start), parameters }
+        let parameters = NamedNumbers::named(L::PARAMETERS, parameters);
+        FileRow { line: Line::of(row), start: NamedNumbers::of(&row.names, &start), parameters }
     }
 
     /// Writes a file of these rows under a temporary name, and renames it when it is complete.
@@ -305,8 +305,8 @@ impl<'a, L: Linearized<Scalar: Real>> ParquetTable<'a, L> {
 struct FileRow<'r> {
     #[serde(flatten)]
     line: Line<'r>,
-    start: Numbers<'r>,
-    parameters: Numbers<'r>,
+    start: NamedNumbers<'r>,
+    parameters: NamedNumbers<'r>,
 }
 
 const UNFINISHED: &str = ".unfinished";

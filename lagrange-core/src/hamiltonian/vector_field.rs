@@ -3,13 +3,12 @@
 use super::legendre;
 use super::phase::{PhaseState, equations};
 use crate::error::Error;
-use crate::names::{Entry, Row, name};
+use crate::names::{Entry, name};
 use crate::number::Real;
-use crate::solution::Consistent;
 use crate::solution::consistent::{Level, project};
 use crate::solution::vector_field::{ActiveConstraints, LagrangianVectorField, StagePoint, VectorField};
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Array, PhaseVector, StaticLength, Vector, array, vector};
+use crate::vector::{Array, PhaseVector, StaticLength, array, vector};
 
 /// Hamilton's equations, in coordinates and momenta.
 ///
@@ -20,35 +19,11 @@ pub struct HamiltonianVectorField;
 
 impl<L: Lagrangian<Scalar: Real>> VectorField<L> for HamiltonianVectorField {
     const HOLDS_VELOCITY: bool = false;
-    const HAS_CONTACTS: bool = L::HAS_CONTACTS;
-    const HAS_FRICTION: bool = L::HAS_FRICTION;
 
-    fn name() -> &'static str {
-        L::NAME
-    }
-
-    fn check_entries(system: &L, state: &StateOf<L>) -> Result<(), Error> {
-        LagrangianVectorField::check_entries(system, state)
-    }
-
-    fn check_solution(system: &L, state: &StateOf<L>) -> Result<(), Error> {
-        LagrangianVectorField::check_solution(system, state)
-    }
-
-    fn check_constraints(system: &L, state: &StateOf<L>) -> Result<(), Error> {
-        LagrangianVectorField::check_constraints(system, state)
-    }
-
-    fn adjust(system: &L, state: &StateOf<L>) -> Result<Consistent<L::Scalar, L::N>, Error> {
-        LagrangianVectorField::adjust(system, state)
-    }
+    type Checks = LagrangianVectorField;
 
     fn phase(system: &L, state: &StateOf<L>) -> PhaseVector<L::Scalar, L::N> {
         PhaseVector::<_, L::N>::of(state.q, system.momentum(state))
-    }
-
-    fn momenta(system: &L, state: &StateOf<L>) -> Vector<L::Scalar, L::N> {
-        system.momentum(state)
     }
 
     fn evaluate(
@@ -78,10 +53,6 @@ impl<L: Lagrangian<Scalar: Real>> VectorField<L> for HamiltonianVectorField {
     fn entry(half: usize, coordinate: usize) -> Entry {
         let name = name(L::COORDINATES, coordinate);
         if half == 0 { Entry::Coordinate(name) } else { Entry::Momentum(name) }
-    }
-
-    fn row(coordinate: usize) -> Row {
-        <LagrangianVectorField as VectorField<L>>::row(coordinate)
     }
 }
 

@@ -14,6 +14,7 @@ use super::run::{Run, Watchdog, check_end};
 use super::store::Stored;
 use crate::error::Error;
 use crate::number::Real;
+use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::system::{State, System, check_contacts};
 use crate::trajectory::Trajectory;
@@ -182,7 +183,7 @@ where
     where
         P: Method<L, F>,
     {
-        const { check_contacts(F::HAS_CONTACTS) };
+        const { check_contacts(F::Checks::HAS_CONTACTS) };
         match const { E::HAS_EVENTS } {
             true => self.store::<true>(end),
             false => self.store::<false>(end),

@@ -91,11 +91,13 @@ pub use steered::Motion;
 pub use taylor::{Taylor, TaylorPolynomial};
 
 pub use crate::number::Parts;
+pub use crate::solution::acceleration_field::AccelerationField;
 pub use crate::solution::consistent::assembly::Assembly;
 pub use crate::solution::crossing::Crossing;
 pub use crate::solution::interpolant::{HermiteNode, Interpolant, Polynomial};
+pub use crate::solution::system_checks::SystemChecks;
 pub use crate::solution::vector_field::{
-    AccelerationField, ActiveConstraints, LagrangianVectorField, StagePoint, VectorField, VelocityField,
+    ActiveConstraints, LagrangianVectorField, StagePoint, VectorField, VelocityField,
 };
 pub use crate::solution::{Adjustment, Consistent};
 pub use crate::system::RightHandSides;

@@ -8,6 +8,7 @@ use crate::error::{Ending, Error, Pace};
 use crate::number::Real;
 use crate::solution::Adjustment;
 use crate::solution::interpolant::Interpolant;
+use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{StateOf, System};
@@ -41,9 +42,9 @@ where
         method: &P,
     ) -> Result<(Self, Adjustment<L::Scalar, L::Length>), Error> {
         method.check()?;
-        F::check_solution(system, state)?;
-        F::check_constraints(system, state)?;
-        let started = F::adjust(system, state);
+        F::Checks::check_solution(system, state)?;
+        F::Checks::check_constraints(system, state)?;
+        let started = F::Checks::adjust(system, state);
         let (state, adjustment) = started.as_ref().map_err(Error::clone)?;
         let mut statistics = Statistics::default();
         let begun = method.begin(system, state, &mut statistics);
@@ -236,10 +237,10 @@ where
     P: Method<L, F>,
 {
     if <L::Length as Length>::CONSTANT.is_none() {
-        F::check_entries(system, state)?;
+        F::Checks::check_entries(system, state)?;
     }
     if <L::M as StaticLength>::COUNT > 0 && <P::Interpolant as Interpolant<_, _>>::IS_PROJECTED {
-        F::check_constraints(system, state)?;
+        F::Checks::check_constraints(system, state)?;
     }
     method.resume(system, memory, state, statistics)
 }

@@ -14,6 +14,7 @@ use super::run::{Run, Watchdog, check_end};
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::Sample;
+use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::system::{StateOf, System, check_contacts};
 
@@ -244,7 +245,7 @@ impl<'w, L: System<Scalar: Real>, F, P, E>
         P: Method<L, F>,
         E: EventList<DynEvent<'w, L>>,
     {
-        const { check_contacts(F::HAS_CONTACTS) };
+        const { check_contacts(F::Checks::HAS_CONTACTS) };
         let Self { system, start, method, events, on_progress, kept } = self;
         let state = start.state.as_ref().as_ref().map_err(Error::clone)?;
         check_end(end)?;

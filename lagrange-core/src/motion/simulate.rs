@@ -17,6 +17,7 @@ use crate::solution::consistent::{self, Consistent};
 use crate::solution::impact::{Impact, impact};
 use crate::solution::reason::reason;
 use crate::solution::solve::solve;
+use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, SolutionOf, StateOf, System};
@@ -342,7 +343,12 @@ pub trait Simulate: System<Scalar: Real, Field: VectorField<Self>> + Sized {
     /// ```
     #[cfg(feature = "alloc")]
     fn motion<'w>(&self, start: StateOf<Self>) -> MotionFrom<'_, 'w, Self, Self::Field> {
-        MotionBuilder::new(self, Start::new(Self::Field::check_entries(self, &start).map(|()| start)))
+        MotionBuilder::new(
+            self,
+            Start::new(
+                <Self::Field as VectorField<Self>>::Checks::check_entries(self, &start).map(|()| start),
+            ),
+        )
     }
 
     /// Returns a state at t = 0 from named entries: `x` for a coordinate, `x_dot` for its velocity, `r[0]` and

@@ -10,6 +10,7 @@ use crate::error::{Ending, Error};
 use crate::number::Real;
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
+use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{StateOf, System, check_contacts};
@@ -71,7 +72,7 @@ impl<L: System<Scalar: Real, Field: VectorField<L>>, P: Method<L>> Motion<L, P> 
     /// # Errors
     /// Those of [`Simulate::integrate`](crate::Simulate::integrate) before the first step.
     pub fn new(system: L, state: StateOf<L>, method: P) -> Result<Self, Error> {
-        L::Field::check_entries(&system, &state)?;
+        <L::Field as VectorField<L>>::Checks::check_entries(&system, &state)?;
         Self::begin(system, &state, method)
     }
 }
@@ -83,7 +84,7 @@ where
     P: Method<L, F>,
 {
     pub(crate) fn begin(system: L, state: &StateOf<L>, method: P) -> Result<Self, Error> {
-        const { check_contacts(F::HAS_CONTACTS) };
+        const { check_contacts(F::Checks::HAS_CONTACTS) };
         let (run, _) = Run::begin(&system, state, &method)?;
         let last_step = LastStep::none();
         Ok(Self { system, method, run, stop: None, last_step })
@@ -111,15 +112,15 @@ where
     }
 
     /// Continues from another state, without a step that leads there. A violation of the constraints of the order of
-    /// round-off is projected away. With a state of another length, after a change of that of the system, the method begins anew.
+    /// round-off is projected away. If the number of coordinates has changed, the method begins anew.
     ///
     /// # Errors
     /// [`Error::StateNotFinite`]; [`Error::Inconsistent`], and [`Error::NotProjected`]. The motion then keeps its
     /// state.
     pub fn set_state(&mut self, state: StateOf<L>) -> Result<(), Error> {
-        F::check_entries(&self.system, &state)?;
-        F::check_constraints(&self.system, &state)?;
-        let (state, _) = F::adjust(&self.system, &state)?;
+        F::Checks::check_entries(&self.system, &state)?;
+        F::Checks::check_constraints(&self.system, &state)?;
+        let (state, _) = F::Checks::adjust(&self.system, &state)?;
         if state.q.entries().len() != self.run.state.q.entries().len() {
             let statistics = &mut self.run.statistics;
             self.run.memory = self.method.begin(&self.system, &state, statistics)?;
@@ -380,7 +381,7 @@ where
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Motion")
-            .field("system", &F::name())
+            .field("system", &F::Checks::name())
             .field("state", self.state())
             .field("statistics", self.statistics())
             .finish()

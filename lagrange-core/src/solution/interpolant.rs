@@ -88,8 +88,7 @@ impl<T: Real, N: Length, C: AsRef<[PhaseVector<T, N>]>> Interpolant<T, N> for Po
     }
 }
 
-/// Returns the polynomial at θ, and the derivative of its first half by θ; the latter has no entries where the length is known when
-/// the program runs.
+/// Returns the polynomial at θ, and the derivative of its first half by θ. For a run-time length this derivative has no entries.
 #[inline(always)]
 pub(crate) fn evaluate<T: Scalar, N: Length>(
     coefficients: &[PhaseVector<T, N>],

@@ -1,5 +1,6 @@
 //! Solution of the equations of motion: accelerations and multipliers, consistent states, vector fields.
 
+pub(crate) mod acceleration_field;
 pub(crate) mod consistent;
 pub(crate) mod crossing;
 pub(crate) mod eliminate;
@@ -15,6 +16,7 @@ pub(crate) mod round_off;
 mod sample;
 pub(crate) mod solve;
 pub(crate) mod switched;
+pub(crate) mod system_checks;
 pub(crate) mod vector_field;
 
 pub use consistent::{Adjustment, Consistent};

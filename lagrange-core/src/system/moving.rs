@@ -9,8 +9,8 @@ use crate::vector::{Length, StaticLength, ViewOf};
 /// program runs, or whose accelerations are computed by functions of its own. Such a system is integrated by `Dop853`, `Dopri5` and other
 /// [pairs](crate::motion::Pair), by `RungeKutta4`, and, if it has the marker
 /// [`VelocityFreeForces`](crate::structure::VelocityFreeForces), by `Verlet` and its compositions, with events, samples, quantities,
-/// controllers and progress. It has no energy, no names and no constraints: what enforces them is part of the accelerations. A step
-/// allocates nothing; dense output allocates for each step that it is asked for, if the length is known when the program runs.
+/// controllers and progress. It has no energy and no names. Constraints are the business of its accelerations. Steps allocate nothing;
+/// dense output of a run-time length allocates once for each step in which it is evaluated.
 ///
 /// ```
 /// use lagrange_core::motion::AccelerationField;
@@ -49,7 +49,7 @@ use crate::vector::{Length, StaticLength, ViewOf};
 /// ```
 ///
 /// A constant length is a `Const<N>`, and its slices are arrays, `q: &[f64; N]`: steps of few coordinates are then faster, and states
-/// are `Copy`. Above a thousand coordinates take a length known when the program runs, because arrays are on the stack.
+/// are `Copy`. Above a thousand coordinates take a run-time length: arrays are on the stack.
 pub trait System {
     /// Number type of the parameters and the state.
     type Scalar: Scalar;
@@ -58,8 +58,8 @@ pub trait System {
     /// [`Dyn`](nalgebra::Dyn) for a number known when the program runs.
     type Length: Length;
 
-    /// Number of the scalar constraints whose multipliers are known, the length of λ; [`Const<0>`](nalgebra::Const) for a system
-    /// that is stated by its accelerations alone.
+    /// Number of the multipliers λ, one for each scalar constraint. A system that is stated by its accelerations has none:
+    /// [`Const<0>`](nalgebra::Const).
     type M: StaticLength;
 
     /// Equations of motion: [`AccelerationField`](crate::motion::AccelerationField) if they are stated by
@@ -70,8 +70,8 @@ pub trait System {
     fn length(&self) -> Self::Length;
 
     /// Writes the generalized accelerations q̈ at the time `t`, the coordinates `q` and the velocities `v` to `a`, all of the length
-    /// [`length`](Self::length). `a` holds any numbers before: each entry must be written, not added to. What cannot be computed is NaN,
-    /// which ends the motion.
+    /// [`length`](Self::length). Before the call `a` may hold anything: write every entry, and do not add
+    /// to one. An entry that is NaN ends the motion.
     fn accelerations(
         &self,
         t: Self::Scalar,

@@ -48,7 +48,7 @@ pub struct State<T: Element, N: Length> {
     pub v: VectorOf<T, N>,
 }
 
-/// What is cloned to keeps its memory.
+/// `clone_from` reuses the memory of the vectors.
 impl<T: Element, N: Length> Clone for State<T, N> {
     #[inline(always)]
     fn clone(&self) -> Self {
@@ -66,7 +66,7 @@ impl<T: Element, N: Length> Clone for State<T, N> {
 impl<T: Element, N: Length> Copy for State<T, N> where VectorOf<T, N>: Copy {}
 
 impl<T: Element, N: Length> State<T, N> {
-    /// Maps times, coordinates and velocities of two states, each with that of the other.
+    /// Combines two states entry by entry: times, coordinates and velocities.
     pub(crate) fn each_with(&self, other: &Self, mut what_becomes: impl FnMut(T, T) -> T) -> Self {
         let mut state = self.clone();
         state.t = what_becomes(self.t, other.t);

@@ -9,6 +9,7 @@ use super::path::Path;
 use crate::error::Error;
 use crate::number::Real;
 use crate::solution::Sample;
+use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::system::{Solution, SolutionOf, StateOf, System};
 
@@ -153,7 +154,7 @@ impl<S: System<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
 impl<S: System<Scalar: Real>, F: VectorField<S>> Debug for Leg<S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let mut text = f.debug_struct("Leg");
-        text.field("system", &F::name())
+        text.field("system", &F::Checks::name())
             .field("start", &*self.path.start)
             .field("end", &*self.path.last)
             .finish()

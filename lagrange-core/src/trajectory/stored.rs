@@ -8,6 +8,7 @@ use super::transition::{Transition, write_counts};
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar};
 use crate::solution::crossing::Crossing;
+use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::solution::{Adjustment, Sample};
 use crate::statistics::Statistics;
@@ -264,7 +265,7 @@ impl<S: System<Scalar: Real>, F: VectorField<S>> Display for Trajectory<S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Statistics { accepted, rejected, evaluations, .. } = self.statistics;
         let [start, end] = self.times();
-        write!(f, "{} from t = {start} to t = {end}:", F::name())?;
+        write!(f, "{} from t = {start} to t = {end}:", F::Checks::name())?;
         match self.first_leg().is_in_time_steps() {
             true => write!(f, " {accepted} time steps, {evaluations} evaluations")?,
             false => write!(f, " {accepted} steps, {rejected} rejected, {evaluations} evaluations")?,
@@ -274,7 +275,7 @@ impl<S: System<Scalar: Real>, F: VectorField<S>> Display for Trajectory<S, F> {
             1 => write!(f, ", 1 crossing")?,
             count => write!(f, ", {count} crossings")?,
         }
-        if F::HAS_CONTACTS && !self.first_leg().is_in_time_steps() {
+        if F::Checks::HAS_CONTACTS && !self.first_leg().is_in_time_steps() {
             writeln!(f)?;
             write_counts(&self.transitions, f)?;
         }
@@ -290,7 +291,7 @@ impl<S: System<Scalar: Real>, F: VectorField<S>> Display for Trajectory<S, F> {
 impl<S: System<Scalar: Real>, F: VectorField<S>> Debug for Trajectory<S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Trajectory")
-            .field("system", &F::name())
+            .field("system", &F::Checks::name())
             .field("start", self.first_leg().first())
             .field("end", self.last_leg().last())
             .field("ending", &self.ending)

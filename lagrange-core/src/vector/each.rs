@@ -2,23 +2,20 @@
 
 use super::{Element, Length};
 
-/// Largest number of the coordinates for which loops over entries are inlined, and unrolled.
-const SHORT: usize = 16;
-
-/// True if loops over entries are inlined. Others are functions of their own, which know from their arguments that what they write
-/// does not overlap what they read.
-pub(crate) const fn is_short<N: Length>() -> bool {
-    matches!(N::CONSTANT, Some(count) if count <= SHORT)
+/// True for a constant length, for which loops over entries are inlined and unrolled. For a run-time length such a loop is a function of
+/// its own: from the arguments of a function the compiler knows that what it writes does not overlap what it reads.
+pub(crate) const fn is_constant<N: Length>() -> bool {
+    N::CONSTANT.is_some()
 }
 
-/// Maps each entry of `to`, with those of other vectors as long.
+/// Replaces each entry of `to`, given it and the same entry of the vectors `from`.
 #[inline(always)]
 pub(crate) fn each<T: Element, N: Length, const K: usize>(
     from: [&[T]; K],
     to: &mut [T],
     what_becomes: impl Fn(T, [T; K]) -> T,
 ) {
-    match const { is_short::<N>() } {
+    match const { is_constant::<N>() } {
         true => each_here(from, to, what_becomes),
         false => each_apart(from, to, what_becomes),
     }

@@ -7,12 +7,12 @@ use nalgebra::Const;
 
 use super::{Array, Element, StaticLength, Vector, vector};
 
-/// Number of the coordinates of a system, as a value: a [`Const<K>`](Const), known when the program is compiled, or a
-/// [`Dyn`](nalgebra::Dyn), known when it runs.
+/// Number of the coordinates of a system, as a value: a *constant* length [`Const<K>`](Const), known when the program is compiled, or a
+/// *run-time* length [`Dyn`](nalgebra::Dyn), known when it runs.
 pub trait Length: Copy + Debug + PartialEq + Send + Sync + 'static {
     /// Whether the length is a constant.
     type Kind: Kind;
-    /// The length itself if it is a constant, else one that stands for none.
+    /// The length itself if it is a constant, else a type without meaning.
     type Static: StaticLength;
 
     /// The length if it is a constant.
@@ -22,7 +22,8 @@ pub trait Length: Copy + Debug + PartialEq + Send + Sync + 'static {
     fn count(self) -> usize;
 }
 
-/// Kind of a length, [`Constant`] or [`RunTime`](super::RunTime). It chooses the types of vectors.
+/// Kind of a length: constant lengths are of the kind [`Constant`], run-time lengths of the kind [`RunTime`](super::RunTime). It
+/// chooses the types of vectors.
 pub trait Kind {
     /// Column vector: `SVector<T, K>` or `DVector<T>`.
     type Vector<T: Element, S: StaticLength>: Numbers<T>;
@@ -36,8 +37,7 @@ pub trait Kind {
         + Sync
         + IndexMut<usize, Output = Self::View<T, S>>;
 
-    /// Vectors that are not in use, whose memory a step borrows: none for constant lengths, whose vectors need no memory of their
-    /// own.
+    /// Unused vectors, whose memory a step borrows. Vectors of constant lengths are on the stack, and need none.
     type Spare<T: Element>: Clone + Debug + Default + Send + Sync;
 
     /// Returns a vector of `count` entries `x`.
@@ -46,22 +46,22 @@ pub trait Kind {
     fn view<T: Element, S: StaticLength>(vector: &Self::Vector<T, S>) -> &Self::View<T, S>;
     /// Returns two vectors of `count` entries `x`.
     fn halves<T: Element, S: StaticLength>(count: usize, x: T) -> Self::Halves<T, S>;
-    /// Joins two vectors of one length: in the memory of spare ones if there are any.
+    /// Joins two vectors of one length. Uses the memory of spare vectors, if there are any.
     fn join<T: Element, S: StaticLength>(
         spare: &mut Self::Spare<T>,
         first: &Self::Vector<T, S>,
         second: &Self::Vector<T, S>,
     ) -> Self::Halves<T, S>;
-    /// Returns two vectors to write to, as long as these: in the memory of spare ones if there are any.
+    /// Returns two vectors of the length of `like`, to write to. Uses the memory of spare vectors, if there are any.
     fn lend<T: Element, S: StaticLength>(
         spare: &mut Self::Spare<T>,
         like: &Self::Halves<T, S>,
     ) -> Self::Halves<T, S>;
-    /// Copies two vectors to two that are as long.
+    /// Copies two vectors to two others of the same length.
     fn copy<T: Element, S: StaticLength>(to: &mut Self::Halves<T, S>, from: &Self::Halves<T, S>);
-    /// Adds to the spare vectors.
+    /// Adds two vectors to the spare ones.
     fn give_back<T: Element, S: StaticLength>(spare: &mut Self::Spare<T>, lent: Self::Halves<T, S>);
-    /// Returns one of two vectors, for constant lengths alone; else a vector without entries.
+    /// Returns a half, 0 or 1, of two vectors. For a run-time length it returns a vector without entries.
     fn half_if_constant<T: Element, S: StaticLength>(
         halves: &Self::Halves<T, S>,
         half: usize,
@@ -74,20 +74,20 @@ pub trait Kind {
 
 /// A column vector, as the sequence of its entries.
 pub trait Numbers<T>: Clone + Debug + PartialEq + Send + Sync + IndexMut<usize, Output = T> {
-    /// Number of the entries; `None` if it is known when the program runs.
+    /// Number of the entries; `None` for a run-time length.
     const COUNT: Option<usize>;
 
     /// Returns the entries.
     fn entries(&self) -> &[T];
     /// Returns the entries for writing.
     fn entries_mut(&mut self) -> &mut [T];
-    /// Becomes a copy of another vector, in the same memory if it is as long.
+    /// Copies another vector. Reuses the memory if the lengths are equal.
     fn copy_from(&mut self, other: &Self);
     /// Returns the vector of these entries, as many as [`COUNT`](Self::COUNT) says.
     fn from_entries(entries: &[T]) -> Self;
 }
 
-/// Vector of a length: `SVector<T, K>` for [`Const<K>`](Const), `DVector<T>` for [`Dyn`](nalgebra::Dyn).
+/// Column vector with as many entries as the length says: `SVector<T, K>` for [`Const<K>`](Const), `DVector<T>` for [`Dyn`](nalgebra::Dyn).
 pub type VectorOf<T, N> = <<N as Length>::Kind as Kind>::Vector<T, <N as Length>::Static>;
 
 /// Entries of a vector of a length, borrowed: `[T; K]` for [`Const<K>`](Const), `[T]` for [`Dyn`](nalgebra::Dyn).

@@ -11,7 +11,7 @@ mod run_time;
 
 pub(crate) use array::from_fn;
 pub use array::{Array, FixedArray};
-pub(crate) use each::{each, is_short};
+pub(crate) use each::{each, is_constant};
 pub use kind::{Constant, Kind, Length, Numbers, VectorOf, ViewOf};
 pub(crate) use kind::{vector_of, view_of};
 pub use length::{Contiguous, Element, StaticLength};

@@ -67,7 +67,7 @@ impl<T: Element, N: Length> PhaseVector<T, N> {
 }
 
 impl<T: Element, N: Length> PhaseVector<T, N> {
-    /// Returns a vector that holds the place of one that is not used: of entries `x` if the length is a constant, else without.
+    /// Returns a vector that is not used. Its entries are `x`; for a run-time length it has none.
     #[inline(always)]
     pub(crate) fn placeholder(x: T) -> Self {
         Self(N::Kind::halves(0, x))
@@ -79,13 +79,13 @@ impl<T: Element, N: Length> PhaseVector<T, N> {
         SpareVectors::default().join(first, second)
     }
 
-    /// Becomes a copy of another vector that is as long.
+    /// Copies another vector of the same length.
     #[inline(always)]
     pub(crate) fn copy_from(&mut self, other: &Self) {
         N::Kind::copy(&mut self.0, &other.0);
     }
 
-    /// Maps each entry with that of another vector.
+    /// Combines two vectors entry by entry.
     #[inline]
     pub(crate) fn each_with(&self, other: &Self, what_becomes: impl Fn(T, T) -> T) -> Self {
         let mut result = self.clone();
@@ -95,14 +95,14 @@ impl<T: Element, N: Length> PhaseVector<T, N> {
         result
     }
 
-    /// Returns a half, 0 or 1, if its length is a constant; else a vector without entries.
+    /// Returns a half, 0 or 1. For a run-time length it returns a vector without entries.
     #[inline(always)]
     pub(crate) fn half_if_constant(&self, half: usize) -> VectorOf<T, N> {
         N::Kind::half_if_constant(&self.0, half)
     }
 }
 
-/// Phase vectors that are not in use, whose memory a step borrows; none for constant lengths.
+/// Unused phase vectors, whose memory a step borrows. For constant lengths there are none.
 pub(crate) struct SpareVectors<T: Element, N: Length>(<N::Kind as Kind>::Spare<T>);
 
 impl<T: Element, N: Length> SpareVectors<T, N> {
@@ -118,7 +118,7 @@ impl<T: Element, N: Length> SpareVectors<T, N> {
         PhaseVector(N::Kind::join(&mut self.0, first, second))
     }
 
-    /// Takes back a vector that is no longer used.
+    /// Takes back a vector.
     #[inline(always)]
     pub(crate) fn give_back(&mut self, lent: PhaseVector<T, N>) {
         N::Kind::give_back(&mut self.0, lent.0);

@@ -1,4 +1,4 @@
-//! Lengths that are known when a program runs, with vectors on the heap.
+//! Run-time lengths, whose vectors are on the heap.
 
 use alloc::{boxed::Box, vec, vec::Vec};
 use core::ops::{Index, IndexMut};
@@ -7,7 +7,7 @@ use nalgebra::{Const, DVector, Dyn};
 
 use super::{Element, Kind, Length, Numbers, StaticLength};
 
-/// Kind of the lengths that are known when a program runs.
+/// Kind of the run-time lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunTime;
 

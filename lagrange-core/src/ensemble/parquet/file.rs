@@ -116,7 +116,7 @@ fn write_group(to: &mut SerializedFileWriter<impl Write + Send>, rows: &[Value])
     let columns = to.schema_descr().columns().to_vec();
     let mut group = to.next_row_group()?;
     for column in columns {
-        let mut entries = Entries::default();
+        let mut entries = ColumnEntries::default();
         rows.iter().for_each(|row| entries.push(row, column.path().parts(), 0));
         let mut writer = group.next_column()?.ok_or_else(other_columns)?;
         entries.write(writer.untyped())?;
@@ -131,7 +131,7 @@ fn other_columns() -> ParquetError {
 
 /// Entries of a column.
 #[derive(Default)]
-struct Entries<'v> {
+struct ColumnEntries<'v> {
     values: Vec<&'v Value>,
     /// Definition levels: 0 for a row without an entry, because its `end` is null or its list is empty.
     defined: Vec<i16>,
@@ -139,7 +139,7 @@ struct Entries<'v> {
     repeated: Vec<i16>,
 }
 
-impl<'v> Entries<'v> {
+impl<'v> ColumnEntries<'v> {
     /// Appends the entries of a value under this path of names.
     fn push(&mut self, value: &'v Value, path: &[String], repeated: i16) {
         match (value, path) {
@@ -224,15 +224,16 @@ pub(super) fn rows<R: DeserializeOwned>(
     let all = reader.metadata().file_metadata().schema();
     let wanted = all.get_fields().iter().filter(|field| fields(field.name())).cloned().collect();
     let wanted = Type::group_type_builder(all.name()).with_fields(wanted).build()?;
-    let read =
-        |row| R::deserialize(Entry(&Field::Group(row))).map_err(|error| FileFault::Other(error.to_string()));
+    let read = |row| {
+        R::deserialize(RowEntry(&Field::Group(row))).map_err(|error| FileFault::Other(error.to_string()))
+    };
     Ok(reader.get_row_iter(Some(wanted))?.map(move |row| read(row?)))
 }
 
 /// An entry of a row, which serde reads.
-struct Entry<'f>(&'f Field);
+struct RowEntry<'f>(&'f Field);
 
-impl<'de> Deserializer<'de> for Entry<'de> {
+impl<'de> Deserializer<'de> for RowEntry<'de> {
     type Error = ReadError;
 
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, ReadError> {
@@ -242,11 +243,11 @@ impl<'de> Deserializer<'de> for Entry<'de> {
             Field::Double(number) => visitor.visit_f64(*number),
             Field::Str(text) => visitor.visit_str(text),
             Field::Group(row) => {
-                let fields = row.get_column_iter().map(|(name, field)| (name.as_str(), Entry(field)));
+                let fields = row.get_column_iter().map(|(name, field)| (name.as_str(), RowEntry(field)));
                 visitor.visit_map(MapDeserializer::new(fields))
             }
             Field::ListInternal(list) => {
-                visitor.visit_seq(SeqDeserializer::new(list.elements().iter().map(Entry)))
+                visitor.visit_seq(SeqDeserializer::new(list.elements().iter().map(RowEntry)))
             }
             _ => Err(ReadError::custom(other_columns())),
         }
@@ -262,7 +263,7 @@ impl<'de> Deserializer<'de> for Entry<'de> {
     }
 }
 
-impl<'de> IntoDeserializer<'de> for Entry<'de> {
+impl<'de> IntoDeserializer<'de> for RowEntry<'de> {
     type Deserializer = Self;
 
     fn into_deserializer(self) -> Self {

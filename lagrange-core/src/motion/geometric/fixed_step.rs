@@ -11,6 +11,7 @@ use crate::motion::method::clock::Clock;
 use crate::motion::method::contract::{Limits, Method, Step, check_settings, limit_setters};
 use crate::number::{Parts, Real, Scalar, are_finite};
 use crate::solution::interpolant::Polynomial;
+use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::{StagePoint, VectorField, VelocityField};
 use crate::statistics::Statistics;
 use crate::system::{State, StateOf, System, check_friction};
@@ -112,7 +113,7 @@ pub struct FixedStepMemory<T: Element, N: Length, C> {
     clock: Clock<T>,
     /// Length of the next step.
     planned: T,
-    /// Current state. Here, and not in the loop, whose copies of it a step would wait for.
+    /// Current state. The method has its own: a step would wait for the copies that the loop makes of its states.
     point: CompensatedState<T, N>,
     carried: C,
     /// Accelerations at the ends of the last step with dense output, and the number of steps since.
@@ -148,7 +149,7 @@ where
         start: &StateOf<L>,
         statistics: &mut Statistics,
     ) -> Result<Self::Memory, Error> {
-        const { check_friction(F::HAS_FRICTION) };
+        const { check_friction(F::Checks::HAS_FRICTION) };
         statistics.evaluations += 1;
         let planned = L::Scalar::constant(self.step);
         Ok(FixedStepMemory {
@@ -262,17 +263,17 @@ fn failure<L: System<Scalar: Real>, F: VectorField<L>>(
         *q += *v * h;
     }
     for state in [start, &beyond] {
-        match F::check_solution(system, state) {
+        match F::Checks::check_solution(system, state) {
             Err(error) if state.t == start.t => return Ending::of(error, time),
             Err(error @ Error::EquationsNotFinite { .. }) => return Ending::of(error, time),
             _ => {}
         }
     }
-    let momenta = F::momenta(system, start);
+    let momenta = F::Checks::momenta(system, start);
     let end = end.unwrap_or(start);
     let is_finite = |i: usize| [momenta[i], end.q[i], end.v[i]].into_iter().all(Parts::is_finite);
     match (0..end.q.entries().len()).find(|&i| !is_finite(i)) {
-        Some(i) => Ending::NotFinite { time, row: F::row(i) },
+        Some(i) => Ending::NotFinite { time, row: F::Checks::row(i) },
         None => Ending::MethodFailed {
             time,
             reason: match <L::M as StaticLength>::COUNT {

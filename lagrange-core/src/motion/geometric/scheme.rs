@@ -6,7 +6,7 @@ use super::settle::NotSettled;
 use crate::number::{Parts, Scalar};
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf, System};
 use crate::vector::{
-    Array, Element, Length, Numbers, PhaseVector, StaticLength, Vector, VectorOf, array, is_short, vector,
+    Array, Element, Length, Numbers, PhaseVector, StaticLength, Vector, VectorOf, array, is_constant, vector,
 };
 
 /// A one-step method, for any number type: a map (q, q̇) → (q, q̇) over a given time.
@@ -207,16 +207,16 @@ impl<T: Parts, N: StaticLength> CompensatedState<T, N> {
     }
 }
 
-/// Adds a change to each x, with its rounding error in `rest`, from two known numbers.
+/// Adds to each x the change that two known numbers make. `rest` has the rounding errors of x.
 #[inline(always)]
 fn add<T: Parts, N: Length>(x: &mut [T], rest: &mut [T], known: [&[T]; 2], change: impl Fn(T, T) -> T) {
-    match const { is_short::<N>() } {
+    match const { is_constant::<N>() } {
         true => add_here(x, rest, known, change),
         false => add_apart(x, rest, known, change),
     }
 }
 
-/// Not inlined: from its arguments the compiler knows that what is written does not overlap what is read.
+/// [`add_here`] as a function of its own, from whose arguments the compiler knows that `x` and `rest` do not overlap the others.
 #[inline(never)]
 fn add_apart<T: Parts>(x: &mut [T], rest: &mut [T], [one, other]: [&[T]; 2], change: impl Fn(T, T) -> T) {
     add_here(x, rest, [one, other], change);
@@ -230,8 +230,8 @@ fn add_here<T: Parts>(x: &mut [T], rest: &mut [T], [one, other]: [&[T]; 2], chan
 }
 
 /// Returns x + y and its rounding error, exactly if y is the smaller of the two (Kahan, *Communications of the ACM* 8, 1965, 40; Hairer,
-/// Lubich and Wanner, *Geometric Numerical Integration*, VIII.5). Where a coordinate passes zero, y may be the larger; the error is then
-/// off by the round-off of y, which is small.
+/// Lubich and Wanner, *Geometric Numerical Integration*, VIII.5). Near a zero of a coordinate y may be the
+/// larger of the two; the error that is returned is then wrong by the round-off of y.
 #[inline(always)]
 fn compensated_sum<T: Parts>(x: T, y: T) -> [T; 2] {
     let sum = x + y;

@@ -13,8 +13,9 @@ use super::scheme::{
 };
 use super::settle::{NotSettled, Residuals, have_hardly_turned};
 use crate::number::{Parts, Scalar};
+use crate::solution::acceleration_field::AccelerationField;
 use crate::solution::near::compensated;
-use crate::solution::vector_field::{AccelerationField, LagrangianVectorField};
+use crate::solution::vector_field::LagrangianVectorField;
 use crate::structure::{ConstantMassMatrix, HolonomicConstraints, VelocityFreeForces};
 use crate::system::{Lagrangian, State, StateOf, System, unit};
 use crate::vector::{
@@ -62,9 +63,9 @@ impl SymmetricScheme for StormerVerlet {}
 pub struct Forces<F, T: Element, N: Length> {
     /// Factorization of the equations; `None` without constraints.
     factor: Option<F>,
-    /// Accelerations without constraints, h with constraints: of the last two states, in turns.
+    /// Accelerations at the last two states, in turns; with constraints h in their place.
     pushes: PhaseVector<T, N>,
-    /// Which of them is that of the last state.
+    /// Index of the last state in `pushes`.
     last: usize,
 }
 
@@ -73,7 +74,7 @@ pub trait PositionForces<L: System<Scalar: Parts>> {
     /// Factorization of the equations with constraints.
     type Factor: Clone + Debug + Send + Sync;
 
-    /// Writes the accelerations at a state to `push`; with constraints h, and returns the factorization.
+    /// Writes the accelerations at a state to `push`. With constraints it writes h, and returns the factorization.
     #[doc(hidden)]
     fn evaluate(
         system: &L,
@@ -81,7 +82,7 @@ pub trait PositionForces<L: System<Scalar: Parts>> {
         push: &mut ViewOf<L::Scalar, L::Length>,
     ) -> Option<Self::Factor>;
 
-    /// Takes a step on constraints.
+    /// Moves a point by a step (h, t) of RATTLE, along its constraints.
     #[doc(hidden)]
     fn advance(
         system: &L,
@@ -90,7 +91,7 @@ pub trait PositionForces<L: System<Scalar: Parts>> {
         step: (L::Scalar, L::Scalar),
     ) -> Result<usize, NotSettled>;
 
-    /// Returns the accelerations at the end of a step on constraints.
+    /// Returns the accelerations at the end of a step of RATTLE.
     #[doc(hidden)]
     fn accelerations(
         system: &L,

@@ -82,8 +82,11 @@ where
 
     /// Tries one step towards the time `end`, which may lie before the state. A step must not pass the end, and must be
     /// able to reach it exactly; the caller turns a step that does not lead towards the end into
-    /// [`Ending::MethodFailed`]. `from` is the state at its start, and `to` a copy of it, which an accepted step replaces
-    /// by the state at its end, which satisfies the constraints. What other steps leave there is not used. The method must count its evaluations in `statistics`.
+    /// [`Ending::MethodFailed`].
+    ///
+    /// `from` is the state at the start of the step, and `to` is a copy of it. An accepted step writes the state at its end to
+    /// `to`; this state satisfies the constraints. After any other step `to` may hold anything. The method must count its
+    /// evaluations in `statistics`.
     fn step(
         &self,
         system: &L,

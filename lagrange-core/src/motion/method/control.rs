@@ -187,7 +187,7 @@ impl Tolerance {
         worst
     }
 
-    /// Error allowed in each entry, by its index in the flat vectors, over a step between two states.
+    /// Error that a step between two states may have in each entry, as a function of the entry's index in the flat vectors.
     #[inline(always)]
     fn allowed<T: Scalar, N: Length>(
         self,
@@ -304,7 +304,7 @@ impl<P: Pair> Adaptive<P> {
 #[cfg(feature = "alloc")]
 pub(crate) const SLACK: f64 = 10.0;
 
-/// Root mean square of h x/allowed: √(mean (h x/allowed)²).
+/// Root mean square of h xᵢ/aᵢ over the entries, where aᵢ = `allowed(i)` is the allowed error.
 #[inline(always)]
 fn norm<T: Scalar, N: Length>(h: T, x: &PhaseVector<T, N>, allowed: impl Fn(usize) -> T) -> T {
     let x = x.flat();

@@ -9,6 +9,7 @@ mod dop853;
 mod dopri5;
 pub(crate) mod pair;
 pub(crate) mod pair_memory;
+mod pair_stages;
 mod runge_kutta;
 mod slope;
 pub(crate) mod step;

@@ -3,7 +3,7 @@
 use core::array;
 
 use crate::number::Scalar;
-use crate::vector::{Array, Length, PhaseVector};
+use crate::vector::{Array, Length, PhaseVector, is_constant};
 
 /// A row of the Butcher tableau: pairs (index of a slope, its coefficient).
 pub type TableauRow = &'static [(usize, f64)];
@@ -160,7 +160,7 @@ pub(crate) fn advance<T: Scalar, N: Length>(
     end: &mut PhaseVector<T, N>,
 ) {
     let start = start.flat();
-    match const { N::CONSTANT.is_some() } {
+    match const { is_constant::<N>() } {
         true => sums(slopes, row, |i, sum| start[i] + h * sum, end),
         false => long_sums(Some(start), h, slopes, row, end),
     }
@@ -174,7 +174,7 @@ pub(crate) fn advance_by<T: Scalar, N: Length>(
     row: &[(usize, f64)],
     end: &mut PhaseVector<T, N>,
 ) {
-    match const { N::CONSTANT.is_some() } {
+    match const { is_constant::<N>() } {
         // Adds zero, so that no coefficient is −0.
         true => sums(slopes, row, |_, sum| T::constant(0.0) + h * sum, end),
         false => long_sums(None, h, slopes, row, end),
@@ -218,13 +218,13 @@ pub(crate) fn combine<T: Scalar, N: Length>(
     row: &[(usize, f64)],
     to: &mut PhaseVector<T, N>,
 ) {
-    match const { N::CONSTANT.is_some() } {
+    match const { is_constant::<N>() } {
         true => sums(slopes, row, |_, sum| sum, to),
         false => long_sums(None, T::constant(1.0), slopes, row, to),
     }
 }
 
-/// Sets `results` to start + h Σ cᵢ slopeᵢ, or without a start to h Σ cᵢ slopeᵢ, where lengths are known when the program runs.
+/// Sets `results` to start + h Σ cᵢ slopeᵢ, or without a start to h Σ cᵢ slopeᵢ, for vectors of a run-time length.
 fn long_sums<T: Scalar, N: Length>(
     start: Option<&[T]>,
     h: T,

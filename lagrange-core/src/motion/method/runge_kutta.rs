@@ -10,6 +10,7 @@ use super::contract::{Limits, Method, Step, check_settings, limit_setters};
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar, are_finite};
 use crate::solution::interpolant::Polynomial;
+use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::{StagePoint, VectorField, VelocityField};
 use crate::statistics::Statistics;
 use crate::system::{State, StateOf, System};
@@ -24,7 +25,7 @@ use crate::vector::{Element, Length, Numbers, PhaseVector, SpareVectors, StaticL
 /// with a run at half the step. The state is NaN, lane by lane, if the elimination for the accelerations is not
 /// reliable.
 ///
-/// The state must have as many coordinates and velocities as the system has coordinates, which is not checked.
+/// The state must have as many coordinates and velocities as the system has coordinates: this function does not check it.
 ///
 /// Only the accelerations satisfy the constraints: coordinates and velocities drift off as the errors of the steps
 /// accumulate. [`RungeKutta4`] projects every step; [`make_consistent`](crate::Simulate::make_consistent) can project
@@ -139,7 +140,7 @@ pub struct FixedStepState<T: Element, N: Length> {
     clock: Clock<T>,
     /// Length of the next step.
     planned: T,
-    /// Current state. Here, and not in the loop, whose copies of it a step would wait for.
+    /// Current state. The method has its own: a step would wait for the copies that the loop makes of its states.
     state: State<T, N>,
     spare: SpareVectors<T, N>,
 }
@@ -265,7 +266,7 @@ fn mend<L: System<Scalar: Real>, F: VectorField<L>>(
     }
     let halves = [end.q.entries(), end.v.entries()];
     if let Some(i) = (0..halves[0].len()).find(|&i| !(halves[0][i].is_finite() && halves[1][i].is_finite())) {
-        return Err(Error::EquationsNotFinite { row: F::row(i), time: start.t.to_f64() });
+        return Err(Error::EquationsNotFinite { row: F::Checks::row(i), time: start.t.to_f64() });
     }
     let point = StagePoint::of(end);
     *end = F::project(system, &point)?;

@@ -45,7 +45,7 @@ pub struct Adjustment<T: Element, N: Length> {
 impl<T: Element, N: Length> Copy for Adjustment<T, N> where VectorOf<T, N>: Copy {}
 
 impl<T: Real, N: Length> Adjustment<T, N> {
-    /// Returns the displacement of a state that no constraint moves.
+    /// Returns the zero displacement.
     pub(crate) fn none(length: N) -> Self {
         let none = vector_of::<_, N>(length.count(), T::constant(0.0));
         Self { q: none.clone(), v: none }

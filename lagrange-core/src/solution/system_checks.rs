@@ -1,0 +1,97 @@
+//! What a motion asks of its system besides the rates.
+
+use super::consistent::{Consistent, check, project_to_round_off};
+use super::solve::solve;
+use super::vector_field::LagrangianVectorField;
+use crate::error::Error;
+use crate::names::{Row, name};
+use crate::number::Real;
+use crate::system::finite::check_finite;
+use crate::system::{Lagrangian, StateOf, System};
+use crate::vector::{Length, Numbers, Vector, VectorOf};
+
+/// Checks of the states of a system, and names for messages about it.
+pub trait SystemChecks<L: System<Scalar: Real>> {
+    /// True for a system with [contacts](crate::contact).
+    const HAS_CONTACTS: bool;
+    /// True if the force of friction is a multiple of a multiplier.
+    const HAS_FRICTION: bool;
+
+    /// Returns the name of the system.
+    fn name() -> &'static str;
+
+    /// Checks that the entries of a state and the parameters are finite, and that the state has as many entries as the system has
+    /// coordinates.
+    ///
+    /// # Errors
+    /// [`Error::StateNotFinite`], [`Error::StateLength`] and [`Error::ParameterNotAsSaid`].
+    fn check_entries(system: &L, state: &StateOf<L>) -> Result<(), Error>;
+
+    /// Checks that the equations of motion have a solution at a state.
+    ///
+    /// # Errors
+    /// Those of [`Simulate::solve`](crate::Simulate::solve).
+    fn check_solution(system: &L, state: &StateOf<L>) -> Result<(), Error>;
+
+    /// Checks that a state satisfies the constraints, to √ε.
+    ///
+    /// # Errors
+    /// [`Error::Inconsistent`] and [`Error::NoGradient`].
+    fn check_constraints(system: &L, state: &StateOf<L>) -> Result<(), Error>;
+
+    /// Projects a state that satisfies the constraints to √ε onto them, to round-off.
+    ///
+    /// # Errors
+    /// [`Error::NotProjected`].
+    fn adjust(system: &L, state: &StateOf<L>) -> Result<Consistent<L::Scalar, L::Length>, Error>;
+
+    /// Returns the momenta; of a system that is stated by its accelerations, the velocities.
+    fn momenta(system: &L, state: &StateOf<L>) -> VectorOf<L::Scalar, L::Length>;
+
+    /// Returns the equation of a coordinate.
+    fn row(coordinate: usize) -> Row;
+}
+
+/// Checks by the constraints, the parameters and the names of a Lagrangian system.
+impl<L: Lagrangian<Scalar: Real>> SystemChecks<L> for LagrangianVectorField {
+    const HAS_CONTACTS: bool = L::HAS_CONTACTS;
+    const HAS_FRICTION: bool = L::HAS_FRICTION;
+
+    fn name() -> &'static str {
+        L::NAME
+    }
+
+    fn check_entries(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        check_finite(system, state)
+    }
+
+    fn check_solution(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        solve(system, state).map(|_| ())
+    }
+
+    #[inline]
+    fn check_constraints(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        check(system, state)
+    }
+
+    fn adjust(system: &L, state: &StateOf<L>) -> Result<Consistent<L::Scalar, L::N>, Error> {
+        project_to_round_off(system, state)
+    }
+
+    fn momenta(system: &L, state: &StateOf<L>) -> Vector<L::Scalar, L::N> {
+        system.momentum(state)
+    }
+
+    fn row(coordinate: usize) -> Row {
+        Row::Coordinate(name(L::COORDINATES, coordinate))
+    }
+}
+
+/// Checks that a state has as many coordinates and velocities as its system has coordinates.
+pub(crate) fn check_length<L: System>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+    let expected = system.length().count();
+    match [state.q.entries(), state.v.entries()].iter().find(|half| half.len() != expected) {
+        None => Ok(()),
+        Some(half) => Err(Error::StateLength { found: half.len(), expected }),
+    }
+}
