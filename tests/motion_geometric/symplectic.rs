@@ -152,3 +152,21 @@ fn derivatives_are_those_of_the_map() {
         }
     }
 }
+
+/// On ẍ = −x steps of `Verlet` keep v² + (1 − h²/4) x² but for rounding. Over a million steps plain sums change it by 5·10⁻¹⁴,
+/// compensated sums by 7·10⁻¹⁶.
+#[test]
+fn sums_of_small_steps_are_compensated() {
+    let h = 1.0 / 256.0;
+    let kept = |state: &State<f64, 1>| state.v[0].powi(2) + (1.0 - h * h / 4.0) * state.q[0].powi(2);
+    let start = State::new([1.0], [0.5]);
+    let spring = lagrange_systems::Spring { m: 1.0, k: 1.0 };
+    let mut motion = Motion::new(spring, start, Verlet::with_step(h).max_steps(usize::MAX)).unwrap();
+    let mut worst = 0.0_f64;
+    for k in 1..=1000 {
+        motion.advance_to(1000.0 * h * f64::from(k)).unwrap();
+        worst = worst.max((kept(motion.state()) / kept(&start) - 1.0).abs());
+    }
+    assert_eq!(motion.statistics().accepted, 1_000_000);
+    assert!(worst < 3e-15, "{worst:e}");
+}

@@ -1,9 +1,11 @@
 //! Systems whose number of coordinates is known when the program runs.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use lagrange_core::motion::{AccelerationField, Composition};
 use lagrange_core::nalgebra::{Const, DVector, Dyn};
+use lagrange_core::structure::VelocityFreeForces;
 use lagrange_core::{Ending, Method, System, generic, prelude::*};
 
 use lagrange_systems::{Chain, ChainOf, ChainOfFive};
@@ -270,34 +272,97 @@ fn accelerations_that_are_not_written_are_found_at_the_start() {
 /// A motion that stopped because its accelerations had no value goes on once they have one.
 #[test]
 fn a_motion_goes_on_after_a_failure() {
-    let mut motion = Motion::new(Until(4.0), Chain::start(3), Dop853::default()).unwrap();
+    let until = |until| Broken { coordinates: 3, broken: 0, until };
+    let mut motion = Motion::new(until(4.0), Chain::start(3), Dop853::default()).unwrap();
     motion.advance_to(6.0).unwrap_err();
     assert!((motion.state().t - 4.0).abs() < 1e-6);
-    motion.system_mut().0 = f64::INFINITY;
+    motion.system_mut().until = f64::INFINITY;
     motion.advance_to(6.0).unwrap();
-    let sound = Until(f64::INFINITY);
+    let sound = until(f64::INFINITY);
     let path = sound.integrate(Chain::start(3), 6.0, Dop853::default()).unwrap();
     assert!((motion.state().q[1] - path.end().state().q[1]).abs() < 1e-7);
 }
 
-/// Three masses on springs, whose accelerations have no value after this time.
-struct Until(f64);
+/// A motion that is set to a state with velocities goes on from it as one that begins there, by the same steps where all have one length.
+#[test]
+fn nothing_of_the_motion_before_is_left() {
+    fn check(method: impl Method<Chain> + Clone, off: f64) {
+        let chain = Chain { masses: 9, beta: BETA };
+        let mut start = Chain::start(9);
+        (start.v, start.q) = (start.q.clone(), -&start.q);
+        let mut motion = Motion::new(chain.clone(), Chain::start(9), method.clone()).unwrap();
+        motion.advance_to(3.0).unwrap();
+        motion.set_state(start.clone()).unwrap();
+        motion.advance_to(2.0).unwrap();
+        let path = chain.integrate(start, 2.0, method).unwrap();
+        assert!((&motion.state().q - &path.end().state().q).amax() <= off);
+        assert!((&motion.state().v - &path.end().state().v).amax() <= off);
+    }
+    check(Dop853::with_tolerance(1e-10), 1e-8);
+    check(Dopri5::default().fixed_step(0.01), 0.0);
+    check(RungeKutta4::with_step(0.01), 0.0);
+    check(Verlet::with_step(0.01), 0.0);
+    check(Verlet::with_step(0.05).composed(Composition::KahanLi8), 0.0);
+}
 
-impl System for Until {
+/// One entry among many that has no value is found, wherever it is.
+#[test]
+fn an_entry_without_a_value_is_named() {
+    for broken in [0, 3, 7, 8, 15, 16, 18] {
+        let name = format!("`q[{broken}]`");
+        let system = Broken { coordinates: 19, broken, until: 0.5 };
+        let by = |method: &dyn Fn() -> Ending| {
+            let ending = method();
+            assert!(ending.is_failure() && ending.to_string().contains(&name), "{ending}");
+            assert!((ending.time() - 0.5).abs() < 0.02, "{ending}");
+        };
+        let start = || Chain::start(19);
+        by(&|| system.motion(start()).by(Dop853::default()).towards(1.0).unwrap().ending().clone());
+        by(&|| {
+            system.motion(start()).by(RungeKutta4::with_step(0.01)).towards(1.0).unwrap().ending().clone()
+        });
+        by(&|| system.motion(start()).by(Verlet::with_step(0.01)).towards(1.0).unwrap().ending().clone());
+    }
+}
+
+/// Springs, one of whose accelerations has no value after a time.
+struct Broken {
+    coordinates: usize,
+    broken: usize,
+    until: f64,
+}
+
+impl System for Broken {
     type Scalar = f64;
     type Length = Dyn;
     type M = Const<0>;
     type Field = AccelerationField;
 
     fn length(&self) -> Dyn {
-        Dyn(3)
+        Dyn(self.coordinates)
     }
 
     fn accelerations(&self, t: f64, q: &[f64], _: &[f64], a: &mut [f64]) {
-        for (a, q) in a.iter_mut().zip(q) {
-            *a = if t > self.0 { f64::NAN } else { -q };
+        a.iter_mut().zip(q).for_each(|(a, q)| *a = -q);
+        if t > self.until {
+            a[self.broken] = f64::NAN;
         }
     }
+}
+
+impl VelocityFreeForces for Broken {}
+
+/// A motion is called by the name of its system, also behind a pointer.
+#[test]
+fn a_system_has_the_name_of_its_type() {
+    let chain = Arc::new(Chain { masses: 2, beta: BETA });
+    let path = chain.integrate(Chain::start(2), 1.0, Dopri5::default()).unwrap();
+    assert!(path.to_string().starts_with("Chain from t = 0 to t = 1:"), "{path}");
+    let motion = Motion::new(Arc::clone(&chain), Chain::start(2), Dopri5::default()).unwrap();
+    assert!(format!("{motion:?}").contains("\"Chain\""), "{motion:?}");
+    let known = ChainOf::<2> { beta: BETA };
+    let path = known.integrate(ChainOf::start(), 1.0, Dopri5::default()).unwrap();
+    assert!(path.to_string().starts_with("ChainOf from"), "{path}");
 }
 
 /// A chain without masses rests.

@@ -181,3 +181,72 @@ fn a_step_without_an_interpolant_is_taken_back() {
     let kept = motion.state().q[0];
     assert!((kept - 10_f64.cos()).abs() < 1e-6 && motion.at(motion.state().t).is_ok());
 }
+
+/// Writes what is no state of the motion before it rejects a step, and before it fails.
+struct Scribbling {
+    fails_at: usize,
+}
+
+impl Method<Spring> for Scribbling {
+    /// Number of attempts.
+    type Memory = usize;
+    type Interpolant = Polynomial<f64, [PhaseVector<f64, Const<1>>; 4]>;
+
+    fn limits(&self) -> Limits {
+        Limits::default()
+    }
+
+    fn identify(&self, to: &mut dyn std::fmt::Write) -> std::fmt::Result {
+        write!(to, "Scribbling")
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn begin(&self, _: &Spring, _: &State<f64, 1>, _: &mut Statistics) -> Result<usize, Error> {
+        Ok(0)
+    }
+
+    fn step(
+        &self,
+        _: &Spring,
+        attempts: &mut usize,
+        _: f64,
+        from: &State<f64, 1>,
+        to: &mut State<f64, 1>,
+        _: &mut Statistics,
+    ) -> Step {
+        assert_eq!(from, to);
+        *attempts += 1;
+        *to = State::new([f64::NAN], [7.0]).at_time(from.t + 0.1);
+        if *attempts == self.fails_at {
+            return Step::Failed(Ending::MethodFailed { time: from.t, reason: "it scribbles" });
+        }
+        if *attempts % 2 == 1 {
+            return Step::Rejected;
+        }
+        to.q = from.q;
+        Step::Accepted
+    }
+
+    fn interpolant(
+        &self,
+        _: &Spring,
+        _: &mut usize,
+        [from, to]: [&State<f64, 1>; 2],
+        _: &mut Statistics,
+    ) -> Result<Self::Interpolant, Error> {
+        let node = |state: &State<f64, 1>| (PhaseVector::of(state.q, state.v), PhaseVector::filled(0.0));
+        Ok(Polynomial::hermite(from.t, to.t - from.t, &node(from), &node(to)))
+    }
+}
+
+#[test]
+fn what_a_step_leaves_that_is_not_accepted_is_not_used() {
+    let mut motion = Motion::new(SPRING, State::at_rest([1.0]), Scribbling { fails_at: 7 }).unwrap();
+    let ending = motion.advance_to(1.0).unwrap_err();
+    assert!(matches!(ending, Ending::MethodFailed { .. }), "{ending}");
+    assert_eq!((motion.state().q[0], motion.statistics().accepted), (1.0, 3));
+    assert!((motion.state().t - 0.3).abs() < 1e-15);
+}

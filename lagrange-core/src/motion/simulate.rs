@@ -17,6 +17,7 @@ use crate::solution::consistent::{self, Consistent};
 use crate::solution::impact::{Impact, impact};
 use crate::solution::reason::reason;
 use crate::solution::solve::solve;
+#[cfg(feature = "alloc")]
 use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::system::finite::check_finite;

@@ -66,9 +66,11 @@ impl<L: System<Scalar: Real, M = Const<0>>> SystemChecks<L> for AccelerationFiel
     const HAS_FRICTION: bool = false;
 
     fn name() -> &'static str {
-        let path = core::any::type_name::<L>();
-        let pointers = ["alloc::sync::Arc<", "alloc::rc::Rc<", "alloc::boxed::Box<"];
-        let path = pointers.iter().fold(path, |path, pointer| path.strip_prefix(pointer).unwrap_or(path));
+        let mut path = core::any::type_name::<L>();
+        let pointers = ["&", "alloc::sync::Arc<", "alloc::rc::Rc<", "alloc::boxed::Box<"];
+        while let Some(behind) = pointers.iter().find_map(|pointer| path.strip_prefix(pointer)) {
+            path = behind;
+        }
         let path = path.split(['<', '>']).next().unwrap_or(path);
         path.rsplit(':').next().unwrap_or(path)
     }
