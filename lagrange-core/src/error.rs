@@ -2,16 +2,13 @@
 
 mod display;
 mod ending;
-#[cfg(feature = "std")]
-mod ensemble;
-
-#[cfg(feature = "alloc")]
-use alloc::{boxed::Box, string::String, vec::Vec};
+#[cfg_attr(not(feature = "alloc"), path = "error/never.rs")]
+pub(crate) mod owned;
 
 pub use crate::names::{Entry, Names, Row};
 pub use ending::{Ending, Pace};
-#[cfg(feature = "std")]
-pub use ensemble::EnsembleError;
+pub use owned::EnsembleError;
+use owned::{BoxedEnding, BoxedOrbitError, String, Strings};
 
 /// Reason why a computation did not start, did not reach its end, or has no answer to a query.
 ///
@@ -86,10 +83,9 @@ pub enum Error {
     /// The motion stopped before its end time.
     ///
     /// [`MotionBuilder::towards`](crate::MotionBuilder::towards) returns the trajectory computed until then.
-    #[cfg(feature = "alloc")]
     Unfinished(
         /// Time, place and reason of the stop.
-        Box<Ending>,
+        BoxedEnding,
     ),
     /// Neither the mass matrix nor the constraints determine some accelerations.
     Singular {
@@ -203,7 +199,6 @@ pub enum Error {
         time: f64,
     },
     /// No equilibrium was found near the given state.
-    #[cfg(feature = "alloc")]
     NoEquilibrium {
         /// Row of the equations farthest from being satisfied.
         row: Row,
@@ -212,7 +207,7 @@ pub enum Error {
         /// Iterations done.
         iterations: usize,
         /// Best values found for the unknowns, as text: `x = 1.5`.
-        best: Vec<String>,
+        best: Strings,
         /// The time of the state.
         time: f64,
     },
@@ -272,7 +267,6 @@ pub enum Error {
         expected: usize,
     },
     /// An entry of a change in local coordinates is infinite or NaN.
-    #[cfg(feature = "alloc")]
     LocalChangeNotFinite {
         /// Name of the local coordinate.
         coordinate: String,
@@ -280,7 +274,6 @@ pub enum Error {
     /// Regressors that are put together are of different bodies.
     OtherBodies,
     /// Some states do not tell whether an inertial parameter can be found beside those before it.
-    #[cfg(feature = "alloc")]
     BaseParametersUndecided {
         /// Name of the parameter.
         parameter: String,
@@ -297,7 +290,6 @@ pub enum Error {
     /// The iteration for eigenvalues or singular values did not converge, or an entry of the matrix is not finite.
     EigenvaluesNotFound,
     /// No coordinate, constraint, parameter or other quantity of the requested kind has this name.
-    #[cfg(feature = "alloc")]
     UnknownName {
         /// Name requested.
         name: String,
@@ -306,10 +298,9 @@ pub enum Error {
         /// Actual meaning of the name, or a similar name: `it is the velocity of …`, `did you mean …`.
         hint: Option<String>,
         /// Existing names of this kind.
-        known: Vec<String>,
+        known: Strings,
     },
     /// An entry of a state is given twice.
-    #[cfg(feature = "alloc")]
     RepeatedName {
         /// Name of the entry.
         name: String,
@@ -324,10 +315,8 @@ pub enum Error {
         time: f64,
     },
     /// No periodic orbit was found, or it has no family.
-    #[cfg(feature = "alloc")]
-    Orbit(Box<crate::orbits::OrbitError>),
+    Orbit(BoxedOrbitError),
     /// An error of an ensemble as a whole, or of one of its members.
-    #[cfg(feature = "std")]
     Ensemble(EnsembleError),
     /// A coefficient of restitution is negative or not finite, or that of a contact exceeds 1.
     Restitution {
@@ -480,11 +469,3 @@ pub enum Error {
 }
 
 impl core::error::Error for Error {}
-
-/// Lets `?` convert the [`Ending`] of a failed [`Motion`](crate::Motion) into an [`Error`].
-#[cfg(feature = "alloc")]
-impl From<Ending> for Error {
-    fn from(ending: Ending) -> Self {
-        Self::Unfinished(Box::new(ending))
-    }
-}

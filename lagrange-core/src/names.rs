@@ -1,8 +1,5 @@
 //! Names of entries of a state and of rows of the equations, for messages and tables.
 
-#[cfg(feature = "alloc")]
-pub(crate) mod similar;
-
 use core::fmt::{self, Display, Formatter};
 
 /// An entry of a state: the time, a coordinate `x`, its velocity `x_dot` (`r_dot[0]` for an element `r[0]`), or its

@@ -3,9 +3,8 @@
 use core::fmt::{self, Debug, Display, Formatter};
 
 use super::Error;
+use super::owned::{joined, said_of};
 use crate::names::Row;
-#[cfg(feature = "alloc")]
-use crate::names::similar::listed;
 
 impl Display for Error {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -54,7 +53,6 @@ impl Display for Error {
                 write!(f, "the {name} is {value}: it must be positive and finite")
             }
             Self::EndNotFinite { end } => write!(f, "cannot integrate to t = {end}: the end must be finite"),
-            #[cfg(feature = "alloc")]
             Self::Unfinished(ending) => write!(f, "{ending}"),
             Self::Singular { coordinates, time } => write!(
                 f,
@@ -103,11 +101,10 @@ impl Display for Error {
                 f,
                 "no velocity found with the momenta given at t = {time}: that of `{coordinate}` is off by {residual:e} after {iterations} iterations; start the search closer with `legendre_near`, or check that some velocity has these momenta"
             ),
-            #[cfg(feature = "alloc")]
             Self::NoEquilibrium { row, residual, iterations, best, time } => write!(
                 f,
                 "no equilibrium found near the state given at t = {time}: the row of {row} leaves {residual:e} after {iterations} steps, at {}; start closer, or let other coordinates, velocities or parameters change",
-                best.join(", ")
+                joined(best)
             ),
             Self::NotSteady { coordinate, row, time } => write!(
                 f,
@@ -141,14 +138,12 @@ impl Display for Error {
                 f,
                 "the change has {found} entries, and the state {expected} local coordinates: `local_coordinates` has their names"
             ),
-            #[cfg(feature = "alloc")]
             Self::LocalChangeNotFinite { coordinate } => {
                 write!(f, "the change of {coordinate} is infinite or NaN: every entry must be finite")
             }
             Self::OtherBodies => {
                 write!(f, "these regressors are of different bodies: ask for all with the same names")
             }
-            #[cfg(feature = "alloc")]
             Self::BaseParametersUndecided { parameter, left } => write!(
                 f,
                 "it is not decided whether {parameter} is a base parameter: {left:e} of its column is left beside those before it; give more states, with joints and velocities that vary more"
@@ -160,24 +155,18 @@ impl Display for Error {
                 f,
                 "the eigenvalues or singular values of a matrix were not found: check that its entries are finite, and the scales of the parameters"
             ),
-            #[cfg(feature = "alloc")]
             Self::UnknownName { name, kind, hint: Some(hint), .. } => {
                 write!(f, "there is no {kind} `{name}`: {hint}")
             }
-            #[cfg(feature = "alloc")]
-            Self::UnknownName { name, kind, hint: None, known } => match known.as_slice() {
-                [] => write!(f, "there is no {kind} `{name}`; the system has none"),
-                _ => write!(f, "there is no {kind} `{name}`; there are {}", listed(name, known)),
-            },
-            #[cfg(feature = "alloc")]
+            Self::UnknownName { name, kind, hint: None, known } => {
+                write!(f, "there is no {kind} `{name}`; {}", said_of(name, known))
+            }
             Self::RepeatedName { name } => write!(f, "`{name}` is given twice: give each entry once"),
             Self::SampleTime { index, time } => write!(
                 f,
                 "the sample time {index} (counted from 0) is {time}: give finite times in the order of the motion"
             ),
-            #[cfg(feature = "alloc")]
             Self::Orbit(error) => write!(f, "{error}"),
-            #[cfg(feature = "std")]
             Self::Ensemble(error) => write!(f, "{error}"),
             Self::Restitution { constraint, value } => write!(
                 f,
@@ -269,7 +258,15 @@ impl Debug for Error {
     }
 }
 
-#[cfg(all(test, feature = "alloc"))]
+/// Serializes an error as the text of its `Display`.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Error {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use alloc::{format, string::ToString};
 
@@ -286,13 +283,5 @@ mod tests {
             "the leg from t = 0.5 to 1 does not go on from t = 0.25, where the hybrid trajectory has come to: start it there, and lead it the same way in time"
         );
         assert_eq!([format!("{apart:?}"), format!("{ending:#?}")], [apart.to_string(), ending.to_string()]);
-    }
-}
-
-/// Serializes an error as the text of its `Display`.
-#[cfg(feature = "serde")]
-impl serde::Serialize for Error {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
     }
 }

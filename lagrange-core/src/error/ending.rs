@@ -1,10 +1,9 @@
 //! Reasons why an integration stops.
 
-#[cfg(feature = "alloc")]
-use alloc::string::String;
 use core::fmt::{self, Debug, Display, Formatter};
 
 use super::Error;
+use super::owned::String;
 use crate::names::{Entry, Row};
 
 /// Reason why a motion ends.
@@ -123,7 +122,6 @@ pub enum Ending {
         event: &'static str,
     },
     /// The controller of a motion returned an error.
-    #[cfg(feature = "alloc")]
     ControllerFailed {
         /// Time of the call.
         time: f64,
@@ -131,7 +129,6 @@ pub enum Ending {
         said: String,
     },
     /// A member of an ensemble failed in another process, which reported the ending as text.
-    #[cfg(feature = "std")]
     Elsewhere {
         /// Last time reached.
         time: f64,
@@ -207,9 +204,7 @@ impl Ending {
             | Self::EventsAccumulate { time, .. }
             | Self::EventNotFinite { time, .. }
             | Self::Cancelled { time } => time,
-            #[cfg(feature = "alloc")]
             Self::ControllerFailed { time, .. } => time,
-            #[cfg(feature = "std")]
             Self::Elsewhere { time, .. } => time,
         }
     }
@@ -286,12 +281,10 @@ impl Display for Ending {
                 f,
                 "stopped at t = {time}: the function of the event `{event}` is not a number soon after; make it one wherever the motion may lead"
             ),
-            #[cfg(feature = "alloc")]
             Self::ControllerFailed { time, said } => {
                 write!(f, "stopped at t = {time}: the controller failed: {said}")
             }
-            #[cfg(feature = "std")]
-            Self::Elsewhere { said, .. } => f.write_str(said),
+            Self::Elsewhere { said, .. } => write!(f, "{said}"),
             Self::Cancelled { time } => write!(f, "cancelled at t = {time}"),
         }
     }

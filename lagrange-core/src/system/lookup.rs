@@ -11,8 +11,8 @@ use alloc::{
 
 use super::lagrangian::{Lagrangian, check_names, entry};
 use crate::error::Error;
+use crate::error::owned::similar::{listed, nearest};
 use crate::names::Entry;
-use crate::names::similar::{listed, nearest};
 use crate::vector::StaticLength;
 
 /// Returns the names of the coordinates, followed by those of the velocities.

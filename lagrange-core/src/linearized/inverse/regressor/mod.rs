@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::{check_parameters, set_parameter};
 use crate::linearized::tangent::Tangent;
-use crate::names::similar::{listed, nearest};
+use crate::error::owned::similar::{listed, nearest};
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, exceeds, larger, largest, power_of_epsilon};
 use crate::solution::solve::first_row;

@@ -2,7 +2,9 @@
 
 use core::fmt::{self, Debug, Display, Formatter};
 
-use super::Error;
+use alloc::string::String;
+
+use crate::error::Error;
 
 /// Reason why an ensemble cannot be integrated, resumed or merged.
 #[non_exhaustive]
