@@ -151,6 +151,8 @@ println!("{}", path.csv(50).energy());
 #![cfg_attr(docsrs, feature(doc_cfg))]
 // Ensembles link to their tables, which are documented with that feature.
 #![cfg_attr(not(feature = "tables"), allow(rustdoc::broken_intra_doc_links))]
+// Without `std` or `alloc`, what only larger parts of the crate call serves nobody.
+#![cfg_attr(not(feature = "std"), allow(dead_code, unused_imports))]
 // Matrix algorithms read best with indices.
 #![allow(clippy::needless_range_loop)]
 

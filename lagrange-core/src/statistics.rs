@@ -21,7 +21,6 @@ impl Default for Statistics {
     }
 }
 
-#[cfg(feature = "alloc")]
 impl Statistics {
     /// Counts of this integration after those of an earlier one.
     pub(crate) fn after(self, earlier: &Self) -> Self {

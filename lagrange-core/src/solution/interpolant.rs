@@ -34,7 +34,6 @@ impl<T: Real, C> Polynomial<T, C> {
     }
 }
 
-#[cfg(feature = "alloc")]
 impl<T, C> Polynomial<T, C> {
     /// Returns the coefficients for writing in place.
     pub(crate) fn coefficients_mut<X>(&mut self) -> &mut [X]

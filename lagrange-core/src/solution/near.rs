@@ -23,7 +23,6 @@ pub(crate) enum Corrections<T> {
     /// One correction at the end of an integration step of this length, however small the residual. A
     /// threshold would ignore small residuals of the same sign for many steps in a row, which makes the
     /// energy drift. A correction of the coordinates also changes the velocities.
-    #[cfg_attr(not(feature = "alloc"), expect(dead_code, reason = "of a method that allocates"))]
     OnceAfter(T),
 }
 

@@ -142,7 +142,6 @@ pub(crate) fn first_row<L: Lagrangian>(
 
 /// Returns the coordinate or constraint of row `i`: rows of the motion come first, then those of all constraints, level by
 /// level.
-#[cfg(feature = "alloc")]
 pub(crate) fn row<L: Lagrangian>(i: usize) -> Row {
     match i.checked_sub(<L::N>::COUNT) {
         None => Row::Coordinate(L::COORDINATES[i]),

@@ -76,7 +76,6 @@ pub struct ResidualChange<T: Element, N: StaticLength, M: StaticLength> {
 
 impl<T: Scalar, N: StaticLength, M: StaticLength> ResidualChange<T, N, M> {
     /// Returns the sum of two derivatives.
-    #[cfg(feature = "alloc")]
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {
             motion: self.motion.plus(&other.motion),

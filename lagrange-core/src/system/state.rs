@@ -163,7 +163,6 @@ pub type StateOf<L> = State<<L as System>::Scalar, <L as System>::Length>;
 pub type SolutionOf<L> =
     Solution<<L as System>::Scalar, <<L as System>::Length as Length>::Static, <L as System>::M>;
 
-#[cfg(feature = "alloc")]
 impl<T: Scalar, N: StaticLength, M: StaticLength> Solution<T, N, M> {
     /// Joins accelerations and multipliers that are given, not computed by an elimination.
     pub(crate) fn given(accelerations: Vector<T, N>, multipliers: Vector<T, M>) -> Self {

@@ -43,7 +43,6 @@ impl Friction {
     }
 
     /// Whether the bodies stay together.
-    #[cfg(feature = "alloc")]
     pub(crate) fn is_at_rest(&self) -> bool {
         !matches!(self, Self::Slides(_))
     }

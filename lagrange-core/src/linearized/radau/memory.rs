@@ -9,7 +9,6 @@ use super::chart::Chart;
 use super::collocation::Collocation;
 use super::coupled::Coupled;
 use super::equations::{Derivatives, Factorizations};
-#[cfg(feature = "alloc")]
 use super::iteration::reduction;
 use super::iteration::{NoSolution, StageChanges, growth, power, zip};
 use super::lu::Lu;
@@ -18,7 +17,6 @@ use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::motion::method::clock::Clock;
 use crate::motion::method::control::Tolerance;
-#[cfg(feature = "alloc")]
 use crate::number::smaller;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::solve::{solve, solve_near};
@@ -243,7 +241,6 @@ where
     }
 
     /// Shortens the next step to what an error of the variations over the last allows, in units of their tolerance.
-    #[cfg(feature = "alloc")]
     pub(super) fn shorten(&mut self, method: &Radau<S>, error: f64) {
         let Some((_, step)) = self.taken.as_ref().filter(|_| !self.clock.is_at_end()) else { return };
         let ratio = (0.9 * reduction::<L::Scalar, S>(error.max(1e-10))).clamp(0.2, 8.0);

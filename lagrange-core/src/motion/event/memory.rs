@@ -1,6 +1,5 @@
 //! Settings of an event, and the state of its search from step to step.
 
-#[cfg(feature = "alloc")]
 use super::chebyshev::COARSEST;
 use super::chebyshev::{FINEST, Samples, Shape};
 use crate::error::Ending;
@@ -30,7 +29,6 @@ pub struct EventState<T> {
     /// Number of crossings in this run; in a steered motion, since its start.
     pub(super) count: usize,
     /// Crossings of earlier legs, from which the next run counts on, and its `round_off`.
-    #[cfg(feature = "alloc")]
     earlier: Option<(usize, T)>,
     /// Round-off of the function by the largest entries of the motion, where it is a leg of one; else zero.
     round_off: T,
@@ -132,7 +130,6 @@ impl<T: Real> EventState<T> {
             terminal: None,
             is_condition: false,
             count: 0,
-            #[cfg(feature = "alloc")]
             earlier: None,
             round_off: zero,
             value: zero,
@@ -165,7 +162,6 @@ impl<T: Real> EventState<T> {
     }
 
     /// Restarts the count of crossings for a new run.
-    #[cfg(feature = "alloc")]
     pub(super) fn begin_run(&mut self) {
         (self.count, self.round_off) = self.earlier.take().unwrap_or((0, T::constant(0.0)));
     }
@@ -173,7 +169,6 @@ impl<T: Real> EventState<T> {
     /// Makes the next run a leg of a motion, with this round-off of the function. After the first leg, crossings are counted on;
     /// between legs that are limited in number, they may be as close as they like. A leg may be as short as the last bounce, and
     /// the next one long: the degree that the function needs is learnt anew.
-    #[cfg(feature = "alloc")]
     pub(super) fn begin_leg(&mut self, is_first: bool, round_off: T) {
         (self.earlier, self.short) = (Some((if is_first { 0 } else { self.count }, round_off)), 0);
         (self.density, self.needed) = (None, None);
@@ -181,7 +176,6 @@ impl<T: Real> EventState<T> {
 
     /// Arrives at the end of a leg. The event crosses there if its function has come down, or up, to its round-off, and
     /// has not crossed just before.
-    #[cfg(feature = "alloc")]
     pub(super) fn arrive_at_end(&mut self, value: T, noise: T) {
         let zero = T::constant(0.0);
         if self.start.is_none() && !self.has_turned && Scalar::abs(value) <= noise {
@@ -229,7 +223,6 @@ impl<T: Real> EventState<T> {
     /// Passes the next step, of this width, without a search, if the function has one sign there, as `is_away` tells; if a
     /// search would be content with its lowest degree; and if the step is at most twice as wide as the last one searched: where
     /// no acceleration tells of a force, steps grow until they pass over all of it.
-    #[cfg(feature = "alloc")]
     #[inline]
     pub(crate) fn stay_away(&mut self, is_away: bool, width: T) {
         self.learn_density();
@@ -429,7 +422,6 @@ impl<T: Real> EventState<T> {
     }
 
     /// True if the last crossing ends the run.
-    #[cfg(feature = "alloc")]
     pub(super) fn is_terminal(&self) -> bool {
         self.terminal.is_some_and(|count| self.count >= count)
     }

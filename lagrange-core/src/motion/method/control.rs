@@ -2,14 +2,11 @@
 
 use super::adaptive::Adaptive;
 use super::clock::Clock;
-#[cfg(feature = "std")]
 use super::pair::error_needs_last;
 use super::pair::{Pair, Slopes, combine};
 
-#[cfg(feature = "alloc")]
 use crate::number::Broadcast;
 use crate::number::{Real, Scalar, exceeds, larger, smaller, sum};
-#[cfg(feature = "alloc")]
 use crate::vector::{Array, StaticLength, from_fn};
 use crate::vector::{Length, PhaseVector, SpareVectors};
 
@@ -71,7 +68,6 @@ pub(crate) type StateEntry = (usize, usize);
 
 /// Variations at both ends of a step, the states there, and the factor that converts changes of the state to the unit of the
 /// variations.
-#[cfg(feature = "alloc")]
 pub(crate) struct VariedEnds<'a, T: Scalar, W: Scalar, N: StaticLength> {
     pub(crate) variations: [&'a PhaseVector<W, N>; 2],
     pub(crate) places: [&'a PhaseVector<T, N>; 2],
@@ -102,7 +98,6 @@ impl Tolerance {
     }
 
     /// Error of variations over a step of a pair.
-    #[cfg(feature = "alloc")]
     pub(crate) fn error_of_variations<P: Pair, T: Scalar, W: Broadcast<T>, N: StaticLength>(
         self,
         slopes: &Slopes<W, N>,
@@ -115,7 +110,6 @@ impl Tolerance {
     }
 
     /// Size of the `errors` of variations over a step, in units of the allowed ones.
-    #[cfg(all(feature = "alloc", any(feature = "std", feature = "libm")))]
     pub(crate) fn part_of_variations<T: Scalar, W: Broadcast<T>, N: StaticLength>(
         self,
         slack: f64,
@@ -128,7 +122,6 @@ impl Tolerance {
 
     /// Error allowed in variations, for their coordinates and for their velocities: `slack` times the relative tolerance of the
     /// largest entry of that half, plus the error allowed in the state itself in the unit of the variations.
-    #[cfg(feature = "alloc")]
     fn scale_of_variations<T: Scalar, W: Broadcast<T>, N: StaticLength>(
         self,
         slack: f64,
@@ -235,7 +228,6 @@ impl<P: Pair> Adaptive<P> {
     }
 
     /// True if the error is estimated, and the estimate needs the slope at the end of the step.
-    #[cfg(feature = "std")]
     #[inline]
     pub(crate) fn error_needs_last(&self) -> bool {
         !self.ignores_error() && error_needs_last::<P>()
@@ -301,7 +293,6 @@ impl<P: Pair> Adaptive<P> {
 
 /// Tolerance of variations, in units of the tolerance of the motion. Errors of variations are usually about ten times
 /// larger; they should shorten steps only if the error of the motion is no guide.
-#[cfg(feature = "alloc")]
 pub(crate) const SLACK: f64 = 10.0;
 
 /// Root mean square of h xᵢ/aᵢ over the entries, where aᵢ = `allowed(i)` is the allowed error.

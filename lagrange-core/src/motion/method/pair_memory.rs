@@ -61,7 +61,6 @@ impl<T: Real, N: Length, M: StaticLength> PairMemory<T, N, M> {
     }
 
     /// Start, length and slopes of the last accepted step.
-    #[cfg(feature = "alloc")]
     pub(crate) fn last_step(&self) -> Option<(StagePoint<T, N>, T, &Slopes<T, N>)> {
         let Taken { from: StepStart { t, y, .. }, h, .. } = self.taken.as_ref()?;
         let velocity = self.slopes[0].half_if_constant(0);

@@ -264,7 +264,6 @@ impl<'o, L: System<Scalar: Real>> Record<'o, L> {
     }
 
     /// The samples, and their quantities.
-    #[cfg(feature = "alloc")]
     pub(crate) fn into_samples(self) -> (Vec<StateOf<L>>, Vec<L::Scalar>) {
         (self.samples, self.values)
     }

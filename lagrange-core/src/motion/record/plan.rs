@@ -2,7 +2,6 @@
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
-#[cfg(feature = "std")]
 use core::fmt::{self, Write};
 
 use nalgebra::ComplexField;
@@ -141,13 +140,11 @@ impl<'a, L: System<Scalar: Real>> RecordPlan<'a, L> {
     }
 
     /// Names of the quantities.
-    #[cfg(feature = "std")]
     pub(crate) fn quantities(&self) -> impl Iterator<Item = &'static str> {
         self.quantities.iter().map(|(name, _)| *name)
     }
 
     /// Writes the times and the names of the quantities, to tell plans apart; functions are not part of it.
-    #[cfg(feature = "std")]
     pub(crate) fn identify(&self, to: &mut dyn Write) -> fmt::Result {
         match &self.times {
             SampleTimes::At(times) => times.iter().try_for_each(|t| write!(to, " at {:?}", t.to_f64()))?,

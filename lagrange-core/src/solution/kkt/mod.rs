@@ -247,14 +247,12 @@ impl<T: Real, N: StaticLength, M: StaticLength> Rows<T, N, M> {
     }
 
     /// Returns a basis of the null space F x = 0.
-    #[cfg(feature = "alloc")]
     pub(crate) fn null_space(&self) -> impl Iterator<Item = Vector<T, N>> {
         (self.split.rank..N::COUNT)
             .map(|k| self.out_of_basis(Array::from_fn(|i| T::constant(if i == k { 1.0 } else { 0.0 }))))
     }
 
     /// Returns the least x with F x + γ = 0 in natural units, ignoring dependent constraints.
-    #[cfg(feature = "alloc")]
     pub(crate) fn least(&self, gamma: &Array<T, M>) -> Vector<T, N> {
         self.out_of_basis(self.fixed(gamma))
     }
