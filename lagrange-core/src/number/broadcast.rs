@@ -33,32 +33,3 @@ pub trait Wide<T>: Broadcast<T> {
     /// Returns one component.
     fn lane(&self, lane: usize) -> T;
 }
-
-#[cfg(any(feature = "std", feature = "libm"))]
-macro_rules! alone {
-    ($($scalar:ty),*) => {$(
-        impl Wide<$scalar> for $scalar {
-            const COUNT: usize = 1;
-
-            #[inline(always)]
-            fn from_lanes(mut of: impl FnMut(usize) -> $scalar) -> Self {
-                of(0)
-            }
-
-            #[inline(always)]
-            fn put(&mut self, _: usize, x: $scalar) {
-                *self = x;
-            }
-
-            #[inline(always)]
-            fn lane(&self, _: usize) -> $scalar {
-                *self
-            }
-        }
-    )*};
-}
-
-#[cfg(any(feature = "std", feature = "libm"))]
-alone!(f32);
-#[cfg(all(feature = "libm", not(feature = "std")))]
-alone!(f64);

@@ -1,15 +1,23 @@
 //! SIMD lanes as scalars.
 
+#[cfg(target_feature = "avx512f")]
+mod eight;
+mod quad;
+mod simd;
+pub(super) mod sines;
+
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::broadcast::{Broadcast, Wide};
-#[cfg(target_feature = "avx512f")]
-use super::eight::Eight as Widest;
-use super::quad::Quad;
-#[cfg(not(target_feature = "avx512f"))]
-use super::quad::Quad as Widest;
+use super::parts::Parts;
 use super::scalar::Scalar;
-use super::simd::SimdVector;
+use crate::system::Packed;
+#[cfg(target_feature = "avx512f")]
+use eight::Eight as Widest;
+use quad::Quad;
+#[cfg(not(target_feature = "avx512f"))]
+use quad::Quad as Widest;
+use simd::SimdVector;
 
 /// Largest angle for vector sines. Beyond, the reduction by π/2 in three parts loses digits.
 const LARGEST_ANGLE: f64 = 1e8;
@@ -186,6 +194,63 @@ impl Wide<f64> for FourLanes {
         self.to_array()[lane]
     }
 }
+
+impl Parts for FourLanes {
+    const EPSILON: f64 = f64::EPSILON;
+    const HAS_SLOPES: bool = false;
+
+    #[inline]
+    fn magnitude(self) -> Self {
+        self.abs()
+    }
+
+    #[inline]
+    fn least(self, other: Self) -> Self {
+        self.min(other)
+    }
+
+    #[inline]
+    fn is_within(self, factor: f64, bound: Self) -> bool {
+        let pairs = self.to_array().into_iter().zip(bound.to_array());
+        pairs.fold(true, |all, (x, bound)| all & x.is_within(factor, bound))
+    }
+
+    #[inline]
+    fn is_at_most(self, bound: f64) -> bool {
+        self.to_array().iter().all(|x| *x <= bound)
+    }
+
+    #[inline]
+    fn is_finite(self) -> bool {
+        self.to_array().iter().all(|x| x.is_finite())
+    }
+
+    #[inline]
+    fn has_settled(self, before: Self, terms: Self) -> bool {
+        let (x, before, terms) = (self.to_array(), before.to_array(), terms.to_array());
+        (0..Self::COUNT).all(|k| x[k].has_settled(before[k], terms[k]))
+    }
+}
+
+macro_rules! on_lanes {
+    ($($lanes:ty),*) => {$(
+        impl Packed<f64> for $lanes {
+            #[inline(always)]
+            fn splat(x: &f64) -> Self {
+                Self::constant(*x)
+            }
+
+            #[inline(always)]
+            fn place(&mut self, lane: usize, x: &f64) {
+                let mut all = self.to_array();
+                all[lane] = *x;
+                *self = all.into();
+            }
+        }
+    )*};
+}
+
+on_lanes!(Lanes, FourLanes);
 
 #[cfg(test)]
 mod tests;

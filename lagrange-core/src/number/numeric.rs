@@ -24,7 +24,6 @@ pub(crate) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
 }
 
 /// Returns the order of two numbers; they count as equal if one is NaN.
-#[cfg(feature = "alloc")]
 pub(crate) fn order<T: PartialOrd>(x: T, y: T) -> Ordering {
     x.partial_cmp(&y).unwrap_or(Ordering::Equal)
 }

@@ -2,8 +2,6 @@
 
 use nalgebra::ComplexField;
 
-#[cfg(feature = "std")]
-use super::lanes::FourLanes;
 use super::{Dual, Real, Scalar};
 
 /// Largest residual of an iteration that counts as round-off, in units of ε of its terms.
@@ -78,44 +76,6 @@ impl<T: Real> Parts for T {
     #[inline]
     fn has_settled(self, before: Self, terms: Self) -> bool {
         self.is_within(ROUND_OFF * <T as Real>::EPSILON, terms) || !self.is_within(PROGRESS, before)
-    }
-}
-
-#[cfg(feature = "std")]
-impl Parts for FourLanes {
-    const EPSILON: f64 = f64::EPSILON;
-    const HAS_SLOPES: bool = false;
-
-    #[inline]
-    fn magnitude(self) -> Self {
-        self.abs()
-    }
-
-    #[inline]
-    fn least(self, other: Self) -> Self {
-        self.min(other)
-    }
-
-    #[inline]
-    fn is_within(self, factor: f64, bound: Self) -> bool {
-        let pairs = self.to_array().into_iter().zip(bound.to_array());
-        pairs.fold(true, |all, (x, bound)| all & x.is_within(factor, bound))
-    }
-
-    #[inline]
-    fn is_at_most(self, bound: f64) -> bool {
-        self.to_array().iter().all(|x| *x <= bound)
-    }
-
-    #[inline]
-    fn is_finite(self) -> bool {
-        self.to_array().iter().all(|x| x.is_finite())
-    }
-
-    #[inline]
-    fn has_settled(self, before: Self, terms: Self) -> bool {
-        let (x, before, terms) = (self.to_array(), before.to_array(), terms.to_array());
-        (0..Self::COUNT).all(|k| x[k].has_settled(before[k], terms[k]))
     }
 }
 

@@ -1,6 +1,5 @@
 //! [`Scalar`] for types with the traits of `simba`, and scalars with an order.
 
-#[cfg(feature = "std")]
 use core::any::Any;
 use core::fmt::{Debug, Display};
 use simba::scalar::{RealField, SupersetOf};
@@ -9,11 +8,8 @@ use simba::simd::SimdRealField;
 use super::broadcast::Wide;
 use super::parts::Parts;
 use super::scalar::{FUSED, Scalar, one_by_one};
-#[cfg(feature = "std")]
-use super::sines;
 
 /// Returns the value as type `Y` if the types are the same. The compiler resolves the test.
-#[cfg(feature = "std")]
 #[inline(always)]
 fn same<X: Copy + 'static, Y: Copy + 'static>(x: X) -> Option<Y> {
     (&x as &dyn Any).downcast_ref().copied()
@@ -43,7 +39,7 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
     #[inline(always)]
     fn sin_cos_of_small<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
         #[cfg(feature = "std")]
-        if let Some(found) = same::<_, [f64; K]>(angles).map(sines::sin_cos).and_then(same) {
+        if let Some(found) = same::<_, [f64; K]>(angles).map(super::lanes::sines::sin_cos).and_then(same) {
             return found;
         }
         one_by_one(angles)
@@ -52,7 +48,7 @@ impl<T: SimdRealField + SupersetOf<f64> + Copy + Debug + 'static> Scalar for T {
     #[inline(always)]
     fn small_angles<const K: usize>(angles: [Self; K]) -> [Self; K] {
         #[cfg(feature = "std")]
-        if let Some(small) = same::<_, [f64; K]>(angles).map(sines::small).and_then(same) {
+        if let Some(small) = same::<_, [f64; K]>(angles).map(super::lanes::sines::small).and_then(same) {
             return small;
         }
         angles
@@ -116,33 +112,4 @@ pub trait Real: Scalar + RealField + PartialOrd + Display {
 
     /// Converts the number to `f64`.
     fn to_f64(self) -> f64;
-}
-
-#[cfg(any(feature = "std", feature = "libm"))]
-impl Real for f64 {
-    const EPSILON: Self = Self::EPSILON;
-    const SMALLEST: Self = Self::MIN_POSITIVE;
-
-    #[cfg(feature = "std")]
-    type Wide = super::lanes::FourLanes;
-    #[cfg(not(feature = "std"))]
-    type Wide = Self;
-
-    #[inline(always)]
-    fn to_f64(self) -> f64 {
-        self
-    }
-}
-
-#[cfg(any(feature = "std", feature = "libm"))]
-impl Real for f32 {
-    const EPSILON: f64 = Self::EPSILON as f64;
-    const SMALLEST: f64 = Self::MIN_POSITIVE as f64;
-
-    type Wide = Self;
-
-    #[inline(always)]
-    fn to_f64(self) -> f64 {
-        f64::from(self)
-    }
 }

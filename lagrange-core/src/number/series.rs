@@ -48,7 +48,6 @@ impl<S: Scalar> PowerSeries<S> {
     }
 
     /// Replaces the last coefficient by `coefficient` and appends a zero.
-    #[cfg(feature = "alloc")]
     pub(crate) fn extend(&mut self, coefficient: S) {
         self.coefficients[self.count - 1] = coefficient;
         self.count = (self.count + 1).min(ROOM);

@@ -6,8 +6,6 @@ use core::fmt::Debug;
 use nalgebra::{Isometry, Quaternion, Rotation, SMatrix, Translation, Unit};
 
 use crate::number::{Dual, Scalar};
-#[cfg(feature = "std")]
-use crate::number::{FourLanes, Lanes};
 use crate::vector::{Array, Element, PhaseVector, StaticLength};
 
 /// A system that can share SIMD lanes of type `V` with other systems of its type.
@@ -62,51 +60,6 @@ pub trait Packed<X> {
     /// Stores `field` in one lane.
     fn place(&mut self, lane: usize, field: &X);
 }
-
-#[cfg(feature = "std")]
-macro_rules! on_lanes {
-    ($($lanes:ty),*) => {$(
-        impl Packed<f64> for $lanes {
-            #[inline(always)]
-            fn splat(x: &f64) -> Self {
-                Self::constant(*x)
-            }
-
-            #[inline(always)]
-            fn place(&mut self, lane: usize, x: &f64) {
-                let mut all = self.to_array();
-                all[lane] = *x;
-                *self = all.into();
-            }
-        }
-    )*};
-}
-
-#[cfg(feature = "std")]
-on_lanes!(Lanes, FourLanes);
-
-/// Numbers that are a vector of one lane.
-#[cfg(any(feature = "std", feature = "libm"))]
-macro_rules! on_one_lane {
-    ($($scalar:ty),*) => {$(
-        impl Packed<$scalar> for $scalar {
-            #[inline(always)]
-            fn splat(x: &$scalar) -> Self {
-                *x
-            }
-
-            #[inline(always)]
-            fn place(&mut self, _: usize, x: &$scalar) {
-                *self = *x;
-            }
-        }
-    )*};
-}
-
-#[cfg(any(feature = "std", feature = "libm"))]
-on_one_lane!(f32);
-#[cfg(all(feature = "libm", not(feature = "std")))]
-on_one_lane!(f64);
 
 /// Values are packed as without derivatives, with slope zero.
 impl<W: Packed<X> + Scalar, X> Packed<X> for Dual<W> {

@@ -5,8 +5,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use wide::f64x8;
 
-use super::scalar::Scalar;
 use super::simd::SimdVector;
+use crate::number::Scalar;
 
 /// A vector of eight `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]

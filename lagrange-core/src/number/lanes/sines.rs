@@ -8,8 +8,8 @@
 //! chain of operations.
 
 use super::quad::Quad;
-use super::scalar::Scalar;
 use super::simd::SimdVector;
+use crate::number::Scalar;
 
 /// Largest angle. Beyond, the multiple of π/2 has too many digits for the first step to be exact.
 const LARGEST: f64 = 1e5;
@@ -47,7 +47,7 @@ const COSINE: [f64; 6] = [
 
 /// Returns the angles, reduced by full turns if they are too large.
 #[inline(always)]
-pub(super) fn small<const K: usize>(angles: [f64; K]) -> [f64; K] {
+pub(in crate::number) fn small<const K: usize>(angles: [f64; K]) -> [f64; K] {
     // No magnitude exceeds the sum. The sum is scalar code, as the compiler does not vectorize it; a comparison
     // with NaN is false.
     let sum = angles.iter().fold(0.0, |sum, x| sum + x.abs());
@@ -62,7 +62,7 @@ fn less_turns<const K: usize>(angles: [f64; K]) -> [f64; K] {
 
 /// Returns the sines and cosines of small angles.
 #[inline(always)]
-pub(super) fn sin_cos<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
+pub(in crate::number) fn sin_cos<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
     let (mut sines, mut cosines) = ([0.0; K], [0.0; K]);
     for first in (0..K).step_by(4) {
         // Angle by angle: copying a slice would go through memory and delay the vector load.

@@ -1,6 +1,6 @@
 //! SIMD vectors of `f64`, in one register or several.
 
-use super::scalar::Scalar;
+use crate::number::Scalar;
 
 /// A vector of `f64`.
 pub(super) trait SimdVector: Scalar {
