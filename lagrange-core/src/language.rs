@@ -577,29 +577,24 @@
 //! A [`Trajectory`](crate::Trajectory::drift) reports the
 //! drift of each conserved quantity, and balances an energy that changes with its work.
 //!
-#![cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::{prelude::*, facts::Evidence};
-
-/// A pendulum bob on a string.
-#[derive(Lagrangian)]
-#[coordinates(x, y, z)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2) - m*g*z)]
-#[constraint(string: x^2 + y^2 + z^2 = l^2)]
-#[conserved(l_z = m*(x*y_dot - y*x_dot))]
-struct Bob { m: f64, g: f64, l: f64 }
-
-assert_eq!(Bob::FACTS.energy_is_conserved, Some(Evidence::Proved));
-let bob = Bob { m: 0.1, g: 9.81, l: 0.5 };
-let path = bob.integrate(State::new([0.3, 0.0, -0.4], [0.0, 1.0, 0.0]), 5.0, Dop853::default())?;
-println!("{}", path.drift());
-assert!(path.drift().iter().all(|quantity| quantity.largest < 1e-6));
-# Ok::<(), Error>(())
-```
-"#
-)]
+//! ```
+//! use lagrange_core::{prelude::*, facts::Evidence};
+//!
+//! /// A pendulum bob on a string.
+//! #[derive(Lagrangian)]
+//! #[coordinates(x, y, z)]
+//! #[lagrangian(m/2 * (x_dot^2 + y_dot^2 + z_dot^2) - m*g*z)]
+//! #[constraint(string: x^2 + y^2 + z^2 = l^2)]
+//! #[conserved(l_z = m*(x*y_dot - y*x_dot))]
+//! struct Bob { m: f64, g: f64, l: f64 }
+//!
+//! assert_eq!(Bob::FACTS.energy_is_conserved, Some(Evidence::Proved));
+//! let bob = Bob { m: 0.1, g: 9.81, l: 0.5 };
+//! let path = bob.integrate(State::new([0.3, 0.0, -0.4], [0.0, 1.0, 0.0]), 5.0, Dop853::default())?;
+//! println!("{}", path.drift());
+//! assert!(path.drift().iter().all(|quantity| quantity.largest < 1e-6));
+//! # Ok::<(), Error>(())
+//! ```
 //!
 //! ```compile_fail
 //! use lagrange_core::prelude::*;

@@ -3,29 +3,24 @@
 //! `#[derive(Lagrangian)]` takes a Lagrangian and its constraints in textbook notation and derives the
 //! equations of motion and the multipliers; this crate integrates them.
 //!
-#![cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::prelude::*;
-
-/// A sphere of mass `m` and radius `a` rolling down an incline without slipping.
-#[derive(Lagrangian)]
-#[coordinates(x, phi)]
-#[define(inertia = 2/5 * m * a^2)]
-#[lagrangian(m/2 * x_dot^2 + inertia/2 * phi_dot^2 + m*g*x*sin(alpha))]
-#[constraint(no_slip: x_dot - a*phi_dot = 0)]
-struct RollingSphere { m: f64, a: f64, g: f64, alpha: f64 }
-
-let sphere = RollingSphere { m: 1.0, a: 0.1, g: 9.81, alpha: 0.3 };
-let path = sphere.integrate(State::at_rest([0.0, 0.0]), 3.0, Dop853::default())?;
-let (x, friction) = (path.end().coordinate("x")?, path.end().multiplier("no_slip")?);
-assert!((x - 0.5 * 5.0 / 7.0 * 9.81 * 0.3_f64.sin() * 9.0).abs() < 1e-9);
-assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
-# Ok::<(), Error>(())
-```
-"#
-)]
+//! ```
+//! use lagrange_core::prelude::*;
+//!
+//! /// A sphere of mass `m` and radius `a` rolling down an incline without slipping.
+//! #[derive(Lagrangian)]
+//! #[coordinates(x, phi)]
+//! #[define(inertia = 2/5 * m * a^2)]
+//! #[lagrangian(m/2 * x_dot^2 + inertia/2 * phi_dot^2 + m*g*x*sin(alpha))]
+//! #[constraint(no_slip: x_dot - a*phi_dot = 0)]
+//! struct RollingSphere { m: f64, a: f64, g: f64, alpha: f64 }
+//!
+//! let sphere = RollingSphere { m: 1.0, a: 0.1, g: 9.81, alpha: 0.3 };
+//! let path = sphere.integrate(State::at_rest([0.0, 0.0]), 3.0, Dop853::default())?;
+//! let (x, friction) = (path.end().coordinate("x")?, path.end().multiplier("no_slip")?);
+//! assert!((x - 0.5 * 5.0 / 7.0 * 9.81 * 0.3_f64.sin() * 9.0).abs() < 1e-9);
+//! assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
+//! # Ok::<(), Error>(())
+//! ```
 //!
 //! The struct's fields are the parameters. `coordinates` names the generalized coordinates, and `x_dot` is the
 //! velocity of `x`. A constraint has a name, by which its multiplier is read. [`language`] documents the whole
@@ -69,31 +64,26 @@ assert!((friction + 2.0 / 7.0 * 9.81 * 0.3_f64.sin()).abs() < 1e-12);
 //! an [`Ending`] tells why the trajectory ends. An [`Event`] locates the zero crossings of a function of the
 //! motion.
 //!
-#![cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-# use lagrange_core::prelude::*;
-# #[derive(Lagrangian)]
-# #[coordinates(x, y)]
-# #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-# #[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
-# #[observable(pull = -lambda(rod)*l)]
-# struct Pendulum { m: f64, g: f64, l: f64 }
-let pendulum = Pendulum { m: 2.0, g: 9.81, l: 1.0 };
-let lowest = pendulum.event("lowest", |sample| sample.coordinate("x")).falling();
-let start = State::at_rest([1.0, 0.0]);
-let path = pendulum.motion(start).event(lowest).towards(5.0)?;
-// At the lowest point it pulls with 3 m g.
-for crossing in path.crossings() {
-    let sample = path.at(crossing.state.t)?;
-    assert!((sample.observable("pull")? - 3.0 * 2.0 * 9.81).abs() < 1e-6);
-}
-println!("{}", path.csv(50).energy());
-# Ok::<(), Error>(())
-```
-"#
-)]
+//! ```
+//! # use lagrange_core::prelude::*;
+//! # #[derive(Lagrangian)]
+//! # #[coordinates(x, y)]
+//! # #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+//! # #[constraint(rod: (x^2 + y^2 - l^2)/2 = 0)]
+//! # #[observable(pull = -lambda(rod)*l)]
+//! # struct Pendulum { m: f64, g: f64, l: f64 }
+//! let pendulum = Pendulum { m: 2.0, g: 9.81, l: 1.0 };
+//! let lowest = pendulum.event("lowest", |sample| sample.coordinate("x")).falling();
+//! let start = State::at_rest([1.0, 0.0]);
+//! let path = pendulum.motion(start).event(lowest).towards(5.0)?;
+//! // At the lowest point it pulls with 3 m g.
+//! for crossing in path.crossings() {
+//!     let sample = path.at(crossing.state.t)?;
+//!     assert!((sample.observable("pull")? - 3.0 * 2.0 * 9.81).abs() < 1e-6);
+//! }
+//! println!("{}", path.csv(50).energy());
+//! # Ok::<(), Error>(())
+//! ```
 //!
 //! # Inputs
 //!

@@ -10,33 +10,28 @@
 //! solved to round-off and compared with the law. Restitution is Newton's, `restitution: e`: a gap that closes at the rate v opens at the rate −e v; or Poisson's,
 //! `restitution(poisson): e`: the impulse that stops the gap is followed by e times as much.
 //!
-#![cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::contact::{Contact, Transition};
-use lagrange_core::prelude::*;
-
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
-#[contact(floor: y >= 0, restitution: e)]
-struct Ball { m: f64, g: f64, e: f64, floor: Contact }
-
-let ball = Ball { m: 0.2, g: 9.81, e: 0.8, floor: Contact::Open };
-let path = ball.motion(State::new([0.0, 1.0], [0.5, 0.0])).with_contacts().to(10.0)?;
-
-// It falls for T, bounces for 2 e T, 2 e² T …, and rests after the sum of them.
-let fall = (2.0 / 9.81_f64).sqrt();
-let Transition::Impact { time, .. } = path.transitions()[0] else { panic!() };
-assert!((time - fall).abs() < 1e-14);
-let rests = path.transitions().iter().find(|transition| matches!(transition, Transition::Rests { .. }));
-assert!((rests.expect("it rests").time() - fall * 1.8 / 0.2).abs() < 1e-12);
-assert_eq!((path.end().state().q[1], path.end().state().v[0]), (0.0, 0.5));
-# Ok::<(), Error>(())
-```
-"#
-)]
+//! ```
+//! use lagrange_core::contact::{Contact, Transition};
+//! use lagrange_core::prelude::*;
+//!
+//! #[derive(Clone, Lagrangian)]
+//! #[coordinates(x, y)]
+//! #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - m*g*y)]
+//! #[contact(floor: y >= 0, restitution: e)]
+//! struct Ball { m: f64, g: f64, e: f64, floor: Contact }
+//!
+//! let ball = Ball { m: 0.2, g: 9.81, e: 0.8, floor: Contact::Open };
+//! let path = ball.motion(State::new([0.0, 1.0], [0.5, 0.0])).with_contacts().to(10.0)?;
+//!
+//! // It falls for T, bounces for 2 e T, 2 e² T …, and rests after the sum of them.
+//! let fall = (2.0 / 9.81_f64).sqrt();
+//! let Transition::Impact { time, .. } = path.transitions()[0] else { panic!() };
+//! assert!((time - fall).abs() < 1e-14);
+//! let rests = path.transitions().iter().find(|transition| matches!(transition, Transition::Rests { .. }));
+//! assert!((rests.expect("it rests").time() - fall * 1.8 / 0.2).abs() < 1e-12);
+//! assert_eq!((path.end().state().q[1], path.end().state().v[0]), (0.0, 0.5));
+//! # Ok::<(), Error>(())
+//! ```
 //!
 //! # Friction
 //!
@@ -56,33 +51,28 @@ assert_eq!((path.end().state().q[1], path.end().state().v[0]), (0.0, 0.5));
 //! `#[friction(belt: v, limit: hold, sliding: pull)]` is dry friction with bounds of its own, by a field `belt: Friction`: it
 //! sticks with a force up to `hold`, which is `pull` if it is not given, and slides with the force −`pull` v/|v|.
 //!
-#![cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::contact::{Contact, Transition};
-use lagrange_core::prelude::*;
-
-/// A sphere that is thrown along a floor.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y, phi)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*r^2/5 * phi_dot^2 - m*g*y)]
-#[contact(floor: y - r >= 0, friction(mu): x_dot - r*phi_dot)]
-struct Sphere { m: f64, g: f64, r: f64, mu: f64, floor: Contact }
-
-let sphere = Sphere { m: 0.4, g: 9.81, r: 0.3, mu: 0.25, floor: Contact::Closed };
-let path = sphere.motion(State::new([0.0, 0.3, 0.0], [2.0, 0.0, 0.0])).with_contacts().to(1.0)?;
-
-// It slides with −μ m g, until it rolls with 5/7 of its velocity.
-let Transition::Sticks { friction: "floor_friction", time } = path.transitions()[0] else { panic!() };
-assert!((time - 2.0 / 7.0 * 2.0 / (0.25 * 9.81)).abs() < 1e-12);
-assert!((path.at(0.1)?.multiplier("floor_friction")? + 0.25 * 0.4 * 9.81).abs() < 1e-12);
-assert!((path.end().state().v[0] - 5.0 / 7.0 * 2.0).abs() < 1e-12);
-assert_eq!(path.system().floor, Contact::Closed);
-# Ok::<(), Error>(())
-```
-"#
-)]
+//! ```
+//! use lagrange_core::contact::{Contact, Transition};
+//! use lagrange_core::prelude::*;
+//!
+//! /// A sphere that is thrown along a floor.
+//! #[derive(Clone, Lagrangian)]
+//! #[coordinates(x, y, phi)]
+//! #[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*r^2/5 * phi_dot^2 - m*g*y)]
+//! #[contact(floor: y - r >= 0, friction(mu): x_dot - r*phi_dot)]
+//! struct Sphere { m: f64, g: f64, r: f64, mu: f64, floor: Contact }
+//!
+//! let sphere = Sphere { m: 0.4, g: 9.81, r: 0.3, mu: 0.25, floor: Contact::Closed };
+//! let path = sphere.motion(State::new([0.0, 0.3, 0.0], [2.0, 0.0, 0.0])).with_contacts().to(1.0)?;
+//!
+//! // It slides with −μ m g, until it rolls with 5/7 of its velocity.
+//! let Transition::Sticks { friction: "floor_friction", time } = path.transitions()[0] else { panic!() };
+//! assert!((time - 2.0 / 7.0 * 2.0 / (0.25 * 9.81)).abs() < 1e-12);
+//! assert!((path.at(0.1)?.multiplier("floor_friction")? + 0.25 * 0.4 * 9.81).abs() < 1e-12);
+//! assert!((path.end().state().v[0] - 5.0 / 7.0 * 2.0).abs() < 1e-12);
+//! assert_eq!(path.system().floor, Contact::Closed);
+//! # Ok::<(), Error>(())
+//! ```
 //!
 //! The velocities at the start say whether friction sticks or slides, whatever the fields do.
 //!
@@ -112,29 +102,24 @@ assert_eq!(path.system().floor, Contact::Closed);
 //! openings and friction. Where neighbouring motions pass a transition in different ways, there is none:
 //! [`Error::NoDerivativeAcross`](crate::Error::NoDerivativeAcross) names it.
 //!
-#![cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::contact::Contact;
-use lagrange_core::prelude::*;
-
-/// A block thrown along a floor.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y)]
-#[lagrangian((x_dot^2 + y_dot^2)/2 - g*y)]
-#[contact(floor: y >= 0, friction(mu): x_dot)]
-struct Block { g: f64, mu: f64, floor: Contact }
-
-let (block, method) = (Block { g: 9.81, mu: 0.5, floor: Contact::Closed }, Dop853::with_tolerance(1e-12));
-let path = block.motion(State::new([0.0, 0.0], [2.0, 0.0])).by(method).with_contacts().to(1.0)?;
-let end = path.sensitivity(&["mu"], method)?;
-// It stops after v²/(2 μ g).
-assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
-# Ok::<(), Error>(())
-```
-"#
-)]
+//! ```
+//! use lagrange_core::contact::Contact;
+//! use lagrange_core::prelude::*;
+//!
+//! /// A block thrown along a floor.
+//! #[derive(Clone, Lagrangian)]
+//! #[coordinates(x, y)]
+//! #[lagrangian((x_dot^2 + y_dot^2)/2 - g*y)]
+//! #[contact(floor: y >= 0, friction(mu): x_dot)]
+//! struct Block { g: f64, mu: f64, floor: Contact }
+//!
+//! let (block, method) = (Block { g: 9.81, mu: 0.5, floor: Contact::Closed }, Dop853::with_tolerance(1e-12));
+//! let path = block.motion(State::new([0.0, 0.0], [2.0, 0.0])).by(method).with_contacts().to(1.0)?;
+//! let end = path.sensitivity(&["mu"], method)?;
+//! // It stops after v²/(2 μ g).
+//! assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
+//! # Ok::<(), Error>(())
+//! ```
 //!
 //! # What is guaranteed
 //!
@@ -209,30 +194,25 @@ assert!((end.q[(0, 0)] + 4.0 / (2.0 * 0.25 * 9.81)).abs() < 1e-11);
 //! sticks: a rod that is thrown along the floor reopens by Poisson's law as fast as its friction has pressed it together. A
 //! contact at rest that takes part in an impact returns nothing by Newton's law, and e Λ by Poisson's.
 //!
-#![cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::contact::Contact;
-use lagrange_core::prelude::*;
-
-/// Three balls in a row that touch.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x: [3])]
-#[lagrangian(dot(x_dot, x_dot)/2)]
-#[contact(balls[i in 0..2]: x[i + 1] - x[i] >= 0, restitution(poisson): e[i])]
-struct Balls { e: [f64; 2], balls: [Contact; 2] }
-
-let balls = Balls { e: [0.0, 1.0], balls: [Contact::Open; 2] };
-let path = balls.motion(State::new([1.0; 3], [1.0, 0.0, 0.0])).with_contacts().to(1.0)?;
-// Impulses of 2/3 and 1/3 compress. The second contact returns its 1/3, and presses the first two balls together with 1/6.
-for (v, expected) in path.end().state().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) {
-    assert!((v - expected).abs() < 1e-15);
-}
-# Ok::<(), Error>(())
-```
-"#
-)]
+//! ```
+//! use lagrange_core::contact::Contact;
+//! use lagrange_core::prelude::*;
+//!
+//! /// Three balls in a row that touch.
+//! #[derive(Clone, Lagrangian)]
+//! #[coordinates(x: [3])]
+//! #[lagrangian(dot(x_dot, x_dot)/2)]
+//! #[contact(balls[i in 0..2]: x[i + 1] - x[i] >= 0, restitution(poisson): e[i])]
+//! struct Balls { e: [f64; 2], balls: [Contact; 2] }
+//!
+//! let balls = Balls { e: [0.0, 1.0], balls: [Contact::Open; 2] };
+//! let path = balls.motion(State::new([1.0; 3], [1.0, 0.0, 0.0])).with_contacts().to(1.0)?;
+//! // Impulses of 2/3 and 1/3 compress. The second contact returns its 1/3, and presses the first two balls together with 1/6.
+//! for (v, expected) in path.end().state().v.iter().zip([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0]) {
+//!     assert!((v - expected).abs() < 1e-15);
+//! }
+//! # Ok::<(), Error>(())
+//! ```
 //!
 //! Poisson's law gains no energy without friction, nor with friction if the contacts of the impact have one e: the kinetic energy is a
 //! convex function of the impulses, and those of the expansion leave no more of it than e Λ, with its friction, would. Both laws

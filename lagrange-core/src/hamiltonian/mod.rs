@@ -51,11 +51,9 @@ use phase::rate;
 /// let phase = PhaseState::new([0.0], [0.75]);
 /// assert!((particle.legendre(&phase)?.v[0] - 0.6).abs() < 1e-15);
 /// assert!((particle.hamiltonian(&phase)? - 1.25).abs() < 1e-15);
-/// # #[cfg(feature = "alloc")] {
 /// let path = particle.motion_in_momenta(phase).to(10.0)?;
 /// assert!((path.end().coordinate("x")? - 6.0).abs() < 1e-12);
 /// assert!((path.end().momentum("x")? - 0.75).abs() < 1e-15);
-/// # }
 /// # Ok::<(), Error>(())
 /// ```
 #[diagnostic::on_unimplemented(

@@ -51,7 +51,6 @@ use crate::vector::{StaticLength, Vector};
 /// // ∂θ̈/∂θ = −g/l cos θ
 /// assert!((jacobian.accelerations.q[(0, 0)] + 9.81 / 2.0 * 0.3_f64.cos()).abs() < 1e-15);
 ///
-/// # #[cfg(feature = "alloc")] {
 /// // The torque that holds it at 30°, and the motion nearby.
 /// let held = pendulum.equilibrium(&State::at_rest([0.5236]), &["torque"])?;
 /// assert!((held.system.torque - 9.81 * 2.0 * 0.5236_f64.sin()).abs() < 1e-14);
@@ -59,7 +58,6 @@ use crate::vector::{StaticLength, Vector};
 /// assert!((near.b[(1, 0)] - 1.0 / 4.0).abs() < 1e-15);
 /// let frequency = near.natural_frequencies()?[0];
 /// assert!((frequency - (9.81 / 2.0 * 0.5236_f64.cos()).sqrt()).abs() < 1e-14);
-/// # }
 /// # Ok::<(), Error>(())
 /// ```
 #[diagnostic::on_unimplemented(

@@ -20,26 +20,21 @@ use crate::vector::StaticLength;
 /// Numbers are printed in the shortest form that reads back the same. If the equations have no solution, values
 /// that depend on it are `NaN`. The equations are solved once per line, and not at all if no column needs them.
 ///
-#[cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::prelude::*;
-
-#[derive(Lagrangian)]
-#[coordinates(r, phi)]
-#[lagrangian(m/2 * (r_dot^2 + r^2 * phi_dot^2) + k/r)]
-#[observable(height = r*sin(phi))]
-struct Planet { m: f64, k: f64 }
-
-let planet = Planet { m: 1.0, k: 1.0 };
-let path = planet.integrate(State::new([1.0, 0.0], [0.0, 1.2]), 10.0, Dop853::default())?;
-let table = path.csv(200).conserved().to_string();
-assert_eq!(table.lines().next(), Some("t,r,phi,r_dot,phi_dot,height,p_phi,energy"));
-# Ok::<(), Error>(())
-```
-"#
-)]
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// #[derive(Lagrangian)]
+/// #[coordinates(r, phi)]
+/// #[lagrangian(m/2 * (r_dot^2 + r^2 * phi_dot^2) + k/r)]
+/// #[observable(height = r*sin(phi))]
+/// struct Planet { m: f64, k: f64 }
+///
+/// let planet = Planet { m: 1.0, k: 1.0 };
+/// let path = planet.integrate(State::new([1.0, 0.0], [0.0, 1.2]), 10.0, Dop853::default())?;
+/// let table = path.csv(200).conserved().to_string();
+/// assert_eq!(table.lines().next(), Some("t,r,phi,r_dot,phi_dot,height,p_phi,energy"));
+/// # Ok::<(), Error>(())
+/// ```
 #[must_use = "a table is to be printed, or written to a file"]
 pub struct Csv<'t, S: Lagrangian, F = LagrangianVectorField> {
     motion: &'t Trajectory<S, F>,

@@ -47,28 +47,23 @@ pub struct Deviation<T> {
 /// [`energy_rate`](Lagrangian::energy_rate) of forces, moving constraints and a Lagrangian that changes with time. The integral
 /// is that of Gauss's formula of order 16 over each step, on the dense output. Its error comes to that of the motion; a
 /// deviation far above the tolerance tells of an inaccurate motion, or of a rate that changes abruptly within a step.
-#[cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::prelude::*;
-
-#[derive(Lagrangian)]
-#[coordinates(r, phi)]
-#[lagrangian(m/2 * (r_dot^2 + r^2 * phi_dot^2) + k/r)]
-struct Planet { m: f64, k: f64 }
-
-let planet = Planet { m: 1.0, k: 1.0 };
-let path = planet.integrate(State::new([1.0, 0.0], [0.0, 1.2]), 10.0, Dop853::with_tolerance(1e-12))?;
-let drift = path.drift();
-println!("{drift}");
-let names: Vec<&str> = drift.iter().map(|quantity| quantity.name).collect();
-assert_eq!(names, ["p_phi", "energy"]);
-assert!(drift.iter().all(|quantity| quantity.largest < 1e-10));
-# Ok::<(), Error>(())
-```
-"#
-)]
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// #[derive(Lagrangian)]
+/// #[coordinates(r, phi)]
+/// #[lagrangian(m/2 * (r_dot^2 + r^2 * phi_dot^2) + k/r)]
+/// struct Planet { m: f64, k: f64 }
+///
+/// let planet = Planet { m: 1.0, k: 1.0 };
+/// let path = planet.integrate(State::new([1.0, 0.0], [0.0, 1.2]), 10.0, Dop853::with_tolerance(1e-12))?;
+/// let drift = path.drift();
+/// println!("{drift}");
+/// let names: Vec<&str> = drift.iter().map(|quantity| quantity.name).collect();
+/// assert_eq!(names, ["p_phi", "energy"]);
+/// assert!(drift.iter().all(|quantity| quantity.largest < 1e-10));
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(transparent))]
 pub struct Drift<T> {

@@ -16,50 +16,45 @@ use crate::system::Lagrangian;
 /// A motion in several legs. At an event the next leg takes over, with another system, other parameters or
 /// another velocity. Samples are looked up by name, for any numbers of coordinates and constraints of the legs.
 ///
-#[cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::{HybridTrajectory, prelude::*};
-
-/// A ladder at a wall; x and y are its middle.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y, theta)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*a^2/6 * theta_dot^2 - m*g*y)]
-#[constraint(floor: y - a*sin(theta) = 0)]
-#[constraint(wall: x - a*cos(theta) = 0)]
-struct Leaning { m: f64, a: f64, g: f64 }
-
-/// The ladder on its way down, without the wall.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y, theta)]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*a^2/6 * theta_dot^2 - m*g*y)]
-#[constraint(floor: y - a*sin(theta) = 0)]
-struct Sliding { m: f64, a: f64, g: f64 }
-
-let (m, a, g) = (3.0, 2.0, 9.81);
-let (leaning, sliding) = (Leaning { m, a, g }, Sliding { m, a, g });
-let (start, method) = (State::at_rest([2.0 * 1.2_f64.cos(), 2.0 * 1.2_f64.sin(), 1.2]), Dop853::default());
-
-let leaves = leaning.event("leaves", |sample| sample.multiplier("wall")).falling().terminal();
-let first = leaning.motion(start).by(method).event(leaves).towards(10.0)?;
-let falls = sliding.event("falls", |sample| sample.coordinate("theta")).falling().terminal();
-let second = sliding.motion(*first.end().state()).by(method).event(falls).towards(10.0)?;
-
-let mut trajectory = HybridTrajectory::new();
-trajectory.push(first.into_owned())?;
-trajectory.push(second.into_owned())?;
-for k in 0..=10 {
-    let (start, end) = (trajectory.start_time(), trajectory.end_time());
-    let sample = trajectory.at(start + 0.1 * f64::from(k) * (end - start))?;
-    println!("{} {} {}", sample.time(), sample.coordinate("theta")?, sample.multiplier("floor")?);
-}
-let leaning = trajectory.leg::<Trajectory<Leaning>>(0).expect("the first leg");
-assert!(leaning.end().multiplier("wall")?.abs() < 1e-12);
-# Ok::<(), Error>(())
-```
-"#
-)]
+/// ```
+/// use lagrange_core::{HybridTrajectory, prelude::*};
+///
+/// /// A ladder at a wall; x and y are its middle.
+/// #[derive(Clone, Lagrangian)]
+/// #[coordinates(x, y, theta)]
+/// #[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*a^2/6 * theta_dot^2 - m*g*y)]
+/// #[constraint(floor: y - a*sin(theta) = 0)]
+/// #[constraint(wall: x - a*cos(theta) = 0)]
+/// struct Leaning { m: f64, a: f64, g: f64 }
+///
+/// /// The ladder on its way down, without the wall.
+/// #[derive(Clone, Lagrangian)]
+/// #[coordinates(x, y, theta)]
+/// #[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*a^2/6 * theta_dot^2 - m*g*y)]
+/// #[constraint(floor: y - a*sin(theta) = 0)]
+/// struct Sliding { m: f64, a: f64, g: f64 }
+///
+/// let (m, a, g) = (3.0, 2.0, 9.81);
+/// let (leaning, sliding) = (Leaning { m, a, g }, Sliding { m, a, g });
+/// let (start, method) = (State::at_rest([2.0 * 1.2_f64.cos(), 2.0 * 1.2_f64.sin(), 1.2]), Dop853::default());
+///
+/// let leaves = leaning.event("leaves", |sample| sample.multiplier("wall")).falling().terminal();
+/// let first = leaning.motion(start).by(method).event(leaves).towards(10.0)?;
+/// let falls = sliding.event("falls", |sample| sample.coordinate("theta")).falling().terminal();
+/// let second = sliding.motion(*first.end().state()).by(method).event(falls).towards(10.0)?;
+///
+/// let mut trajectory = HybridTrajectory::new();
+/// trajectory.push(first.into_owned())?;
+/// trajectory.push(second.into_owned())?;
+/// for k in 0..=10 {
+///     let (start, end) = (trajectory.start_time(), trajectory.end_time());
+///     let sample = trajectory.at(start + 0.1 * f64::from(k) * (end - start))?;
+///     println!("{} {} {}", sample.time(), sample.coordinate("theta")?, sample.multiplier("floor")?);
+/// }
+/// let leaning = trajectory.leg::<Trajectory<Leaning>>(0).expect("the first leg");
+/// assert!(leaning.end().multiplier("wall")?.abs() < 1e-12);
+/// # Ok::<(), Error>(())
+/// ```
 ///
 /// The legs own their systems: [`Trajectory::into_owned`]; those across contacts do from the start. At a time shared by two legs, the sample is that of
 /// the later one: after an impact it has the velocities after the impact. For the earlier one, query the leg

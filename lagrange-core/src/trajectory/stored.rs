@@ -23,31 +23,26 @@ use crate::system::{State, System};
 /// system whose contacts are open or closed as in the leg. At a transition, states are those after it; those before it end the
 /// legs. Without contacts there is one leg, and no transition.
 ///
-#[cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::contact::Contact;
-use lagrange_core::prelude::*;
-
-#[derive(Clone, Lagrangian)]
-#[coordinates(y)]
-#[lagrangian(y_dot^2/2 - g*y)]
-#[observable(height = y)]
-#[contact(floor: y >= 0)]
-struct Stone { g: f64, floor: Contact }
-
-let stone = Stone { g: 9.81, floor: Contact::Open };
-let path = stone.motion(State::at_rest([1.0])).with_contacts().to(1.0)?;
-assert_eq!(path.at(0.9)?.observable("height")?, 0.0);
-assert_eq!(path.at(0.9)?.multiplier("floor")?, 9.81);
-assert_eq!(path.csv(50).to_string().lines().next(), Some("t,y,y_dot,lambda(floor),force(y),height"));
-let text = path.to_string();
-assert!(text.contains("\n1 impact, 1 closing; closed at the end: `floor`\nreached the end at t = 1"), "{text}");
-# Ok::<(), Error>(())
-```
-"#
-)]
+/// ```
+/// use lagrange_core::contact::Contact;
+/// use lagrange_core::prelude::*;
+///
+/// #[derive(Clone, Lagrangian)]
+/// #[coordinates(y)]
+/// #[lagrangian(y_dot^2/2 - g*y)]
+/// #[observable(height = y)]
+/// #[contact(floor: y >= 0)]
+/// struct Stone { g: f64, floor: Contact }
+///
+/// let stone = Stone { g: 9.81, floor: Contact::Open };
+/// let path = stone.motion(State::at_rest([1.0])).with_contacts().to(1.0)?;
+/// assert_eq!(path.at(0.9)?.observable("height")?, 0.0);
+/// assert_eq!(path.at(0.9)?.multiplier("floor")?, 9.81);
+/// assert_eq!(path.csv(50).to_string().lines().next(), Some("t,y,y_dot,lambda(floor),force(y),height"));
+/// let text = path.to_string();
+/// assert!(text.contains("\n1 impact, 1 closing; closed at the end: `floor`\nreached the end at t = 1"), "{text}");
+/// # Ok::<(), Error>(())
+/// ```
 ///
 /// By [time steps](crate::contact::MoreauJean) there is one leg. Between the ends of a step, states are linear in the time; accelerations and multipliers of a sample are the means over the step that leads there, at the start over the first, and
 /// NaN without steps. The system of a sample has all contacts closed, so that their forces count; that of the leg has all open.
@@ -71,27 +66,22 @@ pub struct Trajectory<S: System, F = <S as System>::Field> {
 impl<L: System + Clone, F> Trajectory<&L, F> {
     /// Returns the trajectory with its own copy of the system; the original may then change or be dropped.
     ///
-    #[cfg_attr(
-        feature = "std",
-        doc = r#"
-```
-use lagrange_core::prelude::*;
-
-#[derive(Clone, Lagrangian)]
-#[coordinates(theta)]
-#[lagrangian(l^2/2 * theta_dot^2 + g*l*cos(theta))]
-struct Pendulum { g: f64, l: f64 }
-
-fn swing(l: f64) -> Result<Trajectory<Pendulum>, Error> {
-    let pendulum = Pendulum { g: 9.81, l };
-    Ok(pendulum.integrate(State::at_rest([0.1]), 2.0, Dop853::default())?.into_owned())
-}
-
-assert!(swing(2.0)?.end().coordinate("theta")? < 0.1);
-# Ok::<(), Error>(())
-```
-"#
-    )]
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Clone, Lagrangian)]
+    /// #[coordinates(theta)]
+    /// #[lagrangian(l^2/2 * theta_dot^2 + g*l*cos(theta))]
+    /// struct Pendulum { g: f64, l: f64 }
+    ///
+    /// fn swing(l: f64) -> Result<Trajectory<Pendulum>, Error> {
+    ///     let pendulum = Pendulum { g: 9.81, l };
+    ///     Ok(pendulum.integrate(State::at_rest([0.1]), 2.0, Dop853::default())?.into_owned())
+    /// }
+    ///
+    /// assert!(swing(2.0)?.end().coordinate("theta")? < 0.1);
+    /// # Ok::<(), Error>(())
+    /// ```
     /// For a system in an `Arc` or an `Rc`, only the pointer is copied.
     pub fn into_owned(self) -> Trajectory<L, F> {
         let Self { legs, transitions, closed, crossings, ending, statistics, adjustment } = self;

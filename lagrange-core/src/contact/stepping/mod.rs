@@ -46,37 +46,32 @@ pub use time_step::TimeStep;
 /// restitution, and if the contact is approached no faster than free bodies fall in a step, they close without a bounce, to be zero in the
 /// middle of the next step. Where restitution with friction would give energy, it is reduced, as it is in impacts that are located. A contact with Poisson's law is an error. The
 /// fields of contacts are ignored: gaps and velocities of the start say which contacts are closed.
-#[cfg_attr(
-    feature = "std",
-    doc = r#"
-```
-use lagrange_core::contact::{Contact, MoreauJean};
-use lagrange_core::prelude::*;
-
-/// A block with two corners on a slope of 20°.
-#[derive(Clone, Lagrangian)]
-#[coordinates(x, y, theta)]
-#[define(corner(s) = [x + s*b*cos(theta) + h*sin(theta), y + s*b*sin(theta) - h*cos(theta)])]
-#[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*(b^2 + h^2)/6 * theta_dot^2 + m*g*(x*sin(alpha) - y*cos(alpha)))]
-#[contact(slope[i in 0..2]: corner(2*i - 1)[1] >= 0, friction(mu): der(corner(2*i - 1))[0])]
-struct Block { m: f64, b: f64, h: f64, g: f64, alpha: f64, mu: f64, slope: [Contact; 2] }
-
-let block = Block {
-    m: 2.0, b: 0.2, h: 0.1, g: 9.81, alpha: 20_f64.to_radians(), mu: 0.5, slope: [Contact::Open; 2],
-};
-let thrown = State::new([0.0, 0.1, 0.0], [1.0, 0.0, 0.0]);
-let path = block.motion(thrown).by_time_stepping(MoreauJean::with_step(1e-3)).to(2.0)?;
-
-// It slides by v²/(2 g (μ cos α − sin α)), and rests.
-let distance = 0.5 / (9.81 * (0.5 * block.alpha.cos() - block.alpha.sin()));
-assert!((path.end().coordinate("x")? - distance).abs() < 1e-3);
-// The lower corner carries more of the weight.
-let [upper, lower] = [path.end().multiplier("slope[0]")?, path.end().multiplier("slope[1]")?];
-assert!(lower > upper && (upper + lower - 2.0 * 9.81 * block.alpha.cos()).abs() < 1e-6);
-# Ok::<(), Error>(())
-```
-"#
-)]
+/// ```
+/// use lagrange_core::contact::{Contact, MoreauJean};
+/// use lagrange_core::prelude::*;
+///
+/// /// A block with two corners on a slope of 20°.
+/// #[derive(Clone, Lagrangian)]
+/// #[coordinates(x, y, theta)]
+/// #[define(corner(s) = [x + s*b*cos(theta) + h*sin(theta), y + s*b*sin(theta) - h*cos(theta)])]
+/// #[lagrangian(m/2 * (x_dot^2 + y_dot^2) + m*(b^2 + h^2)/6 * theta_dot^2 + m*g*(x*sin(alpha) - y*cos(alpha)))]
+/// #[contact(slope[i in 0..2]: corner(2*i - 1)[1] >= 0, friction(mu): der(corner(2*i - 1))[0])]
+/// struct Block { m: f64, b: f64, h: f64, g: f64, alpha: f64, mu: f64, slope: [Contact; 2] }
+///
+/// let block = Block {
+///     m: 2.0, b: 0.2, h: 0.1, g: 9.81, alpha: 20_f64.to_radians(), mu: 0.5, slope: [Contact::Open; 2],
+/// };
+/// let thrown = State::new([0.0, 0.1, 0.0], [1.0, 0.0, 0.0]);
+/// let path = block.motion(thrown).by_time_stepping(MoreauJean::with_step(1e-3)).to(2.0)?;
+///
+/// // It slides by v²/(2 g (μ cos α − sin α)), and rests.
+/// let distance = 0.5 / (9.81 * (0.5 * block.alpha.cos() - block.alpha.sin()));
+/// assert!((path.end().coordinate("x")? - distance).abs() < 1e-3);
+/// // The lower corner carries more of the weight.
+/// let [upper, lower] = [path.end().multiplier("slope[0]")?, path.end().multiplier("slope[1]")?];
+/// assert!(lower > upper && (upper + lower - 2.0 * 9.81 * block.alpha.cos()).abs() < 1e-6);
+/// # Ok::<(), Error>(())
+/// ```
 ///
 /// # Forces and impulses, and by what bound they are found
 ///
