@@ -1,5 +1,8 @@
 //! Runs an ensemble: hands out members, records their results, and stops.
 
+#[cfg(feature = "mpi")]
+mod batch;
+
 use core::ops::ControlFlow;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -11,6 +14,7 @@ use super::outcome::{Member, Outcome};
 use super::plan::{EnsembleProgress, Make, MemberObserver, MemberPlan, Plan, Watch};
 use super::row::{MemberRow, TWO_RESULTS};
 use crate::error::{Ending, EnsembleError, Error};
+
 use crate::motion::progress::unless_broken;
 use crate::motion::record::{Arrival, Moving, Recorded};
 use crate::motion::run::{Run, Watchdog};
@@ -127,49 +131,6 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
     pub(super) fn outcome(self) -> Outcome<L::Scalar, L::N> {
         let ledger = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
         Outcome::new(ledger.members, self.names, (self.end, self.run))
-    }
-
-    /// Creates a job that integrates only the members of `list`, with its own work queue and results. Rank 0
-    /// [reports](Self::report) the results of all batches to its job of the whole ensemble.
-    #[cfg(feature = "mpi")]
-    pub(super) fn batch(&self, list: Vec<usize>) -> Job<'_, L> {
-        let observer = self.observer.as_ref().map(|observe| {
-            let observer: MemberObserver<'_, L> = Box::new(observe);
-            observer
-        });
-        let ledger = Mutex::new(Ledger { members: Vec::new(), of: list.len(), watch: None });
-        Job {
-            make: Box::new(&self.make),
-            observer,
-            member_plan: self.member_plan.clone(),
-            names: self.names.clone(),
-            end: self.end,
-            run: self.run,
-            part: Part { count: self.part.count, shard: 0, shards: 1, list: Some(list) },
-            done: BTreeSet::new(),
-            given: AtomicUsize::new(0),
-            stopped: AtomicBool::new(false),
-            ledger,
-        }
-    }
-
-    /// Hashes and counts that must agree on all ranks of MPI.
-    #[cfg(feature = "mpi")]
-    pub(super) fn identity(&self) -> [u64; 3] {
-        let Fingerprint { system, run, .. } = self.run;
-        [u64::from(system) << 32 | u64::from(run), self.part.count as u64, self.part.len() as u64]
-    }
-
-    /// Number of members not yet handed out, including members taken over from an earlier run.
-    #[cfg(feature = "mpi")]
-    pub(super) fn left(&self) -> usize {
-        self.part.len().saturating_sub(self.given.load(Ordering::Relaxed))
-    }
-
-    /// Names of the events.
-    #[cfg(feature = "mpi")]
-    pub(super) fn events(&self) -> Vec<&'static str> {
-        self.member_plan.events()
     }
 
     /// Claims the next unassigned member.

@@ -17,9 +17,9 @@ use crate::vector::{Array, Element, Entrywise, StaticLength, Vector};
 /// assert_eq!(PhaseState::new([1e-17], [2.0]).to_string(), "t = 0.0: q = (1e-17), p = (2.0)");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
@@ -60,9 +60,9 @@ impl<T: Scalar, N: StaticLength> Display for PhaseState<T, N> {
 
 /// Rates by Hamilton's equations at a [`PhaseState`], with the multipliers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"

@@ -5,8 +5,11 @@ use crate::vector::{Element, Length};
 
 /// A located crossing of an event.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize"))
+)]
 pub struct Crossing<T: Element, N: Length> {
     /// Name of the event.
     pub event: &'static str,

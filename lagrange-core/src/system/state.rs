@@ -28,9 +28,9 @@ use crate::vector::{Array, Element, Entrywise, Length, Numbers, StaticLength, Ve
 /// (`serde_json = { version = "1", features = ["float_roundtrip"] }`), otherwise with an error of up to one unit
 /// in the last place.
 #[derive(Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
@@ -130,9 +130,9 @@ pub(crate) fn write_state<T: Scalar>(f: &mut Formatter<'_>, t: &T, parts: [(&str
 ///
 /// The constraint force on coordinate a is Σ_α λ_α F_αa (Milton (8.7), (8.13)).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
     feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
         deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"

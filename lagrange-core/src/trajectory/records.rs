@@ -9,8 +9,11 @@ use alloc::vec::Vec;
 /// `{"names": ["t", "x"], "rows": [[0.0, 1.0]]}`. Human-readable formats such as JSON may write numbers that are
 /// not finite as `null`, which is read as NaN.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: crate::Real + serde::Deserialize<'de>")))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(deserialize = "T: crate::Real + serde::Deserialize<'de>"))
+)]
 pub struct Records<T> {
     /// Name of each column.
     pub names: Vec<String>,

@@ -27,8 +27,11 @@ use crate::vector::{Element, Length};
 
 /// End of a motion, with its samples, quantities and crossings.
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "serde", serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize")))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound(serialize = "T: nalgebra::Scalar + serde::Serialize"))
+)]
 pub struct Arrival<T: Element, N: Length> {
     /// Last state.
     pub state: State<T, N>,

@@ -11,10 +11,10 @@ use nalgebra::{ComplexField, DMatrix, DVector};
 pub use base::BaseParameters;
 
 use crate::error::Error;
+use crate::error::owned::similar::{listed, nearest};
 use crate::linearized::Linearized;
 use crate::linearized::argument::{check_parameters, set_parameter};
 use crate::linearized::tangent::Tangent;
-use crate::error::owned::similar::{listed, nearest};
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, exceeds, larger, largest, power_of_epsilon};
 use crate::solution::solve::first_row;
