@@ -3,9 +3,11 @@
 //! # Available without an allocator
 //!
 //! Without the feature `alloc` the crate has the equations, [`Simulate::solve`](crate::Simulate::solve),
-//! consistent states, all methods except `Taylor`, [`Motion`](crate::Motion) and
-//! [`runge_kutta_step`](crate::runge_kutta_step). Types that store steps (trajectories, ensembles) need
-//! `alloc`. In `Cargo.toml`:
+//! consistent states, Jacobians ([`Linearized::jacobian`](crate::Linearized::jacobian)), the Legendre transform,
+//! [`runge_kutta_step`](crate::runge_kutta_step), and [`Motion`](crate::Motion) with its events, by the explicit
+//! pairs, [`RungeKutta4`](crate::RungeKutta4) and the methods with steps of one length. All else asks for `alloc`:
+//! lookup by name, motions that are integrated from start to end, `Taylor` and `Radau`, contacts, tables, and what
+//! derivatives are for. In `Cargo.toml`:
 //!
 //! ```toml
 //! [dependencies]

@@ -7,7 +7,8 @@ use crate::solution::eliminate;
 use crate::system::{Lagrangian, State};
 use crate::vector::{StaticLength, ViewOf};
 
-pub use crate::linearized::bodies::{Joint, JointColumn, Tree, TreeNumbers};
+pub use crate::derivatives::MotionGradients;
+pub use crate::derivatives::bodies::{Joint, JointColumn, Tree, TreeNumbers};
 pub use crate::number::numeric::{only_where, sin_cos_of_small};
 pub use crate::solution::eliminate::nan_if_ill_conditioned;
 pub use crate::solution::switched::{ConstraintRow, Switched, SwitchedFactorOf, accelerations};

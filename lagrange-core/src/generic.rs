@@ -39,9 +39,9 @@
 
 pub use crate::hamiltonian::PhaseState;
 pub use crate::system::{Direction, ResidualChange, Solution, State};
+#[cfg(feature = "alloc")]
+pub use crate::vector::run_time::{RunTime, TwoParts};
 pub use crate::vector::{
     Array, Constant, Contiguous, Element, FixedArray, Kind, Length, Matrix, Numbers, PhaseVector,
     StaticLength, Vector, VectorOf, ViewOf,
 };
-#[cfg(feature = "alloc")]
-pub use crate::vector::{RunTime, TwoParts};

@@ -127,7 +127,8 @@
 //! # Features
 //!
 //! - `std` (default): ensembles need it.
-//! - `alloc`: trajectories and Taylor series need it; without it, motions advance step by step.
+//! - `alloc`: trajectories, lookup by name, `Taylor` and `Radau`, contacts and more need it; without it, motions advance
+//!   step by step ([`embedded`]).
 //! - `libm`: elementary functions for programs without `std`.
 //! - `rayon`: ensembles on all threads.
 //! - `tables`: tables of ensembles as JSON lines, and ensembles that resume from them; turns on `serde`.
@@ -154,6 +155,7 @@ extern crate self as lagrange_core;
 #[cfg(feature = "alloc")]
 mod cone;
 pub mod contact;
+mod derivatives;
 pub mod embedded;
 #[cfg(feature = "std")]
 pub mod ensemble;
@@ -167,6 +169,7 @@ pub mod generated;
 pub mod generic;
 pub mod hamiltonian;
 pub mod language;
+#[cfg(feature = "alloc")]
 pub mod linearized;
 pub mod motion;
 mod names;
@@ -174,6 +177,7 @@ pub mod number;
 #[cfg(feature = "alloc")]
 pub mod orbits;
 pub mod prelude;
+#[cfg_attr(not(feature = "alloc"), path = "room/in_place.rs")]
 mod room;
 mod solution;
 mod statistics;
@@ -183,33 +187,30 @@ mod system;
 pub mod trajectory;
 mod vector;
 
-#[cfg(feature = "std")]
-pub use ensemble::Ensemble;
+pub use derivatives::{Jacobian, Linearized, StateDerivatives};
 pub use error::{Ending, Error};
 pub use function::Function;
 pub use hamiltonian::Hamiltonian;
 pub use lagrange_macros::Lagrangian;
-pub use linearized::{Jacobian, Linearized, StateDerivatives};
-#[cfg(feature = "alloc")]
-pub use linearized::{Linearization, MotionDerivatives};
 pub use motion::{Crossing, Dop853, Dopri5, Event, Method, Motion, RungeKutta4, Simulate, runge_kutta_step};
-#[cfg(feature = "alloc")]
-pub use motion::{MotionBuilder, Taylor};
 #[cfg(feature = "mpi")]
 pub use mpi;
 pub use nalgebra;
-#[cfg(feature = "std")]
-pub use number::Lanes;
 pub use number::{Broadcast, Dual, PowerSeries, Real, Scalar};
-#[cfg(feature = "alloc")]
-pub use solution::Impact;
 pub use solution::Sample;
 pub use statistics::Statistics;
 pub use system::{
     ConstraintKind, Entries, Lagrangian, Pack, Packed, Shared, SolutionOf, StateOf, System, TaylorSeries,
 };
+#[cfg(feature = "std")]
+pub use {ensemble::Ensemble, number::Lanes};
 #[cfg(feature = "alloc")]
-pub use trajectory::{HybridTrajectory, Trajectory};
+pub use {
+    linearized::{Linearization, MotionDerivatives},
+    motion::{MotionBuilder, Taylor},
+    solution::impact::Impact,
+    trajectory::{HybridTrajectory, Trajectory},
+};
 
 /// State of `N` coordinates: a [`generic::State`] whose length is a number.
 pub type State<T, const N: usize> = generic::State<T, nalgebra::Const<N>>;

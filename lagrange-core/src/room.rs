@@ -1,43 +1,35 @@
 //! Storage for values too large for the stack.
 
+use alloc::boxed::Box;
+use alloc::vec;
+use alloc::vec::Vec;
 use core::ops::{Deref, DerefMut};
 
-#[cfg(feature = "alloc")]
-use alloc::boxed::Box;
+/// Dense output of the stored steps; without the feature `alloc`, of one step.
+pub(crate) type Within<I> = Vec<I>;
 
 /// A value on the heap, or in place without the feature `alloc`. It is allocated once per run. The size of `X`
 /// grows with the number of coordinates, and unoptimized code copies it in every function that passes it by
 /// value.
-#[cfg(feature = "alloc")]
 #[derive(Clone, Debug)]
 pub(crate) struct Room<X>(Box<X>);
-
-#[cfg(not(feature = "alloc"))]
-#[derive(Clone, Debug)]
-pub(crate) struct Room<X>(X);
 
 impl<X> Room<X> {
     #[inline]
     pub(crate) fn of(x: X) -> Self {
-        #[cfg(feature = "alloc")]
-        return Self(Box::new(x));
-        #[cfg(not(feature = "alloc"))]
-        return Self(x);
+        Self(Box::new(x))
     }
 }
 
 impl<X: Clone, const K: usize> Room<[X; K]> {
     /// Returns an array filled with `x`, built in its final place.
     pub(crate) fn filled(x: X) -> Self {
-        #[cfg(feature = "alloc")]
-        return Self(
-            alloc::vec![x.clone(); K]
+        Self(
+            vec![x.clone(); K]
                 .into_boxed_slice()
                 .try_into()
                 .unwrap_or_else(|_| Box::new(core::array::from_fn(|_| x.clone()))),
-        );
-        #[cfg(not(feature = "alloc"))]
-        return Self(core::array::from_fn(|_| x.clone()));
+        )
     }
 }
 

@@ -258,47 +258,7 @@
 //! whose impacts are located can be advanced frame by frame, too: [`ContactMotion`].
 
 #[cfg(feature = "alloc")]
-mod bodies;
-#[cfg(feature = "alloc")]
-mod builder;
-#[cfg(feature = "alloc")]
-mod condition;
-#[cfg(feature = "alloc")]
-mod driver;
-#[cfg(feature = "alloc")]
-mod forces;
-#[cfg(feature = "alloc")]
-mod friction;
-#[cfg(feature = "alloc")]
-mod grip;
-#[cfg(feature = "alloc")]
-mod impact;
-#[cfg(feature = "alloc")]
-mod instant;
-#[cfg(feature = "alloc")]
-mod kinetic;
-#[cfg(feature = "alloc")]
-mod last_value;
-#[cfg(feature = "alloc")]
-mod legs;
-#[cfg(feature = "alloc")]
-mod lifting;
-#[cfg(feature = "alloc")]
-mod motion;
-#[cfg(feature = "alloc")]
-mod reactions;
-#[cfg(feature = "alloc")]
-mod rows;
-#[cfg(feature = "alloc")]
-mod sharing;
-#[cfg(feature = "alloc")]
-mod span;
-#[cfg(feature = "alloc")]
-mod states;
-#[cfg(feature = "alloc")]
-mod stepping;
-#[cfg(feature = "alloc")]
-mod watched;
+pub(crate) mod across;
 
 use core::fmt::Debug;
 
@@ -306,21 +266,15 @@ use crate::number::Broadcast;
 use crate::solution::switched::Switched;
 pub use crate::system::switch::{Contact, Friction};
 use crate::system::{Direction, StateOf};
-#[cfg(feature = "alloc")]
-pub use crate::trajectory::Transition;
 use crate::vector::Vector;
 #[cfg(feature = "alloc")]
-pub(crate) use bodies::impulse_changes;
-#[cfg(feature = "std")]
-pub(crate) use builder::arrive;
-#[cfg(feature = "alloc")]
-pub use builder::{AcrossContacts, CrossesContacts, Located, Stepwise};
-#[cfg(feature = "alloc")]
-pub use motion::ContactMotion;
-#[cfg(feature = "alloc")]
-pub use stepping::{ContactStepper, MoreauJean, TimeStep};
-#[cfg(feature = "alloc")]
-pub(crate) use watched::held;
+pub use {
+    crate::trajectory::Transition,
+    across::{
+        AcrossContacts, ContactMotion, ContactStepper, CrossesContacts, Located, MoreauJean, Stepwise,
+        TimeStep,
+    },
+};
 
 /// Law of impact of a contact, with a coefficient of restitution e.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

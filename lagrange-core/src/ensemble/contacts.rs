@@ -3,11 +3,12 @@
 use super::job::Job;
 use super::outcome::Outcome;
 use super::settings::Ensemble;
-use crate::contact::{Contacts, arrive};
+use crate::contact::Contacts;
+use crate::contact::across::arrive;
 use crate::error::Error;
 use crate::motion::Method;
-use crate::motion::progress::unless_broken;
-use crate::motion::record::Arrival;
+use crate::motion::whole::progress::unless_broken;
+use crate::motion::whole::record::Arrival;
 use crate::number::Real;
 use crate::system::StateOf;
 use crate::system::finite::check_finite;

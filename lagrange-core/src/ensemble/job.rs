@@ -14,11 +14,11 @@ use super::outcome::{Member, Outcome};
 use super::plan::{EnsembleProgress, Make, MemberObserver, MemberPlan, Plan, Watch};
 use super::row::{MemberRow, TWO_RESULTS};
 use crate::error::{Ending, EnsembleError, Error};
-
-use crate::motion::progress::unless_broken;
-use crate::motion::record::{Arrival, Moving, Recorded};
+use crate::motion::lanes::{Batch, LaneMotion};
 use crate::motion::run::{Run, Watchdog};
-use crate::motion::{Batch, LaneMethod, LaneMotion, Method};
+use crate::motion::whole::progress::unless_broken;
+use crate::motion::whole::record::{Arrival, Moving, Recorded};
+use crate::motion::{LaneMethod, Method};
 use crate::number::Real;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, State, StateOf};

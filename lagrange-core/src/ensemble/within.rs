@@ -3,7 +3,7 @@
 use core::fmt::Display;
 
 use super::settings::Ensemble;
-use crate::motion::record::SampleTimes;
+use crate::motion::whole::record::SampleTimes;
 use crate::motion::{Event, EventFunction, EventValue};
 use crate::number::Real;
 use crate::solution::Sample;

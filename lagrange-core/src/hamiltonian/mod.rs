@@ -11,19 +11,20 @@ pub use phase::{PhaseDerivative, PhaseState};
 pub use vector_field::HamiltonianVectorField;
 
 use crate::error::Error;
-#[cfg(feature = "alloc")]
-use crate::motion::{
-    Method,
-    builder::{MotionBuilder, MotionFrom, Start},
-};
 use crate::names::Entry;
 use crate::number::Real;
 use crate::solution::solve::solve;
 use crate::system::finite::check_entries;
 use crate::system::{Lagrangian, StateOf};
-#[cfg(feature = "alloc")]
-use crate::trajectory::Trajectory;
 use crate::vector::{Vector, zeros};
+#[cfg(feature = "alloc")]
+use crate::{
+    motion::{
+        Method,
+        whole::builder::{MotionBuilder, MotionFrom, Start},
+    },
+    trajectory::Trajectory,
+};
 use phase::rate;
 
 /// The Legendre transform, the Hamiltonian and Hamilton's equations with constraints, for every [`Lagrangian`]

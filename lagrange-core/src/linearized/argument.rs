@@ -71,14 +71,6 @@ impl Argument {
     }
 }
 
-/// Index of this parameter among those of the system; `None` if the system does not have it.
-pub(crate) fn parameter<L: Linearized>(entry: Entry) -> Option<usize> {
-    match entry {
-        Entry::Parameter(name) => L::PARAMETERS.iter().position(|known| *known == name),
-        _ => None,
-    }
-}
-
 /// Sets a parameter; an error if it cannot be set.
 pub(crate) fn set_parameter<L: Linearized>(system: &mut L, k: usize, value: L::Scalar) -> Result<(), Error> {
     match system.set_parameter(k, value) {

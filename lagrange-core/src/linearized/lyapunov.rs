@@ -5,8 +5,8 @@ use alloc::{vec, vec::Vec};
 use nalgebra::DMatrix;
 
 use super::Linearized;
-use super::tangent::Tangent;
 use super::variation::{DifferentiableMethod, Variations, VariedRun};
+use crate::derivatives::tangent::Tangent;
 use crate::error::{Ending, Error};
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::number::{Real, Scalar, order};
@@ -31,7 +31,7 @@ pub struct LyapunovSpectrum<T> {
 const PARTS: usize = 20;
 
 /// See [`Linearized::lyapunov_spectrum`].
-pub(super) fn spectrum<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
+pub(crate) fn spectrum<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     system: &L,
     state: &StateOf<L>,
     end: L::Scalar,

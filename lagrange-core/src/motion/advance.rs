@@ -4,9 +4,10 @@ use core::marker::PhantomData;
 
 use super::Method;
 use super::event::{AnyEvent, DenseStep, EventSearch};
-use super::run::{Observer, Run, Within, clear, is_between};
+use super::run::{Observer, Run, is_between};
 use crate::error::Ending;
 use crate::number::Real;
+use crate::room::Within;
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
@@ -29,14 +30,13 @@ impl<I> LastStep<I> {
     }
 
     pub(super) fn interpolant(&self) -> Option<&I> {
-        let mut within = self.within.iter();
-        within.next()
+        self.within.first()
     }
 
     /// Invalidates the last step: after a change of the system or the state, and before a new step is tried.
     #[inline]
     pub(super) fn forget(&mut self) {
-        clear(&mut self.within);
+        self.within.clear();
         (self.is_there, self.is_current) = (false, false);
     }
 

@@ -40,32 +40,22 @@
 //! `long_time` draws it for all methods in six; the book shows both.
 
 mod advance;
-#[cfg(feature = "alloc")]
-pub(crate) mod builder;
 pub(crate) mod event;
-#[cfg(feature = "alloc")]
 pub(crate) use event::DynEvent;
 pub(crate) mod geometric;
 #[cfg(feature = "std")]
-mod lanes;
+pub(crate) mod lanes;
 pub(crate) mod method;
-pub(crate) mod progress;
-#[cfg(feature = "alloc")]
-pub(crate) mod record;
 pub(crate) mod run;
-#[cfg(feature = "alloc")]
-mod sampled;
 pub(crate) mod simulate;
 mod steered;
-#[cfg(feature = "alloc")]
-pub(crate) mod store;
 #[cfg(feature = "alloc")]
 pub(crate) mod taylor;
 #[cfg(test)]
 mod tests;
-
 #[cfg(feature = "alloc")]
-pub use builder::{AllSteps, EventList, MotionBuilder, Start};
+pub(crate) mod whole;
+
 pub use event::{AnyEvent, Event, EventFunction, EventValue};
 pub use geometric::{
     CompensatedState, Composition, DAlembert, FixedStep, FixedStepMemory, Gauss, GaussLegendre,
@@ -74,21 +64,20 @@ pub use geometric::{
 };
 #[cfg(feature = "std")]
 pub use lanes::LaneMethod;
-#[cfg(feature = "std")]
-pub(crate) use lanes::{Batch, LaneMotion};
 pub use method::{
     Adaptive, Dop853, Dopri5, DormandPrince54, DormandPrince853, Limits, Method, MultiplierBounds, Pair,
     RungeKutta4, Step, TableauRow, runge_kutta_step,
 };
-pub use progress::Progress;
-#[cfg(feature = "alloc")]
-pub use record::Arrival;
-#[cfg(feature = "alloc")]
-pub use sampled::{Kept, SamplesAlone};
 pub use simulate::Simulate;
 pub use steered::Motion;
 #[cfg(feature = "alloc")]
-pub use taylor::{Taylor, TaylorPolynomial};
+pub use {
+    taylor::{Taylor, TaylorPolynomial},
+    whole::builder::{AllSteps, EventList, MotionBuilder, Start},
+    whole::progress::Progress,
+    whole::record::Arrival,
+    whole::sampled::{Kept, SamplesAlone},
+};
 
 pub use crate::number::Parts;
 pub use crate::solution::acceleration_field::AccelerationField;

@@ -1,11 +1,9 @@
 //! Integration loop from the first step to the ending, shared by every method and every observer.
 
-#[cfg(feature = "alloc")]
-use alloc::vec::Vec;
-
 use super::method::{Limits, Method, Step};
 use crate::error::{Ending, Error, Pace};
 use crate::number::Real;
+use crate::room::Within;
 use crate::solution::Adjustment;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::system_checks::SystemChecks;
@@ -100,7 +98,7 @@ where
         within: &mut Within<P::Interpolant>,
     ) -> Result<(), Ending> {
         let Self { memory, state, before, statistics } = self;
-        let found = put_interpolant(system, method, (memory, statistics), [before, state], within);
+        let found = method.push_interpolant(system, memory, [before, state], statistics, within);
         found.map_err(|error| Ending::of(error, before.t.to_f64()))
     }
 
@@ -180,46 +178,6 @@ where
     fn keep(&mut self, method: &P, run: &mut Run<L, P, F>) -> Result<(), Ending> {
         Ok(())
     }
-}
-
-/// Dense output of the stored steps; without the feature `alloc`, of one step.
-#[cfg(feature = "alloc")]
-pub(crate) type Within<I> = Vec<I>;
-#[cfg(not(feature = "alloc"))]
-pub(crate) type Within<I> = Option<I>;
-
-/// Removes the interpolants, and keeps their allocation.
-#[inline]
-pub(super) fn clear<I>(within: &mut Within<I>) {
-    #[cfg(feature = "alloc")]
-    within.clear();
-    #[cfg(not(feature = "alloc"))]
-    {
-        *within = None;
-    }
-}
-
-/// Appends the interpolant of the last accepted step to `within`. Without the feature `alloc` it replaces the
-/// interpolant there.
-#[inline(always)]
-pub(super) fn put_interpolant<L, F, P>(
-    system: &L,
-    method: &P,
-    (memory, statistics): (&mut P::Memory, &mut Statistics),
-    ends: [&StateOf<L>; 2],
-    within: &mut Within<P::Interpolant>,
-) -> Result<(), Error>
-where
-    L: System<Scalar: Real>,
-    F: VectorField<L>,
-    P: Method<L, F>,
-{
-    #[cfg(feature = "alloc")]
-    return method.push_interpolant(system, memory, ends, statistics, within);
-    #[cfg(not(feature = "alloc"))]
-    return method
-        .interpolant(system, memory, ends, statistics)
-        .map(|interpolant| *within = Some(interpolant));
 }
 
 /// Resumes the method after a change of the system or of the state.

@@ -1,34 +1,30 @@
 //! The trait [`Simulate`]: solving the equations of a system, and integrating its motion.
 
 use super::event::{Event, EventValue};
-#[cfg(feature = "alloc")]
-use super::{
-    Method, MotionBuilder,
-    builder::{MotionFrom, Start},
-};
 use crate::error::Error;
 use crate::number::Real;
-#[cfg(feature = "alloc")]
-use crate::number::Scalar;
 use crate::solution::Sample;
 use crate::solution::consistent::assembly::Assembly;
 use crate::solution::consistent::{self, Consistent};
-#[cfg(feature = "alloc")]
-use crate::solution::impact::{Impact, impact};
 use crate::solution::reason::reason;
 use crate::solution::solve::solve;
-#[cfg(feature = "alloc")]
-use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, SolutionOf, StateOf, System};
-#[cfg(feature = "alloc")]
-use crate::system::{State, lookup};
-#[cfg(feature = "alloc")]
-use crate::trajectory::Trajectory;
 use crate::vector::Array;
 #[cfg(feature = "alloc")]
-use crate::vector::{StaticLength, Vector, from_fn};
+use crate::{
+    motion::{
+        Method, MotionBuilder,
+        whole::builder::{MotionFrom, Start},
+    },
+    number::Scalar,
+    solution::impact::{Impact, impact},
+    solution::system_checks::SystemChecks,
+    system::{State, lookup},
+    trajectory::Trajectory,
+    vector::{StaticLength, Vector, from_fn},
+};
 
 /// Solves, initializes and integrates a system. It is implemented for every [`Lagrangian`] over `f64` or `f32`, and, as far as
 /// accelerations alone allow, for every other [`System`].

@@ -5,7 +5,7 @@ use core::fmt::{self, Debug, Formatter};
 use super::Method;
 use super::advance::{FindCrossing, GoPast, LastStep};
 use super::event::{AnyEvent, EventSearch};
-use super::run::{Run, Watchdog, is_between, put_interpolant, resume};
+use super::run::{Run, Watchdog, is_between, resume};
 use crate::error::{Ending, Error};
 use crate::number::Real;
 use crate::solution::crossing::Crossing;
@@ -25,7 +25,7 @@ use crate::vector::Numbers;
 ///
 /// Nothing is stored and no step allocates: a motion takes as much memory after 10⁹ steps as after one. Its method
 /// allocates its working memory when the motion begins, and the memory of the dense output when it is first evaluated.
-/// Without the feature `alloc`, all methods but `Taylor` work, and hold all of that memory inline. The motion owns its
+/// Without the feature `alloc`, all methods but `Taylor` and `Radau` work, and hold all of that memory inline. The motion owns its
 /// system, which may be a reference.
 ///
 /// ```
@@ -286,7 +286,7 @@ where
         let Self { system, method, run: Run { memory, state, before, statistics }, last_step, .. } = self;
         if last_step.interpolant().is_none() {
             let within = &mut last_step.within;
-            put_interpolant::<L, F, P>(system, method, (memory, statistics), [before, state], within)?;
+            method.push_interpolant(system, memory, [before, state], statistics, within)?;
         }
         match last_step.interpolant() {
             Some(interpolant) => F::project(system, &interpolant.at(t)),

@@ -20,6 +20,4 @@ pub(crate) mod system_checks;
 pub(crate) mod vector_field;
 
 pub use consistent::{Adjustment, Consistent};
-#[cfg(feature = "alloc")]
-pub use impact::Impact;
 pub use sample::Sample;

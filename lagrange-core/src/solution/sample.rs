@@ -1,7 +1,8 @@
 //! A state of a motion, with lookup by name.
 
 #[cfg(feature = "alloc")]
-use alloc::vec::Vec;
+mod named;
+
 use core::borrow::Borrow;
 use core::fmt::{self, Debug, Display, Formatter};
 
@@ -9,8 +10,6 @@ use crate::error::Error;
 use crate::names::Entry;
 use crate::number::Real;
 use crate::solution::solve::solve;
-#[cfg(feature = "alloc")]
-use crate::system::lookup::{index, unknown};
 use crate::system::{Lagrangian, SolutionOf, State, StateOf, System, check_names};
 use crate::vector::zeros;
 
@@ -44,13 +43,11 @@ impl<S: System> Sample<S> {
     }
 
     /// The same with these accelerations and multipliers; `None` for those of the equations.
-    #[cfg(feature = "alloc")]
     pub(crate) fn with(self, given: Option<SolutionOf<S>>) -> Self {
         Self { given, ..self }
     }
 
     /// Accelerations and multipliers, if they are not those of the equations.
-    #[cfg(feature = "alloc")]
     pub(crate) fn given(&self) -> Option<SolutionOf<S>> {
         self.given
     }
@@ -124,91 +121,6 @@ impl<S: Lagrangian<Scalar: Real>> Sample<S> {
             }
         })
     }
-}
-
-/// Lookup by name.
-#[cfg(feature = "alloc")]
-impl<S: Lagrangian<Scalar: Real>> Sample<S> {
-    /// Returns the generalized coordinate of this name.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`].
-    pub fn coordinate(&self, name: &str) -> Result<S::Scalar, Error> {
-        Ok(self.state.q[coordinate::<S>(name)?])
-    }
-
-    /// Returns the generalized velocity of the coordinate of this name.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`].
-    pub fn velocity(&self, name: &str) -> Result<S::Scalar, Error> {
-        Ok(self.state.v[coordinate::<S>(name)?])
-    }
-
-    /// Returns the generalized momentum ∂L/∂q̇ of the coordinate of this name.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`].
-    pub fn momentum(&self, name: &str) -> Result<S::Scalar, Error> {
-        Ok(self.system.momentum(&self.state)[coordinate::<S>(name)?])
-    }
-
-    /// Returns the generalized acceleration of the coordinate of this name.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
-    pub fn acceleration(&self, name: &str) -> Result<S::Scalar, Error> {
-        let index = coordinate::<S>(name)?;
-        Ok(self.solution()?.accelerations[index])
-    }
-
-    /// Returns the multiplier λ of the constraint of this name. If constraints depend on one another, as
-    /// [`Solution::multipliers_are_unique`](crate::Solution::multipliers_are_unique) tells, the multipliers are
-    /// those of least norm in units in which masses are 1 and the rows of F have length 1.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
-    pub fn multiplier(&self, name: &str) -> Result<S::Scalar, Error> {
-        let index = index::<S>(S::CONSTRAINTS, "constraint", name)?;
-        Ok(self.solution()?.multipliers[index])
-    }
-
-    /// Returns the generalized constraint force Σ_α λ_α F_αa on the coordinate of this name, Milton (8.7). Friction of contacts counts;
-    /// that of its own, by `#[friction(…)]`, counts while it sticks, and is an applied force while it slides.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
-    pub fn constraint_force(&self, name: &str) -> Result<S::Scalar, Error> {
-        let index = coordinate::<S>(name)?;
-        Ok(self.system.constraint_force(&self.state, &self.solution()?.multipliers)[index])
-    }
-
-    /// Returns the observable of this name.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`], and those of [`solution`](Self::solution).
-    pub fn observable(&self, name: &str) -> Result<S::Scalar, Error> {
-        let index = index::<S>(S::OBSERVABLES, "observable", name)?;
-        let value = self.system.observable(index, &self.state, &self.solution()?);
-        value.ok_or_else(|| unknown::<S>(S::OBSERVABLES, "observable", name))
-    }
-
-    /// Returns the conserved quantity of this name: `p_phi`, `energy`, or one given in `#[conserved(…)]`.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`].
-    pub fn conserved(&self, name: &str) -> Result<S::Scalar, Error> {
-        let names: Vec<&'static str> = S::FACTS.conserved.iter().map(|conserved| conserved.name).collect();
-        let index = index::<S>(&names, "conserved quantity", name)?;
-        self.system
-            .conserved(index, &self.state)
-            .ok_or_else(|| unknown::<S>(&names, "conserved quantity", name))
-    }
-}
-
-#[cfg(feature = "alloc")]
-fn coordinate<L: Lagrangian>(name: &str) -> Result<usize, Error> {
-    index::<L>(L::COORDINATES, "coordinate", name)
 }
 
 /// Formats a sample as `t = 1.0: theta = 0.1, theta_dot = -2e-17`. Format options apply to each number:

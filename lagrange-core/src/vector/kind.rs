@@ -22,14 +22,14 @@ pub trait Length: Copy + Debug + PartialEq + Send + Sync + 'static {
     fn count(self) -> usize;
 }
 
-/// Kind of a length: constant lengths are of the kind [`Constant`], run-time lengths of the kind [`RunTime`](super::RunTime). It
+/// Kind of a length: constant lengths are of the kind [`Constant`], run-time lengths of the kind [`RunTime`](crate::generic::RunTime). It
 /// chooses the types of vectors.
 pub trait Kind {
     /// Column vector: `SVector<T, K>` or `DVector<T>`.
     type Vector<T: Element, S: StaticLength>: Numbers<T>;
     /// Entries of a vector, borrowed: `[T; K]` or `[T]`.
     type View<T: Element, S: StaticLength>: ?Sized + AsRef<[T]> + AsMut<[T]> + IndexMut<usize, Output = T>;
-    /// Two vectors: `[[T; K]; 2]`, or [`TwoParts`](super::TwoParts).
+    /// Two vectors: `[[T; K]; 2]`, or [`TwoParts`](crate::generic::TwoParts).
     type Halves<T: Element, S: StaticLength>: Clone
         + Debug
         + PartialEq

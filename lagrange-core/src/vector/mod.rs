@@ -7,7 +7,7 @@ mod length;
 mod nalgebra;
 mod phase_vector;
 #[cfg(feature = "alloc")]
-mod run_time;
+pub(crate) mod run_time;
 
 pub(crate) use array::from_fn;
 pub use array::{Array, FixedArray};
@@ -19,5 +19,3 @@ pub(crate) use nalgebra::{Entrywise, array, matrix, rows, vector, zeros};
 pub use nalgebra::{Matrix, Vector};
 pub use phase_vector::PhaseVector;
 pub(crate) use phase_vector::SpareVectors;
-#[cfg(feature = "alloc")]
-pub use run_time::{RunTime, TwoParts};

@@ -9,8 +9,8 @@ use nalgebra::DMatrix;
 
 use super::Linearized;
 use super::argument::check_parameters;
-use super::tangent::Tangent;
 use super::variation::{DifferentiableMethod, Variations, VariedRun};
+use crate::derivatives::tangent::Tangent;
 use crate::error::{Ending, Error};
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::names::Entry;

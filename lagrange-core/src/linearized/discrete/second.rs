@@ -5,10 +5,11 @@ use alloc::vec::Vec;
 use nalgebra::{ComplexField, DMatrix};
 
 use super::DiscreteTime;
+use crate::derivatives::tangent::WideOf;
+use crate::derivatives::tangent::parameter;
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::linearized::argument::{parameter, set_parameter};
-use crate::linearized::tangent::WideOf;
+use crate::linearized::argument::set_parameter;
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::motion::{Method, RungeKutta4, runge_kutta_step};
 use crate::names::Row;

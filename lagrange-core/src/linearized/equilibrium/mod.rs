@@ -59,7 +59,7 @@ impl<L: Lagrangian> Debug for Equilibrium<L> {
 }
 
 /// See [`Linearized::equilibrium`].
-pub(super) fn equilibrium<L: Linearized<Scalar: Real> + Clone>(
+pub(crate) fn equilibrium<L: Linearized<Scalar: Real> + Clone>(
     system: &L,
     guess: &StateOf<L>,
     names: &[&str],

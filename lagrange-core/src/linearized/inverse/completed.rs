@@ -14,7 +14,7 @@ use crate::system::{Lagrangian, StateOf, finite::check_finite, lookup};
 use crate::vector::{StaticLength, Vector};
 
 /// See [`Linearized::complete_accelerations`](crate::linearized::Linearized::complete_accelerations).
-pub(in crate::linearized) fn complete<L: Lagrangian<Scalar: Real>>(
+pub(crate) fn complete<L: Lagrangian<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     accelerations: &Vector<L::Scalar, L::N>,

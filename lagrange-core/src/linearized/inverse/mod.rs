@@ -7,9 +7,9 @@ use alloc::{format, string::String, vec::Vec};
 
 use nalgebra::{ComplexField, DMatrix, DVector};
 
-pub(super) use completed::complete;
+pub(crate) use completed::complete;
 pub use regressor::{BaseParameters, Regressor};
-pub(super) use regressor::{inertial_parameters, regressor};
+pub(crate) use regressor::{inertial_parameters, regressor};
 
 use super::Linearized;
 use super::argument::{Argument, set_parameter};
@@ -44,7 +44,7 @@ impl<T: Element, M: StaticLength> InverseDynamics<T, M> {
 const STEPS: usize = 30;
 
 /// See [`Linearized::inputs_for`].
-pub(super) fn inputs_for<L: Linearized<Scalar: Real> + Clone>(
+pub(crate) fn inputs_for<L: Linearized<Scalar: Real> + Clone>(
     system: &L,
     state: &StateOf<L>,
     accelerations: &Vector<L::Scalar, L::N>,

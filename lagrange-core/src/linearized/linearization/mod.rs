@@ -10,13 +10,13 @@ use alloc::{string::String, vec::Vec};
 use nalgebra::{DMatrix, DVector};
 
 pub use local::LocalCoordinates;
-pub(super) use local::{change, changed, linearize_locally};
+pub(crate) use local::{change, changed, linearize_locally};
 pub use spectrum::Stability;
 pub(crate) use spectrum::eigenvalues;
 
 use super::argument::check_parameters;
-use super::tangent::{Matrices, Tangent, WideOf};
 use super::{Linearized, StateDerivatives};
+use crate::derivatives::tangent::{Matrices, Tangent, WideOf};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, Scalar, Wide, larger, largest, norm, power_of_epsilon};
@@ -66,7 +66,7 @@ impl<T> Linearization<T> {
 }
 
 /// See [`Linearized::linearize`].
-pub(super) fn linearize<L: Linearized<Scalar: Real>>(
+pub(crate) fn linearize<L: Linearized<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     names: &[&str],

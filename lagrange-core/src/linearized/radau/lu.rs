@@ -1,24 +1,20 @@
 //! LU factorization with partial pivoting, for real and complex matrices.
 
+use alloc::vec;
+use alloc::vec::Vec;
 use core::ops::{Deref, DerefMut};
 
 use nalgebra::ComplexField;
 
 use crate::vector::{Array, Element, StaticLength};
 
-/// N rows, or columns, of N entries, on the heap if there is one: they are never on the stack together.
+/// N rows, or columns, of N entries, on the heap: they are never on the stack together.
 #[derive(Clone)]
-pub(super) struct Square<F: Element, N: StaticLength>(
-    #[cfg(feature = "alloc")] alloc::vec::Vec<Array<F, N>>,
-    #[cfg(not(feature = "alloc"))] Array<Array<F, N>, N>,
-);
+pub(super) struct Square<F: Element, N: StaticLength>(Vec<Array<F, N>>);
 
 impl<F: Element, N: StaticLength> Square<F, N> {
     pub(super) fn filled(x: F) -> Self {
-        #[cfg(feature = "alloc")]
-        return Self(alloc::vec![Array::filled(x); N::COUNT]);
-        #[cfg(not(feature = "alloc"))]
-        return Self(Array::filled(Array::filled(x)));
+        Self(vec![Array::filled(x); N::COUNT])
     }
 }
 

@@ -11,7 +11,6 @@ mod memory;
 mod pose;
 mod step;
 mod tableau;
-#[cfg(feature = "alloc")]
 mod variations;
 
 use nalgebra::Const;

@@ -5,10 +5,10 @@ use core::fmt::{self, Debug, Formatter};
 use nalgebra::ComplexField;
 
 use super::state::{ChangingState, ChangingStateOf};
+use crate::derivatives::tangent::Tangent;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::check_parameters;
-use crate::linearized::tangent::Tangent;
 use crate::motion::{AnyEvent, Event, EventFunction, EventValue};
 use crate::names::Entry;
 use crate::number::{Dual, Real, Scalar};

@@ -13,10 +13,10 @@ use alloc::vec::Vec;
 use nalgebra::{Const, DMatrix, DVector};
 
 use super::events::DualSample;
+use crate::derivatives::tangent::Tangent;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
-use crate::linearized::tangent::Tangent;
 use crate::names::Entry;
 use crate::number::{Dual, Real, Scalar, larger, power_of_epsilon};
 use crate::solution::impact::impact;

@@ -5,14 +5,14 @@ use core::fmt::{self, Debug, Formatter};
 
 use super::events::DifferentiableEvent;
 use super::state::{StateSensitivity, at_event};
+use crate::derivatives::tangent::{Tangent, WideOf};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::linearized::tangent::{Tangent, WideOf};
 use crate::linearized::variation::{DifferentiableMethod, Variations, VariedRun};
-use crate::motion::builder::EventList;
-use crate::motion::progress::OnProgress;
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
-use crate::motion::store::Stored;
+use crate::motion::whole::builder::EventList;
+use crate::motion::whole::progress::OnProgress;
+use crate::motion::whole::store::Stored;
 use crate::motion::{AnyEvent, MotionBuilder};
 use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};

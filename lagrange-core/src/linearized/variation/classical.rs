@@ -4,8 +4,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::{DifferentiableMethod, Linearized, Variations, VariedRun};
+use crate::derivatives::tangent::{Tangent, WideOf};
 use crate::error::{Ending, Error};
-use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::{PhaseVector, RungeKutta4};
 use crate::number::{Broadcast, Real, Scalar};
 use crate::solution::interpolant::hermite;

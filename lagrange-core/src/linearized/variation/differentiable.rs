@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 
 use super::{Linearized, Variations};
+use crate::derivatives::tangent::WideOf;
 use crate::error::{Ending, Error};
-use crate::linearized::tangent::WideOf;
 use crate::motion::Method;
 use crate::motion::run::Run;
 use crate::number::Real;

@@ -1,9 +1,9 @@
 //! Systems over dual numbers, along which steps of a method are differentiated.
 
+use crate::derivatives::tangent::WideOf;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::set_parameter;
-use crate::linearized::tangent::WideOf;
 use crate::number::{Broadcast, Dual, Real, Scalar, Wide};
 use crate::system::{Pack, State};
 use crate::vector::{PhaseVector, StaticLength, Vector, from_fn, vector};

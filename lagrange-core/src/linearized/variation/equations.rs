@@ -1,9 +1,9 @@
 //! Equations of the variations at a state of the motion.
 
 use super::Block;
+use crate::derivatives::tangent::{Tangent, WideOf};
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::tangent::{Tangent, WideOf};
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
 use crate::system::{Direction, Lagrangian, ResidualChange};

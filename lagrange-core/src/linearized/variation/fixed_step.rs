@@ -9,9 +9,9 @@ use core::convert::Infallible;
 
 use super::duals::{Duals, PackedDuals, with_rates, with_slopes};
 use super::{Block, DifferentiableMethod, Variations, VariedRun};
+use crate::derivatives::tangent::WideOf;
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::linearized::tangent::WideOf;
 use crate::motion::geometric::{CompensatedState, FixedStep, Scheme};
 use crate::number::{Broadcast, Dual, Parts, Real, Scalar, Wide, is_within, larger, power_of_epsilon};
 use crate::solution::solve::first_row;

@@ -21,8 +21,7 @@ mod taylor;
 use alloc::vec::Vec;
 
 use super::Linearized;
-use super::argument::parameter;
-use super::tangent::{Tangent, WideOf};
+use crate::derivatives::tangent::{Tangent, WideOf, parameter};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Real, Scalar, Wide, unit_of};

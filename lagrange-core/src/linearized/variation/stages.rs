@@ -7,9 +7,9 @@ use alloc::vec::Vec;
 use nalgebra::ComplexField;
 
 use super::{Block, DifferentiableMethod, Linearized, Variations, VariedRun};
+use crate::derivatives::tangent::{Tangent, WideOf};
 use crate::error::{Ending, Error};
 use crate::linearized::StateDerivatives;
-use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::method::control::VariedEnds;
 use crate::motion::method::pair::{Slopes, advance, last};
 use crate::motion::method::pair_memory::PairMemory;
@@ -248,7 +248,7 @@ impl<W: Scalar, N: StaticLength> Stages<W, N> {
 
 #[cfg(test)]
 mod tests {
-    use crate::linearized::tangent::Tangent;
+    use crate::derivatives::tangent::Tangent;
     use crate::motion::run::{Run, Watchdog};
     use crate::motion::{Adaptive, Method};
     use crate::{Dop853, error::Entry, prelude::*};

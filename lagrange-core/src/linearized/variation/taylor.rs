@@ -12,9 +12,9 @@ use nalgebra::ComplexField;
 
 use super::duals::{Duals, PackedDuals, with_rates, with_slopes};
 use super::{Block, DifferentiableMethod, Variations, VariedRun};
+use crate::derivatives::tangent::{Tangent, WideOf};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::linearized::tangent::{Tangent, WideOf};
 use crate::motion::method::control::SLACK;
 use crate::motion::taylor::expansion::Expansion;
 use crate::motion::taylor::last::{LAST, Last};

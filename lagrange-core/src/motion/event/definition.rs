@@ -1,7 +1,5 @@
 //! [`Event`]: a function of a motion, and the choice of its zero crossings.
 
-#[cfg(feature = "alloc")]
-use alloc::boxed::Box;
 use core::borrow::Borrow;
 use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
@@ -10,8 +8,6 @@ use super::memory::{CrossingDirection, EventState};
 use crate::error::Error;
 use crate::number::{Dual, Real};
 use crate::solution::Sample;
-#[cfg(feature = "alloc")]
-use crate::system::Solution;
 use crate::system::{StateOf, System};
 
 /// A zero crossing of a function g of a motion, made by [`Simulate::event`](crate::Simulate::event).
@@ -106,7 +102,6 @@ impl<L: System<Scalar: Real>, G> Event<L, G> {
     }
 
     /// Makes g ≥ 0 a condition: it holds at the start of a run, and crossings are the last states at which it does.
-    #[cfg(feature = "alloc")]
     #[must_use]
     pub(crate) fn condition(mut self) -> Self {
         (self.memory.is_condition, self.memory.direction) = (true, CrossingDirection::Falling);
@@ -123,13 +118,11 @@ impl<L: System<Scalar: Real>, G> Event<L, G> {
     }
 
     /// Copy of the event for another motion, without its history, and with its function mapped.
-    #[cfg(feature = "std")]
     pub(crate) fn anew<'g, H>(&'g self, function: impl FnOnce(&'g G) -> H) -> Event<L, H> {
         Event { function: function(&self.function), memory: self.memory.anew(), system: PhantomData }
     }
 
     /// The event with its function mapped.
-    #[cfg(feature = "std")]
     pub(crate) fn map<H>(self, function: impl FnOnce(G) -> H) -> Event<L, H> {
         Event { function: function(self.function), memory: self.memory, system: PhantomData }
     }
@@ -139,12 +132,10 @@ impl<L: System<Scalar: Real>, G> Event<L, G> {
         self.memory.count
     }
 
-    #[cfg(feature = "alloc")]
     pub(crate) fn name(&self) -> &'static str {
         self.memory.name
     }
 
-    #[cfg(feature = "alloc")]
     pub(crate) fn function(&self) -> &G {
         &self.function
     }
@@ -239,19 +230,15 @@ pub trait AnyEvent<L: System>: sealed::Sealed {
 }
 
 /// A type-erased event.
-#[cfg(feature = "alloc")]
 pub(crate) type DynEvent<'a, L> = dyn AnyEvent<L> + 'a;
 
-mod sealed {
+pub(super) mod sealed {
     pub trait Sealed {}
 }
 
 impl<L: System, G> sealed::Sealed for Event<L, G> {}
 
 impl<W: sealed::Sealed + ?Sized> sealed::Sealed for &mut W {}
-
-#[cfg(feature = "alloc")]
-impl<W: sealed::Sealed + ?Sized> sealed::Sealed for Box<W> {}
 
 /// Implements [`AnyEvent`] for a pointer to an event.
 macro_rules! watched_behind {
@@ -281,8 +268,8 @@ macro_rules! watched_behind {
 }
 
 watched_behind!(&mut W);
-#[cfg(feature = "alloc")]
-watched_behind!(Box<W>);
+
+pub(super) use watched_behind;
 
 impl<L: System<Scalar: Real>, G: EventFunction<L>> Event<L, G> {
     #[inline]
@@ -315,28 +302,6 @@ where
     #[inline]
     fn memory(&mut self) -> &mut EventState<L::Scalar> {
         &mut self.memory
-    }
-}
-
-/// An event in a motion by time steps. Its function does not know accelerations and multipliers, which are means over a step.
-#[cfg(feature = "alloc")]
-pub(crate) struct EventInSteps<'e, L: System>(pub(crate) Box<DynEvent<'e, L>>);
-
-#[cfg(feature = "alloc")]
-impl<L: System> sealed::Sealed for EventInSteps<'_, L> {}
-
-#[cfg(feature = "alloc")]
-impl<L: System<Scalar: Real>> AnyEvent<L> for EventInSteps<'_, L> {
-    fn value_of(&self, sample: &Sample<&L>) -> Result<L::Scalar, Error> {
-        let value = self.0.value_of(&sample.clone().with(Some(Solution::unknown())));
-        value.map_err(|error| match error {
-            Error::EventNotFinite { event, time } => Error::EventInTimeSteps { event, time },
-            error => error,
-        })
-    }
-
-    fn memory(&mut self) -> &mut EventState<L::Scalar> {
-        self.0.memory()
     }
 }
 

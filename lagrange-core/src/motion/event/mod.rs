@@ -8,12 +8,12 @@ mod locate;
 mod memory;
 mod narrow;
 mod noise;
+#[cfg(feature = "alloc")]
+pub(crate) mod recorded;
 mod search;
 
+pub(crate) use definition::DynEvent;
 pub use definition::{AnyEvent, Event, EventFunction, EventValue};
-#[cfg(feature = "alloc")]
-pub(crate) use definition::{DynEvent, EventInSteps};
 pub(crate) use dense::DenseStep;
-#[cfg(feature = "alloc")]
 pub(crate) use noise::noise;
 pub(crate) use search::EventSearch;

@@ -1,7 +1,5 @@
 //! Search of steps for the crossings of events.
 
-#[cfg(feature = "alloc")]
-use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 use super::chebyshev::{COARSEST, FINEST, part, places};
@@ -10,17 +8,13 @@ use super::dense::DenseStep;
 use super::halves::{Halves, LEVELS};
 use super::locate::locate;
 use super::memory::{Interval, View};
-use super::noise::noise;
-#[cfg(feature = "alloc")]
-use super::noise::noise_beside;
+use super::noise::{noise, noise_beside};
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar};
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::system::{State, StateOf, System};
-#[cfg(feature = "alloc")]
-use crate::trajectory::Path;
 use crate::vector::{Element, Length};
 
 /// Result of the search of an interval.
@@ -46,14 +40,12 @@ pub(crate) struct EventSearch<'e, W, L: System> {
 
 impl<'e, W: AnyEvent<L>, L: System<Scalar: Real>> EventSearch<'e, W, L> {
     /// Begins the search at the start of a run, and counts crossings from 1.
-    #[cfg(feature = "alloc")]
     pub(crate) fn begin(events: &'e mut [W], system: &L, state: &StateOf<L>) -> Result<Self, Error> {
         events.iter_mut().for_each(|event| event.memory().begin_run());
         Self::from(events, system, state, true)
     }
 
     /// Makes the next run of these events a leg of a motion with entries of these sizes.
-    #[cfg(feature = "alloc")]
     pub(crate) fn begin_leg(
         events: &mut [W],
         system: &L,
@@ -65,22 +57,6 @@ impl<'e, W: AnyEvent<L>, L: System<Scalar: Real>> EventSearch<'e, W, L> {
             event.memory().begin_leg(is_first, round_off);
             Ok(())
         })
-    }
-
-    /// Records a crossing of each function that arrives at zero, but for round-off, where a leg ends; entries have these sizes.
-    /// Returns the ending if one of them is terminal.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn record_at_end(
-        events: &'e mut [W],
-        system: &L,
-        [end, sizes]: [&StateOf<L>; 2],
-        crossings: &mut Vec<Crossing<L::Scalar, L::Length>>,
-    ) -> Result<Option<Ending>, Error> {
-        for event in events.iter_mut() {
-            let (value, noise) = (event.value(system, end)?, noise_beside(event, system, end, sizes)?);
-            event.memory().arrive_at_end(value, noise);
-        }
-        Ok(Self { events, subdivisions: 1, system: PhantomData }.record_due(end, crossings))
     }
 
     /// Begins or continues the search at this state. `is_new` is true if no step led here.
@@ -141,7 +117,6 @@ impl<'e, W: AnyEvent<L>, L: System<Scalar: Real>> EventSearch<'e, W, L> {
     }
 
     /// Passes the next step, of this width, without a search for this event, if its function has one sign there.
-    #[cfg(feature = "alloc")]
     #[inline]
     pub(crate) fn stay_away(&mut self, index: usize, is_away: bool, width: L::Scalar) {
         self.events[index].memory().stay_away(is_away, width);
@@ -175,78 +150,6 @@ impl<'e, W: AnyEvent<L>, L: System<Scalar: Real>> EventSearch<'e, W, L> {
             }
         }
         Ok(None)
-    }
-
-    /// Records the crossings within a step. If the motion ends within it, returns the state there and the ending.
-    #[cfg(feature = "alloc")]
-    #[inline]
-    pub(crate) fn record<F: VectorField<L>, I: Interpolant<L::Scalar, L::Length>>(
-        &mut self,
-        step: &DenseStep<'_, L, F, I>,
-        crossings: &mut Vec<Crossing<L::Scalar, L::Length>>,
-    ) -> Option<(StateOf<L>, Ending)> {
-        let mut at = step.before.clone();
-        loop {
-            match self.next(step, &mut at) {
-                Ok(None) => return None,
-                Ok(Some(crossing)) => crossings.push(crossing),
-                Err(ending) => return Some((at, ending)),
-            }
-            if let Some(ending) = self.ending(crossings).or_else(|| self.record_due(&at, crossings)) {
-                return Some((at, ending));
-            }
-        }
-    }
-
-    /// Records the crossings within the last step of a path, between these states. If the motion ends within the step,
-    /// cuts the path there and returns the ending.
-    // Inlined, so that the path stays in registers.
-    #[cfg(feature = "alloc")]
-    #[inline(always)]
-    pub(crate) fn record_in<F, I>(
-        &mut self,
-        path: &mut Path<L::Scalar, L::Length, Vec<I>>,
-        crossings: &mut Vec<Crossing<L::Scalar, L::Length>>,
-        system: &L,
-        [before, after]: [&StateOf<L>; 2],
-    ) -> Option<Ending>
-    where
-        F: VectorField<L>,
-        I: Interpolant<L::Scalar, L::Length> + Send + Sync + 'static,
-    {
-        let interpolant = path.last_step()?;
-        let step = DenseStep { system, before, after, interpolant, field: PhantomData::<F> };
-        let (at, ending) = self.record(&step, crossings)?;
-        path.cut(at);
-        Some(ending)
-    }
-
-    /// Records the crossings at this state that have not been reported yet. Returns the ending if one of them is
-    /// terminal.
-    #[cfg(feature = "alloc")]
-    pub(crate) fn record_due(
-        &mut self,
-        at: &StateOf<L>,
-        crossings: &mut Vec<Crossing<L::Scalar, L::Length>>,
-    ) -> Option<Ending> {
-        loop {
-            match self.due(at) {
-                Ok(None) => return None,
-                Ok(Some(crossing)) => crossings.push(crossing),
-                Err(ending) => return Some(ending),
-            }
-            if let Some(ending) = self.ending(crossings) {
-                return Some(ending);
-            }
-        }
-    }
-
-    /// Returns the ending if the last crossing is terminal.
-    #[cfg(feature = "alloc")]
-    fn ending(&mut self, crossings: &[Crossing<L::Scalar, L::Length>]) -> Option<Ending> {
-        let Crossing { event, index, state, .. } = crossings.last()?;
-        let is_terminal = self.events.get_mut(*index)?.memory().is_terminal();
-        is_terminal.then(|| Ending::Event { time: state.t.to_f64(), event })
     }
 
     /// Moves `from` to `t`, or to an earlier crossing. If a function may cross twice on the way and the

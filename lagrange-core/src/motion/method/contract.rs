@@ -1,12 +1,12 @@
 //! The trait [`Method`]: interface of the integration methods.
 
-#[cfg(feature = "alloc")]
-use alloc::vec::Vec;
 use core::fmt;
+use core::time::Duration;
 
 use super::bounds::MultiplierBounds;
 use crate::error::{Ending, Error, Pace};
 use crate::number::Real;
+use crate::room::Within;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
@@ -115,14 +115,13 @@ where
     ///
     /// # Errors
     /// Those of [`interpolant`](Self::interpolant).
-    #[cfg(feature = "alloc")]
     fn push_interpolant(
         &self,
         system: &L,
         memory: &mut Self::Memory,
         ends: [&StateOf<L>; 2],
         statistics: &mut Statistics,
-        to: &mut Vec<Self::Interpolant>,
+        to: &mut Within<Self::Interpolant>,
     ) -> Result<(), Error> {
         to.push(self.interpolant(system, memory, ends, statistics)?);
         Ok(())
@@ -189,9 +188,8 @@ pub enum Step {
 pub struct Limits {
     /// Largest number of attempted steps, rejected ones included.
     pub max_steps: usize,
-    /// Largest wall-clock time.
-    #[cfg(feature = "std")]
-    pub wall_time: Option<std::time::Duration>,
+    /// Largest wall-clock time. It asks for `std`: elsewhere there is no clock.
+    pub wall_time: Option<Duration>,
 }
 
 /// Setters of a method with the field `limits`. The limit on steps is described in the words given.
@@ -217,10 +215,6 @@ pub(crate) use limit_setters;
 /// At most 100 000 steps, no limit on wall-clock time.
 impl Default for Limits {
     fn default() -> Self {
-        Self {
-            max_steps: 100_000,
-            #[cfg(feature = "std")]
-            wall_time: None,
-        }
+        Self { max_steps: 100_000, wall_time: None }
     }
 }

@@ -1,7 +1,5 @@
 //! One step of an embedded Runge–Kutta pair, projected onto the constraints.
 
-#[cfg(feature = "alloc")]
-use alloc::vec::Vec;
 use core::fmt;
 
 use super::adaptive::Adaptive;
@@ -14,10 +12,9 @@ use super::pair_memory::{PairMemory, StepStart, Taken};
 use super::pair_stages::{interpolate, look_within, stages};
 use super::slope::{check_finite, slope};
 use crate::error::{Ending, Error, Pace};
-#[cfg(feature = "alloc")]
 use crate::number::larger;
 use crate::number::{Real, Scalar};
-use crate::room::Room;
+use crate::room::{Room, Within};
 use crate::solution::interpolant::Polynomial;
 use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
@@ -166,7 +163,6 @@ where
         Ok(Polynomial::new(start, length, coefficients))
     }
 
-    #[cfg(feature = "alloc")]
     #[inline(always)]
     fn push_interpolant(
         &self,
@@ -174,7 +170,7 @@ where
         memory: &mut Self::Memory,
         _: [&StateOf<L>; 2],
         statistics: &mut Statistics,
-        to: &mut Vec<Self::Interpolant>,
+        to: &mut Within<Self::Interpolant>,
     ) -> Result<(), Error> {
         let (start, length) = look_within::<P, L, F>(system, memory, statistics)?;
         let zero = PhaseVector::of_length(system.length(), L::Scalar::constant(0.0));
@@ -240,7 +236,6 @@ impl<P: Pair> Adaptive<P> {
 
     /// Chooses the next step after a step on which another quantity was integrated as well, with `error` in units of
     /// its tolerance. The larger of both errors counts.
-    #[cfg(feature = "alloc")]
     pub(crate) fn accept_with<T: Real, N: Length, M: StaticLength>(
         &self,
         memory: &mut PairMemory<T, N, M>,

@@ -52,7 +52,7 @@ fn begin(f: &mut Formatter<'_>, heading: &str) -> fmt::Result {
 /// End of a slide.
 const END: &str = "\n\\end{align}\n\\end{frame}\n";
 
-#[cfg(all(test, feature = "std"))]
+#[cfg(test)]
 mod tests {
     use super::LINES;
     use crate::prelude::*;

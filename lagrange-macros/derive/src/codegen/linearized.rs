@@ -104,7 +104,7 @@ impl Emitter<'_> {
             [&changing.by_state, &changing.by_parameters].map(|[slopes, _]| slopes.results.len());
         let slopes = quote!([#scalar; #of_state_slopes]);
         let slopes = match tree {
-            Some(_) => quote!((#slopes, __lagrange::linearized::MotionGradients<#scalar, Self::N>)),
+            Some(_) => quote!((#slopes, __lagrange::generated::MotionGradients<#scalar, Self::N>)),
             None => slopes,
         };
         let by_field = self.problem.parameters.by_field();

@@ -58,7 +58,7 @@ impl Emitter<'_> {
             #signature {
                 const TREE: __lagrange::generated::Tree = #structure;
                 let (accelerations, multipliers) = (&solution.accelerations, &solution.multipliers);
-                let mut gradients = __lagrange::linearized::MotionGradients::zero();
+                let mut gradients = __lagrange::generated::MotionGradients::zero();
                 {
                     #placed
                     let bodies = __lagrange::generated::TreeNumbers { #(#names: &#numbers),* };
@@ -81,7 +81,7 @@ impl Emitter<'_> {
         let signature = self.style.types.signature(method);
         let scalar = self.style.types.scalar;
         let tokens = quote! {
-            fn motion_gradients(slopes: &Self::Slopes) -> ::core::option::Option<&__lagrange::linearized::MotionGradients<#scalar, Self::N>> {
+            fn motion_gradients(slopes: &Self::Slopes) -> ::core::option::Option<&__lagrange::generated::MotionGradients<#scalar, Self::N>> {
                 ::core::option::Option::Some(&slopes.1)
             }
 

@@ -10,11 +10,11 @@ use nalgebra::{ComplexField, DMatrix, DVector};
 
 pub use base::BaseParameters;
 
+use crate::derivatives::tangent::Tangent;
 use crate::error::Error;
 use crate::error::owned::similar::{listed, nearest};
 use crate::linearized::Linearized;
 use crate::linearized::argument::{check_parameters, set_parameter};
-use crate::linearized::tangent::Tangent;
 use crate::names::{Entry, Row};
 use crate::number::{Real, Scalar, exceeds, larger, largest, power_of_epsilon};
 use crate::solution::solve::first_row;
@@ -129,7 +129,7 @@ fn inertial<T: Real>(values: [T; 10]) -> [T; 10] {
 }
 
 /// See [`Linearized::inertial_parameters`].
-pub(in crate::linearized) fn inertial_parameters<L: Linearized<Scalar: Real>>(
+pub(crate) fn inertial_parameters<L: Linearized<Scalar: Real>>(
     system: &L,
     bodies: &[&str],
 ) -> Result<DVector<L::Scalar>, Error> {
@@ -140,7 +140,7 @@ pub(in crate::linearized) fn inertial_parameters<L: Linearized<Scalar: Real>>(
 }
 
 /// See [`Linearized::regressor`].
-pub(in crate::linearized) fn regressor<L: Linearized<Scalar: Real> + Clone>(
+pub(crate) fn regressor<L: Linearized<Scalar: Real> + Clone>(
     system: &L,
     state: &StateOf<L>,
     accelerations: &Vector<L::Scalar, L::N>,

@@ -11,7 +11,7 @@ use crate::system::StateOf;
 use crate::system::finite::check_finite;
 
 /// See [`Linearized::local_change`](super::Linearized::local_change).
-pub(in crate::linearized) fn change<L: StateDerivatives<Scalar: Real>>(
+pub(crate) fn change<L: StateDerivatives<Scalar: Real>>(
     system: &L,
     states: [&StateOf<L>; 2],
 ) -> Result<DVector<L::Scalar>, Error> {
@@ -39,7 +39,7 @@ pub(in crate::linearized) fn change<L: StateDerivatives<Scalar: Real>>(
 }
 
 /// See [`Linearized::locally_changed`](super::Linearized::locally_changed).
-pub(in crate::linearized) fn changed<L: StateDerivatives<Scalar: Real>>(
+pub(crate) fn changed<L: StateDerivatives<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     change: &[L::Scalar],

@@ -14,9 +14,9 @@ use alloc::vec::Vec;
 use nalgebra::{DMatrix, DVector};
 
 use super::Linearization;
+use crate::derivatives::tangent::Tangent;
 use crate::error::Error;
 use crate::linearized::argument::check_parameters;
-use crate::linearized::tangent::Tangent;
 use crate::linearized::{Linearized, StateDerivatives};
 use crate::number::Real;
 use crate::solution::consistent;
@@ -24,7 +24,7 @@ use crate::system::finite::check_finite;
 use crate::system::{StateOf, lookup};
 use crate::vector::StaticLength;
 use blocks::Blocks;
-pub(in crate::linearized) use finite::{change, changed};
+pub(crate) use finite::{change, changed};
 
 /// Local coordinates z of the changes of a state: δ(q, q̇) = Z z.
 ///
@@ -82,7 +82,7 @@ impl<T> LocalCoordinates<T> {
 }
 
 /// See [`Linearized::linearize_locally`].
-pub(in crate::linearized) fn linearize_locally<L: Linearized<Scalar: Real>>(
+pub(crate) fn linearize_locally<L: Linearized<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     names: &[&str],
@@ -113,10 +113,7 @@ pub(in crate::linearized) fn linearize_locally<L: Linearized<Scalar: Real>>(
 
 impl<T: Real> LocalCoordinates<T> {
     /// See [`Linearized::local_coordinates`].
-    pub(in crate::linearized) fn at<L: StateDerivatives<Scalar = T>>(
-        system: &L,
-        state: &StateOf<L>,
-    ) -> Result<Self, Error> {
+    pub(crate) fn at<L: StateDerivatives<Scalar = T>>(system: &L, state: &StateOf<L>) -> Result<Self, Error> {
         check_finite(system, state)?;
         consistent::check(system, state)?;
         let (blocks, point) = (Blocks::of::<L>(), [state.q.as_slice(), state.v.as_slice()]);

@@ -13,9 +13,9 @@ use nalgebra::Const;
 
 use super::Radau;
 use super::tableau::{RadauStages, Transformation, basis, inverse};
+use crate::derivatives::tangent::WideOf;
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::linearized::tangent::WideOf;
 use crate::linearized::variation::{DifferentiableMethod, Variations, VariedRun};
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::system::StateOf;
@@ -96,7 +96,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linearized::tangent::Tangent;
+    use crate::derivatives::tangent::Tangent;
     use crate::motion::Method;
     use crate::motion::run::{Run, Watchdog};
     use crate::names::Entry;

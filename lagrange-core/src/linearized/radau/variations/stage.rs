@@ -8,9 +8,9 @@ use alloc::vec::Vec;
 use nalgebra::DMatrix;
 
 use super::super::chart::Chart;
+use crate::derivatives::tangent::{Tangent, WideOf};
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::tangent::{Tangent, WideOf};
 use crate::linearized::variation::Variations;
 use crate::number::{Real, Wide};
 use crate::solution::consistent::level::Level;

@@ -3,10 +3,10 @@
 use super::fails;
 use super::law::NamedLaw;
 use crate::contact::{Contact, Contacts, Friction};
+use crate::derivatives::tangent::Tangent;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::sensitivity::state::{ChangingStateOf, StateSensitivity, at_event};
-use crate::linearized::tangent::Tangent;
 use crate::names::{Entry, name};
 use crate::number::{Real, Scalar};
 use crate::system::{ResidualChange, Solution, StateOf, System};

@@ -4,7 +4,8 @@ use core::ops::Range;
 
 use super::boundary::{Boundary, kinematic};
 use super::{IN_THE_PLANE, fails};
-use crate::contact::{Contact, Contacts, Friction, held};
+use crate::contact::across::held;
+use crate::contact::{Contact, Contacts, Friction};
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::sensitivity::state::StateSensitivity;

@@ -2,9 +2,9 @@
 
 use super::fails;
 use crate::contact::Contacts;
+use crate::derivatives::tangent::parameter;
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::argument::parameter;
 use crate::linearized::sensitivity::state::{ChangingState, ChangingStateOf};
 use crate::number::{Real, Scalar, larger, largest, unit_of};
 use crate::system::{Direction, State, StateOf};

@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 
 use super::forces::{ImplicitForces, ThetaForces};
 use crate::cone::{dot, sqrt};
-use crate::contact::bodies::{Bodies, CROSSED, UNITS};
-use crate::contact::rows::{Inertia, SparseRows, TouchingRows};
+use crate::contact::across::bodies::{Bodies, CROSSED, UNITS};
+use crate::contact::across::rows::{Inertia, SparseRows, TouchingRows};
 use crate::contact::{Contacts, ForceDerivatives};
 use crate::error::{Error, Row};
 use crate::names::name;

@@ -6,7 +6,7 @@ use core::fmt;
 use super::stepper::ContactStepper;
 use super::{ForceDerivatives, MoreauJean};
 use crate::contact::Contacts;
-use crate::contact::builder::check_times;
+use crate::contact::across::builder::check_times;
 use crate::error::Error;
 use crate::motion::run::Run;
 use crate::motion::{Limits, Method, Step};

@@ -10,10 +10,10 @@ use core::ops::Deref;
 
 pub(crate) use plan::{RecordPlan, SampleTimes, check_interval};
 
-use super::event::{DenseStep, DynEvent, EventSearch};
-use super::method::Method;
-use super::run::{Observer, Run, is_between, resume};
 use crate::error::{Ending, Error};
+use crate::motion::event::{DenseStep, DynEvent, EventSearch};
+use crate::motion::method::Method;
+use crate::motion::run::{Observer, Run, is_between, resume};
 use crate::number::{Real, Scalar};
 use crate::solution::Sample;
 use crate::solution::crossing::Crossing;

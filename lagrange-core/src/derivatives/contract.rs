@@ -2,22 +2,20 @@
 
 use core::fmt::Debug;
 
-#[cfg(feature = "alloc")]
-use nalgebra::DVector;
-
-#[cfg(doc)]
-use super::Radau;
-#[cfg(feature = "alloc")]
-use super::{
-    DifferentiableMethod, Equilibrium, InverseDynamics, Linearization, LocalCoordinates, LyapunovSpectrum,
-    MotionDerivatives, Regressor, SelectedJacobian, TrajectorySensitivity, equilibrium, inverse,
-    linearization, lyapunov,
-};
 use super::{Jacobian, StateDerivatives, jacobian};
 use crate::error::Error;
 use crate::number::{Broadcast, Real};
 use crate::system::{Lagrangian, ResidualChange, SolutionOf, StateOf};
 use crate::vector::{StaticLength, Vector};
+#[cfg(feature = "alloc")]
+use crate::{
+    linearized::{
+        DifferentiableMethod, Equilibrium, InverseDynamics, Linearization, LocalCoordinates,
+        LyapunovSpectrum, MotionDerivatives, Regressor, SelectedJacobian, TrajectorySensitivity, equilibrium,
+        inverse, jacobian_by, linearization, lyapunov,
+    },
+    nalgebra::DVector,
+};
 
 /// A system whose equations of motion can be differentiated by parameters too: Jacobians, sensitivities, equilibria,
 /// linearization.
@@ -161,7 +159,7 @@ pub trait Linearized: StateDerivatives {
     where
         Self: Lagrangian<Scalar: Real> + Sized,
     {
-        jacobian::jacobian_by(self, state, arguments)
+        jacobian_by(self, state, arguments)
     }
 
     /// Integrates the motion to the time `end` together with its derivatives by entries of the initial state and by
@@ -223,8 +221,8 @@ pub trait Linearized: StateDerivatives {
     ///
     /// Exponents are in descending order. Backwards in time they are rates d(ln |δ|)/dt too: a variation that grows on
     /// the way back has a negative exponent. Lengths are those of (q, q̇) in the units of the system, which make no
-    /// difference in the limit. Methods are those of [`integrate_sensitivities`](Self::integrate_sensitivities). By [`Radau`],
-    /// exponents of changes that decay within a step are those of the step.
+    /// difference in the limit. Methods are those of [`integrate_sensitivities`](Self::integrate_sensitivities). By
+    /// [`Radau`](crate::linearized::Radau), exponents of changes that decay within a step are those of the step.
     ///
     /// ```
     /// use lagrange_core::prelude::*;

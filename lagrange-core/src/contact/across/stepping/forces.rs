@@ -3,9 +3,9 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::contact::bodies::Bodies;
+use crate::contact::across::bodies::Bodies;
 use crate::contact::{Contacts, ForceDerivatives};
-use crate::linearized::WideOf;
+use crate::derivatives::tangent::WideOf;
 use crate::number::{Real, Scalar, Wide};
 use crate::system::{Direction, StateOf};
 use crate::vector::{Entrywise, StaticLength, Vector};

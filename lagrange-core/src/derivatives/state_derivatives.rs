@@ -6,8 +6,6 @@ use nalgebra::Const;
 
 use super::MotionGradients;
 use super::jacobian::{self, Jacobian};
-#[cfg(doc)]
-use super::{Linearized, Radau};
 use crate::error::Error;
 use crate::number::{Broadcast, Real, Wide};
 use crate::system::pointers::forward;
@@ -16,8 +14,8 @@ use crate::system::{Direction, Lagrangian, ResidualChange, Solution, SolutionOf,
 /// A system whose equations of motion can be differentiated by the time and the state, as implicit methods and
 /// sensitivities need.
 ///
-/// `#[derive(Lagrangian)]` implements it together with [`Linearized`], which adds derivatives by the `P` parameters. The
-/// method for stiff systems, [`Radau`], requires this trait: `impl<L: StateDerivatives> Method<L> for …`.
+/// `#[derive(Lagrangian)]` implements it together with [`Linearized`](crate::Linearized), which adds derivatives by the `P`
+/// parameters. The method for stiff systems, [`Radau`](crate::linearized::Radau), requires this trait: `impl<L: StateDerivatives> Method<L> for …`.
 #[diagnostic::on_unimplemented(
     message = "the derivatives of the equations of motion of `{Self}` are not known",
     label = "no `StateDerivatives`",

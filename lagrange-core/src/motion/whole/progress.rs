@@ -1,13 +1,9 @@
 //! Progress of a motion, and its report to the closure of [`on_progress`](crate::MotionBuilder::on_progress).
 
-#[cfg(feature = "alloc")]
 use alloc::boxed::Box;
-#[cfg(feature = "alloc")]
 use core::ops::ControlFlow;
 
-#[cfg(feature = "alloc")]
 use crate::error::Ending;
-#[cfg(feature = "alloc")]
 use crate::number::Real;
 
 /// Progress of an integration, for a progress callback.
@@ -24,11 +20,9 @@ pub struct Progress {
 }
 
 /// Progress callback, which may cancel the motion.
-#[cfg(feature = "alloc")]
 pub(crate) type OnProgress<'a> = Box<dyn FnMut(Progress) -> ControlFlow<()> + 'a>;
 
 /// Calls the progress callback, if there is one, with the times of start, present and end. Fails if it cancels the motion.
-#[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn report<T: Real>(
     on_progress: &mut Option<OnProgress<'_>>,
@@ -41,7 +35,6 @@ pub(crate) fn report<T: Real>(
 }
 
 /// Turns a break at this time into [`Ending::Cancelled`].
-#[cfg(feature = "alloc")]
 #[inline(always)]
 pub(crate) fn unless_broken(flow: ControlFlow<()>, time: f64) -> Result<(), Ending> {
     match flow {

@@ -6,33 +6,27 @@ use core::ops::Range;
 
 use nalgebra::ComplexField;
 
-#[cfg(feature = "alloc")]
-use super::argument::parameter;
 use super::jacobian::name_of;
 use super::{Linearized, StateDerivatives};
 use crate::error::Error;
 use crate::names::Entry;
-#[cfg(feature = "alloc")]
 use crate::number::Broadcast;
 use crate::number::{Real, Scalar, Wide};
 use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::pivot::{is_trustworthy, least_pivot};
 use crate::solution::solve::{fault, first_row, solve};
-#[cfg(any(feature = "alloc", feature = "libm"))]
 use crate::system::Direction;
-#[cfg(feature = "alloc")]
 use crate::system::{ConstraintKind, unit};
 use crate::system::{Lagrangian, ResidualChange, Solution, SolutionOf, State, StateOf, System};
-#[cfg(feature = "alloc")]
 use crate::vector::from_fn;
 use crate::vector::{Array, Element, Entrywise, StaticLength, Vector, rows, zeros};
 
 /// Equations of motion at a state: solved, factorized and differentiated.
 pub(crate) struct Tangent<'a, L: StateDerivatives> {
-    pub(super) system: &'a L,
-    pub(super) state: &'a StateOf<L>,
-    pub(super) solution: SolutionOf<L>,
+    pub(crate) system: &'a L,
+    pub(crate) state: &'a StateOf<L>,
+    pub(crate) solution: SolutionOf<L>,
     factor: L::Factor,
     slopes: OnceCell<L::Slopes>,
     matrices: OnceCell<Matrices<L::Scalar, L::N, L::M>>,
@@ -45,12 +39,10 @@ pub(crate) type WideOf<L> = <<L as System>::Scalar as Real>::Wide;
 /// emitted factorization is too small, or if rows and null spaces are needed.
 pub(crate) struct Matrices<T: Element, N: StaticLength, M: StaticLength> {
     /// Mass matrix, row by row.
-    #[cfg_attr(not(feature = "alloc"), allow(dead_code, reason = "what reads it allocates"))]
-    pub(super) m: Room<Array<Array<T, N>, N>>,
+    pub(crate) m: Room<Array<Array<T, N>, N>>,
     /// Constraint Jacobian, row by row.
-    #[cfg_attr(not(feature = "alloc"), allow(dead_code, reason = "what reads it allocates"))]
-    pub(super) f: Room<Array<Array<T, N>, M>>,
-    pub(super) factors: Room<Factors<T, N, M>>,
+    pub(crate) f: Room<Array<Array<T, N>, M>>,
+    pub(crate) factors: Room<Factors<T, N, M>>,
 }
 
 // Separate functions, so that at most one of the matrices is on the stack.
@@ -79,7 +71,7 @@ impl<T: Real, N: StaticLength, M: StaticLength> Matrices<T, N, M> {
 }
 
 impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
-    pub(super) fn at(system: &'a L, state: &'a StateOf<L>) -> Result<Self, Error> {
+    pub(crate) fn at(system: &'a L, state: &'a StateOf<L>) -> Result<Self, Error> {
         Ok(Self::of(system, state, solve(system, state)?))
     }
 
@@ -96,13 +88,12 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     }
 
     /// Returns the matrices and the factors of the general solver, computed at first use.
-    pub(super) fn matrices(&self) -> &Matrices<L::Scalar, L::N, L::M> {
+    pub(crate) fn matrices(&self) -> &Matrices<L::Scalar, L::N, L::M> {
         self.matrices.get_or_init(|| Matrices::at(self.system, self.state))
     }
 
     /// Rows of F for holonomic constraints; zeros for the others.
-    #[cfg(feature = "alloc")]
-    pub(super) fn holonomic_rows(&self) -> Array<Array<L::Scalar, L::N>, L::M> {
+    pub(crate) fn holonomic_rows(&self) -> Array<Array<L::Scalar, L::N>, L::M> {
         let f = &self.matrices().f;
         from_fn(|a| match L::CONSTRAINT_KINDS[a] {
             ConstraintKind::Holonomic => f[a],
@@ -112,8 +103,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Passes δq̈ and δλ along each of `count` directions to `give`. Directions are processed one per lane: `put`
     /// writes direction `k` into a zero lane, `entry` names it for errors.
-    #[cfg(any(feature = "alloc", feature = "libm"))]
-    pub(super) fn along_each(
+    pub(crate) fn along_each(
         &self,
         count: usize,
         put: impl Fn(usize, &mut Direction<WideOf<L>, L::N>, usize),
@@ -151,7 +141,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Passes δq̈ and δλ by each of `count` arguments to `give`, with the number of the argument: 0 is the time, then
     /// coordinates, then velocities.
-    pub(super) fn by_each(
+    pub(crate) fn by_each(
         &self,
         count: usize,
         argument: impl Fn(usize) -> usize,
@@ -167,7 +157,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Passes δq̈ and δλ by each of these arguments to `give`, but for those by which they are zero: 0 is the time, then
     /// coordinates, then velocities.
-    pub(super) fn by_arguments(
+    pub(crate) fn by_arguments(
         &self,
         arguments: Range<usize>,
         mut give: impl FnMut(usize, &SolutionOf<L>),
@@ -180,7 +170,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     }
 
     /// Passes δq̈ and δλ by each of these parameters to `give`.
-    pub(super) fn by_parameters(
+    pub(crate) fn by_parameters(
         &self,
         count: usize,
         parameter: impl Fn(usize) -> usize,
@@ -203,8 +193,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Derivatives of the residual along these directions.
     #[inline]
-    #[cfg(any(feature = "alloc", feature = "libm"))]
-    pub(super) fn changes(
+    pub(crate) fn changes(
         &self,
         directions: &Direction<WideOf<L>, L::N>,
     ) -> ResidualChange<WideOf<L>, L::N, L::M> {
@@ -212,7 +201,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     }
 
     /// Derivatives of the residual by these arguments, one per lane.
-    pub(super) fn changes_by(
+    pub(crate) fn changes_by(
         &self,
         arguments: impl Iterator<Item = usize> + Clone,
     ) -> ResidualChange<WideOf<L>, L::N, L::M> {
@@ -220,7 +209,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     }
 
     /// Numbers from which the derivatives of the residual by parameters are computed.
-    pub(super) fn parameter_slopes(&self) -> L::ParameterSlopes
+    pub(crate) fn parameter_slopes(&self) -> L::ParameterSlopes
     where
         L: Linearized,
     {
@@ -229,7 +218,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Derivatives of the residual if parameters change at these rates.
     #[inline]
-    pub(super) fn changes_by_parameters(
+    pub(crate) fn changes_by_parameters(
         &self,
         slopes: &L::ParameterSlopes,
         rates: &Vector<WideOf<L>, L::P>,
@@ -242,7 +231,6 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Derivative of the residual along this direction. It is computed on all lanes, so that the long function is
     /// compiled for lanes alone.
-    #[cfg(feature = "alloc")]
     fn change_in(&self, direction: &Direction<L::Scalar, L::N>) -> ResidualChange<L::Scalar, L::N, L::M> {
         let of = WideOf::<L>::of;
         let Direction { t, q, v } = direction;
@@ -251,8 +239,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Derivative of the residual if the state changes along this direction, and the argument at unit rate if it is a
     /// parameter of the system.
-    #[cfg(feature = "alloc")]
-    pub(super) fn change_with(
+    pub(crate) fn change_with(
         &self,
         direction: &Direction<L::Scalar, L::N>,
         argument: Option<Entry>,
@@ -266,8 +253,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     }
 
     /// Solves for the δq̈ and δλ that compensate this change of the residual; `entry` names it for errors.
-    #[cfg(feature = "alloc")]
-    pub(super) fn response(
+    pub(crate) fn response(
         &self,
         change: &ResidualChange<L::Scalar, L::N, L::M>,
         entry: Entry,
@@ -277,9 +263,8 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Solves for the δq̈ and δλ that compensate these changes of the residual, in `lanes` lanes; `entry` names a lane
     /// for errors.
-    #[cfg(feature = "alloc")]
     #[inline]
-    pub(super) fn responses(
+    pub(crate) fn responses(
         &self,
         lanes: usize,
         changes: &ResidualChange<WideOf<L>, L::N, L::M>,
@@ -331,8 +316,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
     }
 
     /// Derivative of the residual along one direction; an error if it is not finite.
-    #[cfg(feature = "alloc")]
-    pub(super) fn residual_change(
+    pub(crate) fn residual_change(
         &self,
         direction: &Direction<L::Scalar, L::N>,
         entry: Entry,
@@ -342,8 +326,7 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
 
     /// Derivative of the residual by parameter `k`, with these accelerations and multipliers; an error if it is not
     /// finite.
-    #[cfg(feature = "alloc")]
-    pub(super) fn change_by_parameter(
+    pub(crate) fn change_by_parameter(
         &self,
         solution: &SolutionOf<L>,
         k: usize,
@@ -378,6 +361,14 @@ impl<'a, L: StateDerivatives<Scalar: Real>> Tangent<'a, L> {
             None => Ok(()),
             Some(row) => Err(Error::DerivativeNotFinite { row, entry, time: self.state.t.to_f64() }),
         }
+    }
+}
+
+/// Index of this parameter among those of the system; `None` if the system does not have it.
+pub(crate) fn parameter<L: Linearized>(entry: Entry) -> Option<usize> {
+    match entry {
+        Entry::Parameter(name) => L::PARAMETERS.iter().position(|known| *known == name),
+        _ => None,
     }
 }
 

@@ -11,11 +11,11 @@ use super::acceleration::Acceleration;
 use super::middle::Middle;
 use super::time_step::TimeStep;
 use crate::cone::{ConeSearch, Face, dot, sqrt};
-use crate::contact::bodies::Bodies;
-use crate::contact::friction::bounds;
-use crate::contact::impact::{StagedFriction, StagedImpact};
-use crate::contact::reactions::Reactions;
-use crate::contact::rows::TouchingRows;
+use crate::contact::across::bodies::Bodies;
+use crate::contact::across::friction::bounds;
+use crate::contact::across::impact::{StagedFriction, StagedImpact};
+use crate::contact::across::reactions::Reactions;
+use crate::contact::across::rows::TouchingRows;
 use crate::contact::{Contacts, ForceDerivatives, FrictionRows};
 use crate::error::{Error, Row};
 use crate::number::{Real, Scalar};
@@ -62,7 +62,7 @@ struct Kicked {
 impl<L: ForceDerivatives<Scalar: Real> + Clone> Steps<L> {
     pub(super) fn new(bodies: Bodies<L>, settings: MoreauJean, state: &StateOf<L>) -> Self {
         let (rates, sizes) = (bodies.closed.constraint_rate(state), bodies.closed.rate_magnitude(state));
-        let unit = L::Scalar::constant(L::Scalar::EPSILON * crate::contact::bodies::UNITS);
+        let unit = L::Scalar::constant(L::Scalar::EPSILON * crate::contact::across::bodies::UNITS);
         let is_still = |a: usize| Scalar::abs(rates[a]) <= unit * sizes[a];
         let sticks = |friction: &FrictionRows| friction.rows().all(is_still);
         let sticks = L::FRICTIONS.iter().map(sticks).collect();

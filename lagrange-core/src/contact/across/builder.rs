@@ -7,10 +7,10 @@ use super::legs::{Accept, AllLegs, SampledLegs};
 use super::motion::ContactMotion;
 use super::{Contact, Contacts};
 use crate::error::Error;
-use crate::motion::builder::EventList;
-use crate::motion::progress::report;
-use crate::motion::record::{Arrival, Record, RecordPlan, Steering};
 use crate::motion::run::check_end;
+use crate::motion::whole::builder::EventList;
+use crate::motion::whole::progress::report;
+use crate::motion::whole::record::{Arrival, Record, RecordPlan, Steering};
 use crate::motion::{
     AllSteps, DynEvent, Kept, LagrangianVectorField, Method, MotionBuilder, SamplesAlone, Start,
 };

@@ -4,10 +4,10 @@ use alloc::{format, string::String, vec::Vec};
 
 use nalgebra::DMatrix;
 
+use crate::derivatives::tangent::Tangent;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::Argument;
-use crate::linearized::tangent::Tangent;
 use crate::number::Real;
 use crate::system::{Solution, SolutionOf, StateOf};
 use crate::vector::{Element, StaticLength};
@@ -33,7 +33,7 @@ impl<T: Element, N: StaticLength, M: StaticLength> SelectedJacobian<T, N, M> {
 }
 
 /// See [`Linearized::jacobian_by`].
-pub(in crate::linearized) fn jacobian_by<L: Linearized<Scalar: Real>>(
+pub(crate) fn jacobian_by<L: Linearized<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
     names: &[&str],

@@ -7,12 +7,12 @@ use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use super::event::{AnyEvent, DynEvent};
-use super::method::{Dop853, Method};
 use super::progress::{OnProgress, Progress};
-use super::run::{Run, Watchdog, check_end};
 use super::store::Stored;
 use crate::error::Error;
+use crate::motion::event::{AnyEvent, DynEvent};
+use crate::motion::method::{Dop853, Method};
+use crate::motion::run::{Run, Watchdog, check_end};
 use crate::number::Real;
 use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;

@@ -6,12 +6,12 @@ use alloc::vec::Vec;
 use core::fmt::{self, Debug, Display, Formatter};
 
 use super::builder::{AllSteps, EventList, MotionBuilder, Start};
-use super::event::{DynEvent, EventValue};
-use super::method::Method;
 use super::progress::{OnProgress, report};
 use super::record::{Arrival, Moving, Record, RecordPlan, Recorded, SampleTimes, Steering};
-use super::run::{Run, Watchdog, check_end};
 use crate::error::Error;
+use crate::motion::event::{DynEvent, EventValue};
+use crate::motion::method::Method;
+use crate::motion::run::{Run, Watchdog, check_end};
 use crate::number::Real;
 use crate::solution::Sample;
 use crate::solution::system_checks::SystemChecks;

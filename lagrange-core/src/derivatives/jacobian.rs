@@ -1,14 +1,6 @@
 //! Jacobian of the accelerations and multipliers.
 
-#[cfg(feature = "alloc")]
-mod selected;
-
 use nalgebra::Const;
-
-#[cfg(feature = "alloc")]
-pub use selected::SelectedJacobian;
-#[cfg(feature = "alloc")]
-pub(super) use selected::jacobian_by;
 
 use super::tangent::Tangent;
 use super::{Linearized, StateDerivatives};
@@ -43,7 +35,7 @@ pub struct Jacobian<T: Element, N: StaticLength, M: StaticLength, P: StaticLengt
 }
 
 /// See [`StateDerivatives::state_jacobian`].
-pub(super) fn state_jacobian<L: StateDerivatives<Scalar: Real>>(
+pub(crate) fn state_jacobian<L: StateDerivatives<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
 ) -> Result<Jacobian<L::Scalar, L::N, L::M, Const<0>>, Error> {
@@ -54,7 +46,7 @@ pub(super) fn state_jacobian<L: StateDerivatives<Scalar: Real>>(
 }
 
 /// See [`Linearized::jacobian`].
-pub(super) fn jacobian<L: Linearized<Scalar: Real>>(
+pub(crate) fn jacobian<L: Linearized<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
 ) -> Result<Jacobian<L::Scalar, L::N, L::M, L::P>, Error> {
@@ -92,7 +84,7 @@ impl<T: Real, N: StaticLength, M: StaticLength, P: StaticLength> Jacobian<T, N, 
 }
 
 /// Name of argument `k`.
-pub(super) fn name_of<L: Lagrangian>(k: usize) -> Entry {
+pub(crate) fn name_of<L: Lagrangian>(k: usize) -> Entry {
     k.checked_sub(1).map_or(Entry::Time, entry::<L>)
 }
 

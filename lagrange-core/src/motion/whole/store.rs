@@ -2,11 +2,11 @@
 
 use alloc::vec::Vec;
 
-use super::event::{AnyEvent, EventSearch};
-use super::method::Method;
 use super::progress::{OnProgress, report};
-use super::run::{Observer, Run};
 use crate::error::{Ending, Error};
+use crate::motion::event::{AnyEvent, EventSearch};
+use crate::motion::method::Method;
+use crate::motion::run::{Observer, Run};
 use crate::number::Real;
 use crate::solution::Adjustment;
 use crate::solution::crossing::Crossing;
