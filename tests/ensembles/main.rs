@@ -5,6 +5,7 @@ mod contacts;
 mod controllers;
 mod events;
 mod failures;
+mod lengths;
 mod members;
 mod parts;
 mod samples;

@@ -2,8 +2,11 @@
 
 use core::fmt::{self, Write};
 
-use crate::number::{Real, Scalar};
-use crate::system::{Lagrangian, StateOf};
+use crate::motion::Simulate;
+use crate::number::Real;
+use crate::solution::system_checks::{ChecksOf, SystemChecks};
+use crate::system::StateOf;
+use crate::vector::Numbers;
 
 /// Identifies the run and the member of a table row by three hashes: 32-bit FNV-1a (Fowler, Noll and Vo), the same on
 /// every machine.
@@ -16,7 +19,7 @@ use crate::system::{Lagrangian, StateOf};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fingerprint {
-    /// Hash of the system: its declaration ([`Lagrangian::DIGEST`]), name, coordinates, constraints and number type.
+    /// Hash of the system: its declaration ([`Lagrangian::DIGEST`](crate::Lagrangian::DIGEST)), name, coordinates, constraints and number type.
     pub system: u32,
     /// Hash of the run: the method and its settings, whether members ran on SIMD lanes, the end time, the times and
     /// quantities of samples, the events (name, direction, subdivisions, terminal count), the interval of the
@@ -28,26 +31,21 @@ pub struct Fingerprint {
 
 impl Fingerprint {
     /// Hash of a system, the same for all members of all runs.
-    pub(super) fn of_system<L: Lagrangian<Scalar: Real>>() -> u32 {
+    pub(super) fn of_system<L: Simulate>() -> u32 {
         let mut system = Hash::new();
-        [L::NAME].iter().chain(L::COORDINATES).chain(L::CONSTRAINTS).for_each(|text| system.text(text));
-        system.bytes(&L::DIGEST.to_le_bytes());
+        let names = ChecksOf::<L>::COORDINATES.iter().chain(ChecksOf::<L>::CONSTRAINTS);
+        [ChecksOf::<L>::name()].iter().chain(names).for_each(|text| system.text(text));
+        system.bytes(&ChecksOf::<L>::DIGEST.to_le_bytes());
         system.number(L::Scalar::EPSILON);
         system.0
     }
 
     /// Adds the hash of a member's start and parameters to the fingerprint of its run.
-    pub(super) fn with_start<L: Lagrangian<Scalar: Real>>(self, system: &L, start: &StateOf<L>) -> Self {
+    pub(super) fn with_start<L: Simulate>(self, system: &L, start: &StateOf<L>) -> Self {
         let mut hash = Hash::new();
         hash.number(start.t.to_f64());
-        start.q.iter().chain(&start.v).for_each(|x| hash.number(x.to_f64()));
-        system.visit_parameters(&mut |_, x| hash.number(x.to_f64()));
-        // Constraints that are switched off, and contacts that are open.
-        for (a, c) in system.compliance().iter().enumerate() {
-            if *c != L::Scalar::constant(0.0) {
-                hash.number(a as f64);
-            }
-        }
+        start.q.entries().iter().chain(start.v.entries()).for_each(|x| hash.number(x.to_f64()));
+        ChecksOf::<L>::visit_numbers(system, &mut |x| hash.number(x));
         Self { start: hash.0, ..self }
     }
 

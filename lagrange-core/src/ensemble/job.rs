@@ -18,14 +18,14 @@ use crate::motion::lanes::{Batch, LaneMotion};
 use crate::motion::run::{Run, Watchdog};
 use crate::motion::whole::progress::unless_broken;
 use crate::motion::whole::record::{Arrival, Moving, Recorded};
-use crate::motion::{LaneMethod, Method};
+use crate::motion::{LaneMethod, Method, Simulate};
 use crate::number::Real;
-use crate::system::finite::check_finite;
+use crate::solution::system_checks::{ChecksOf, SystemChecks};
 use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Element, StaticLength};
+use crate::vector::{Element, Length};
 
 /// State of a running ensemble, shared by all threads.
-pub(super) struct Job<'a, L: Lagrangian<Scalar: Real>> {
+pub(super) struct Job<'a, L: Simulate> {
     pub(super) make: Make<'a, L>,
     observer: Option<MemberObserver<'a, L>>,
     pub(super) member_plan: Arc<MemberPlan<'a, L>>,
@@ -39,7 +39,7 @@ pub(super) struct Job<'a, L: Lagrangian<Scalar: Real>> {
     /// Number of members of this part handed out so far.
     given: AtomicUsize,
     stopped: AtomicBool,
-    ledger: Mutex<Ledger<'a, L::Scalar, L::N>>,
+    ledger: Mutex<Ledger<'a, L::Scalar, L::Length>>,
 }
 
 /// Members to integrate: all `count`, or those of `list`, divided into `shards` parts.
@@ -93,13 +93,13 @@ impl Part {
 }
 
 /// Results of finished members, and the callback that follows the progress.
-struct Ledger<'a, T: Element, N: StaticLength> {
+struct Ledger<'a, T: Element, N: Length> {
     members: Vec<Member<T, N>>,
     of: usize,
     watch: Option<Watch<'a, T, N>>,
 }
 
-impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
+impl<'a, L: Simulate> Job<'a, L> {
     pub(super) fn new(plan: Plan<'a, L>, end: L::Scalar, run: Fingerprint) -> Result<Self, Error> {
         plan.check_tag()?;
         let Plan { count, make, shard, shards, list, done, observer, watch, member_plan, tag: _ } = plan;
@@ -128,7 +128,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
         Ok(Self { make, observer, member_plan, names, end, run, part, done, given, stopped, ledger })
     }
 
-    pub(super) fn outcome(self) -> Outcome<L::Scalar, L::N> {
+    pub(super) fn outcome(self) -> Outcome<L::Scalar, L::Length> {
         let ledger = self.ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
         Outcome::new(ledger.members, self.names, (self.end, self.run))
     }
@@ -153,7 +153,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
 
     /// Records the result of a member, and stops the whole job if the progress callback breaks. Once the job is
     /// stopped, results are dropped: the members still running were cut short.
-    pub(super) fn report(&self, member: Member<L::Scalar, L::N>) {
+    pub(super) fn report(&self, member: Member<L::Scalar, L::Length>) {
         let mut ledger = self.ledger.lock().unwrap_or_else(PoisonError::into_inner);
         if self.is_stopped() {
             return;
@@ -193,8 +193,8 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
         &self,
         index: usize,
         fingerprint: Fingerprint,
-        result: Result<Arrival<L::Scalar, L::N>, Error>,
-    ) -> Member<L::Scalar, L::N> {
+        result: Result<Arrival<L::Scalar, L::Length>, Error>,
+    ) -> Member<L::Scalar, L::Length> {
         Member { index, fingerprint, names: self.names.clone(), result }
     }
 
@@ -204,8 +204,8 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
         system: &mut L,
         start: &StateOf<L>,
         method: &P,
-    ) -> Result<Arrival<L::Scalar, L::N>, Error> {
-        check_finite(system, start)?;
+    ) -> Result<Arrival<L::Scalar, L::Length>, Error> {
+        ChecksOf::<L>::check_entries(system, start)?;
         let (mut run, _) = Run::<L, _>::begin(system, start, method)?;
         let record = self.member_plan.record(index, system, &run.state, self.end)?;
         let limits = Watchdog::new(method.limits(), &run.statistics);
@@ -218,10 +218,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> Job<'a, L> {
 }
 
 /// Rejects a member taken over from another run, or with another start or other parameters.
-fn check_run_of<T: Real, N: StaticLength>(
-    row: &MemberRow<T, N>,
-    expected: &Fingerprint,
-) -> Result<(), Error> {
+fn check_run_of<T: Real, N: Length>(row: &MemberRow<T, N>, expected: &Fingerprint) -> Result<(), Error> {
     match row.fingerprint.difference(expected) {
         Some(differs) => Err(Error::Ensemble(EnsembleError::OtherRun { member: row.index, differs })),
         None => Ok(()),
@@ -267,9 +264,9 @@ impl<L: Lagrangian<Scalar = f64>> Job<'_, L> {
     fn arrived<P: LaneMethod<L>>(
         &self,
         motion: LaneMotion<'_, L, P>,
-        state: State<f64, L::N>,
+        state: State<f64, L::Length>,
         ending: Ending,
-    ) -> Member<f64, L::N> {
+    ) -> Member<f64, L::Length> {
         let LaneMotion { index, start, statistics, record, .. } = motion;
         let fingerprint = Fingerprint { start, ..self.run };
         self.member(index, fingerprint, Ok(record.arrive(state, ending, statistics)))
@@ -285,7 +282,7 @@ impl<L: Lagrangian<Scalar = f64>> Job<'_, L> {
             let index = self.next()?;
             let (system, start) = (self.make)(index);
             let fingerprint = self.run.with_start(&system, &start);
-            let motion = check_finite(&system, &start).and_then(|()| {
+            let motion = ChecksOf::<L>::check_entries(&system, &start).and_then(|()| {
                 LaneMotion::new::<HAS_DENSE_OUTPUT>(
                     (index, fingerprint.start),
                     system,

@@ -9,13 +9,13 @@ use crate::error::{EnsembleError, Error};
 use crate::motion::whole::record::Arrival;
 use crate::number::Real;
 use crate::system::State;
-use crate::vector::{Element, StaticLength};
+use crate::vector::{Element, Length};
 
 /// Result of one member.
 ///
 /// With the feature `serde` it is serialized as its [row](super::MemberRow).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Member<T: Element, N: StaticLength> {
+pub struct Member<T: Element, N: Length> {
     /// Index of the member in the ensemble.
     pub index: usize,
     /// Hashes of the member's run, start and parameters.
@@ -25,7 +25,7 @@ pub struct Member<T: Element, N: StaticLength> {
     pub result: Result<Arrival<T, N>, Error>,
 }
 
-impl<T: Real, N: StaticLength> Member<T, N> {
+impl<T: Real, N: Length> Member<T, N> {
     /// End of the motion; `None` if the motion did not start.
     pub fn arrival(&self) -> Option<&Arrival<T, N>> {
         self.result.as_ref().ok()
@@ -43,7 +43,7 @@ impl<T: Real, N: StaticLength> Member<T, N> {
 }
 
 /// Prints the index and the ending: `member 17: stopped at t = 3.2: …`
-impl<T: Real, N: StaticLength> Display for Member<T, N> {
+impl<T: Real, N: Length> Display for Member<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "member {}: ", self.index)?;
         match &self.result {
@@ -55,14 +55,14 @@ impl<T: Real, N: StaticLength> Display for Member<T, N> {
 
 /// Results of the finished members, in ascending order of index.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome<T: Element, N: StaticLength> {
+pub struct Outcome<T: Element, N: Length> {
     pub(super) members: Vec<Member<T, N>>,
     pub(super) names: Arc<ColumnNames>,
     end: T,
     run: Fingerprint,
 }
 
-impl<T: Real, N: StaticLength> Outcome<T, N> {
+impl<T: Real, N: Length> Outcome<T, N> {
     pub(super) fn new(
         mut members: Vec<Member<T, N>>,
         names: Arc<ColumnNames>,

@@ -12,14 +12,15 @@ use crate::error::{EnsembleError, Error};
 use crate::motion::event::DynEvent;
 use crate::motion::whole::record::plan::Observed;
 use crate::motion::whole::record::{CONTROLLER, Record, RecordPlan, SampleTimes, Steering, check_interval};
-use crate::motion::{Event, EventFunction, Method};
+use crate::motion::{Event, EventFunction, Method, Simulate};
 use crate::number::Real;
 use crate::solution::Sample;
-use crate::system::{Lagrangian, StateOf};
-use crate::vector::{Element, StaticLength};
+use crate::solution::system_checks::{ChecksOf, SystemChecks};
+use crate::system::StateOf;
+use crate::vector::{Element, Length};
 
 /// Settings of an ensemble, collected before it is integrated.
-pub(super) struct Plan<'a, L: Lagrangian<Scalar: Real>> {
+pub(super) struct Plan<'a, L: Simulate> {
     pub(super) count: usize,
     pub(super) make: Make<'a, L>,
     pub(super) shard: usize,
@@ -27,15 +28,15 @@ pub(super) struct Plan<'a, L: Lagrangian<Scalar: Real>> {
     /// Indices of the members to integrate; all if `None`.
     pub(super) list: Option<Vec<usize>>,
     /// Rows of members taken over from earlier runs.
-    pub(super) done: Vec<MemberRow<L::Scalar, L::N>>,
+    pub(super) done: Vec<MemberRow<L::Scalar, L::Length>>,
     pub(super) observer: Option<MemberObserver<'a, L>>,
-    pub(super) watch: Option<Watch<'a, L::Scalar, L::N>>,
+    pub(super) watch: Option<Watch<'a, L::Scalar, L::Length>>,
     pub(super) member_plan: MemberPlan<'a, L>,
     /// Name given by the user to the code that no fingerprint sees.
     pub(super) tag: Option<String>,
 }
 
-impl<L: Lagrangian<Scalar: Real>> Plan<'_, L> {
+impl<L: Simulate> Plan<'_, L> {
     /// Fingerprint of the run, common to all members.
     pub(super) fn fingerprint<P: Method<L>>(
         &self,
@@ -70,9 +71,9 @@ impl<L: Lagrangian<Scalar: Real>> Plan<'_, L> {
 
     /// Description of the first piece of code, unseen by the fingerprint, that can change the results of members.
     fn unseen(&self) -> Option<String> {
-        let of_system = match L::SUPPLIED.first() {
+        let of_system = match ChecksOf::<L>::SUPPLIED.first() {
             Some(name) => Some(format!("the function `{name}` of the system")),
-            None => (L::DIGEST == 0).then(|| "the equations, written by hand,".into()),
+            None => (ChecksOf::<L>::DIGEST == 0).then(|| "the equations, written by hand,".into()),
         };
         let observer = self.observer.as_ref().map(|_| "the observer".into());
         of_system.or_else(|| self.member_plan.unseen()).or(observer)
@@ -85,7 +86,7 @@ pub(super) type Watch<'a, T, N> = Box<dyn FnMut(EnsembleProgress<'_, T, N>) -> C
 
 /// Progress of an ensemble.
 #[derive(Clone, Copy, Debug)]
-pub struct EnsembleProgress<'m, T: Element, N: StaticLength> {
+pub struct EnsembleProgress<'m, T: Element, N: Length> {
     /// Number of finished members, including those taken over from an earlier run.
     pub done: usize,
     /// Number of members in this [part](crate::Ensemble::shard).
@@ -95,7 +96,7 @@ pub struct EnsembleProgress<'m, T: Element, N: StaticLength> {
 }
 
 /// Samples, events and controller that every member uses during its motion.
-pub(super) struct MemberPlan<'a, L: Lagrangian> {
+pub(super) struct MemberPlan<'a, L: Simulate> {
     pub(super) samples: RecordPlan<'a, L>,
     /// Events of the ensemble; each member starts with a fresh copy.
     events: Vec<Event<L, Box<Observed<'a, L>>>>,
@@ -106,14 +107,14 @@ pub(super) struct MemberPlan<'a, L: Lagrangian> {
 /// Sets the parameters of the member with the given index; returns errors as text.
 type MemberController<'a, L> = dyn Fn(usize, &mut L, &StateOf<L>) -> Result<(), String> + Send + Sync + 'a;
 
-impl<L: Lagrangian<Scalar: Real>> Default for MemberPlan<'_, L> {
+impl<L: Simulate> Default for MemberPlan<'_, L> {
     fn default() -> Self {
         let samples = RecordPlan::of(SampleTimes::At(Vec::new()));
         Self { samples, events: Vec::new(), controller: None }
     }
 }
 
-impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
+impl<'a, L: Simulate> MemberPlan<'a, L> {
     pub(super) fn event<G: EventFunction<L> + Send + Sync + 'a>(&mut self, event: Event<L, G>) {
         self.events.push(event.map(|function| {
             let value: Box<Observed<'a, L>> = Box::new(move |sample: &Sample<&L>| function.at(sample));
@@ -140,7 +141,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
     /// Names of the coordinates and quantities.
     pub(super) fn names(&self) -> Arc<ColumnNames> {
         let quantities = self.samples.quantities().map(String::from).collect();
-        Arc::new(ColumnNames::new(L::COORDINATES, quantities))
+        Arc::new(ColumnNames::new(ChecksOf::<L>::COORDINATES, quantities))
     }
 
     /// Checks the settings that are the same for all members.
@@ -175,7 +176,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> MemberPlan<'a, L> {
         start: &StateOf<L>,
         end: L::Scalar,
     ) -> Result<Record<'_, L>, Error> {
-        let start = Sample::of(system, *start);
+        let start = Sample::of(system, start.clone());
         Record::begin(&self.samples, self.fresh_events(), self.steering(index), &start, end)
     }
 

@@ -12,7 +12,7 @@ use crate::number::Real;
 use crate::solution::crossing::Crossing;
 use crate::statistics::Statistics;
 use crate::system::State;
-use crate::vector::{Element, StaticLength};
+use crate::vector::{Element, Length};
 
 /// Data of one member in a table.
 ///
@@ -22,7 +22,7 @@ use crate::vector::{Element, StaticLength};
 /// null if the motion did not start. The ending is `complete`, `cancelled`, `event: ` and the event's name, or the message of
 /// the error. Numbers are written as `f64`; NaN and infinities are the texts `"NaN"`, `"inf"` and `"-inf"`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MemberRow<T: Element, N: StaticLength> {
+pub struct MemberRow<T: Element, N: Length> {
     /// Index of the member in the ensemble.
     pub index: usize,
     /// Hashes of the system, the run and the start.
@@ -44,7 +44,7 @@ pub struct MemberRow<T: Element, N: StaticLength> {
 
 /// A crossing of an event, as a table stores it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MemberCrossing<T: Element, N: StaticLength> {
+pub struct MemberCrossing<T: Element, N: Length> {
     /// Name of the event.
     pub event: String,
     /// Index of the event, in the order in which the events were given.
@@ -57,14 +57,14 @@ pub struct MemberCrossing<T: Element, N: StaticLength> {
     pub state: State<T, N>,
 }
 
-impl<T: Element, N: StaticLength> From<&Crossing<T, N>> for MemberCrossing<T, N> {
+impl<T: Element, N: Length> From<&Crossing<T, N>> for MemberCrossing<T, N> {
     fn from(crossing: &Crossing<T, N>) -> Self {
-        let Crossing { event, index, count, rising, state } = *crossing;
-        Self { event: event.into(), index, count, rising, state }
+        let &Crossing { event, index, count, rising, ref state } = crossing;
+        Self { event: event.into(), index, count, rising, state: state.clone() }
     }
 }
 
-impl<T: Element, N: StaticLength> MemberCrossing<T, N> {
+impl<T: Element, N: Length> MemberCrossing<T, N> {
     /// The crossing of one of these events; `None` if there is no such event.
     fn of(self, events: &[&'static str]) -> Option<Crossing<T, N>> {
         let Self { event: name, index, count, rising, state } = self;
@@ -117,14 +117,14 @@ impl From<&str> for MemberEnding {
     }
 }
 
-impl<T: Real, N: StaticLength> Member<T, N> {
+impl<T: Real, N: Length> Member<T, N> {
     /// The member's row of a table.
     pub fn row(&self) -> MemberRow<T, N> {
         let arrival = self.arrival();
         MemberRow {
             index: self.index,
             fingerprint: self.fingerprint,
-            state: arrival.map(|arrival| arrival.state),
+            state: arrival.map(|arrival| arrival.state.clone()),
             statistics: arrival.map(|arrival| arrival.statistics).unwrap_or_default(),
             ending: match &self.result {
                 Err(error) => MemberEnding::Failed(error.to_string()),
@@ -143,7 +143,7 @@ impl<T: Real, N: StaticLength> Member<T, N> {
     }
 }
 
-impl<T: Real, N: StaticLength> MemberRow<T, N> {
+impl<T: Real, N: Length> MemberRow<T, N> {
     /// True if an error, rather than the observer or an event, ended the motion early.
     pub fn has_failed(&self) -> bool {
         matches!(self.ending, MemberEnding::Failed(_))

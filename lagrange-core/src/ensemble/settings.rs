@@ -9,8 +9,9 @@ use super::outcome::Outcome;
 use super::plan::{EnsembleProgress, MemberPlan, Plan};
 use crate::error::Error;
 use crate::motion::run::check_end;
-use crate::motion::{LaneMethod, Method};
-use crate::number::{Lanes, Real};
+use crate::motion::{LaneMethod, Method, Simulate};
+use crate::number::Lanes;
+use crate::solution::system_checks::{ChecksOf, SystemChecks};
 use crate::system::{Lagrangian, Pack, StateOf, check_contacts};
 
 /// Many members, each a system with its initial state, that are integrated to the same time.
@@ -38,11 +39,11 @@ use crate::system::{Lagrangian, Pack, StateOf, check_contacts};
 /// # Ok::<(), Error>(())
 /// ```
 #[must_use = "an ensemble does nothing until it is integrated"]
-pub struct Ensemble<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool = false> {
+pub struct Ensemble<'a, L: Simulate, const HAS_DENSE_OUTPUT: bool = false> {
     pub(super) plan: Plan<'a, L>,
 }
 
-impl<'a, L: Lagrangian<Scalar: Real>> Ensemble<'a, L> {
+impl<'a, L: Simulate> Ensemble<'a, L> {
     /// Makes `count` members from their indices 0, 1, …. `member` must return the same member for the same index. It is
     /// called from any thread, and from several at once.
     pub fn from_fn(count: usize, member: impl Fn(usize) -> (L, StateOf<L>) + Send + Sync + 'a) -> Self {
@@ -64,7 +65,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> Ensemble<'a, L> {
     }
 }
 
-impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT> {
+impl<'a, L: Simulate, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT> {
     /// Keeps one of `of` parts: every `of`-th member, starting at index `shard` (counted from 0). The sizes of the
     /// parts differ by one member at most. Parts may run on different machines; [`Outcome::merge`] or
     /// [`resume`](Self::resume) combines them.
@@ -111,7 +112,7 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
     /// called again. Unfinished members are left out of the outcome, and can be [resumed](Self::resume).
     pub fn on_progress(
         mut self,
-        watch: impl FnMut(EnsembleProgress<'_, L::Scalar, L::N>) -> ControlFlow<()> + Send + 'a,
+        watch: impl FnMut(EnsembleProgress<'_, L::Scalar, L::Length>) -> ControlFlow<()> + Send + 'a,
     ) -> Self {
         self.plan.watch = Some(Box::new(watch));
         self
@@ -160,8 +161,8 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
         self,
         end: L::Scalar,
         method: P,
-    ) -> Result<Outcome<L::Scalar, L::N>, Error> {
-        const { check_contacts(L::HAS_CONTACTS) };
+    ) -> Result<Outcome<L::Scalar, L::Length>, Error> {
+        const { check_contacts(ChecksOf::<L>::HAS_CONTACTS) };
         method.check()?;
         let run = self.plan.fingerprint(&method, end, false);
         self.run(end, run, |job| job.one_by_one::<P, HAS_DENSE_OUTPUT>(&method))
@@ -172,7 +173,7 @@ impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a,
         end: L::Scalar,
         run: Fingerprint,
         work: impl Fn(&Job<'_, L>) + Sync,
-    ) -> Result<Outcome<L::Scalar, L::N>, Error> {
+    ) -> Result<Outcome<L::Scalar, L::Length>, Error> {
         check_end(end)?;
         let job = Job::new(self.plan, end, run)?;
         everywhere(|| work(&job));
@@ -193,9 +194,9 @@ impl<L: Lagrangian<Scalar = f64>, const HAS_DENSE_OUTPUT: bool> Ensemble<'_, L, 
     ///
     /// # Errors
     /// The errors of [`integrate`](Self::integrate).
-    pub fn integrate_on_lanes<P>(self, end: f64, method: P) -> Result<Outcome<f64, L::N>, Error>
+    pub fn integrate_on_lanes<P>(self, end: f64, method: P) -> Result<Outcome<f64, L::Length>, Error>
     where
-        L: Pack<Lanes, Packed: Lagrangian<N = L::N, M = L::M, Scalar = Lanes>>,
+        L: Pack<Lanes, Packed: Lagrangian<N = L::Length, M = L::M, Scalar = Lanes>>,
         P: LaneMethod<L> + Sync,
     {
         const { check_contacts(L::HAS_CONTACTS) };
@@ -207,7 +208,7 @@ impl<L: Lagrangian<Scalar = f64>, const HAS_DENSE_OUTPUT: bool> Ensemble<'_, L, 
 
 impl<L, const HAS_DENSE_OUTPUT: bool> Debug for Ensemble<'_, L, HAS_DENSE_OUTPUT>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: Simulate,
 {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Plan { count, shard, shards, .. } = &self.plan;

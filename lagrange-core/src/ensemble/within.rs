@@ -4,12 +4,11 @@ use core::fmt::Display;
 
 use super::settings::Ensemble;
 use crate::motion::whole::record::SampleTimes;
-use crate::motion::{Event, EventFunction, EventValue};
-use crate::number::Real;
+use crate::motion::{Event, EventFunction, EventValue, Simulate};
 use crate::solution::Sample;
-use crate::system::{Lagrangian, StateOf};
+use crate::system::StateOf;
 
-impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT> {
+impl<'a, L: Simulate, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT> {
     /// Stores the states of each member at these times, in [`Arrival::samples`](super::Arrival::samples).
     ///
     /// Samples lie on the dense output of the method, projected onto the constraints. Steps have the same lengths as

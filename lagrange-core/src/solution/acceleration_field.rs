@@ -6,7 +6,7 @@ use super::consistent::{Adjustment, Consistent};
 use super::system_checks::{SystemChecks, check_length};
 use super::vector_field::{ActiveConstraints, StagePoint, VectorField, VelocityField};
 use crate::error::Error;
-use crate::names::{Entry, Row};
+use crate::names::Entry;
 use crate::number::{Parts, Real, Scalar, are_finite};
 use crate::system::{State, StateOf, System};
 use crate::vector::{Array, Numbers, PhaseVector, VectorOf};
@@ -64,6 +64,10 @@ impl<L: System<Scalar: Real, M = Const<0>>> VelocityField<L> for AccelerationFie
 impl<L: System<Scalar: Real, M = Const<0>>> SystemChecks<L> for AccelerationField {
     const HAS_CONTACTS: bool = false;
     const HAS_FRICTION: bool = false;
+    const COORDINATES: &'static [&'static str] = &[];
+    const CONSTRAINTS: &'static [&'static str] = &[];
+    const DIGEST: u32 = 0;
+    const SUPPLIED: &'static [&'static str] = &[];
 
     fn name() -> &'static str {
         let mut path = core::any::type_name::<L>();
@@ -105,11 +109,9 @@ impl<L: System<Scalar: Real, M = Const<0>>> SystemChecks<L> for AccelerationFiel
         Ok((state.clone(), Adjustment::none(system.length())))
     }
 
+    fn visit_numbers(_: &L, _: &mut dyn FnMut(f64)) {}
+
     fn momenta(_: &L, state: &StateOf<L>) -> VectorOf<L::Scalar, L::Length> {
         state.v.clone()
-    }
-
-    fn row(coordinate: usize) -> Row {
-        Row::Numbered(coordinate)
     }
 }

@@ -1,11 +1,11 @@
-//! What a motion asks of its system besides the rates.
+//! Properties of a system that a motion needs besides the rates.
 
 use super::consistent::{Consistent, check, project_to_round_off};
 use super::solve::solve;
-use super::vector_field::LagrangianVectorField;
+use super::vector_field::{LagrangianVectorField, VectorField};
 use crate::error::Error;
 use crate::names::{Row, name};
-use crate::number::Real;
+use crate::number::{Real, Scalar};
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, StateOf, System};
 use crate::vector::{Length, Numbers, Vector, VectorOf};
@@ -16,6 +16,14 @@ pub trait SystemChecks<L: System<Scalar: Real>> {
     const HAS_CONTACTS: bool;
     /// True if the force of friction is a multiple of a multiplier.
     const HAS_FRICTION: bool;
+    /// Names of the coordinates; empty if they are numbered.
+    const COORDINATES: &'static [&'static str];
+    /// Names of the constraints.
+    const CONSTRAINTS: &'static [&'static str];
+    /// Hash of the equations; 0 if they are written by hand.
+    const DIGEST: u32;
+    /// Names of the functions that the user supplies.
+    const SUPPLIED: &'static [&'static str];
 
     /// Returns the name of the system.
     fn name() -> &'static str;
@@ -45,17 +53,29 @@ pub trait SystemChecks<L: System<Scalar: Real>> {
     /// [`Error::NotProjected`].
     fn adjust(system: &L, state: &StateOf<L>) -> Result<Consistent<L::Scalar, L::Length>, Error>;
 
+    /// Calls `visit` with each number of the system that its equations name, and the index of each constraint that is switched off.
+    fn visit_numbers(system: &L, visit: &mut dyn FnMut(f64));
+
     /// Returns the momenta; of a system that is stated by its accelerations, the velocities.
     fn momenta(system: &L, state: &StateOf<L>) -> VectorOf<L::Scalar, L::Length>;
 
     /// Returns the equation of a coordinate.
-    fn row(coordinate: usize) -> Row;
+    fn row(coordinate: usize) -> Row {
+        match Self::COORDINATES.is_empty() {
+            true => Row::Numbered(coordinate),
+            false => Row::Coordinate(name(Self::COORDINATES, coordinate)),
+        }
+    }
 }
 
 /// Checks by the constraints, the parameters and the names of a Lagrangian system.
 impl<L: Lagrangian<Scalar: Real>> SystemChecks<L> for LagrangianVectorField {
     const HAS_CONTACTS: bool = L::HAS_CONTACTS;
     const HAS_FRICTION: bool = L::HAS_FRICTION;
+    const COORDINATES: &'static [&'static str] = L::COORDINATES;
+    const CONSTRAINTS: &'static [&'static str] = L::CONSTRAINTS;
+    const DIGEST: u32 = L::DIGEST;
+    const SUPPLIED: &'static [&'static str] = L::SUPPLIED;
 
     fn name() -> &'static str {
         L::NAME
@@ -78,12 +98,16 @@ impl<L: Lagrangian<Scalar: Real>> SystemChecks<L> for LagrangianVectorField {
         project_to_round_off(system, state)
     }
 
-    fn momenta(system: &L, state: &StateOf<L>) -> Vector<L::Scalar, L::N> {
-        system.momentum(state)
+    fn visit_numbers(system: &L, visit: &mut dyn FnMut(f64)) {
+        system.visit_parameters(&mut |_, x| visit(x.to_f64()));
+        // Open contacts are constraints that are switched off, too.
+        let off = |c: &L::Scalar| *c != L::Scalar::constant(0.0);
+        let compliance = system.compliance();
+        compliance.iter().enumerate().filter(|(_, c)| off(c)).for_each(|(a, _)| visit(a as f64));
     }
 
-    fn row(coordinate: usize) -> Row {
-        Row::Coordinate(name(L::COORDINATES, coordinate))
+    fn momenta(system: &L, state: &StateOf<L>) -> Vector<L::Scalar, L::N> {
+        system.momentum(state)
     }
 }
 
@@ -95,3 +119,6 @@ pub(crate) fn check_length<L: System>(system: &L, state: &StateOf<L>) -> Result<
         Some(half) => Err(Error::StateLength { found: half.len(), expected }),
     }
 }
+
+/// Checks of a system by its own equations of motion.
+pub(crate) type ChecksOf<L> = <<L as System>::Field as VectorField<L>>::Checks;

@@ -9,8 +9,9 @@ use crate::vector::{Length, StaticLength, ViewOf};
 /// program runs, or whose accelerations are computed by functions of its own. Such a system is integrated by `Dop853`, `Dopri5` and other
 /// [pairs](crate::motion::Pair), by `RungeKutta4`, and, if it has the marker
 /// [`VelocityFreeForces`](crate::structure::VelocityFreeForces), by `Verlet` and its compositions, with events, samples, quantities,
-/// controllers and progress. It has no energy and no names. Constraints are the business of its accelerations. Steps allocate nothing;
-/// dense output of a run-time length allocates once for each step in which it is evaluated.
+/// controllers and progress. [Ensembles](crate::Ensemble) of it are integrated one by one; their members may have different numbers of
+/// coordinates. It has no energy and no names. Constraints are the business of its accelerations. Steps allocate nothing; dense output of
+/// a run-time length allocates once for each step in which it is evaluated.
 ///
 /// ```
 /// use lagrange_core::motion::AccelerationField;
