@@ -79,7 +79,8 @@ fn main() -> Result<()> {
     let period = PI / (PI / (2 * (n + 1)) as f64).sin();
     let end = 170.0 * period;
     let method = Verlet::with_step(0.2).composed(Composition::KahanLi8).max_steps(10_000_000);
-    let samples = chain.motion(start.clone()).by(method).every(end / 800.0).to(end)?.samples;
+    let path = chain.motion(start.clone()).by(method).every(end / 800.0).to(end)?;
+    let samples = path.samples();
 
     let energy = chain.energy(&start);
     let drift = samples.iter().map(|state| (chain.energy(state) / energy - 1.0).abs()).fold(0.0, f64::max);

@@ -118,21 +118,21 @@ fn terminal_events_end_motions_before_the_impact() {
 fn samples_are_taken_across_impacts() {
     let method = Taylor::with_tolerance(1e-15);
     let arrived = BALL.motion(start()).by(method).every(0.01).with_contacts().to(3.0).unwrap();
-    assert_eq!(arrived.samples.len(), 301);
-    for state in &arrived.samples {
+    assert_eq!(arrived.samples().len(), 301);
+    for state in arrived.samples() {
         let [y, v] = bouncing(state.t);
         assert!((state.q[1] - y).abs() < 1e-12 && (state.v[1] - v).abs() < 1e-11, "{state:?} {y} {v}");
         assert!((state.q[0] - 0.5 * state.t).abs() < 1e-14);
     }
     // At the impacts themselves, and at the end.
-    let times: Vec<f64> = impacts(&arrived.transitions).into_iter().chain([3.0]).collect();
+    let times: Vec<f64> = impacts(arrived.transitions()).into_iter().chain([3.0]).collect();
     let motion = BALL.motion(start()).by(method).with_contacts().samples_at(times.clone());
     let motion = motion.quantity("velocity", |sample| sample.velocity("y"));
     let again = motion.to(3.0).unwrap();
-    assert_eq!(again.transitions, arrived.transitions);
-    let samples = &again.samples;
+    assert_eq!(again.transitions(), arrived.transitions());
+    let samples = again.samples();
     assert!(samples.iter().map(|sample| sample.t).eq(times.iter().copied()));
-    assert!(samples.iter().map(|sample| sample.v[1]).eq(again.values.iter().copied()));
+    assert!(samples.iter().map(|sample| sample.v[1]).eq(again.values().iter().copied()));
     for (n, sample) in samples[..samples.len() - 1].iter().enumerate() {
         let up = 9.81 * fall() * 0.8_f64.powi(n as i32 + 1);
         assert!((sample.v[1] - up).abs() < 1e-12, "{n}: {}", sample.v[1] - up);
@@ -146,7 +146,7 @@ fn samples_are_taken_across_impacts() {
             (sample.q[1], sample.v[1])
         );
     }
-    assert_eq!(path.end().state(), &again.state);
+    assert_eq!(path.end().state(), again.end().state());
 }
 
 /// Between calls, a block is lifted with 12 m from t = 0.3 to 0.6; its weight is 10 m.
@@ -167,7 +167,7 @@ fn a_controller_lifts_a_block_off_its_floor() {
         let motion = motion.every(0.1).quantity("thrust", |sample| sample.system().thrust);
         let arrived = motion.quantity("force", |sample| sample.multiplier("floor")).to(1.0).unwrap();
         let lands = 0.6 + (0.6 + (0.36_f64 + 1.8).sqrt()) / 10.0;
-        let transitions = &arrived.transitions[..];
+        let transitions = arrived.transitions();
         let [
             Transition::Closes { time: 0.0, .. },
             Transition::Opens { time, .. },
@@ -182,12 +182,12 @@ fn a_controller_lifts_a_block_off_its_floor() {
         assert_eq!(calls.get(), 10);
         assert_eq!(*closed.borrow(), [true, true, true, true, false, false, false, false, false, true]);
         // Samples are taken before the call at their time.
-        let thrusts = arrived.values.chunks(2).map(|values| values[0]);
+        let thrusts = arrived.values().chunks(2).map(|values| values[0]);
         assert!(thrusts.eq((0..=10).map(|k| if (4..7).contains(&k) { 12.0 } else { 0.0 })));
-        let forces: Vec<f64> = arrived.values.chunks(2).map(|values| values[1]).collect();
+        let forces: Vec<f64> = arrived.values().chunks(2).map(|values| values[1]).collect();
         assert!((forces[2] - 10.0).abs() < 1e-12 && forces[5] == 0.0 && (forces[10] - 10.0).abs() < 1e-12);
-        assert!((arrived.samples[6].q[1] - 0.09).abs() < 1e-13);
-        assert_eq!(arrived.state.q[1], 0.0);
+        assert!((arrived.samples()[6].q[1] - 0.09).abs() < 1e-13);
+        assert_eq!(arrived.end().state().q[1], 0.0);
     }
 }
 
@@ -198,8 +198,8 @@ fn a_controller_that_fails_or_moves_the_floor_ends_the_motion() {
         .with_contacts()
         .controlled(0.1, |_, state| if state.t < 1.0 { Ok(()) } else { Err("enough") });
     let failed = motion.towards(3.0).unwrap();
-    assert!(matches!(failed.ending, Ending::ControllerFailed { time, .. } if (time - 1.0).abs() < 1e-15));
-    assert_eq!(impacts(&failed.transitions).len(), 1);
+    assert!(matches!(failed.ending(), Ending::ControllerFailed { time, .. } if (time - 1.0).abs() < 1e-15));
+    assert_eq!(impacts(failed.transitions()).len(), 1);
 }
 
 #[test]
@@ -235,7 +235,7 @@ fn crossings_at_calls_of_the_controller_are_told_once() {
         let method = Taylor::with_tolerance(1e-15);
         let motion = BALL.motion(start()).by(method).with_contacts().events(posts);
         let arrived = motion.controlled(0.1, |_, _| Ok::<(), &str>(())).to(2.0).unwrap();
-        let crossings = arrived.crossings;
+        let crossings = arrived.crossings();
         assert!(crossings.iter().map(|crossing| crossing.index).eq(0..19), "{crossings:?}");
         assert!(crossings.iter().all(|crossing| crossing.rising && crossing.count == 1));
     }

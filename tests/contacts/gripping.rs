@@ -87,6 +87,6 @@ fn a_box_that_slips_out_of_a_hand_comes_to_rest() {
             Ok::<(), &str>(())
         });
     let arrival = motion.to(1.85).unwrap();
-    let end = arrival.state;
+    let end = *arrival.end().state();
     assert!((end.q[4] - 0.06).abs() < 1e-12 && end.q[5].abs() < 1e-12, "{end:?}");
 }

@@ -133,8 +133,8 @@ fn a_block_at_rest_that_is_steered_stays_at_rest() {
     let motion = block.motion(State::at_rest([0.0, 0.1, 0.0])).with_contacts().every(0.01);
     let arrival = motion.controlled(1e-3, |_, _| Ok::<(), &str>(())).to(0.1).unwrap();
     assert!(
-        matches!(arrival.transitions[..], [Transition::Closes { .. }, Transition::Closes { .. }]),
+        matches!(arrival.transitions()[..], [Transition::Closes { .. }, Transition::Closes { .. }]),
         "{:?}",
-        arrival.transitions
+        arrival.transitions()
     );
 }

@@ -54,8 +54,8 @@ fn members_are_those_of_single_motions_and_of_the_series() {
         let motion = ball.motion(start).by(method).with_contacts().event(lands()).every(0.5);
         let alone = motion.to(END).unwrap();
         assert_eq!(
-            (&alone.state, &alone.samples, &alone.crossings),
-            (&arrival.state, &arrival.samples, &arrival.crossings)
+            (alone.end().state(), alone.samples(), alone.crossings()),
+            (&arrival.state, &arrival.samples[..], &arrival.crossings[..])
         );
         assert_eq!(arrival.samples.len(), 6);
         for (sample, speed) in arrival.samples.iter().zip(outcome.quantity(k, "speed").unwrap()) {

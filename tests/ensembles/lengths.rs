@@ -33,11 +33,12 @@ fn members_of_different_lengths_move_as_alone() {
         let (system, start) = chain(k);
         let motion = system.motion(start).every(0.5).quantity("kinetic energy", energy);
         let alone = motion.event(first_passes(&system)).controlled(2.0, steer).to(10.0).unwrap();
-        let member = outcome.get(k).unwrap();
-        assert_eq!(member.arrival(), Some(&alone));
-        assert_eq!((member.arrival().unwrap().state.q.len(), alone.samples.len()), (1 + k, 21));
-        assert!(!alone.crossings.is_empty());
-        assert!(outcome.quantity(k, "kinetic energy").unwrap().eq(alone.values));
+        let arrival = outcome.get(k).unwrap().arrival().unwrap();
+        assert_eq!((&arrival.state, &arrival.samples[..]), (alone.end().state(), alone.samples()));
+        assert_eq!((&arrival.crossings[..], &arrival.statistics), (alone.crossings(), alone.statistics()));
+        assert_eq!((arrival.state.q.len(), alone.samples().len()), (1 + k, 21));
+        assert!(!alone.crossings().is_empty());
+        assert!(outcome.quantity(k, "kinetic energy").unwrap().eq(alone.quantity("kinetic energy").unwrap()));
     }
 }
 

@@ -28,8 +28,8 @@ fn memory_of_samples_does_not_grow_with_the_steps() {
         let both = || {
             spring.motion_with_derivatives(&derivatives).by(method).event(never()).every(0.1 * end).to(end)
         };
-        let alone = measure(|| assert_eq!(alone().expect("a motion").samples.len(), 11)).bytes_max;
-        [alone, measure(|| assert_eq!(both().expect("a motion").samples.len(), 11)).bytes_max]
+        let alone = measure(|| assert_eq!(alone().expect("a motion").samples().len(), 11)).bytes_max;
+        [alone, measure(|| assert_eq!(both().expect("a motion").samples().len(), 11)).bytes_max]
     };
     assert_eq!(most(100.0), most(10.0));
 }

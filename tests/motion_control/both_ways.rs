@@ -1,6 +1,6 @@
 //! Motions in momenta, on lanes and on constraints: far from zero, in both directions of time, and into a hole.
 
-use lagrange_core::{Ending, Sample, motion::Adjustment, prelude::*};
+use lagrange_core::{Ending, motion::Adjustment, nalgebra::Const, prelude::*};
 use lagrange_systems::DoublePendulum;
 
 use crate::spring_of;
@@ -53,7 +53,8 @@ fn there_and_back_again_is_the_start() {
     let back = WINCH.integrate(*there.end().state(), 0.0, method).unwrap();
     assert!(there.ending().is_complete() && back.ending().is_complete());
     let end = back.end();
-    let off = Adjustment { q: end.state().q - start.q, v: end.state().v - start.v };
+    let off: Adjustment<f64, Const<2>> =
+        Adjustment { q: end.state().q - start.q, v: end.state().v - start.v };
     assert!(off.largest_coordinate_change() < 1e-9 && off.largest_velocity_change() < 1e-9, "{off}");
     // Both ways are the same motion in between.
     for sample in there.samples(50) {

@@ -18,8 +18,8 @@ use core::ops::ControlFlow;
 use lagrange_core::linearized::TrajectorySensitivity;
 #[cfg(feature = "thorough")]
 use lagrange_core::motion::Composition::KahanLi8;
-use lagrange_core::motion::{Arrival, Progress};
-use lagrange_core::{Ending, nalgebra::Const, prelude::*};
+use lagrange_core::motion::Progress;
+use lagrange_core::{Ending, prelude::*};
 use lagrange_systems::Spring;
 
 const SPRING: Spring<f64> = Spring { m: 1.0, k: 1.0 };
@@ -139,41 +139,48 @@ macro_rules! sampled {
             };
             let asked = SPRING.$asked($start).every(every).by($method).event(zero()).on_progress(look);
             let asked = asked.quantity("x", |s| s.coordinate("x"));
-            let arrival: Arrival<f64, Const<1>> =
-                asked.quantity("twice", |s| 2.0 * s.state().q[0]).to(end).expect("a motion");
+            let path = asked.quantity("twice", |s| 2.0 * s.state().q[0]).to(end).expect("a motion");
             assert_eq!(
-                (arrival.ending.clone(), arrival.state),
-                (stored.ending().clone(), *stored.end().state())
+                (path.start().state(), path.end().state()),
+                (stored.start().state(), stored.end().state())
             );
-            assert_eq!(arrival.crossings, stored.crossings());
-            assert_eq!((arrival.samples.len(), arrival.values.len()), (41, 82));
-            assert_eq!(looks, arrival.statistics.accepted);
-            for (k, (state, values)) in arrival.samples.iter().zip(arrival.values.chunks(2)).enumerate() {
+            assert_eq!((path.ending(), path.adjustment()), (stored.ending(), stored.adjustment()));
+            assert_eq!(path.crossings(), stored.crossings());
+            assert_eq!((path.samples().len(), path.values().len()), (41, 82));
+            assert!(path.quantity("x").unwrap().eq(path.samples().iter().map(|state| state.q[0])));
+            assert_eq!(looks, path.statistics().accepted);
+            for (k, (state, values)) in path.samples().iter().zip(path.values().chunks(2)).enumerate() {
                 assert_eq!(state.t, sign * every * k as f64);
                 assert_eq!(state, stored.at(state.t).expect("within").state());
                 assert_eq!(values, [state.q[0], 2.0 * state.q[0]]);
             }
+            let table = path.csv().to_string();
+            assert_eq!(table.lines().next(), Some("t,x,x_dot,x,twice"));
+            let last = path.samples()[40];
+            let [t, q, v] = [last.t, last.q[0], last.v[0]];
+            assert_eq!(table.lines().last(), Some(&*format!("{t:?},{q:?},{v:?},{q:?},{:?}", 2.0 * q)));
             let given = SPRING.$asked($start).samples_at([1.0 * sign, 7.5 * sign]).by($method).to(end);
-            let given = given.expect("a motion").samples;
-            assert_eq!(given, [arrival.samples[4], arrival.samples[30]]);
+            let given = given.expect("a motion");
+            assert_eq!(given.samples(), [path.samples()[4], path.samples()[30]]);
+            assert!(given.quantity("x").is_err());
 
             // An event that ends the motion: samples up to there.
             let ends = SPRING.$asked($start).event(zero().terminal()).every(every).by($method).to(end);
             let ends = ends.expect("a motion");
-            assert!(matches!(ends.ending, Ending::Event { event: "zero", .. }));
-            assert_eq!((ends.samples.len(), ends.crossings[0].state), (7, ends.state));
+            assert!(matches!(ends.ending(), Ending::Event { event: "zero", .. }));
+            assert_eq!((ends.samples().len(), ends.crossings()[0].state), (7, *ends.end().state()));
 
             // Cancelled after the second step, and with too few steps.
             let cancelled =
                 SPRING.$asked($start).samples_at([]).on_progress(second_step()).by($method).to(end);
             let cancelled = cancelled.expect("a motion");
-            assert!(matches!(cancelled.ending, Ending::Cancelled { .. }));
-            assert_eq!(cancelled.statistics.accepted, 2);
+            assert!(matches!(cancelled.ending(), Ending::Cancelled { .. }));
+            assert_eq!(cancelled.statistics().accepted, 2);
             let short = || SPRING.$asked($start).by($method.max_steps(2)).every(every);
             assert!(matches!(short().to(end), Err(Error::Unfinished(_))));
             let kept = short().towards(end).expect("a motion");
-            assert!(matches!(kept.ending, Ending::StepLimit { steps: 2, .. }));
-            assert_eq!(kept.samples.len(), 1 + (kept.state.t.abs() / every) as usize);
+            assert!(matches!(kept.ending(), Ending::StepLimit { steps: 2, .. }));
+            assert_eq!(kept.samples().len(), 1 + (kept.end().state().t.abs() / every) as usize);
         }
     };
 }
@@ -205,12 +212,10 @@ fn derivatives_are_sampled_instead_of_stored() {
         for (stored, sampled, count) in ends {
             let (stored, sampled) = (stored.expect("a motion"), sampled.expect("a motion"));
             assert_eq!(sampled.end().expect("the end"), stored.end().expect("the end"));
-            assert_eq!(sampled.arrival.crossings, stored.trajectory().crossings());
-            assert_eq!(
-                (&sampled.arrival.ending, count),
-                (stored.trajectory().ending(), sampled.samples.len())
-            );
-            for (sample, state) in sampled.samples.iter().zip(&sampled.arrival.samples) {
+            let (path, other) = (sampled.trajectory(), stored.trajectory());
+            assert_eq!((path.crossings(), path.ending()), (other.crossings(), other.ending()));
+            assert_eq!((sampled.arguments(), count), (stored.arguments(), sampled.samples().len()));
+            for (sample, state) in sampled.samples().iter().zip(path.samples()) {
                 assert_eq!((sample, &sample.state), (&stored.at(state.t).expect("within"), state));
             }
         }
@@ -221,11 +226,13 @@ fn derivatives_are_sampled_instead_of_stored() {
             if steps == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let cancelled = dop853().every(0.25).on_progress(look).to(end).expect("a motion");
-        assert!(matches!(cancelled.arrival.ending, Ending::Cancelled { .. }));
+        assert!(matches!(cancelled.trajectory().ending(), Ending::Cancelled { .. }));
         assert!(matches!(short().to(end), Err(Error::Unfinished(_))));
         let kept = short().towards(end).expect("a motion");
-        assert!(matches!(kept.arrival.ending, Ending::StepLimit { steps: 2, .. }) && kept.end().is_err());
-        assert_eq!(kept.samples.len(), kept.arrival.samples.len());
+        assert!(
+            matches!(kept.trajectory().ending(), Ending::StepLimit { steps: 2, .. }) && kept.end().is_err()
+        );
+        assert_eq!(kept.samples().len(), kept.trajectory().samples().len());
     }
 }
 
@@ -242,8 +249,9 @@ macro_rules! steered {
                 if calls < 20 { Ok(()) } else { Err("tired") }
             });
             let steered = steered.quantity("k", |s| s.system().k).by($method).every(0.25);
-            let arrival = steered.towards(10.0 * sign).expect("a motion");
-            assert_eq!(arrival.ending, Ending::ControllerFailed { time: 9.5 * sign, said: "tired".into() });
+            let path = steered.towards(10.0 * sign).expect("a motion");
+            let failed = Ending::ControllerFailed { time: 9.5 * sign, said: "tired".into() };
+            assert_eq!(*path.ending(), failed);
             let mut alone = $new(soft, $start, $method).expect("a start");
             // Samples are taken before the call at their time: at the start with the parameter as given.
             let mut expected = vec![0.5];
@@ -251,11 +259,13 @@ macro_rules! steered {
                 alone.system_mut().k = 1.0 + alone.state().q[0] * alone.state().q[0];
                 expected.extend([alone.system().k; 2]);
                 alone.advance_to(sign * 0.5 * call as f64).expect("a motion");
-                assert_eq!(arrival.samples[2 * call], *alone.state());
+                assert_eq!(path.samples()[2 * call], *alone.state());
             }
-            assert_eq!((arrival.samples.len(), arrival.values), (39, expected));
-            assert_eq!((calls, arrival.state), (20, *alone.state()));
-            assert!(!arrival.crossings.is_empty());
+            assert_eq!((path.samples().len(), path.values()), (39, &expected[..]));
+            assert_eq!((calls, path.end().state()), (20, alone.state()));
+            // The end has the system as the controller leaves it.
+            assert_eq!(path.system().k, 1.0 + alone.state().q[0] * alone.state().q[0]);
+            assert!(!path.crossings().is_empty());
             assert_eq!(soft.k, 0.5);
         }
     };
@@ -306,5 +316,5 @@ fn samples_that_cannot_be_taken_are_refused() {
     let fine = SPRING.motion(State::at_rest([1.0])).every(1e-16).to(1.0).expect_err("an interval");
     assert!(matches!(fine, Error::Setting { name: "interval of the samples", .. }), "{fine}");
     // Nothing to integrate: the start alone.
-    assert_eq!(motion().to(0.0).expect("a motion").samples.len(), 1);
+    assert_eq!(motion().to(0.0).expect("a motion").samples().len(), 1);
 }

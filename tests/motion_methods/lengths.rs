@@ -120,9 +120,9 @@ fn a_motion_is_asked_for_the_same_things() {
         if progress.time < 20.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     let arrival = arrival.towards(30.0).unwrap();
-    assert!(matches!(arrival.ending, Ending::Cancelled { .. }) && steps > 10);
-    assert_eq!(arrival.samples.len(), arrival.values.len());
-    assert!((arrival.samples[8].q[0] - path.at(4.0).unwrap().state().q[0]).abs() < 1e-7);
+    assert!(matches!(arrival.ending(), Ending::Cancelled { .. }) && steps > 10);
+    assert_eq!(arrival.samples().len(), arrival.values().len());
+    assert!((arrival.samples()[8].q[0] - path.at(4.0).unwrap().state().q[0]).abs() < 1e-7);
 
     let stiffened = chain.motion(Chain::start(5)).by(method).every(1.0);
     let stiffened = stiffened.controlled(0.25, |chain, state| {
@@ -136,10 +136,10 @@ fn a_motion_is_asked_for_the_same_things() {
         Ok::<(), &str>(())
     });
     let by_constant = by_constant.to(10.0).unwrap();
-    for (one, other) in stiffened.samples.iter().zip(&by_constant.samples) {
+    for (one, other) in stiffened.samples().iter().zip(by_constant.samples()) {
         assert_eq!(one.q.as_slice(), other.q.as_slice());
     }
-    assert!(stiffened.samples[9].q[0] != path.at(9.0).unwrap().state().q[0]);
+    assert!(stiffened.samples()[9].q[0] != path.at(9.0).unwrap().state().q[0]);
 }
 
 /// A motion that its caller advances: states within a step, parameters and states set on the way, crossings.
@@ -232,8 +232,8 @@ fn a_controller_cannot_change_the_length() {
         Ok::<(), &str>(())
     });
     let arrival = arrival.towards(3.0).unwrap();
-    assert!(arrival.ending.to_string().contains("and the system 7"), "{}", arrival.ending);
-    assert_eq!(arrival.state.t, 1.25);
+    assert!(arrival.ending().to_string().contains("and the system 7"), "{}", arrival.ending());
+    assert_eq!(arrival.end().state().t, 1.25);
 }
 
 /// Two masses on springs, of whose accelerations one is not written, or added to what was there.

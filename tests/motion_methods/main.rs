@@ -5,5 +5,6 @@ mod combinations;
 mod heun;
 mod lengths;
 mod midpoint;
+mod one_line;
 mod radau;
 mod wrong;

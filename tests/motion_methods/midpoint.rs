@@ -85,16 +85,16 @@ fn it_has_events_samples_progress_and_a_controller() {
         ControlFlow::Continue(())
     });
     let arrival = asked.to(END).expect("a motion");
-    assert!(matches!(arrival.ending, Ending::Event { event: "side", .. }) && steps > 10);
-    assert!(arrival.state.q[0].abs() < 1e-12);
-    for state in &arrival.samples {
+    assert!(matches!(arrival.ending(), Ending::Event { event: "side", .. }) && steps > 10);
+    assert!(arrival.end().state().q[0].abs() < 1e-12);
+    for state in arrival.samples() {
         assert_near(state, &exact(2.0, state.t), 1e-3);
     }
     let steered = BEAD.motion(start()).by(midpoint()).controlled(0.5, |bead, _| {
         bead.k = 3.0;
         Ok::<_, Error>(())
     });
-    assert_near(&steered.to(END).expect("a motion").state, &exact(3.0, END), 1e-3);
+    assert_near(steered.to(END).expect("a motion").end().state(), &exact(3.0, END), 1e-3);
 }
 
 #[cfg(feature = "thorough")]

@@ -75,7 +75,6 @@ impl<L: Contacts<Scalar: Real> + Clone> Job<'_, L> {
         let (plan, steering) = (&self.member_plan.samples, self.member_plan.steering(index));
         let accept = |state: &StateOf<L>, _| unless_broken(self.observe(index, state), state.t.to_f64());
         let along = (plan, self.member_plan.fresh_events(), steering);
-        let arrived = arrive((system, *start), (self.end, None), method, along, Box::new(accept))?;
-        Ok(Arrival { transitions: Vec::new(), ..arrived })
+        arrive((system, *start), self.end, method, along, Box::new(accept))
     }
 }

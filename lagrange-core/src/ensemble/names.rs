@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::error::{EnsembleError, Error};
+use crate::motion::whole::record::quantity;
 use crate::names::Entry;
 
 /// Names of the numbers of a sample, shared by all members of a run.
@@ -35,11 +36,7 @@ impl ColumnNames {
         &self,
         name: &str,
         values: &'v [T],
-    ) -> Result<impl Iterator<Item = T> + 'v, Error> {
-        let place = self.quantities.iter().position(|known| known == name).ok_or_else(|| {
-            let hint = self.quantities.is_empty().then(|| "ask for it by `Ensemble::quantity`".into());
-            Error::UnknownName { name: name.into(), kind: "quantity", hint, known: self.quantities.clone() }
-        })?;
-        Ok(values.iter().skip(place).step_by(self.quantities.len()).copied())
+    ) -> Result<impl Iterator<Item = T> + use<'v, T>, Error> {
+        quantity(name, &self.quantities, values, "ask for it by `Ensemble::quantity`")
     }
 }

@@ -73,10 +73,9 @@ pub use steered::Motion;
 #[cfg(feature = "alloc")]
 pub use {
     taylor::{Taylor, TaylorPolynomial},
-    whole::builder::{AllSteps, EventList, MotionBuilder, Start},
+    whole::builder::{AllSteps, EventList, HasEnding, Integrates, MotionBuilder, Start},
     whole::progress::Progress,
-    whole::record::Arrival,
-    whole::sampled::{Kept, SamplesAlone},
+    whole::sampled::{Controls, Kept, SamplesAlone, Steered},
 };
 
 pub use crate::number::Parts;

@@ -4,7 +4,7 @@ use alloc::string::{String, ToString};
 use alloc::{format, vec::Vec};
 use core::fmt::{self, Debug, Display, Formatter};
 
-use super::records::Records;
+use super::records::{Records, write_row};
 use super::stored::Trajectory;
 use crate::names::Entry;
 use crate::number::{Real, Scalar};
@@ -126,12 +126,7 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Display for Csv<'_, S, F> {
         for sample in self.motion.borrowed_samples(self.count) {
             cells.clear();
             self.cells(&sample, &mut cells);
-            for (k, cell) in cells.iter().enumerate() {
-                // `Debug` prints the shortest form that reads back the same, with an exponent if that is
-                // shorter.
-                write!(f, "{}{cell:?}", if k == 0 { "" } else { "," })?;
-            }
-            writeln!(f)?;
+            write_row(&cells, f)?;
         }
         Ok(())
     }

@@ -91,12 +91,12 @@ impl<L: System + Clone, F> Leg<&L, F> {
 impl<S: System<Scalar: Real> + Clone, F: VectorField<S>> Leg<S, F> {
     /// Returns its first state.
     pub fn start(&self) -> Sample<S> {
-        self.sample((*self.path.start).clone()).into_owned()
+        self.first_sample().into_owned()
     }
 
     /// Returns its last state, which is that before the next transition.
     pub fn end(&self) -> Sample<S> {
-        self.sample((*self.path.last).clone()).into_owned()
+        self.last_sample().into_owned()
     }
 
     /// Returns the sample at this time.
@@ -121,6 +121,14 @@ impl<S: System<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
         Sample::of(closed, state).with(of_step.or_else(|| Some(Solution::unknown())))
     }
 
+    pub(super) fn first_sample(&self) -> Sample<&S> {
+        self.sample((*self.path.start).clone())
+    }
+
+    pub(super) fn last_sample(&self) -> Sample<&S> {
+        self.sample((*self.path.last).clone())
+    }
+
     pub(crate) fn samples_of_steps(&self) -> impl Iterator<Item = Sample<&S>> + '_ {
         let starts = (0..self.path.len()).filter_map(|i| self.path.start_of(i));
         let states =
@@ -138,7 +146,7 @@ impl<S: System<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
     /// it is projected, unless it is between time steps, which violate them themselves.
     pub(super) fn sample_at(&self, t: S::Scalar) -> Result<Sample<&S>, Error> {
         if t == self.path.last.t {
-            return Ok(self.sample((*self.path.last).clone()));
+            return Ok(self.last_sample());
         }
         let Some(point) = self.path.at(t) else {
             return Err(outside(t, [self.path.start.t, self.path.last.t]));

@@ -1,8 +1,10 @@
-//! Trajectories stored in memory.
+//! Trajectories: the result of a motion.
 
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Display, Formatter};
+use core::marker::PhantomData;
 
+use super::kept::{KeptStates, Legs};
 use super::leg::{Leg, outside};
 use super::transition::{Transition, write_counts};
 use crate::error::{Ending, Error};
@@ -50,10 +52,11 @@ use crate::system::{State, System};
 /// The call that integrates borrows the system `S`: `Trajectory<&Pendulum>`.
 /// [`into_owned`](Self::into_owned) returns a trajectory with its own copy of the system,
 /// `Trajectory<Pendulum>`; across contacts it has copies from the start. The vector field `F` tells which equations were integrated,
-/// Lagrange's or Hamilton's; samples have both velocities and momenta.
-pub struct Trajectory<S: System, F = <S as System>::Field> {
-    /// At least one. Transitions at the end of the motion are followed by a leg without steps.
-    pub(crate) legs: Vec<Leg<S, F>>,
+/// Lagrange's or Hamilton's; samples have both velocities and momenta. `K` tells what is kept: all steps, or after
+/// [`every`](crate::MotionBuilder::every) and [`samples_at`](crate::MotionBuilder::samples_at) samples alone, a
+/// [`SampledTrajectory`](super::SampledTrajectory). Its ends, crossings, transitions, ending and statistics are found in the same way.
+pub struct Trajectory<S: System, F = <S as System>::Field, K = Legs<S, F>> {
+    pub(crate) kept: K,
     pub(crate) transitions: Vec<Transition<S::Scalar>>,
     /// Contacts that are closed at the end.
     pub(crate) closed: Vec<&'static str>,
@@ -61,6 +64,7 @@ pub struct Trajectory<S: System, F = <S as System>::Field> {
     pub(crate) ending: Ending,
     pub(crate) statistics: Statistics,
     pub(crate) adjustment: Adjustment<S::Scalar, S::Length>,
+    pub(crate) field: PhantomData<F>,
 }
 
 impl<L: System + Clone, F> Trajectory<&L, F> {
@@ -84,23 +88,31 @@ impl<L: System + Clone, F> Trajectory<&L, F> {
     /// ```
     /// For a system in an `Arc` or an `Rc`, only the pointer is copied.
     pub fn into_owned(self) -> Trajectory<L, F> {
-        let Self { legs, transitions, closed, crossings, ending, statistics, adjustment } = self;
-        let legs = legs.into_iter().map(Leg::into_owned).collect();
-        Trajectory { legs, transitions, closed, crossings, ending, statistics, adjustment }
+        self.map(|Legs(legs)| Legs(legs.into_iter().map(Leg::into_owned).collect()))
     }
 }
 
-impl<S: System, F> Trajectory<S, F> {
-    /// A motion of one leg.
+impl<S: System, F, K> Trajectory<S, F, K> {
+    /// A motion without transitions.
     pub(crate) fn of(
-        leg: Leg<S, F>,
+        kept: K,
         crossings: Vec<Crossing<S::Scalar, S::Length>>,
         ending: Ending,
         statistics: Statistics,
         adjustment: Adjustment<S::Scalar, S::Length>,
     ) -> Self {
-        let (legs, transitions, closed) = (Vec::from([leg]), Vec::new(), Vec::new());
-        Self { legs, transitions, closed, crossings, ending, statistics, adjustment }
+        let (transitions, closed, field) = (Vec::new(), Vec::new(), PhantomData);
+        Self { kept, transitions, closed, crossings, ending, statistics, adjustment, field }
+    }
+
+    /// The same trajectory, with what it keeps changed, of a system of the same kind.
+    pub(super) fn map<O, J>(self, change: impl FnOnce(K) -> J) -> Trajectory<O, F, J>
+    where
+        O: System<Scalar = S::Scalar, Length = S::Length>,
+    {
+        let Self { kept, transitions, closed, crossings, ending, statistics, adjustment, field } = self;
+        let kept = change(kept);
+        Trajectory { kept, transitions, closed, crossings, ending, statistics, adjustment, field }
     }
 
     /// Returns the trajectory, unless a failure kept it from its end. Terminal events and cancelled runs count
@@ -119,39 +131,10 @@ impl<S: System, F> Trajectory<S, F> {
         if is_failure { Err(self.ending.clone().into()) } else { Ok(()) }
     }
 
-    pub(crate) fn first_leg(&self) -> &Leg<S, F> {
-        &self.legs[0]
-    }
-
-    fn last_leg(&self) -> &Leg<S, F> {
-        &self.legs[self.legs.len() - 1]
-    }
-
-    /// Times of start and end.
-    pub(super) fn times(&self) -> [S::Scalar; 2] {
-        [self.first_leg().first().t, self.last_leg().last().t]
-    }
-
-    /// Returns the system, with its contacts as they are at the end.
-    pub fn system(&self) -> &S {
-        self.last_leg().system()
-    }
-
-    /// Returns the legs between the transitions, one at least. A transition at the end of the motion is followed by a leg without steps.
-    pub fn legs(&self) -> &[Leg<S, F>] {
-        &self.legs
-    }
-
     /// Returns the transitions in the order in which they are decided. This is the order of time, except that the time of a
     /// [`Transition::Rests`] is when its last bounces end. At one time, impacts come before contacts that close and open.
     pub fn transitions(&self) -> &[Transition<S::Scalar>] {
         &self.transitions
-    }
-
-    /// The transitions before each leg, after the one before it.
-    pub(crate) fn transitions_before_legs(&self) -> impl Iterator<Item = &[Transition<S::Scalar>]> {
-        let starts = core::iter::once(0).chain(self.legs.iter().map(|leg| leg.transitions));
-        starts.zip(&self.legs).map(|(from, leg)| &self.transitions[from..leg.transitions])
     }
 
     /// Returns the reason why the trajectory ends: end time, terminal event, cancelled, or a failure, which
@@ -184,6 +167,51 @@ impl<S: System, F> Trajectory<S, F> {
     }
 }
 
+impl<S: System<Scalar: Real>, F: VectorField<S>, K: KeptStates<S>> Trajectory<S, F, K> {
+    /// Returns the system, with its contacts as they are at the end.
+    pub fn system(&self) -> &S {
+        self.kept.system()
+    }
+
+    /// Returns the first state, made consistent; across contacts, that after what happens at the start.
+    pub fn start(&self) -> Sample<S>
+    where
+        S: Clone,
+    {
+        self.kept.first().into_owned()
+    }
+
+    /// Returns the last state.
+    pub fn end(&self) -> Sample<S>
+    where
+        S: Clone,
+    {
+        self.kept.last().into_owned()
+    }
+}
+
+impl<S: System, F> Trajectory<S, F> {
+    pub(crate) fn first_leg(&self) -> &Leg<S, F> {
+        self.kept.leg_at_start()
+    }
+
+    /// Times of start and end.
+    pub(super) fn times(&self) -> [S::Scalar; 2] {
+        [self.first_leg().first().t, self.kept.leg_at_end().last().t]
+    }
+
+    /// Returns the legs between the transitions, one at least. A transition at the end of the motion is followed by a leg without steps.
+    pub fn legs(&self) -> &[Leg<S, F>] {
+        &self.kept.0
+    }
+
+    /// The transitions before each leg, after the one before it.
+    pub(crate) fn transitions_before_legs(&self) -> impl Iterator<Item = &[Transition<S::Scalar>]> {
+        let starts = core::iter::once(0).chain(self.legs().iter().map(|leg| leg.transitions));
+        starts.zip(self.legs()).map(|(from, leg)| &self.transitions[from..leg.transitions])
+    }
+}
+
 impl<S: System<Scalar: Real> + Clone, F: VectorField<S>> Trajectory<S, F> {
     /// Returns the sample at this time, with the system as it is then; at a transition, that after it.
     ///
@@ -194,20 +222,10 @@ impl<S: System<Scalar: Real> + Clone, F: VectorField<S>> Trajectory<S, F> {
         self.leg_at(t).at(t).map_err(|error| self.outside(error, t))
     }
 
-    /// Returns the first state, made consistent; across contacts, that after what happens at the start.
-    pub fn start(&self) -> Sample<S> {
-        self.first_leg().start()
-    }
-
-    /// Returns the last state.
-    pub fn end(&self) -> Sample<S> {
-        self.last_leg().end()
-    }
-
     /// Returns the states that the method computed, first and last included; at a transition, the state before it and the
     /// state after it.
     pub fn steps(&self) -> impl Iterator<Item = Sample<S>> + '_ {
-        self.legs.iter().flat_map(Leg::steps)
+        self.legs().iter().flat_map(Leg::steps)
     }
 
     /// Returns `count` states at evenly spaced times, first and last included. If [`at`](Self::at) fails,
@@ -240,7 +258,7 @@ impl<S: System<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
             true => leg.first().t >= t,
             false => leg.first().t <= t,
         };
-        &self.legs[self.legs.partition_point(has_begun).saturating_sub(1)]
+        &self.legs()[self.legs().partition_point(has_begun).saturating_sub(1)]
     }
 
     /// Replaces the times of a leg in an error by those of the motion.
@@ -251,12 +269,12 @@ impl<S: System<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
 
 /// A summary: first and last time, numbers of steps, evaluations and crossings, across contacts the transitions by their kind and the
 /// contacts that are closed at the end, and the ending.
-impl<S: System<Scalar: Real>, F: VectorField<S>> Display for Trajectory<S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>, K: KeptStates<S>> Display for Trajectory<S, F, K> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Statistics { accepted, rejected, evaluations, .. } = self.statistics;
-        let [start, end] = self.times();
+        let [start, end] = [self.kept.first().time(), self.kept.last().time()];
         write!(f, "{} from t = {start} to t = {end}:", F::Checks::name())?;
-        match self.first_leg().is_in_time_steps() {
+        match self.kept.is_in_time_steps() {
             true => write!(f, " {accepted} time steps, {evaluations} evaluations")?,
             false => write!(f, " {accepted} steps, {rejected} rejected, {evaluations} evaluations")?,
         }
@@ -265,7 +283,7 @@ impl<S: System<Scalar: Real>, F: VectorField<S>> Display for Trajectory<S, F> {
             1 => write!(f, ", 1 crossing")?,
             count => write!(f, ", {count} crossings")?,
         }
-        if F::Checks::HAS_CONTACTS && !self.first_leg().is_in_time_steps() {
+        if F::Checks::HAS_CONTACTS && !self.kept.is_in_time_steps() {
             writeln!(f)?;
             write_counts(&self.transitions, f)?;
         }
@@ -278,12 +296,12 @@ impl<S: System<Scalar: Real>, F: VectorField<S>> Display for Trajectory<S, F> {
     }
 }
 
-impl<S: System<Scalar: Real>, F: VectorField<S>> Debug for Trajectory<S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>, K: KeptStates<S>> Debug for Trajectory<S, F, K> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.debug_struct("Trajectory")
             .field("system", &F::Checks::name())
-            .field("start", self.first_leg().first())
-            .field("end", self.last_leg().last())
+            .field("start", self.kept.first().state())
+            .field("end", self.kept.last().state())
             .field("ending", &self.ending)
             .field("statistics", &self.statistics)
             .field("transitions", &self.transitions.len())

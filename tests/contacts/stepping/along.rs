@@ -91,15 +91,15 @@ fn samples_are_states_of_the_motion_without_samples() {
         let motion = || BALL.motion(start()).by_time_stepping(MoreauJean::with_step(h));
         let (path, sampled) = (motion().to(2.0).unwrap(), motion().every(every));
         let sampled = sampled.quantity("floor", |sample| sample.multiplier("floor")).to(2.0).unwrap();
-        assert_eq!(sampled.samples.len(), (2.0 / every + 1.0) as usize);
-        assert!(sampled.values[0].is_nan() && sampled.values.iter().any(|push| *push > 0.0));
-        for (state, push) in sampled.samples.iter().zip(&sampled.values).skip(1) {
+        assert_eq!(sampled.samples().len(), (2.0 / every + 1.0) as usize);
+        assert!(sampled.values()[0].is_nan() && sampled.values().iter().any(|push| *push > 0.0));
+        for (state, push) in sampled.samples().iter().zip(sampled.values()).skip(1) {
             let at = path.at(state.t).unwrap();
             assert_eq!((at.state(), at.multiplier("floor").unwrap()), (state, *push));
         }
-        let steps = sampled.statistics.accepted;
-        assert_eq!((&sampled.state, steps), (path.end().state(), path.steps().count() - 1));
-        for state in sampled.samples.iter().take_while(|state| state.t < fall() - h) {
+        let steps = sampled.statistics().accepted;
+        assert_eq!((sampled.end().state(), steps), (path.end().state(), path.steps().count() - 1));
+        for state in sampled.samples().iter().take_while(|state| state.t < fall() - h) {
             let off = state.q[1] - 1.0 + G / 2.0 * state.t * state.t;
             // Samples at the ends of steps are on the parabola, and the others within the height of an arc.
             let arc = if every > 4.0 * h { 1e-14 } else { G * h * h / 8.0 };
@@ -123,9 +123,9 @@ fn a_controller_pulls_when_it_is_due() {
             Ok::<_, Error>(())
         });
         let arrival = motion.to(1.0).unwrap();
-        assert_eq!((arrival.samples.len(), arrival.statistics.accepted), (11, steps));
+        assert_eq!((arrival.samples().len(), arrival.statistics().accepted), (11, steps));
         let [mut x, mut v] = [0.0, 2.0];
-        for (k, (state, motor)) in arrival.samples.iter().zip(&arrival.values).enumerate() {
+        for (k, (state, motor)) in arrival.samples().iter().zip(arrival.values()).enumerate() {
             let off = (state.q[0] - x).abs().max((state.v[0] - v).abs());
             assert!(off < 1e-13, "{h}, {k}: {state:?} {x} {v}");
             // Before the call at its time.
@@ -147,7 +147,7 @@ fn a_stepper_takes_the_steps_of_a_controlled_motion() {
     });
     let arrival = motion.to(3.0).unwrap();
     let mut stepper = CART.motion(start).by_time_stepping(scheme).stepper().unwrap();
-    for (k, state) in arrival.samples.iter().enumerate() {
+    for (k, state) in arrival.samples().iter().enumerate() {
         assert_eq!(stepper.state(), state);
         let force = motor(stepper.state());
         stepper.change(|cart| cart.motor = force);
@@ -156,7 +156,7 @@ fn a_stepper_takes_the_steps_of_a_controlled_motion() {
         }
         stepper.step_to(0.1 * (k + 1) as f64).unwrap();
     }
-    assert!((arrival.state.q[0] - 1.0).abs() < 0.3, "{arrival:?}");
+    assert!((arrival.end().state().q[0] - 1.0).abs() < 0.3, "{arrival:?}");
 }
 
 /// A pendulum on a rod, whose velocities leave the constraint in each step: a controller and samples leave them as they are.
@@ -167,8 +167,8 @@ fn a_controller_that_does_nothing_changes_nothing() {
         || pendulum.motion(State::at_rest([-0.6, -0.8])).by_time_stepping(MoreauJean::with_step(0.125));
     let path: Trajectory<_> = motion().to(4.0).unwrap();
     let idle = motion().every(0.0625).controlled(0.5, |_, _| Ok::<_, Error>(())).to(4.0).unwrap();
-    assert!(idle.samples.iter().all(|state| path.at(state.t).unwrap().state() == state));
-    assert_eq!((idle.samples.len(), &idle.state), (65, path.end().state()));
+    assert!(idle.samples().iter().all(|state| path.at(state.t).unwrap().state() == state));
+    assert_eq!((idle.samples().len(), idle.end().state()), (65, path.end().state()));
 }
 
 #[test]
@@ -193,22 +193,22 @@ fn what_cannot_be_is_an_error() {
     let fails =
         motion().every(0.1).controlled(0.25, |_, state| if state.t < 0.4 { Ok(()) } else { Err("late") });
     let fails = fails.towards(1.0).unwrap();
-    assert!(matches!(&fails.ending, Ending::ControllerFailed { time: 0.5, said } if said == "late"));
-    assert_eq!((fails.samples.len(), fails.state.t), (6, 0.5));
+    assert!(matches!(fails.ending(), Ending::ControllerFailed { time: 0.5, said } if said == "late"));
+    assert_eq!((fails.samples().len(), fails.end().state().t), (6, 0.5));
     let lifts = motion().every(0.1).controlled(0.5, |cart, state| {
         cart.rise = 0.1 * state.t;
         Ok::<_, Error>(())
     });
     let lifts = lifts.towards(1.0).unwrap();
-    let Ending::Unsolved { time: 0.5, error: Error::Penetration { contact: "floor", .. } } = lifts.ending
+    let Ending::Unsolved { time: 0.5, error: Error::Penetration { contact: "floor", .. } } = lifts.ending()
     else {
         panic!("{lifts:?}")
     };
-    assert_eq!(lifts.samples.len(), 6);
+    assert_eq!(lifts.samples().len(), 6);
     let cancelled = motion().every(0.1).on_progress(|progress| match progress.time > 0.45 {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     });
     let cancelled = cancelled.to(1.0).unwrap();
-    assert!(matches!(cancelled.ending, Ending::Cancelled { .. }) && cancelled.samples.len() == 5);
+    assert!(matches!(cancelled.ending(), Ending::Cancelled { .. }) && cancelled.samples().len() == 5);
 }

@@ -131,9 +131,9 @@ where
 
     fn sampled<P: Method<L>>(&self, method: P) -> Result<(String, State<f64, 2>), Error> {
         let motion = self.system.motion(self.start).by(method);
-        let arrival = match self.ask.clone() {
-            Ask::Samples(times) => motion.samples_at(times).towards(self.end),
-            Ask::Every(interval) => motion.every(interval).towards(self.end),
+        let path = match self.ask.clone() {
+            Ask::Samples(times) => motion.samples_at(times).towards(self.end)?.into_owned(),
+            Ask::Every(interval) => motion.every(interval).towards(self.end)?.into_owned(),
             Ask::Controlled(interval, value) => {
                 let late = self.end / 2.0;
                 let controller = move |system: &mut L, state: &State<f64, 2>| match value {
@@ -144,12 +144,12 @@ where
                     }
                     None => Err("the battery is empty"),
                 };
-                motion.every(0.1).controlled(interval, controller).towards(self.end)
+                motion.every(0.1).controlled(interval, controller).towards(self.end)?
             }
             _ => unreachable!("no samples"),
-        }?;
-        assert!(arrival.samples.iter().all(|state| state.q.iter().all(|x| x.is_finite())));
-        Ok((arrival.ending.to_string(), arrival.state))
+        };
+        assert!(path.samples().iter().all(|state| state.q.iter().all(|x| x.is_finite())));
+        Ok((path.ending().to_string(), *path.end().state()))
     }
 
     fn steered<P: Method<L>>(&self, method: P) -> Result<(String, State<f64, 2>), Error> {

@@ -8,18 +8,19 @@ use super::motion::ContactMotion;
 use super::{Contact, Contacts};
 use crate::error::Error;
 use crate::motion::run::check_end;
-use crate::motion::whole::builder::EventList;
+use crate::motion::whole::builder::{EventList, Integrates};
 use crate::motion::whole::progress::report;
 use crate::motion::whole::record::{Arrival, Record, RecordPlan, Steering};
 use crate::motion::{
-    AllSteps, DynEvent, Kept, LagrangianVectorField, Method, MotionBuilder, SamplesAlone, Start,
+    AllSteps, Controls, DynEvent, Kept, LagrangianVectorField, Method, MotionBuilder, SamplesAlone, Start,
+    Steered,
 };
 use crate::names::name;
 use crate::number::Real;
-use crate::solution::{Adjustment, Sample};
+use crate::solution::Sample;
 use crate::system::{Lagrangian, StateOf, System};
-use crate::trajectory::{Leg, Path, Trajectory};
-use crate::vector::{StaticLength, zeros};
+use crate::trajectory::{Leg, Legs, Path, SampledTrajectory, Samples, Trajectory};
+use crate::vector::StaticLength;
 
 /// Largest number of transitions unless [`max_transitions`](MotionBuilder::max_transitions) sets another.
 const TRANSITIONS: usize = 100_000;
@@ -41,9 +42,14 @@ pub struct Located {
 
 impl<'w, L: Lagrangian, K: Kept<'w, L>, C> Kept<'w, L> for AcrossContacts<K, C> {
     type Alone = AcrossContacts<K::Alone, C>;
+    type Steered = AcrossContacts<K::Steered, C>;
 
-    fn samples_alone(self, change: impl FnOnce(&mut SamplesAlone<'w, L>)) -> Self::Alone {
+    fn samples_alone(self, change: impl FnOnce(&mut RecordPlan<'w, L>)) -> Self::Alone {
         AcrossContacts { kept: self.kept.samples_alone(change), crossing: self.crossing }
+    }
+
+    fn steered(self, control: Steered<'w, L>) -> Self::Steered {
+        AcrossContacts { kept: self.kept.steered(control), crossing: self.crossing }
     }
 }
 
@@ -83,7 +89,26 @@ pub(super) type Builder<'a, 'w, L, P, E, K, C = Located> = MotionBuilder<
 
 impl<'a, 'w, L: Contacts + Clone, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
     /// Moves across the [contacts](crate::contact) of the system: gaps close and open, and velocities jump at impacts. Events,
-    /// samples, quantities, the controller and the progress callback are as without contacts, set before or after.
+    /// samples, quantities, the controller and the progress callback are as without contacts, set before or after. A sample at the
+    /// time of an impact is the state after it. The controller sees which contacts are closed; those that it sets are decided anew.
+    ///
+    /// ```
+    /// use lagrange_core::contact::Contact;
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Clone, Lagrangian)]
+    /// #[coordinates(y)]
+    /// #[lagrangian(y_dot^2/2 - g*y)]
+    /// #[contact(floor: y >= 0, restitution: e)]
+    /// struct Ball { g: f64, e: f64, floor: Contact }
+    ///
+    /// let ball = Ball { g: 9.81, e: 0.5, floor: Contact::Open };
+    /// let motion = ball.motion(State::at_rest([1.0])).with_contacts().every(0.1);
+    /// let landed = motion.quantity("landed", |sample| f64::from(sample.system().floor == Contact::Closed)).to(2.0)?;
+    /// assert_eq!((landed.samples().len(), landed.quantity("landed")?.last()), (21, Some(1.0)));
+    /// assert_eq!(landed.system().floor, Contact::Closed);
+    /// # Ok::<(), Error>(())
+    /// ```
     pub fn with_contacts(self) -> MotionBuilder<'a, 'w, L, S, P, E, AcrossContacts<K>>
     where
         S: CrossesContacts,
@@ -116,27 +141,15 @@ impl<L: Contacts<Scalar: Real> + Clone, P: Method<L>, E> Builder<'_, '_, L, P, E
     }
 }
 
-impl<'w, L, P, E> Builder<'_, 'w, L, P, E, AllSteps>
+impl<'w, L, P, E> Integrates<L::Scalar> for Builder<'_, 'w, L, P, E, AllSteps>
 where
     L: Contacts<Scalar: Real> + Clone,
     P: Method<L>,
     E: EventList<DynEvent<'w, L>>,
 {
-    /// Moves to the time `end`, or to the first [terminal](crate::Event::terminal) event.
-    ///
-    /// # Errors
-    /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
-    pub fn to(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
-        self.towards(end)?.finished()
-    }
+    type Result = Trajectory<L>;
 
-    /// Moves towards the time `end`. If the motion fails on the way, the result holds what was computed until then, and its
-    /// [`ending`](Trajectory::ending) the reason.
-    ///
-    /// # Errors
-    /// Those of [`integrate`](crate::Simulate::integrate) before the first step, and of the functions of events at the start;
-    /// [`Error::Penetration`] if a gap is negative at the start; [`Error::MotionBackwards`] if `end` lies before the start.
-    pub fn towards(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
+    fn integrate(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
         let Self { system, start, method, events, on_progress, kept } = self;
         let state = start.into_state()?;
         check_times(state.t, end)?;
@@ -146,94 +159,86 @@ where
     }
 }
 
-/// The trajectory of a motion that has ended.
-fn trajectory<L: Contacts<Scalar: Real> + Clone, P: Method<L>>(ended: Ended<L, AllLegs<L>>) -> Trajectory<L> {
-    let Ended { kept, transitions, crossings, statistics, system, state, ending } = ended;
-    let AllLegs { mut legs, adjustment } = kept;
+/// Names of the closed contacts.
+fn closed<L: Contacts>(system: &L) -> Vec<&'static str> {
     let is_open = |k: usize| system.contact(k) == Some(Contact::Open);
     let rows = L::CONTACTS.iter().enumerate().filter(|&(k, _)| !is_open(k));
-    let closed = rows.map(|(_, &row)| name(L::CONSTRAINTS, row)).collect();
+    rows.map(|(_, &row)| name(L::CONSTRAINTS, row)).collect()
+}
+
+/// The trajectory of a motion that has ended.
+fn trajectory<L: Contacts<Scalar: Real> + Clone, P: Method<L>>(ended: Ended<L, AllLegs<L>>) -> Trajectory<L> {
+    let Ended { kept, transitions, crossings, statistics, system, adjustment, state, ending, .. } = ended;
+    let closed = closed(&system);
+    let AllLegs { mut legs } = kept;
     if legs.last().is_none_or(|leg| *leg.last() != state || !leg.is_after(transitions.len())) {
         let path = Path::<_, _, Vec<P::Interpolant>>::from(state).finish();
         legs.push(Leg::new(system, path, None).after(transitions.len()));
     }
-    let adjustment = adjustment.unwrap_or(Adjustment { q: zeros(), v: zeros() });
-    Trajectory { legs, transitions, closed, crossings, ending, statistics, adjustment }
+    let path = Trajectory::of(Legs(legs), crossings, ending, statistics, adjustment);
+    Trajectory { transitions, closed, ..path }
 }
 
-impl<'w, L, P, E> Builder<'_, 'w, L, P, E, SamplesAlone<'w, L>>
+impl<'a, 'w, L, P, E, C> Integrates<L::Scalar> for Builder<'a, 'w, L, P, E, SamplesAlone<'w, L, C>>
 where
     L: Contacts<Scalar: Real> + Clone,
     P: Method<L>,
     E: EventList<DynEvent<'w, L>>,
+    C: Controls<'a, 'w, L>,
 {
-    /// Moves to the time `end`, or to the first [terminal](crate::Event::terminal) event.
-    ///
-    /// A sample at the time of an impact is the state after it. The controller sees which contacts are closed; those that it sets
-    /// are decided anew.
-    ///
-    /// ```
-    /// use lagrange_core::contact::Contact;
-    /// use lagrange_core::prelude::*;
-    ///
-    /// #[derive(Clone, Lagrangian)]
-    /// #[coordinates(y)]
-    /// #[lagrangian(y_dot^2/2 - g*y)]
-    /// #[contact(floor: y >= 0, restitution: e)]
-    /// struct Ball { g: f64, e: f64, floor: Contact }
-    ///
-    /// let ball = Ball { g: 9.81, e: 0.5, floor: Contact::Open };
-    /// let motion = ball.motion(State::at_rest([1.0])).with_contacts().every(0.1);
-    /// let landed = motion.quantity("landed", |sample| f64::from(sample.system().floor == Contact::Closed)).to(2.0)?;
-    /// assert_eq!((landed.samples.len(), landed.values.last()), (21, Some(&1.0)));
-    /// # Ok::<(), Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
-    pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error> {
-        self.towards(end)?.finished()
-    }
+    type Result = SampledTrajectory<L>;
 
-    /// Moves towards the time `end`. If the motion fails on the way, the result holds what was recorded until then, and its
-    /// ending the reason.
-    ///
-    /// # Errors
-    /// Those of a motion across contacts that keeps its steps; [`Error::SampleTime`], [`Error::OutsideTrajectory`] and
-    /// [`Error::Setting`] for samples that cannot be taken; those of the function of a quantity at the start.
-    pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error> {
+    fn integrate(self, end: L::Scalar) -> Result<SampledTrajectory<L>, Error> {
         let Self { system, start, method, events, mut on_progress, kept } = self;
         let AcrossContacts { kept, crossing: Located { transitions } } = kept;
         let state = start.into_state()?;
-        kept.check()?;
-        let SamplesAlone { plan, steered } = kept;
-        let steering = steered.map(|(steering, _)| steering);
+        let (plan, steering, _) = kept.checked()?;
         let from = state.t;
         let accept = |state: &StateOf<L>, steps| report(&mut on_progress, [from, state.t, end], steps);
         let along = (&plan, events.list(), steering);
-        arrive((system, state), (end, Some(transitions)), &method, along, Box::new(accept))
+        let limit = (end, Some(transitions));
+        let ended = sampled((system, state), limit, &method, along, Box::new(accept))?;
+        let samples = Samples::of(ended.system.clone(), [ended.start, ended.state], &plan);
+        let (closed, adjustment) = (closed(&ended.system), ended.adjustment);
+        Ok(Trajectory { closed, ..samples.trajectory(arrival(ended), adjustment) })
     }
 }
 
 /// What happens along a motion that keeps samples alone: samples, events, and the controller.
 type SampledParts<'w, L> = (&'w RecordPlan<'w, L>, Vec<Box<DynEvent<'w, L>>>, Option<Steering<'w, L>>);
 
-/// Moves across contacts to the time `end`, and keeps samples alone.
+/// Moves a member of an ensemble across contacts to the time `end`.
 pub(crate) fn arrive<'w, L: Contacts<Scalar: Real> + Clone, P: Method<L>>(
+    member: (&L, StateOf<L>),
+    end: L::Scalar,
+    method: &P,
+    along: SampledParts<'w, L>,
+    accept: Accept<'w, L>,
+) -> Result<Arrival<L::Scalar, L::N>, Error> {
+    let arrived = arrival(sampled(member, (end, None), method, along, accept)?);
+    Ok(Arrival { transitions: Vec::new(), ..arrived })
+}
+
+/// Moves across contacts to the time `end`, and keeps samples alone.
+fn sampled<'w, L: Contacts<Scalar: Real> + Clone, P: Method<L>>(
     (system, state): (&L, StateOf<L>),
     (end, transitions): (L::Scalar, Option<usize>),
     method: &P,
     (plan, events, steering): SampledParts<'w, L>,
     accept: Accept<'w, L>,
-) -> Result<Arrival<L::Scalar, L::N>, Error> {
+) -> Result<Ended<L, SampledLegs<'w, L>>, Error> {
     check_times(state.t, end)?;
     let record = Record::before_samples(plan, Vec::new(), steering, &Sample::of(system, state), end)?;
     let journey =
         Journey::new((system, method.accuracy()), state, SampledLegs { record: Some(record) }).begin(end)?;
-    let ended = journey.accepting(accept).run(method, events, transitions.unwrap_or(TRANSITIONS))?;
+    journey.accepting(accept).run(method, events, transitions.unwrap_or(TRANSITIONS))
+}
+
+/// What was recorded of a motion that has ended.
+fn arrival<L: Contacts<Scalar: Real>>(ended: Ended<L, SampledLegs<'_, L>>) -> Arrival<L::Scalar, L::N> {
     let Ended { kept, transitions, crossings, statistics, state, ending, .. } = ended;
     let (samples, values) = kept.record.map(Record::into_samples).unwrap_or_default();
-    Ok(Arrival { state, ending, statistics, samples, values, crossings, transitions })
+    Arrival { state, ending, statistics, samples, values, crossings, transitions }
 }
 
 /// Checks the times of a motion, which runs forwards.

@@ -17,6 +17,7 @@ use crate::motion::run::{Run, Watchdog};
 use crate::motion::whole::progress::{OnProgress, report};
 use crate::motion::{DynEvent, Method};
 use crate::number::Real;
+use crate::solution::Adjustment;
 use crate::solution::crossing::Crossing;
 use crate::solution::reason::parameter_not_finite;
 use crate::statistics::Statistics;
@@ -34,6 +35,8 @@ pub(super) struct Journey<'w, L: Lagrangian, K> {
     pub(super) crossings: Vec<Crossing<L::Scalar, L::N>>,
     pub(super) statistics: Statistics,
     accept: Accept<'w, L>,
+    /// First state of the first leg, and what moved it onto the constraints.
+    first: Option<(StateOf<L>, Adjustment<L::Scalar, L::N>)>,
     /// State, contacts and number of transitions at the end of the last leg.
     arrived: Option<(StateOf<L>, LegStates, usize)>,
 }
@@ -45,6 +48,9 @@ pub(super) struct Ended<L: Lagrangian, K> {
     pub(super) crossings: Vec<Crossing<L::Scalar, L::N>>,
     pub(super) statistics: Statistics,
     pub(super) system: L,
+    pub(super) start: StateOf<L>,
+    /// What moved the start onto the constraints.
+    pub(super) adjustment: Adjustment<L::Scalar, L::N>,
     pub(super) state: StateOf<L>,
     pub(super) ending: Ending,
 }
@@ -65,8 +71,20 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let closed = LegStates::closed::<L>(|k| system.contact(k) != Some(Contact::Open));
         let decided = Decided { states: LegStates { frictions: Vec::new(), ..closed }, bounce: None };
         let (transitions, crossings, statistics) = (Vec::new(), Vec::new(), Statistics::default());
-        let (accept, arrived) = (Box::new(|_: &_, _| Ok(())), None);
-        Self { bodies, decided, state, times, kept, transitions, crossings, statistics, accept, arrived }
+        let (accept, first, arrived) = (Box::new(|_: &_, _| Ok(())), None, None);
+        Self {
+            bodies,
+            decided,
+            state,
+            times,
+            kept,
+            transitions,
+            crossings,
+            statistics,
+            accept,
+            first,
+            arrived,
+        }
     }
 
     /// Continues from another state, where nothing is known yet of contacts and friction.
@@ -169,8 +187,9 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let system = self.system();
         let noted = if ending.is_failure() { Ok(()) } else { self.kept.arrives(&system, &self.state) };
         let ending = noted.err().map_or(ending, |error| Ending::of(error, self.state.t.to_f64()));
-        let Self { state, kept, transitions, crossings, statistics, .. } = self;
-        Ended { kept, transitions, crossings, statistics, system, state, ending }
+        let Self { state, kept, transitions, crossings, statistics, first, .. } = self;
+        let (start, adjustment) = first.unwrap_or((state, Adjustment::none(system.length())));
+        Ended { kept, transitions, crossings, statistics, system, start, adjustment, state, ending }
     }
 
     /// Takes note of the state after a transition, and calls the controller if it is due: what it sets may close and open
@@ -212,6 +231,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let closed = bodies.closed.clone();
         let (mut run, adjustment) = Run::begin(&system, &self.state, method).map_err(undecided)?;
         run.statistics = run.statistics.after(&self.statistics);
+        self.first.get_or_insert((run.state, adjustment));
         // The projection may move gaps of open contacts. Conditions are watched from where it leads.
         let state = &{ run.state };
         let sizes = bodies.sizes(state);
@@ -238,17 +258,8 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         };
         let (system, events) = (&system, &mut events[..]);
         let transitions = self.transitions.len();
-        let driven = self.kept.drive(StartedLeg {
-            system,
-            run,
-            adjustment,
-            events,
-            goal,
-            transitions,
-            method,
-            limits,
-            watch,
-        });
+        let driven =
+            self.kept.drive(StartedLeg { system, run, events, goal, transitions, method, limits, watch });
         lifting.end(&mut decided.states);
         driven
     }

@@ -16,7 +16,6 @@ use crate::motion::whole::record::Record;
 use crate::motion::whole::store::Stored;
 use crate::motion::{DynEvent, Interpolant, LagrangianVectorField, Method, MultiplierBounds};
 use crate::number::Real;
-use crate::solution::Adjustment;
 use crate::solution::crossing::Crossing;
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, StateOf};
@@ -29,7 +28,6 @@ pub(super) type Accept<'w, L> = Box<dyn FnMut(&StateOf<L>, usize) -> Result<(), 
 pub(super) struct StartedLeg<'l, 'e, 'w, L: Contacts<Scalar: Real>, P: Method<L>> {
     pub(super) system: &'l L,
     pub(super) run: Run<L, P>,
-    pub(super) adjustment: Adjustment<L::Scalar, L::N>,
     /// Events of the user, then those of contacts.
     pub(super) events: &'l mut [Box<DynEvent<'e, L>>],
     pub(super) goal: L::Scalar,
@@ -176,26 +174,22 @@ where
 /// All steps of all legs.
 pub(super) struct AllLegs<L: Lagrangian> {
     pub(super) legs: Vec<Leg<L>>,
-    /// What moves the start onto the constraints.
-    pub(super) adjustment: Option<Adjustment<L::Scalar, L::N>>,
 }
 
 impl<L: Lagrangian> AllLegs<L> {
     pub(super) fn none() -> Self {
-        Self { legs: Vec::new(), adjustment: None }
+        Self { legs: Vec::new() }
     }
 }
 
 impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for AllLegs<L> {
     fn drive<P: Method<L>>(&mut self, leg: StartedLeg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error> {
-        let StartedLeg { system, mut run, adjustment, events, goal, transitions, method, limits, watch } =
-            leg;
+        let StartedLeg { system, mut run, events, goal, transitions, method, limits, watch } = leg;
         let stored = Stored::<_, _, _, true>::begin(system, &run.state, goal, events, None)?;
         let mut watched = WatchedLeg { observer: stored, watch };
         let ending = run.drive(method, limits, &mut watched);
         let (leg, crossings) = watched.observer.into_leg(ending.as_ref().err());
         let (state, statistics) = (*leg.last(), run.statistics);
-        self.adjustment.get_or_insert(adjustment);
         self.legs.push(leg.into_owned().after(transitions));
         Ok(Driven { state, crossings, ending, statistics })
     }

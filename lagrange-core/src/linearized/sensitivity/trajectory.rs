@@ -13,7 +13,7 @@ use crate::motion::run::{Observer, Run, Watchdog, check_end};
 use crate::motion::whole::builder::EventList;
 use crate::motion::whole::progress::OnProgress;
 use crate::motion::whole::store::Stored;
-use crate::motion::{AnyEvent, MotionBuilder};
+use crate::motion::{AnyEvent, HasEnding, Integrates, MotionBuilder};
 use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::solution::crossing::Crossing;
@@ -81,37 +81,24 @@ where
     }
 }
 
-impl<'a, 'w, L, P, E> MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E>
+impl<'a, 'w, L, P, E> Integrates<L::Scalar>
+    for MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E>
 where
-    L: Lagrangian<Scalar: Real>,
+    L: Linearized<Scalar: Real>,
+    P: DifferentiableMethod<L>,
+    E: EventList<DynDifferentiableEvent<'w, L>>,
 {
-    /// Integrates the motion and its derivatives to the time `end`, or to the first [terminal](crate::Event::terminal) event.
-    ///
-    /// # Errors
-    /// The errors of [`Linearized::integrate_sensitivities`]; [`Error::EventNotFinite`] and [`Error::UnknownName`] where the function
-    /// of an event fails at the start.
-    pub fn to(self, end: L::Scalar) -> Result<TrajectorySensitivity<'a, L>, Error>
-    where
-        L: Linearized,
-        P: DifferentiableMethod<L>,
-        E: EventList<DynDifferentiableEvent<'w, L>>,
-    {
-        self.towards(end)?.finished()
-    }
+    type Result = TrajectorySensitivity<'a, L>;
 
-    /// Integrates the motion and its derivatives towards the time `end`. Where the motion fails on the way, what was computed up to
-    /// there is returned.
-    ///
-    /// # Errors
-    /// The errors of [`to`](Self::to) that are found before the first step.
-    pub fn towards(self, end: L::Scalar) -> Result<TrajectorySensitivity<'a, L>, Error>
-    where
-        L: Linearized,
-        P: DifferentiableMethod<L>,
-        E: EventList<DynDifferentiableEvent<'w, L>>,
-    {
+    fn integrate(self, end: L::Scalar) -> Result<TrajectorySensitivity<'a, L>, Error> {
         let Self { system, start, method, events, on_progress, .. } = self;
         integrate(system, &start, end, &method, &mut events.list(), on_progress)
+    }
+}
+
+impl<L: Linearized<Scalar: Real>> HasEnding for TrajectorySensitivity<'_, L> {
+    fn ending(&self) -> &Ending {
+        self.trajectory.ending()
     }
 }
 
@@ -128,60 +115,130 @@ pub(super) fn integrate<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod
     check_end(end)?;
     let mut begun = Run::<L, D>::begin(system, &start.state, method);
     let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
-    let (course, memory) = Course::from(system, &run.state, start, method)?;
-    let (trajectory, course, before) = {
-        let stored = Stored::begin(system, &run.state, end, events, on_progress)?;
-        let mut along = Along { stored, course, memory, before: run.state };
-        let limits = Watchdog::new(method.limits(), &run.statistics);
-        let driven = run.drive(method, &limits, &mut along);
-        (along.stored.finish(driven, run.statistics, *adjustment), along.course, along.before)
-    };
+    let stored = Stored::<_, _, _, true>::begin(system, &run.state, end, events, on_progress)?;
+    let Along { observer, driven, course, before, .. } = Along::drive(stored, system, run, start, method)?;
+    let trajectory = observer.finish(driven, run.statistics, *adjustment);
     let (ending, crossings) = (trajectory.ending(), trajectory.crossings());
     let end = course.end(system, trajectory.end().state(), ending, crossings, events, &before);
     Ok(TrajectorySensitivity { trajectory, course, end })
 }
 
-/// Observes a motion while it is integrated and stored, and carries its derivatives along.
-struct Along<'a, 'e, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>, W> {
-    stored: Stored<'a, 'e, L, W, D::Interpolant, true>,
-    course: Course<L>,
-    /// Memory of the method for the next step of the derivatives.
-    memory: D::VariationMemory,
-    /// State at the start of the last step.
-    before: StateOf<L>,
+/// An observer of a motion along which derivatives are carried.
+pub(super) trait Keeper<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>:
+    Observer<L, D>
+{
+    /// True if it needs the dense output of the last step.
+    fn looks_into(&self, run: &Run<L, D>) -> bool;
+
+    /// Takes the dense output of the last step, if there is one.
+    fn take(&mut self, within: &mut Vec<D::Interpolant>);
+
+    /// The samples so far; `None` if all steps are kept.
+    fn samples(&self) -> Option<&[StateOf<L>]>;
 }
 
-impl<L, D, W> Observer<L, D> for Along<'_, '_, L, D, W>
+impl<L, D, W> Keeper<L, D> for Stored<'_, '_, L, W, D::Interpolant, true>
 where
     L: Linearized<Scalar: Real>,
     D: DifferentiableMethod<L>,
     W: AnyEvent<L>,
 {
+    fn looks_into(&self, _: &Run<L, D>) -> bool {
+        true
+    }
+
+    fn take(&mut self, within: &mut Vec<D::Interpolant>) {
+        self.interpolants().append(within);
+    }
+
+    fn samples(&self) -> Option<&[StateOf<L>]> {
+        None
+    }
+}
+
+/// Carries derivatives along a motion that another observer keeps.
+pub(super) struct Along<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>, O> {
+    system: &'a L,
+    pub(super) observer: O,
+    pub(super) course: Course<L>,
+    /// Memory of the method for the next step of the derivatives.
+    memory: D::VariationMemory,
+    /// State at the start of the last step.
+    pub(super) before: StateOf<L>,
+    /// Dense output of the last step.
+    within: Vec<D::Interpolant>,
+    /// Derivatives of the samples of the observer.
+    pub(super) samples: Vec<StateSensitivity<L::Scalar, L::N>>,
+    pub(super) driven: Result<(), Ending>,
+}
+
+impl<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>, O: Keeper<L, D>> Along<'a, L, D, O> {
+    /// Integrates to the end that the observer has.
+    pub(super) fn drive(
+        observer: O,
+        system: &'a L,
+        run: &mut Run<L, D>,
+        start: &StateSensitivity<L::Scalar, L::N>,
+        method: &D,
+    ) -> Result<Self, Error> {
+        let (course, memory) = Course::from(system, &run.state, start, method)?;
+        let (before, within, samples, driven) = (run.state, Vec::new(), Vec::new(), Ok(()));
+        let mut along = Self { system, observer, course, memory, before, within, samples, driven };
+        along.sample()?;
+        let limits = Watchdog::new(method.limits(), &run.statistics);
+        along.driven = run.drive(method, &limits, &mut along);
+        Ok(along)
+    }
+
+    /// Adds the derivatives of the samples that the observer has taken since the last call.
+    fn sample(&mut self) -> Result<(), Error> {
+        for state in &self.observer.samples().unwrap_or_default()[self.samples.len()..] {
+            self.samples.push(self.course.at(self.system, state)?);
+        }
+        Ok(())
+    }
+}
+
+impl<L, D, O> Observer<L, D> for Along<'_, L, D, O>
+where
+    L: Linearized<Scalar: Real>,
+    D: DifferentiableMethod<L>,
+    O: Keeper<L, D>,
+{
     fn system(&self) -> &L {
-        self.stored.system()
+        self.system
     }
 
     fn goal(&mut self, method: &D, run: &mut Run<L, D>) -> Result<Option<L::Scalar>, Ending> {
-        let goal = self.stored.goal(method, run)?;
+        let goal = self.observer.goal(method, run)?;
         if let Some(end) = goal {
-            let Self { stored, course: Course { variations, .. }, memory, .. } = self;
-            method.prepare(VariedRun { system: stored.system(), run, variations, memory }, end)?;
+            if self.observer.samples().is_some() {
+                self.course.forget_steps();
+            }
+            let Self { system, course: Course { variations, .. }, memory, .. } = self;
+            method.prepare(VariedRun { system, run, variations, memory }, end)?;
         }
         Ok(goal)
     }
 
     fn follow(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
-        let Self { stored, course: Course { variations, coefficients, .. }, memory, .. } = self;
-        let system = stored.system();
+        let Self {
+            system, observer, course: Course { variations, coefficients, .. }, memory, within, ..
+        } = self;
         method.follow(VariedRun { system, run, variations, memory })?;
-        let at = VariedRun { system, run, variations, memory };
-        method.interpolate(at, stored.interpolants(), coefficients)
+        if observer.looks_into(run) {
+            method.interpolate(VariedRun { system, run, variations, memory }, within, coefficients)?;
+        }
+        observer.take(within);
+        Ok(())
     }
 
     fn keep(&mut self, method: &D, run: &mut Run<L, D>) -> Result<(), Ending> {
         self.before = run.before;
         self.course.push(run.before.t, run.state.t);
-        self.stored.keep(method, run)
+        let kept = self.observer.keep(method, run);
+        self.sample().map_err(|error| Ending::of(error, run.state.t.to_f64()))?;
+        kept
     }
 }
 

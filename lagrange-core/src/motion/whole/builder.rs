@@ -9,7 +9,7 @@ use core::ops::ControlFlow;
 
 use super::progress::{OnProgress, Progress};
 use super::store::Stored;
-use crate::error::Error;
+use crate::error::{Ending, Error};
 use crate::motion::event::{AnyEvent, DynEvent};
 use crate::motion::method::{Dop853, Method};
 use crate::motion::run::{Run, Watchdog, check_end};
@@ -26,7 +26,7 @@ use crate::vector::{Element, Length};
 /// [`motion_with_derivatives`](crate::MotionDerivatives::motion_with_derivatives) create a builder; [`to`](Self::to)
 /// and [`towards`](Self::towards) integrate. The method is [`Dop853`] with a tolerance of 10⁻⁹ unless [`by`](Self::by)
 /// sets another. The result is a [`Trajectory`] with all steps. After [`every`](Self::every) or
-/// [`samples_at`](Self::samples_at) it is an [`Arrival`](crate::motion::Arrival) with the chosen samples alone.
+/// [`samples_at`](Self::samples_at) it keeps the chosen samples alone.
 #[must_use = "a motion is integrated by `to` or `towards`"]
 pub struct MotionBuilder<'a, 'w, L: System, S, P = Dop853, E = (), K = AllSteps> {
     pub(crate) system: &'a L,
@@ -154,46 +154,93 @@ where
     }
 }
 
-impl<'a, 'w, L, F, P, E> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E>
-where
-    L: System<Scalar: Real>,
-    F: VectorField<L>,
-    E: EventList<DynEvent<'w, L>>,
-{
-    /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the
-    /// start, it integrates backwards.
+impl<L: System<Scalar: Real>, S, P, E, K> MotionBuilder<'_, '_, L, S, P, E, K> {
+    /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the start, it
+    /// integrates backwards, except across contacts.
+    ///
+    /// The result is a [`Trajectory`], after [`every`](Self::every) and [`samples_at`](Self::samples_at) with samples alone; with
+    /// derivatives a [`TrajectorySensitivity`](crate::linearized::TrajectorySensitivity).
     ///
     /// # Errors
-    /// The errors of [`integrate`](crate::Simulate::integrate); for a motion in momenta also those of
-    /// [`legendre`](crate::Hamiltonian::legendre); [`Error::EventNotFinite`] and [`Error::UnknownName`] if the function
-    /// of an event fails at the start.
-    pub fn to(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error>
+    /// The errors of [`integrate`](crate::Simulate::integrate), among them [`Error::Unfinished`] if the motion fails on the way.
+    /// [`Error::EventNotFinite`] and [`Error::UnknownName`] if the function of an event or of a quantity fails at the start;
+    /// [`Error::SampleTime`], [`Error::OutsideTrajectory`] and [`Error::Setting`] for samples that cannot be taken. In momenta,
+    /// those of [`legendre`](crate::Hamiltonian::legendre). Across contacts, [`Error::Penetration`] if a gap is negative at the
+    /// start, and [`Error::MotionBackwards`]; by time steps, those of [`stepper`](Self::stepper). With derivatives,
+    /// [`Error::DerivativeNotFinite`].
+    pub fn to(self, end: L::Scalar) -> Result<<Self as Integrates<L::Scalar>>::Result, Error>
     where
-        P: Method<L, F>,
+        Self: Integrates<L::Scalar>,
     {
-        self.towards(end)?.finished()
+        let result = self.integrate(end)?;
+        if result.ending().is_failure() { Err(result.ending().clone().into()) } else { Ok(result) }
     }
 
-    /// Integrates towards the time `end`. If the motion fails on the way, it returns the trajectory up to there, and
-    /// [`Trajectory::ending`] holds the reason.
+    /// Integrates towards the time `end`. If the motion fails on the way, the result holds what was computed up to there, and its
+    /// [`ending`](Trajectory::ending) the reason.
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
-    pub fn towards(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error>
+    pub fn towards(self, end: L::Scalar) -> Result<<Self as Integrates<L::Scalar>>::Result, Error>
     where
-        P: Method<L, F>,
+        Self: Integrates<L::Scalar>,
     {
+        self.integrate(end)
+    }
+}
+
+/// Settings of a motion that can be integrated.
+#[diagnostic::on_unimplemented(
+    message = "a motion with these settings cannot be integrated",
+    label = "these settings do not go together"
+)]
+pub trait Integrates<T> {
+    /// Result of the integration.
+    type Result: HasEnding;
+
+    #[doc(hidden)]
+    fn integrate(self, end: T) -> Result<Self::Result, Error>;
+}
+
+/// Result of an integration, which knows why it ends.
+pub trait HasEnding {
+    #[doc(hidden)]
+    fn ending(&self) -> &Ending;
+}
+
+impl<S: System, F, K> HasEnding for Trajectory<S, F, K> {
+    fn ending(&self) -> &Ending {
+        self.ending()
+    }
+}
+
+impl<'a, 'w, L, F, P, E> Integrates<L::Scalar>
+    for MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E>
+where
+    L: System<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
+    E: EventList<DynEvent<'w, L>>,
+{
+    type Result = Trajectory<&'a L, F>;
+
+    fn integrate(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error> {
         const { check_contacts(F::Checks::HAS_CONTACTS) };
         match const { E::HAS_EVENTS } {
             true => self.store::<true>(end),
             false => self.store::<false>(end),
         }
     }
+}
 
-    fn store<const HAS_EVENTS: bool>(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error>
-    where
-        P: Method<L, F>,
-    {
+impl<'a, 'w, L, F, P, E> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E>
+where
+    L: System<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
+    E: EventList<DynEvent<'w, L>>,
+{
+    fn store<const HAS_EVENTS: bool>(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error> {
         let Self { system, start, method, events, on_progress, .. } = self;
         let (state, mut events) = (start.state.as_ref().as_ref().map_err(Error::clone)?, events.list());
         check_end(end)?;

@@ -5,7 +5,7 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Display, Formatter};
 
-use super::builder::{AllSteps, EventList, MotionBuilder, Start};
+use super::builder::{AllSteps, EventList, Integrates, MotionBuilder, Start};
 use super::progress::{OnProgress, report};
 use super::record::{Arrival, Moving, Record, RecordPlan, Recorded, SampleTimes, Steering};
 use crate::error::Error;
@@ -17,83 +17,165 @@ use crate::solution::Sample;
 use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::system::{StateOf, System, check_contacts};
+use crate::trajectory::{SampledTrajectory, Samples};
 
-/// Marks a motion that keeps samples alone: `to` returns an [`Arrival`].
-pub struct SamplesAlone<'w, L: System> {
-    pub(crate) plan: RecordPlan<'w, L>,
-    /// Controller, and the copy of the system that it changes.
-    pub(crate) steered: Option<(Steering<'w, L>, L)>,
+/// Marks a motion that keeps samples alone: `to` returns a [`SampledTrajectory`]. `C` is [`Steered`] for a motion with a controller.
+pub struct SamplesAlone<'w, L: System, C = ()> {
+    plan: RecordPlan<'w, L>,
+    control: C,
 }
 
-impl<L: System> Debug for SamplesAlone<'_, L> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.debug_struct("SamplesAlone").field("is_steered", &self.steered.is_some()).finish_non_exhaustive()
-    }
-}
-
-impl<'w, L: System<Scalar: Real>> SamplesAlone<'w, L> {
-    /// Checks the sample times and the interval of the controller, as far as they do not depend on start and end.
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        self.plan.check()?;
-        self.steered.as_ref().map_or(Ok(()), |(steering, _)| steering.check())
-    }
-
-    /// Moves from the start of a run to the time `end`, or to a terminal event, and records the samples.
-    pub(crate) fn record<F: VectorField<L>, P: Method<L, F>>(
-        self,
-        run: &mut Run<L, P, F>,
-        method: &P,
-        start: &Sample<&L>,
-        (events, mut on_progress): (Vec<Box<DynEvent<'w, L>>>, Option<OnProgress<'w>>),
-        end: L::Scalar,
-    ) -> Result<Arrival<L::Scalar, L::Length>, Error> {
-        let Self { plan, steered } = self;
-        let (steering, mut own) = steered.unzip();
-        let record = Record::begin(&plan, events, steering, start, end)?;
-        let from = start.time();
-        let accept = |state: &StateOf<L>, steps| report(&mut on_progress, [from, state.t, end], steps);
-        let moving = own.as_mut().map_or(Moving::Fixed(*start.system()), Moving::Steered);
-        let limits = Watchdog::new(method.limits(), &run.statistics);
-        let mut recorded = Recorded::<_, _, _, true>::new(moving, record, accept);
-        let driven = run.drive(method, &limits, &mut recorded);
-        Ok(recorded.finish(driven, run.state.clone(), run.statistics))
-    }
+/// Marks a motion that a controller steers: the trajectory has the system as the controller leaves it.
+pub struct Steered<'w, L: System> {
+    steering: Steering<'w, L>,
+    /// The copy of the system that the controller changes.
+    own: L,
 }
 
 /// Selects what a motion keeps: all steps, or samples alone.
 pub trait Kept<'w, L: System> {
     /// The same with samples alone.
     type Alone;
+    /// The same with samples alone and a controller.
+    type Steered;
 
     /// Converts to settings with samples alone, and changes them; samples that were already chosen remain.
     #[doc(hidden)]
-    fn samples_alone(self, change: impl FnOnce(&mut SamplesAlone<'w, L>)) -> Self::Alone;
+    fn samples_alone(self, change: impl FnOnce(&mut RecordPlan<'w, L>)) -> Self::Alone;
+
+    #[doc(hidden)]
+    fn steered(self, control: Steered<'w, L>) -> Self::Steered;
+}
+
+/// A controller and the copy of the system that it changes, or `()`.
+pub trait Controls<'a, 'w, L: System> {
+    /// The system of the trajectory: borrowed, or the copy that a controller has changed.
+    type System: System<Scalar = L::Scalar, Length = L::Length, M = L::M>;
+
+    #[doc(hidden)]
+    fn parts(self) -> (Option<Steering<'w, L>>, Option<L>);
+
+    #[doc(hidden)]
+    fn at_end(system: &'a L, own: Option<L>) -> Self::System;
 }
 
 impl<'w, L: System<Scalar: Real> + 'w> Kept<'w, L> for AllSteps {
     type Alone = SamplesAlone<'w, L>;
+    type Steered = SamplesAlone<'w, L, Steered<'w, L>>;
 
-    fn samples_alone(self, change: impl FnOnce(&mut SamplesAlone<'w, L>)) -> SamplesAlone<'w, L> {
-        let samples = SamplesAlone { plan: RecordPlan::of(SampleTimes::At(Vec::new())), steered: None };
+    fn samples_alone(self, change: impl FnOnce(&mut RecordPlan<'w, L>)) -> SamplesAlone<'w, L> {
+        let samples = SamplesAlone { plan: RecordPlan::of(SampleTimes::At(Vec::new())), control: () };
         samples.samples_alone(change)
+    }
+
+    fn steered(self, steered: Steered<'w, L>) -> Self::Steered {
+        self.samples_alone(|_| ()).steered(steered)
     }
 }
 
-impl<'w, L: System> Kept<'w, L> for SamplesAlone<'w, L> {
+impl<'w, L: System, C> Kept<'w, L> for SamplesAlone<'w, L, C> {
     type Alone = Self;
+    type Steered = SamplesAlone<'w, L, Steered<'w, L>>;
 
-    fn samples_alone(mut self, change: impl FnOnce(&mut Self)) -> Self {
-        change(&mut self);
+    fn samples_alone(mut self, change: impl FnOnce(&mut RecordPlan<'w, L>)) -> Self {
+        change(&mut self.plan);
         self
     }
+
+    fn steered(self, control: Steered<'w, L>) -> Self::Steered {
+        SamplesAlone { plan: self.plan, control }
+    }
+}
+
+impl<'a, 'w, L: System + 'a> Controls<'a, 'w, L> for ()
+where
+    &'a L: System<Scalar = L::Scalar, Length = L::Length, M = L::M>,
+{
+    type System = &'a L;
+
+    fn parts(self) -> (Option<Steering<'w, L>>, Option<L>) {
+        (None, None)
+    }
+
+    fn at_end(system: &'a L, _: Option<L>) -> &'a L {
+        system
+    }
+}
+
+impl<'a, 'w, L: System + Clone> Controls<'a, 'w, L> for Steered<'w, L> {
+    type System = L;
+
+    fn parts(self) -> (Option<Steering<'w, L>>, Option<L>) {
+        (Some(self.steering), Some(self.own))
+    }
+
+    fn at_end(system: &'a L, own: Option<L>) -> L {
+        own.unwrap_or_else(|| system.clone())
+    }
+}
+
+/// Samples of a motion, its controller, and the copy of the system that it changes.
+type SampledParts<'w, L> = (RecordPlan<'w, L>, Option<Steering<'w, L>>, Option<L>);
+
+impl<'a, 'w, L: System<Scalar: Real>, C: Controls<'a, 'w, L>> SamplesAlone<'w, L, C> {
+    /// Checks the sample times and the interval of the controller, as far as they do not depend on start and end.
+    pub(crate) fn checked(self) -> Result<SampledParts<'w, L>, Error> {
+        let (steering, own) = self.control.parts();
+        self.plan.check()?;
+        steering.as_ref().map_or(Ok(()), Steering::check)?;
+        Ok((self.plan, steering, own))
+    }
+}
+
+impl<L: System, C: Debug> Debug for SamplesAlone<'_, L, C> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SamplesAlone").field("plan", &self.plan).field("control", &self.control).finish()
+    }
+}
+
+impl<L: System> Debug for Steered<'_, L> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.steering.fmt(f)
+    }
+}
+
+/// Moves from the start of a run to the time `end`, or to a terminal event, and records samples. A controller changes the system
+/// `own`.
+pub(crate) fn record<'w, L: System<Scalar: Real>, F: VectorField<L>, P: Method<L, F>>(
+    run: &mut Run<L, P, F>,
+    method: &P,
+    (start, own): (&Sample<&L>, Option<&mut L>),
+    (plan, steering): (&RecordPlan<'w, L>, Option<Steering<'w, L>>),
+    (events, mut on_progress): (Vec<Box<DynEvent<'w, L>>>, Option<OnProgress<'w>>),
+    end: L::Scalar,
+) -> Result<Arrival<L::Scalar, L::Length>, Error> {
+    let record = Record::begin(plan, events, steering, start, end)?;
+    let from = start.time();
+    let accept = |state: &StateOf<L>, steps| report(&mut on_progress, [from, state.t, end], steps);
+    let moving = own.map_or(Moving::Fixed(*start.system()), Moving::Steered);
+    let limits = Watchdog::new(method.limits(), &run.statistics);
+    let mut recorded = Recorded::<_, _, _, true>::new(moving, record, accept);
+    let driven = run.drive(method, &limits, &mut recorded);
+    Ok(recorded.finish(driven, run.state.clone(), run.statistics))
 }
 
 /// Settings of a motion from the start `S` that keeps samples alone.
 type Sampled<'a, 'w, L, S, P, E, K> = MotionBuilder<'a, 'w, L, S, P, E, <K as Kept<'w, L>>::Alone>;
 
+/// Settings of a motion from a state that a controller steers.
+type Controlled<'a, 'w, L, F, P, E, K> = MotionBuilder<
+    'a,
+    'w,
+    L,
+    Start<<L as System>::Scalar, <L as System>::Length, F>,
+    P,
+    E,
+    <K as Kept<'w, L>>::Steered,
+>;
+
 impl<'a, 'w, L: System<Scalar: Real>, S, P, E, K: Kept<'w, L>> MotionBuilder<'a, 'w, L, S, P, E, K> {
-    /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) returns an [`Arrival`] that holds one
-    /// state per time; for a motion with derivatives a
+    /// Keeps the states at these times, and no steps: [`to`](MotionBuilder::to) returns a [`SampledTrajectory`] that holds
+    /// one state per time; for a motion with derivatives a
     /// [`SampledSensitivity`](crate::linearized::SampledSensitivity).
     ///
     /// The states lie on the dense output of the method, projected onto the constraints; samples do not shorten steps.
@@ -108,14 +190,14 @@ impl<'a, 'w, L: System<Scalar: Real>, S, P, E, K: Kept<'w, L>> MotionBuilder<'a,
     /// struct Spring;
     ///
     /// let spring = Spring;
-    /// let arrival = spring.motion(State::at_rest([1.0])).samples_at([0.5, 1.5]).to(2.0)?;
-    /// assert!((arrival.samples[1].q[0] - 1.5_f64.cos()).abs() < 1e-8);
-    /// assert!((arrival.state.q[0] - 2.0_f64.cos()).abs() < 1e-8);
+    /// let path = spring.motion(State::at_rest([1.0])).samples_at([0.5, 1.5]).to(2.0)?;
+    /// assert!((path.samples()[1].q[0] - 1.5_f64.cos()).abs() < 1e-8);
+    /// assert!((path.end().coordinate("x")? - 2.0_f64.cos()).abs() < 1e-8);
     /// # Ok::<(), Error>(())
     /// ```
     pub fn samples_at(self, times: impl IntoIterator<Item = L::Scalar>) -> Sampled<'a, 'w, L, S, P, E, K> {
         let times = times.into_iter().collect();
-        self.sampled(|samples| samples.plan.times = SampleTimes::At(times))
+        self.sampled(|plan| plan.times = SampleTimes::At(times))
     }
 
     /// Keeps the state at the start and after every interval, and no steps; otherwise like
@@ -130,16 +212,16 @@ impl<'a, 'w, L: System<Scalar: Real>, S, P, E, K: Kept<'w, L>> MotionBuilder<'a,
     /// # #[coordinates(x)]
     /// # #[lagrangian(x_dot^2/2 - x^2/2)]
     /// # struct Spring;
-    /// let arrival = Spring.motion(State::at_rest([1.0])).every(0.1).to(0.3)?;
+    /// let path = Spring.motion(State::at_rest([1.0])).every(0.1).to(0.3)?;
     /// // In floating-point arithmetic, 3 · 0.1 is more than 0.3.
-    /// assert!(arrival.samples.iter().map(|state| state.t).eq([0.0, 0.1, 0.2, 0.3]));
+    /// assert!(path.samples().iter().map(|state| state.t).eq([0.0, 0.1, 0.2, 0.3]));
     /// # Ok::<(), Error>(())
     /// ```
     pub fn every(self, interval: L::Scalar) -> Sampled<'a, 'w, L, S, P, E, K> {
-        self.sampled(|samples| samples.plan.times = SampleTimes::Every(interval))
+        self.sampled(|plan| plan.times = SampleTimes::Every(interval))
     }
 
-    fn sampled(self, set: impl FnOnce(&mut SamplesAlone<'w, L>)) -> Sampled<'a, 'w, L, S, P, E, K> {
+    fn sampled(self, set: impl FnOnce(&mut RecordPlan<'w, L>)) -> Sampled<'a, 'w, L, S, P, E, K> {
         self.keeping(|kept| kept.samples_alone(set))
     }
 }
@@ -149,8 +231,7 @@ where
     L: System<Scalar: Real>,
     K: Kept<'w, L>,
 {
-    /// Keeps this quantity of each sample in [`Arrival::values`]; with several quantities, all those of the first
-    /// sample come first. The function returns a number, or the result of a query by name, `|sample|
+    /// Keeps this quantity of each sample: [`SampledTrajectory::quantity`] returns it. The function returns a number, or the result of a query by name, `|sample|
     /// sample.observable("height")`.
     ///
     /// The function is also evaluated at the start, so that an error there is returned before the first step. An error
@@ -160,7 +241,7 @@ where
         name: &'static str,
         function: impl Fn(&Sample<&L>) -> V + Send + Sync + 'w,
     ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E, K> {
-        self.sampled(|samples| samples.plan.quantity(name, function))
+        self.sampled(|plan| plan.quantity(name, function))
     }
 
     /// Steers the motion by a controller, which is called at the start and then after every interval. It reads the
@@ -183,14 +264,14 @@ where
     /// let (pendulum, upright) = (Pendulum { g: 9.81, torque: 0.0 }, core::f64::consts::PI);
     /// let steered = pendulum.motion(State::at_rest([3.0])).by(Dopri5::with_tolerance(1e-6)).every(0.1);
     /// let steered = steered.quantity("torque", |sample| sample.system().torque);
-    /// let arrival = steered
+    /// let path = steered
     ///     .controlled(0.01, |pendulum, state| {
     ///         pendulum.torque = 30.0 * (upright - state.q[0]) - 8.0 * state.v[0];
     ///         if pendulum.torque.abs() < 100.0 { Ok(()) } else { Err("the motor is too weak") }
     ///     })
     ///     .to(5.0)?;
-    /// assert!((arrival.state.q[0] - upright).abs() < 1e-6);
-    /// assert_eq!(arrival.samples.len(), arrival.values.len());
+    /// assert!((path.end().coordinate("theta")? - upright).abs() < 1e-6);
+    /// assert_eq!(path.samples().len(), path.quantity("torque")?.count());
     /// # Ok::<(), Error>(())
     /// ```
     ///
@@ -203,56 +284,42 @@ where
         self,
         interval: L::Scalar,
         mut controller: impl FnMut(&mut L, &StateOf<L>) -> Result<(), X> + 'w,
-    ) -> Sampled<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E, K>
+    ) -> Controlled<'a, 'w, L, F, P, E, K>
     where
         L: Clone,
     {
         let controller = Box::new(move |system: &mut L, state: &StateOf<L>| {
             controller(system, state).map_err(|error| error.to_string())
         });
-        let steered = Some((Steering { interval, controller }, self.system.clone()));
-        self.sampled(|samples| samples.steered = steered)
+        let own = self.system.clone();
+        self.keeping(|kept| kept.steered(Steered { steering: Steering { interval, controller }, own }))
     }
 }
 
-impl<'w, L: System<Scalar: Real>, F, P, E>
-    MotionBuilder<'_, 'w, L, Start<L::Scalar, L::Length, F>, P, E, SamplesAlone<'w, L>>
+impl<'a, 'w, L, F, P, E, C> Integrates<L::Scalar>
+    for MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E, SamplesAlone<'w, L, C>>
+where
+    L: System<Scalar: Real>,
+    F: VectorField<L>,
+    P: Method<L, F>,
+    E: EventList<DynEvent<'w, L>>,
+    C: Controls<'a, 'w, L>,
 {
-    /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the
-    /// start, it integrates backwards.
-    ///
-    /// # Errors
-    /// The errors of a motion that is [stored](crate::Simulate::motion); [`Error::SampleTime`],
-    /// [`Error::OutsideTrajectory`] and [`Error::Setting`] for samples that cannot be taken; errors of the function of
-    /// a quantity at the start.
-    pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::Length>, Error>
-    where
-        F: VectorField<L>,
-        P: Method<L, F>,
-        E: EventList<DynEvent<'w, L>>,
-    {
-        self.towards(end)?.finished()
-    }
+    type Result = SampledTrajectory<C::System, F>;
 
-    /// Integrates towards the time `end`. If the motion fails on the way, the result holds the record up to there, and
-    /// its ending the reason.
-    ///
-    /// # Errors
-    /// The errors of [`to`](Self::to) that are found before the first step.
-    pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::Length>, Error>
-    where
-        F: VectorField<L>,
-        P: Method<L, F>,
-        E: EventList<DynEvent<'w, L>>,
-    {
+    fn integrate(self, end: L::Scalar) -> Result<SampledTrajectory<C::System, F>, Error> {
         const { check_contacts(F::Checks::HAS_CONTACTS) };
         let Self { system, start, method, events, on_progress, kept } = self;
         let state = start.state.as_ref().as_ref().map_err(Error::clone)?;
         check_end(end)?;
-        kept.check()?;
+        let (plan, steering, mut own) = kept.checked()?;
         let mut begun = Run::<L, P, F>::begin(system, state, &method);
-        let (run, _) = begun.as_mut().map_err(|error| error.clone())?;
+        let (run, adjustment) = begun.as_mut().map_err(|error| error.clone())?;
         let start = Sample::of(system, run.state.clone());
-        kept.record(run, &method, &start, (events.list(), on_progress), end)
+        let (along, watched) = ((&plan, steering), (events.list(), on_progress));
+        let arrival = record(run, &method, (&start, own.as_mut()), along, watched, end)?;
+        let ends = [start.state().clone(), arrival.state.clone()];
+        let samples = Samples::of(C::at_end(system, own), ends, &plan);
+        Ok(samples.trajectory(arrival, adjustment.clone()))
     }
 }

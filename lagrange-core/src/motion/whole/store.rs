@@ -14,7 +14,7 @@ use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{StateOf, System};
-use crate::trajectory::{Leg, Path, Trajectory};
+use crate::trajectory::{Leg, Legs, Path, Trajectory};
 
 /// Observer that stores the steps, their dense output and the crossings of the events `W`. Without events `HAS_EVENTS`
 /// is false, and the search is not compiled.
@@ -48,10 +48,6 @@ where
         Ok(Self { system, end, path, crossings, search, stopped, on_progress })
     }
 
-    pub(crate) fn system(&self) -> &'a L {
-        self.system
-    }
-
     /// Interpolants of the steps, to append one.
     #[inline(always)]
     pub(crate) fn interpolants(&mut self) -> &mut Vec<I> {
@@ -66,13 +62,8 @@ where
     ) -> Trajectory<&'a L, F> {
         let time = self.end.to_f64();
         let (leg, crossings) = self.into_leg(driven.as_ref().err());
-        Trajectory::of(
-            leg,
-            crossings,
-            driven.err().unwrap_or(Ending::Complete { time }),
-            statistics,
-            adjustment,
-        )
+        let ending = driven.err().unwrap_or(Ending::Complete { time });
+        Trajectory::of(Legs(Vec::from([leg])), crossings, ending, statistics, adjustment)
     }
 
     /// The steps and the crossings of a motion, or of a leg, which ends so before its goal.

@@ -13,8 +13,8 @@ use crate::motion::{Limits, Method, Step};
 use crate::names::name;
 use crate::number::{Real, Scalar};
 use crate::statistics::Statistics;
-use crate::system::{SolutionOf, StateOf};
-use crate::trajectory::{Chord, Trajectory};
+use crate::system::{Solution, SolutionOf, StateOf};
+use crate::trajectory::{Chord, SampledTrajectory, Trajectory};
 
 /// The scheme as a method, whose steps a [`ContactStepper`] takes. It is private: a motion takes the scheme by
 /// `by_time_stepping`, since the end of a time step need not satisfy the conditions on the start of other motions.
@@ -124,12 +124,24 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Method<L> for TimeSteps {
 impl<L: ForceDerivatives<Scalar: Real> + Clone> TakenSteps<L> {
     /// Gives the trajectory of these steps their means, and the names of the contacts that push in the last one.
     pub(super) fn finish(self, mut path: Trajectory<L>) -> Trajectory<L> {
-        let leg = path.legs.pop().map(|leg| leg.in_time_steps(self.stepper.system().clone(), self.means));
-        path.legs.extend(leg);
-        let last = path.end().given();
-        let pushes = |row: usize| last.is_some_and(|of| of.multipliers[row] > L::Scalar::constant(0.0));
-        let pushing = L::CONTACTS.iter().filter(|&&row| pushes(row)).map(|&row| name(L::CONSTRAINTS, row));
-        path.closed = pushing.collect();
+        let leg = path.kept.0.pop().map(|leg| leg.in_time_steps(self.stepper.system().clone(), self.means));
+        path.kept.0.extend(leg);
+        path.closed = pushing::<L>(path.end().given());
         path
     }
+
+    /// Gives the samples of these steps the means of the last one, and the names of the contacts that push in it.
+    pub(super) fn sampled(self, mut path: SampledTrajectory<L>) -> SampledTrajectory<L> {
+        let means = (path.statistics.accepted > 0).then(|| self.stepper.last().means);
+        path.closed = pushing::<L>(means);
+        path.kept.means = means.or_else(|| Some(Solution::unknown()));
+        path
+    }
+}
+
+/// Names of the contacts that push in a step.
+fn pushing<L: Contacts<Scalar: Real>>(means: Option<SolutionOf<L>>) -> Vec<&'static str> {
+    let pushes = |row: usize| means.is_some_and(|of| of.multipliers[row] > L::Scalar::constant(0.0));
+    let rows = L::CONTACTS.iter().filter(|&&row| pushes(row));
+    rows.map(|&row| name(L::CONSTRAINTS, row)).collect()
 }

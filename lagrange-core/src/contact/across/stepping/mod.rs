@@ -18,13 +18,15 @@ use crate::error::Error;
 use crate::motion::event::recorded::EventInSteps;
 use crate::motion::method::contract::{check_settings, limit_setters};
 use crate::motion::run::Watchdog;
+use crate::motion::whole::sampled::record;
 use crate::motion::whole::store::Stored;
-use crate::motion::{AllSteps, Arrival, DynEvent, EventList, Limits, Method, MotionBuilder, SamplesAlone};
+use crate::motion::{
+    AllSteps, Controls, DynEvent, EventList, Integrates, Limits, Method, MotionBuilder, SamplesAlone,
+};
 use crate::number::Real;
 use crate::solution::{Adjustment, Sample};
 use crate::system::Solution;
-use crate::trajectory::Trajectory;
-use crate::vector::zeros;
+use crate::trajectory::{SampledTrajectory, Samples, Trajectory};
 use method::TimeSteps;
 pub use stepper::ContactStepper;
 pub use time_step::TimeStep;
@@ -136,17 +138,18 @@ pub use time_step::TimeStep;
 /// let motion = hauled.motion(State::at_rest([0.0, 0.0])).by_time_stepping(MoreauJean::with_step(1e-3)).event(there);
 /// let motion = motion.every(0.5).quantity("friction", |sample| sample.multiplier("floor_friction"));
 /// // The winch pulls by 60 N more every two seconds. The crate moves once that is more than μ m g = 117.72 N.
-/// let arrival = motion.controlled(2.0, |hauled, _| {
+/// let motion = motion.controlled(2.0, |hauled, _| {
 ///     hauled.rope += 60.0;
 ///     Ok::<_, Error>(())
 /// });
-/// let arrival = arrival.to(20.0)?;
+/// let path = motion.to(20.0)?;
 /// // For two seconds with the acceleration a, and then with b.
 /// let [a, b] = [120.0, 180.0].map(|rope| (rope - 117.72) / 30.0);
 /// let (x, v) = (2.0 * a, 2.0 * a);
 /// let end = 4.0 + ((v * v + 2.0 * b * (1.0 - x)).sqrt() - v) / b;
-/// assert!((arrival.state.t - end).abs() < 1e-6);
-/// assert!((arrival.values[3] + 60.0).abs() < 1e-9 && (arrival.values[7] + 117.72).abs() < 1e-9);
+/// assert!((path.end().time() - end).abs() < 1e-6);
+/// let friction: Vec<f64> = path.quantity("friction")?.collect();
+/// assert!((friction[3] + 60.0).abs() < 1e-9 && (friction[7] + 117.72).abs() < 1e-9);
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -213,27 +216,14 @@ impl<'a, 'w, L: Contacts + Clone, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, 
     }
 }
 
-impl<'w, L, P, E> Builder<'_, 'w, L, P, E, AllSteps, MoreauJean>
+impl<'w, L, P, E> Integrates<L::Scalar> for Builder<'_, 'w, L, P, E, AllSteps, MoreauJean>
 where
     L: ForceDerivatives<Scalar: Real> + Clone,
     E: EventList<DynEvent<'w, L>>,
 {
-    /// Moves to the time `end`, or to the first [terminal](crate::Event::terminal) event.
-    ///
-    /// # Errors
-    /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
-    pub fn to(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
-        self.towards(end)?.finished()
-    }
+    type Result = Trajectory<L>;
 
-    /// Moves towards the time `end`. If the motion fails on the way, the result holds what was computed until then, and its
-    /// [`ending`](Trajectory::ending) the reason: [`Error::StepTooLong`], [`Error::ImpulsesNotFound`] or
-    /// [`Error::ContactsContradict`].
-    ///
-    /// # Errors
-    /// The errors of [`stepper`](Self::stepper), and of the functions of events at the start; [`Error::MotionBackwards`] if `end` lies before
-    /// the start.
-    pub fn towards(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
+    fn integrate(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
         let Self { system, start, events, on_progress, kept, .. } = self;
         let method = TimeSteps(kept.crossing);
         let mut run = method.run(system, start.into_state()?, end)?;
@@ -242,40 +232,32 @@ where
         let mut stored = Stored::<_, _, _, true>::begin(&closed, &run.state, end, &mut events, on_progress)?;
         let limits = Watchdog::new(Method::<L>::limits(&method), &run.statistics);
         let driven = run.drive(&method, &limits, &mut stored);
-        let path = stored.finish(driven, run.statistics, Adjustment { q: zeros(), v: zeros() });
+        let path = stored.finish(driven, run.statistics, Adjustment::none(system.length()));
         Ok(run.memory.finish(path.into_owned()))
     }
 }
 
-impl<'w, L, P, E> Builder<'_, 'w, L, P, E, SamplesAlone<'w, L>, MoreauJean>
+impl<'a, 'w, L, P, E, C> Integrates<L::Scalar>
+    for Builder<'a, 'w, L, P, E, SamplesAlone<'w, L, C>, MoreauJean>
 where
     L: ForceDerivatives<Scalar: Real> + Clone,
     E: EventList<DynEvent<'w, L>>,
+    C: Controls<'a, 'w, L>,
 {
-    /// Moves to the time `end`, or to the first [terminal](crate::Event::terminal) event.
-    ///
-    /// # Errors
-    /// Those of [`towards`](Self::towards), and [`Error::Unfinished`] if the motion stops before.
-    pub fn to(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error> {
-        self.towards(end)?.finished()
-    }
+    type Result = SampledTrajectory<L>;
 
-    /// Moves towards the time `end`. If the motion fails on the way, the result holds what was recorded until then, and its
-    /// ending the reason.
-    ///
-    /// # Errors
-    /// The errors of a motion by time steps that keeps all steps; [`Error::SampleTime`], [`Error::OutsideTrajectory`] and
-    /// [`Error::Setting`] for samples that cannot be taken; errors of the function of a quantity at the start.
-    pub fn towards(self, end: L::Scalar) -> Result<Arrival<L::Scalar, L::N>, Error> {
-        let Self { system, start, events, on_progress, kept: AcrossContacts { mut kept, crossing }, .. } =
-            self;
-        kept.check()?;
+    fn integrate(self, end: L::Scalar) -> Result<SampledTrajectory<L>, Error> {
+        let Self { system, start, events, on_progress, kept: AcrossContacts { kept, crossing }, .. } = self;
+        let (plan, steering, _) = kept.checked()?;
         let method = TimeSteps(crossing);
         let mut run = method.run(system, start.into_state()?, end)?;
         let closed = run.memory.stepper.closed().clone();
-        kept.steered = kept.steered.map(|(steering, _)| (steering, closed.clone()));
         let events = events.list().into_iter().map(|event| Box::new(EventInSteps(event)) as Box<_>).collect();
         let start = Sample::of(&closed, run.state).with(Some(Solution::unknown()));
-        kept.record(&mut run, &method, &start, (events, on_progress), end)
+        let (along, watched) = ((&plan, steering), (events, on_progress));
+        let mut own = closed.clone();
+        let arrival = record(&mut run, &method, (&start, Some(&mut own)), along, watched, end)?;
+        let samples = Samples::of(own, [*start.state(), arrival.state], &plan);
+        Ok(run.memory.sampled(samples.trajectory(arrival, Adjustment::none(system.length()))))
     }
 }

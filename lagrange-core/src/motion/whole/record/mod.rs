@@ -5,6 +5,7 @@ pub(crate) mod plan;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::fmt::{self, Debug, Formatter};
 use core::marker::PhantomData;
 use core::ops::Deref;
 
@@ -25,7 +26,7 @@ use crate::system::{SolutionOf, State, StateOf, System};
 use crate::trajectory::Transition;
 use crate::vector::{Element, Length};
 
-/// End of a motion, with its samples, quantities and crossings.
+/// End of the motion of a member of an [ensemble](crate::ensemble), with its samples, quantities and crossings.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -50,23 +51,34 @@ pub struct Arrival<T: Element, N: Length> {
     pub transitions: Vec<Transition<T>>,
 }
 
-impl<T: Element, N: Length> Arrival<T, N> {
-    /// Returns the arrival, unless a failure kept the motion from its end.
-    ///
-    /// # Errors
-    /// [`Error::Unfinished`] with the ending.
-    pub fn finished(self) -> Result<Self, Error> {
-        if self.ending.is_failure() { Err(self.ending.into()) } else { Ok(self) }
-    }
+/// Returns one quantity of each sample, from all values of the quantities with the names `known`.
+pub(crate) fn quantity<'v, T: Copy, N: AsRef<str>>(
+    name: &str,
+    known: &[N],
+    values: &'v [T],
+    hint: &str,
+) -> Result<impl Iterator<Item = T> + use<'v, T, N>, Error> {
+    let place = known.iter().position(|known| known.as_ref() == name).ok_or_else(|| {
+        let hint = known.is_empty().then(|| hint.into());
+        let known = known.iter().map(|known| known.as_ref().into()).collect();
+        Error::UnknownName { name: name.into(), kind: "quantity", hint, known }
+    })?;
+    Ok(values.iter().skip(place).step_by(known.len()).copied())
 }
 
 /// Controller, which sets parameters of a system during its motion. Its error is a message.
 pub(crate) type Controller<'o, L> = dyn FnMut(&mut L, &StateOf<L>) -> Result<(), String> + 'o;
 
 /// Controller, with the interval of time between its calls.
-pub(crate) struct Steering<'o, L: System> {
+pub struct Steering<'o, L: System> {
     pub(crate) interval: L::Scalar,
     pub(crate) controller: Box<Controller<'o, L>>,
+}
+
+impl<L: System> Debug for Steering<'_, L> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Steering").field("interval", &self.interval).finish_non_exhaustive()
+    }
 }
 
 impl<L: System<Scalar: Real>> Steering<'_, L> {
@@ -305,9 +317,9 @@ impl<L> Deref for Moving<'_, L> {
 /// controller exist, and their code is not compiled.
 pub(crate) struct Recorded<'o, 'r, L: System, I, A, const HAS_DENSE_OUTPUT: bool> {
     system: Moving<'r, L>,
-    record: Record<'o, L>,
+    pub(crate) record: Record<'o, L>,
     /// Interpolant of the last step, if samples or events need it.
-    within: Option<I>,
+    pub(crate) within: Option<I>,
     /// Callback with the state and the number of steps after each step; it may cancel the motion.
     accept: A,
 }

@@ -2,7 +2,7 @@
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
-use core::fmt::{self, Write};
+use core::fmt::{self, Debug, Formatter, Write};
 
 use nalgebra::ComplexField;
 
@@ -14,9 +14,16 @@ use crate::solution::Sample;
 use crate::system::System;
 
 /// Times of the samples of a motion, or of each member of an ensemble, and the quantities to evaluate there.
-pub(crate) struct RecordPlan<'a, L: System> {
+pub struct RecordPlan<'a, L: System> {
     pub(crate) times: SampleTimes<L::Scalar>,
     pub(super) quantities: Vec<(&'static str, Box<Observed<'a, L>>)>,
+}
+
+impl<L: System> Debug for RecordPlan<'_, L> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let names = self.quantities.iter().map(|(name, _)| *name);
+        f.debug_struct("RecordPlan").field("quantities", &names.collect::<Vec<_>>()).finish_non_exhaustive()
+    }
 }
 
 /// A number computed from a state.

@@ -1,0 +1,91 @@
+//! An event, samples, contacts, another method or a controller are added to a motion in one line: the lines that read its result stay.
+
+use lagrange_core::contact::{Contact, MoreauJean};
+use lagrange_core::prelude::*;
+
+/// A ball above a floor.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(y_dot^2/2 - g*y)]
+#[contact(floor: y >= 0, restitution: e)]
+struct Ball {
+    g: f64,
+    e: f64,
+    floor: Contact,
+}
+
+/// The same ball without a floor.
+#[derive(Clone, Lagrangian)]
+#[coordinates(y)]
+#[lagrangian(y_dot^2/2 - g*y)]
+struct Stone {
+    g: f64,
+}
+
+/// What a program reads of a motion to t = 1, whatever it has asked for.
+macro_rules! read {
+    ($path:expr) => {{
+        let path = $path.expect("a motion");
+        let (start, end) = (path.start(), path.end());
+        assert_eq!((start.coordinate("y").unwrap(), end.time()), (2.0, 1.0));
+        assert_eq!(path.system().g, 9.81);
+        assert!(path.ending().is_complete() && path.statistics().accepted > 0);
+        assert_eq!(path.adjustment().largest_coordinate_change(), 0.0);
+        assert!(path.to_string().contains("reached the end at t = 1"));
+        let y = end.coordinate("y").unwrap();
+        (y, path.crossings().len(), path.transitions().len())
+    }};
+}
+
+#[test]
+fn requests_are_added_in_one_line() {
+    let (start, stone) = (State::at_rest([2.0]), Stone { g: 9.81 });
+    let ball = Ball { g: 9.81, e: 0.5, floor: Contact::Open };
+    let below = || stone.event("below", |sample| sample.state().q[0] + 1.0);
+    let fallen = 2.0 - 9.81 / 2.0;
+    for (found, crossings) in [
+        (read!(stone.motion(start).to(1.0)), 0),
+        (read!(stone.motion(start).event(below()).to(1.0)), 1),
+        (read!(stone.motion(start).by(Verlet::with_step(0.01)).to(1.0)), 0),
+        (read!(stone.motion(start).every(0.1).to(1.0)), 0),
+        (read!(stone.motion(start).event(below()).samples_at([0.5]).to(1.0)), 1),
+        (read!(stone.motion(start).controlled(0.1, |_, _| Ok::<_, Error>(())).to(1.0)), 0),
+    ] {
+        assert!((found.0 - fallen).abs() < 1e-9, "{found:?}");
+        assert_eq!((found.1, found.2), (crossings, 0));
+    }
+    // It lands at √(2 y/g) = 0.64, and leaves with half of its velocity.
+    let (lands, v) = ((4.0_f64 / 9.81).sqrt(), (4.0 * 9.81_f64).sqrt() / 2.0);
+    let bounced = v * (1.0 - lands) - 9.81 / 2.0 * (1.0 - lands).powi(2);
+    for found in [
+        read!(ball.motion(start).with_contacts().to(1.0)),
+        read!(ball.motion(start).with_contacts().every(0.1).to(1.0)),
+        read!(ball.motion(start).with_contacts().controlled(0.1, |_, _| Ok::<_, Error>(())).to(1.0)),
+    ] {
+        assert!((found.0 - bounced).abs() < 1e-9, "{found:?} {bounced}");
+        assert_eq!((found.1, found.2), (0, 1));
+    }
+    let scheme = MoreauJean::with_step(1e-3);
+    for found in [
+        read!(ball.motion(start).by_time_stepping(scheme).to(1.0)),
+        read!(ball.motion(start).by_time_stepping(scheme).every(0.1).to(1.0)),
+    ] {
+        assert!((found.0 - bounced).abs() < 1e-2, "{found:?} {bounced}");
+    }
+}
+
+/// The end of a motion by time steps that keeps samples alone has the forces of its last step, as if all steps were kept.
+#[test]
+fn samples_alone_have_the_forces_at_the_end() {
+    let ball = Ball { g: 9.81, e: 0.0, floor: Contact::Open };
+    let motion = || ball.motion(State::at_rest([0.0])).by_time_stepping(MoreauJean::with_step(0.01));
+    let (stored, sampled) = (motion().to(1.0).unwrap(), motion().every(0.1).to(1.0).unwrap());
+    let force = sampled.end().multiplier("floor").unwrap();
+    assert!((force - 9.81).abs() < 1e-9, "{force}");
+    assert_eq!(force, stored.end().multiplier("floor").unwrap());
+    assert_eq!(sampled.to_string(), stored.to_string());
+    let located = ball.motion(State::at_rest([0.0])).with_contacts().every(0.1).to(1.0).unwrap();
+    assert_eq!(located.end().multiplier("floor").unwrap(), 9.81);
+    let stored = ball.motion(State::at_rest([0.0])).with_contacts().to(1.0).unwrap();
+    assert_eq!(located.to_string(), stored.to_string());
+}
