@@ -32,7 +32,7 @@ mod tests;
 mod within;
 
 pub use crate::error::EnsembleError;
-pub use crate::motion::whole::record::Arrival;
+pub use crate::motion::integration::record::Arrival;
 pub use fingerprint::Fingerprint;
 pub use outcome::{Member, Outcome};
 #[cfg(feature = "parquet")]

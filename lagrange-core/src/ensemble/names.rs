@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::error::{EnsembleError, Error};
-use crate::motion::whole::record::quantity;
+use crate::motion::integration::record::quantity;
 use crate::names::Entry;
 
 /// Names of the numbers of a sample, shared by all members of a run.

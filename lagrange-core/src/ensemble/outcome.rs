@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::fingerprint::Fingerprint;
 use super::names::ColumnNames;
 use crate::error::{EnsembleError, Error};
-use crate::motion::whole::record::Arrival;
+use crate::motion::integration::record::Arrival;
 use crate::number::Real;
 use crate::system::State;
 use crate::vector::{Element, Length};

@@ -10,8 +10,10 @@ use super::outcome::Member;
 use super::row::MemberRow;
 use crate::error::{EnsembleError, Error};
 use crate::motion::event::DynEvent;
-use crate::motion::whole::record::plan::Observed;
-use crate::motion::whole::record::{CONTROLLER, Record, RecordPlan, SampleTimes, Steering, check_interval};
+use crate::motion::integration::record::plan::Observed;
+use crate::motion::integration::record::{
+    CONTROLLER, Record, RecordPlan, SampleTimes, Steering, check_interval,
+};
 use crate::motion::{Event, EventFunction, Method, Simulate};
 use crate::number::Real;
 use crate::solution::Sample;

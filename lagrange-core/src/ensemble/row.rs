@@ -7,7 +7,7 @@ use super::fingerprint::Fingerprint;
 use super::names::ColumnNames;
 use super::outcome::Member;
 use crate::error::{Ending, EnsembleError, Error};
-use crate::motion::whole::record::Arrival;
+use crate::motion::integration::record::Arrival;
 use crate::number::Real;
 use crate::solution::crossing::Crossing;
 use crate::statistics::Statistics;

@@ -3,7 +3,7 @@
 use core::fmt::Display;
 
 use super::settings::Ensemble;
-use crate::motion::whole::record::SampleTimes;
+use crate::motion::integration::record::SampleTimes;
 use crate::motion::{Event, EventFunction, EventValue, Simulate};
 use crate::solution::Sample;
 use crate::system::StateOf;

@@ -21,7 +21,7 @@ use crate::vector::{Vector, zeros};
 use crate::{
     motion::{
         Method,
-        whole::builder::{MotionBuilder, MotionFrom, Start},
+        integration::builder::{MotionBuilder, MotionFrom, Start},
     },
     trajectory::Trajectory,
 };

@@ -43,6 +43,8 @@ mod advance;
 pub(crate) mod event;
 pub(crate) use event::DynEvent;
 pub(crate) mod geometric;
+#[cfg(feature = "alloc")]
+pub(crate) mod integration;
 #[cfg(feature = "std")]
 pub(crate) mod lanes;
 pub(crate) mod method;
@@ -53,8 +55,6 @@ mod steered;
 pub(crate) mod taylor;
 #[cfg(test)]
 mod tests;
-#[cfg(feature = "alloc")]
-pub(crate) mod whole;
 
 pub use event::{AnyEvent, Event, EventFunction, EventValue};
 pub use geometric::{
@@ -72,10 +72,10 @@ pub use simulate::Simulate;
 pub use steered::Motion;
 #[cfg(feature = "alloc")]
 pub use {
+    integration::builder::{AllSteps, EventList, HasEnding, Integrates, MotionBuilder, Start},
+    integration::progress::Progress,
+    integration::sampled::{Controls, Kept, SamplesAlone, Steered},
     taylor::{Taylor, TaylorPolynomial},
-    whole::builder::{AllSteps, EventList, HasEnding, Integrates, MotionBuilder, Start},
-    whole::progress::Progress,
-    whole::sampled::{Controls, Kept, SamplesAlone, Steered},
 };
 
 pub use crate::number::Parts;

@@ -16,7 +16,7 @@ use crate::vector::Array;
 use crate::{
     motion::{
         Method, MotionBuilder,
-        whole::builder::{MotionFrom, Start},
+        integration::builder::{MotionFrom, Start},
     },
     number::Scalar,
     solution::impact::{Impact, impact},

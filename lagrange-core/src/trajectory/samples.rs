@@ -8,7 +8,7 @@ use super::kept::KeptStates;
 use super::records::Records;
 use super::stored::Trajectory;
 use crate::error::Error;
-use crate::motion::whole::record::{Arrival, RecordPlan, quantity};
+use crate::motion::integration::record::{Arrival, RecordPlan, quantity};
 use crate::names::Entry;
 use crate::number::Real;
 use crate::solution::vector_field::VectorField;

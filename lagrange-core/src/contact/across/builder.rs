@@ -7,10 +7,10 @@ use super::legs::{Accept, AllLegs, SampledLegs};
 use super::motion::ContactMotion;
 use super::{Contact, Contacts};
 use crate::error::Error;
+use crate::motion::integration::builder::{EventList, Integrates};
+use crate::motion::integration::progress::report;
+use crate::motion::integration::record::{Arrival, Record, RecordPlan, Steering};
 use crate::motion::run::check_end;
-use crate::motion::whole::builder::{EventList, Integrates};
-use crate::motion::whole::progress::report;
-use crate::motion::whole::record::{Arrival, Record, RecordPlan, Steering};
 use crate::motion::{
     AllSteps, Controls, DynEvent, Kept, LagrangianVectorField, Method, MotionBuilder, SamplesAlone, Start,
     Steered,

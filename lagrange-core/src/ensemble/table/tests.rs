@@ -5,7 +5,7 @@ use nalgebra::Const;
 use super::*;
 use crate::ensemble::MemberCrossing;
 use crate::error::Ending;
-use crate::motion::whole::record::Arrival;
+use crate::motion::integration::record::Arrival;
 use crate::solution::crossing::Crossing;
 use crate::statistics::Statistics;
 use crate::system::State;

@@ -5,8 +5,8 @@ use super::contract::LaneMethod;
 use super::motion::{LaneMotion, LaneOutcome};
 use crate::error::{Ending, Error};
 use crate::motion::Step;
+use crate::motion::integration::record::Record;
 use crate::motion::run::{Run, Watchdog, resume};
-use crate::motion::whole::record::Record;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::system::{Lagrangian, State, StateOf};
 

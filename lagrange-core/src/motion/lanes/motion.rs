@@ -4,8 +4,8 @@ use core::fmt::{self, Debug, Formatter};
 
 use crate::error::Ending;
 use crate::motion::Method;
+use crate::motion::integration::record::Record;
 use crate::motion::run::Watchdog;
-use crate::motion::whole::record::Record;
 use crate::statistics::Statistics;
 use crate::system::Lagrangian;
 

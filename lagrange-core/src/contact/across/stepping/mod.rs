@@ -16,10 +16,10 @@ use super::builder::{AcrossContacts, Builder, CrossesContacts};
 use super::{Contacts, ForceDerivatives};
 use crate::error::Error;
 use crate::motion::event::recorded::EventInSteps;
+use crate::motion::integration::sampled::record;
+use crate::motion::integration::store::Stored;
 use crate::motion::method::contract::{check_settings, limit_setters};
 use crate::motion::run::Watchdog;
-use crate::motion::whole::sampled::record;
-use crate::motion::whole::store::Stored;
 use crate::motion::{
     AllSteps, Controls, DynEvent, EventList, Integrates, Limits, Method, MotionBuilder, SamplesAlone,
 };
