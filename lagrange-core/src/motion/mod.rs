@@ -74,6 +74,7 @@ pub use steered::Motion;
 pub use {
     integration::builder::{AllSteps, EventList, HasEnding, Integrates, MotionBuilder, Start},
     integration::progress::Progress,
+    integration::record::Arrival,
     integration::sampled::{Controls, Kept, SamplesAlone, Steered},
     taylor::{Taylor, TaylorPolynomial},
 };

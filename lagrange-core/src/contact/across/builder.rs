@@ -76,16 +76,12 @@ impl Stepwise for () {}
 
 impl Stepwise for AllSteps {}
 
+/// Start of a motion by Lagrange's equations.
+pub(super) type StartOf<L> = Start<<L as System>::Scalar, <L as Lagrangian>::N, LagrangianVectorField>;
+
 /// Settings of a motion from a state.
-pub(super) type Builder<'a, 'w, L, P, E, K, C = Located> = MotionBuilder<
-    'a,
-    'w,
-    L,
-    Start<<L as System>::Scalar, <L as Lagrangian>::N, LagrangianVectorField>,
-    P,
-    E,
-    AcrossContacts<K, C>,
->;
+pub(super) type Builder<'a, 'w, L, P, E, K, C = Located> =
+    MotionBuilder<'a, 'w, L, StartOf<L>, P, E, AcrossContacts<K, C>>;
 
 impl<'a, 'w, L: Contacts + Clone, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
     /// Moves across the [contacts](crate::contact) of the system: gaps close and open, and velocities jump at impacts. Events,
@@ -141,7 +137,7 @@ impl<L: Contacts<Scalar: Real> + Clone, P: Method<L>, E> Builder<'_, '_, L, P, E
     }
 }
 
-impl<'w, L, P, E> Integrates<L::Scalar> for Builder<'_, 'w, L, P, E, AllSteps>
+impl<'a, 'w, L, P, E> Integrates<'a, 'w, L, StartOf<L>, P, E> for AcrossContacts
 where
     L: Contacts<Scalar: Real> + Clone,
     P: Method<L>,
@@ -149,8 +145,8 @@ where
 {
     type Result = Trajectory<L>;
 
-    fn integrate(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
-        let Self { system, start, method, events, on_progress, kept } = self;
+    fn run(motion: Builder<'a, 'w, L, P, E, AllSteps>, end: L::Scalar) -> Result<Trajectory<L>, Error> {
+        let MotionBuilder { system, start, method, events, on_progress, kept } = motion;
         let state = start.into_state()?;
         check_times(state.t, end)?;
         let journey = Journey::new((system, method.accuracy()), state, AllLegs::none()).begin(end)?;
@@ -179,7 +175,7 @@ fn trajectory<L: Contacts<Scalar: Real> + Clone, P: Method<L>>(ended: Ended<L, A
     Trajectory { transitions, closed, ..path }
 }
 
-impl<'a, 'w, L, P, E, C> Integrates<L::Scalar> for Builder<'a, 'w, L, P, E, SamplesAlone<'w, L, C>>
+impl<'a, 'w, L, P, E, C> Integrates<'a, 'w, L, StartOf<L>, P, E> for AcrossContacts<SamplesAlone<'w, L, C>>
 where
     L: Contacts<Scalar: Real> + Clone,
     P: Method<L>,
@@ -188,8 +184,11 @@ where
 {
     type Result = SampledTrajectory<L>;
 
-    fn integrate(self, end: L::Scalar) -> Result<SampledTrajectory<L>, Error> {
-        let Self { system, start, method, events, mut on_progress, kept } = self;
+    fn run(
+        motion: Builder<'a, 'w, L, P, E, SamplesAlone<'w, L, C>>,
+        end: L::Scalar,
+    ) -> Result<SampledTrajectory<L>, Error> {
+        let MotionBuilder { system, start, method, events, mut on_progress, kept } = motion;
         let AcrossContacts { kept, crossing: Located { transitions } } = kept;
         let state = start.into_state()?;
         let (plan, steering, _) = kept.checked()?;

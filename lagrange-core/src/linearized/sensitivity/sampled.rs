@@ -84,17 +84,19 @@ impl<L: Linearized<Scalar: Real>> HasEnding for SampledSensitivity<'_, L> {
     }
 }
 
-impl<'a, 'w, L, P, E> Integrates<L::Scalar>
-    for MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E, SamplesAlone<'w, L>>
+impl<'a, 'w, L, P, E> Integrates<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E> for SamplesAlone<'w, L>
 where
-    L: Linearized<Scalar: Real>,
+    L: Linearized<Scalar: Real> + 'a,
     P: DifferentiableMethod<L>,
     E: EventList<DynDifferentiableEvent<'w, L>>,
 {
     type Result = SampledSensitivity<'a, L>;
 
-    fn integrate(self, end: L::Scalar) -> Result<SampledSensitivity<'a, L>, Error> {
-        let Self { system, start, method, events, on_progress, kept } = self;
+    fn run(
+        motion: MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E, Self>,
+        end: L::Scalar,
+    ) -> Result<SampledSensitivity<'a, L>, Error> {
+        let MotionBuilder { system, start, method, events, on_progress, kept } = motion;
         let (plan, ..) = kept.checked()?;
         integrate(system, &start, end, &method, &mut events.list(), &plan, on_progress)
     }

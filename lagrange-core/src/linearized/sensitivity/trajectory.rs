@@ -13,7 +13,7 @@ use crate::motion::integration::builder::EventList;
 use crate::motion::integration::progress::OnProgress;
 use crate::motion::integration::store::Stored;
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
-use crate::motion::{AnyEvent, HasEnding, Integrates, MotionBuilder};
+use crate::motion::{AllSteps, AnyEvent, HasEnding, Integrates, MotionBuilder};
 use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::solution::crossing::Crossing;
@@ -81,17 +81,19 @@ where
     }
 }
 
-impl<'a, 'w, L, P, E> Integrates<L::Scalar>
-    for MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E>
+impl<'a, 'w, L, P, E> Integrates<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E> for AllSteps
 where
-    L: Linearized<Scalar: Real>,
+    L: Linearized<Scalar: Real> + 'a,
     P: DifferentiableMethod<L>,
     E: EventList<DynDifferentiableEvent<'w, L>>,
 {
     type Result = TrajectorySensitivity<'a, L>;
 
-    fn integrate(self, end: L::Scalar) -> Result<TrajectorySensitivity<'a, L>, Error> {
-        let Self { system, start, method, events, on_progress, .. } = self;
+    fn run(
+        motion: MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E>,
+        end: L::Scalar,
+    ) -> Result<TrajectorySensitivity<'a, L>, Error> {
+        let MotionBuilder { system, start, method, events, on_progress, .. } = motion;
         integrate(system, &start, end, &method, &mut events.list(), on_progress)
     }
 }

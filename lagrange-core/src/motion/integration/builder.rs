@@ -106,7 +106,7 @@ impl<'a, 'w, L: System, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
     }
 
     /// Calls `look` with the progress after every step. If it returns `ControlFlow::Break`, the motion ends there with
-    /// [`Ending::Cancelled`](crate::Ending::Cancelled), which is no error.
+    /// [`Ending::Cancelled`], which is no error.
     pub fn on_progress(mut self, look: impl FnMut(Progress) -> ControlFlow<()> + 'w) -> Self {
         self.on_progress = Some(Box::new(look));
         self
@@ -154,7 +154,7 @@ where
     }
 }
 
-impl<L: System<Scalar: Real>, S, P, E, K> MotionBuilder<'_, '_, L, S, P, E, K> {
+impl<'a, 'w, L: System<Scalar: Real>, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, K> {
     /// Integrates to the time `end`, or to the first [terminal](crate::Event::terminal) event. If `end` is before the start, it
     /// integrates backwards, except across contacts.
     ///
@@ -168,11 +168,11 @@ impl<L: System<Scalar: Real>, S, P, E, K> MotionBuilder<'_, '_, L, S, P, E, K> {
     /// those of [`legendre`](crate::Hamiltonian::legendre). Across contacts, [`Error::Penetration`] if a gap is negative at the
     /// start, and [`Error::MotionBackwards`]; by time steps, those of [`stepper`](Self::stepper). With derivatives,
     /// [`Error::DerivativeNotFinite`].
-    pub fn to(self, end: L::Scalar) -> Result<<Self as Integrates<L::Scalar>>::Result, Error>
+    pub fn to<R: HasEnding>(self, end: L::Scalar) -> Result<R, Error>
     where
-        Self: Integrates<L::Scalar>,
+        K: Integrates<'a, 'w, L, S, P, E, Result = R>,
     {
-        let result = self.integrate(end)?;
+        let result = K::run(self, end)?;
         if result.ending().is_failure() { Err(result.ending().clone().into()) } else { Ok(result) }
     }
 
@@ -181,25 +181,26 @@ impl<L: System<Scalar: Real>, S, P, E, K> MotionBuilder<'_, '_, L, S, P, E, K> {
     ///
     /// # Errors
     /// The errors of [`to`](Self::to) that are found before the first step.
-    pub fn towards(self, end: L::Scalar) -> Result<<Self as Integrates<L::Scalar>>::Result, Error>
+    pub fn towards<R>(self, end: L::Scalar) -> Result<R, Error>
     where
-        Self: Integrates<L::Scalar>,
+        K: Integrates<'a, 'w, L, S, P, E, Result = R>,
     {
-        self.integrate(end)
+        K::run(self, end)
     }
 }
 
-/// Settings of a motion that can be integrated.
+/// Choice of what a motion keeps and how it crosses contacts, which can be integrated from a start `S` by a method `P` with the
+/// events `E`.
 #[diagnostic::on_unimplemented(
     message = "a motion with these settings cannot be integrated",
     label = "these settings do not go together"
 )]
-pub trait Integrates<T> {
+pub trait Integrates<'a, 'w, L: System<Scalar: Real>, S, P, E>: Sized {
     /// Result of the integration.
     type Result: HasEnding;
 
     #[doc(hidden)]
-    fn integrate(self, end: T) -> Result<Self::Result, Error>;
+    fn run(motion: MotionBuilder<'a, 'w, L, S, P, E, Self>, end: L::Scalar) -> Result<Self::Result, Error>;
 }
 
 /// Result of an integration, which knows why it ends.
@@ -214,21 +215,23 @@ impl<S: System, F, K> HasEnding for Trajectory<S, F, K> {
     }
 }
 
-impl<'a, 'w, L, F, P, E> Integrates<L::Scalar>
-    for MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E>
+impl<'a, 'w, L, F, P, E> Integrates<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E> for AllSteps
 where
-    L: System<Scalar: Real>,
+    L: System<Scalar: Real> + 'a,
     F: VectorField<L>,
     P: Method<L, F>,
     E: EventList<DynEvent<'w, L>>,
 {
     type Result = Trajectory<&'a L, F>;
 
-    fn integrate(self, end: L::Scalar) -> Result<Trajectory<&'a L, F>, Error> {
+    fn run(
+        motion: MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E>,
+        end: L::Scalar,
+    ) -> Result<Trajectory<&'a L, F>, Error> {
         const { check_contacts(F::Checks::HAS_CONTACTS) };
         match const { E::HAS_EVENTS } {
-            true => self.store::<true>(end),
-            false => self.store::<false>(end),
+            true => motion.store::<true>(end),
+            false => motion.store::<false>(end),
         }
     }
 }

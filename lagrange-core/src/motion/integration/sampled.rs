@@ -296,8 +296,8 @@ where
     }
 }
 
-impl<'a, 'w, L, F, P, E, C> Integrates<L::Scalar>
-    for MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E, SamplesAlone<'w, L, C>>
+impl<'a, 'w, L, F, P, E, C> Integrates<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E>
+    for SamplesAlone<'w, L, C>
 where
     L: System<Scalar: Real>,
     F: VectorField<L>,
@@ -307,9 +307,12 @@ where
 {
     type Result = SampledTrajectory<C::System, F>;
 
-    fn integrate(self, end: L::Scalar) -> Result<SampledTrajectory<C::System, F>, Error> {
+    fn run(
+        motion: MotionBuilder<'a, 'w, L, Start<L::Scalar, L::Length, F>, P, E, Self>,
+        end: L::Scalar,
+    ) -> Result<SampledTrajectory<C::System, F>, Error> {
         const { check_contacts(F::Checks::HAS_CONTACTS) };
-        let Self { system, start, method, events, on_progress, kept } = self;
+        let MotionBuilder { system, start, method, events, on_progress, kept } = motion;
         let state = start.state.as_ref().as_ref().map_err(Error::clone)?;
         check_end(end)?;
         let (plan, steering, mut own) = kept.checked()?;

@@ -12,7 +12,7 @@ mod time_step;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-use super::builder::{AcrossContacts, Builder, CrossesContacts};
+use super::builder::{AcrossContacts, Builder, CrossesContacts, StartOf};
 use super::{Contacts, ForceDerivatives};
 use crate::error::Error;
 use crate::motion::event::recorded::EventInSteps;
@@ -216,15 +216,18 @@ impl<'a, 'w, L: Contacts + Clone, S, P, E, K> MotionBuilder<'a, 'w, L, S, P, E, 
     }
 }
 
-impl<'w, L, P, E> Integrates<L::Scalar> for Builder<'_, 'w, L, P, E, AllSteps, MoreauJean>
+impl<'a, 'w, L, P, E> Integrates<'a, 'w, L, StartOf<L>, P, E> for AcrossContacts<AllSteps, MoreauJean>
 where
     L: ForceDerivatives<Scalar: Real> + Clone,
     E: EventList<DynEvent<'w, L>>,
 {
     type Result = Trajectory<L>;
 
-    fn integrate(self, end: L::Scalar) -> Result<Trajectory<L>, Error> {
-        let Self { system, start, events, on_progress, kept, .. } = self;
+    fn run(
+        motion: Builder<'a, 'w, L, P, E, AllSteps, MoreauJean>,
+        end: L::Scalar,
+    ) -> Result<Trajectory<L>, Error> {
+        let MotionBuilder { system, start, events, on_progress, kept, .. } = motion;
         let method = TimeSteps(kept.crossing);
         let mut run = method.run(system, start.into_state()?, end)?;
         let closed = run.memory.stepper.closed().clone();
@@ -237,8 +240,8 @@ where
     }
 }
 
-impl<'a, 'w, L, P, E, C> Integrates<L::Scalar>
-    for Builder<'a, 'w, L, P, E, SamplesAlone<'w, L, C>, MoreauJean>
+impl<'a, 'w, L, P, E, C> Integrates<'a, 'w, L, StartOf<L>, P, E>
+    for AcrossContacts<SamplesAlone<'w, L, C>, MoreauJean>
 where
     L: ForceDerivatives<Scalar: Real> + Clone,
     E: EventList<DynEvent<'w, L>>,
@@ -246,8 +249,12 @@ where
 {
     type Result = SampledTrajectory<L>;
 
-    fn integrate(self, end: L::Scalar) -> Result<SampledTrajectory<L>, Error> {
-        let Self { system, start, events, on_progress, kept: AcrossContacts { kept, crossing }, .. } = self;
+    fn run(
+        motion: Builder<'a, 'w, L, P, E, SamplesAlone<'w, L, C>, MoreauJean>,
+        end: L::Scalar,
+    ) -> Result<SampledTrajectory<L>, Error> {
+        let MotionBuilder { system, start, events, on_progress, kept, .. } = motion;
+        let AcrossContacts { kept, crossing } = kept;
         let (plan, steering, _) = kept.checked()?;
         let method = TimeSteps(crossing);
         let mut run = method.run(system, start.into_state()?, end)?;
