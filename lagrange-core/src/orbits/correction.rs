@@ -10,7 +10,7 @@ use super::frame::flat;
 use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized};
-use crate::number::{Real, Scalar, larger, norm};
+use crate::number::{Real, Scalar, larger};
 use crate::vector::StaticLength;
 
 /// Steps allowed. Ten are usual; a search that takes more has left the neighbourhood of its guess.
@@ -83,6 +83,22 @@ impl<T: Real> Arc<T> {
         self.tangent.dot(&here) / here.norm()
     }
 
+    /// Changes of the unknowns from the base to a shot.
+    fn offset<L: Linearized<Scalar = T> + Clone>(&self, problem: &Problem<T>, shot: &Shot<L>) -> DVector<T> {
+        let count = shot.frames[0].count();
+        let mut offset = DVector::zeros(self.tangent.len());
+        let moved = &self.dual * (flat::<L>(&shot.chain.nodes[0]) - &self.start);
+        offset.rows_mut(0, count).copy_from(&moved);
+        if problem.conditions.period_is_free() {
+            offset[count] = shot.chain.period / self.period - T::constant(1.0);
+        }
+        if let Some(column) = problem.parameter_column(count) {
+            offset[column] =
+                (problem.parameter_of(&shot.chain.system).0 - self.parameter.0) / self.parameter.1;
+        }
+        offset
+    }
+
     /// True if a shot is within a step of the base, and has not just left it: on its way back.
     pub(super) fn is_met<L: Linearized<Scalar = T> + Clone>(
         &self,
@@ -90,10 +106,7 @@ impl<T: Real> Arc<T> {
         shot: &Shot<L>,
         step: T,
     ) -> bool {
-        let moved = &self.dual * (flat::<L>(&shot.chain.nodes[0]) - &self.start);
-        let period = shot.chain.period / self.period - T::constant(1.0);
-        let parameter = (problem.parameter_of(&shot.chain.system).0 - self.parameter.0) / self.parameter.1;
-        norm(&[moved.norm(), period, parameter]) < step && self.residual(problem, shot) <= T::constant(0.0)
+        self.offset(problem, shot).norm() < step && self.residual(problem, shot) <= T::constant(0.0)
     }
 
     /// Distance of a shot from the point of the tangent at the arclength demanded.
@@ -102,36 +115,16 @@ impl<T: Real> Arc<T> {
         problem: &Problem<T>,
         shot: &Shot<L>,
     ) -> T {
-        let count = shot.frames[0].count();
-        let mut off = &self.dual * (flat::<L>(&shot.chain.nodes[0]) - &self.start);
-        off -= self.tangent.rows(0, count) * self.length;
-        let mut squares = off.norm_squared();
-        if problem.conditions.period_is_free() {
-            let period =
-                shot.chain.period / self.period - T::constant(1.0) - self.tangent[count] * self.length;
-            squares += period * period;
-        }
-        if let Some(column) = problem.parameter_column(count) {
-            let value = (problem.parameter_of(&shot.chain.system).0 - self.parameter.0) / self.parameter.1;
-            let off = value - self.tangent[column] * self.length;
-            squares += off * off;
-        }
-        Scalar::sqrt(squares)
+        (self.offset(problem, shot) - &self.tangent * self.length).norm()
     }
 
     /// Arclength of a shot less the one demanded.
-    fn residual<L: Linearized<Scalar = T> + Clone>(&self, problem: &Problem<T>, shot: &Shot<L>) -> T {
-        let count = shot.frames[0].count();
-        let moved = &self.dual * (flat::<L>(&shot.chain.nodes[0]) - &self.start);
-        let mut length = self.tangent.rows(0, count).dot(&moved);
-        if problem.conditions.period_is_free() {
-            length += self.tangent[count] * (shot.chain.period / self.period - T::constant(1.0));
-        }
-        if let Some(column) = problem.parameter_column(count) {
-            let value = problem.parameter_of(&shot.chain.system).0;
-            length += self.tangent[column] * (value - self.parameter.0) / self.parameter.1;
-        }
-        length - self.length
+    pub(super) fn residual<L: Linearized<Scalar = T> + Clone>(
+        &self,
+        problem: &Problem<T>,
+        shot: &Shot<L>,
+    ) -> T {
+        self.tangent.dot(&self.offset(problem, shot)) - self.length
     }
 }
 
