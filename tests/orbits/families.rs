@@ -119,6 +119,21 @@ fn swings_up_to_the_separatrix() {
     assert!(last.energy() > 1.0 - 1e-8 && last.monodromy.trivial() == 2, "{last}");
 }
 
+/// Signs that are not known tell of no bifurcation: the motion for half a period magnifies errors more than 10⁶ times.
+#[test]
+fn swings_beyond_round_off() {
+    for amplitude in [3.14, 3.141_f64] {
+        let start = State::at_rest([amplitude]);
+        let search = Pendulum { m: 1.0, l: 1.0, g: 1.0 }.periodic_orbit(&start).mirrored(&["theta_dot"]);
+        let search = search.period_near(4.0 * (8.0 / (PI - amplitude)).ln());
+        let first = search.clone().energy(-amplitude.cos()).find().unwrap();
+        let search = search.period_near(first.period);
+        let family = search.family(&search.find().unwrap()).step(0.1).longest_step(0.3).follow().unwrap();
+        assert!(family.bifurcations().is_empty() && family.lost().is_empty(), "{family}");
+        assert!(family.orbits().last().unwrap().energy() > 1.0 - 1e-12, "{family}");
+    }
+}
+
 /// The stable and the unstable cycle meet at a = b²/4.
 #[test]
 fn fold_in_closed_form() {

@@ -3,16 +3,16 @@
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Display, Formatter};
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
 
 use super::conditions::Conditions;
 use super::monodromy::Monodromy;
-use super::multipliers::{modulus, product_of, reciprocal};
+use super::multipliers::{modulus, product, product_of, reciprocal};
 use super::orbit::PeriodicOrbit;
 use super::shot::{Chain, Problem, Shot};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
-use crate::number::{Real, Scalar, larger, smaller};
+use crate::number::{Real, Scalar, order, smaller};
 use crate::system::StateOf;
 
 /// Kind of a bifurcation of periodic orbits.
@@ -40,10 +40,9 @@ impl Display for BifurcationKind {
     }
 }
 
-/// Size of a least singular value or of Π (1 − λ), in units of the error of an orbit, below which its sign is noise.
-/// Derivatives of a motion are allowed ten times its error, and some tens of them make up the matrix; among the orbits of a
-/// planet Π (1 − λ), which is zero, comes to 10⁻³.
-const NOISE: f64 = 1e3;
+/// Error of the derivatives of a motion in units of the error of the motion, both relative: the methods allow this much (see
+/// [`Linearized::integrate_sensitivities`]).
+const DERIVATIVES: f64 = 10.0;
 
 /// A bifurcation of a family.
 #[derive(Clone)]
@@ -76,31 +75,18 @@ pub(super) struct Branch<L: Linearized> {
     pub(super) direction: DVector<L::Scalar>,
 }
 
-/// Functions that change sign at bifurcations; `None` where one is not defined.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Tests<T> {
-    /// Rate of the parameter, or of the energy, along the family.
-    pub(super) turning: T,
-    /// Least singular value of the derivatives of the conditions, bordered by the direction of the family, with the sign of
-    /// their determinant.
-    pub(super) determinant: Option<T>,
-    /// Π (1 − λ).
-    pub(super) unity: T,
-    /// Π (1 + λ).
-    pub(super) doubling: T,
-    /// Π_{i<j} (1 − λ_i λ_j), or of symplectic motions the discriminant Π_{i<j} (s_i − s_j)² of the indices s = λ + 1/λ.
-    pub(super) torus: T,
-    /// Size below which a determinant and `unity` are noise.
-    pub(super) noise: T,
-}
-
-/// A function of the [`Tests`], by the kind of bifurcation at which it changes sign.
+/// A function that changes sign at bifurcations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Test {
+    /// Rate of the parameter, or of the energy, along the family.
     Turning,
+    /// Determinant of the derivatives of the conditions, bordered by the direction of the family.
     Determinant,
+    /// Π (1 − λ).
     Unity,
+    /// Π (1 + λ).
     Doubling,
+    /// Π_{i<j} (1 − λ_i λ_j), or of symplectic motions the discriminant Π_{i<j} (s_i − s_j)² of the indices s = λ + 1/λ.
     Torus,
 }
 
@@ -118,43 +104,57 @@ impl Test {
     }
 }
 
+/// Values of the tests at an orbit, in the order of [`Test::ALL`]; `None` where one is not defined.
+pub(super) type TestValues<T> = [Option<T>; 5];
+
+/// Tests at a member of a family.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tests<T> {
+    pub(super) values: TestValues<T>,
+    /// Bounds of the errors of the values.
+    errors: [T; 5],
+}
+
 impl<T: Real> Tests<T> {
-    pub(super) fn value(&self, test: Test) -> Option<T> {
-        match test {
-            Test::Turning => Some(self.turning),
-            Test::Determinant => self.determinant,
-            Test::Unity => Some(self.unity),
-            Test::Doubling => Some(self.doubling),
-            Test::Torus => Some(self.torus),
+    pub(super) fn value(&self, test: Test) -> T {
+        self.values[test as usize].unwrap_or(T::constant(0.0))
+    }
+
+    /// Adds the changes of the values along the family over the error of the orbit.
+    pub(super) fn displace(&mut self, slopes: &TestValues<T>, error: T) {
+        for (bound, slope) in self.errors.iter_mut().zip(slopes) {
+            *bound += Scalar::abs(slope.unwrap_or(T::constant(0.0))) * error;
         }
     }
 
-    /// Change of each test from those of another orbit, times a factor.
-    pub(super) fn change_from(&self, other: &Self, factor: T) -> Self {
-        Self {
-            turning: (self.turning - other.turning) * factor,
-            determinant: self.determinant.zip(other.determinant).map(|(x, y)| (x - y) * factor),
-            unity: (self.unity - other.unity) * factor,
-            doubling: (self.doubling - other.doubling) * factor,
-            torus: (self.torus - other.torus) * factor,
-            noise: self.noise,
-        }
+    /// True if the value is larger than its error, so that its sign is known.
+    pub(super) fn is_certain(&self, test: Test) -> bool {
+        self.errors[test as usize] < Scalar::abs(self.value(test))
     }
 
-    /// Tests whose signs differ between two neighbours of a family. `Unity` changes with folds and branch points too, and
-    /// counts alone only, as a broken symmetry.
-    pub(super) fn changed(&self, next: &Self) -> Vec<Test> {
+    /// Gives values of unknown sign, now as large as their error, the sign of the member before.
+    pub(super) fn remember(&mut self, before: &Self) {
         let zero = T::constant(0.0);
-        let noise = larger(self.noise, next.noise);
-        let changes = |test: &Test| match (self.value(*test), next.value(*test)) {
-            // Where orbits fill more than a curve these are zero, and their signs are those of errors.
-            (Some(x), Some(y)) if matches!(test, Test::Determinant | Test::Unity) => {
-                x * y <= zero && larger(Scalar::abs(x), Scalar::abs(y)) > noise && x != zero
+        for test in Test::ALL.into_iter().filter(|test| before.is_certain(*test)) {
+            let k = test as usize;
+            if !self.is_certain(test) {
+                let error = core::mem::replace(&mut self.errors[k], zero);
+                self.values[k] = Some(if before.value(test) < zero { -error } else { error });
             }
-            (Some(x), Some(y)) => x * y < zero || (y == zero && x != zero),
-            _ => false,
-        };
-        let mut found: Vec<Test> = Test::ALL.into_iter().filter(changes).collect();
+        }
+    }
+
+    /// Product of the signs at two members: 0 if one is not known.
+    pub(super) fn signs(&self, next: &Self, test: Test) -> i8 {
+        let is_known = self.is_certain(test) && next.is_certain(test);
+        let is_same = (self.value(test) < T::constant(0.0)) == (next.value(test) < T::constant(0.0));
+        i8::from(is_known) * if is_same { 1 } else { -1 }
+    }
+
+    /// Tests whose signs are known and differ between two neighbours of a family. `Unity` changes with folds and branch points too,
+    /// and counts alone only, as a broken symmetry.
+    pub(super) fn changed(&self, next: &Self) -> Vec<Test> {
+        let mut found: Vec<Test> = Test::ALL.into_iter().filter(|test| self.signs(next, *test) < 0).collect();
         if found.contains(&Test::Turning) || found.contains(&Test::Determinant) {
             found.retain(|test| *test != Test::Unity);
         }
@@ -164,28 +164,46 @@ impl<T: Real> Tests<T> {
 
 impl<T: Real> Problem<T> {
     /// Tests at a member of a family with this direction, from its monodromy and the error of the orbit.
+    ///
+    /// Derivatives of the motion err by E with ‖E‖ ≤ δ ‖Φ‖, where δ is their relative error and Φ the monodromy, and so do the
+    /// matrices made up of them. A singular value then errs by ‖E‖ (Weyl), the null vector that is the direction by ‖E‖/σ for the
+    /// least singular value σ, and a determinant by Π(σ_i + ‖E‖) − Πσ_i (Ipsen and Rehman, *SIAM Journal on Matrix Analysis and
+    /// Applications* 30, 2008).
     pub(super) fn tests<L: Linearized<Scalar = T> + Clone>(
         &self,
         shot: &Shot<L>,
         tangent: &DVector<T>,
         (monodromy, error): (&Monodromy<T>, T),
     ) -> Result<Tests<T>, Error> {
-        let bordered = self.with_row(shot, tangent);
-        let determinant = if bordered.is_square() { Some(signed_least(&bordered)?) } else { None };
-        let multipliers = monodromy.nontrivial()?;
         let one = T::constant(1.0);
-        let torus = match monodromy.is_symplectic() {
-            true => discriminant(&multipliers),
+        let part = T::constant(DERIVATIVES) * (error + T::constant(T::EPSILON));
+        let bordered = self.with_row(shot, tangent);
+        let (off, around) = (part * bordered.norm(), part * monodromy.norm);
+        let bordered_sizes = singular_values(&bordered)?;
+        let least = bordered_sizes.iter().copied().reduce(smaller).unwrap_or(one);
+        let (multipliers, once) = (monodromy.nontrivial()?, monodromy.nontrivial_product());
+        let factors = match monodromy.is_symplectic() {
+            true => differences(&multipliers),
             false => collisions(&multipliers),
         };
-        Ok(Tests {
-            turning: self.turning(shot, tangent),
-            determinant,
-            unity: product_of(&multipliers, -one),
-            doubling: product_of(&multipliers, one),
-            torus,
-            noise: T::constant(NOISE) * (error + T::constant(T::EPSILON)),
-        })
+        let shifted = |by: T| singular_values(&(&once + DMatrix::identity(once.nrows(), once.ncols()) * by));
+        let sizes: Vec<T> = factors.iter().map(|x| modulus(*x)).collect();
+        let errors = [
+            off / least,
+            determinant_error(&bordered_sizes, off),
+            determinant_error(&shifted(-one)?, around),
+            determinant_error(&shifted(one)?, around),
+            // A factor is a function of second minors.
+            determinant_error(&sizes, around * (once.norm() + one)),
+        ];
+        let values = [
+            Some(self.turning(shot, tangent)),
+            bordered.is_square().then(|| bordered.lu().determinant()),
+            Some(product_of(&multipliers, -one)),
+            Some(product_of(&multipliers, one)),
+            Some(product(&factors)),
+        ];
+        Ok(Tests { values, errors })
     }
 
     /// Rate of the parameter, or of the energy where there is none, along the family.
@@ -248,22 +266,29 @@ impl<T: Real> Problem<T> {
 
 /// Direction in which a matrix changes least: its last right singular vector.
 pub(super) fn least_direction<T: Real>(a: &DMatrix<T>) -> Result<DVector<T>, Error> {
-    let factors = Singular::of(a).ok_or(Error::EigenvaluesNotFound)?;
-    let values = &factors.values;
-    let least = (1..values.len()).fold(0, |least, k| if values[k] < values[least] { k } else { least });
-    Ok(DVector::from_fn(a.ncols(), |j, _| factors.direction(least, j)))
+    least_directions(a, 1).map(|found| found.column(0).into_owned())
 }
 
-/// Least singular value of a square matrix, with the sign of its determinant.
-fn signed_least<T: Real>(a: &DMatrix<T>) -> Result<T, Error> {
+/// Right singular vectors of the least singular values, as columns, the least first.
+pub(super) fn least_directions<T: Real>(a: &DMatrix<T>, count: usize) -> Result<DMatrix<T>, Error> {
     let factors = Singular::of(a).ok_or(Error::EigenvaluesNotFound)?;
-    let least = factors.values.iter().fold(factors.norm(), |least, x| smaller(least, *x));
-    let is_negative = a.clone().lu().determinant() < T::constant(0.0);
-    Ok(if is_negative { -least } else { least })
+    let mut by_size: Vec<usize> = (0..a.ncols()).collect();
+    by_size.sort_by(|j, k| order(factors.values[*j], factors.values[*k]));
+    Ok(DMatrix::from_fn(a.ncols(), count, |j, k| factors.direction(by_size[k], j)))
+}
+
+fn singular_values<T: Real>(a: &DMatrix<T>) -> Result<Vec<T>, Error> {
+    Ok(Singular::of(a).ok_or(Error::EigenvaluesNotFound)?.values)
+}
+
+/// Largest change of a product of singular values by a change of each by `error`.
+fn determinant_error<T: Real>(sizes: &[T], error: T) -> T {
+    let product = |by: T| sizes.iter().fold(T::constant(1.0), |product, size| product * (*size + by));
+    product(error) - product(T::constant(0.0))
 }
 
 /// True if a complex pair of multipliers is on the unit circle, to a thousandth.
-pub(super) fn touches_circle<T: Real>(multipliers: &[nalgebra::Complex<T>]) -> bool {
+pub(super) fn touches_circle<T: Real>(multipliers: &[Complex<T>]) -> bool {
     let little = T::constant(1e-3);
     multipliers
         .iter()
@@ -290,35 +315,56 @@ fn twice<L: Linearized<Scalar: Real>>(mut chain: Chain<L>) -> Chain<L> {
     chain
 }
 
-/// Π_{i<j} (1 − λ_i λ_j), in which only complex pairs on the unit circle, and real ones with the product 1, are zeros.
-fn collisions<T: Real>(multipliers: &[nalgebra::Complex<T>]) -> T {
-    let mut products = Vec::new();
-    for (i, x) in multipliers.iter().enumerate() {
-        for y in &multipliers[i + 1..] {
-            products.push(nalgebra::Complex::new(x.re * y.re - x.im * y.im, x.re * y.im + x.im * y.re));
-        }
-    }
-    product_of(&products, T::constant(-1.0))
+/// Factors 1 − λ_i λ_j, of which only complex pairs on the unit circle, and real ones with the product 1, are zeros.
+fn collisions<T: Real>(multipliers: &[Complex<T>]) -> Vec<Complex<T>> {
+    let one = T::constant(1.0);
+    pairs(multipliers)
+        .map(|(x, y)| Complex::new(one - (x.re * y.re - x.im * y.im), -(x.re * y.im + x.im * y.re)))
+        .collect()
 }
 
-/// Π_{i<j} (s_i − s_j)² of the indices s = λ + 1/λ of the pairs: negative if one pair of indices is complex.
-fn discriminant<T: Real>(multipliers: &[nalgebra::Complex<T>]) -> T {
-    let indices: Vec<_> = multipliers
-        .iter()
-        .step_by(2)
-        .map(|x| {
-            let inverse = reciprocal(*x);
-            nalgebra::Complex::new(x.re + inverse.re, x.im + inverse.im)
-        })
-        .collect();
-    let scale = T::constant(1e-9);
-    let complex = indices.iter().filter(|s| Scalar::abs(s.im) > scale * modulus(**s)).count() / 2;
-    let mut product = T::constant(if complex % 2 == 0 { 1.0 } else { -1.0 });
-    for (i, x) in indices.iter().enumerate() {
-        for y in &indices[i + 1..] {
-            let apart = modulus(nalgebra::Complex::new(x.re - y.re, x.im - y.im));
-            product *= apart * apart;
-        }
+/// Factors (s_i − s_j)² of the discriminant of the indices s = λ + 1/λ of the pairs.
+fn differences<T: Real>(multipliers: &[Complex<T>]) -> Vec<Complex<T>> {
+    let index = |x: &Complex<T>| {
+        let inverse = reciprocal(*x);
+        Complex::new(x.re + inverse.re, x.im + inverse.im)
+    };
+    let indices: Vec<_> = multipliers.iter().step_by(2).map(index).collect();
+    let square = |(x, y): (Complex<T>, Complex<T>)| {
+        let (re, im) = (x.re - y.re, x.im - y.im);
+        Complex::new(re * re - im * im, (re + re) * im)
+    };
+    pairs(&indices).map(square).collect()
+}
+
+fn pairs<T: Real>(all: &[Complex<T>]) -> impl Iterator<Item = (Complex<T>, Complex<T>)> {
+    all.iter().enumerate().flat_map(|(i, x)| all[i + 1..].iter().map(|y| (*x, *y)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Signs count where values exceed their errors, and are those of the member before elsewhere.
+    #[test]
+    fn signs_that_are_known() {
+        let at = |value: f64| Tests { values: [None, Some(value), None, None, None], errors: [0.1; 5] };
+        assert_eq!(at(0.2).changed(&at(-0.2)), [Test::Determinant]);
+        assert!(at(0.2).changed(&at(-0.05)).is_empty() && at(0.05).changed(&at(-0.2)).is_empty());
+        let mut between = at(-0.05);
+        between.remember(&at(0.2));
+        assert!(at(0.2).changed(&between).is_empty());
+        assert_eq!(between.changed(&at(-0.2)), [Test::Determinant]);
+        let mut between = at(-0.05);
+        between.remember(&at(0.01));
+        assert_eq!(between, at(-0.05));
     }
-    product
+
+    /// Against the determinant of a diagonal matrix, all of whose entries change by as much.
+    #[test]
+    fn determinants_err_by_their_singular_values() {
+        let error = determinant_error(&[2.0, 0.0, 3.0_f64], 0.1);
+        assert!((error - 2.1 * 0.1 * 3.1).abs() < 1e-15, "{error}");
+        assert!(determinant_error(&[], 0.1_f64).abs() < 1e-300);
+    }
 }

@@ -137,14 +137,16 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
     ///
     /// Bifurcations are told by functions that change sign from one orbit to the next: the rate of the parameter or energy,
     /// the bordered determinant of the equations, Π(1 − λ), Π(1 + λ) and Π(1 − λλ′) of the multipliers. A change of sign
-    /// between two orbits of one curve proves that there is one between. Each is found by regula falsi on the arclength, to
-    /// round-off of the function, and a branch point by interpolation between orbits beside it.
+    /// between two orbits of one curve proves that there is one between. A sign counts only where the value exceeds a bound of its
+    /// error: derivatives err by at most ten times the error of the orbit, relative to the norm of the monodromy matrix. The zero is
+    /// found by cubics with the values and slopes of the function at two orbits (Hermite), and a branch point by Newton's method for
+    /// equations that are regular there.
     ///
-    /// Two bifurcations of a kind between neighbours are found if two things hold: the cubic with the values and slopes of the function
-    /// at both neighbours falls below half of both values, and the function passes zero between them by more than 10³ times the error of
-    /// an orbit, its noise. An orbit between the two bifurcations then becomes a member. Steps are shortened so that no multiplier turns by more than 90° at the rate that it has
-    /// at the start of the step. What can still be missed is a window that is narrower, or one beside which the function has
-    /// further extrema between the two orbits.
+    /// Two bifurcations of a kind between neighbours are found if two things hold: the cubic falls below half of the values at both
+    /// neighbours, and the function passes zero between them by more than its error. An orbit between the two bifurcations then becomes
+    /// a member. Steps are shortened so that no multiplier turns by more than 90° at the rate that it has at the start of the step.
+    /// What can still be missed is a window that is narrower, or one beside which the function has further extrema between the two
+    /// orbits.
     ///
     /// The family ends early where no orbit is found, which is no error: see [`Family::ending`].
     ///
@@ -187,18 +189,16 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
         if let Some(ending) = self.ending(&member.orbit, family) {
             return Ok(ending);
         }
-        let mut slopes = tracer.slopes(&member)?;
         loop {
             let arc = Arc::from(problem, &member.shot, member.tangent.clone());
-            step = smaller(step, L::Scalar::constant(TURN) / slopes.turn);
-            let (next, taken) = tracer.advance(&member.shot, &arc, step)?;
-            let ahead = tracer.slopes(&next)?;
-            let mut reached = tracer.dips((&member, &slopes), &arc, (taken, &next, &ahead))?;
+            step = smaller(step, L::Scalar::constant(TURN) / member.turn);
+            let (mut next, taken) = tracer.advance(&member.shot, &arc, step)?;
+            next.tests.remember(&member.tests);
+            let mut reached = tracer.dips(&member, &arc, (taken, &next))?;
             reached.push((taken, next));
-            let mut from = (L::Scalar::constant(0.0), member.tests);
+            let mut from = (L::Scalar::constant(0.0), &member);
             for (length, next) in &reached {
-                let to = (*length, next.tests);
-                let (found, lost) = tracer.between(&member, &arc, [from, to]);
+                let (found, lost) = tracer.between(&member, &arc, [from, (*length, next)]);
                 found.into_iter().for_each(|found| family.push_bifurcation(found));
                 lost.into_iter().for_each(|lost| family.push_lost(lost));
                 family.push(next.orbit.clone());
@@ -208,10 +208,10 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
                 if let Some(ending) = self.ending(&next.orbit, family) {
                     return Ok(ending);
                 }
-                from = to;
+                from = (*length, next);
             }
             if let Some((_, next)) = reached.pop() {
-                (member, slopes) = (next, ahead);
+                member = next;
             }
             let is_easy = member.orbit.iterations <= EASY;
             step = if is_easy { smaller(taken * L::Scalar::constant(1.3), self.longest) } else { taken };

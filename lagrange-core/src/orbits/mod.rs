@@ -3,12 +3,10 @@
 //! [`PeriodicMotion`] is the way in, a trait of every [`Linearized`] system over `f64` or `f32`.
 
 mod bifurcation;
-mod centre;
 mod conditions;
 mod correction;
 mod diagnosis;
 mod digits;
-mod dip;
 mod error;
 mod family;
 mod form;

@@ -32,6 +32,8 @@ pub struct Monodromy<T> {
     /// Factors Φ_m, …, Φ_1 first to last, of which the multipliers other than the trivial ones are computed.
     factors: Vec<DMatrix<T>>,
     trivial: usize,
+    /// Norm of the matrix, of a periodic orbit in its own units.
+    pub(super) norm: T,
 }
 
 /// Derivatives by the initial state as one matrix, of the coordinates above those of the velocities.
@@ -60,14 +62,15 @@ impl<T: Real> Monodromy<T> {
             duration: end.t - start.t,
             columns,
             basis,
+            norm: factors[0].norm(),
             factors,
             trivial: 0,
         }
     }
 
     /// Sets the factors whose product has the multipliers, without `trivial` ones that are 1 exactly.
-    pub(super) fn with_factors(self, factors: Vec<DMatrix<T>>, trivial: usize) -> Self {
-        Self { factors, trivial, ..self }
+    pub(super) fn with_factors(self, factors: Vec<DMatrix<T>>, trivial: usize, norm: T) -> Self {
+        Self { factors, trivial, norm, ..self }
     }
 
     /// The matrix: 2N × 2N, in the order (q, q̇), without constraints; with constraints the components along the
@@ -145,6 +148,12 @@ impl<T: Real> Monodromy<T> {
     pub(super) fn nontrivial(&self) -> Result<Vec<Complex<T>>, Error> {
         let found = of_product(&self.factors)?;
         Ok(if self.is_symplectic() { paired(found) } else { found })
+    }
+
+    /// Matrix of the multipliers that are not 1 for every orbit of the kind.
+    pub(super) fn nontrivial_product(&self) -> DMatrix<T> {
+        let count = self.factors.first().map_or(0, DMatrix::ncols);
+        self.factors.iter().fold(DMatrix::identity(count, count), |product, factor| factor * product)
     }
 
     /// Number of multipliers that are 1 because of the kind of orbit: 1 for a shift along an orbit without a clock, and 1 for the

@@ -104,12 +104,16 @@ pub(super) fn modulus<T: Real>(x: Complex<T>) -> T {
 
 /// Π (1 + shift·λ) over all multipliers, which is real.
 pub(super) fn product_of<T: Real>(multipliers: &[Complex<T>], shift: T) -> T {
+    let factor = |x: &Complex<T>| Complex::new(T::constant(1.0) + shift * x.re, shift * x.im);
+    product(&multipliers.iter().map(factor).collect::<Vec<_>>())
+}
+
+/// Product of factors that are real or come in conjugate pairs.
+pub(super) fn product<T: Real>(factors: &[Complex<T>]) -> T {
     let one = Complex::new(T::constant(1.0), T::constant(0.0));
-    let product = multipliers.iter().fold(one, |product, x| {
-        let (re, im) = (T::constant(1.0) + shift * x.re, shift * x.im);
-        Complex::new(product.re * re - product.im * im, product.re * im + product.im * re)
-    });
-    product.re
+    let times =
+        |x: Complex<T>, y: &Complex<T>| Complex::new(x.re * y.re - x.im * y.im, x.re * y.im + x.im * y.re);
+    factors.iter().fold(one, times).re
 }
 
 /// ln λ, with an imaginary part between −π and π.

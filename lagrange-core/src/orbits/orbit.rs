@@ -224,17 +224,18 @@ impl<T: Real> Problem<T> {
         let (first, m) = (&shot.frames[0], shot.segments.len());
         let product = (0..m)
             .fold(DMatrix::identity(first.count(), first.count()), |product, k| shot.factor(k) * product);
+        let norm = product.norm();
         let columns = &first.basis * (product * (&first.dual * &first.tangents));
         let start = shot.chain.nodes[0];
         let end = StateOf::<L> { t: start.t + shot.chain.period, ..start };
         let around = Monodromy::of(&shot.chain.system, [&start, &end], first.tangents.clone(), columns);
         let splits = if self.has_clock { None } else { self.trivial(shot) };
         let Some(splits) = splits else {
-            return around.with_factors((0..m).map(|k| shot.factor(k)).collect(), 0);
+            return around.with_factors((0..m).map(|k| shot.factor(k)).collect(), 0, norm);
         };
         let reduced = (0..m).map(|k| splits[(k + 1) % m].tr_mul(&(shot.factor(k) * &splits[k])));
         let trivial = first.count() - splits[0].ncols();
-        around.with_factors(reduced.collect(), trivial)
+        around.with_factors(reduced.collect(), trivial, norm)
     }
 
     /// Bases of the components at each node across the motion and, where the energy is conserved, along its surface: the quotient of the

@@ -2,14 +2,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::bifurcation::{Tests, least_direction};
+use super::bifurcation::{TestValues, Tests, least_direction};
 use super::correction::Arc;
 use super::error::OrbitError;
+use super::multipliers::{logarithm, modulus, ratio};
 use super::orbit::PeriodicOrbit;
 use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
-use crate::number::{Real, Scalar, exceeds, norm, power_of_epsilon, unit_of};
+use crate::number::{Real, Scalar, exceeds, larger, norm, order, power_of_epsilon, smaller, unit_of};
 use crate::system::System;
 
 /// Least cosine of the angle between neighbours of a family; a step across which it turns more is halved. 20° are small
@@ -60,6 +61,10 @@ pub(super) struct TracedOrbit<L: Linearized> {
     pub(super) orbit: PeriodicOrbit<L>,
     pub(super) tangent: DVector<L::Scalar>,
     pub(super) tests: Tests<L::Scalar>,
+    /// Rates of the tests along the family.
+    pub(super) slopes: TestValues<L::Scalar>,
+    /// Largest rate of the argument of a multiplier, in radians a unit of arclength.
+    pub(super) turn: L::Scalar,
 }
 
 /// A member at an arclength from an earlier one.
@@ -88,29 +93,64 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         shot.chain.units = shot.size();
         let shot = self.problem.shoot(shot.chain, self.method)?;
         let mut tangent = only_direction(&shot.jacobian)?;
-        let orbit = self.problem.orbit(&shot, iterations, self.method, self.tolerance)?;
-        let mut tests = self.problem.tests(&shot, &tangent, (&orbit.monodromy, orbit.error))?;
-        let grows = self.grows(&shot, &tangent, &orbit)?;
-        if grows == is_backwards {
+        if self.grows(&shot, &tangent)? == is_backwards {
             tangent = -tangent;
-            tests = self.problem.tests(&shot, &tangent, (&orbit.monodromy, orbit.error))?;
         }
-        Ok(TracedOrbit { shot, orbit, tangent, tests })
+        self.traced(shot, tangent, iterations)
     }
 
     /// True if the parameter, or the energy, grows in this direction.
-    fn grows(
-        &self,
-        shot: &Shot<L>,
-        tangent: &DVector<L::Scalar>,
-        orbit: &PeriodicOrbit<L>,
-    ) -> Result<bool, Error> {
+    fn grows(&self, shot: &Shot<L>, tangent: &DVector<L::Scalar>) -> Result<bool, Error> {
         if let Some(column) = self.problem.parameter_column(shot.frames[0].count()) {
             return Ok(tangent[column] > L::Scalar::constant(0.0));
         }
         let little = tangent * (self.step * L::Scalar::constant(1e-3));
         let moved = self.problem.moved_by(shot, &little, false)?;
-        Ok(moved.system.energy(&moved.nodes[0]) > orbit.energy())
+        let energy = |chain: &Chain<L>| chain.system.energy(&chain.nodes[0]);
+        Ok(energy(&moved) > energy(&shot.chain))
+    }
+
+    /// The member of a corrected shot.
+    pub(super) fn traced(
+        &self,
+        shot: Shot<L>,
+        tangent: DVector<L::Scalar>,
+        iterations: usize,
+    ) -> Result<TracedOrbit<L>, Error> {
+        let orbit = self.problem.orbit(&shot, iterations, self.method, self.tolerance)?;
+        if exceeds(orbit.error, L::Scalar::constant(VAGUE)) {
+            let (error, period) = (orbit.error.to_f64(), orbit.period.to_f64());
+            return Err(OrbitError::Vague { error, period }.into());
+        }
+        let mut tests = self.problem.tests(&shot, &tangent, (&orbit.monodromy, orbit.error))?;
+        let (slopes, turn) = self.slopes(&shot, &tangent, (&orbit, &tests))?;
+        tests.displace(&slopes, orbit.error);
+        Ok(TracedOrbit { shot, orbit, tangent, tests, slopes, turn })
+    }
+
+    /// Rates of the tests, and the largest of the arguments of the multipliers, by a difference along the tangent. The orbit moved
+    /// along it is off by the square of the move.
+    fn slopes(
+        &self,
+        shot: &Shot<L>,
+        tangent: &DVector<L::Scalar>,
+        (orbit, tests): (&PeriodicOrbit<L>, &Tests<L::Scalar>),
+    ) -> Result<(TestValues<L::Scalar>, L::Scalar), Error> {
+        let move_by = smaller(power_of_epsilon(1.0 / 3.0), self.step * L::Scalar::constant(0.01));
+        let arc = Arc::from(&self.problem, shot, tangent.clone());
+        let moved =
+            self.problem.shoot(self.problem.moved_by(shot, &(tangent * move_by), false)?, self.method)?;
+        let monodromy = self.problem.once_around(&moved, self.method)?;
+        let next = self.problem.tests(&moved, &self.tangent(&moved, &arc)?, (&monodromy, orbit.error))?;
+        let rate = |k: usize| Some((next.values[k]? - tests.values[k]?) / move_by);
+        let (from, to) = (orbit.monodromy.nontrivial()?, monodromy.nontrivial()?);
+        let turns = from.iter().filter_map(|x| {
+            let logarithms = to.iter().map(|y| logarithm(ratio(*y, *x)));
+            let least = logarithms.min_by(|x, y| order(modulus(*x), modulus(*y)));
+            least.map(|least| Scalar::abs(least.im))
+        });
+        let turn = turns.fold(L::Scalar::constant(0.0), larger) / move_by;
+        Ok((core::array::from_fn(rate), turn))
     }
 
     /// The member at an arclength from an earlier one.
@@ -135,13 +175,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
             iterations += more;
         }
         let tangent = self.tangent(&shot, arc)?;
-        let orbit = self.problem.orbit(&shot, iterations, self.method, self.tolerance)?;
-        if exceeds(orbit.error, L::Scalar::constant(VAGUE)) {
-            let (error, period) = (orbit.error.to_f64(), orbit.period.to_f64());
-            return Err(OrbitError::Vague { error, period }.into());
-        }
-        let tests = self.problem.tests(&shot, &tangent, (&orbit.monodromy, orbit.error))?;
-        Ok(TracedOrbit { shot, orbit, tangent, tests })
+        self.traced(shot, tangent, iterations)
     }
 
     /// Direction of the family at a shot near the base of the arc, of length 1.
