@@ -85,7 +85,7 @@ fn readings(pendulum: &Pendulum) -> Result<(DVector<f64>, MatrixXx3<f64>)> {
     let motion = pendulum.integrate_sensitivities(start, END, Dop853::default(), &SOUGHT)?;
     let (mut angles, mut by) = (DVector::zeros(READINGS), MatrixXx3::zeros(READINGS));
     for k in 0..READINGS {
-        let at = motion.at(time(k))?;
+        let at = motion.derivatives_at(time(k))?;
         angles[k] = at.state.q[0];
         by.row_mut(k).copy_from(&at.q.row(0));
     }

@@ -209,7 +209,7 @@ pub use {
     linearized::{Linearization, MotionDerivatives},
     motion::{MotionBuilder, Taylor},
     solution::impact::Impact,
-    trajectory::{HybridTrajectory, Trajectory},
+    trajectory::{HybridTrajectory, SampledTrajectory, Trajectory},
 };
 
 /// State of `N` coordinates: a [`generic::State`] whose length is a number.

@@ -23,7 +23,7 @@ where
     let [wide, narrow] = [difference(1e-5)?, difference(1e-6)?];
     let start = State::new([a], [v]);
     let motion = PENDULUM.integrate_sensitivities(start, 4.0 * h, method(h), &["theta"]).ok()?;
-    let found = motion.end().ok()?.q[(0, 0)];
+    let found = motion.derivatives_at_end().ok()?.q[(0, 0)];
     ((wide - narrow).abs() < 1e-4 * (1.0 + narrow.abs())).then_some([found, narrow])
 }
 
@@ -84,7 +84,7 @@ fn derivatives_far_from_zero_add_up_to_the_motion() {
         let start = State::new([0.7], [-0.4]).at_time(far);
         let names = ["x", "x_dot", "f"];
         let motion = Driven { f: 1.5 }.integrate_sensitivities(start, far + 10.0, method, &names).unwrap();
-        let end = motion.end().unwrap();
+        let end = motion.derivatives_at_end().unwrap();
         for (by, state) in [(&end.q, end.state.q[0]), (&end.v, end.state.v[0])] {
             let sum = by[0] * 0.7 - by[1] * 0.4 + by[2] * 1.5;
             assert!((sum - state).abs() < 1e-13, "{sum} for {state} from {far:e}");
@@ -106,7 +106,9 @@ fn derivatives_far_from_zero_are_those_of_other_methods() {
     let system = ShakenPendulum { m: 1.0, g: 1.0, l: 1.0, a: 0.3, w: 1.0 };
     let names = ["x", "x_dot", "g", "a"];
     let start = system.make_consistent(&State::new([0.5, -0.7], [0.2, 0.0]).at_time(1e8)).unwrap().0;
-    let end = |motion: TrajectorySensitivity<'_, ShakenPendulum<f64>>| motion.end().unwrap().q.clone();
+    let end = |motion: TrajectorySensitivity<'_, ShakenPendulum<f64>>| {
+        motion.derivatives_at_end().unwrap().q.clone()
+    };
     let by = |method| system.integrate_sensitivities(start, 1e8 + 10.0, method, &names).unwrap();
     let exact = end(by(Dop853::with_tolerance(1e-11)));
     let dalembert = DAlembert::with_step(0.1).composed(KahanLi8);

@@ -79,7 +79,7 @@ where
         .collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let motion = system.integrate_sensitivities(*start, 1.0, method, &names).unwrap();
-    let (end, last) = (motion.end().unwrap(), *motion.trajectory().end().state());
+    let (end, last) = (motion.derivatives_at_end().unwrap(), *motion.end().state());
     let map = DMatrix::from_fn(2 * N, 2 * N, |i, j| if i < N { end.q[(i, j)] } else { end.v[(i - N, j)] });
     let basis = tangent_basis(system, start);
     let form = |state: &State<f64, N>, x: &DVector<f64>, y: &DVector<f64>| {
@@ -147,7 +147,7 @@ fn derivatives_are_those_of_the_map() {
                 (ends[0] - ends[1]) / (2.0 * h)
             };
             let by_differences = (4.0 * differences(5e-4) - differences(1e-3)) / 3.0;
-            let off = motion.coordinate(t, "phi", argument).unwrap() - by_differences;
+            let off = motion.derivative(t, "phi", argument).unwrap() - by_differences;
             assert!(off.abs() < 1e-9, "phi by {argument} at {t}: {off:e}");
         }
     }

@@ -112,7 +112,7 @@ fn a_motion_with_derivatives_is_asked_for_everything() {
     fn path_of<'m, 's>(
         motion: &'m TrajectorySensitivity<'s, Spring<f64>>,
     ) -> &'m Trajectory<&'s Spring<f64>> {
-        motion.trajectory()
+        motion
     }
     let start = SPRING.sensitivity(&State::at_rest([1.0]), &["x", "k"]).expect("names");
     let verlet = Verlet::with_step(0.2).composed(KahanLi8);
@@ -211,12 +211,21 @@ fn derivatives_are_sampled_instead_of_stored() {
         ];
         for (stored, sampled, count) in ends {
             let (stored, sampled) = (stored.expect("a motion"), sampled.expect("a motion"));
-            assert_eq!(sampled.end().expect("the end"), stored.end().expect("the end"));
-            let (path, other) = (sampled.trajectory(), stored.trajectory());
-            assert_eq!((path.crossings(), path.ending()), (other.crossings(), other.ending()));
-            assert_eq!((sampled.arguments(), count), (stored.arguments(), sampled.samples().len()));
-            for (sample, state) in sampled.samples().iter().zip(path.samples()) {
-                assert_eq!((sample, &sample.state), (&stored.at(state.t).expect("within"), state));
+            assert_eq!(
+                sampled.derivatives_at_end().expect("the end"),
+                stored.derivatives_at_end().expect("the end")
+            );
+            assert_eq!((sampled.crossings(), sampled.ending()), (stored.crossings(), stored.ending()));
+            assert_eq!(
+                (sampled.end().state(), sampled.arguments()),
+                (stored.end().state(), stored.arguments())
+            );
+            assert_eq!((sampled.samples().len(), sampled.derivatives().len()), (count, count));
+            for (sample, state) in sampled.derivatives().iter().zip(sampled.samples()) {
+                assert_eq!(
+                    (sample, &sample.state),
+                    (&stored.derivatives_at(state.t).expect("within"), state)
+                );
             }
         }
         let (mut steps, short) = (0, || dop853().every(0.25).by(Dop853::default().max_steps(2)));
@@ -226,13 +235,13 @@ fn derivatives_are_sampled_instead_of_stored() {
             if steps == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let cancelled = dop853().every(0.25).on_progress(look).to(end).expect("a motion");
-        assert!(matches!(cancelled.trajectory().ending(), Ending::Cancelled { .. }));
+        assert!(matches!(cancelled.ending(), Ending::Cancelled { .. }));
         assert!(matches!(short().to(end), Err(Error::Unfinished(_))));
         let kept = short().towards(end).expect("a motion");
         assert!(
-            matches!(kept.trajectory().ending(), Ending::StepLimit { steps: 2, .. }) && kept.end().is_err()
+            matches!(kept.ending(), Ending::StepLimit { steps: 2, .. }) && kept.derivatives_at_end().is_err()
         );
-        assert_eq!(kept.samples().len(), kept.trajectory().samples().len());
+        assert_eq!(kept.samples().len(), kept.derivatives().len());
     }
 }
 

@@ -103,7 +103,7 @@ fn it_has_sensitivities_and_exponents() {
     let given = BEAD.sensitivity(&start(), &["k"]).expect("a name");
     let motion = BEAD.motion_with_derivatives(&given).by(midpoint()).to(END).expect("a motion");
     let slope = (exact(2.0 + 1e-5, END).q - exact(2.0 - 1e-5, END).q) / 2e-5;
-    let found = motion.end().expect("the end").q.column(0).into_owned();
+    let found = motion.derivatives_at_end().expect("the end").q.column(0).into_owned();
     assert!((&found - slope).norm() < 1e-2 * slope.norm(), "{found} {slope}");
     let spectrum = BEAD.lyapunov_spectrum(start(), 20.0, midpoint()).expect("a motion");
     let expected = BEAD.lyapunov_spectrum(start(), 20.0, Dop853::default()).expect("a motion");

@@ -1,4 +1,5 @@
-//! An event, samples, contacts, another method or a controller are added to a motion in one line: the lines that read its result stay.
+//! An event, samples, contacts, derivatives, another method or a controller are added to a motion in one line: the lines that read its
+//! result stay.
 
 use lagrange_core::contact::{Contact, MoreauJean};
 use lagrange_core::prelude::*;
@@ -50,10 +51,16 @@ fn requests_are_added_in_one_line() {
         (read!(stone.motion(start).every(0.1).to(1.0)), 0),
         (read!(stone.motion(start).event(below()).samples_at([0.5]).to(1.0)), 1),
         (read!(stone.motion(start).controlled(0.1, |_, _| Ok::<_, Error>(())).to(1.0)), 0),
+        (read!(stone.motion(start).derivatives(&["g", "y"]).unwrap().to(1.0)), 0),
+        (read!(stone.motion(start).every(0.1).derivatives(&["g", "y"]).unwrap().to(1.0)), 0),
     ] {
         assert!((found.0 - fallen).abs() < 1e-9, "{found:?}");
         assert_eq!((found.1, found.2), (crossings, 0));
     }
+    let falls = stone.motion(start).derivatives(&["g", "y"]).unwrap().to(1.0).unwrap();
+    assert!((falls.derivative(1.0, "y", "g").unwrap() + 0.5).abs() < 1e-9);
+    assert!((falls.derivatives_at_end().unwrap().q[(0, 1)] - 1.0).abs() < 1e-12);
+    assert!(stone.motion(start).derivatives(&["h"]).is_err());
     // It lands at √(2 y/g) = 0.64, and leaves with half of its velocity.
     let (lands, v) = ((4.0_f64 / 9.81).sqrt(), (4.0 * 9.81_f64).sqrt() / 2.0);
     let bounced = v * (1.0 - lands) - 9.81 / 2.0 * (1.0 - lands).powi(2);

@@ -111,7 +111,9 @@ fn family_of_relaxing_oscillations() {
 #[test]
 fn swings_up_to_the_separatrix() {
     let pendulum = Pendulum { m: 1.0, l: 1.0, g: 1.0 };
-    let search = pendulum.periodic_orbit(&State::at_rest([std::f64::consts::PI - 0.0016])).by(Dop853::with_tolerance(1e-13));
+    let search = pendulum
+        .periodic_orbit(&State::at_rest([std::f64::consts::PI - 0.0016]))
+        .by(Dop853::with_tolerance(1e-13));
     let search = search.period_near(34.1);
     let family = search.family(&search.find().unwrap()).orbits(11).follow().unwrap();
     assert!(family.bifurcations().is_empty() && family.lost().is_empty(), "{family}");

@@ -109,6 +109,7 @@ fn pairs_are_reciprocal() {
 fn a_monodromy_needs_derivatives_by_every_entry() {
     let start = State::new([0.0, 0.1], [0.35, 0.1]);
     let motion = HenonHeiles.integrate_sensitivities(start, 1.0, method(), &["x", "y", "x_dot"]).unwrap();
-    let error = HenonHeiles.monodromy_across(&start, motion.end().unwrap()).unwrap_err().to_string();
+    let error =
+        HenonHeiles.monodromy_across(&start, motion.derivatives_at_end().unwrap()).unwrap_err().to_string();
     assert!(error.contains("y_dot"), "{error}");
 }

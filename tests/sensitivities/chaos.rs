@@ -66,7 +66,7 @@ fn chaos_is_followed_to_the_end() {
     let names = ["a", "b", "a_dot", "b_dot", "m[0]", "l[1]", "g"];
     let by_series = system.integrate_sensitivities(start, 10.0, Taylor::default(), &names).unwrap();
     let by_pairs = system.integrate_sensitivities(start, 10.0, crate::method(), &names).unwrap();
-    let [series, pairs] = [by_series, by_pairs].map(|motion| motion.end().unwrap().clone());
+    let [series, pairs] = [by_series, by_pairs].map(|motion| motion.derivatives_at_end().unwrap().clone());
     let (flow, other) = (flow(&series), flow(&pairs));
     let (size, apart) = (other.amax(), (&flow - other).amax());
     println!("{size:e}, apart {apart:e}");

@@ -99,7 +99,7 @@ where
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let exact = system.integrate_sensitivities(start, end, Taylor::default(), &names).unwrap();
     let found = system.integrate_sensitivities(start, end, radau, &names).unwrap();
-    let [exact, found] = [exact, found].map(|motion| flow(motion.end().unwrap()));
+    let [exact, found] = [exact, found].map(|motion| flow(motion.derivatives_at_end().unwrap()));
     for (j, name) in names.iter().enumerate() {
         let (off, size) = ((found.column(j) - exact.column(j)).amax(), exact.column(j).amax().max(1e-3));
         assert!(off < 1e-10 * size, "{} by {name}, by Radau: off by {off:e} of {size:e}", S::NAME);
@@ -118,10 +118,10 @@ where
     let motion = system.integrate_sensitivities(start, end, method, &names).unwrap();
     assert!(motion.arguments().iter().map(Entry::to_string).eq(names.iter().copied()));
     let alone = system.integrate(start, end, method).unwrap();
-    let (with, alone) = (flat(motion.trajectory().end().state()), flat(alone.end().state()));
+    let (with, alone) = (flat(motion.end().state()), flat(alone.end().state()));
     assert!((&with - &alone).norm() < TOLERANCE * alone.norm(), "by other steps: {with} for {alone}");
     let times = [0.31, 0.8, 1.0].map(|part| start.t + part * (end - start.t));
-    let found = times.map(|t| motion.at(t).unwrap());
+    let found = times.map(|t| motion.derivatives_at(t).unwrap());
     let joined = |parts: [DVector<f64>; 3]| DVector::from_iterator(6 * N, parts.iter().flatten().copied());
     for (argument, name) in names.iter().enumerate().step_by(cases([3, 1, 1])) {
         let column = joined(found.each_ref().map(|at| flow(at).column(argument).into()));

@@ -81,7 +81,7 @@ where
     for end in [1.3, 0.4, 0.9] {
         discrete.advance(&start, end).unwrap();
         let kept = system.integrate_sensitivities(start, end, method, &names).unwrap();
-        let kept = kept.end().unwrap();
+        let kept = kept.derivatives_at_end().unwrap();
         assert_eq!(*discrete.state(), kept.state, "{}", S::NAME);
         let all = flow(kept);
         let off = (discrete.a() - all.columns(0, 2 * N)).amax();

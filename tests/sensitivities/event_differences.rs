@@ -72,14 +72,14 @@ fn a_spherical_pendulum_that_hits_a_wall_twice() {
         let mut at = bob.sensitivity(&start, own).unwrap().with(others).unwrap();
         for _ in 0..2 {
             let swing = bob.motion_with_derivatives(&at).by(method()).event(&mut hits).towards(10.0).unwrap();
-            assert!(matches!(swing.trajectory().ending(), Ending::Event { .. }));
-            at = walled.impact_sensitivity(swing.end().unwrap(), "wall", ("e", e)).unwrap();
+            assert!(matches!(swing.ending(), Ending::Event { .. }));
+            at = walled.impact_sensitivity(swing.derivatives_at_end().unwrap(), "wall", ("e", e)).unwrap();
         }
         let end = 2.2;
         assert!(at.state.t > 0.3 && at.state.t < end, "{}", at.state.t);
         let after = bob.motion_with_derivatives(&at).by(method()).towards(end).unwrap();
-        assert_eq!(after.trajectory().end().time(), end);
-        (at, after.end().unwrap().clone())
+        assert_eq!(after.end().time(), end);
+        (at, after.derivatives_at_end().unwrap().clone())
     };
     let (at, last) = run(start, given, [&NAMES[..6], &NAMES[6..]]);
     // Derivatives by the start stay on the rod.

@@ -22,12 +22,12 @@ fn what_grazes_has_no_derivative() {
     });
     flat = flat.terminal();
     let motion = ball.motion_with_derivatives(&start).by(method).event(&mut touches).towards(3.0).unwrap();
-    let error = motion.end().unwrap_err();
+    let error = motion.derivatives_at_end().unwrap_err();
     assert_eq!(error, Error::Grazing { event: "touches", time: 1.0 });
     // The motion is there all the same, and its derivatives at given times.
-    assert!((motion.at(0.6).unwrap().q[(1, 0)] - 0.6).abs() < 1e-14);
+    assert!((motion.derivatives_at(0.6).unwrap().q[(1, 0)] - 0.6).abs() < 1e-14);
     let motion = ball.motion_with_derivatives(&start).by(method).event(&mut flat).towards(3.0).unwrap();
-    let error = motion.end().unwrap_err().to_string();
+    let error = motion.derivatives_at_end().unwrap_err().to_string();
     assert!(error.contains("grazes the event `flat` at t = 0.367"), "{error}");
 }
 
@@ -40,17 +40,20 @@ fn what_is_not_finished_is_said() {
     let few = method().max_steps(2);
     let fall = ball.motion_with_derivatives(&at).by(few).event(&mut lands).towards(5.0).unwrap();
     assert!(
-        matches!(fall.trajectory().ending(), Ending::StepLimit { .. })
-            && fall.at(fall.trajectory().end().time() / 2.0).is_ok()
+        matches!(fall.ending(), Ending::StepLimit { .. })
+            && fall.derivatives_at(fall.end().time() / 2.0).is_ok()
     );
-    assert!(fall.end().unwrap_err().to_string().contains("after 2 steps") && fall.finished().is_err());
+    assert!(
+        fall.derivatives_at_end().unwrap_err().to_string().contains("after 2 steps")
+            && fall.finished().is_err()
+    );
     assert!(matches!(ball.integrate_sensitivities(at.state, 5.0, few, &["y"]), Err(Error::Unfinished(_))));
     let mut bounces = 0;
     let ending = loop {
         let flight = ball.motion_with_derivatives(&at).by(method()).event(&mut lands).towards(50.0).unwrap();
-        match flight.end() {
+        match flight.derivatives_at_end() {
             Ok(landing) => at = floor.impact_sensitivity(landing, "floor", ("e", 0.4)).unwrap(),
-            Err(_) => break flight.trajectory().ending().clone(),
+            Err(_) => break flight.ending().clone(),
         }
         bounces += 1;
     };
@@ -82,5 +85,9 @@ fn what_cannot_be_is_named() {
     });
     kink = kink.terminal();
     let fall = ball.motion_with_derivatives(&start).by(method()).event(&mut kink).towards(1.0).unwrap();
-    assert!(matches!(fall.end(), Err(Error::EventNotFinite { event: "kink", .. })), "{:?}", fall.end());
+    assert!(
+        matches!(fall.derivatives_at_end(), Err(Error::EventNotFinite { event: "kink", .. })),
+        "{:?}",
+        fall.derivatives_at_end()
+    );
 }

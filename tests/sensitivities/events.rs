@@ -25,7 +25,7 @@ fn a_ball_after_three_bounces() {
     let mut at = ball.sensitivity(&start, &["y", "g", "m", "x_dot"]).unwrap().with(&["e"]).unwrap();
     for _ in 0..3 {
         let flight = ball.motion_with_derivatives(&at).by(method()).event(&mut lands).towards(10.0).unwrap();
-        let landing = flight.end().unwrap();
+        let landing = flight.derivatives_at_end().unwrap();
         // At the event the height is zero whatever changes.
         assert!(landing.q.row(1).amax() < 1e-14);
         at = floor.impact_sensitivity(landing, "floor", ("e", e)).unwrap();
@@ -41,7 +41,7 @@ fn a_ball_after_three_bounces() {
             0.0,
             third_flight(t, [one(h), one(g), d(e)]).eps,
         ];
-        let found = flight.at(t).unwrap();
+        let found = flight.derivatives_at(t).unwrap();
         for (j, exact) in exact.into_iter().enumerate() {
             let found = found.q[(1, j)];
             assert!((found - exact).abs() < 1e-12 * (1.0 + exact.abs()), "{t}, {j}: {found} for {exact}");
@@ -49,8 +49,8 @@ fn a_ball_after_three_bounces() {
         // Whatever it does, it goes on along x.
         assert!((found.q[(0, 3)] - t).abs() < 1e-13 && found.q[(0, 4)].abs() < 1e-15);
     }
-    let by = flight.coordinate(end, "y", "e").unwrap();
-    assert_eq!(by, flight.end().unwrap().q[(1, 4)]);
+    let by = flight.derivative(end, "y", "e").unwrap();
+    assert_eq!(by, flight.derivatives_at_end().unwrap().q[(1, 4)]);
 }
 
 /// Place and velocity of a block on a belt: it rides until the spring pulls with `hold`, swings about pull/k to the mirror
@@ -86,24 +86,24 @@ fn stick_and_slip_from_system_to_system() {
     let method = Dop853::with_tolerance(1e-13);
     let ride = sticking.motion_with_derivatives(&start).by(method).event(&mut gives).towards(50.0).unwrap();
     let slip = slipping
-        .motion_with_derivatives(ride.end().unwrap())
+        .motion_with_derivatives(ride.derivatives_at_end().unwrap())
         .by(method)
         .event(&mut catches)
         .towards(50.0)
         .unwrap();
-    let caught = slip.end().unwrap();
+    let caught = slip.derivatives_at_end().unwrap();
     let again = sticking.motion_with_derivatives(caught).by(method).towards(caught.state.t + 0.5).unwrap();
     for (leg, part) in (0..30).map(|k| (k % 3, f64::from(1 + k / 3) / 11.0)) {
         let (start, end) = match leg {
-            0 => (0.0, ride.trajectory().end().time()),
-            1 => (ride.trajectory().end().time(), caught.state.t),
+            0 => (0.0, ride.end().time()),
+            1 => (ride.end().time(), caught.state.t),
             _ => (caught.state.t, caught.state.t + 0.5),
         };
         let t = start + part * (end - start);
         let found = match leg {
-            0 => ride.at(t),
-            1 => slip.at(t),
-            _ => again.at(t),
+            0 => ride.derivatives_at(t),
+            1 => slip.derivatives_at(t),
+            _ => again.derivatives_at(t),
         };
         let found = found.unwrap();
         for j in 0..5 {
@@ -116,7 +116,10 @@ fn stick_and_slip_from_system_to_system() {
         }
     }
     // δ(F q̇ + b) = 0 of the belt: it is as fast as the belt, whatever the speed of that.
-    assert!(again.end().unwrap().v.column(2)[0] == 1.0 && again.end().unwrap().v.column(0)[0] == 0.0);
+    assert!(
+        again.derivatives_at_end().unwrap().v.column(2)[0] == 1.0
+            && again.derivatives_at_end().unwrap().v.column(0)[0] == 0.0
+    );
 }
 
 /// Where the mass matrix is singular and constraints say the same twice, the general solve serves. Of the two ends of a lever,

@@ -49,9 +49,11 @@ fn an_impact_on_constraints_of_both_kinds() {
         let at = turning.sensitivity(&start, &NAMES[..2]).unwrap().with(&NAMES[2..]).unwrap();
         let turn =
             turning.motion_with_derivatives(&at).by(method()).event(hits.rising().terminal()).towards(10.0);
-        let hit = stopped.impact_sensitivity(turn.unwrap().end().unwrap(), "stop", ("e", e)).unwrap();
+        let hit = stopped
+            .impact_sensitivity(turn.unwrap().derivatives_at_end().unwrap(), "stop", ("e", e))
+            .unwrap();
         let after = turning.motion_with_derivatives(&hit).by(method()).towards(1.2).unwrap();
-        (hit, after.end().unwrap().clone())
+        (hit, after.derivatives_at_end().unwrap().clone())
     };
     let (hit, end) = run(start, given);
     assert!(hit.state.t > 0.1 && hit.state.t < 1.0, "{}", hit.state.t);
@@ -75,8 +77,8 @@ fn a_poincare_map_keeps_areas() {
     let method = Dop853::with_tolerance(1e-13);
     let motion =
         HenonHeiles.motion_with_derivatives(&start).by(method).event(&mut section).towards(1e3).unwrap();
-    let end = motion.end().unwrap();
-    assert_eq!(motion.trajectory().crossings().len(), 5);
+    let end = motion.derivatives_at_end().unwrap();
+    assert_eq!(motion.crossings().len(), 5);
     assert!(end.q.row(0).amax() < 1e-14 && end.t.amin() > 1e-3, "{end:?}");
     // At x = 0 the energy is (ẋ² + ẏ² + y²)/2 − y³/3: with y and ẏ changes ẋ.
     let by_x_dot = [-(0.1 - 0.01) / 0.35, -0.1 / 0.35];
@@ -94,7 +96,7 @@ fn an_elastic_bounce_backwards() {
     let mut at = start.clone();
     for time in [10.0, 0.7, -10.0, 0.0_f64] {
         let flight = ball.motion_with_derivatives(&at).by(method()).event(&mut lands).towards(time).unwrap();
-        at = flight.end().unwrap().clone();
+        at = flight.derivatives_at_end().unwrap().clone();
         if time.abs() == 10.0 {
             assert!(at.state.q[1].abs() < 1e-15 && at.t[1].abs() > 1e-2);
             at = floor.impact_sensitivity(&at, "floor", ("e", 1.0)).unwrap();
@@ -117,7 +119,7 @@ fn a_reset_to_other_coordinates() {
         let at = at.with(&["cut", "speed"]).unwrap();
         let swing =
             swinging.motion_with_derivatives(&at).by(method()).event(&mut cuts).towards(10.0).unwrap();
-        let thrown = swinging.push_forward(swing.end().unwrap(), |s| {
+        let thrown = swinging.push_forward(swing.derivatives_at_end().unwrap(), |s| {
             let (l, theta, rate) = (s.parameter("l")?, s.coordinate("theta")?, s.velocity("theta")?);
             let (sin, cos) = theta.sin_cos();
             // Thrown a little faster the later it is.
@@ -126,7 +128,7 @@ fn a_reset_to_other_coordinates() {
         });
         let flight =
             flying.motion_with_derivatives(&thrown.unwrap()).by(method()).event(&mut lands).towards(10.0);
-        flight.unwrap().end().unwrap().clone()
+        flight.unwrap().derivatives_at_end().unwrap().clone()
     };
     let given = [-1.0, 1.5, 9.81, 0.7, 0.4];
     compare_columns("a cut pendulum", &block(&[&run(given)]), |j, change| {
@@ -144,8 +146,8 @@ fn a_bounce_in_single_precision() {
     let start = ball.sensitivity(&State::at_rest([0.0, 1.0]), &["y", "g"]).unwrap().with(&["e"]).unwrap();
     let method = Dop853::with_tolerance(1e-6);
     let fall = ball.motion_with_derivatives(&start).by(method).event(&mut lands).towards(10.0).unwrap();
-    let bounce = floor.impact_sensitivity(fall.end().unwrap(), "floor", ("e", 0.8)).unwrap();
+    let bounce = floor.impact_sensitivity(fall.derivatives_at_end().unwrap(), "floor", ("e", 0.8)).unwrap();
     let flight = ball.motion_with_derivatives(&bounce).by(method).towards(0.6).unwrap();
     let (v, fall) = (19.62_f32.sqrt(), (2.0_f32 / 9.81).sqrt());
-    assert!((flight.coordinate(0.6, "y", "e").unwrap() - v * (0.6 - fall)).abs() < 1e-5);
+    assert!((flight.derivative(0.6, "y", "e").unwrap() - v * (0.6 - fall)).abs() < 1e-5);
 }

@@ -66,9 +66,9 @@ fn a_pendulum_in_honey_has_its_closed_derivatives() {
     let method = Radau::with_tolerance(1e-9).stages::<5>();
     let names = ["y", "g", "c", "l"];
     let motion = twice.integrate_sensitivities(State::at_rest([1.0, 0.0]), end, method, &names).unwrap();
-    assert!(motion.trajectory().statistics().accepted < 60, "{:?}", motion.trajectory().statistics());
+    assert!(motion.statistics().accepted < 60, "{:?}", motion.statistics());
     for t in [1e4, 1e5, 2.5e5, end] {
-        let at = motion.at(t).unwrap();
+        let at = motion.derivatives_at(t).unwrap();
         let turned = g * t / (l * c);
         let (sin, cos) = (-turned.tanh(), 1.0 / turned.cosh());
         // dφ: by the start; by the argument of tanh.
@@ -126,7 +126,7 @@ fn a_velocity_constraint_takes_no_part_in_where_a_motion_starts() {
     let expected = [0.6, 0.2, 0.0].map(|x| x / 0.52);
     let by_pairs = knife.integrate_sensitivities(start, 1.0, method(), &["l"]).unwrap();
     let by_series = knife.integrate_sensitivities(start, 1.0, Taylor::default(), &["l"]).unwrap();
-    for found in [by_pairs.end().unwrap(), by_series.end().unwrap()] {
+    for found in [by_pairs.derivatives_at_end().unwrap(), by_series.derivatives_at_end().unwrap()] {
         for (found, expected) in found.q.iter().zip(expected) {
             assert!((found - expected).abs() < 1e-14, "{found} for {expected}");
         }
@@ -268,7 +268,7 @@ where
             } else {
                 system.integrate_sensitivities(start, end, method, &name)
             };
-            let error = (flow(found.unwrap().end().unwrap()) - expected).amax() / size;
+            let error = (flow(found.unwrap().derivatives_at_end().unwrap()) - expected).amax() / size;
             assert!(!is_clear || error < 1e-6, "{} {case} by {}: off by {error:e}", S::NAME, name[0]);
         }
     }

@@ -33,7 +33,7 @@ fn check_spring<D: DifferentiableMethod<DrivenSpring<f64>>>(method: D, tolerance
     let motion = spring.integrate_sensitivities(start, 2.0 * PI, method, &["x", "x_dot", "k"]).unwrap();
     for k in 0..=200 {
         let t = 2.0 * PI * f64::from(k) / 200.0;
-        let at = motion.at(t).unwrap();
+        let at = motion.derivatives_at(t).unwrap();
         let (sin, cos) = (2.0 * t).sin_cos();
         let by_k = (-x * t * sin + v * (t * cos / 2.0 - sin / 4.0)) / 4.0;
         let exact =
@@ -55,7 +55,7 @@ fn parameters_count_by_their_size() {
     for size in [1e-8, 1.0, 1e8] {
         let (held, start) = held(size);
         let motion = held.integrate_sensitivities(start, 10.0, Dop853::default(), &["a"]).unwrap();
-        let found = motion.coordinate(10.0, "x", "a").unwrap() * size;
+        let found = motion.derivative(10.0, "x", "a").unwrap() * size;
         assert!((found - (1.0 - 10.0_f64.cos())).abs() < 1e-7, "{found} at {size}");
     }
 }
@@ -66,11 +66,11 @@ fn a_step_too_long_for_variations_is_taken_back() {
     let method = Dop853::default().first_step(8.0);
     let motion = held.integrate_sensitivities(start, 100.0, method, &["x"]).unwrap();
     for t in [1.0_f64, 8.0, 100.0] {
-        let found = motion.coordinate(t, "x", "x").unwrap();
+        let found = motion.derivative(t, "x", "x").unwrap();
         assert!((found - t.cos()).abs() < 1e-6, "{found} at {t}");
     }
     // And the next is as long as the variations like it, not ten times the last.
-    let statistics = motion.trajectory().statistics();
+    let statistics = motion.statistics();
     assert!(statistics.rejected >= 1 && 5 * statistics.rejected < statistics.accepted, "{statistics:?}");
 }
 
@@ -81,9 +81,9 @@ fn variations_that_grow_are_followed_to_the_same_digits() {
     let hill = DrivenSpring { k: -1.0, a: -1.0, ..spring };
     let steps = |end: f64| {
         let motion = hill.integrate_sensitivities(start, end, Dop853::default(), &["x"]).unwrap();
-        let found = motion.coordinate(end, "x", "x").unwrap();
+        let found = motion.derivative(end, "x", "x").unwrap();
         assert!((found / end.cosh() - 1.0).abs() < 1e-6, "{found} at {end}");
-        motion.trajectory().statistics().accepted
+        motion.statistics().accepted
     };
     let (half, whole) = (steps(30.0), steps(60.0));
     assert!(whole <= 2 * half + 2, "{half} and {whole}");
@@ -97,12 +97,12 @@ fn what_cannot_be_is_named() {
     let error = seek(1.0, &["thetta"]).err().unwrap();
     assert!(error.to_string().contains("did you mean `theta`?"), "{error}");
     let motion = seek(1.0, &["l"]).unwrap();
-    assert!(matches!(motion.at(1.5), Err(Error::OutsideTrajectory { .. })));
-    let error = motion.coordinate(0.5, "theta", "m").unwrap_err();
+    assert!(matches!(motion.derivatives_at(1.5), Err(Error::OutsideTrajectory { .. })));
+    let error = motion.derivative(0.5, "theta", "m").unwrap_err();
     assert!(error.to_string().contains("there is no argument of these derivatives `m`"), "{error}");
     // Without arguments it is the motion; without time, the start.
-    assert_eq!(seek(1.0, &[]).unwrap().at(0.5).unwrap().q.ncols(), 0);
-    let still = seek(0.0, &["theta", "m"]).unwrap().at(0.0).unwrap();
+    assert_eq!(seek(1.0, &[]).unwrap().derivatives_at(0.5).unwrap().q.ncols(), 0);
+    let still = seek(0.0, &["theta", "m"]).unwrap().derivatives_at(0.0).unwrap();
     assert_eq!((still.q.as_slice(), still.v.as_slice()), (&[1.0, 0.0][..], &[0.0, 0.0][..]));
     assert_eq!(flat(&still.state).as_slice(), [1.0, 0.5]);
 }

@@ -19,10 +19,9 @@ where
     let names: Vec<&str> = S::COORDINATES.iter().chain(S::PARAMETERS).copied().collect();
     let with = system.integrate_sensitivities(start, 2.0, method, &names).unwrap();
     let alone = system.integrate(start, 2.0, method).unwrap();
-    let off = with.trajectory().end().state().q - alone.end().state().q;
+    let off = with.end().state().q - alone.end().state().q;
     assert!(off.amax() < 1e-7, "{}: off by {:e}", S::NAME, off.amax());
-    let [more, steps] =
-        [with.trajectory(), &alone].map(|path| path.statistics().accepted + path.statistics().rejected);
+    let [more, steps] = [&*with, &alone].map(|path| path.statistics().accepted + path.statistics().rejected);
     assert!(more <= steps + steps / 4, "{}: {more} steps, and {steps} without derivatives", S::NAME);
 }
 
@@ -47,7 +46,7 @@ fn are_of_the_steps(method: impl DifferentiableMethod<DrivenSpring<f64>> + Copy,
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let found = spring.integrate_sensitivities(start, end, method, &names).unwrap();
     let exact = spring.integrate_sensitivities(start, end, Taylor::default(), &names).unwrap();
-    assert_eq!(found.trajectory().statistics().accepted, 16);
+    assert_eq!(found.statistics().accepted, 16);
     // At the end, and within a step.
     for (j, t) in (0..names.len()).flat_map(|j| [(j, end), (j, 2.2)]) {
         let expected = difference(2e-3, |by| {
@@ -56,8 +55,8 @@ fn are_of_the_steps(method: impl DifferentiableMethod<DrivenSpring<f64>> + Copy,
             assert_eq!(path.statistics().accepted, 16);
             flat(path.at(t).unwrap().state())
         });
-        let [off, error] =
-            [&found, &exact].map(|motion| (flow(&motion.at(t).unwrap()).column(j) - &expected).amax());
+        let [off, error] = [&found, &exact]
+            .map(|motion| (flow(&motion.derivatives_at(t).unwrap()).column(j) - &expected).amax());
         println!("by {} at {t}: {off:.1e}, the error of the steps {error:.1e}", names[j]);
         assert!(off < 1e-12 && error > least, "by {} at {t}: {off:e} of {error:e}", names[j]);
     }
@@ -102,7 +101,7 @@ fn by_x(
     method: impl DifferentiableMethod<DrivenSpring<f64>>,
 ) -> [f64; 2] {
     let found = spring.integrate_sensitivities(start, end, method, &["x"]).unwrap();
-    let at = found.end().unwrap();
+    let at = found.derivatives_at_end().unwrap();
     [at.q[0], at.v[0]]
 }
 
@@ -142,7 +141,7 @@ fn check_slow<P: DifferentiableMethod<DrivenSpring<f64>>>(start: State<f64, 1>, 
     for (t, allowed) in
         [(1e-6, dense), (1e-4, dense), (3.0, dense), (1e4, dense), (4e5, dense), (1e6, tolerance)]
     {
-        let at = motion.at(t).unwrap();
+        let at = motion.derivatives_at(t).unwrap();
         for j in 0..4 {
             let mut given = [1.0, start.v[0], 1.0, 1e6, t].map(Dual64::from_re);
             given[j] = given[j].derivative();
@@ -164,7 +163,7 @@ fn a_stiff_motion_ends_at_an_event() {
     let start = start.with(&["level"]).unwrap();
     let method = Radau::with_tolerance(1e-10);
     let motion = HONEY.motion_with_derivatives(&start).by(method).event(half).towards(1e7).unwrap();
-    let end = motion.end().unwrap();
+    let end = motion.derivatives_at_end().unwrap();
     // t = ln 2 c/k, but for 1/c².
     let (c, ln) = (1e6, std::f64::consts::LN_2);
     assert!((end.state.t - ln * c).abs() < 1e-6 * c);

@@ -99,7 +99,7 @@ fn a_crane_weighed_by_its_swing() -> Result {
         let motion = crane.integrate_sensitivities(start, 20.0, Dop853::default(), &["m", "l"])?;
         let (mut angles, mut by) = (DVector::zeros(200), DMatrix::zeros(200, 2));
         for k in 0..200 {
-            let at = motion.at(0.1 * k as f64)?;
+            let at = motion.derivatives_at(0.1 * k as f64)?;
             angles[k] = at.state.q[1];
             by.row_mut(k).copy_from(&at.q.row(1));
         }

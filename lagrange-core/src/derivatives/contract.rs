@@ -186,9 +186,9 @@ pub trait Linearized: StateDerivatives {
     /// let method = Dop853::with_tolerance(1e-12);
     /// let motion = spring.integrate_sensitivities(State::at_rest([0.5]), 3.0, method, &["x", "k"])?;
     /// // x = ½ cos(√k t)
-    /// let at = motion.at(1.3)?;
+    /// let at = motion.derivatives_at(1.3)?;
     /// assert!((at.q[(0, 0)] - (2.0 * 1.3_f64).cos()).abs() < 1e-10);
-    /// assert!((motion.coordinate(1.3, "x", "k")? + 0.5 * 1.3 / 4.0 * (2.0 * 1.3_f64).sin()).abs() < 1e-10);
+    /// assert!((motion.derivative(1.3, "x", "k")? + 0.5 * 1.3 / 4.0 * (2.0 * 1.3_f64).sin()).abs() < 1e-10);
     /// # Ok::<(), Error>(())
     /// ```
     ///

@@ -67,7 +67,7 @@ pub trait PeriodicMotion: Linearized<Scalar: Real> + Sized {
         let names = lookup::entries::<Self>();
         let names: alloc::vec::Vec<&str> = names.iter().map(|name| &**name).collect();
         let motion = self.integrate_sensitivities(*start, end, method, &names)?;
-        monodromy::across(self, start, motion.end()?)
+        monodromy::across(self, start, motion.derivatives_at_end()?)
     }
 
     /// Monodromy matrix of a motion across events, resets and impacts, from its derivatives at the end. The derivatives are those of
@@ -96,10 +96,10 @@ pub trait PeriodicMotion: Linearized<Scalar: Real> + Sized {
     /// let lands = ball.differentiable_event("lands", |sample| sample.coordinate("y")).falling().terminal();
     /// let start = ball.sensitivity(&top, &["y", "y_dot"])?;
     /// let fall = ball.motion_with_derivatives(&start).event(lands).towards(10.0)?;
-    /// let bounce = floor.impact_sensitivity(fall.end()?, "floor", ("e", 1.0))?;
+    /// let bounce = floor.impact_sensitivity(fall.derivatives_at_end()?, "floor", ("e", 1.0))?;
     /// let period = 2.0 * bounce.state.t;
     /// let rise = ball.motion_with_derivatives(&bounce).to(period)?;
-    /// let around = ball.monodromy_across(&top, rise.end()?)?;
+    /// let around = ball.monodromy_across(&top, rise.derivatives_at_end()?)?;
     /// assert!(around.symplectic_error() < 1e-9);
     /// // A higher bounce takes longer: after one period it is later by 4 δy √(1/2gh).
     /// assert!((around.matrix()[(1, 0)] - 9.81 * 2.0 * (0.5_f64 / 9.81).sqrt()).abs() < 1e-6);

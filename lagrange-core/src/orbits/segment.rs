@@ -42,18 +42,18 @@ impl<L: Linearized<Scalar: Real> + MotionDerivatives> Segment<L> {
         let names: Vec<&str> = names.iter().map(|name| &**name).collect();
         let begun = system.sensitivity(start, &names)?;
         let motion = system.motion_with_derivatives(&begun).by(method).to(start.t + duration)?;
-        let end = motion.end()?;
+        let end = motion.derivatives_at_end()?;
         let all = stacked(end, names.len());
         let column = |all: &DMatrix<_>| all.column(entries).into_owned();
         let by_parameter = match parameter {
             None => None,
-            Some(_) => Some([column(&all), column(&stacked(&motion.at(start.t)?, names.len()))]),
+            Some(_) => Some([column(&all), column(&stacked(&motion.derivatives_at(start.t)?, names.len()))]),
         };
         let accelerations = system.solve(&end.state)?.accelerations;
         let rates = end.state.v.iter().chain(&accelerations).copied();
         Ok(Self {
             end: end.state,
-            size: OrbitUnits::of(core::iter::once(motion.trajectory())),
+            size: OrbitUnits::of(core::iter::once(&*motion)),
             by_state: all.columns(0, entries).into_owned(),
             by_parameter,
             rate: DVector::from_iterator(entries, rates),

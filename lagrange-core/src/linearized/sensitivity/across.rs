@@ -40,14 +40,14 @@ use crate::system::{StateOf, check_contacts};
 /// // Dropped from 1 m: by the height, by gravity, and by the coefficient of restitution.
 /// let start = ball.sensitivity(&State::at_rest([1.0]), &["y", "g"])?.with(&["e"])?;
 /// let fall = ball.motion_with_derivatives(&start).by(method).event(lands).towards(10.0)?;
-/// let landing = fall.end()?;
+/// let landing = fall.derivatives_at_end()?;
 /// // It falls for √(2h/g).
 /// assert!((landing.t[0] - 0.5 * landing.state.t).abs() < 1e-12);
 /// let bounce = floor.impact_sensitivity(landing, "floor", ("e", 0.8))?;
 /// let flight = ball.motion_with_derivatives(&bounce).by(method).towards(0.6)?;
 /// // y = e v τ − g τ²/2 with v = √(2gh), τ = t − v/g
 /// let (v, tau) = ((2.0 * 9.81_f64).sqrt(), 0.6 - (2.0 / 9.81_f64).sqrt());
-/// assert!((flight.coordinate(0.6, "y", "e")? - v * tau).abs() < 1e-12);
+/// assert!((flight.derivative(0.6, "y", "e")? - v * tau).abs() < 1e-12);
 /// # Ok::<(), Error>(())
 /// ```
 ///
@@ -93,7 +93,7 @@ pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
     /// let start = block.sensitivity(&State::new([0.0], [0.5]), &["k", "belt"])?.with(&["hold"])?;
     /// let ride = block.motion_with_derivatives(&start).event(gives).towards(10.0)?;
     /// // Until t = hold/(k belt)
-    /// for (by, expected) in ride.end()?.t.iter().zip([-0.25, -2.0, 0.5]) {
+    /// for (by, expected) in ride.derivatives_at_end()?.t.iter().zip([-0.25, -2.0, 0.5]) {
     ///     assert!((by - expected).abs() < 1e-9);
     /// }
     /// # Ok::<(), Error>(())
@@ -111,7 +111,7 @@ pub trait MotionDerivatives: Linearized<Scalar: Real> + Sized {
     ///
     /// If the start is the end of an earlier leg, at an event, its time depends on the arguments too; the derivatives
     /// along the motion are those at fixed times. With constraints, they are projected onto the tangent space.
-    /// [`TrajectorySensitivity::end`](crate::linearized::TrajectorySensitivity::end) returns an error if the motion
+    /// [`derivatives_at_end`](crate::linearized::TrajectorySensitivity::derivatives_at_end) returns an error if the motion
     /// reached neither its end nor an event, or if the event has no derivative.
     ///
     /// A system with [contacts](crate::contact) would pass through them, and does not compile. Its derivatives are those of

@@ -2,6 +2,7 @@
 
 use alloc::{boxed::Box, vec::Vec};
 use core::fmt::{self, Debug, Formatter};
+use core::ops::Deref;
 
 use super::state::StateSensitivity;
 use super::trajectory::{Along, DynDifferentiableEvent, Keeper};
@@ -20,7 +21,8 @@ use crate::system::StateOf;
 use crate::system::finite::check_finite;
 use crate::trajectory::{SampledTrajectory, Samples};
 
-/// End and samples of a motion, and their derivatives by entries of the start and by parameters.
+/// A [motion of which samples alone are kept](crate::trajectory::SampledTrajectory), with its derivatives by entries of the initial state
+/// and by parameters. It is read like the motion alone.
 ///
 /// ```
 /// # use lagrange_core::prelude::*;
@@ -30,9 +32,8 @@ use crate::trajectory::{SampledTrajectory, Samples};
 /// struct Spring { k: f64 }
 ///
 /// let spring = Spring { k: 1.0 };
-/// let start = spring.sensitivity(&State::at_rest([1.0]), &["x"])?;
-/// let motion = spring.motion_with_derivatives(&start).every(0.5).to(10.0)?;
-/// for sample in motion.samples() {
+/// let motion = spring.motion(State::at_rest([1.0])).derivatives(&["x"])?.every(0.5).to(10.0)?;
+/// for sample in motion.derivatives() {
 ///     // x = x₀ cos t
 ///     assert!((sample.q[(0, 0)] - sample.state.t.cos()).abs() < 1e-7);
 /// }
@@ -45,28 +46,31 @@ pub struct SampledSensitivity<'a, L: Linearized<Scalar: Real>> {
     end: Result<StateSensitivity<L::Scalar, L::N>, Error>,
 }
 
-impl<'a, L: Linearized<Scalar: Real>> SampledSensitivity<'a, L> {
-    /// The motion, without its derivatives.
-    pub fn trajectory(&self) -> &SampledTrajectory<&'a L> {
+impl<'a, L: Linearized<Scalar: Real>> Deref for SampledSensitivity<'a, L> {
+    type Target = SampledTrajectory<&'a L>;
+
+    fn deref(&self) -> &SampledTrajectory<&'a L> {
         &self.trajectory
     }
+}
 
+impl<L: Linearized<Scalar: Real>> SampledSensitivity<'_, L> {
     /// The arguments, in the order of the columns.
     pub fn arguments(&self) -> &[Entry] {
         &self.arguments
     }
 
     /// The samples with their derivatives at fixed time.
-    pub fn samples(&self) -> &[StateSensitivity<L::Scalar, L::N>] {
+    pub fn derivatives(&self) -> &[StateSensitivity<L::Scalar, L::N>] {
         &self.samples
     }
 
     /// The last state with its derivatives, like
-    /// [`TrajectorySensitivity::end`](crate::linearized::TrajectorySensitivity::end).
+    /// [`TrajectorySensitivity`](crate::linearized::TrajectorySensitivity::derivatives_at_end).
     ///
     /// # Errors
-    /// The errors of `TrajectorySensitivity::end`.
-    pub fn end(&self) -> Result<&StateSensitivity<L::Scalar, L::N>, Error> {
+    /// Those of `TrajectorySensitivity::derivatives_at_end`.
+    pub fn derivatives_at_end(&self) -> Result<&StateSensitivity<L::Scalar, L::N>, Error> {
         self.end.as_ref().map_err(Error::clone)
     }
 }

@@ -2,7 +2,9 @@
 
 use alloc::{boxed::Box, string::String, string::ToString, vec::Vec};
 use core::fmt::{self, Debug, Formatter};
+use core::ops::Deref;
 
+use super::across::MotionDerivatives;
 use super::events::DifferentiableEvent;
 use super::state::{StateSensitivity, at_event};
 use crate::derivatives::tangent::{Tangent, WideOf};
@@ -13,18 +15,19 @@ use crate::motion::integration::builder::EventList;
 use crate::motion::integration::progress::OnProgress;
 use crate::motion::integration::store::Stored;
 use crate::motion::run::{Observer, Run, Watchdog, check_end};
-use crate::motion::{AllSteps, AnyEvent, HasEnding, Integrates, MotionBuilder};
+use crate::motion::{AllSteps, AnyEvent, HasEnding, Integrates, LagrangianVectorField, MotionBuilder, Start};
 use crate::names::Entry;
 use crate::number::{Broadcast, Real, Scalar, Wide};
 use crate::solution::crossing::Crossing;
 use crate::system::finite::check_finite;
-use crate::system::{Direction, Lagrangian, StateOf, lookup};
+use crate::system::{Direction, Lagrangian, StateOf, check_contacts, lookup};
 use crate::trajectory::Trajectory;
 use crate::vector::{Entrywise, PhaseVector, StaticLength};
 
 /// A motion with its derivatives by entries of the initial state and by parameters.
 ///
-/// The call that integrates names the arguments. With constraints, derivatives lie in the tangent space at every time.
+/// It is read like the motion alone, a [`Trajectory`]: `motion.end()`, `motion.at(t)`, `motion.crossings()`. The call that integrates names
+/// the arguments. With constraints, derivatives lie in the tangent space at every time.
 pub struct TrajectorySensitivity<'a, L: Linearized<Scalar: Real>> {
     trajectory: Trajectory<&'a L>,
     course: Course<L>,
@@ -81,6 +84,43 @@ where
     }
 }
 
+impl<'a, 'w, L, P, K> MotionBuilder<'a, 'w, L, Start<L::Scalar, L::N, LagrangianVectorField>, P, (), K>
+where
+    L: Linearized<Scalar: Real>,
+{
+    /// Integrates the derivatives of the motion too, by entries of the initial state and by parameters, named as in
+    /// [`jacobian_by`](Linearized::jacobian_by). Events are added after this call.
+    ///
+    /// ```
+    /// use lagrange_core::prelude::*;
+    ///
+    /// #[derive(Lagrangian)]
+    /// #[coordinates(x)]
+    /// #[lagrangian(m/2 * x_dot^2 - k/2 * x^2)]
+    /// struct Spring { m: f64, k: f64 }
+    ///
+    /// let spring = Spring { m: 1.0, k: 4.0 };
+    /// let motion = spring.motion(State::at_rest([0.5])).derivatives(&["k"])?.to(3.0)?;
+    /// // x = ½ cos(√k t)
+    /// assert!((motion.end().coordinate("x")? - 0.5 * 6.0_f64.cos()).abs() < 1e-7);
+    /// assert!((motion.derivative(3.0, "x", "k")? + 0.5 * 3.0 / 4.0 * 6.0_f64.sin()).abs() < 1e-6);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] and [`Error::RepeatedName`]; the error of the start, if it is none.
+    #[allow(clippy::type_complexity, reason = "the type of the builder itself, with its start")]
+    pub fn derivatives(
+        self,
+        arguments: &[&str],
+    ) -> Result<MotionBuilder<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, (), K>, Error> {
+        const { check_contacts(L::HAS_CONTACTS) };
+        let Self { system, start, method, events, on_progress, kept } = self;
+        let start = system.sensitivity(&start.into_state()?, arguments)?;
+        Ok(MotionBuilder { system, start, method, events, on_progress, kept })
+    }
+}
+
 impl<'a, 'w, L, P, E> Integrates<'a, 'w, L, StateSensitivity<L::Scalar, L::N>, P, E> for AllSteps
 where
     L: Linearized<Scalar: Real> + 'a,
@@ -95,6 +135,14 @@ where
     ) -> Result<TrajectorySensitivity<'a, L>, Error> {
         let MotionBuilder { system, start, method, events, on_progress, .. } = motion;
         integrate(system, &start, end, &method, &mut events.list(), on_progress)
+    }
+}
+
+impl<'a, L: Linearized<Scalar: Real>> Deref for TrajectorySensitivity<'a, L> {
+    type Target = Trajectory<&'a L>;
+
+    fn deref(&self) -> &Trajectory<&'a L> {
+        &self.trajectory
     }
 }
 
@@ -355,11 +403,6 @@ impl<'a, L: Linearized<Scalar: Real>> TrajectorySensitivity<'a, L> {
         Ok(self)
     }
 
-    /// The motion, without its derivatives.
-    pub fn trajectory(&self) -> &Trajectory<&'a L> {
-        &self.trajectory
-    }
-
     /// Takes the motion without its derivatives, for a leg of a [`HybridTrajectory`](crate::HybridTrajectory) for
     /// example.
     pub fn into_trajectory(self) -> Trajectory<&'a L> {
@@ -375,7 +418,7 @@ impl<'a, L: Linearized<Scalar: Real>> TrajectorySensitivity<'a, L> {
     ///
     /// # Errors
     /// The errors of [`Trajectory::at`] and of [`Linearized::jacobian`].
-    pub fn at(&self, t: L::Scalar) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
+    pub fn derivatives_at(&self, t: L::Scalar) -> Result<StateSensitivity<L::Scalar, L::N>, Error> {
         self.course.at(self.trajectory.system(), self.trajectory.at(t)?.state())
     }
 
@@ -384,19 +427,19 @@ impl<'a, L: Linearized<Scalar: Real>> TrajectorySensitivity<'a, L> {
     ///
     /// # Errors
     /// [`Error::Unfinished`] if the motion reached neither; [`Error::Grazing`], and [`Error::EventNotFinite`] if the
-    /// function of the event has no derivative; the errors of [`at`](Self::at).
-    pub fn end(&self) -> Result<&StateSensitivity<L::Scalar, L::N>, Error> {
+    /// function of the event has no derivative; the errors of [`derivatives_at`](Self::derivatives_at).
+    pub fn derivatives_at_end(&self) -> Result<&StateSensitivity<L::Scalar, L::N>, Error> {
         self.end.as_ref().map_err(Error::clone)
     }
 
     /// Derivative of coordinate `coordinate` by `argument` at this time.
     ///
     /// # Errors
-    /// The errors of [`at`](Self::at); [`Error::UnknownName`].
-    pub fn coordinate(&self, t: L::Scalar, coordinate: &str, argument: &str) -> Result<L::Scalar, Error> {
+    /// The errors of [`derivatives_at`](Self::derivatives_at); [`Error::UnknownName`].
+    pub fn derivative(&self, t: L::Scalar, coordinate: &str, argument: &str) -> Result<L::Scalar, Error> {
         let row = lookup::index::<L>(L::COORDINATES, "coordinate", coordinate)?;
         let names: Vec<String> = self.arguments().iter().map(Entry::to_string).collect();
         let column = lookup::index::<L>(&names, "argument of these derivatives", argument)?;
-        Ok(self.at(t)?.q[(row, column)])
+        Ok(self.derivatives_at(t)?.q[(row, column)])
     }
 }

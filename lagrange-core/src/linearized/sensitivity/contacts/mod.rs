@@ -99,7 +99,10 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> Trajectory<L> {
             (at.state, before) = (*leg.first(), Some(leg));
             let end = *leg.last();
             if at.state.t != end.t {
-                at = integrate(leg.system(), &at, end.t, &method, &mut [], None)?.finished()?.end()?.clone();
+                at = integrate(leg.system(), &at, end.t, &method, &mut [], None)?
+                    .finished()?
+                    .derivatives_at_end()?
+                    .clone();
             }
             at.state = end;
         }
