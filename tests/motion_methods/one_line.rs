@@ -1,6 +1,7 @@
 //! An event, samples, contacts, derivatives, another method or a controller are added to a motion in one line: the lines that read its
 //! result stay.
 
+use lagrange_core::Sample;
 use lagrange_core::contact::{Contact, MoreauJean};
 use lagrange_core::prelude::*;
 
@@ -78,6 +79,83 @@ fn requests_are_added_in_one_line() {
         read!(ball.motion(start).by_time_stepping(scheme).every(0.1).to(1.0)),
     ] {
         assert!((found.0 - bounced).abs() < 1e-2, "{found:?} {bounced}");
+    }
+}
+
+/// The start has the system, the contacts and the forces as they are there.
+#[test]
+fn samples_alone_have_the_start_as_it_was() {
+    let stone = Stone { g: 9.81 };
+    let heavier = |stone: &mut Stone, _: &State<f64, 1>| {
+        stone.g += 1.0;
+        Ok::<_, Error>(())
+    };
+    let steered = stone.motion(State::at_rest([2.0])).every(0.1).controlled(0.1, heavier);
+    let path = steered.quantity("energy", |sample| sample.energy()).to(1.0).unwrap();
+    assert_eq!(path.start().acceleration("y").unwrap(), -9.81);
+    assert_eq!(Some(path.start().energy()), path.quantity("energy").unwrap().next());
+    assert!((path.system().g - 19.81).abs() < 1e-12 && path.end().system().g == path.system().g);
+    let ball = Ball { g: 9.81, e: 0.0, floor: Contact::Open };
+    let motion = || ball.motion(State::at_rest([1.0])).with_contacts();
+    let steps = || ball.motion(State::at_rest([1.0])).by_time_stepping(MoreauJean::with_step(0.01));
+    let pairs = [
+        (motion().to(1.0), motion().every(0.1).to(1.0)),
+        (steps().to(0.2), steps().every(0.1).to(0.2)),
+        (steps().to(1.0), steps().every(0.1).to(1.0)),
+    ];
+    for (stored, sampled) in pairs {
+        let (stored, sampled) = (stored.unwrap(), sampled.unwrap());
+        for (one, other) in [(stored.start(), sampled.start()), (stored.end(), sampled.end())] {
+            assert_eq!(one.acceleration("y").unwrap(), other.acceleration("y").unwrap());
+            assert_eq!(one.multiplier("floor").unwrap(), other.multiplier("floor").unwrap());
+            assert_eq!(one.system().floor, other.system().floor);
+        }
+        assert_eq!(stored.system().floor, sampled.system().floor);
+    }
+    assert!(steps().every(0.1).to(0.0).unwrap().start().multiplier("floor").unwrap().is_nan());
+}
+
+/// Contacts that a controller opens stay closed in the system of a sample by time steps.
+#[test]
+fn forces_of_time_steps_do_not_depend_on_the_contacts_that_a_controller_sets() {
+    let ball = Ball { g: 9.81, e: 0.0, floor: Contact::Open };
+    let motion = ball.motion(State::at_rest([0.0])).by_time_stepping(MoreauJean::with_step(0.01)).every(0.1);
+    let motion = motion.quantity("force", |sample| sample.constraint_force("y"));
+    let path = motion.controlled(0.1, |ball, _| {
+        *ball = Ball { g: 9.81, e: 0.0, floor: Contact::Open };
+        Ok::<_, Error>(())
+    });
+    let path = path.to(0.3).unwrap();
+    assert!(path.quantity("force").unwrap().skip(1).all(|force| (force - 9.81).abs() < 1e-9));
+    assert!((path.end().constraint_force("y").unwrap() - 9.81).abs() < 1e-9);
+}
+
+#[test]
+fn nothing_is_kept_beyond_the_end() {
+    let stone = Stone { g: 9.81 };
+    let below = stone.event("below", |sample| sample.state().q[0] - 1.0);
+    let fails = |sample: &Sample<&Stone>| {
+        if sample.time() > 0.4 { Err(Error::EndNotFinite { end: 1.0 }) } else { Ok(0.0) }
+    };
+    let motion = stone.motion(State::at_rest([2.0])).event(below).every(0.05).quantity("fails", fails);
+    let path = motion.towards(10.0).unwrap();
+    assert!(path.ending().is_failure() && path.end().time() < 0.451, "{path}");
+    assert!(path.crossings().is_empty());
+    let twice = stone.motion(State::at_rest([2.0])).every(0.1).quantity("E", |_| 1.0).quantity("E", |_| 2.0);
+    assert!(matches!(twice.to(1.0), Err(Error::RepeatedName { .. })));
+}
+
+/// A multiple of the interval that rounding keeps from the end is the end.
+#[test]
+fn a_controller_is_not_called_a_rounding_error_before_the_end() {
+    for (interval, end) in [(0.1, 0.3), (0.3, 0.9), (0.7, 2.1), (0.1, -0.3), (0.3, -0.9)] {
+        let (mut calls, stone) = (0, Stone { g: 9.81 });
+        let motion = stone.motion(State::at_rest([2.0])).controlled(interval, |_, _| {
+            calls += 1;
+            Ok::<_, Error>(())
+        });
+        motion.to(end).unwrap();
+        assert_eq!(calls, 3, "{interval} {end}");
     }
 }
 

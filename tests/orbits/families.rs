@@ -124,7 +124,7 @@ fn swings_up_to_the_separatrix() {
 /// Signs that are not known tell of no bifurcation: the motion for half a period magnifies errors more than 10⁶ times.
 #[test]
 fn swings_beyond_round_off() {
-    for amplitude in [3.14, 3.141_f64] {
+    for amplitude in [1.6e-3, 0.6e-3].map(|below| PI - below) {
         let start = State::at_rest([amplitude]);
         let search = Pendulum { m: 1.0, l: 1.0, g: 1.0 }.periodic_orbit(&start).mirrored(&["theta_dot"]);
         let search = search.period_near(4.0 * (8.0 / (PI - amplitude)).ln());
@@ -423,4 +423,42 @@ fn skate_of_known_energy() {
         (orbit.energy() - energy).abs() < 1e-12 && orbit.gap < 1e-11 && orbit.iterations < 15,
         "{orbit:?}"
     );
+}
+
+/// A mass on a spring whose pivot the swing passes: the force jumps there, and the family leaps to orbits of another number of turns.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - k/2*(sqrt(x^2 + (1 - y)^2) - 1)^2 - y)]
+struct Sprung {
+    k: f64,
+}
+
+#[test]
+fn a_test_that_jumps_is_no_bifurcation() {
+    let sprung = Sprung { k: 3.1 };
+    let search = sprung.periodic_orbit(&State::new([0.0, -1.0 / 3.1], [0.0, 0.05]));
+    let search = search.period_near(TAU / 3.1_f64.sqrt());
+    let first = search.find().unwrap();
+    let family = search.family(&first).until(|orbit| orbit.energy() > 2.295).follow().unwrap();
+    assert!(family.bifurcations().is_empty() && !family.lost().is_empty(), "{family}");
+}
+
+/// Hénon and Heiles' potential with other coefficients.
+#[derive(Clone, Lagrangian)]
+#[coordinates(x, y)]
+#[lagrangian((x_dot^2 + y_dot^2)/2 - (x^2 + w*y^2)/2 - b*x^2*y + c*y^3/3)]
+struct Heiles {
+    w: f64,
+    b: f64,
+    c: f64,
+}
+
+#[test]
+fn bifurcations_are_in_the_order_of_the_family() {
+    let system = Heiles { w: 2.137835514780057, b: 0.6936920869830034, c: 0.46110995857013837 };
+    let search = system.periodic_orbit(&State::new([0.0, 0.0], [0.0, 0.55])).period_near(4.3);
+    let first = search.find().unwrap();
+    let family = search.family(&first).until(|orbit| orbit.energy() > 7.58).follow().unwrap();
+    let energies: Vec<f64> = family.bifurcations().iter().map(|bifurcation| bifurcation.value).collect();
+    assert!(energies.len() > 1 && energies.is_sorted(), "{energies:?}");
 }

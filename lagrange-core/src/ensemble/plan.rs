@@ -148,8 +148,8 @@ impl<'a, L: Simulate> MemberPlan<'a, L> {
 
     /// Checks the settings that are the same for all members.
     pub(super) fn check(&self) -> Result<(), Error> {
-        self.samples.check()?;
         self.names().check()?;
+        self.samples.check()?;
         let interval = self.controller.as_ref().map(|(interval, _)| *interval);
         interval.map_or(Ok(()), |interval| check_interval(CONTROLLER, interval))
     }

@@ -97,6 +97,8 @@ pub enum OrbitError {
         /// Period of the half that was found, doubled.
         period: f64,
     },
+    /// A test of a bifurcation changes its sign between two orbits and has no zero there.
+    NoZero,
     /// No family leaves at a bifurcation of this kind.
     NoBranch {
         /// The kind.
@@ -177,6 +179,9 @@ impl Display for OrbitError {
             Self::NoBranch { kind } => write!(
                 f,
                 "no family of periodic orbits leaves at a {kind}: follow the one of a branch point or of a period doubling"
+            ),
+            Self::NoZero => f.write_str(
+                "the test of the bifurcation jumps between two orbits and has no zero: limit the step by `longest_step`, it may leap to another family",
             ),
             Self::NoFamily { freedom: 0 } => {
                 write!(f, "the orbit is isolated: continue it in a parameter, or free its period or energy")

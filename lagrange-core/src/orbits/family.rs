@@ -146,7 +146,8 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
     /// neighbours, and the function passes zero between them by more than its error. An orbit between the two bifurcations then becomes
     /// a member. Steps are shortened so that no multiplier turns by more than 90° at the rate that it has at the start of the step.
     /// What can still be missed is a window that is narrower, or one beside which the function has further extrema between the two
-    /// orbits.
+    /// orbits; and two pairs of multipliers that a symmetry makes equal, which pass ±1 at one orbit: the function then touches zero.
+    /// Where a function jumps from one sign to the other, [`Family::lost`] says so.
     ///
     /// The family ends early where no orbit is found, which is no error: see [`Family::ending`].
     ///

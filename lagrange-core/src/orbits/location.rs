@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bifurcation::{Branch, Test, least_direction, least_directions, touches_circle};
 use super::correction::Arc;
+use super::error::OrbitError;
 use super::orbit::PeriodicOrbit;
 use super::shot::Shot;
 use super::tracing::{AtLength, TracedOrbit, Tracer};
@@ -28,6 +29,10 @@ const STEPS: usize = 12;
 /// Minimum of a cubic, as part of the values at the ends, above which the test is taken not to reach zero between. Of a pair of
 /// multipliers that turns by 90°, through 1 or −1, the cubic errs by 6 % of these values.
 const SHALLOW: f64 = 0.5;
+
+/// Size of a test at its zero, as part of that at both neighbours. The search gains a digit or more with each member; where it gains none, the
+/// test has no zero.
+const VANISHING: f64 = 1e-3;
 
 /// Distance of a fold and a branch point, as part of a step, within which they are one.
 const COINCIDENT: f64 = 1e-2;
@@ -69,6 +74,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         {
             found.remove(0);
         }
+        found.sort_by(|(_, (x, _)), (_, (y, _))| order(*x, *y));
         let mut located = Vec::new();
         for (test, (_, at)) in found {
             match self.problem.branch(test, &at.shot, &at.tangent, self.method) {
@@ -115,6 +121,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         };
         let [mut left, mut right] = ends.map(knot);
         let (is_dip, step) = (right.value > zero, right.length - left.length);
+        let smallest = smaller(Scalar::abs(left.value), Scalar::abs(right.value));
         let mut best: Option<AtLength<L>> = None;
         let (mut least, mut is_slow) = (larger(left.value, Scalar::abs(right.value)), false);
         for _ in 0..TRIES {
@@ -160,7 +167,15 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
             }
             least = size;
         }
-        Ok(best.filter(|_| !is_dip))
+        // Across a pole, or a leap to another family, a test changes its sign without a zero.
+        let is_zero = |at: &TracedOrbit<L>| {
+            let value = Scalar::abs(at.tests.value(test));
+            value <= smallest * L::Scalar::constant(VANISHING) || !at.tests.is_certain(test)
+        };
+        match best.filter(|_| !is_dip) {
+            Some((_, at)) if !is_zero(&at) => Err(OrbitError::NoZero.into()),
+            best => Ok(best),
+        }
     }
 
     /// The member at an arclength near that of another.

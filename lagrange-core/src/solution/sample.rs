@@ -47,6 +47,12 @@ impl<S: System> Sample<S> {
         Self { given, ..self }
     }
 
+    /// The same sample of the borrowed system.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn borrowed(&self) -> Sample<&S> {
+        Sample { system: &self.system, state: self.state.clone(), given: self.given }
+    }
+
     /// Accelerations and multipliers, if they are not those of the equations.
     pub(crate) fn given(&self) -> Option<SolutionOf<S>> {
         self.given

@@ -13,17 +13,14 @@ use crate::names::Entry;
 use crate::number::Real;
 use crate::solution::vector_field::VectorField;
 use crate::solution::{Adjustment, Sample};
-use crate::system::{Lagrangian, SolutionOf, StateOf, System};
+use crate::system::{Lagrangian, StateOf, System};
 
 /// States of a motion at chosen times, and its first and last state: what a [`SampledTrajectory`] keeps.
-#[derive(Clone)]
 pub struct Samples<S: System> {
     /// The system as it is at the end.
     pub(crate) system: S,
-    /// First and last state.
-    pub(crate) ends: [StateOf<S>; 2],
-    /// Accelerations and multipliers at the end, if they are not those of the equations.
-    pub(crate) means: Option<SolutionOf<S>>,
+    /// First and last state, each with the system as it is there.
+    pub(crate) ends: [Sample<S>; 2],
     pub(crate) states: Vec<StateOf<S>>,
     /// Quantities of the first sample, then of the second, …
     pub(crate) values: Vec<S::Scalar>,
@@ -56,7 +53,9 @@ impl<S: System> Debug for Samples<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { ends, states, quantities, .. } = self;
         let mut text = f.debug_struct("Samples");
-        text.field("ends", ends).field("count", &states.len()).field("quantities", quantities);
+        text.field("ends", &ends.each_ref().map(Sample::state))
+            .field("count", &states.len())
+            .field("quantities", quantities);
         text.finish_non_exhaustive()
     }
 }
@@ -67,26 +66,26 @@ impl<S: System<Scalar: Real>> KeptStates<S> for Samples<S> {
     }
 
     fn first(&self) -> Sample<&S> {
-        Sample::of(&self.system, self.ends[0].clone())
+        self.ends[0].borrowed()
     }
 
     fn last(&self) -> Sample<&S> {
-        Sample::of(&self.system, self.ends[1].clone()).with(self.means)
+        self.ends[1].borrowed()
     }
 
     fn is_in_time_steps(&self) -> bool {
-        self.means.is_some()
+        self.ends[1].given().is_some()
     }
 }
 
 impl<S: System<Scalar: Real>> Samples<S> {
-    /// Samples of a motion between these states, which are taken by a plan.
-    pub(crate) fn of<L>(system: S, ends: [StateOf<S>; 2], plan: &RecordPlan<'_, L>) -> Self
+    /// Samples of a motion between these ends, which are taken by a plan.
+    pub(crate) fn of<L>(system: S, ends: [Sample<S>; 2], plan: &RecordPlan<'_, L>) -> Self
     where
         L: System<Scalar = S::Scalar>,
     {
         let (states, values, quantities) = (Vec::new(), Vec::new(), plan.quantities().collect());
-        Self { system, ends, means: None, states, values, quantities }
+        Self { system, ends, states, values, quantities }
     }
 
     /// The trajectory of a motion with what was recorded of it.
@@ -104,10 +103,9 @@ impl<S: System<Scalar: Real>> Samples<S> {
 impl<L: System + Clone, F> SampledTrajectory<&L, F> {
     /// Returns the trajectory with its own copy of the system; the original may then change or be dropped.
     pub fn into_owned(self) -> SampledTrajectory<L, F> {
-        self.map(|Samples { system, ends, means, states, values, quantities }| Samples {
+        self.map(|Samples { system, ends, states, values, quantities }| Samples {
             system: system.clone(),
-            ends,
-            means,
+            ends: ends.map(Sample::into_owned),
             states,
             values,
             quantities,

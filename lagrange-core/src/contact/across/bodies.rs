@@ -92,21 +92,22 @@ pub(crate) fn impulse_changes<L: Contacts<Scalar: Real> + Clone>(
     Ok(impulses.iter().map(change).fold(L::Scalar::constant(0.0), |sum, change| sum + change))
 }
 
+/// Sets all contacts and all friction of a system.
+pub(super) fn set_all<L: Contacts>(system: &mut L, contact: Contact, friction: Friction) {
+    (0..L::FRICTIONS.len()).for_each(|f| {
+        system.set_friction(f, friction);
+    });
+    (0..L::CONTACTS.len()).for_each(|k| {
+        system.set_contact(k, contact);
+    });
+}
+
 impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     pub(super) fn new(system: &L, accuracy: f64) -> Self {
-        let all = |contact, friction| {
-            let mut system = system.clone();
-            (0..L::FRICTIONS.len()).for_each(|f| {
-                system.set_friction(f, friction);
-            });
-            (0..L::CONTACTS.len()).for_each(|k| {
-                system.set_contact(k, contact);
-            });
-            system
-        };
         let largest = [Array::filled(L::Scalar::constant(0.0)); 2];
-        let open = all(Contact::Open, LegFriction::OFF.friction);
-        let closed = all(Contact::Closed, Friction::Sticks);
+        let [mut open, mut closed] = [system.clone(), system.clone()];
+        set_all(&mut open, Contact::Open, LegFriction::OFF.friction);
+        set_all(&mut closed, Contact::Closed, Friction::Sticks);
         Self { open, closed, last: Cell::new(None), largest, span: L::Scalar::constant(0.0), accuracy }
     }
 

@@ -197,7 +197,8 @@ where
         let along = (&plan, events.list(), steering);
         let limit = (end, Some(transitions));
         let ended = sampled((system, state), limit, &method, along, Box::new(accept))?;
-        let samples = Samples::of(ended.system.clone(), [ended.start, ended.state], &plan);
+        let ends = [ended.start.clone(), Sample::of(ended.system.clone(), ended.state)];
+        let samples = Samples::of(ended.system.clone(), ends, &plan);
         let (closed, adjustment) = (closed(&ended.system), ended.adjustment);
         Ok(Trajectory { closed, ..samples.trajectory(arrival(ended), adjustment) })
     }

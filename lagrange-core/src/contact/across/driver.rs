@@ -17,11 +17,14 @@ use crate::motion::integration::progress::{OnProgress, report};
 use crate::motion::run::{Run, Watchdog};
 use crate::motion::{DynEvent, Method};
 use crate::number::Real;
-use crate::solution::Adjustment;
 use crate::solution::crossing::Crossing;
 use crate::solution::reason::parameter_not_finite;
+use crate::solution::{Adjustment, Sample};
 use crate::statistics::Statistics;
-use crate::system::{Lagrangian, StateOf};
+use crate::system::{Lagrangian, StateOf, System};
+
+/// First state of the first leg, with the system before the controller is called, and what moved it onto the constraints.
+type FirstState<L> = (Sample<L>, Option<Adjustment<<L as System>::Scalar, <L as Lagrangian>::N>>);
 
 /// A motion under way, which keeps `K` of its legs.
 pub(super) struct Journey<'w, L: Lagrangian, K> {
@@ -35,8 +38,7 @@ pub(super) struct Journey<'w, L: Lagrangian, K> {
     pub(super) crossings: Vec<Crossing<L::Scalar, L::N>>,
     pub(super) statistics: Statistics,
     accept: Accept<'w, L>,
-    /// First state of the first leg, and what moved it onto the constraints.
-    first: Option<(StateOf<L>, Adjustment<L::Scalar, L::N>)>,
+    first: Option<FirstState<L>>,
     /// State, contacts and number of transitions at the end of the last leg.
     arrived: Option<(StateOf<L>, LegStates, usize)>,
 }
@@ -48,7 +50,7 @@ pub(super) struct Ended<L: Lagrangian, K> {
     pub(super) crossings: Vec<Crossing<L::Scalar, L::N>>,
     pub(super) statistics: Statistics,
     pub(super) system: L,
-    pub(super) start: StateOf<L>,
+    pub(super) start: Sample<L>,
     /// What moved the start onto the constraints.
     pub(super) adjustment: Adjustment<L::Scalar, L::N>,
     pub(super) state: StateOf<L>,
@@ -115,6 +117,7 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
     pub(super) fn begin(mut self, end: L::Scalar) -> Result<Self, Error> {
         self.head_for(end)?;
         self.settle_anew()?;
+        self.first = Some((Sample::of(self.system(), self.state), None));
         Ok(self)
     }
 
@@ -188,7 +191,8 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let noted = if ending.is_failure() { Ok(()) } else { self.kept.arrives(&system, &self.state) };
         let ending = noted.err().map_or(ending, |error| Ending::of(error, self.state.t.to_f64()));
         let Self { state, kept, transitions, crossings, statistics, first, .. } = self;
-        let (start, adjustment) = first.unwrap_or((state, Adjustment::none(system.length())));
+        let (start, adjustment) = first.unwrap_or_else(|| (Sample::of(system.clone(), state), None));
+        let adjustment = adjustment.unwrap_or_else(|| Adjustment::none(system.length()));
         Ended { kept, transitions, crossings, statistics, system, start, adjustment, state, ending }
     }
 
@@ -231,7 +235,11 @@ impl<'w, L: Contacts<Scalar: Real> + Clone, K: KeepsLegs<L>> Journey<'w, L, K> {
         let closed = bodies.closed.clone();
         let (mut run, adjustment) = Run::begin(&system, &self.state, method).map_err(undecided)?;
         run.statistics = run.statistics.after(&self.statistics);
-        self.first.get_or_insert((run.state, adjustment));
+        let first = || (Sample::of(system.clone(), run.state), None);
+        let (start, adjusted) = self.first.get_or_insert_with(first);
+        if adjusted.is_none() {
+            (*start, *adjusted) = (Sample::of(start.system().clone(), run.state), Some(adjustment));
+        }
         // The projection may move gaps of open contacts. Conditions are watched from where it leads.
         let state = &{ run.state };
         let sizes = bodies.sizes(state);

@@ -11,7 +11,7 @@ use super::lifting::Lifting;
 use super::states::LegStates;
 use crate::error::{Ending, Error};
 use crate::motion::event::{AnyEvent, DenseStep, EventSearch};
-use crate::motion::integration::record::Record;
+use crate::motion::integration::record::{Record, forget_beyond};
 use crate::motion::integration::store::Stored;
 use crate::motion::run::{Observer, Run, Watchdog};
 use crate::motion::{DynEvent, Interpolant, LagrangianVectorField, Method, MultiplierBounds};
@@ -283,6 +283,9 @@ where
         let goes_on = stopped.is_none() && run.state.t != self.goal;
         let record = self.record.as_mut();
         let failed = record.and_then(|record| record.keep_samples(&step, &mut run.state, goes_on));
+        if failed.is_some() {
+            forget_beyond(&mut self.crossings, [run.state.t, after.t]);
+        }
         failed.or(stopped).map_or(Ok(()), Err)
     }
 }

@@ -287,7 +287,8 @@ fn sample<'a, L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(
     let Along { observer, driven, course, before, samples, .. } =
         Along::drive(recorded, system, run, start, method)?;
     let arrival = observer.finish(driven, run.state, run.statistics);
-    let trajectory = Samples::of(system, [first, arrival.state], plan).trajectory(arrival, *adjustment);
+    let trajectory = Samples::of(system, [first, arrival.state].map(|state| Sample::of(system, state)), plan)
+        .trajectory(arrival, *adjustment);
     Ok(TrajectorySensitivity::of(trajectory, (course, before), samples, events))
 }
 

@@ -50,7 +50,7 @@ pub trait Kept<'w, L: System> {
 /// A controller and the copy of the system that it changes, or `()`.
 pub trait Controls<'a, 'w, L: System> {
     /// The system of the trajectory: borrowed, or the copy that a controller has changed.
-    type System: System<Scalar = L::Scalar, Length = L::Length, M = L::M>;
+    type System: System<Scalar = L::Scalar, Length = L::Length, M = L::M> + Clone;
 
     #[doc(hidden)]
     fn parts(self) -> (Option<Steering<'w, L>>, Option<L>);
@@ -246,7 +246,7 @@ where
 
     /// Steers the motion by a controller, which is called at the start and then after every interval. It reads the
     /// state and sets parameters of the motion's own copy of the system. They hold until the next call (zero-order
-    /// hold).
+    /// hold). A second controller takes the place of the first.
     ///
     /// The time of each call is reached exactly. Samples are taken before the call at their time. Events are searched
     /// anew from each call on, so a jump of their function there is no crossing. No steps are kept, because dense
@@ -321,8 +321,11 @@ where
         let start = Sample::of(system, run.state.clone());
         let (along, watched) = ((&plan, steering), (events.list(), on_progress));
         let arrival = record(run, &method, (&start, own.as_mut()), along, watched, end)?;
-        let ends = [start.state().clone(), arrival.state.clone()];
-        let samples = Samples::of(C::at_end(system, own), ends, &plan);
+        let systems = [C::at_end(system, None), C::at_end(system, own)];
+        let [first, last] = systems;
+        let ends = [(first, start.state()), (last.clone(), &arrival.state)];
+        let ends = ends.map(|(system, state)| Sample::of(system, state.clone()));
+        let samples = Samples::of(last, ends, &plan);
         Ok(samples.trajectory(arrival, adjustment.clone()))
     }
 }

@@ -12,9 +12,10 @@ use crate::motion::run::Run;
 use crate::motion::{Limits, Method, Step};
 use crate::names::name;
 use crate::number::{Real, Scalar};
+use crate::solution::Sample;
 use crate::statistics::Statistics;
 use crate::system::{Solution, SolutionOf, StateOf};
-use crate::trajectory::{Chord, SampledTrajectory, Trajectory};
+use crate::trajectory::{Chord, Trajectory};
 
 /// The scheme as a method, whose steps a [`ContactStepper`] takes. It is private: a motion takes the scheme by
 /// `by_time_stepping`, since the end of a time step need not satisfy the conditions on the start of other motions.
@@ -23,6 +24,8 @@ pub(super) struct TimeSteps(pub(super) MoreauJean);
 /// The steps of a motion so far.
 pub(super) struct TakenSteps<L: Contacts<Scalar: Real>> {
     pub(super) stepper: ContactStepper<L>,
+    /// Mean accelerations and multipliers of the first step.
+    first: Option<SolutionOf<L>>,
     /// Mean accelerations and multipliers of each step whose dense output is stored.
     means: Vec<SolutionOf<L>>,
 }
@@ -60,7 +63,7 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Method<L> for TimeSteps {
 
     fn begin(&self, system: &L, start: &StateOf<L>, _: &mut Statistics) -> Result<TakenSteps<L>, Error> {
         let stepper = ContactStepper::new(system, start, self.0)?;
-        Ok(TakenSteps { stepper, means: Vec::new() })
+        Ok(TakenSteps { stepper, first: None, means: Vec::new() })
     }
 
     fn resume(
@@ -87,6 +90,7 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Method<L> for TimeSteps {
             Ok(step) => {
                 statistics.evaluations += step.iterations;
                 *to = step.state;
+                memory.first.get_or_insert(step.means);
                 Step::Accepted
             }
             Err(ending) => Step::Failed(ending),
@@ -130,17 +134,17 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> TakenSteps<L> {
         path
     }
 
-    /// Gives the samples of these steps the means of the last one, and the names of the contacts that push in it.
-    pub(super) fn sampled(self, mut path: SampledTrajectory<L>) -> SampledTrajectory<L> {
-        let means = (path.statistics.accepted > 0).then(|| self.stepper.last().means);
-        path.closed = pushing::<L>(means);
-        path.kept.means = means.or_else(|| Some(Solution::unknown()));
-        path
+    /// First and last state with the means of the first and of the last step.
+    pub(super) fn ends(&self, ends: [Sample<L>; 2]) -> [Sample<L>; 2] {
+        let [start, end] = ends;
+        let means = self.first.map(|first| [first, self.stepper.last().means]);
+        let [first, last] = means.unwrap_or_else(|| [Solution::unknown(); 2]);
+        [start.with(Some(first)), end.with(Some(last))]
     }
 }
 
 /// Names of the contacts that push in a step.
-fn pushing<L: Contacts<Scalar: Real>>(means: Option<SolutionOf<L>>) -> Vec<&'static str> {
+pub(super) fn pushing<L: Contacts<Scalar: Real>>(means: Option<SolutionOf<L>>) -> Vec<&'static str> {
     let pushes = |row: usize| means.is_some_and(|of| of.multipliers[row] > L::Scalar::constant(0.0));
     let rows = L::CONTACTS.iter().filter(|&&row| pushes(row));
     rows.map(|&row| name(L::CONSTRAINTS, row)).collect()

@@ -12,10 +12,12 @@ mod time_step;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
+use super::bodies::set_all;
 use super::builder::{AcrossContacts, Builder, CrossesContacts, StartOf};
-use super::{Contacts, ForceDerivatives};
+use super::{Contact, Contacts, ForceDerivatives, Friction};
 use crate::error::Error;
 use crate::motion::event::recorded::EventInSteps;
+use crate::motion::integration::record::Steering;
 use crate::motion::integration::sampled::record;
 use crate::motion::integration::store::Stored;
 use crate::motion::method::contract::{check_settings, limit_setters};
@@ -25,9 +27,9 @@ use crate::motion::{
 };
 use crate::number::Real;
 use crate::solution::{Adjustment, Sample};
-use crate::system::Solution;
+use crate::system::{Solution, StateOf};
 use crate::trajectory::{SampledTrajectory, Samples, Trajectory};
-use method::TimeSteps;
+use method::{TimeSteps, pushing};
 pub use stepper::ContactStepper;
 pub use time_step::TimeStep;
 
@@ -261,10 +263,24 @@ where
         let closed = run.memory.stepper.closed().clone();
         let events = events.list().into_iter().map(|event| Box::new(EventInSteps(event)) as Box<_>).collect();
         let start = Sample::of(&closed, run.state).with(Some(Solution::unknown()));
+        let steering = steering.map(keeping_contacts_closed);
         let (along, watched) = ((&plan, steering), (events, on_progress));
         let mut own = closed.clone();
         let arrival = record(&mut run, &method, (&start, Some(&mut own)), along, watched, end)?;
-        let samples = Samples::of(own, [*start.state(), arrival.state], &plan);
-        Ok(run.memory.sampled(samples.trajectory(arrival, Adjustment::none(system.length()))))
+        let ends = run.memory.ends([start.into_owned(), Sample::of(own, arrival.state)]);
+        let (open, pushing) = (run.memory.stepper.system().clone(), pushing::<L>(ends[1].given()));
+        let path = Samples::of(open, ends, &plan).trajectory(arrival, Adjustment::none(system.length()));
+        Ok(Trajectory { closed: pushing, ..path })
     }
+}
+
+/// The controller, followed by the closing of all contacts, as they are in the system of a sample.
+fn keeping_contacts_closed<'w, L: Contacts + 'w>(steering: Steering<'w, L>) -> Steering<'w, L> {
+    let Steering { interval, mut controller } = steering;
+    let controller = Box::new(move |system: &mut L, state: &StateOf<L>| {
+        controller(system, state)?;
+        set_all(system, Contact::Closed, Friction::Sticks);
+        Ok(())
+    });
+    Steering { interval, controller }
 }

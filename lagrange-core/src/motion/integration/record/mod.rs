@@ -15,7 +15,7 @@ use crate::error::{Ending, Error};
 use crate::motion::event::{DenseStep, DynEvent, EventSearch};
 use crate::motion::method::Method;
 use crate::motion::run::{Observer, Run, is_between, resume};
-use crate::number::{Real, Scalar};
+use crate::number::Real;
 use crate::solution::Sample;
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
@@ -49,6 +49,12 @@ pub struct Arrival<T: Element, N: Length> {
     /// Transitions of a motion across [contacts](crate::contact), in the order in which they are decided. Those of the members of an
     /// ensemble are not kept.
     pub transitions: Vec<Transition<T>>,
+}
+
+/// Takes back the crossings of a step after the time at which the motion ends within it.
+pub(crate) fn forget_beyond<T: Real, N: Length>(crossings: &mut Vec<Crossing<T, N>>, [end, after]: [T; 2]) {
+    let is_beyond = |last: &mut Crossing<T, N>| last.state.t != end && is_between(end, last.state.t, after);
+    while crossings.pop_if(is_beyond).is_some() {}
 }
 
 /// Returns one quantity of each sample, from all values of the quantities with the names `known`.
@@ -216,7 +222,11 @@ impl<'o, L: System<Scalar: Real>> Record<'o, L> {
                 (*end, stopped) = (state, Some(ending));
             }
         }
-        self.keep_samples(step, end, true).or(stopped)
+        let failed = self.keep_samples(step, end, true);
+        if failed.is_some() {
+            forget_beyond(&mut self.crossings, [end.t, step.after.t]);
+        }
+        failed.or(stopped)
     }
 
     /// Records the samples in this step up to `end`, and at its time if `has_end` is true. If one fails, moves `end` to the last
@@ -256,9 +266,8 @@ impl<'o, L: System<Scalar: Real>> Record<'o, L> {
         let time = state.t.to_f64();
         controller(system, state).map_err(|said| Ending::ControllerFailed { time, said })?;
         self.calls += 1;
-        let passed = *interval * L::Scalar::constant(self.calls as f64);
-        let next = if self.end < self.start { self.start - passed } else { self.start + passed };
-        self.goal = if is_between(self.start, next, self.end) { next } else { self.end };
+        let times = SampleTimes::Every(*interval);
+        self.goal = times.get(self.calls, [self.start, self.end]).unwrap_or(self.end);
         if self.goal == state.t {
             return Err(Ending::TimeTooCoarse { time, step: interval.to_f64() });
         }

@@ -141,9 +141,13 @@ impl<'a, L: System<Scalar: Real>> RecordPlan<'a, L> {
         self.quantities.push((name, Box::new(move |sample: &Sample<&L>| function(sample).value())));
     }
 
-    /// Checks the conditions that do not depend on start and end.
+    /// Checks the conditions that do not depend on start and end: the times, and that no two quantities have one name.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        self.times.check()
+        let repeated = |(k, name): &(usize, _)| self.quantities().take(*k).any(|earlier| earlier == *name);
+        match self.quantities().enumerate().find(repeated) {
+            Some((_, name)) => Err(Error::RepeatedName { name: name.into() }),
+            None => self.times.check(),
+        }
     }
 
     /// Names of the quantities.
