@@ -115,11 +115,11 @@ impl<'a, 'w, L: System + Clone> Controls<'a, 'w, L> for Steered<'w, L> {
 }
 
 /// Samples of a motion, its controller, and the copy of the system that it changes.
-type SampledParts<'w, L> = (RecordPlan<'w, L>, Option<Steering<'w, L>>, Option<L>);
+type SampledSettings<'w, L> = (RecordPlan<'w, L>, Option<Steering<'w, L>>, Option<L>);
 
 impl<'a, 'w, L: System<Scalar: Real>, C: Controls<'a, 'w, L>> SamplesAlone<'w, L, C> {
     /// Checks the sample times and the interval of the controller, as far as they do not depend on start and end.
-    pub(crate) fn checked(self) -> Result<SampledParts<'w, L>, Error> {
+    pub(crate) fn checked(self) -> Result<SampledSettings<'w, L>, Error> {
         let (steering, own) = self.control.parts();
         self.plan.check()?;
         steering.as_ref().map_or(Ok(()), Steering::check)?;
