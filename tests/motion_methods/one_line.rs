@@ -33,7 +33,7 @@ macro_rules! read {
         assert_eq!(path.system().g, 9.81);
         assert!(path.ending().is_complete() && path.statistics().accepted > 0);
         assert_eq!(path.adjustment().largest_coordinate_change(), 0.0);
-        assert!(path.to_string().contains("reached the end at t = 1"));
+        assert!(format!("{path}").contains("reached the end at t = 1"));
         let y = end.coordinate("y").unwrap();
         (y, path.crossings().len(), path.transitions().len())
     }};

@@ -1,7 +1,7 @@
 //! A motion with its derivatives by initial values and parameters.
 
 use alloc::{boxed::Box, string::String, string::ToString, vec::Vec};
-use core::fmt::{self, Debug, Formatter};
+use core::fmt::{self, Debug, Display, Formatter};
 use core::ops::Deref;
 
 use super::across::MotionDerivatives;
@@ -70,6 +70,13 @@ impl<'a, L: Linearized<Scalar: Real>, K> Deref for TrajectorySensitivity<'a, L, 
 impl<L: Linearized<Scalar: Real>, K> HasEnding for TrajectorySensitivity<'_, L, K> {
     fn ending(&self) -> &Ending {
         self.trajectory.ending()
+    }
+}
+
+/// The summary of the motion.
+impl<'a, L: Linearized<Scalar: Real>, K: KeptStates<&'a L>> Display for TrajectorySensitivity<'a, L, K> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        Display::fmt(&self.trajectory, f)
     }
 }
 
