@@ -141,6 +141,16 @@ fn nothing_is_kept_beyond_the_end() {
     let path = motion.towards(10.0).unwrap();
     assert!(path.ending().is_failure() && path.end().time() < 0.451, "{path}");
     assert!(path.crossings().is_empty());
+    let ball = Ball { g: 9.81, e: 0.5, floor: Contact::Open };
+    let below = ball.event("below", |sample| sample.state().q[0] - 1.0);
+    let fails = |sample: &Sample<&Ball>| match sample.time() > 0.4 {
+        true => Err(Error::EndNotFinite { end: 1.0 }),
+        false => Ok(0.0),
+    };
+    let motion = ball.motion(State::at_rest([2.0])).with_contacts().event(below).every(0.05);
+    let path = motion.quantity("fails", fails).towards(10.0).unwrap();
+    assert!(path.ending().is_failure() && path.end().time() < 0.451, "{path}");
+    assert!(path.crossings().is_empty());
     let twice = stone.motion(State::at_rest([2.0])).every(0.1).quantity("E", |_| 1.0).quantity("E", |_| 2.0);
     assert!(matches!(twice.to(1.0), Err(Error::RepeatedName { .. })));
 }

@@ -30,8 +30,8 @@ const STEPS: usize = 12;
 /// multipliers that turns by 90°, through 1 or −1, the cubic errs by 6 % of these values.
 const SHALLOW: f64 = 0.5;
 
-/// Size of a test at its zero, as part of that at both neighbours. The search gains a digit or more with each member; where it gains none, the
-/// test has no zero.
+/// Largest value of a test at its zero, relative to the smaller of its values at both neighbours. At a zero the search gains a digit or more
+/// with each member and ends far below; at a pole or a jump it gains none.
 const VANISHING: f64 = 1e-3;
 
 /// Distance of a fold and a branch point, as part of a step, within which they are one.

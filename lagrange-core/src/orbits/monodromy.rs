@@ -32,7 +32,7 @@ pub struct Monodromy<T> {
     /// Factors Φ_m, …, Φ_1 first to last, of which the multipliers other than the trivial ones are computed.
     factors: Vec<DMatrix<T>>,
     trivial: usize,
-    /// Norm of the matrix, of a periodic orbit in its own units.
+    /// Norm of the monodromy matrix. Coordinates and velocities of a periodic orbit are divided by its size.
     pub(super) norm: T,
 }
 

@@ -9,7 +9,7 @@ use crate::solution::Sample;
 use crate::solution::vector_field::VectorField;
 use crate::system::System;
 
-/// What a [`Trajectory`](crate::Trajectory) keeps of its motion: [all steps](Legs), or [samples](super::Samples) alone.
+/// States that a [`Trajectory`](crate::Trajectory) keeps of its motion: those of [all steps](Legs), or [samples](super::Samples) alone.
 pub trait KeptStates<S: System> {
     /// Returns the system as it is at the end.
     fn system(&self) -> &S;

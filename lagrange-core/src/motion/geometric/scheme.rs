@@ -230,8 +230,8 @@ fn add_here<T: Parts>(x: &mut [T], rest: &mut [T], [one, other]: [&[T]; 2], chan
 }
 
 /// Returns x + y and its rounding error, exactly if y is the smaller of the two (Kahan, *Communications of the ACM* 8, 1965, 40; Hairer,
-/// Lubich and Wanner, *Geometric Numerical Integration*, VIII.5). Near a zero of a coordinate y may be the
-/// larger of the two; the error that is returned is then wrong by the round-off of y.
+/// Lubich and Wanner, *Geometric Numerical Integration*, VIII.5). The change y of a coordinate x
+/// exceeds x near its zero: the error is then off by the round-off of y.
 #[inline(always)]
 fn compensated_sum<T: Parts>(x: T, y: T) -> [T; 2] {
     let sum = x + y;

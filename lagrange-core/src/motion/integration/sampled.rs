@@ -43,6 +43,7 @@ pub trait Kept<'w, L: System> {
     #[doc(hidden)]
     fn samples_alone(self, change: impl FnOnce(&mut RecordPlan<'w, L>)) -> Self::Alone;
 
+    /// Adds the controller, in the place of one that was chosen before.
     #[doc(hidden)]
     fn steered(self, control: Steered<'w, L>) -> Self::Steered;
 }
