@@ -174,6 +174,7 @@ pub mod linearized;
 pub mod motion;
 mod names;
 pub mod number;
+mod numerics;
 #[cfg(feature = "alloc")]
 pub mod orbits;
 pub mod prelude;

@@ -9,8 +9,8 @@ use super::phase::PhaseState;
 use crate::error::Error;
 use crate::names::name;
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon};
+use crate::numerics::newton::{self, Left, Search, halvings};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Units};
-use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::{fault, not_finite};
 use crate::system::{Lagrangian, SolutionOf, State, StateOf};
@@ -164,10 +164,9 @@ impl<L: Lagrangian<Scalar: Real>> Inversion<'_, L> {
 
 impl<'a, L: Lagrangian<Scalar: Real>> Search for Inversion<'a, L> {
     type Scalar = L::Scalar;
+    type Error = Error;
     type Trial = VelocityTrial<L::Scalar, L::N, L::M>;
     type Linear = Linear<'a, L::Scalar, L::N, L::M>;
-
-    const STEPS: usize = 100;
 
     fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Error> {
         let zero = L::Scalar::constant(0.0);
@@ -199,7 +198,7 @@ impl<'a, L: Lagrangian<Scalar: Real>> Search for Inversion<'a, L> {
         converged: bool,
     ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
         let step = self.step(&from.state, &linear.equations)?;
-        Ok(halvings(if converged { 1 } else { 50 }).map(move |part| {
+        Ok(halvings(converged).map(move |part| {
             let v = from.state.v.each_with(&step.accelerations, |v, change| v + change * part);
             let change = |a: usize| (step.multipliers[a] - from.multipliers[a]) * part;
             self.trial(State { v, ..from.state }, from_fn(|a| from.multipliers[a] + change(a)))

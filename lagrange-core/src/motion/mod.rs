@@ -47,6 +47,7 @@ pub(crate) mod geometric;
 pub(crate) mod integration;
 #[cfg(feature = "std")]
 pub(crate) mod lanes;
+pub(crate) mod limits;
 pub(crate) mod method;
 pub(crate) mod run;
 pub(crate) mod simulate;

@@ -4,6 +4,7 @@ mod broadcast;
 mod dual;
 #[cfg(feature = "std")]
 mod lanes;
+pub(crate) mod limits;
 pub(crate) mod numeric;
 mod parts;
 #[cfg(any(feature = "std", feature = "libm"))]
@@ -18,8 +19,8 @@ pub use dual::Dual;
 pub use lanes::{FourLanes, Lanes};
 pub(crate) use numeric::order;
 pub(crate) use numeric::{
-    are_finite, beyond_round_off, exceeds, is_within, larger, largest, norm, power_of_epsilon, power_of_two,
-    smaller, sum, unit_of,
+    are_finite, beyond_round_off, dot, exceeds, is_within, larger, largest, norm, power_of_epsilon,
+    power_of_two, smaller, sum, unit_of,
 };
 pub use parts::Parts;
 pub use real::Real;

@@ -2,6 +2,7 @@
 
 use core::cmp::Ordering;
 
+use super::limits::SUM;
 use super::parts::Parts;
 use super::real::Real;
 use super::scalar::Scalar;
@@ -57,7 +58,7 @@ pub(crate) fn is_within<T: Real>(x: T, bound: T) -> bool {
 
 /// Returns |x| less the round-off of terms of size `terms`, 4 ε `terms`; infinite or NaN if `terms` is.
 pub(crate) fn beyond_round_off<T: Real>(x: T, terms: T) -> T {
-    let round_off = T::constant(4.0 * T::EPSILON) * terms;
+    let round_off = T::constant(SUM * T::EPSILON) * terms;
     if round_off.is_finite() { Scalar::abs(x) - round_off } else { round_off }
 }
 
@@ -120,4 +121,10 @@ pub(crate) fn norm<T: Real>(x: &[T]) -> T {
     let unit = power_of_two(largest(x));
     let square = |x: T| (x / unit) * (x / unit);
     Scalar::sqrt(x.iter().fold(T::constant(0.0), |sum, x| sum + square(*x))) * unit
+}
+
+/// Returns Σ xᵢyᵢ, summed in order.
+#[inline(always)]
+pub(crate) fn dot<T: Scalar>(x: &[T], y: &[T]) -> T {
+    x.iter().zip(y).fold(T::constant(0.0), |sum, (x, y)| sum + *x * *y)
 }

@@ -2,12 +2,8 @@
 
 use nalgebra::ComplexField;
 
+use super::limits::{PROGRESS, SUM};
 use super::{Dual, Real, Scalar};
-
-/// Largest residual of an iteration that counts as round-off, in units of ε of its terms.
-const ROUND_OFF: f64 = 4.0;
-/// Smallest reduction of a residual from one sweep to the next that counts as progress.
-const PROGRESS: f64 = 0.75;
 
 /// A scalar whose parts can be compared: the value and the slopes of a dual number, the lanes of a vector.
 pub trait Parts: Scalar {
@@ -75,7 +71,7 @@ impl<T: Real> Parts for T {
 
     #[inline]
     fn has_settled(self, before: Self, terms: Self) -> bool {
-        self.is_within(ROUND_OFF * <T as Real>::EPSILON, terms) || !self.is_within(PROGRESS, before)
+        self.is_within(SUM * <T as Real>::EPSILON, terms) || !self.is_within(PROGRESS, before)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Branch-free elimination of the equations of motion, for any scalar.
 
-use crate::number::{Broadcast, Scalar};
+use crate::number::{Broadcast, Scalar, dot};
+use crate::numerics::ldl::{Ldl, poison};
 use crate::system::Solution;
 use crate::vector::{Array, Element, StaticLength, Vector, array, vector};
 
@@ -102,7 +103,7 @@ impl<T: Scalar, N: StaticLength, M: StaticLength> LoopFactor<T, N, M> {
         self.mass.solve(&mut q);
         let mut lambda = gamma;
         for a in 0..M::COUNT {
-            lambda[a] = -(lambda[a] + dot(&self.f[a].map(S::of), &q));
+            lambda[a] = -(lambda[a] + dot::<S>(&self.f[a].map(S::of), &q));
         }
         self.schur.solve(&mut lambda);
         for a in 0..M::COUNT {
@@ -122,60 +123,6 @@ impl<T: Scalar, N: StaticLength, M: StaticLength> LoopFactor<T, N, M> {
     }
 }
 
-/// LDLᵀ factorization: L below the diagonal, 1/D on it.
-#[derive(Clone, Copy, Debug)]
-struct Ldl<T: Element, K: StaticLength> {
-    l: Array<Array<T, K>, K>,
-    pivot: T,
-}
-
-impl<T: Scalar, K: StaticLength> Ldl<T, K> {
-    #[inline]
-    fn of(mut a: Array<Array<T, K>, K>) -> Self {
-        let one = T::constant(1.0);
-        let mut pivot = one;
-        for i in 0..K::COUNT {
-            let diagonal = a[i][i];
-            let mut d = diagonal;
-            for j in 0..i {
-                let mut x = a[i][j];
-                for k in 0..j {
-                    x = x - a[i][k] * a[j][k];
-                }
-                a[i][j] = x;
-            }
-            for j in 0..i {
-                let l = a[i][j] * a[j][j];
-                d = d - l * a[i][j];
-                a[i][j] = l;
-            }
-            // The ratio is at most 1 for a definite matrix; a larger one measures the growth in an indefinite
-            // matrix.
-            let ratio = d / diagonal;
-            pivot = poison(pivot.min(ratio).min(one / ratio), ratio);
-            a[i][i] = one / d;
-        }
-        Self { l: a, pivot }
-    }
-
-    #[inline]
-    fn solve<S: Broadcast<T>>(&self, x: &mut Array<S, K>) {
-        for i in 0..K::COUNT {
-            for j in 0..i {
-                x[i] = x[i] - S::of(self.l[i][j]) * x[j];
-            }
-        }
-        for i in 0..K::COUNT {
-            x[i] = x[i] * S::of(self.l[i][i]);
-        }
-        for i in (0..K::COUNT).rev() {
-            for j in i + 1..K::COUNT {
-                x[i] = x[i] - S::of(self.l[j][i]) * x[j];
-            }
-        }
-    }
-}
-
 /// Returns zero if the smallest and the largest ratio of a pivot to its diagonal entry preserve two thirds of
 /// the digits of the scalar, else NaN, lane by lane. The bound is `least_pivot`, ε^(1/3), and its inverse.
 #[inline]
@@ -185,19 +132,4 @@ pub fn nan_if_ill_conditioned<T: Scalar>(least: T, most: T) -> T {
     let bound = if is_single { 4.921_566_601_151_855e-3 } else { 6.055_454_452_393_343e-6 };
     let below = most.select_by_order(T::constant(1.0 / bound), zero, nan, nan);
     least.select_by_order(T::constant(bound), nan, nan, below)
-}
-
-/// Returns `x`, or NaN if `y` is not finite. `min` drops NaN, but 0/0 must not count as a good pivot.
-#[inline]
-pub(super) fn poison<T: Scalar>(x: T, y: T) -> T {
-    x + y * T::constant(0.0)
-}
-
-#[inline]
-fn dot<T: Scalar, K: StaticLength>(a: &Array<T, K>, b: &Array<T, K>) -> T {
-    let mut sum = T::constant(0.0);
-    for i in 0..K::COUNT {
-        sum = sum + a[i] * b[i];
-    }
-    sum
 }

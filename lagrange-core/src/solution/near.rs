@@ -9,7 +9,9 @@
 mod tests;
 
 use super::consistent::level::Level;
+use crate::number::limits::{ACCUMULATED, CANCELLED, SUM};
 use crate::number::{Real, Scalar, sum};
+use crate::solution::limits::{ASIDE, FOLLOWED};
 use crate::system::{Lagrangian, SolutionOf, State, StateOf};
 use crate::vector::{Array, Entrywise, StaticLength, Vector, from_fn, vector, zeros};
 
@@ -38,7 +40,7 @@ impl<T: Scalar> Corrections<T> {
     #[inline(always)]
     fn wanted<M: StaticLength>(self, residual: &Vector<T, M>, size: &Vector<T, M>, epsilon: f64) -> T {
         match self {
-            Self::ToRoundOff => excess(residual, size, 4.0 * epsilon),
+            Self::ToRoundOff => excess(residual, size, SUM * epsilon),
             Self::OnceAfter(_) => T::constant(1.0),
         }
     }
@@ -84,7 +86,7 @@ pub(crate) fn project<L: Lagrangian, R: Real>(
             *unknowns = vector(from_fn(|i| chosen(x[i], moved[i][0])));
             *rest = from_fn(|i| chosen(rest[i], moved[i][1]));
         };
-        doubt = doubt + excess(&residual, &size, 16.0 * R::EPSILON);
+        doubt = doubt + excess(&residual, &size, CANCELLED * R::EPSILON);
     }
     (state, doubt)
 }
@@ -100,10 +102,8 @@ pub(crate) fn project<L: Lagrangian, R: Real>(
 /// of damping, are left out: a strong field would amplify the round-off of coordinates to many units of that of
 /// velocities.
 ///
-/// Differences over 1/1,024 of the step give the impulse to a thousandth of itself. Velocities do not follow
-/// corrections of more than 1,024 units of round-off, as next to dependent constraints, nor steps shorter than
-/// a 16th of the size of the coordinates. Angular rates are at most about 3 per step, so the relative change of
-/// the velocities is at most 50 times that of the coordinates.
+/// Differences over a small part of the step give the impulse ([`ASIDE`]). Velocities do not follow large corrections, nor
+/// those of short steps ([`FOLLOWED`]).
 #[inline(always)]
 fn following<L: Lagrangian, R: Real>(
     system: &L,
@@ -113,10 +113,10 @@ fn following<L: Lagrangian, R: Real>(
 ) -> Vector<L::Scalar, L::N> {
     let number = L::Scalar::constant;
     let size = |x: &Vector<L::Scalar, L::N>| x.iter().fold(number(0.0), |most, x| most.max(x.abs()));
-    let (State { t, q, v }, part) = (state, step * number(1.0 / 1024.0));
+    let (State { t, q, v }, part) = (state, step * number(ASIDE));
     // Scales a unit of round-off to 1/64, so that little is rounded off: the result is linear in the
     // correction.
-    let scale = 1.0 / (64.0 * R::EPSILON);
+    let scale = 1.0 / (ACCUMULATED * R::EPSILON);
     let w = correction.accelerations.each(|w| w * number(scale));
     let multipliers = correction.multipliers.each(|mu| mu * number(scale));
     let there = |v| State { t: *t + part, q: q.each_with(&state.v, |q, v| q + v * part), v };
@@ -128,8 +128,8 @@ fn following<L: Lagrangian, R: Real>(
     let [without, of_change, of_none] = [*v, back_a_part, at_rest].map(|v| forces(v, &at_rest, &zeros()));
     let (coordinates, way) = (size(q), step.abs() * size(v));
     let back = number(1.0 / scale) / part;
-    let back = size(&w).select_by_order((coordinates + way) * number(16.0), back, back, number(0.0));
-    let back = way.select_by_order(coordinates * number(1.0 / 16.0), number(0.0), number(0.0), back);
+    let back = size(&w).select_by_order((coordinates + way) * number(FOLLOWED), back, back, number(0.0));
+    let back = way.select_by_order(coordinates * number(1.0 / FOLLOWED), number(0.0), number(0.0), back);
     let impulse = |i: usize| ((with[i] - without[i]) - (of_change[i] - of_none[i])) * back;
     // Forces may be NaN at rest, as friction has no direction there. `max` replaces NaN by zero.
     let number_or_zero = |x: L::Scalar| x.max(number(0.0)) - (-x).max(number(0.0));

@@ -3,12 +3,10 @@
 use nalgebra::ComplexField;
 
 use crate::error::Error;
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar};
 use crate::system::{ConstraintKind, Lagrangian, StateOf};
 use crate::vector::StaticLength;
-
-/// Largest residual of a unit quaternion, in units of ε: a sum of four squares, less 1.
-const ROUND_OFF: f64 = 8.0;
 
 /// Replaces an error of the equations at a given state by its reason, if a parameter is not finite or a quaternion is zero.
 #[cold]
@@ -43,7 +41,7 @@ fn zero_quaternion<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>) 
             entry.into_iter().for_each(|k| state.q[first + k] = one);
             Scalar::abs(system.constraint_residual(&state)[a])
         };
-        let round_off = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
+        let round_off = L::Scalar::constant(CANCELLED * L::Scalar::EPSILON);
         (0..<L::M>::COUNT)
             .filter(|&a| L::CONSTRAINT_KINDS[a] == ConstraintKind::Holonomic)
             .any(|a| residual(None, a) > round_off && (0..4).all(|k| residual(Some(k), a) <= round_off))

@@ -1,18 +1,9 @@
 //! Sensitivity of functions to the round-off of a state, which bounds their accuracy.
 
+use super::limits::NEIGHBOURS;
 use crate::number::Real;
 use crate::system::State;
 use crate::vector::Length;
-
-/// Number of nearby states that are compared.
-const NEIGHBOURS: u64 = 8;
-
-/// Ratio of the possible error of a function to its change between the nearby states.
-///
-/// The eight states change all entries with random signs. They underestimate the sum of the effects of all
-/// entries by more than a half with a probability of less than 1 in 250: all eight would have to lie below the
-/// median of the magnitude. The factor 16 covers the rest.
-pub(crate) const SAFETY: f64 = 16.0;
 
 /// Returns eight states in which the time and each entry are changed by ±`part` of those of `sizes`, with random
 /// signs.

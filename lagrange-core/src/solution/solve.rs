@@ -8,6 +8,7 @@ use crate::names::{Names, Row, name};
 use crate::number::{Real, Scalar, larger};
 use crate::solution::consistent::{dependence, gradient};
 use crate::solution::kkt::{self, Fault, KktSystem, Rank, Solved};
+use crate::solution::limits::NAMED;
 use crate::solution::pivot::{is_trustworthy, least_pivot};
 use crate::solution::reason::reason;
 use crate::system::finite::check_finite;
@@ -149,9 +150,9 @@ pub(crate) fn row<L: Lagrangian>(i: usize) -> Row {
     }
 }
 
-/// Returns the coordinates whose share in the undetermined motions is at least a tenth of the largest.
+/// Returns the coordinates whose share in the undetermined motions is the largest, or not much less.
 fn most_involved<L: Lagrangian<Scalar: Real>>(share: &Array<L::Scalar, L::N>) -> Names {
     let largest = share.iter().copied().fold(L::Scalar::constant(0.0), larger);
-    let least = largest * L::Scalar::constant(0.1);
+    let least = largest * L::Scalar::constant(NAMED);
     (0..<L::N>::COUNT).filter(|&i| share[i] >= least).map(|i| L::COORDINATES[i]).collect()
 }

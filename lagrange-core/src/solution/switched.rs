@@ -14,8 +14,9 @@ use core::fmt::Debug;
 
 use nalgebra::Const;
 
-use super::eliminate::{nan_if_ill_conditioned, poison};
+use super::eliminate::nan_if_ill_conditioned;
 use crate::number::{Broadcast, Scalar};
+use crate::numerics::ldl::poison;
 use crate::system::{Lagrangian, Solution, SolutionOf, StateOf, System};
 use crate::vector::{Array, Element, StaticLength, Vector, array, vector, zeros};
 

@@ -15,8 +15,8 @@ use crate::linearized::Linearized;
 use crate::linearized::argument::{Argument, set_parameter};
 use crate::linearized::singular::Singular;
 use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon, smaller, unit_of};
+use crate::numerics::newton::{Left, Search};
 use crate::solution::consistent::{Level, project};
-use crate::solution::newton::{Left, Search};
 use crate::solution::solve::{row, solve};
 use crate::system::StateOf;
 use crate::vector::{StaticLength, zeros};
@@ -173,10 +173,9 @@ impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
 
 impl<L: Linearized<Scalar: Real> + Clone> Search for EquilibriumSearch<L> {
     type Scalar = L::Scalar;
+    type Error = Error;
     type Trial = Iterate<L>;
     type Linear = Singular<L::Scalar>;
-
-    const STEPS: usize = 200;
 
     /// Singular value decomposition of the Jacobian in the units of rows and columns.
     fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Error> {

@@ -15,7 +15,7 @@ use super::{Block, DifferentiableMethod, Variations, VariedRun};
 use crate::derivatives::tangent::{Tangent, WideOf};
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::motion::method::control::SLACK;
+use crate::motion::limits::SLACK;
 use crate::motion::taylor::expansion::Expansion;
 use crate::motion::taylor::last::{LAST, Last};
 use crate::motion::taylor::{Taylor, TaylorMemory};

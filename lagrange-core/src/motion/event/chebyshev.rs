@@ -4,14 +4,10 @@
 //! The coefficients of degree n follow from the values at the n + 1 extreme points of Tₙ (Clenshaw and Curtis). The
 //! points of degree n are among those of degree 2n, so doubling the degree repeats no evaluation.
 
+use crate::motion::limits::{COARSEST, FINEST, RESOLVED};
+use crate::number::limits::SUM;
 use crate::number::{Real, Scalar, larger};
 use crate::vector::from_fn;
-
-/// Highest degree, and number of subintervals between its points, which include the points of all lower degrees.
-pub(super) const FINEST: usize = 32;
-
-/// Lowest degree.
-pub(super) const COARSEST: usize = 4;
 
 /// Values of a function at the extreme points of the polynomial of the highest degree, from the start of the interval
 /// to its end. Entries that a lower degree does not use may be anything.
@@ -79,7 +75,7 @@ pub(super) struct Shape<T> {
     bend: T,
     /// Largest magnitude of a sample.
     pub(super) most: T,
-    /// Highest degree whose coefficient exceeds 1/256 of `swing`.
+    /// Highest degree whose coefficient is a [noticeable](RESOLVED) part of `swing`.
     pub(super) order: usize,
 }
 
@@ -116,7 +112,7 @@ impl<T: Real> Shape<T> {
         let tail = sizes[DEGREE - last..].iter().fold(zero, |most, c| larger(most, *c));
         let values = samples.iter().step_by(FINEST / DEGREE);
         let most = values.fold(zero, |most, value| larger(most, Scalar::abs(*value)));
-        let least = swing * T::constant(1.0 / 256.0);
+        let least = swing / T::constant(RESOLVED);
         let order = sizes.iter().rposition(|size| *size > least).map_or(0, |k| k + 1);
         let mean = Scalar::abs(coefficient::<T, DEGREE>(samples, 0));
         Self { degree: DEGREE, mean, swing, tail, slope, bend, most, order }
@@ -125,7 +121,7 @@ impl<T: Real> Shape<T> {
     /// Bound on the rounding errors of the values. `jitter` is the rounding error of the points, in halves of the
     /// interval.
     fn rounding(&self, jitter: T) -> T {
-        T::constant(4.0 * T::EPSILON) * self.most + (self.slope + self.bend) * jitter
+        T::constant(SUM * T::EPSILON) * self.most + (self.slope + self.bend) * jitter
     }
 
     /// True if the function stays away from zero, is monotonic, or is zero.

@@ -2,9 +2,10 @@
 
 use core::marker::PhantomData;
 
-use super::chebyshev::FINEST;
 use super::memory::Interval;
 use crate::error::Error;
+use crate::motion::limits::{COARSEST, FINEST, WIDE};
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
@@ -44,10 +45,10 @@ where
         let constant = L::Scalar::constant;
         let (width, length) = (Scalar::abs(to - from), Scalar::abs(self.length()));
         let round_off = constant(L::Scalar::EPSILON) * larger(Scalar::abs(from), Scalar::abs(to));
-        let is_wide = width * constant(8.0) >= length;
-        let finest = if width * constant(64.0) >= length { FINEST } else { 8 };
+        let is_wide = width * constant(WIDE) >= length;
+        let finest = if width * constant(WIDE * WIDE) >= length { FINEST } else { 2 * COARSEST };
         let jitter = constant(2.0) * round_off / width;
-        (width > constant(8.0) * round_off).then_some(Interval { width, jitter, finest, is_wide })
+        (width > constant(CANCELLED) * round_off).then_some(Interval { width, jitter, finest, is_wide })
     }
 
     /// End of part `piece` of `of` equal parts of the step from the time `from` on.

@@ -38,5 +38,5 @@ impl<T: Real> Halves<T> {
     }
 }
 
-/// Largest number of halvings.
-pub(super) const LEVELS: u32 = 52;
+/// Largest number of halvings: one for each bit of a number.
+pub(super) const LEVELS: u32 = f64::MANTISSA_DIGITS - 1;

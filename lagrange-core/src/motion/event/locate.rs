@@ -2,10 +2,10 @@
 
 use super::definition::AnyEvent;
 use super::dense::DenseStep;
-use super::narrow::{Probe, narrow};
 use crate::error::Error;
 use crate::motion::Interpolant;
 use crate::number::{Real, Scalar, larger};
+use crate::numerics::bracket::{Probe, narrow};
 use crate::solution::vector_field::VectorField;
 use crate::system::{State, StateOf, System};
 use crate::vector::Length;

@@ -1,10 +1,12 @@
 //! Settings of an event, and the state of its search from step to step.
 
-use super::chebyshev::COARSEST;
-use super::chebyshev::{FINEST, Samples, Shape};
+use super::chebyshev::{Samples, Shape};
 use crate::error::Ending;
+use crate::motion::limits::{CLOSE_CROSSINGS, COARSEST, FINEST, NOISE, RESOLVED};
 use crate::motion::run::is_between;
-use crate::number::{Parts, Real, Scalar, larger, smaller};
+use crate::number::limits::ACCUMULATED;
+use crate::number::{Parts, Real, Scalar, larger, power_of_epsilon, smaller};
+use crate::solution::limits::MARGIN;
 
 /// Direction of the crossings to report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,17 +103,6 @@ pub(super) enum View {
     Rough,
 }
 
-/// First Chebyshev degree of a motion, before the degree that the function needs is known.
-const FIRST: usize = 16;
-
-/// An interval is short below this fraction of the longest: √ε of `f64`, 2⁻²⁶.
-const SHORT: f64 = 1.0 / 67_108_864.0;
-
-/// Crossings count as accumulating after this many consecutive short intervals. Half as many suffice if the state or
-/// system changes at each crossing: a function may have a few close zeros, but repeated changes indicate
-/// accumulation.
-const ACCUMULATED: usize = 6;
-
 impl<T> EventState<T> {
     /// True if the function crosses zero at most once on this interval.
     #[inline]
@@ -204,7 +195,7 @@ impl<T: Real> EventState<T> {
             let noise = larger(start.unwrap_or(T::constant(0.0)), self.round_off);
             // Limited by the noise: after a crossing at a jump or a pole, the recorded magnitude may be large, and a
             // value below it is no zero.
-            let left = smaller(self.left + self.left, noise * T::constant(16.0));
+            let left = smaller(self.left + self.left, noise * T::constant(MARGIN));
             let left = if self.last == Some(t) { left } else { T::constant(0.0) };
             let is_at_zero = start.is_some() && !self.is_condition && Scalar::abs(value) <= noise + left;
             self.start = is_at_zero.then_some(left);
@@ -299,7 +290,7 @@ impl<T: Real> EventState<T> {
     #[inline]
     fn least(&self, interval: &Interval<T>) -> T {
         match self.density {
-            None => T::constant(FIRST.min(interval.finest) as f64),
+            None => T::constant(interval.finest.min(FINEST / 2) as f64),
             Some(density) => density * interval.width * T::constant(0.5),
         }
     }
@@ -310,7 +301,7 @@ impl<T: Real> EventState<T> {
     fn learn(&mut self, shape: &Shape<T>, interval: &Interval<T>) {
         let order = match self.view {
             View::Open | View::Rough => 2.0 * FINEST as f64,
-            _ if shape.swing * T::constant(1024.0) < shape.most => 1.0,
+            _ if shape.swing * T::constant(RESOLVED) < shape.most => 1.0,
             _ => shape.order as f64,
         };
         (self.needed, self.searched) = (Some(T::constant(order) / interval.width), interval.width);
@@ -324,7 +315,7 @@ impl<T: Real> EventState<T> {
     /// Decides on samples that may be all noise, given the magnitude of the noise.
     pub(super) fn judge_noise(&mut self, degree: usize, noise: T) -> View {
         let (shape, noise) = (Shape::of(&self.samples, degree), larger(noise, self.round_off));
-        let part = noise * T::constant(0.25);
+        let part = noise * T::constant(NOISE);
         self.view = match () {
             () if shape.most <= noise => View::Plain,
             () if shape.is_beyond(part) => View::Plain,
@@ -408,14 +399,14 @@ impl<T: Real> EventState<T> {
         self.count += 1;
         if let Some(last) = self.last.or(self.begun) {
             let interval = Scalar::abs(t - last);
-            let least =
-                larger(self.longest * T::constant(SHORT), Scalar::abs(t) * T::constant(64.0 * T::EPSILON));
-            let weight = if self.is_new { ACCUMULATED / 2 } else { 1 };
+            let round_off = Scalar::abs(t) * T::constant(ACCUMULATED * T::EPSILON);
+            let least = larger(self.longest * power_of_epsilon(0.5), round_off);
+            let weight = if self.is_new { CLOSE_CROSSINGS / 2 } else { 1 };
             self.short = if interval <= least { self.short + weight } else { 0 };
             self.longest = larger(self.longest, interval);
         }
         (self.last, self.is_new) = (Some(t), false);
-        match self.short < ACCUMULATED {
+        match self.short < CLOSE_CROSSINGS {
             true => Ok(()),
             false => Err(Ending::EventsAccumulate { time: t.to_f64(), event: self.name }),
         }

@@ -6,7 +6,6 @@ mod dense;
 mod halves;
 mod locate;
 mod memory;
-mod narrow;
 mod noise;
 #[cfg(feature = "alloc")]
 pub(crate) mod recorded;

@@ -2,7 +2,8 @@
 
 use super::definition::AnyEvent;
 use crate::number::{Real, Scalar, larger};
-use crate::solution::round_off::{SAFETY, neighbours};
+use crate::solution::limits::MARGIN;
+use crate::solution::round_off::neighbours;
 use crate::system::{StateOf, System};
 
 /// Round-off of an event's function, below which it counts as zero. It is 16 times the largest change of the function
@@ -29,5 +30,5 @@ pub(crate) fn noise_beside<L: System<Scalar: Real>>(
     let moved = |nearby| event.value(system, &nearby).unwrap_or(value);
     let differences =
         neighbours(state, sizes, L::Scalar::EPSILON).map(|nearby| Scalar::abs(moved(nearby) - value));
-    Ok(differences.fold(L::Scalar::constant(0.0), larger) * L::Scalar::constant(SAFETY))
+    Ok(differences.fold(L::Scalar::constant(0.0), larger) * L::Scalar::constant(MARGIN))
 }

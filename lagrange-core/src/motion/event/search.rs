@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::chebyshev::{COARSEST, FINEST, part, places};
+use super::chebyshev::{part, places};
 use super::definition::AnyEvent;
 use super::dense::DenseStep;
 use super::halves::{Halves, LEVELS};
@@ -10,6 +10,7 @@ use super::locate::locate;
 use super::memory::{Interval, View};
 use super::noise::{noise, noise_beside};
 use crate::error::{Ending, Error};
+use crate::motion::limits::{COARSEST, FINEST, INTERVALS};
 use crate::number::{Real, Scalar};
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
@@ -26,9 +27,6 @@ enum Look {
     /// Undecided: search the first half of the interval.
     Halve,
 }
-
-/// Largest number of intervals searched on the way to one crossing; after that, no interval is halved.
-const MOST_INTERVALS: usize = 4096;
 
 /// Search of a motion for the events `W`.
 pub(crate) struct EventSearch<'e, W, L: System> {
@@ -97,7 +95,7 @@ impl<'e, W: AnyEvent<L>, L: System<Scalar: Real>> EventSearch<'e, W, L> {
                 let end = halves.end();
                 if step.is_ahead(from.t, end) {
                     intervals += 1;
-                    let may_halve = intervals < MOST_INTERVALS && halves.level < LEVELS;
+                    let may_halve = intervals < INTERVALS && halves.level < LEVELS;
                     match self.look(step, from, end, may_halve) {
                         Ok(Look::Passed) => {}
                         Ok(Look::Crossed) => return self.due(from),

@@ -17,15 +17,14 @@ use super::scheme::{CompensatedState, combined, magnitudes, terms_of_positions, 
 use super::settle::{NotSettled, Residuals, are_within, have_hardly_turned};
 use super::stage_memory::StageMemory;
 use super::tableau::Tableau;
+use crate::motion::limits::HIDDEN;
+use crate::number::limits::CHANGE;
 use crate::number::{Parts, Scalar};
 use crate::room::Room;
 use crate::solution::eliminate::LoopFactor;
 use crate::solution::near::compensated;
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf, has_velocity_constraints, unit};
 use crate::vector::{Array, Element, Entrywise, StaticLength, Vector, array, from_fn, rows, vector, zeros};
-
-/// Fraction of the visible terms up to which a residual may be the round-off of hidden terms.
-const HIDDEN: f64 = 1e-3;
 
 /// A step in progress.
 struct PartitionedStep<'a, L: Lagrangian, const S: usize> {
@@ -233,7 +232,7 @@ impl<L: Lagrangian<Scalar: Parts>, const S: usize> PartitionedStep<'_, L, S> {
         let (m, f) = (system.completed_mass_matrix(state), system.constraint_jacobian(state));
         let mut wider = *terms;
         for j in 0..<L::N>::COUNT {
-            let part = L::Scalar::constant(0.125);
+            let part = L::Scalar::constant(CHANGE);
             let mut moved = *state;
             moved.q[j] = moved.q[j] + part * moved.q[j];
             let change = system.completed_momentum_rate(&moved).minus(&system.completed_momentum_rate(state));

@@ -4,24 +4,16 @@
 //! residuals no longer shrink. A fixed tolerance would leave an error of the same sign in every step, which makes the
 //! energy drift.
 
+use crate::motion::limits::{LONGEST_CYCLE, PATIENCE, REMAINING, TURN};
 use crate::number::Parts;
+use crate::number::limits::ITERATIONS;
 use crate::vector::{Array, Matrix, StaticLength};
 
-/// Largest number of sweeps. An iteration that contracts by a factor of ½ reaches round-off in 52.
-const SWEEPS: usize = 60;
-/// Number of sweeps after which the hidden terms of an equation count, too. A slow iteration does not end early by them,
-/// because its residuals are then far above their round-off.
-const PATIENCE: usize = 20;
-/// Largest residual that may remain where it no longer shrinks, as a part of its terms: 4096 ε in double precision, and 32 ε
-/// in single precision, where 4096 ε would be an error of 5·10⁻⁴.
+/// Largest residual that may remain where it no longer shrinks, as a part of its terms.
 const fn largest<T: Parts>() -> f64 {
-    if T::EPSILON < 1e-10 { 4096.0 * T::EPSILON } else { 32.0 * T::EPSILON }
+    let [double, single] = REMAINING;
+    T::EPSILON * if T::EPSILON < 1e-10 { double } else { single }
 }
-/// Longest cycle of round-off. Most are of two sweeps: a rounded force pushes the coordinates across the boundary between
-/// two of its values, and back.
-const LONGEST: usize = 4;
-/// Largest part by which constraints may have turned since their factorization: an iteration with it then converges.
-const TURN: f64 = 0.25;
 
 /// Error of a step whose iteration does not converge: the step is too long.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,12 +25,12 @@ pub(super) struct Residuals<T: Parts, K: StaticLength> {
     least: Option<Array<T, K>>,
     sweeps: usize,
     /// Residuals of the last sweeps in which none shrank.
-    recent: [Option<Array<T, K>>; LONGEST],
+    recent: [Option<Array<T, K>>; LONGEST_CYCLE],
 }
 
 impl<T: Parts, K: StaticLength> Residuals<T, K> {
     pub(super) fn new() -> Self {
-        Self { least: None, sweeps: 0, recent: [None; LONGEST] }
+        Self { least: None, sweeps: 0, recent: [None; LONGEST_CYCLE] }
     }
 
     /// Takes the magnitudes of the residuals of another sweep, and those of their terms. True if this sweep is the
@@ -75,7 +67,7 @@ impl<T: Parts, K: StaticLength> Residuals<T, K> {
         {
             return Ok(true);
         }
-        if self.sweeps < SWEEPS && are_finite { Ok(false) } else { Err(NotSettled) }
+        if self.sweeps < ITERATIONS && are_finite { Ok(false) } else { Err(NotSettled) }
     }
 
     #[cold]
@@ -85,7 +77,7 @@ impl<T: Parts, K: StaticLength> Residuals<T, K> {
             .iter()
             .flatten()
             .any(|before| are_within(1.0, sizes, before) && are_within(1.0, before, sizes));
-        self.recent[self.sweeps % LONGEST] = Some(*sizes);
+        self.recent[self.sweeps % LONGEST_CYCLE] = Some(*sizes);
         are_within(largest::<T>(), sizes, &wider) || come_back && is_noise()
     }
 }

@@ -1,12 +1,9 @@
 //! Stages of the last step of a partitioned Runge–Kutta method, from which those of the next one are guessed.
 
+use crate::motion::limits::FARTHEST;
 use crate::number::{Parts, Scalar};
 use crate::system::{Lagrangian, StateOf};
 use crate::vector::{Array, Element, StaticLength, array, from_fn};
-
-/// Largest ratio of a step to the step before up to which the stages of the step before are extrapolated. A polynomial of
-/// degree S − 1 amplifies their rounding errors by the ratio to the power S − 1.
-const FARTHEST: f64 = 16.0;
 
 /// Data carried from step to step.
 #[derive(Clone, Debug)]

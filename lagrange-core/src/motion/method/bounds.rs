@@ -4,6 +4,7 @@ use super::pair::{Pair, SLOPES, Slopes, TableauRow, advance, last};
 use super::pair_memory::{PairMemory, Taken};
 use super::slope::slope;
 use crate::error::Error;
+use crate::motion::limits::WIDEST;
 use crate::number::{Real, Scalar, larger, smaller};
 use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
@@ -18,10 +19,6 @@ pub struct MultiplierBounds<T: Element, M: StaticLength> {
     /// Number that no multiplier exceeds.
     pub highest: Array<T, M>,
 }
-
-/// Widest gap between stages, as a fraction of the step, across which they say something. A dip 1 − a exp(−(t/w)²) below zero
-/// with w = 0.15 steps, as narrow as the search for events finds all, then shows at a stage.
-const WIDEST: f64 = 0.3;
 
 /// Extreme points of the Chebyshev polynomial of degree 3, as fractions of the step.
 const CUBIC: [f64; 4] = [0.0, 0.25, 0.75, 1.0];

@@ -6,6 +6,7 @@
 //!
 //! Backward integration mirrors forward integration with negated times, which are exact as well.
 
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar, larger, smaller};
 
 /// Current time and end of a motion.
@@ -38,7 +39,7 @@ impl<T: Real> Clock<T> {
         self.end = end;
         self.direction = T::constant(if end < self.now { -1.0 } else { 1.0 });
         self.farthest = larger(larger(self.farthest, Scalar::abs(self.now)), Scalar::abs(end));
-        let round_off = T::constant(16.0 * T::EPSILON) * self.farthest;
+        let round_off = T::constant(CANCELLED * T::EPSILON) * self.farthest;
         self.slack = self.fixed_step.map_or(round_off, |step| smaller(round_off, step * T::constant(0.5)));
     }
 

@@ -5,7 +5,9 @@ use super::clock::Clock;
 use super::pair::error_needs_last;
 use super::pair::{Pair, Slopes, combine};
 
+use crate::motion::limits::{FIRST, FIRST_CHANGE, LEAST_ERROR, SAFETY, SLACK, VANISHING};
 use crate::number::Broadcast;
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar, exceeds, larger, smaller, sum};
 use crate::vector::{Array, StaticLength, from_fn};
 use crate::vector::{Length, PhaseVector, SpareVectors};
@@ -20,7 +22,7 @@ pub(crate) struct Control<T> {
 
 impl<T: Real> Control<T> {
     pub(crate) fn new(step: T) -> Self {
-        Self { step, previous_error: T::constant(1e-4), was_refused: false }
+        Self { step, previous_error: T::constant(LEAST_ERROR), was_refused: false }
     }
 
     /// Chooses the next step after an accepted step `h`, signed, with `error` in units of the tolerance. This is the PI
@@ -28,9 +30,9 @@ impl<T: Real> Control<T> {
     pub(crate) fn accept<P: Pair>(&mut self, h: T, error: T) {
         let growth = T::constant(if self.was_refused { 1.0 } else { P::GROWTH });
         let damping = Scalar::powf(self.previous_error, T::constant(P::DAMPING));
-        let factor = T::constant(SAFETY) * damping / larger(reduction::<P, T>(error), T::constant(1e-30));
+        let factor = T::constant(SAFETY) * damping / reduction::<P, T>(error);
         self.step = Scalar::abs(h) * larger(T::constant(P::SHRINK), smaller(factor, growth));
-        self.previous_error = larger(error, T::constant(1e-4));
+        self.previous_error = larger(error, T::constant(LEAST_ERROR));
         self.was_refused = false;
     }
 
@@ -47,12 +49,6 @@ impl<T: Real> Control<T> {
         self.was_refused = true;
     }
 }
-
-/// Largest ratio of the first step to its first guess.
-pub(crate) const FIRST: f64 = 100.0;
-
-/// Fraction of the predicted step that is taken, so that few steps are rejected.
-const SAFETY: f64 = 0.9;
 
 fn reduction<P: Pair, T: Real>(error: T) -> T {
     let exponent = 1.0 / P::ORDER - 0.75 * P::DAMPING;
@@ -158,9 +154,11 @@ impl Tolerance {
     ) -> T {
         let (allowed, one) = (self.allowed(y, y), T::constant(1.0));
         let (size, speed) = (norm(one, y, &allowed), norm(one, slope, &allowed));
-        let least = T::constant(1e-5);
+        let least = T::constant(VANISHING);
         let usable = size > least && speed > least && speed.is_finite();
-        smaller(if usable { T::constant(0.01) * size / speed } else { span * T::constant(1e-6) }, span)
+        let guess =
+            if usable { T::constant(FIRST_CHANGE) * size / speed } else { span * least * T::constant(0.1) };
+        smaller(guess, span)
     }
 
     /// Index of the entry with the largest error relative to its tolerance.
@@ -210,14 +208,14 @@ fn estimate<P: Pair, T: Scalar, N: Length>(
     combine(slopes, P::LOWER_ERROR, sum);
     let second = norm(h, sum, &allowed);
     let both = (first * first + T::constant(0.01) * second * second).sqrt();
-    // Lanes cannot branch if both vanish, so the denominator has a lower bound; an error that small counts as zero.
-    first * first / both.max(T::constant(1e-30))
+    // Lanes cannot branch if both vanish: the denominator is at least the smallest number of single precision.
+    first * first / both.max(T::constant(f32::MIN_POSITIVE as f64))
 }
 
 impl<P: Pair> Adaptive<P> {
     /// Requested tolerances, with the relative one at least 16 ε.
     pub(crate) fn tolerance<T: Real>(&self) -> Tolerance {
-        Tolerance { relative: self.relative.max(16.0 * T::EPSILON), absolute: self.absolute }
+        Tolerance { relative: self.relative.max(CANCELLED * T::EPSILON), absolute: self.absolute }
     }
 
     /// True for fixed steps: no error estimate is computed. The rates at the end of a step are then evaluated only when
@@ -282,18 +280,10 @@ impl<P: Pair> Adaptive<P> {
         let change = before.each_with(after, |before, after| after - before);
         let one = T::constant(1.0);
         let fastest = larger(norm(one, &change, &allowed) / guess, norm(one, before, &allowed));
-        let step = if fastest > T::constant(1e-15) && fastest.is_finite() {
-            Scalar::powf(T::constant(0.01) / fastest, T::constant(1.0 / P::ORDER))
-        } else {
-            guess
-        };
-        smaller(step, guess * T::constant(FIRST))
+        let step = Scalar::powf(T::constant(FIRST_CHANGE) / fastest, T::constant(1.0 / P::ORDER));
+        if fastest.is_finite() { smaller(step, guess * T::constant(FIRST)) } else { guess }
     }
 }
-
-/// Tolerance of variations, in units of the tolerance of the motion. Errors of variations are usually about ten times
-/// larger; they should shorten steps only if the error of the motion is no guide.
-pub(crate) const SLACK: f64 = 10.0;
 
 /// Root mean square of h xᵢ/aᵢ over the entries, where aᵢ = `allowed(i)` is the allowed error.
 #[inline(always)]

@@ -8,14 +8,13 @@ use super::adaptive::Adaptive;
 use super::contract::{Method, Step};
 use super::pair::{Pair, SLOPES, TableauRow, combine, last};
 use super::pair_memory::{PairMemory, Taken};
+use crate::motion::limits::{SAFETY, TRIALS};
+use crate::number::limits::ACCUMULATED;
 use crate::number::{Real, Scalar};
 use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::System;
 use crate::vector::{Length, StaticLength};
-
-/// Number of trial steps. The problem counts as stiff if more than a third of them are at the stability limit.
-const STEPS: usize = 15;
 
 impl<P: Pair> Adaptive<P> {
     /// Returns [`Pace::stiffness`](crate::error::Pace::stiffness). Only this call costs time: it tries the next steps
@@ -27,12 +26,12 @@ impl<P: Pair> Adaptive<P> {
         memory: &PairMemory<L::Scalar, L::Length, L::M>,
         end: L::Scalar,
     ) -> Option<f64> {
-        let limit = L::Scalar::constant(0.9 * stability_limit::<P>());
+        let limit = L::Scalar::constant(SAFETY * stability_limit::<P>());
         let (mut memory, mut statistics) = (memory.clone(), Statistics::default());
         let velocity = memory.slope.half_if_constant(0);
         let start = F::state(system, &StagePoint { t: memory.clock.now, y: memory.y.clone(), velocity });
         let (mut seen, mut longest, mut rate) = (0, 0, None);
-        while seen < STEPS {
+        while seen < TRIALS {
             match Method::<L, F>::step(
                 self,
                 system,
@@ -52,7 +51,7 @@ impl<P: Pair> Adaptive<P> {
                 (longest, rate) = (longest + 1, Some(fastest.to_f64()));
             }
         }
-        rate.filter(|_| 3 * longest > STEPS)
+        rate.filter(|_| 3 * longest > TRIALS)
     }
 }
 
@@ -74,7 +73,7 @@ impl<T: Real, N: Length, M: StaticLength> PairMemory<T, N, M> {
         let (to_stage, to_end) = (difference(P::STAGES.last()?), difference(P::WEIGHTS));
         let ratio = |half: usize| {
             let apart = squared_distance(&to_end[half], &to_stage[half]);
-            let round_off = T::constant(128.0 * T::EPSILON);
+            let round_off = T::constant(ACCUMULATED * T::EPSILON);
             let size = to_end[half].iter().fold(T::constant(0.0), |sum, &x| sum + x * x);
             let shows = apart > round_off * round_off * size;
             shows.then(|| squared_distance(&end[half], &stage[half]) / apart)

@@ -3,8 +3,9 @@
 use super::expansion::SolvedState;
 use super::last::{LAST, STEP};
 use super::settings::Taylor;
+use crate::motion::limits::FIRST;
 use crate::motion::method::clock::Clock;
-use crate::motion::method::control::{FIRST, Tolerance};
+use crate::motion::method::control::Tolerance;
 use crate::number::{ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
 use crate::vector::{PhaseVector, StaticLength};

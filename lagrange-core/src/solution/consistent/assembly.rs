@@ -9,21 +9,15 @@ use super::level::Level;
 use super::{Adjustment, gradient, make_consistent};
 use crate::error::Error;
 use crate::names::{Names, name};
-use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, unit_of};
+use crate::number::{Real, Scalar, dot, larger, largest, norm, power_of_epsilon, unit_of};
+use crate::numerics::newton::{self, Left, Search, damping_after, dampings};
+use crate::numerics::spread::spread;
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Rank, Rows};
+use crate::solution::limits::STARTS;
 use crate::solution::pivot::is_trustworthy;
 use crate::system::{Lagrangian, State, StateOf};
 use crate::vector::{Array, Element, Entrywise, StaticLength, Vector, rows};
-
-/// Largest number of steps of the search for the least residuals.
-const STEPS: usize = 300;
-/// Number of states from which the search begins.
-const STARTS: usize = 10;
-/// Golden section: the fractional parts of its multiples are evenly distributed.
-const GOLDEN: f64 = 0.618_033_988_749_895;
-/// Factors of the damping after a step that reduces the residuals, and after one that does not.
-const DAMPING: [f64; 2] = [0.3, 4.0];
 
 /// A mechanism that satisfies its constraints, as [`assemble`](crate::Simulate::assemble) finds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,34 +72,135 @@ pub(crate) fn assemble<L: Lagrangian<Scalar: Real>>(
     Ok(Assembly { state, adjustment, rank, degrees_of_freedom: <L::N>::COUNT - rank, redundant })
 }
 
-/// Residuals of the holonomic constraints in units of their gradients at the guess, with the Jacobian in
-/// these units.
-struct LinearResiduals<T: Element, N: StaticLength, M: StaticLength> {
+/// Jᵀr and JᵀJ.
+type NormalEquations<T, N> = (Array<T, N>, Array<Array<T, N>, N>);
+
+/// State of a search for the least residuals: the residuals of the holonomic constraints in units of their gradients at
+/// the guess, with the Jacobian in these units.
+struct Iterate<T: Element, N: StaticLength, M: StaticLength> {
+    state: State<T, N>,
     value: Array<T, M>,
     jacobian: Array<Array<T, N>, M>,
-    square: T,
+    damping: T,
 }
 
-impl<T: Real, N: StaticLength, M: StaticLength> LinearResiduals<T, N, M> {
-    fn at<L: Lagrangian<N = N, M = M, Scalar = T>>(
-        system: &L,
-        state: &StateOf<L>,
-        units: &Array<T, M>,
-    ) -> Self {
-        let (value, f) = (system.constraint_residual(state), Level::Position.jacobian(system, state));
-        let value = Array::from_fn(|a| value[a] / units[a]);
-        let jacobian = Array::from_fn(|a| Array::from_fn(|i| f[a][i] / units[a]));
-        let square = value.iter().fold(T::constant(0.0), |sum, x| sum + *x * *x);
-        Self { value, jacobian, square }
-    }
-
-    /// Jᵀr and JᵀJ.
-    fn normal_equations(&self) -> (Array<T, N>, Array<Array<T, N>, N>) {
+impl<T: Real, N: StaticLength, M: StaticLength> Iterate<T, N, M> {
+    fn normal_equations(&self) -> NormalEquations<T, N> {
         let sum = |of: &dyn Fn(usize) -> T| (0..M::COUNT).fold(T::constant(0.0), |sum, a| sum + of(a));
         let slope = Array::from_fn(|i| sum(&|a| self.jacobian[a][i] * self.value[a]));
         let square =
             Array::from_fn(|i| Array::from_fn(|j| sum(&|a| self.jacobian[a][i] * self.jacobian[a][j])));
         (slope, square)
+    }
+
+    /// True at a minimum: the residuals are orthogonal to every column of the Jacobian.
+    fn is_least(&self, slope: &Array<T, N>, square: &Array<Array<T, N>, N>) -> bool {
+        let distance = norm::<T>(&self.value);
+        let most = |i: usize| distance * Scalar::sqrt(square[i][i]) * power_of_epsilon(1.0 / 3.0);
+        (0..N::COUNT).all(|i| Scalar::abs(slope[i]) <= most(i))
+    }
+}
+
+/// Search for the least squares of the residuals, by the method of Levenberg and Marquardt (Nocedal and Wright,
+/// *Numerical Optimization*, 10.3).
+struct LeastResiduals<'a, L: Lagrangian> {
+    system: &'a L,
+    /// Lengths of the gradients at the guess.
+    units: Array<L::Scalar, L::M>,
+    /// Largest squares so far of the columns of the Jacobian (Moré 1978).
+    largest: Array<L::Scalar, L::N>,
+}
+
+impl<L: Lagrangian<Scalar: Real>> LeastResiduals<'_, L> {
+    fn trial(&self, state: StateOf<L>, damping: L::Scalar) -> Iterate<L::Scalar, L::N, L::M> {
+        let value = self.system.constraint_residual(&state);
+        let f = Level::Position.jacobian(self.system, &state);
+        Iterate {
+            value: Array::from_fn(|a| value[a] / self.units[a]),
+            jacobian: Array::from_fn(|a| Array::from_fn(|i| f[a][i] / self.units[a])),
+            state,
+            damping,
+        }
+    }
+
+    /// Weight of the damping of coordinate `i`, in its unit: coordinates outside of a conflict converge as fast as without it.
+    fn weight(&self, i: usize) -> L::Scalar {
+        unit_of(self.largest[i])
+    }
+
+    fn step(
+        &self,
+        (slope, square): &NormalEquations<L::Scalar, L::N>,
+        damping: L::Scalar,
+    ) -> Option<Vector<L::Scalar, L::N>> {
+        let mut damped = *square;
+        (0..<L::N>::COUNT).for_each(|i| damped[i][i] += damping * self.weight(i));
+        let step = eliminate::<_, L::N, Const<0>>(damped, slope.map(|x| -x), [].into(), [].into());
+        is_trustworthy(&step).then_some(step.accelerations)
+    }
+
+    /// Fall of the squared residual by this step, as the linearization predicts it.
+    fn predicted(
+        &self,
+        (slope, _): &NormalEquations<L::Scalar, L::N>,
+        damping: L::Scalar,
+        step: &Vector<L::Scalar, L::N>,
+    ) -> L::Scalar {
+        let part = |i: usize| step[i] * (damping * self.weight(i) * step[i] - slope[i]);
+        (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, i| sum + part(i))
+    }
+}
+
+impl<L: Lagrangian<Scalar: Real>> Search for LeastResiduals<'_, L> {
+    type Scalar = L::Scalar;
+    /// Largest residual, and the error.
+    type Error = (L::Scalar, Error);
+    type Trial = Iterate<L::Scalar, L::N, L::M>;
+    type Linear = NormalEquations<L::Scalar, L::N>;
+
+    fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Self::Error> {
+        let (slope, square) = trial.normal_equations();
+        self.largest = Array::from_fn(|i| larger(self.largest[i], square[i][i]));
+        Ok((slope, square))
+    }
+
+    fn left(&self, _: &Self::Linear, trial: &Self::Trial) -> Left<L::Scalar> {
+        let distance = norm::<L::Scalar>(&trial.value);
+        let small = residual_scale::<L>(&trial.state.q) * power_of_epsilon::<L::Scalar>(0.25);
+        Left {
+            distance,
+            is_rounded: distance == L::Scalar::constant(0.0),
+            is_negligible: largest(&trial.value) <= small,
+        }
+    }
+
+    fn corrected(
+        &self,
+        equations: &Self::Linear,
+        from: &Self::Trial,
+        _: bool,
+    ) -> Result<impl Iterator<Item = Self::Trial>, Self::Error> {
+        let steps =
+            dampings(from.damping).filter_map(move |damping| Some((damping, self.step(equations, damping)?)));
+        let is_least = from.is_least(&equations.0, &equations.1);
+        Ok(steps.take_while(move |_| !is_least).map(|(damping, step)| {
+            let state = State { q: from.state.q.each_with(&step, |q, change| q + change), ..from.state };
+            let trial = self.trial(state, damping);
+            let fall =
+                dot::<L::Scalar>(&from.value, &from.value) - dot::<L::Scalar>(&trial.value, &trial.value);
+            let gain = fall / self.predicted(equations, damping, &step);
+            Iterate { damping: damping_after(damping, gain), ..trial }
+        }))
+    }
+
+    #[cold]
+    fn not_found(&self, _: &Self::Linear, trial: &Self::Trial, _: usize) -> Self::Error {
+        let largest = largest(&trial.value);
+        let part = largest * power_of_epsilon::<L::Scalar>(0.25);
+        let conflicting = (0..<L::M>::COUNT).filter(|&a| Scalar::abs(trial.value[a]) > part);
+        let constraints = conflicting.map(|a| name(L::CONSTRAINTS, a)).collect();
+        let (distance, time) = (largest.to_f64(), trial.state.t.to_f64());
+        (largest, Error::Conflicting { constraints, distance, time })
     }
 }
 
@@ -118,81 +213,29 @@ impl<T: Real, N: StaticLength, M: StaticLength> LinearResiduals<T, N, M> {
 #[inline(never)]
 fn least_residuals<L: Lagrangian<Scalar: Real>>(system: &L, guess: &StateOf<L>) -> Result<StateOf<L>, Error> {
     let size = residual_scale::<L>(&guess.q);
-    let mut least = None;
+    let gradients = Level::Position.jacobian(system, guess);
+    let units = Array::from_fn(|a| unit_of(norm(&gradients[a])));
+    let mut least: Option<(L::Scalar, Error)> = None;
     for start in 0..STARTS {
         let mut state = *guess;
         for i in 0..<L::N>::COUNT {
             // A guess at which a gradient vanishes is no minimum: the search leaves it along a direction
             // without symmetry.
-            let part = if start == 0 { 1e-6 } else { start as f64 / STARTS as f64 };
-            let direction = GOLDEN * ((i + 1) * (start + 1)) as f64 % 1.0 - 0.5;
-            state.q[i] += size * L::Scalar::constant(part * direction);
+            let part = match start {
+                0 => power_of_epsilon(0.5),
+                _ => L::Scalar::constant(start as f64 / STARTS as f64),
+            };
+            state.q[i] += size * part * L::Scalar::constant(spread((i + 1) * (start + 1)));
         }
-        match minimum(system, guess, state) {
-            Ok(state) => return Ok(state),
-            Err((distance, error)) => {
-                if least.as_ref().is_none_or(|(least, _)| distance < *least) {
-                    least = Some((distance, error));
-                }
-            }
-        }
-    }
-    match least {
-        Some((_, error)) => Err(error),
-        None => Ok(*guess),
-    }
-}
-
-/// Returns the minimum of the squared residuals near a state, by the method of Levenberg and Marquardt
-/// (Nocedal and Wright, *Numerical Optimization*, 10.3). If the constraints do not hold there, returns the
-/// largest residual and the error.
-fn minimum<L: Lagrangian<Scalar: Real>>(
-    system: &L,
-    guess: &StateOf<L>,
-    mut state: StateOf<L>,
-) -> Result<StateOf<L>, (L::Scalar, Error)> {
-    let gradients = Level::Position.jacobian(system, guess);
-    let units = Array::from_fn(|a| unit_of(norm(&gradients[a])));
-    let mut damping = L::Scalar::constant(1e-3);
-    let mut residuals = LinearResiduals::at(system, &state, &units);
-    for _ in 0..STEPS {
-        let (slope, square) = residuals.normal_equations();
-        // At a minimum the residuals are orthogonal to every column of the Jacobian.
-        let is_orthogonal = |i: usize| {
-            let most = Scalar::sqrt(square[i][i] * residuals.square);
-            Scalar::abs(slope[i]) <= most * power_of_epsilon::<L::Scalar>(1.0 / 3.0)
-        };
-        if (0..<L::N>::COUNT).all(is_orthogonal) {
-            break;
-        }
-        let trace = (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, i| sum + square[i][i]);
-        // Damping in the unit of each coordinate: coordinates outside of a conflict converge as fast as
-        // without it.
-        let own = |i: usize| square[i][i] + L::Scalar::constant(1e-9) * trace;
-        let damped = Array::from_fn(|i| {
-            Array::from_fn(|j| if i == j { square[i][i] + damping * own(i) } else { square[i][j] })
-        });
-        let step = eliminate::<_, L::N, Const<0>>(damped, slope.map(|x| -x), [].into(), [].into());
-        let mut next = state;
-        (0..<L::N>::COUNT).for_each(|i| next.q[i] += step.accelerations[i]);
-        let there = LinearResiduals::at(system, &next, &units);
-        let is_nearer = is_trustworthy(&step) && there.square < residuals.square;
-        damping *= L::Scalar::constant(DAMPING[usize::from(!is_nearer)]);
-        if is_nearer {
-            (state, residuals) = (next, there);
-        } else if damping > L::Scalar::constant(1e12) {
-            break;
+        let mut search = LeastResiduals { system, units, largest: Array::filled(L::Scalar::constant(0.0)) };
+        let first = search.trial(state, L::Scalar::constant(1.0));
+        match newton::find(&mut search, first) {
+            Ok((found, _)) => return Ok(found.state),
+            Err(found) if least.as_ref().is_none_or(|least| found.0 < least.0) => least = Some(found),
+            Err(_) => {}
         }
     }
-    let largest = largest(&residuals.value);
-    let size = residual_scale::<L>(&state.q);
-    if largest <= size * power_of_epsilon::<L::Scalar>(0.25) {
-        return Ok(state);
-    }
-    let part = largest * power_of_epsilon::<L::Scalar>(0.25);
-    let conflicting = (0..<L::M>::COUNT).filter(|&a| Scalar::abs(residuals.value[a]) > part);
-    let constraints = conflicting.map(|a| name(L::CONSTRAINTS, a)).collect();
-    Err((largest, Error::Conflicting { constraints, distance: largest.to_f64(), time: guess.t.to_f64() }))
+    least.map_or(Ok(*guess), |(_, error)| Err(error))
 }
 
 /// Largest coordinate, and at least 1: the size of distances that count as small.

@@ -10,19 +10,11 @@ use super::level::{Level, Residual, check_level};
 use crate::error::Error;
 use crate::names::Names;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::numerics::spread::spread;
 use crate::solution::kkt::{Rank, Rows};
+use crate::solution::limits::DIRECTIONS;
 use crate::system::{Lagrangian, State, StateOf};
 use crate::vector::{Array, Entrywise, StaticLength, Vector, zeros};
-
-/// Number of directions, beside the remainders of the dependent rows, along which second derivatives are taken.
-/// A nonzero quadratic form H may vanish along one of them by chance, but hardly along three.
-///
-/// A remainder is s = H d, where d is the displacement from the states at which the rows are dependent. By
-/// Schwarz's inequality the form h along it is at least |H d|²/(d·H d). So s²/(2h) is at most d·H d/2, the
-/// value of the combination at displacement d.
-const DIRECTIONS: usize = 3;
-/// Golden section: the fractional parts of its multiples are evenly distributed.
-const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Smallest pivot above which dependence is not tested, ε^(1/4). Rows that are dependent up to the error of a
 /// projection have smaller pivots.
@@ -32,6 +24,10 @@ pub(crate) fn least_pivot<T: Real>() -> T {
 
 /// Fails if a combination of satisfied holonomic constraints has no gradient but second derivatives along free
 /// directions. The error names the constraints of the combination.
+///
+/// Second derivatives are taken along the remainders of the dependent rows, and along other free directions. A remainder is
+/// s = H d, where d is the displacement from the states at which the rows are dependent. By Schwarz's inequality the form h
+/// along it is at least |H d|²/(d·H d). So s²/(2h) is at most d·H d/2, the value of the combination at displacement d.
 #[cold]
 #[inline(never)]
 pub(crate) fn check<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
@@ -42,10 +38,9 @@ pub(crate) fn check<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>)
     let rows =
         Rows::of(&system.mass_matrix(state).into(), &residual.jacobian, Rank::near_dependence(least_pivot()));
     let round_off = residual.negligible();
-    let part = |count: usize, k: usize| GOLDEN * (count * (k + 1)) as f64 % 1.0 - 0.5;
-    let spread =
-        (1..=DIRECTIONS).filter_map(|count| rows.free_direction(|k| L::Scalar::constant(part(count, k))));
-    let found = rows.remainders().chain(spread).find_map(|direction| {
+    let weight = |count: usize, k: usize| L::Scalar::constant(spread(count * (k + 1)));
+    let directions = (1..=DIRECTIONS).filter_map(|count| rows.free_direction(|k| weight(count, k)));
+    let found = rows.remainders().chain(directions).find_map(|direction| {
         rows.first_order_dependence(&second_derivatives(system, state, direction), &round_off)
     });
     match found {

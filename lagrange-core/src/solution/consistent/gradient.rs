@@ -7,19 +7,12 @@
 use super::level::Level;
 use crate::error::Error;
 use crate::names::name;
+use crate::number::limits::SUM;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
-use crate::solution::round_off::{SAFETY, neighbours};
+use crate::solution::limits::{ASIDE, MARGIN};
+use crate::solution::round_off::neighbours;
 use crate::system::{Lagrangian, State, StateOf};
 use crate::vector::{Array, Entrywise, StaticLength, from_fn};
-
-/// Largest entry of a row that is its rounding error, in units of ε times [`jacobian_round_off`]. An entry that is larger is
-/// correct to a quarter of itself. In 10⁵ random linkages whose planes agree, no entry across the plane exceeded 1.
-///
-/// [`jacobian_round_off`]: Lagrangian::jacobian_round_off
-const ROUND_OFF: f64 = 4.0;
-
-/// Displacement of the coordinates for the test whether a row vanishes throughout a neighbourhood.
-const AROUND: f64 = 1.0 / 1024.0;
 
 /// Fails if a holonomic constraint holds at this state, to round-off, but has no gradient there. The error
 /// names the first one.
@@ -37,7 +30,7 @@ pub(crate) fn check<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>)
 }
 
 /// Fails if the row of a constraint is nonzero, but within its rounding errors, which the parameters cause. The error
-/// names the first one.
+/// names the first one. In 10⁵ random linkages whose planes agree, no entry across the plane exceeded a quarter of the bound.
 pub(crate) fn check_parameters<L: Lagrangian<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
@@ -46,8 +39,7 @@ pub(crate) fn check_parameters<L: Lagrangian<Scalar: Real>>(
     if bounds.iter().all(|bound| *bound == zero) {
         return Ok(());
     }
-    let (rows, least) =
-        (system.constraint_jacobian(state), L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON));
+    let (rows, least) = (system.constraint_jacobian(state), L::Scalar::constant(SUM * L::Scalar::EPSILON));
     let is_nothing = |&a: &usize| {
         let entries = || (0..<L::N>::COUNT).map(|i| (Scalar::abs(rows[(a, i)]), least * bounds[(a, i)]));
         entries().all(|(entry, least)| entry <= least) && entries().any(|(entry, _)| entry > zero)
@@ -58,7 +50,7 @@ pub(crate) fn check_parameters<L: Lagrangian<Scalar: Real>>(
     }
 }
 
-/// Returns true for each holonomic constraint whose gradient is negligible: no entry exceeds [`SAFETY`] times
+/// Returns true for each holonomic constraint whose gradient is negligible: no entry exceeds [`MARGIN`] times
 /// its change when the coordinates change by ε^(3/4). If a constraint adds a number up to 1,000 times larger to
 /// a coordinate, the round-off of that sum is still smaller. The gradient of an effective constraint is this
 /// small only next to a singular pose.
@@ -73,7 +65,7 @@ fn vanishing<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Arr
             noise[a] = Array::from_fn(|i| larger(noise[a][i], Scalar::abs(there[(a, i)] - here[a][i])));
         }
     }
-    let safety = L::Scalar::constant(SAFETY);
+    let safety = L::Scalar::constant(MARGIN);
     let is_active = |a: usize| Level::Position.is_active(L::CONSTRAINT_KINDS[a]);
     from_fn(|a| is_active(a) && (0..<L::N>::COUNT).all(|i| Scalar::abs(here[a][i]) <= safety * noise[a][i]))
 }
@@ -85,14 +77,14 @@ fn holds<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>, a: usize) 
     let off = |nearby| Scalar::abs(system.constraint_residual(&nearby)[a] - value);
     let part = power_of_epsilon::<L::Scalar>(0.5).to_f64();
     let most = neighbours(state, state, part).map(off).fold(L::Scalar::constant(0.0), larger);
-    Scalar::abs(value) <= L::Scalar::constant(SAFETY) * most
+    Scalar::abs(value) <= L::Scalar::constant(MARGIN) * most
 }
 
 /// True if the gradient of constraint `a` is nonzero at a nearby state. A constraint multiplied by a zero parameter
 /// has no gradient anywhere, and no effect.
 fn is_felt<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>, a: usize) -> bool {
-    let aside = State { q: state.q.each(|q| q + L::Scalar::constant(AROUND)), ..*state };
+    let aside = State { q: state.q.each(|q| q + L::Scalar::constant(ASIDE)), ..*state };
     let is_zero =
         |state| system.constraint_jacobian(&state).row(a).iter().all(|x| *x == L::Scalar::constant(0.0));
-    !neighbours(&aside, &aside, AROUND).all(is_zero)
+    !neighbours(&aside, &aside, ASIDE).all(is_zero)
 }

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::names::name;
+use crate::number::limits::{CANCELLED, CHANGE};
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, smaller, sum};
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
 use crate::vector::{Array, Element, StaticLength, Vector, from_fn};
@@ -62,9 +63,6 @@ impl Level {
     }
 }
 
-/// Largest residual that may be round-off of cancelling terms, in units of ε times the terms.
-pub(super) const NEGLIGIBLE: f64 = 16.0;
-
 /// Residual of a level, with its Jacobian and the magnitude of its terms.
 pub(super) struct Residual<T: Element, N: StaticLength, M: StaticLength> {
     pub(super) value: Array<T, M>,
@@ -106,7 +104,7 @@ impl<T: Real, N: StaticLength, M: StaticLength> Residual<T, N, M> {
 
     /// Returns the residual of each constraint that a projection may leave as round-off.
     pub(crate) fn negligible(&self) -> Array<T, M> {
-        Array::from_fn(|a| self.bound(T::constant(NEGLIGIBLE * T::EPSILON), a))
+        Array::from_fn(|a| self.bound(T::constant(CANCELLED * T::EPSILON), a))
     }
 
     /// Limits each term to the actual change of Φ with its coordinate, measured by an increase of the
@@ -117,7 +115,7 @@ impl<T: Real, N: StaticLength, M: StaticLength> Residual<T, N, M> {
         system: &L,
         state: &State<T, N>,
     ) {
-        let part = T::constant(0.125);
+        let part = T::constant(CHANGE);
         self.terms = Array::filled(T::constant(0.0));
         for i in 0..N::COUNT {
             let mut moved = *state;

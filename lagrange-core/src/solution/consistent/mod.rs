@@ -19,19 +19,20 @@ use nalgebra::ComplexField;
 
 use crate::error::Error;
 use crate::names::name;
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar, largest};
+use crate::numerics::newton::{self, Left, Search, halvings};
 use crate::room::Room;
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Factors, Rank};
 use crate::solution::near::{self, Corrections};
-use crate::solution::newton::{self, Left, Search, halvings};
 use crate::solution::pivot::is_trustworthy;
 use crate::system::{Lagrangian, State, StateOf};
 use crate::vector::{
     Array, Element, Entrywise, Length, Numbers, StaticLength, Vector, VectorOf, from_fn, vector, vector_of,
 };
+use level::Residual;
 pub(crate) use level::{BOTH, Level, check_level};
-use level::{NEGLIGIBLE, Residual};
 
 /// Displacement of a state by a projection onto the constraints.
 #[derive(Clone, Debug, PartialEq)]
@@ -247,11 +248,9 @@ impl<L: Lagrangian<Scalar: Real>> Projection<'_, L> {
 
 impl<L: Lagrangian<Scalar: Real>> Search for Projection<'_, L> {
     type Scalar = L::Scalar;
+    type Error = Error;
     type Trial = Trial<L::Scalar, L::N, L::M>;
     type Linear = ();
-
-    /// From a typical start, four or five steps suffice.
-    const STEPS: usize = 50;
 
     fn linearize(&mut self, _: &Self::Trial) -> Result<(), Error> {
         Ok(())
@@ -260,7 +259,7 @@ impl<L: Lagrangian<Scalar: Real>> Search for Projection<'_, L> {
     fn left(&self, (): &(), (_, residual): &Self::Trial) -> Left<L::Scalar> {
         let (distance, _) = residual.farthest();
         let is_rounded = distance == L::Scalar::constant(0.0);
-        let part = L::Scalar::constant(NEGLIGIBLE * L::Scalar::EPSILON);
+        let part = L::Scalar::constant(CANCELLED * L::Scalar::EPSILON);
         let is_negligible = is_rounded || residual.first_above(part).is_none();
         Left { distance, is_rounded, is_negligible }
     }
@@ -276,7 +275,7 @@ impl<L: Lagrangian<Scalar: Real>> Search for Projection<'_, L> {
         let ranks = [Rank::towards_constraints(), Rank::off_constraints()].into_iter();
         let steps = ranks.filter_map(|rank| self.correction(trial, rank));
         Ok(steps.flat_map(move |step| {
-            halvings::<L::Scalar>(if converged { 1 } else { 12 }).map(move |part| {
+            halvings::<L::Scalar>(converged).map(move |part| {
                 let mut state = trial.0;
                 let unknowns = self.level.unknowns(&mut state);
                 *unknowns = unknowns.each_with(&step, |x, change| x + change * part);

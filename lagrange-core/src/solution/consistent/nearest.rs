@@ -12,22 +12,17 @@
 #[cfg(test)]
 mod tests;
 
-use core::iter::successors;
-
 use nalgebra::Const;
 
 use super::level::Level;
 use super::{diagonal, hold, mass_matrix, project_holding};
-use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon};
+use crate::number::limits::{ACCUMULATED, CANCELLED, ITERATIONS};
+use crate::number::{Real, Scalar, dot, is_within, larger, power_of_epsilon};
+use crate::numerics::newton::{dampings, halvings};
 use crate::room::Room;
 use crate::solution::kkt::{Factors, Rank};
-use crate::solution::newton::halvings;
 use crate::system::{Lagrangian, State, StateOf};
 use crate::vector::{Array, Element, Entrywise, StaticLength, Vector, from_fn, vector};
-
-/// Limit on Newton steps. Usually about five suffice; far from the constraints and at flat minima more, 31 for
-/// a chain of 50 rods.
-const STEPS: usize = 100;
 
 /// Moves the coordinates along the holonomic constraints to a local minimum of the distance from the given
 /// ones.
@@ -43,7 +38,7 @@ pub(super) fn approach<L: Lagrangian<Scalar: Real>>(
     let metric = metric(system, given, held, state);
     let nearest = Nearest { system, given, held, metric };
     let Some(mut place) = nearest.place(*state) else { return };
-    for _ in 0..STEPS {
+    for _ in 0..ITERATIONS {
         let Some(next) = nearest.nearer(&place) else { break };
         place = next;
     }
@@ -150,13 +145,13 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         place: &ConstrainedPoint<L::Scalar, L::N, L::M>,
     ) -> Option<ConstrainedPoint<L::Scalar, L::N, L::M>> {
         let half = L::Scalar::constant(0.5);
-        let hidden = L::Scalar::constant(64.0 * L::Scalar::EPSILON) * place.square;
+        let hidden = L::Scalar::constant(ACCUMULATED * L::Scalar::EPSILON) * place.square;
         let is_nearer = |next: &ConstrainedPoint<_, L::N, L::M>| {
             let change = next.square - place.square;
             change < -hidden || change <= hidden && next.slip_part < half * place.slip_part
         };
         let parts = |step: Vector<L::Scalar, L::N>| {
-            halvings::<L::Scalar>(12).map(move |part| step.each(|x| x * part))
+            halvings::<L::Scalar>(false).map(move |part| step.each(|x| x * part))
         };
         let steps = self.steps(place).into_iter().flatten();
         steps.flat_map(parts).filter_map(|step| self.moved(place, &step)).find(is_nearer)
@@ -184,7 +179,7 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         let hessian = self.hessian(place);
         let factors = Factors::of(&hessian, &place.f, Rank::off_constraints());
         let first = match factors.downhill() {
-            None if is_within(place.slip_part, L::Scalar::constant(16.0 * L::Scalar::EPSILON)) => {
+            None if is_within(place.slip_part, L::Scalar::constant(CANCELLED * L::Scalar::EPSILON)) => {
                 return [None; 2];
             }
             None => Self::newton(&factors, place),
@@ -204,16 +199,15 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         found.ok().map(|found| found.accelerations)
     }
 
-    /// Newton's step with a multiple of the metric added to the Hessian: the smallest of ten multiples that
-    /// makes it positive.
+    /// Newton's step with a multiple of the metric added to the Hessian: the smallest that makes it
+    /// positive.
     #[inline(never)]
     fn damped(
         &self,
         place: &ConstrainedPoint<L::Scalar, L::N, L::M>,
         hessian: &Array<Array<L::Scalar, L::N>, L::N>,
     ) -> Option<Vector<L::Scalar, L::N>> {
-        let multiples = successors(Some(0.25), |multiple| Some(4.0 * multiple)).take(10);
-        multiples.map(L::Scalar::constant).find_map(|multiple| {
+        dampings(L::Scalar::constant(1.0)).find_map(|multiple| {
             let sum = from_fn(|i| Array::from_fn(|j| hessian[i][j] + multiple * self.metric[i][j]));
             let factors = Factors::of(&sum, &place.f, Rank::off_constraints());
             if factors.is_semidefinite() { Self::newton(&factors, place) } else { None }
@@ -270,8 +264,4 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         let step = part * (distance + part * Scalar::abs(place.state.q[j]));
         if step > zero { step } else { part }
     }
-}
-
-fn dot<T: Real>(x: &[T], y: &[T]) -> T {
-    x.iter().zip(y).fold(T::constant(0.0), |sum, (x, y)| sum + *x * *y)
 }

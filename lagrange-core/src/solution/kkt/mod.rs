@@ -5,18 +5,17 @@
 //! splits the accelerations into a part that the constraints fix and a free part Z y. ZᵀMZ y follows from the
 //! equations of motion along the constraints. The method stores N×N and M×N matrices only.
 
-mod qr;
-mod symmetric;
 #[cfg(test)]
 mod tests;
 mod units;
 
-use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, smaller};
+use crate::number::{Real, Scalar, dot, larger, largest, norm, power_of_epsilon, smaller};
 
+use crate::numerics::qr::Qr;
+use crate::numerics::symmetric::Symmetric;
+use crate::solution::limits::REFINEMENTS;
 use crate::system::Solution;
 use crate::vector::{Array, Element, StaticLength, Vector, from_fn, vector};
-use qr::{Qr, dot};
-use symmetric::Symmetric;
 pub(crate) use units::Units;
 
 /// Coefficients of M q̈ − Fᵀλ = h, F q̈ + γ = 0; matrices as arrays of rows.
@@ -71,9 +70,6 @@ impl<T: Real> Rank<T> {
 
 /// A solution, and for each constraint whether it belongs to the independent ones that determine it.
 pub(crate) type Solved<T, N, M> = (Solution<T, N, M>, Array<bool, M>);
-
-/// Number of refinements. On independent constraints, errors of multipliers up to 10⁷ of 1 were gone after four.
-const REFINEMENTS: usize = 4;
 
 /// Solves the equations; see [`Factors`].
 pub(crate) fn solve<T: Real, N: StaticLength, M: StaticLength>(

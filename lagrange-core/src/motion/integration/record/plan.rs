@@ -8,7 +8,9 @@ use nalgebra::ComplexField;
 
 use crate::error::Error;
 use crate::motion::event::EventValue;
+use crate::motion::limits::RESERVED;
 use crate::motion::run::is_between;
+use crate::number::limits::SUM;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::Sample;
 use crate::system::System;
@@ -37,9 +39,6 @@ pub(crate) enum SampleTimes<T> {
     /// At the start, and after every interval.
     Every(T),
 }
-
-/// Largest number of regular samples that memory is reserved for before the motion, which may end long before its end time.
-const RESERVED: usize = 1 << 16;
 
 impl<T: Real> SampleTimes<T> {
     /// Time of sample `number`; `None` after the end.
@@ -93,7 +92,7 @@ impl<T: Real> SampleTimes<T> {
             }
             // With a longer interval, multiples are different times, and at most one of them is taken for the end.
             Self::Every(interval)
-                if start != end && *interval <= T::constant(4.0) * round_off(start, end) =>
+                if start != end && *interval <= T::constant(SUM) * round_off(start, end) =>
             {
                 Err(Error::Setting { name: "interval of the samples", value: interval.to_f64() })
             }
@@ -106,7 +105,7 @@ impl<T: Real> SampleTimes<T> {
 /// a the larger magnitude of start and end. The interval as a number has a relative error of up to ε/2, and so has the
 /// multiple, which is at most 2a long: together 2εa. The sum has an error of up to εa/2.
 fn round_off<T: Real>(start: T, end: T) -> T {
-    T::constant(4.0 * T::EPSILON) * larger(Scalar::abs(start), Scalar::abs(end))
+    T::constant(SUM * T::EPSILON) * larger(Scalar::abs(start), Scalar::abs(end))
 }
 
 /// Checks that the times are finite and monotonic.

@@ -1,23 +1,23 @@
 //! Rank-revealing Householder QR with column pivoting.
 
-use crate::number::{Real, Scalar, norm, power_of_two};
+use crate::number::{Real, Scalar, dot, norm, power_of_two};
 use crate::vector::{Array, Element, StaticLength, from_fn};
 
 /// Factorization A P = Q R of a K×C matrix A (Golub and Van Loan, *Matrix Computations*, 5.4.2).
-pub(super) struct Qr<T: Element, K: StaticLength, C: StaticLength> {
+pub(crate) struct Qr<T: Element, K: StaticLength, C: StaticLength> {
     /// Columns of R, in pivoted order.
     r: Array<Array<T, K>, C>,
     /// Reflection k is I − v vᵀ with v = `reflectors[k]`, which is zero above entry k.
     reflectors: Array<Array<T, K>, C>,
     /// For each column of R, the index of its column of A.
-    pub(super) order: Array<usize, C>,
+    pub(crate) order: Array<usize, C>,
     /// Number of independent columns.
-    pub(super) rank: usize,
+    pub(crate) rank: usize,
 }
 
 impl<T: Real, K: StaticLength, C: StaticLength> Qr<T, K, C> {
     /// Factorizes the matrix with these columns; a remainder up to `tolerance` counts as zero.
-    pub(super) fn of(columns: Array<Array<T, K>, C>, tolerance: T) -> Self {
+    pub(crate) fn of(columns: Array<Array<T, K>, C>, tolerance: T) -> Self {
         let zero = T::constant(0.0);
         let mut qr = Self {
             r: columns,
@@ -68,39 +68,39 @@ impl<T: Real, K: StaticLength, C: StaticLength> Qr<T, K, C> {
     }
 
     /// Replaces x by Qᵀ x.
-    pub(super) fn enter_basis(&self, x: &mut Array<T, K>) {
+    pub(crate) fn enter_basis(&self, x: &mut Array<T, K>) {
         for k in 0..self.rank {
             reflect(&self.reflectors[k], x, k);
         }
     }
 
     /// Replaces x by Q x.
-    pub(super) fn leave_basis(&self, x: &mut Array<T, K>) {
+    pub(crate) fn leave_basis(&self, x: &mut Array<T, K>) {
         for k in (0..self.rank).rev() {
             reflect(&self.reflectors[k], x, k);
         }
     }
 
     /// Returns the entry of R in this row and (pivoted) column.
-    pub(super) fn entry(&self, row: usize, column: usize) -> T {
+    pub(crate) fn entry(&self, row: usize, column: usize) -> T {
         self.r[column][row]
     }
 
     /// Returns the length of the part of this (pivoted) column that is orthogonal to the independent columns.
-    pub(super) fn remainder(&self, column: usize) -> T {
+    pub(crate) fn remainder(&self, column: usize) -> T {
         norm(&self.r[column][self.rank..])
     }
 
     /// Returns the coefficients of the columns of A whose sum is that orthogonal part, in the order of A: 1 for
     /// the column itself.
-    pub(super) fn combination(&self, column: usize) -> Array<T, C> {
+    pub(crate) fn combination(&self, column: usize) -> Array<T, C> {
         let mut parts = self.solve(&self.r[column]).map(|x| -x);
         parts[self.order[column]] = T::constant(1.0);
         parts
     }
 
     /// Returns y with Rᵀ y = c in the first `rank` rows, zero beyond; c is in the order of the columns of A.
-    pub(super) fn solve_transposed(&self, c: &Array<T, C>) -> Array<T, K> {
+    pub(crate) fn solve_transposed(&self, c: &Array<T, C>) -> Array<T, K> {
         let mut y = Array::filled(T::constant(0.0));
         for i in 0..self.rank {
             let known = dot(&self.r[i][..i], &y[..i]);
@@ -111,7 +111,7 @@ impl<T: Real, K: StaticLength, C: StaticLength> Qr<T, K, C> {
 
     /// Returns x with A x = Q y for y in the range; x is in the order of the columns of A, and zero for
     /// dependent columns.
-    pub(super) fn solve(&self, y: &Array<T, K>) -> Array<T, C> {
+    pub(crate) fn solve(&self, y: &Array<T, K>) -> Array<T, C> {
         let mut y = *y;
         let mut x = Array::filled(T::constant(0.0));
         for i in (0..self.rank).rev() {
@@ -130,8 +130,4 @@ fn reflect<T: Real>(v: &[T], x: &mut [T], k: usize) {
     for (entry, v) in x.iter_mut().zip(v).skip(k) {
         *entry -= *v * along;
     }
-}
-
-pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::constant(0.0), |sum, (a, b)| sum + *a * *b)
 }

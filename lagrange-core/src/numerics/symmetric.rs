@@ -8,22 +8,22 @@ use crate::vector::{Array, Element, StaticLength, from_fn};
 ///
 /// In a positive definite matrix the largest entry is on the diagonal, so this is Cholesky's method with
 /// pivoting.
-pub(super) struct Symmetric<T: Element, N: StaticLength> {
+pub(crate) struct Symmetric<T: Element, N: StaticLength> {
     size: usize,
     /// L below the diagonal (or the 2×2 block), D on it.
     a: Array<Array<T, N>, N>,
     order: Array<usize, N>,
     /// True where a 2×2 block of D starts.
     pair: Array<bool, N>,
-    pub(super) rank: usize,
+    pub(crate) rank: usize,
     /// Smallest pivot, as the magnitude that selected it.
-    pub(super) smallest: T,
+    pub(crate) smallest: T,
 }
 
 impl<T: Real, N: StaticLength> Symmetric<T, N> {
     /// Factorizes the leading block of order `size`; a remainder with no entry above `tolerance` counts as
     /// zero.
-    pub(super) fn of(a: Array<Array<T, N>, N>, size: usize, tolerance: T) -> Self {
+    pub(crate) fn of(a: Array<Array<T, N>, N>, size: usize, tolerance: T) -> Self {
         let smallest = T::constant(f64::MAX);
         let mut f = Self { size, a, order: from_fn(|i| i), pair: Array::filled(false), rank: 0, smallest };
         let growth = T::constant(0.640_388_203_202_208); // (1 + √17)/8
@@ -109,7 +109,7 @@ impl<T: Real, N: StaticLength> Symmetric<T, N> {
     }
 
     /// Returns A⁻¹ b for a matrix of full rank; entries of `b` beyond `size` are ignored.
-    pub(super) fn solve(&self, b: &Array<T, N>) -> Array<T, N> {
+    pub(crate) fn solve(&self, b: &Array<T, N>) -> Array<T, N> {
         let mut x = Array::filled(T::constant(0.0));
         for i in 0..self.size {
             x[i] = b[self.order[i]];
@@ -132,7 +132,7 @@ impl<T: Real, N: StaticLength> Symmetric<T, N> {
     }
 
     /// Returns the null vector of the `index`-th dependent row (`rank + index < size`).
-    pub(super) fn null_vector(&self, index: usize) -> Array<T, N> {
+    pub(crate) fn null_vector(&self, index: usize) -> Array<T, N> {
         let mut x = Array::filled(T::constant(0.0));
         x[self.rank + index] = T::constant(1.0);
         self.back_substitute(x)
@@ -140,7 +140,7 @@ impl<T: Real, N: StaticLength> Symmetric<T, N> {
 
     /// Returns a vector x with xᵀ A x < 0, if there is one. Every 2×2 block of D has one, since its
     /// off-diagonal entry is the largest.
-    pub(super) fn negative(&self) -> Option<Array<T, N>> {
+    pub(crate) fn negative(&self) -> Option<Array<T, N>> {
         let (zero, one) = (T::constant(0.0), T::constant(1.0));
         let starts = (0..self.rank).filter(|&k| self.block_start(k) == k);
         let k = { starts }.find(|&k| self.pair[k] || self.a[k][k] < zero)?;

@@ -8,16 +8,16 @@ use crate::number::{Real, Scalar, smaller};
 
 /// A point x between 0 and 1, an attached result such as a state, and the value of the function.
 #[derive(Clone)]
-pub(super) struct Probe<T, S> {
-    pub(super) x: T,
-    pub(super) what: S,
-    pub(super) value: T,
+pub(crate) struct Probe<T, S> {
+    pub(crate) x: T,
+    pub(crate) what: S,
+    pub(crate) value: T,
 }
 
 /// Narrows an interval around a zero. Returns the last point before the zero and the first one after it, where the
 /// function is zero or has the opposite sign, at most 2 `resolution` apart. `at` evaluates the result and the value at
 /// a point.
-pub(super) fn narrow<T: Real, S: Clone, E>(
+pub(crate) fn narrow<T: Real, S: Clone, E>(
     [mut low, mut high]: [Probe<T, S>; 2],
     resolution: T,
     mut at: impl FnMut(T) -> Result<(S, T), E>,

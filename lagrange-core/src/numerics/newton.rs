@@ -6,20 +6,18 @@
 
 use core::iter::successors;
 
-use crate::error::Error;
-use crate::number::{Real, Scalar};
+use crate::number::limits::ITERATIONS;
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
 
 pub(crate) trait Search {
     type Scalar: Real;
+    type Error;
     /// Trial point with its residual.
     type Trial;
     /// Linearization at a trial: data for the corrections, and the units in which nearby trials are compared.
     type Linear;
 
-    /// Limit on steps.
-    const STEPS: usize;
-
-    fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Error>;
+    fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Self::Error>;
 
     fn left(&self, near: &Self::Linear, trial: &Self::Trial) -> Left<Self::Scalar>;
 
@@ -30,9 +28,9 @@ pub(crate) trait Search {
         linear: &Self::Linear,
         trial: &Self::Trial,
         converged: bool,
-    ) -> Result<impl Iterator<Item = Self::Trial>, Error>;
+    ) -> Result<impl Iterator<Item = Self::Trial>, Self::Error>;
 
-    fn not_found(&self, linear: &Self::Linear, trial: &Self::Trial, steps: usize) -> Error;
+    fn not_found(&self, linear: &Self::Linear, trial: &Self::Trial, steps: usize) -> Self::Error;
 }
 
 /// Residual of a trial.
@@ -45,7 +43,7 @@ pub(crate) struct Left<T> {
 }
 
 /// Returns the zero and the number of steps.
-pub(crate) fn find<S: Search>(search: &mut S, start: S::Trial) -> Result<(S::Trial, usize), Error> {
+pub(crate) fn find<S: Search>(search: &mut S, start: S::Trial) -> Result<(S::Trial, usize), S::Error> {
     let (mut trial, mut steps) = (start, 0);
     loop {
         let linear = search.linearize(&trial)?;
@@ -59,7 +57,7 @@ pub(crate) fn find<S: Search>(search: &mut S, start: S::Trial) -> Result<(S::Tri
         };
         let converged = before.is_negligible;
         match search.corrected(&linear, &trial, converged).map(|mut trials| trials.find_map(nearer)) {
-            Ok(Some((next, after))) if steps < S::STEPS => {
+            Ok(Some((next, after))) if steps < ITERATIONS => {
                 (trial, steps) = (next, steps + 1);
                 let stands = after.distance > S::Scalar::constant(0.5) * before.distance;
                 if after.is_rounded || converged && stands {
@@ -77,7 +75,29 @@ pub(crate) fn find<S: Search>(search: &mut S, start: S::Trial) -> Result<(S::Tri
     }
 }
 
-/// Returns the parts 1, 1/2, 1/4, … of a correction, `count` in all.
-pub(crate) fn halvings<T: Real>(count: usize) -> impl Iterator<Item = T> {
-    successors(Some(T::constant(1.0)), |part| Some(*part * T::constant(0.5))).take(count)
+/// Returns the parts 1, 1/2, 1/4, … of a correction, down to √ε: smaller ones change less than round-off of the residual. If
+/// `converged`, the whole correction alone.
+pub(crate) fn halvings<T: Real>(converged: bool) -> impl Iterator<Item = T> {
+    let least = if converged { T::constant(1.0) } else { power_of_epsilon(0.5) };
+    successors(Some(T::constant(1.0)), |part| Some(*part * T::constant(0.5)))
+        .take_while(move |part| *part >= least)
+}
+
+/// Returns dampings of trial steps of Levenberg and Marquardt: 1, 2, 8, 64, … times the first, up to 1/ε, with which a step is
+/// below round-off (Madsen, Nielsen and Tingleff, *Methods for Non-Linear Least Squares Problems*, 2004, algorithm 3.16).
+pub(crate) fn dampings<T: Real>(first: T) -> impl Iterator<Item = T> {
+    let most = T::constant(1.0 / T::EPSILON);
+    let mut factor = T::constant(1.0);
+    successors(Some(first), move |damping| {
+        factor += factor;
+        Some(*damping * factor)
+    })
+    .take_while(move |damping| *damping <= most)
+}
+
+/// Returns the first damping of the next step, after a step with this damping whose squared residual fell by `gain` times what the
+/// linearization predicts (ibid., 2.21).
+pub(crate) fn damping_after<T: Real>(damping: T, gain: T) -> T {
+    let (one, beyond) = (T::constant(1.0), gain + gain - T::constant(1.0));
+    damping * larger(one / T::constant(3.0), one - beyond * beyond * beyond)
 }

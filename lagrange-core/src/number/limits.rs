@@ -1,0 +1,22 @@
+//! Limits that hold for all numerical methods of the crate.
+
+/// Largest number of steps of an iteration that converges linearly with a ratio below 0.7, to round-off: 0.7¹⁰⁰ = 3·10⁻¹⁶.
+/// Iterations that need more have no solution nearby.
+pub(crate) const ITERATIONS: usize = 100;
+
+/// Round-off of a sum of a few terms, in units of ε times the sum of their magnitudes: half a unit for each operation.
+pub(crate) const SUM: f64 = 4.0;
+
+/// Round-off of a sum whose terms are results of a few operations themselves, in the same units. Residuals of constraints at
+/// which projections end lie below it, with four terms of four operations.
+pub(crate) const CANCELLED: f64 = 16.0;
+
+/// Round-off of a sum whose terms are results of many operations, such as a factorization, in the same units.
+pub(crate) const ACCUMULATED: f64 = 64.0;
+
+/// Relative change of a coordinate that shows how much a function really varies with it: an angle of 10¹⁶ times the gradient of
+/// its sine is a large term, but no sine changes by more than 2.
+pub(crate) const CHANGE: f64 = 0.125;
+
+/// Smallest reduction of a residual from one sweep of an iteration to the next that counts as progress.
+pub(super) const PROGRESS: f64 = 0.75;
