@@ -16,7 +16,7 @@ use crate::linearized::argument::{Argument, set_parameter};
 use crate::linearized::singular::Singular;
 use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon, smaller, unit_of};
 use crate::numerics::newton::{Left, Search};
-use crate::solution::consistent::{Level, project};
+use crate::solution::consistent::{Level, project_guess};
 use crate::solution::solve::{row, solve};
 use crate::system::StateOf;
 use crate::vector::{StaticLength, zeros};
@@ -49,7 +49,7 @@ impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
         let mut state = *guess;
         // Project onto the constraints if no coordinate is held. A guess that cannot be projected is kept.
         if (0..<L::N>::COUNT).all(|i| unknowns.contains(&Argument::Coordinate(i))) {
-            project(&system, &[Level::Position], &mut state).unwrap_or_default();
+            project_guess(&system, Level::Position, &mut state).unwrap_or_default();
         }
         let multipliers = solve(&system, &state).map_or(zeros(), |solution| solution.multipliers);
         let mut point = Point { system, state, multipliers };

@@ -25,6 +25,7 @@ use crate::numerics::newton::{self, Left, Search, halvings};
 use crate::room::Room;
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Factors, Rank};
+use crate::solution::limits::LEFT;
 use crate::solution::near::{self, Corrections};
 use crate::solution::pivot::is_trustworthy;
 use crate::system::{Lagrangian, State, StateOf};
@@ -168,7 +169,16 @@ fn project_in_general<L: Lagrangian<Scalar: Real>>(
     levels: &[Level],
     state: &mut StateOf<L>,
 ) -> Result<(), Error> {
-    levels.iter().try_for_each(|level| project_holding(system, *level, &Array::filled(false), state))
+    levels.iter().try_for_each(|&level| search(system, (level, Reach::Near), &Array::filled(false), state))
+}
+
+/// Projects a guess onto the constraints of a level, from anywhere.
+pub(crate) fn project_guess<L: Lagrangian<Scalar: Real>>(
+    system: &L,
+    level: Level,
+    state: &mut StateOf<L>,
+) -> Result<(), Error> {
+    project_holding(system, level, &Array::filled(false), state)
 }
 
 fn project_holding<L: Lagrangian<Scalar: Real>>(
@@ -177,18 +187,37 @@ fn project_holding<L: Lagrangian<Scalar: Real>>(
     held: &Array<bool, L::N>,
     state: &mut StateOf<L>,
 ) -> Result<(), Error> {
+    let found = search(system, (level, Reach::Far), held, state);
+    if found.is_err() && held.contains(&true) {
+        // If the constraints cannot hold even with all entries free, this error takes precedence.
+        project_guess(system, level, &mut { *state })?;
+    }
+    found
+}
+
+fn search<L: Lagrangian<Scalar: Real>>(
+    system: &L,
+    (level, reach): (Level, Reach),
+    held: &Array<bool, L::N>,
+    state: &mut StateOf<L>,
+) -> Result<(), Error> {
     if const { <L::M>::COUNT == 0 } || !level.concerns::<L>() {
         return Ok(());
     }
-    let mut projection = Projection { system, level, held };
+    let mut projection = Projection { system, level, reach, held };
     let start = projection.trial(*state);
-    let found = newton::find(&mut projection, start);
-    if found.is_err() && held.contains(&true) {
-        // If the constraints cannot hold even with all entries free, this error takes precedence.
-        project_in_general(system, &[level], &mut { *state })?;
-    }
-    *state = found?.0.0;
+    *state = newton::find(&mut projection, start)?.0.0;
     Ok(())
+}
+
+/// Distance from the constraints at which a projection begins.
+#[derive(Clone, Copy, PartialEq)]
+enum Reach {
+    /// The end of a step: whole corrections reach the constraints, and each leaves a [small part](LEFT) of the distance. Others lead
+    /// far, to another branch.
+    Near,
+    /// A guess, from which corrections are damped.
+    Far,
 }
 
 /// Implements [`Simulate::check_consistent`](crate::Simulate::check_consistent).
@@ -201,6 +230,7 @@ pub(crate) fn check<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>)
 struct Projection<'a, L: Lagrangian> {
     system: &'a L,
     level: Level,
+    reach: Reach,
     /// True for entries that keep their value.
     held: &'a Array<bool, L::N>,
 }
@@ -272,15 +302,18 @@ impl<L: Lagrangian<Scalar: Real>> Search for Projection<'_, L> {
     ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
         // Constraints that are nearly dependent at this trial are usually dependent where they hold. If these
         // steps fail, all constraints count as independent.
+        let is_near = self.reach == Reach::Near && !converged;
+        let most = trial.1.farthest().0 * L::Scalar::constant(LEFT);
         let ranks = [Rank::towards_constraints(), Rank::off_constraints()].into_iter();
         let steps = ranks.filter_map(|rank| self.correction(trial, rank));
         Ok(steps.flat_map(move |step| {
-            halvings::<L::Scalar>(converged).map(move |part| {
+            let trials = halvings::<L::Scalar>(converged || is_near).map(move |part| {
                 let mut state = trial.0;
                 let unknowns = self.level.unknowns(&mut state);
                 *unknowns = unknowns.each_with(&step, |x, change| x + change * part);
                 self.trial(state)
-            })
+            });
+            trials.filter(move |(_, left)| !is_near || left.farthest().0 <= most)
         }))
     }
 
