@@ -207,9 +207,13 @@ fn is_local(name: &str) -> bool {
         || call.is_some_and(|(call, output)| is_number(call) && is_number(output))
 }
 
-/// Creates an identifier similar to `text` that is not taken.
+/// Creates an identifier similar to `text` that is not taken. It begins with a small letter: as a pattern, `G` would be a constant of
+/// this name, where the user's program has one.
 fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
     let mut name = text.replace("][", "_").replace("].", "_").replace(['[', '.'], "_").replace(']', "");
+    if name.starts_with(char::is_uppercase) {
+        name = name.to_lowercase();
+    }
     if is_local(&name) || syn::parse_str::<Ident>(&name).is_err() || !taken.insert(name.clone()) {
         let is_free = |candidate: &String| !taken.contains(candidate);
         name = (1..).map(|k| format!("{name}__{k}")).find(is_free).unwrap_or(name);

@@ -129,6 +129,10 @@ pub(super) fn of_observables(
     let mut conserved = Vec::new();
     for &(observable, place) in &problem.conserved {
         let observed = &problem.observables[observable];
+        if observed.values.iter().all(|&value| graph.as_number(value).is_some()) {
+            diagnostics.error(place, "a number is conserved by every motion: write the function of coordinates and velocities that keeps its value, `#[conserved(name = expression)]`");
+            continue;
+        }
         for (entry, (name, &value)) in observed.names().into_iter().zip(&observed.values).enumerate() {
             match trial(graph, moments, value) {
                 Trial::Held(states) => conserved.push(Conserved {

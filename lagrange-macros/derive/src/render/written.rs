@@ -1,6 +1,7 @@
 //! Converts the user's input to formulas: the Lagrangian, definitions, forces and constraints.
 
-use num_traits::One;
+use indexmap::IndexMap;
+use num_traits::{One, Zero};
 
 use super::formula::Formula;
 use super::letters::PageQuantity;
@@ -11,13 +12,13 @@ use super::reading::Names;
 use super::remark::{Fragment, Remark};
 use crate::symbolic::{Rational, Scaled};
 use crate::syntax::{
-    Constraint, Declaration, Define, Expression, FrameDeclaration, ImpactLaw, Kind, Law, Name, Operator,
-    Power, Sign, Target, TargetIndex, normal_form,
+    Constraint, Declaration, Define, Expression, Force, FrameDeclaration, ImpactLaw, Kind, Law, Name,
+    Operator, Power, Sign, Target, TargetIndex, normal_form,
 };
 
 impl Page<'_> {
     pub(super) fn lagrangian(&self) -> Vec<Line> {
-        let Declaration { lagrangian, frames, defines, dissipation, forces, powers, .. } = self.declaration;
+        let Declaration { lagrangian, frames, defines, dissipation, powers, .. } = self.declaration;
         let line = |left, right: &Expression| Line::of(Equation::Known(left, self.written(right)));
         let letter = |quantity| self.letters.name(quantity);
         let mut lines: Vec<Line> = Vec::new();
@@ -32,11 +33,7 @@ impl Page<'_> {
         lines.extend(frames.iter().map(|frame| self.frame(frame)));
         lines.extend(defines.iter().map(|define| line(self.defined(define), &define.body)));
         lines.extend(dissipation.as_ref().map(|function| line(letter(PageQuantity::Dissipation), function)));
-        lines.extend(forces.iter().map(|force| {
-            let Target { name, indices } = &force.target;
-            let base = self.letters.text_of(PageQuantity::Force, &name.text);
-            line(Formula::Name { base, dots: 0, indices: self.indices(indices) }, &force.value)
-        }));
+        lines.extend(self.forces());
         lines.extend(powers.iter().map(|Power { indices, force, velocity }| {
             let factors = [force, velocity].map(|factor| self.written(factor)).to_vec();
             let left = Formula::Name {
@@ -47,6 +44,19 @@ impl Page<'_> {
             Line::of(Equation::Known(left, Formula::Call("dot".to_owned(), factors)))
         }));
         lines
+    }
+
+    /// Forces on coordinates, one line for each target.
+    fn forces(&self) -> Vec<Line> {
+        let mut sums: IndexMap<String, (Formula, Vec<Formula>)> = IndexMap::new();
+        for Force { target: Target { name, indices }, value } in &self.declaration.forces {
+            let base = self.letters.text_of(PageQuantity::Force, &name.text);
+            let left = Formula::Name { base, dots: 0, indices: self.indices(indices) };
+            let key = Notation::UNICODE.write(&left);
+            sums.entry(key).or_insert_with(|| (left, Vec::new())).1.push(self.written(value));
+        }
+        let line = |(left, parts)| Line::of(Equation::Known(left, total(parts)));
+        sums.into_values().map(line).collect()
     }
 
     /// Line of a frame: its parent, and the steps from there.
@@ -246,4 +256,20 @@ fn call(name: &str, mut arguments: Vec<Formula>) -> Formula {
         ("sqrt", 1) => Formula::Root(Box::new(arguments.remove(0))),
         _ => Formula::Call(name.to_owned(), arguments),
     }
+}
+
+/// Sum of forces on one coordinate, whose numbers are added.
+fn total(forces: Vec<Formula>) -> Formula {
+    let mut number = Rational::zero();
+    let mut terms: Vec<Formula> = Vec::new();
+    for force in forces {
+        match force {
+            Formula::Number(value) => number += value,
+            force => terms.push(force),
+        }
+    }
+    if !number.is_zero() || terms.is_empty() {
+        terms.push(Formula::Number(number));
+    }
+    Formula::sum(terms)
 }

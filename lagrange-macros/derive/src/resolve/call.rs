@@ -226,7 +226,7 @@ impl Lowering<'_> {
         if self.setting != Setting::Observable {
             return self.report(
                 place,
-                "multipliers are what the equations are solved for: they may appear in observables only",
+                "multipliers are what the equations are solved for: they may appear in observables only; a limit of friction by the force of a contact is a coefficient, `#[contact(floor: y >= 0, friction(mu): x_dot)]`",
             );
         }
         let [constraint] = self.arguments(name, arguments, place)?;
@@ -269,7 +269,7 @@ impl Lowering<'_> {
         let are = if given == 1 { "is" } else { "are" };
         let advice = match (name.text.as_str(), given) {
             ("atan", 2) => ": the angle of the point (x, y) is `atan2(y, x)`",
-            ("der", 2) => ": it is by the time, `der(x)`",
+            ("der", 2) => ": it is by the time, `der(x)`; write out one by a coordinate",
             ("dot", 1) => ": the velocity of `x` is `x_dot`",
             ("norm", 2 | 3) => ": a vector is written `[x, y]`",
             _ => "",

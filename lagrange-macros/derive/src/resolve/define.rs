@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::family::Family;
+use super::frames::{FIXED, is_of_frames};
 use super::label::element_name;
 use super::lowering::{Definition, Lowering, Progress};
 use super::scope::{Entity, is_built_in};
@@ -67,8 +68,10 @@ impl Lowering<'_> {
         let mut names = Vec::new();
         define.body.names(&mut |name| names.push(name.clone()));
         define.body.indices(&mut |index| local.push(index.text.clone()));
+        let has_frames = !self.declared_frames.is_empty();
+        let is_given = |text: &str| is_built_in(text) || has_frames && (is_of_frames(text) || text == FIXED);
         let mut sound = true;
-        for name in names.iter().filter(|name| !local.contains(&name.text) && !is_built_in(&name.text)) {
+        for name in names.iter().filter(|name| !local.contains(&name.text) && !is_given(&name.text)) {
             match self.scope.get(&name.text) {
                 None => {
                     self.diagnostics.push(self.scope.unknown(name, &local));

@@ -204,7 +204,10 @@ fn when(cursor: &mut Cursor) -> Result<Option<Name>> {
         return Ok(None);
     }
     cursor.expect_punct(':', "expected `:` after `when`, as in `when: held`")?;
-    cursor.name("the name of a field of type `bool`").map(Some)
+    let field = cursor.name("the name of a field of type `bool`")?;
+    cursor.take_punct(',');
+    let message = "`when` takes the name of a field of type `bool`, as in `when: held`, and no condition: a constraint on one side is a contact, `#[contact(name: gap >= 0)]`";
+    if cursor.is_empty() { Ok(Some(field)) } else { Err(field.place.error(message)) }
 }
 
 /// Reads the name of a constraint, a contact or friction.

@@ -15,7 +15,7 @@ use super::unknown::{nearest, or_meant};
 use super::value::Axes;
 use crate::syntax::{Expression, FrameDeclaration, Kind, Name};
 pub(crate) use pose::{Frame, Step, Triple, columns, named, sum, symmetric};
-use registry::FIXED;
+pub(super) use registry::FIXED;
 pub(crate) use registry::{Body, Frames};
 pub(crate) use spatial::is_of_frames;
 pub(crate) use step::is_step;

@@ -9,7 +9,7 @@ use super::pose::{Frame, Triple};
 use crate::symbolic::Id;
 
 /// Name of the fixed frame, the root of all others.
-pub(super) const FIXED: &str = "fixed";
+pub(in crate::resolve) const FIXED: &str = "fixed";
 
 /// Frames declared so far.
 pub(crate) struct Frames {
