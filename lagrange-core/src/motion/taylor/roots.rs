@@ -2,14 +2,9 @@
 //! √x² at x > 0 is x, also where x < 0.
 
 use super::expansion::Expansion;
-use crate::number::{Real, Scalar, exceeds};
+use crate::number::{Real, Scalar, exceeds, power_of_epsilon};
 use crate::system::TaylorSeries;
 use crate::vector::{FixedArray, StaticLength};
-
-/// Search for the minimum of a series over a step: number of points to compare, then number of reductions of
-/// the interval around the lowest point, by a third each.
-const PARTS: usize = 8;
-const THIRDS: usize = 40;
 
 /// Series of a root, or of the argument of a steep function, in powers of (t − t₀)/unit.
 pub(super) struct WatchedSeries<I, T> {
@@ -39,14 +34,16 @@ impl<T: Real, I: Iterator<Item = T> + Clone> WatchedSeries<I, T> {
         if change < value { None } else { self.least(length) }
     }
 
+    /// The same: the lowest of as many points as the series has orders, then a search for the minimum between its
+    /// neighbours, to √ε of the step, within which the value changes by round-off only.
     #[cold]
     fn least(&self, length: T) -> Option<T> {
-        let part = length / T::constant(PARTS as f64);
-        let at = |k: usize| part * T::constant(k as f64);
+        let count = self.coefficients.clone().count();
+        let at = |k: usize| length * T::constant(k as f64 / count as f64);
         let lowest =
-            (1..=PARTS).fold(1, |lowest, k| if self.at(at(k)) < self.at(at(lowest)) { k } else { lowest });
-        let (mut from, mut to) = (at(lowest - 1), at((lowest + 1).min(PARTS)));
-        for _ in 0..THIRDS {
+            (1..=count).fold(1, |lowest, k| if self.at(at(k)) < self.at(at(lowest)) { k } else { lowest });
+        let (mut from, mut to) = (at(lowest - 1), at((lowest + 1).min(count)));
+        while Scalar::abs(to - from) > power_of_epsilon::<T>(0.5) * Scalar::abs(length) {
             let third = (to - from) / T::constant(3.0);
             let [near, far] = [from + third, to - third];
             if self.at(near) < self.at(far) { to = far } else { from = near }
