@@ -5,8 +5,10 @@ use alloc::vec::Vec;
 use core::convert::Infallible;
 
 use super::last::{LAST, Last, exp2_roughly, log2_roughly};
+use super::limits::UNDERFLOW;
 use super::sums::{Ends, SeriesFactors};
 use crate::error::Error;
+use crate::number::limits::ITERATIONS;
 use crate::number::{PowerSeries, Real, Scalar, larger};
 use crate::solution::kkt::{self, KktSystem, Rank};
 use crate::solution::pivot::is_trustworthy;
@@ -14,18 +16,9 @@ use crate::solution::solve::{fault, not_finite, solve_near};
 use crate::system::{Direction, Lagrangian, RightHandSides, Solution, State, TaylorSeries};
 use crate::vector::{Array, Element, FixedArray, StaticLength, array, from_fn, rows, vector};
 
-/// Largest number of units of time tried for one expansion.
-const UNITS: usize = 40;
 /// Common multiple c of all orders, scaled by a power of two to about 1, so that division by any order is
 /// exact. Among such multiples, this one has the smallest relative rounding error of 1/c², 10⁻²⁰.
 const MULTIPLE: f64 = 3_185_466_681_422_025.0 / (1_u64 << 51) as f64;
-/// Margin in the test whether the last coefficients have underflowed, in bits per order. They may have if the
-/// known coefficients fall nearly as fast per order as coefficients that reach the smallest number at the
-/// highest order.
-const MARGIN: f64 = 8.0;
-/// Smallest reduction of the unit of time after an overflow, as a power of two. The first order that overflows may be
-/// far larger than the highest finite one.
-const LEAST: f64 = 2.0;
 
 /// Accelerations and multipliers at a state, and the constraints that determine them.
 #[derive(Clone, Debug)]
@@ -239,7 +232,7 @@ impl<S: FixedArray<T>, T: Real, N: StaticLength> Expansion<S, T, N> {
         slack: T,
         expand: impl Fn(&mut Self, T) -> Result<(), Error>,
     ) -> Result<Last<T>, Error> {
-        for _ in 0..UNITS {
+        for _ in 0..ITERATIONS {
             expand(self, unit)?;
             let last = self.last_sizes(slack);
             match self.better_unit::<L>(&last, slack) {
@@ -264,8 +257,9 @@ impl<S: FixedArray<T>, T: Real, N: StaticLength> Expansion<S, T, N> {
         }
     }
 
-    /// Time unit that scales the highest finite coefficient to the size of the state. `None` if all further
-    /// coefficients are zero because the series is a polynomial, not because they underflow.
+    /// Time unit that scales the highest finite coefficient to the size of the state, and is at most half of the unit
+    /// after an overflow. `None` if all further coefficients are zero because the series is a polynomial, not because
+    /// they underflow.
     #[cold]
     fn unit_by_the_highest(&self, are_large: bool, slack: T) -> Option<T> {
         let (scales, order) = (self.scales(slack), self.order());
@@ -273,8 +267,8 @@ impl<S: FixedArray<T>, T: Real, N: StaticLength> Expansion<S, T, N> {
             |&(k, size): &(usize, T)| self.is_finite(k) && size.is_finite() && size > T::constant(0.0);
         let (k, size) = (1..=order).rev().map(|k| (k, self.size(k, &scales))).find(is_number)?;
         let rate = log2_roughly(size.to_f64()) / k as f64;
-        let rate = if are_large { larger(rate, LEAST) } else { rate };
-        let are_small = rate < log2_roughly(T::SMALLEST) / order as f64 + MARGIN;
+        let rate = if are_large { larger(rate, 1.0) } else { rate };
+        let are_small = rate < log2_roughly(T::SMALLEST) / order as f64 + UNDERFLOW;
         (are_large || are_small).then(|| self.unit * T::constant(exp2_roughly(-rate)))
     }
 

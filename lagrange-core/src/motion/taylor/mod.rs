@@ -7,6 +7,7 @@ pub(crate) mod expansion;
 #[cfg(feature = "std")]
 mod lanes;
 pub(crate) mod last;
+pub(crate) mod limits;
 mod memory;
 mod polynomial;
 mod roots;
