@@ -1,7 +1,7 @@
 //! Order of the series and step length of Taylor's method.
 
 use super::expansion::SolvedState;
-use super::last::{LAST, STEP};
+use super::limits::{LAST, STEP};
 use super::settings::Taylor;
 use crate::motion::limits::FIRST;
 use crate::motion::method::clock::Clock;
@@ -10,21 +10,17 @@ use crate::number::{ROOM, Real, Scalar, larger, smaller};
 use crate::system::State;
 use crate::vector::{PhaseVector, StaticLength};
 
-/// The first omitted term is e⁻⁵ of the tolerance. With this value, measured errors are between half of those of
-/// Jorba and Zou's order (3-11) with their step length, and equal to them.
-const LEFT_OUT: f64 = 5.0;
-
 impl Taylor {
     /// Requested relative tolerance, at least ε.
     pub(crate) fn tolerance<T: Real>(&self) -> f64 {
         self.relative.max(T::EPSILON)
     }
 
-    /// Order of the series: over the length of a [step](STEP), the first omitted term is e^−[`LEFT_OUT`] of the
-    /// tolerance.
+    /// Order of the series: each of the last coefficients, from order p + 1 − [`LAST`] on, makes a term of at most the
+    /// tolerance over the length of a [step](STEP).
     pub(crate) fn order<T: Real>(&self) -> usize {
-        let order = (LEFT_OUT - Scalar::ln(T::constant(self.tolerance::<T>())).to_f64()) / STEP;
-        (larger(order, LAST as f64) as usize).min(ROOM - 2)
+        let decay = -Scalar::ln(T::constant(self.tolerance::<T>())).to_f64() / STEP;
+        (larger((LAST - 1) as f64 + decay, LAST as f64) as usize).min(ROOM - 2)
     }
 
     /// Largest first step, as for embedded pairs (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations

@@ -4,8 +4,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::convert::Infallible;
 
-use super::last::{LAST, Last, exp2_roughly, log2_roughly};
-use super::limits::UNDERFLOW;
+use super::last::{Last, exp2_roughly, log2_roughly};
+use super::limits::{LAST, UNDERFLOW};
 use super::sums::{Ends, SeriesFactors};
 use crate::error::Error;
 use crate::number::limits::ITERATIONS;

@@ -1,18 +1,7 @@
 //! Last coefficients of a series, which determine the step length.
 
+use super::limits::{LAST, STEP};
 use crate::number::{Real, Scalar, larger};
-
-/// Minus the natural logarithm of the ratio of the step length to the radius of convergence.
-///
-/// 2 takes the least work if each order costs as much as all before it (Jorba and Zou, 3.1), 1 if all orders cost the
-/// same. A smaller value is best if a step has a cost of its own. Here the code that the derive emits takes most of the
-/// time of an order. Between 1.25 and 1.5 all measured systems take about the same time, 10 to 25 % less than with 2:
-/// pendulums of 2 to 10 links, on a rod and in a plane, 5 and 50 rods, Kepler's ellipse, Hénon and Heiles, 2,000 double
-/// pendulums at 10⁻⁹ to 10⁻¹⁵.
-pub(super) const STEP: f64 = 1.4;
-
-/// Number of coefficients that determine the step length.
-pub(crate) const LAST: usize = 5;
 
 /// Sizes of the last coefficients of a series, up to its order.
 pub(crate) struct Last<T> {

@@ -14,8 +14,9 @@ use core::marker::PhantomData;
 use crate::number::Scalar;
 use crate::vector::FixedArray;
 
+use super::limits::WIDTH;
 pub(super) use alone::Ends;
-use group::{Group, WIDTH, plus, products};
+use group::{Group, plus, products};
 
 /// Factors of all convolutions, order by order, up to the order last computed.
 #[derive(Clone, Debug)]

@@ -6,7 +6,8 @@
 //! a vector before they reach the cache; the other factors were stored an order earlier. With more groups,
 //! the processor works on other groups meanwhile, and none of this is needed.
 
-use super::group::{Group, WIDTH, plus};
+use super::super::limits::WIDTH;
+use super::group::{Group, plus};
 use crate::number::{ROOM, Scalar};
 use crate::vector::FixedArray;
 

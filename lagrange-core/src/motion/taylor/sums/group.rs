@@ -1,10 +1,8 @@
 //! Groups of sums of products, computed in parallel.
 
+use super::super::limits::WIDTH;
 use crate::number::Scalar;
 use crate::vector::from_fn;
-
-/// Number of sums in a group. The derive pads the number of sums to a multiple of it.
-pub(super) const WIDTH: usize = 4;
 
 /// Left or right factors of a group of sums. Aligned for SIMD loads: otherwise every other load would touch two cache
 /// lines.
