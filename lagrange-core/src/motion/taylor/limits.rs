@@ -17,5 +17,25 @@ pub(crate) const LAST: usize = 5;
 /// unit of a polynomial has to stay: in another one its states are rounded.
 pub(super) const UNDERFLOW: f64 = 8.0;
 
+/// Largest number of samples within a step. Each costs an evaluation of the equations, about a thirtieth of a step.
+pub(super) const MOST: usize = 128;
+
+/// Largest ratio of the distance between samples in one step to that in the step before, until a step has [`MOST`]
+/// samples.
+pub(super) const WIDER: f64 = 2.0;
+
+/// Largest ratio of successive step lengths. The radius of convergence of an analytic motion grows by at most a quarter
+/// in a step; only steps after a short one, such as to the end of a control period, grow by more.
+pub(super) const GROWTH: f64 = 10.0;
+
+/// Number of samples within every step with user-supplied functions, whose kinks and jumps no series contains. They
+/// detect a force that acts in a quarter of the step.
+pub(super) const AT_FUNCTIONS: usize = 3;
+
+/// Change of the argument of a steep function, or of the logarithm of a power, beyond which its series may miss the
+/// function: over 8, an exponential grows by a factor of three thousand. Each such change takes one sample. With 16,
+/// one potential step of 1,200 is stepped over.
+pub(super) const STEEP: f64 = 8.0;
+
 /// Number of sums in a group: as many numbers as a SIMD register of 256 bits. The derive pads to a multiple of it.
 pub(super) const WIDTH: usize = 4;

@@ -7,30 +7,15 @@
 //! whose length follows from the last terms.
 
 use super::expansion::{Expansion, is_linear};
+use super::limits::{AT_FUNCTIONS, GROWTH, MOST, STEEP, WIDER};
 use super::roots::WatchedSeries;
-use crate::number::{Real, Scalar, smaller};
+use crate::number::{Real, Scalar, larger, smaller};
 use crate::system::TaylorSeries;
 use crate::vector::{FixedArray, StaticLength};
 
-/// Largest number of samples within a step. Each costs an evaluation of the equations, about a thirtieth of a step.
-const MOST: usize = 128;
-/// Largest ratio of the distance between samples in one step to that in the step before, until a step has `MOST`
-/// samples.
-const WIDER: f64 = 2.0;
-/// Largest ratio of successive step lengths, dimensionless.
-const GROWTH: f64 = 10.0;
-/// Position of the first sample, in units of the distance between samples. It is no simple fraction, so that not all
-/// samples coincide with zeros of a periodic force.
-const SHIFT: f64 = 0.927;
-/// Number of samples within every step with user-supplied functions, which may have kinks.
-const AT_KINKS: usize = 3;
-/// Change of the argument of a steep function, or of the logarithm of a power, beyond which its series may miss the
-/// function: over 8, an exponential grows by a factor of three thousand. Each such change takes one sample.
-const STEEP: f64 = 8.0;
-/// Magnitude of an argument beyond which a steep function is negligible, as e⁻¹⁰⁰ = 10⁻⁴⁴, or constant, as tanh.
-const FAR: f64 = 100.0;
-/// Number of middle orders that [`has_middle_terms`](Expansion::has_middle_terms) examines.
-const MIDDLE: usize = 5;
+/// Position of the first sample, in units of the distance between samples and from the last one to the end: the ratio
+/// that is worst approximated by fractions, so that not all samples coincide with zeros of a periodic force.
+const GOLDEN: f64 = 0.618_033_988_749_895;
 
 /// Length of the last step, and distance between its samples.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +33,7 @@ impl<T: Real> Sampling<T> {
 
     /// Value after a step of this length with `count` samples within.
     pub(super) fn after(length: T, count: usize) -> Self {
-        Self { step: length, distance: length / T::constant((count + 1) as f64) }
+        Self { step: length, distance: length / T::constant(larger(count as f64 + GOLDEN, 1.0)) }
     }
 
     /// Largest length of the next step; `first` if it is the first.
@@ -88,12 +73,11 @@ impl<S: FixedArray<T>, T: Scalar, N: StaticLength> Expansion<S, T, N> {
 }
 
 /// Number of samples needed for a steep function whose argument has this value and changes by up to `change` in a step:
-/// e^x and tanh x (exponent 0), or x^exponent.
+/// e^x and tanh x (exponent 0), or x^exponent. None are needed where e^−|x| underflows.
 pub(super) fn samples_of_steep([value, change]: [f64; 2], exponent: usize) -> usize {
     let (value, change) = (value.abs(), change.abs());
-    let is_far = exponent == 0 && value - change > FAR;
     let logarithm = if exponent == 0 { change } else { exponent as f64 * change / value };
-    match logarithm <= STEEP || is_far {
+    match logarithm <= STEEP || exponent == 0 && change - value < Scalar::ln(f64::MIN_POSITIVE) {
         true => 0,
         // The quotient is NaN if value and change are zero.
         false => smaller(logarithm / STEEP, MOST as f64) as usize,
@@ -101,13 +85,13 @@ pub(super) fn samples_of_steep([value, change]: [f64; 2], exponent: usize) -> us
 }
 
 impl<S: FixedArray<T>, T: Real, N: StaticLength> Expansion<S, T, N> {
-    /// True if terms of middle orders are significant in a step of this length. If they are not, the series
-    /// may lack a force that is negligible at the start of the step.
+    /// True if terms of the second quarter of the orders are significant in a step of this length. If they are not,
+    /// the series may lack a force that is negligible at the start of the step.
     #[cold]
     pub(super) fn has_middle_terms(&self, length: T, [tolerance, slack]: [f64; 2]) -> bool {
         let (scales, theta) = (self.scales(T::constant(slack)), Scalar::abs(length / self.unit));
-        let first = (self.order() / 4).max(1);
-        let powers = (0..first + MIDDLE).scan(T::constant(1.0), |power, _| {
+        let [first, end] = [4, 2].map(|part| (self.order() / part).max(1));
+        let powers = (0..=end).scan(T::constant(1.0), |power, _| {
             let this = *power;
             *power = this * theta;
             Some(this)
@@ -121,10 +105,10 @@ impl<S: FixedArray<T>, T: Real, N: StaticLength> Expansion<S, T, N> {
 /// Number of samples within a step whose series [has middle terms](Expansion::has_middle_terms). The check at
 /// the end suffices without user-supplied functions.
 pub(super) const fn few<L: TaylorSeries>() -> usize {
-    if L::ARGUMENTS.is_empty() { 0 } else { AT_KINKS }
+    if L::ARGUMENTS.is_empty() { 0 } else { AT_FUNCTIONS }
 }
 
 /// Positions of the samples of a step, as fractions of it.
 pub(super) fn parts(count: usize) -> impl Iterator<Item = f64> {
-    (0..count).map(move |k| (k as f64 + SHIFT) / (count + 1) as f64)
+    (0..count).map(move |k| (k as f64 + GOLDEN) / (count as f64 + GOLDEN))
 }
