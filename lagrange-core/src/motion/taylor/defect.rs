@@ -1,31 +1,17 @@
 //! Defect of a series: the difference between its accelerations and those of the equations along a step.
 
 use super::expansion::{Expansion, SolvedState};
+use super::limits::{JUMP, ROUND_OFF};
 use super::sampling::parts;
 use super::settings::Taylor;
 use crate::error::Error;
 use crate::number::{Real, Scalar, exceeds, larger};
+use crate::solution::limits::MARGIN;
+use crate::solution::pivot::least_pivot;
+use crate::solution::round_off::neighbours;
 use crate::statistics::Statistics;
 use crate::system::{State, TaylorSeries};
 use crate::vector::{Array, Element, FixedArray, StaticLength, from_fn, vector};
-
-/// Smallest limit, in units of ε, on the defect of a step relative to the velocities; a larger tolerance raises the
-/// limit. Omitted terms give at most a sixteenth of the tolerance, and rounding errors at most 100 ε (pendulums of one
-/// to ten links, on a rod and in space, Kepler's ellipses, Hénon and Heiles, from 10⁻³ to round-off).
-/// A larger defect is a force that the series does not contain. A pulse with a standard deviation of an eighth of a
-/// step shows at the nearer end, at most four of these away, by at least e⁻⁸ = 1/3000 of its peak.
-const DEFECT: f64 = 4096.0;
-/// Largest defect beside kinks of user-supplied functions, and beside poses where constraints become dependent, so that
-/// a step can cross them: a multiple of the tolerance, or a fraction of the velocities, whichever is larger.
-const DEFECT_AT_KINKS: [f64; 2] = [1e4, 1e-10];
-/// Largest defect, in units of the tolerance, at points where the series of a root is negative. A root never
-/// is negative: the series of √x² at x > 0 is x, also where x < 0, and no later step would correct the error.
-/// At the end of a step, the same limit applies if the last coefficients of the series are zero, because the
-/// omitted ones may not be.
-const STRICT: f64 = 64.0;
-/// Test whether a defect is a rounding error: the state is perturbed by `ROUNDING[0]` ε. The defect passes as
-/// a rounding error if it is at most `ROUNDING[1]` times the change of acceleration due to the perturbation.
-const ROUNDING: [f64; 2] = [4.0, 16.0];
 
 /// A step to check before it is accepted.
 pub(super) struct CandidateStep<'a, S, T: Element, N: StaticLength, M: StaticLength> {
@@ -38,9 +24,6 @@ pub(super) struct CandidateStep<'a, S, T: Element, N: StaticLength, M: StaticLen
     pub(super) accelerations: &'a Array<T, N>,
     /// Number of samples within the step.
     pub(super) count: usize,
-    /// True if the constraints are nearly dependent at the start or the end, so that accelerations have large rounding
-    /// errors.
-    pub(super) is_near_dependence: bool,
 }
 
 impl<S: FixedArray<T>, T: Real, N: StaticLength, M: StaticLength> CandidateStep<'_, S, T, N, M> {
@@ -52,16 +35,17 @@ impl<S: FixedArray<T>, T: Real, N: StaticLength, M: StaticLength> CandidateStep<
         statistics: &mut Statistics,
     ) -> Result<Option<usize>, Error> {
         let tolerance = method.tolerance::<T>();
-        let allowed = match self.is_near_dependence {
+        let allowed = match self.series.is_truncated() {
             true => method.jump_allowed::<T>(),
             false => method.defect_allowed::<L>(),
         };
-        let bound = if self.series.ends() { STRICT * tolerance } else { allowed };
+        // If the last coefficients are zero, the omitted ones may not be.
+        let bound = if self.series.ends() { tolerance } else { allowed };
         if let Some(found) = self.off(system, method, (self.end, self.solved), self.accelerations, bound) {
             return Ok(Some(found));
         }
-        let at_roots =
-            self.series.roots_below_zero::<L>(self.length).map(|length| (length, STRICT * tolerance));
+        // A root never is negative, and no later step would correct the error of a series that says it is.
+        let at_roots = self.series.roots_below_zero::<L>(self.length).map(|length| (length, tolerance));
         let within = parts(self.count).map(|part| (self.length * T::constant(part), allowed));
         for (length, bound) in at_roots.chain(within) {
             let [dq, dv, accelerations] = self.series.change(length);
@@ -90,7 +74,8 @@ impl<S: FixedArray<T>, T: Real, N: StaticLength, M: StaticLength> CandidateStep<
         let off = |i: usize| Scalar::abs(accelerations[i] - solved.solution.accelerations[i]);
         let defect = |i: usize| part([self.start.v[i], self.end.v[i]], off(i), self.length, slack);
         let worst = (0..N::COUNT).fold(0, |worst, i| if defect(i) > defect(worst) { i } else { worst });
-        let is_too_much = exceeds(defect(worst), T::constant(bound));
+        let bound = larger(T::constant(bound), round_off(solved.solution.pivot));
+        let is_too_much = exceeds(defect(worst), bound);
         (is_too_much && !is_rounding(system, state, solved, worst, off(worst))).then_some(worst)
     }
 }
@@ -111,16 +96,15 @@ impl Taylor {
 
     /// Largest defect of accelerations, relative to the velocities.
     pub(super) fn defect_allowed<L: TaylorSeries<Scalar: Real>>(&self) -> f64 {
-        let tolerance = self.tolerance::<L::Scalar>();
         match L::ARGUMENTS.is_empty() {
-            true => larger(tolerance, DEFECT * L::Scalar::EPSILON),
+            true => self.tolerance::<L::Scalar>(),
             false => self.jump_allowed::<L::Scalar>(),
         }
     }
 
     /// Largest jump of the accelerations, or change of a state by a projection, that does not reject a step.
     pub(crate) fn jump_allowed<T: Real>(&self) -> f64 {
-        let [times, part] = DEFECT_AT_KINKS;
+        let [times, part] = JUMP;
         larger(times * self.tolerance::<T>(), part)
     }
 }
@@ -129,6 +113,15 @@ impl Taylor {
 /// its start and end.
 pub(super) fn part<T: Scalar>([start, end]: [T; 2], off: T, length: T, slack: T) -> T {
     off * length.abs() / (start.abs() + end.abs() + slack)
+}
+
+/// Largest defect that may be a rounding error: the elimination loses as many digits as its smallest pivot has zeros.
+/// Below the least pivot, orthogonal factors solve the equations.
+///
+/// A larger defect is a force that the series does not contain. A pulse with a standard deviation of an eighth of a
+/// step shows at the nearer end, at most four of these away, by at least e⁻⁸ = 1/3000 of its peak.
+pub(super) fn round_off<T: Real>(pivot: T) -> T {
+    T::constant(ROUND_OFF * T::EPSILON) / larger(pivot, least_pivot())
 }
 
 /// True if rounding errors of the state change this acceleration by about as much as `off`.
@@ -140,17 +133,10 @@ fn is_rounding<L: TaylorSeries<Scalar = T>, T: Real>(
     row: usize,
     off: T,
 ) -> bool {
-    let [units, times] = ROUNDING;
-    let factors = [1.0, -1.0].map(|sign| T::constant(1.0 + sign * units * T::EPSILON));
-    let moved = |[even, odd]: [T; 2]| {
-        let moved = |x: &Array<T, L::N>| vector(from_fn(|i| x[i] * if i % 2 == 0 { even } else { odd }));
-        let state = State { t: state.t * even, q: moved(&state.q.into()), v: moved(&state.v.into()) };
-        SolvedState::at(system, &state)
-    };
-    [factors, [factors[1], factors[0]]].into_iter().any(|factors| {
+    neighbours(state, state, 4.0 * T::EPSILON).any(|nearby| {
         let change = |other: SolvedState<T, L::N, L::M>| {
             Scalar::abs(other.solution.accelerations[row] - solved.solution.accelerations[row])
         };
-        moved(factors).is_ok_and(|other| off <= change(other) * T::constant(times))
+        SolvedState::at(system, &nearby).is_ok_and(|other| off <= change(other) * T::constant(MARGIN))
     })
 }

@@ -37,9 +37,7 @@ impl<T: Real, N: StaticLength, M: StaticLength> SolvedState<T, N, M> {
 
     /// True if the factorization by elimination is reliable enough for all orders.
     pub(crate) fn is_by_elimination(&self) -> bool {
-        is_trustworthy(&self.solution)
-            && self.solution.multipliers_are_unique()
-            && !self.is_close_to_dependence()
+        is_trustworthy(&self.solution) && self.solution.multipliers_are_unique()
     }
 }
 

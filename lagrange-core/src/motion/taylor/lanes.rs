@@ -5,7 +5,7 @@
 
 use core::convert::Infallible;
 
-use super::defect::part;
+use super::defect::{part, round_off};
 use super::expansion::Expansion;
 use super::last::Last;
 use super::memory::TaylorMemory;
@@ -248,12 +248,15 @@ impl<S: TaylorSeries<Scalar = Lanes, Sums = U>, U: FixedArray<Lanes>> TaylorLane
             reliability.solution(&solution);
             worst = worst.max(off(&accelerations, &solution));
         }
-        let [doubt, worst] = [doubt, worst].map(Lanes::to_array);
+        let [doubt, worst, pivot] = [doubt, worst, solution.pivot].map(Lanes::to_array);
         let y = PhaseVector::of(state.q, state.v);
         self.next = LaneState { y, rest, solution };
         let (keeps_roots, is_steep) = (self.keeps_roots(h), self.is_steep(h));
         from_fn(|lane| {
-            !is_steep[lane] && doubt[lane] == 0.0 && worst[lane] <= defect_allowed && keeps_roots[lane]
+            !is_steep[lane]
+                && doubt[lane] == 0.0
+                && worst[lane] <= defect_allowed.max(round_off(pivot[lane]))
+                && keeps_roots[lane]
         })
     }
 

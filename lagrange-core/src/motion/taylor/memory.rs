@@ -1,6 +1,5 @@
 //! State that Taylor's method carries from step to step.
 
-use super::crossing::SingularStep;
 use super::expansion::{Expansion, SolvedState};
 use super::sampling::Sampling;
 use crate::motion::method::clock::Clock;
@@ -21,8 +20,6 @@ pub struct TaylorMemory<S, T: Element, N: StaticLength, M: StaticLength> {
     /// Length of the next step; zero before the motion begins.
     pub(crate) planned: T,
     pub(super) sampling: Sampling<T>,
-    /// Step by a truncated series, if one is planned.
-    pub(super) crossing: Option<SingularStep<T>>,
     /// Data of the start of the last accepted step, to undo the step.
     pub(super) before: Option<Before<T, N, M>>,
 }

@@ -80,7 +80,6 @@ impl<L: TaylorSeries<Scalar: Real>> Method<L, LagrangianVectorField> for Taylor 
             is_expanded: false,
             planned: zero,
             sampling: Sampling { step: zero, distance: zero },
-            crossing: None,
             before: None,
         })
     }

@@ -2,9 +2,9 @@
 
 use nalgebra::ComplexField;
 
-use super::crossing::SingularStep;
 use super::defect::CandidateStep;
 use super::expansion::SolvedState;
+use super::limits::COLLAPSE;
 use super::memory::{Before, TaylorMemory};
 use super::sampling::{Sampling, few, samples_of_steep};
 use super::settings::Taylor;
@@ -27,22 +27,6 @@ impl<S: FixedArray<T>, T: Real, N: StaticLength, M: StaticLength> TaylorMemory<S
         let (v, rest_v) = compensated(&array(state.v), &dv, &rest[1]);
         Sum { phase: [q, v], rest: [rest_q, rest_v], accelerations }
     }
-
-    /// Plans a shorter step after a rejected one of length `h`.
-    fn shorten(&mut self, h: T) {
-        let next = self.crossing.take().map(SingularStep::longer);
-        self.planned = match next {
-            Some(Ok(crossing)) => {
-                self.crossing = Some(crossing);
-                crossing.length
-            }
-            Some(Err(planned)) => {
-                self.series.summed = self.series.order();
-                planned
-            }
-            None => Scalar::abs(h) * T::constant(0.5),
-        };
-    }
 }
 
 /// Result of an attempted step.
@@ -59,8 +43,7 @@ impl Taylor {
         memory: &mut TaylorMemory<S, T, N, M>,
         h: T,
     ) -> bool {
-        memory.shorten(h);
-        memory.planned = self.limited(memory.planned);
+        memory.planned = self.limited(Scalar::abs(h) * T::constant(0.5));
         memory.clock.advances_by(memory.planned)
     }
 
@@ -100,10 +83,8 @@ impl Taylor {
         }
         let before = if sampling.step > L::Scalar::constant(0.0) { *planned } else { sampling.step };
         *planned = self.choose(last.allowed(), sampling.longest::<L>(*planned), clock);
-        let may_cross = solved.is_near_dependence(*planned, before);
-        memory.crossing = if may_cross { self.cross(series, *planned) } else { None };
-        if let Some(crossing) = memory.crossing {
-            *planned = self.limited(crossing.length);
+        if L::M::COUNT > 0 && *planned < before * L::Scalar::constant(COLLAPSE) {
+            *planned = self.limited(self.truncate(series, *planned));
         }
         memory.is_expanded = true;
         Ok(())
@@ -141,8 +122,6 @@ impl Taylor {
             length: h,
             accelerations,
             count,
-            is_near_dependence: memory.crossing.is_some()
-                || [&memory.solved, &solved].iter().any(|solved| solved.is_hardly_independent()),
         };
         if let Some(worst) = tried.inaccurate(system, self, statistics)? {
             return Ok(Attempt::Inaccurate(worst));
@@ -164,10 +143,10 @@ impl Taylor {
         memory: &TaylorMemory<L::Sums, L::Scalar, L::N, L::M>,
         h: L::Scalar,
     ) -> usize {
-        let TaylorMemory { sampling, series, crossing, .. } = memory;
+        let TaylorMemory { sampling, series, .. } = memory;
         let (few, count) = (few::<L>(), sampling.count::<L>(Scalar::abs(h)));
         let measures = [self.tolerance::<L::Scalar>(), self.slack::<L::Scalar>()];
-        if crossing.is_some() {
+        if series.is_truncated() {
             return few;
         }
         let steep = series
