@@ -11,10 +11,8 @@ use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar, is_within, larger};
-
-/// Largest number of passes over all pairs of columns, as in LAPACK's `dgesvj`. Ten are usual.
-const SWEEPS: usize = 30;
 
 /// A singular value decomposition, with the singular values unsorted. Squares of entries must be finite; callers scale
 /// columns by their lengths.
@@ -39,7 +37,7 @@ impl<T: Real> Singular<T> {
         let longest = (0..count).fold(T::constant(0.0), |most, j| larger(most, it.product(j, j)));
         // Columns shorter than round-off of the longest count as zero.
         let negligible = longest * T::constant(T::EPSILON * T::EPSILON);
-        (0..SWEEPS).find(|_| it.sweep(negligible) == 0)?;
+        (0..ITERATIONS).find(|_| it.sweep(negligible) == 0)?;
         it.values = (0..count).map(|j| Scalar::sqrt(it.product(j, j))).collect();
         Some(it)
     }
