@@ -5,6 +5,7 @@ use alloc::{vec, vec::Vec};
 use nalgebra::DMatrix;
 
 use super::Linearized;
+use super::limits::PARTS;
 use super::variation::{DifferentiableMethod, Variations, VariedRun};
 use crate::derivatives::tangent::Tangent;
 use crate::error::{Ending, Error};
@@ -26,9 +27,6 @@ pub struct LyapunovSpectrum<T> {
     /// exponents.
     pub running: Vec<(T, Vec<T>)>,
 }
-
-/// Number of parts of the motion for the standard errors, after a first part in which the variations align with the growing directions.
-const PARTS: usize = 20;
 
 /// See [`Linearized::lyapunov_spectrum`].
 pub(crate) fn spectrum<L: Linearized<Scalar: Real>, D: DifferentiableMethod<L>>(

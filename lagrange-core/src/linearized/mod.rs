@@ -5,6 +5,7 @@ pub(crate) mod argument;
 mod discrete;
 pub(crate) mod equilibrium;
 pub(crate) mod inverse;
+mod limits;
 pub(crate) mod linearization;
 pub(crate) mod lyapunov;
 #[cfg(any(feature = "std", feature = "libm"))]

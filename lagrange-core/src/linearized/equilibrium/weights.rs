@@ -2,11 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::linearized::limits::CONSTRAINTS;
+use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar};
-
-/// Weight of a constraint relative to a force, each in its own unit. A search that stays near the constraints does not
-/// end where a rod has shrunk to nothing.
-const CONSTRAINTS: f64 = 10.0;
 
 /// Weights of the rows. Factors for rows and columns bring the entries of the Jacobian nearest to 1, in a least-squares
 /// sense of their logarithms (Curtis and Reid 1972), so that the search does not depend on units. A common factor makes
@@ -15,7 +13,7 @@ pub(super) fn weights<T: Real>(jacobian: &DMatrix<T>, residual: &DVector<T>, for
     let zero = T::constant(0.0);
     let mut rows = DVector::repeat(jacobian.nrows(), zero);
     let mut columns = DVector::repeat(jacobian.ncols(), zero);
-    for _ in 0..20 {
+    for _ in 0..ITERATIONS {
         for (j, column) in jacobian.column_iter().enumerate() {
             columns[j] = -mean(column.iter().zip(&rows));
         }

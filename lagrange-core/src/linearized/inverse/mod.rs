@@ -13,8 +13,10 @@ pub(crate) use regressor::{inertial_parameters, regressor};
 
 use super::Linearized;
 use super::argument::{Argument, set_parameter};
+use super::limits::ROUND_OFF;
 use super::singular::Singular;
 use crate::error::Error;
+use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar, larger, power_of_epsilon, unit_of};
 use crate::solution::consistent::gradient::check_parameters;
 use crate::solution::kkt::Units;
@@ -40,9 +42,6 @@ impl<T: Element, M: StaticLength> InverseDynamics<T, M> {
     }
 }
 
-/// Largest number of Newton iterations. Inputs that enter the equations linearly, as forces do, need one.
-const STEPS: usize = 30;
-
 /// See [`Linearized::inputs_for`].
 pub(crate) fn inputs_for<L: Linearized<Scalar: Real> + Clone>(
     system: &L,
@@ -54,7 +53,7 @@ pub(crate) fn inputs_for<L: Linearized<Scalar: Real> + Clone>(
     check_parameters(system, state)?;
     let inputs = Argument::actuators::<L>(names)?;
     let mut balance = InputBalance::new(system.clone(), state, accelerations, inputs)?;
-    for _ in 0..STEPS {
+    for _ in 0..ITERATIONS {
         let step = balance.step()?;
         if balance.go(&step) {
             break;
@@ -180,7 +179,7 @@ impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
     /// Applies the step; returns true if it was mere round-off.
     fn go(&mut self, step: &DVector<L::Scalar>) -> bool {
         let mut is_small = true;
-        let small = L::Scalar::constant(16.0 * L::Scalar::EPSILON);
+        let small = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
         let unknowns = self.values.iter_mut().chain(self.multipliers.iter_mut());
         for (x, step) in unknowns.zip(step) {
             *x += *step;

@@ -9,21 +9,16 @@ use alloc::vec::Vec;
 
 use nalgebra::{Complex, DMatrix, Hessenberg};
 
+use crate::linearized::limits::PATIENCE;
+use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar, larger, norm};
-
-/// Iterations allowed for each eigenvalue. A handful is usual; one of 8,000,000 matrices with large Jordan blocks took 29, and LAPACK's
-/// `dlahqr` allows 30.
-const ITERATIONS: usize = 100;
-
-/// Iterations on one block between two exceptional shifts, as in LAPACK's `dlahqr`.
-const PATIENCE: usize = 10;
 
 /// Eigenvalues of `a`; `None` if the iteration does not converge, or if an entry is not finite.
 pub(super) fn eigenvalues<T: Real>(a: DMatrix<T>) -> Option<Vec<Complex<T>>> {
     if !a.iter().all(|x| Scalar::abs(*x).is_finite()) {
         return None;
     }
-    let mut left = ITERATIONS * a.nrows().max(PATIENCE);
+    let mut left = ITERATIONS * a.nrows();
     let mut iteration = Francis { h: hessenberg(a) };
     let (mut found, mut end, mut tries) = (Vec::with_capacity(iteration.h.nrows()), iteration.h.nrows(), 0);
     while end > 0 {

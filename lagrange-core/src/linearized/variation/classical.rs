@@ -13,9 +13,6 @@ use crate::solution::solve::solve_near;
 use crate::system::{State, StateOf};
 use crate::vector::{Array, Element, StaticLength, from_fn, vector};
 
-/// Fraction of the step that each stage goes along the slope of the stage before.
-const NODES: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
-
 /// A block of variations at the start of the last step, and their slopes at its stages.
 #[derive(Clone, Debug)]
 pub struct ClassicalStages<W: Element, N: StaticLength> {
@@ -96,7 +93,7 @@ fn go<L: Linearized<Scalar: Real>>(
 ) -> Result<(), Error> {
     let (h, start) = (after.t - before.t, PhaseVector::of(before.q, before.v));
     let (mut newest, mut independent) = (start, None);
-    for (number, node) in NODES.into_iter().enumerate() {
+    for (number, node) in [0.0, 0.5, 0.5, 1.0].into_iter().enumerate() {
         let length = h * L::Scalar::constant(node);
         let place = along(&start, length, &newest);
         let state = State { t: before.t + length, q: vector(place.half(0)), v: vector(place.half(1)) };

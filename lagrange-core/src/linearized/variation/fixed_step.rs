@@ -12,14 +12,12 @@ use super::{Block, DifferentiableMethod, Variations, VariedRun};
 use crate::derivatives::tangent::WideOf;
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
+use crate::linearized::limits::ROUND_OFF;
 use crate::motion::geometric::{CompensatedState, FixedStep, Scheme};
 use crate::number::{Broadcast, Dual, Parts, Real, Scalar, Wide, is_within, larger, power_of_epsilon};
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, State, StateOf};
 use crate::vector::{Array, Element, PhaseVector, StaticLength};
-
-/// Round-off of an iteration, in units of ε of the largest coordinate: at most the residual at which it may end.
-const ROUND_OFF: f64 = 4096.0;
 
 /// A system over dual numbers, and the last step computed with it.
 #[derive(Debug)]
