@@ -4,7 +4,7 @@
 
 /// Fraction of the predicted step that is taken, so that few steps are rejected (Hairer, Nørsett and Wanner, *Solving Ordinary
 /// Differential Equations I*, II.4). Also the fraction of the limit of stability from which a step counts as limited by it.
-pub(super) const SAFETY: f64 = 0.9;
+pub(crate) const SAFETY: f64 = 0.9;
 
 /// Least error of the last step, in units of the tolerance, that the PI controller takes into account, as in `DOPRI5`.
 pub(super) const LEAST_ERROR: f64 = 1e-4;

@@ -5,9 +5,12 @@
 //! stiff force along the constraints stays one. On all coordinates, a turn ε of the constraints in a step of length h
 //! would feed h c ε² of a damping c into the iteration, which then diverges.
 
+use super::super::limits::ROUND_OFF;
 use super::iteration::NoSolution;
+use super::limits::NEGLIGIBLE;
 use crate::error::Error;
 use crate::motion::method::control::Tolerance;
+use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar};
 use crate::room::Room;
 use crate::solution::consistent::BOTH;
@@ -17,16 +20,6 @@ use crate::solution::pivot::is_trustworthy;
 use crate::solution::solve::fault;
 use crate::system::{Lagrangian, StateOf, has_velocity_constraints};
 use crate::vector::{Array, PhaseVector, StaticLength, rows, vector, zeros};
-
-/// Largest number of corrections towards the constraints. Those that are not round-off shrink by two each.
-const CORRECTIONS: usize = 60;
-/// Residual, in units of ε of its terms, at which corrections end.
-const ROUND_OFF: f64 = 4.0;
-/// Largest ratio of a correction to the one before: with a half, all together are at most twice the first.
-const TURN: f64 = 0.5;
-/// Size of a correction, in units of the tolerance, below which corrections need not shrink: they are round-off, or those
-/// of dependent constraints, which agree on the manifold only.
-const SMALL: f64 = 1e-3;
 
 /// The tangent plane at a state.
 pub(super) struct Chart<L: Lagrangian> {
@@ -168,14 +161,15 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
         for level in BOTH.into_iter().filter(|level| level.concerns::<L>()) {
             let mut reaches = |gradients| self.reaches(system, level, &mut state, (gradients, size));
             if !reaches(Gradients::OfChart)? && !reaches(Gradients::Own)? {
-                return Err(NoSolution::TooSlow(0.5));
+                return Err(NoSolution::TooSlow);
             }
         }
         Ok(state)
     }
 
-    /// Corrects a state until the constraints hold to round-off. False if corrections shrink by less than [`TURN`]: they might
-    /// lead far, to another branch.
+    /// Corrects a state until the constraints hold to round-off. False if a correction is more than half of the one before: they
+    /// might lead far, to another branch. Negligible ones need not shrink: they are round-off, or those of dependent constraints,
+    /// which agree on the manifold only.
     fn reaches(
         &self,
         system: &L,
@@ -185,7 +179,7 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
     ) -> Result<bool, Error> {
         let bound = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
         let (mut before, terms) = (f64::INFINITY, level.magnitude(system, state));
-        for _ in 0..CORRECTIONS {
+        for _ in 0..ITERATIONS {
             let residual: Array<_, L::M> = level.residual(system, state).into();
             if (0..<L::M>::COUNT).all(|a| Scalar::abs(residual[a]) <= bound * terms[a]) {
                 break;
@@ -197,11 +191,11 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
             let mut halves = [Array::filled(zero::<L>()); 2];
             halves[level as usize] = correction;
             let size = tolerance.part(L::Scalar::constant(1.0), &PhaseVector::new(halves), y).to_f64();
-            let is_small = size <= SMALL;
+            let is_small = size <= NEGLIGIBLE;
             if is_small && size >= before {
                 break;
             }
-            if !(is_small || size <= TURN * before) {
+            if !(is_small || size <= 0.5 * before) {
                 return Ok(false);
             }
             before = size;

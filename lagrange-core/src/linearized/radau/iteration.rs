@@ -1,7 +1,9 @@
 //! Newton's iteration for the stages of a step (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8).
 
+use super::super::limits::ROUND_OFF;
+use super::limits::{FAST, GROWTH, NEGLIGIBLE, SHRINK};
 use crate::error::Error;
-use crate::motion::method::control::Tolerance;
+use crate::motion::method::control::{SAFETY, Tolerance};
 use crate::number::{Real, Scalar, larger, smaller};
 use crate::vector::{Element, PhaseVector, StaticLength};
 
@@ -9,21 +11,6 @@ use crate::vector::{Element, PhaseVector, StaticLength};
 pub(super) const fn iterations(s: usize) -> usize {
     4 + 2 * s
 }
-
-/// Largest correction that may be round-off, in units of ε of the state. Friction that begins to slide has derivatives that are
-/// too large by up to 10¹³: its corrections must shrink down to the last digits.
-pub(super) const ROUND_OFF: [f64; 2] = [100.0, 4.0];
-
-/// Largest part of what is left of the equations that may be round-off, in units of what it changes them by.
-const FLOOR: f64 = 64.0;
-
-/// Largest error of the iteration, in units of the tolerance.
-const MOST: f64 = 0.03;
-
-/// Largest ratio of a correction to the one before, with the derivatives at each stage. It measures how far the guess is from the
-/// solution, and 1/4 is the bound that Kantorovich's theorem leaves it (Deuflhard, *Newton Methods for Nonlinear Problems*, 2.1).
-/// With 1/4, springs that swing led twice in a hundred motions to errors above 10⁻⁴, with 1/10 to none.
-const FAST: f64 = 0.1;
 
 /// Stages of a step, as differences from its start.
 pub(super) type StageChanges<T, N, const S: usize> = [PhaseVector<T, N>; S];
@@ -39,8 +26,8 @@ pub(super) struct Converged {
 pub(super) enum NoSolution {
     /// The equations have no solution at a stage.
     Unsolved(Error),
-    /// It would take too many iterations; a step of this part of the length is likely to converge.
-    TooSlow(f64),
+    /// It would take too many iterations.
+    TooSlow,
 }
 
 impl From<Error> for NoSolution {
@@ -90,11 +77,9 @@ pub(super) struct Iteration<'a, T: Real, N: StaticLength> {
     /// True with the derivatives at each stage: the iteration must converge fast, and a second correction must be small, too. On a
     /// stiff force that turns, an error δ along the force is small in itself, and leads to one of h² k θ δ across it.
     pub(super) is_coupled: bool,
-    /// Largest correction that may be round-off, in units of ε of the state.
-    pub(super) round_off: f64,
     /// What round-off leaves of the equations, where corrections alone do not tell that the iteration has converged: friction along
     /// two velocities has derivatives μ g/|v|, which are too large without bound where it begins. Then what is left must be within
-    /// the tolerance or 64 times this.
+    /// the tolerance or 16 times this.
     pub(super) floor: Option<PhaseVector<T, N>>,
 }
 
@@ -122,22 +107,21 @@ impl<T: Real, N: StaticLength> Iteration<'_, T, N> {
             let left_over = left(z, &f);
             let size = self.size(&correction);
             if !size.is_finite() {
-                return Err(NoSolution::TooSlow(0.5));
+                return Err(NoSolution::TooSlow);
             }
-            let is_confirmed = was_small && size <= MOST;
+            let is_confirmed = was_small && size <= self.allowed;
             if iteration > 1 && !is_confirmed {
                 let ratio = size / before;
                 contraction = if iteration == 2 { ratio } else { power::<T>(ratio * ratio_before, 0.5) };
                 ratio_before = ratio;
-                if contraction >= 0.99 || self.is_coupled && ratio > FAST {
-                    return Err(NoSolution::TooSlow(0.5));
+                if contraction >= 1.0 || self.is_coupled && ratio > FAST {
+                    return Err(NoSolution::TooSlow);
                 }
                 remaining = contraction / (1.0 - contraction);
                 let left = iterations(S) - iteration;
                 let at_last = remaining * size * power::<T>(contraction, left as f64) / self.allowed;
                 if at_last >= 1.0 {
-                    let part = 0.8 * power::<T>(at_last.clamp(1e-4, 20.0), -1.0 / (4 + left) as f64);
-                    return Err(NoSolution::TooSlow(part));
+                    return Err(NoSolution::TooSlow);
                 }
             }
             before = size.max(f64::MIN_POSITIVE);
@@ -151,7 +135,7 @@ impl<T: Real, N: StaticLength> Iteration<'_, T, N> {
             }
             was_small = is_small;
         }
-        Err(NoSolution::TooSlow(0.5))
+        Err(NoSolution::TooSlow)
     }
 
     /// Size of corrections in units of the tolerance.
@@ -171,7 +155,7 @@ impl<T: Real, N: StaticLength> Iteration<'_, T, N> {
         largest: &mut StageChanges<T, N, S>,
     ) -> bool {
         let half = T::constant(0.5);
-        let round_off = T::constant(self.round_off * T::EPSILON);
+        let round_off = T::constant(ROUND_OFF * T::EPSILON);
         let relative = T::constant(self.tolerance.relative);
         let typical = T::constant(self.tolerance.absolute / self.tolerance.relative);
         let mut all = true;
@@ -183,7 +167,7 @@ impl<T: Real, N: StaticLength> Iteration<'_, T, N> {
                 let left = Scalar::abs(left[k].flat()[i]);
                 let is_little = left <= relative * of;
                 all &= size <= half * before || size <= round_off * of && is_little;
-                let floor = |floor: PhaseVector<T, N>| left <= T::constant(FLOOR) * floor.flat()[i];
+                let floor = |floor: PhaseVector<T, N>| left <= T::constant(ROUND_OFF) * floor.flat()[i];
                 all &= is_little || self.floor.is_none_or(floor);
             }
         }
@@ -194,14 +178,18 @@ impl<T: Real, N: StaticLength> Iteration<'_, T, N> {
 /// Largest ratio of the error of the iteration to the tolerance, for a relative tolerance.
 pub(super) fn allowed<T: Real, const S: usize>(relative: f64) -> f64 {
     let exponent = (S - 1) as f64 / (S + 1) as f64;
-    (10.0 * T::EPSILON / relative).max(power::<T>(relative, exponent).min(MOST))
+    (10.0 * T::EPSILON / relative).max(power::<T>(relative, exponent).min(NEGLIGIBLE))
 }
 
 /// Ratio of the next step to this one, from the error in units of the tolerance and the number of iterations.
 pub(super) fn growth<T: Real, const S: usize>(error: f64, taken: usize) -> f64 {
     let most = iterations(S);
-    let safety = 0.9 * (1 + 2 * most) as f64 / (taken + 2 * most) as f64;
-    smaller(larger(safety.min(0.9) * reduction::<T, S>(error), 0.2), 8.0)
+    within_limits((1 + 2 * most) as f64 / (taken + 2 * most) as f64 * reduction::<T, S>(error))
+}
+
+/// Ratio of step lengths that is taken for a predicted one, so that few steps are rejected; the least for NaN.
+pub(super) fn within_limits(ratio: f64) -> f64 {
+    smaller(larger(SHRINK, SAFETY * ratio), GROWTH)
 }
 
 /// Ratio of step lengths that divides an error of order s + 1 by `error`.

@@ -9,8 +9,8 @@ use super::chart::Chart;
 use super::collocation::Collocation;
 use super::coupled::Coupled;
 use super::equations::{Derivatives, Factorizations};
-use super::iteration::reduction;
-use super::iteration::{NoSolution, StageChanges, growth, power, zip};
+use super::iteration::{NoSolution, StageChanges, growth, reduction, within_limits, zip};
+use super::limits::{CONTRACTION, COUPLED, RETRIED, REUSED, SAME};
 use super::lu::Lu;
 use super::tableau::{RadauStages, Transformation};
 use crate::error::Error;
@@ -23,25 +23,6 @@ use crate::solution::solve::{solve, solve_near};
 use crate::statistics::Statistics;
 use crate::system::{Lagrangian, State, StateOf, System};
 use crate::vector::{Array, Element, PhaseVector, StaticLength, array, from_fn, vector};
-
-/// Contraction of the iteration below which derivatives are used again in the next step.
-const REUSED: f64 = 1e-3;
-/// Largest contraction of the iteration that the next step aims for (Gustafsson and Söderlind, *Control strategies for the
-/// iterative solution of nonlinear equations in ODE solvers*, 1997). It grows with the length of a step.
-const CONTRACTION: f64 = 0.4;
-/// Ratio of a step to the longest with the derivatives at its start, above which it takes those at each stage. Of 1.2, 2, 3 and 5,
-/// times of swinging springs were least with 1.2 and 2.
-const WORTH: f64 = 2.0;
-/// Growth of the longest step with the derivatives at its start, after one for which the iteration did not converge: a longer one
-/// is tried once in ten.
-const RETRIED: f64 = 1.05;
-/// Contraction of the iteration below which that step doubles for friction along two velocities: what begins to slide becomes ever
-/// faster, and its force turns ever less.
-const DOUBLED: f64 = 0.01;
-/// Largest ratio to a step with the derivatives at each stage: they are evaluated at the extrapolated polynomial.
-const LONGER: f64 = 2.0;
-/// Largest ratio of a step to the one before for which it keeps the length, and the factorizations with it.
-const SAME: f64 = 1.2;
 
 /// State at which the derivatives were evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,7 +126,7 @@ where
     pub(super) fn next(&self) -> (L::Scalar, bool) {
         let (planned, longest) = (self.planned.to_f64(), self.longest);
         // Without a step before, the guess of the stages is the start, which knows no more than its derivatives.
-        let is_coupled = self.taken.is_some() && planned > WORTH * longest;
+        let is_coupled = self.taken.is_some() && planned > COUPLED * longest;
         (L::Scalar::constant(if is_coupled { planned } else { planned.min(longest) }), is_coupled)
     }
 
@@ -181,7 +162,7 @@ where
         let Self { derivatives, factorizations, .. } = self;
         if (is_unknown || factorizations.h != h) && !factorizations.factorize(derivatives, h) {
             self.age = Age::Unknown;
-            return Err(NoSolution::TooSlow(0.5));
+            return Err(NoSolution::TooSlow);
         }
         Ok(())
     }
@@ -210,25 +191,26 @@ where
     ) {
         let h = step.length;
         let length = Scalar::abs(h).to_f64();
-        let error = error.max(1e-10);
         let mut ratio = growth::<L::Scalar, S>(error, iterations);
         let converging = CONTRACTION / self.contraction;
-        let doubles = L::HAS_PLANAR_FRICTION && self.contraction <= DOUBLED;
-        self.longest *= if doubles { 2.0 } else { RETRIED };
+        let is_exact = self.contraction <= REUSED;
+        // Of bodies that begin to slide along two velocities, the velocity grows, and its direction turns ever less.
+        self.longest *= if L::HAS_PLANAR_FRICTION && is_exact { 2.0 } else { RETRIED };
         match is_coupled {
-            true => ratio = ratio.min(converging).min(LONGER),
+            true => ratio = ratio.min(converging).min(COUPLED),
             false => self.longest = self.longest.min(length * converging),
         }
         if let Some((length_before, error_before)) = self.accepted {
             // The controller of Gustafsson, from two errors.
-            let trend = power::<L::Scalar>(error * error / error_before, -1.0 / (S + 1) as f64);
-            ratio = ratio.min((0.9 * length / length_before * trend).clamp(0.2, 8.0));
+            let trend = reduction::<L::Scalar, S>(error * error / error_before);
+            ratio = ratio.min(within_limits(length / length_before * trend));
         }
         if self.was_refused {
             ratio = ratio.min(1.0);
         }
-        (self.accepted, self.was_refused, self.obstacle) = (Some((length, error.max(1e-2))), false, None);
-        let keeps_derivatives = !is_coupled && self.contraction <= REUSED;
+        (self.accepted, self.was_refused, self.obstacle) =
+            (Some((length, error.max(f64::MIN_POSITIVE))), false, None);
+        let keeps_derivatives = !is_coupled && is_exact;
         let keeps_length = keeps_derivatives && (1.0..=SAME).contains(&ratio);
         self.age = if keeps_derivatives { Age::Old } else { Age::Unknown };
         let planned = self.planned;
@@ -243,7 +225,7 @@ where
     /// Shortens the next step to what an error of the variations over the last allows, in units of their tolerance.
     pub(super) fn shorten(&mut self, method: &Radau<S>, error: f64) {
         let Some((_, step)) = self.taken.as_ref().filter(|_| !self.clock.is_at_end()) else { return };
-        let ratio = (0.9 * reduction::<L::Scalar, S>(error.max(1e-10))).clamp(0.2, 8.0);
+        let ratio = within_limits(reduction::<L::Scalar, S>(error));
         let allowed = Scalar::abs(step.length) * L::Scalar::constant(ratio);
         self.planned = method.fit(smaller(self.planned, allowed), &self.clock);
     }

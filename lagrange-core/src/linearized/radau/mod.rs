@@ -6,6 +6,7 @@ mod coupled;
 mod equations;
 mod estimate;
 mod iteration;
+mod limits;
 mod lu;
 mod memory;
 mod pose;
@@ -141,7 +142,7 @@ impl<const STAGES: usize> Radau<STAGES> {
     /// Tolerances of the error estimate.
     fn tolerance<T: Real>(&self) -> Tolerance {
         let wanted = self.relative.max(16.0 * T::EPSILON);
-        let relative = 0.1 * of_estimate::<T, STAGES>(wanted);
+        let relative = limits::PART * of_estimate::<T, STAGES>(wanted);
         Tolerance { relative, absolute: relative * (self.absolute / wanted) }
     }
 }

@@ -19,14 +19,6 @@ use crate::solution::vector_field::{LagrangianVectorField, StagePoint, VectorFie
 use crate::system::{Lagrangian, StateOf};
 use crate::vector::{Array, Element, StaticLength, array};
 
-/// Number of bisections of a step, to 10⁻¹² of it.
-const BISECTIONS: usize = 40;
-/// Distances from the pose at which forces are compared, in units of the larger part of the step. Towards a pole each is four
-/// times the one before. A bounded force hardly changes in the last comparison.
-const DISTANCES: [f64; 3] = [0.5, 0.125, 0.031_25];
-/// Growth that tells a pole from a bounded force, halfway between both on a logarithmic scale.
-const GROWTH: f64 = 2.0;
-
 /// Fails if multipliers grow without bound towards a pose within a step from `from` to `end`.
 pub(super) fn check<L: Lagrangian<Scalar: Real>, const S: usize>(
     system: &L,
@@ -40,7 +32,7 @@ where
         return Ok(());
     }
     let [mut before, mut after] = [0.0, 1.0];
-    for _ in 0..BISECTIONS {
+    for _ in 0..f64::MANTISSA_DIGITS {
         let middle = f64::midpoint(before, after);
         let state = <LagrangianVectorField as VectorField<L>>::state(system, &within(step, middle));
         match is_turned(system, orientation, from, &state) {
@@ -49,12 +41,12 @@ where
         }
     }
     let part = if before < 0.5 { before - 1.0 } else { before };
+    // At a quarter of the distance, a force with a pole is four times as large, a bounded one as large: two is halfway between.
     // So near the pose that rounding decides on the forces, they tell nothing of a pole.
     let loads = |distance: f64| Loads::at(system, from, &within(step, before - part * distance));
-    let [Some(far), Some(near), Some(nearest)] = DISTANCES.map(loads) else { return Ok(()) };
+    let [Some(far), Some(near)] = [1.0 / 8.0, 1.0 / 32.0].map(loads) else { return Ok(()) };
     let has_grown = |of: fn(&Loads<_, L::N, L::M>, usize) -> L::Scalar, k: usize| {
-        let growth = L::Scalar::constant(GROWTH);
-        of(&near, k) > growth * of(&far, k) && of(&nearest, k) > growth * of(&near, k)
+        of(&near, k) > L::Scalar::constant(2.0) * of(&far, k)
     };
     // A multiplier that is zero has round-off that grows.
     if !(0..<L::N>::COUNT).any(|i| has_grown(|loads, i| loads.forces[i], i)) {

@@ -10,8 +10,9 @@ use super::coupled::Coupled;
 use super::equations::{Derivatives, Factorizations};
 use super::estimate::StartSlopes;
 use super::iteration::{
-    Converged, Iteration, NoSolution, ROUND_OFF, allowed, combination, product, reduction, zip,
+    Converged, Iteration, NoSolution, allowed, combination, product, reduction, within_limits, zip,
 };
+use super::limits::SHRINK;
 use super::lu::Lu;
 use super::memory::{Age, KnownState, RadauMemory};
 use super::tableau::{RadauStages, Transformation};
@@ -32,7 +33,7 @@ use crate::vector::{Array, PhaseVector, array, from_fn};
 /// Reason to reject a step.
 enum Rejection {
     Inaccurate(f64, Entry),
-    TooSlow(f64),
+    TooSlow,
     Unsolved(Error),
     /// Multipliers have a pole within the step.
     AtPole(Error),
@@ -42,7 +43,7 @@ impl From<NoSolution> for Rejection {
     fn from(reason: NoSolution) -> Self {
         match reason {
             NoSolution::Unsolved(error) => Self::Unsolved(error),
-            NoSolution::TooSlow(part) => Self::TooSlow(part),
+            NoSolution::TooSlow => Self::TooSlow,
         }
     }
 }
@@ -147,23 +148,23 @@ where
             Err(other) => Err(other.into()),
             Ok(()) => self.attempt(system, memory, (h, time, is_coupled), statistics),
         };
-        let is_too_slow = matches!(attempt, Err(Rejection::TooSlow(_)));
+        let is_too_slow = matches!(attempt, Err(Rejection::TooSlow));
         let (part, ending) = match attempt {
             Ok(()) => {
                 *to = memory.at.state();
                 return Step::Accepted;
             }
             Err(Rejection::Inaccurate(error, entry)) => {
-                let shorter = 0.9 * reduction::<L::Scalar, S>(error);
-                let part = if memory.accepted.is_none() { 0.1 } else { shorter.max(0.2) };
+                let shorter = within_limits(reduction::<L::Scalar, S>(error));
+                let part = if memory.accepted.is_none() { SHRINK } else { shorter };
                 (part, Ending::StepTooSmall { time: now, entry })
             }
-            Err(Rejection::TooSlow(_)) if memory.age == Age::Old => {
+            Err(Rejection::TooSlow) if memory.age == Age::Old => {
                 // The same step again, with the derivatives and the tangent plane of its start.
                 memory.age = Age::Unknown;
                 return Step::Rejected;
             }
-            Err(Rejection::TooSlow(part)) => {
+            Err(Rejection::TooSlow) => {
                 if L::HAS_PLANAR_FRICTION {
                     // A velocity that has just left zero is smaller than the tolerance, and not yet along its force: the polynomial
                     // of the last step turns it by any angle. The next guess is the state at the start of the step.
@@ -171,7 +172,7 @@ where
                 }
                 let reason = "the iteration of a step does not converge, however short it is";
                 let obstacle = memory.obstacle.clone().map(|error| Ending::of(error, now));
-                (part, obstacle.unwrap_or(Ending::MethodFailed { time: now, reason }))
+                (0.5, obstacle.unwrap_or(Ending::MethodFailed { time: now, reason }))
             }
             Err(Rejection::Unsolved(error)) => {
                 memory.obstacle = Some(error.clone());
@@ -276,7 +277,7 @@ where
             }
             statistics.evaluations += S;
             if !coupled.factorize(h) {
-                return Err(Rejection::TooSlow(0.5));
+                return Err(Rejection::TooSlow);
             }
         }
         let corrections = |z: &_, rates: &_| match &coupled {
@@ -287,13 +288,12 @@ where
             let slopes = product(&transformation.slopes, z);
             from_fn(|k| zip(&rates[k], &slopes[k], |rate, slope| rate * h - slope))
         };
-        let round_off = ROUND_OFF[usize::from(L::HAS_FRICTION)];
         // Derivatives of an earlier state do not say how far round-off of this one goes: nothing is allowed for it.
         let floor = L::HAS_PLANAR_FRICTION.then(|| match age {
             Age::New => derivatives.round_off(&at.y, h),
             _ => PhaseVector::filled(L::Scalar::constant(0.0)),
         });
-        let iteration = Iteration { tolerance, y: &at.y, allowed, is_coupled, round_off, floor };
+        let iteration = Iteration { tolerance, y: &at.y, allowed, is_coupled, floor };
         let Converged { iterations, contraction: found } =
             iteration.solve(&mut z, corrections, left, |k, change| {
                 Ok(rates_at(system, chart, &there(k, change)?, &at.active, statistics)?)
