@@ -5,24 +5,11 @@ use crate::contact::Contacts;
 use crate::derivatives::tangent::parameter;
 use crate::error::Error;
 use crate::linearized::Linearized;
+use crate::linearized::limits::ROUND_OFF;
 use crate::linearized::sensitivity::state::{ChangingState, ChangingStateOf};
-use crate::number::{Real, Scalar, larger, largest, unit_of};
+use crate::number::{Real, Scalar, larger, largest, power_of_epsilon, unit_of};
 use crate::system::{Direction, State, StateOf};
 use crate::vector::{Entrywise, StaticLength};
-
-/// First step of the differences of a law, in units of its arguments. The formula of order six is off by h⁶/140 of the
-/// seventh derivative, 2·10⁻¹⁷ for one that varies over its arguments, and by some ε/h of the value, 6·10⁻¹⁴.
-const STEP: f64 = 1.0 / 256.0;
-
-/// Factor from one step to the next, for laws that vary faster, and largest number of steps.
-const SHORTER: f64 = 0.25;
-const STEPS: usize = 12;
-
-/// Relative difference of the derivatives by two steps, at which the shorter one is off by 4⁻⁶ of it, 2·10⁻¹¹.
-const SAME: f64 = 1e-7;
-
-/// Round-off of a derivative, in units of ε/h of the largest value.
-const ROUND_OFF: f64 = 64.0;
 
 /// A law, of the contact or friction of a name.
 pub(super) struct NamedLaw<'a, L: Linearized> {
@@ -35,8 +22,10 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> NamedLaw<'_, L> {
         (self.value)(system, state).unwrap_or(L::Scalar::constant(0.0))
     }
 
-    /// Derivative at a changing state, by differences of order six. Steps are shortened until the differences
-    /// of three lengths agree. A law that varies only within a sixteenth of the shortest step is taken for a constant one.
+    /// Derivative at a changing state, by differences of order six. Their steps are 4⁻⁴ of the arguments, 4⁻⁵ and so on, down to √ε of
+    /// them, until those of three lengths agree to half of their digits, or to the round-off of the law: the error of the
+    /// last is 4⁻⁶ of that. The first is off by 2·10⁻¹⁷ of a law that varies over its arguments. A law that varies only within a
+    /// sixteenth of the shortest step is taken for a constant one.
     pub(super) fn change(
         &self,
         system: &L,
@@ -56,21 +45,18 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> NamedLaw<'_, L> {
             let reason = "the parameter cannot be set, on which its law may depend";
             if is_known { Ok(value) } else { fails(self.name, state.t, reason) }
         };
-        let (mut known, mut agree, mut shorter) = (None, 0, 1.0);
-        for _ in 0..STEPS {
-            let [derivative, size] = differences(|part| at(part * shorter))?.map(|sum| sum / step);
-            let (derivative, size) =
-                (derivative / L::Scalar::constant(shorter), size / L::Scalar::constant(shorter));
+        let (mut known, mut agree, mut part) = (None, 0, 1.0 / 256.0);
+        while part * part >= L::Scalar::EPSILON {
+            let length = step * L::Scalar::constant(part);
+            let [derivative, size] = differences(|count| at(count * part))?.map(|sum| sum / length);
             let noise = L::Scalar::constant(L::Scalar::EPSILON * ROUND_OFF) * size;
-            let is_same = |before: L::Scalar| {
-                Scalar::abs(derivative - before)
-                    <= L::Scalar::constant(SAME) * Scalar::abs(derivative) + noise
-            };
+            let allowed = power_of_epsilon::<L::Scalar>(0.5) * Scalar::abs(derivative) + noise;
+            let is_same = |before: L::Scalar| Scalar::abs(derivative - before) <= allowed;
             agree = if known.is_some_and(is_same) { agree + 1 } else { 0 };
             if agree == 2 {
                 return Ok(derivative);
             }
-            (known, shorter) = (Some(derivative), shorter * SHORTER);
+            (known, part) = (Some(derivative), part / 4.0);
         }
         let reason = "its law varies too fast for differences of it";
         fails(self.name, state.t, reason)
@@ -88,8 +74,8 @@ fn differences<T: Real>(at: impl Fn(f64) -> Result<T, Error>) -> Result<[T; 2], 
     Ok([sum, size])
 }
 
-/// First step of the differences: [`STEP`] of the time, the largest coordinate, the largest velocity and the parameter, or of
-/// one if they are zero.
+/// Unit of the steps of the differences: the time, the largest coordinate, the largest velocity or the parameter, or one if they are
+/// zero.
 fn step<T: Real, N: StaticLength>(
     state: &State<T, N>,
     direction: &Direction<T, N>,
@@ -102,5 +88,5 @@ fn step<T: Real, N: StaticLength>(
         rate(largest(state.v.as_slice()), largest(direction.v.as_slice())),
         parameter.map_or(T::constant(0.0), |value| rate(Scalar::abs(value), T::constant(1.0))),
     ];
-    T::constant(STEP) / rates.into_iter().fold(T::constant(STEP), larger)
+    T::constant(1.0) / unit_of(rates.into_iter().fold(T::constant(0.0), larger))
 }
