@@ -1,9 +1,5 @@
 //! Constants of linearized equations, chosen once for all of them.
 
-/// Round-off of a number that is a sum of terms, in units of ε of their magnitudes: that of sixteen operations. With 4 to 100, evaluations
-/// of stiff motions differ by 1 %.
-pub(super) const ROUND_OFF: f64 = 16.0;
-
 /// Number of parts of a motion whose scatter gives the standard errors of Lyapunov exponents, after a first part in which the variations
 /// align with the growing directions. An error from n parts is known to 1/√(2n), a sixth of it.
 pub(super) const PARTS: usize = 20;
@@ -14,7 +10,3 @@ pub(super) const PATIENCE: usize = 10;
 /// Weight of a constraint relative to a force, each in its own unit. A search for an equilibrium that stays near the constraints does
 /// not end where a rod has shrunk to nothing.
 pub(super) const CONSTRAINTS: f64 = 10.0;
-
-/// Ratio of the damping of a step towards an equilibrium to that of the step before: it falls after one that has come nearer, and grows
-/// until one does (Marquardt, 1963). The first is 10⁻³, in units of the squares of the singular values.
-pub(super) const DAMPING: f64 = 10.0;

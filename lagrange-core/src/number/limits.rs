@@ -20,3 +20,7 @@ pub(crate) const CHANGE: f64 = 0.125;
 
 /// Smallest reduction of a residual from one sweep of an iteration to the next that counts as progress.
 pub(super) const PROGRESS: f64 = 0.75;
+
+/// First damping of a search by the method of Levenberg and Marquardt, in units of the squares of the derivatives: the first step is
+/// Newton's to a thousandth, where that one leads nearer.
+pub(crate) const DAMPING: f64 = 1e-3;

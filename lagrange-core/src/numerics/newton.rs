@@ -7,7 +7,7 @@
 use core::iter::successors;
 
 use crate::number::limits::ITERATIONS;
-use crate::number::{Real, Scalar, larger, power_of_epsilon};
+use crate::number::{Real, Scalar, power_of_epsilon};
 
 pub(crate) trait Search {
     type Scalar: Real;
@@ -83,21 +83,11 @@ pub(crate) fn halvings<T: Real>(converged: bool) -> impl Iterator<Item = T> {
         .take_while(move |part| *part >= least)
 }
 
-/// Returns dampings of trial steps of Levenberg and Marquardt: 1, 2, 8, 64, … times the first, up to 1/ε, with which a step is
-/// below round-off (Madsen, Nielsen and Tingleff, *Methods for Non-Linear Least Squares Problems*, 2004, algorithm 3.16).
-pub(crate) fn dampings<T: Real>(first: T) -> impl Iterator<Item = T> {
-    let most = T::constant(1.0 / T::EPSILON);
-    let mut factor = T::constant(1.0);
-    successors(Some(first), move |damping| {
-        factor += factor;
-        Some(*damping * factor)
-    })
-    .take_while(move |damping| *damping <= most)
-}
-
-/// Returns the first damping of the next step, after a step with this damping whose squared residual fell by `gain` times what the
-/// linearization predicts (ibid., 2.21).
-pub(crate) fn damping_after<T: Real>(damping: T, gain: T) -> T {
-    let (one, beyond) = (T::constant(1.0), gain + gain - T::constant(1.0));
-    damping * larger(one / T::constant(3.0), one - beyond * beyond * beyond)
+/// Returns the dampings of a step of Levenberg and Marquardt to try in turn, and with each the first one of the step after it. Each is
+/// ten times the one before (Marquardt 1963). From `largest`/ε on a step is below round-off, where `largest` is the damping that is as
+/// large as the derivatives.
+pub(crate) fn dampings<T: Real>(first: T, largest: T) -> impl Iterator<Item = [T; 2]> {
+    let last = largest / T::constant(T::EPSILON);
+    let all = successors(Some(first), |damping| Some(*damping * T::constant(10.0)));
+    all.take_while(move |damping| *damping <= last).map(|damping| [damping, damping * T::constant(0.1)])
 }

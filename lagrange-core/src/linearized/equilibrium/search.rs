@@ -4,7 +4,6 @@
 //! *Computing* 74, 2005). A step never moves the unknowns along directions in which R does not change.
 
 use alloc::{format, string::String, vec::Vec};
-use core::iter::successors;
 
 use nalgebra::{ComplexField, DMatrix, DVector};
 
@@ -13,10 +12,10 @@ use super::weights::weights;
 use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::{Argument, set_parameter};
-use crate::linearized::limits::{DAMPING, ROUND_OFF};
 use crate::linearized::singular::Singular;
+use crate::number::limits::{CANCELLED, DAMPING};
 use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon, smaller, unit_of};
-use crate::numerics::newton::{Left, Search};
+use crate::numerics::newton::{Left, Search, dampings};
 use crate::solution::consistent::{Level, project_guess};
 use crate::solution::solve::{row, solve};
 use crate::system::StateOf;
@@ -60,7 +59,7 @@ impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
             set_parameter(&mut point.system, k, value)?;
         }
         let mut balance = Self { unknowns, weights: DVector::zeros(0), scale: DVector::zeros(0) };
-        let start = balance.trial(point, L::Scalar::constant(1.0 / (DAMPING * DAMPING * DAMPING)));
+        let start = balance.trial(point, L::Scalar::constant(DAMPING));
         if let Some(i) = start.residual.iter().position(|x| !x.is_finite()) {
             return Err(Error::EquationsNotFinite { row: row::<L>(i), time: state.t.to_f64() });
         }
@@ -126,7 +125,7 @@ impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
     /// unknowns of size 1. Second, the part of R that no step can remove must be round-off of the terms here or at the
     /// guess. The second test detects forces that cannot balance, however small their unit makes them.
     fn is_negligible(&self, factors: &Singular<L::Scalar>, trial: &Iterate<L>) -> bool {
-        let part = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
+        let part = L::Scalar::constant(CANCELLED * L::Scalar::EPSILON);
         let floor = power_of_epsilon(0.75);
         let small = self.terms(trial, |_, x| part * x + floor);
         let round_off = self.terms(trial, |j, x| part * (x + self.unit(j)));
@@ -142,7 +141,7 @@ impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
     /// with each unknown, if that is smaller.
     pub(super) fn check_resolved(&self, found: &Iterate<L>, steps: usize) -> Result<(), Error> {
         let (part, root) =
-            (L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON), power_of_epsilon::<L::Scalar>(0.5));
+            (L::Scalar::constant(CANCELLED * L::Scalar::EPSILON), power_of_epsilon::<L::Scalar>(0.5));
         let unknowns = self.unknowns.len();
         let floor = power_of_epsilon(0.75);
         // R is linear in the multipliers.
@@ -204,12 +203,10 @@ impl<L: Linearized<Scalar: Real> + Clone> Search for EquilibriumSearch<L> {
         from: &Self::Trial,
         _: bool,
     ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
-        let (less, more) = (L::Scalar::constant(1.0 / DAMPING), L::Scalar::constant(DAMPING));
         let distance = self.distance(from);
-        let dampings = successors(Some(from.damping), move |damping| Some(*damping * more)).take(ITERATIONS);
-        Ok(dampings.map(move |damping| {
+        Ok(dampings(from.damping, factors.norm()).map(move |[damping, next]| {
             let step = self.damped(factors, &from.residual, damping * distance);
-            self.trial(self.moved(&from.point, &step), damping * less)
+            self.trial(self.moved(&from.point, &step), next)
         }))
     }
 

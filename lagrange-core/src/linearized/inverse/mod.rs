@@ -13,9 +13,9 @@ pub(crate) use regressor::{inertial_parameters, regressor};
 
 use super::Linearized;
 use super::argument::{Argument, set_parameter};
-use super::limits::ROUND_OFF;
 use super::singular::Singular;
 use crate::error::Error;
+use crate::number::limits::CANCELLED;
 use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar, larger, power_of_epsilon, unit_of};
 use crate::solution::consistent::gradient::check_parameters;
@@ -179,7 +179,7 @@ impl<'a, L: Linearized<Scalar: Real>> InputBalance<'a, L> {
     /// Applies the step; returns true if it was mere round-off.
     fn go(&mut self, step: &DVector<L::Scalar>) -> bool {
         let mut is_small = true;
-        let small = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
+        let small = L::Scalar::constant(CANCELLED * L::Scalar::EPSILON);
         let unknowns = self.values.iter_mut().chain(self.multipliers.iter_mut());
         for (x, step) in unknowns.zip(step) {
             *x += *step;

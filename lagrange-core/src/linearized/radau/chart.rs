@@ -5,11 +5,11 @@
 //! stiff force along the constraints stays one. On all coordinates, a turn ε of the constraints in a step of length h
 //! would feed h c ε² of a damping c into the iteration, which then diverges.
 
-use super::super::limits::ROUND_OFF;
 use super::iteration::NoSolution;
 use super::limits::NEGLIGIBLE;
 use crate::error::Error;
 use crate::motion::method::control::Tolerance;
+use crate::number::limits::CANCELLED;
 use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar};
 use crate::room::Room;
@@ -177,7 +177,7 @@ impl<L: Lagrangian<Scalar: Real>> Chart<L> {
         state: &mut StateOf<L>,
         (gradients, (tolerance, y)): (Gradients, (Tolerance, &PhaseVector<L::Scalar, L::N>)),
     ) -> Result<bool, Error> {
-        let bound = L::Scalar::constant(ROUND_OFF * L::Scalar::EPSILON);
+        let bound = L::Scalar::constant(CANCELLED * L::Scalar::EPSILON);
         let (mut before, terms) = (f64::INFINITY, level.magnitude(system, state));
         for _ in 0..ITERATIONS {
             let residual: Array<_, L::M> = level.residual(system, state).into();

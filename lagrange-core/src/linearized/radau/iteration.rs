@@ -1,9 +1,10 @@
 //! Newton's iteration for the stages of a step (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8).
 
-use super::super::limits::ROUND_OFF;
 use super::limits::{FAST, GROWTH, NEGLIGIBLE, SHRINK};
 use crate::error::Error;
-use crate::motion::method::control::{SAFETY, Tolerance};
+use crate::motion::limits::SAFETY;
+use crate::motion::method::control::Tolerance;
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar, larger, smaller};
 use crate::vector::{Element, PhaseVector, StaticLength};
 
@@ -155,7 +156,7 @@ impl<T: Real, N: StaticLength> Iteration<'_, T, N> {
         largest: &mut StageChanges<T, N, S>,
     ) -> bool {
         let half = T::constant(0.5);
-        let round_off = T::constant(ROUND_OFF * T::EPSILON);
+        let round_off = T::constant(CANCELLED * T::EPSILON);
         let relative = T::constant(self.tolerance.relative);
         let typical = T::constant(self.tolerance.absolute / self.tolerance.relative);
         let mut all = true;
@@ -167,7 +168,7 @@ impl<T: Real, N: StaticLength> Iteration<'_, T, N> {
                 let left = Scalar::abs(left[k].flat()[i]);
                 let is_little = left <= relative * of;
                 all &= size <= half * before || size <= round_off * of && is_little;
-                let floor = |floor: PhaseVector<T, N>| left <= T::constant(ROUND_OFF) * floor.flat()[i];
+                let floor = |floor: PhaseVector<T, N>| left <= T::constant(CANCELLED) * floor.flat()[i];
                 all &= is_little || self.floor.is_none_or(floor);
             }
         }

@@ -12,8 +12,8 @@ use super::{Block, DifferentiableMethod, Variations, VariedRun};
 use crate::derivatives::tangent::WideOf;
 use crate::error::{Ending, Error};
 use crate::linearized::Linearized;
-use crate::linearized::limits::ROUND_OFF;
 use crate::motion::geometric::{CompensatedState, FixedStep, Scheme};
+use crate::number::limits::CANCELLED;
 use crate::number::{Broadcast, Dual, Parts, Real, Scalar, Wide, is_within, larger, power_of_epsilon};
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, Pack, State, StateOf};
@@ -135,7 +135,7 @@ fn is_near<T: Real<Wide = W>, W: Wide<T>, N: StaticLength>(
 ) -> bool {
     let size = |i: usize| Scalar::abs(start.q[i].value.lane(0)) + Scalar::abs(motion.q[i]);
     let largest = (0..N::COUNT).fold(T::constant(0.0), |most, i| larger(most, size(i)));
-    let round_off = T::constant(ROUND_OFF * T::EPSILON) * largest;
+    let round_off = T::constant(CANCELLED * T::EPSILON) * largest;
     (0..N::COUNT).all(|i| {
         let off = Scalar::abs(end.q[i].value.lane(0) - motion.q[i]);
         is_within(off, power_of_epsilon::<T>(0.5) * size(i) + round_off)

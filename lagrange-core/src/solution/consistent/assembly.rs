@@ -9,8 +9,9 @@ use super::level::Level;
 use super::{Adjustment, gradient, make_consistent};
 use crate::error::Error;
 use crate::names::{Names, name};
-use crate::number::{Real, Scalar, dot, larger, largest, norm, power_of_epsilon, unit_of};
-use crate::numerics::newton::{self, Left, Search, damping_after, dampings};
+use crate::number::limits::DAMPING;
+use crate::number::{Real, Scalar, larger, largest, norm, power_of_epsilon, unit_of};
+use crate::numerics::newton::{self, Left, Search, dampings};
 use crate::numerics::spread::spread;
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Rank, Rows};
@@ -138,17 +139,6 @@ impl<L: Lagrangian<Scalar: Real>> LeastResiduals<'_, L> {
         let step = eliminate::<_, L::N, Const<0>>(damped, slope.map(|x| -x), [].into(), [].into());
         is_trustworthy(&step).then_some(step.accelerations)
     }
-
-    /// Fall of the squared residual by this step, as the linearization predicts it.
-    fn predicted(
-        &self,
-        (slope, _): &NormalEquations<L::Scalar, L::N>,
-        damping: L::Scalar,
-        step: &Vector<L::Scalar, L::N>,
-    ) -> L::Scalar {
-        let part = |i: usize| step[i] * (damping * self.weight(i) * step[i] - slope[i]);
-        (0..<L::N>::COUNT).fold(L::Scalar::constant(0.0), |sum, i| sum + part(i))
-    }
 }
 
 impl<L: Lagrangian<Scalar: Real>> Search for LeastResiduals<'_, L> {
@@ -180,16 +170,12 @@ impl<L: Lagrangian<Scalar: Real>> Search for LeastResiduals<'_, L> {
         from: &Self::Trial,
         _: bool,
     ) -> Result<impl Iterator<Item = Self::Trial>, Self::Error> {
-        let steps =
-            dampings(from.damping).filter_map(move |damping| Some((damping, self.step(equations, damping)?)));
+        let steps = dampings(from.damping, L::Scalar::constant(1.0))
+            .filter_map(move |[damping, next]| Some((self.step(equations, damping)?, next)));
         let is_least = from.is_least(&equations.0, &equations.1);
-        Ok(steps.take_while(move |_| !is_least).map(|(damping, step)| {
+        Ok(steps.take_while(move |_| !is_least).map(|(step, next)| {
             let state = State { q: from.state.q.each_with(&step, |q, change| q + change), ..from.state };
-            let trial = self.trial(state, damping);
-            let fall =
-                dot::<L::Scalar>(&from.value, &from.value) - dot::<L::Scalar>(&trial.value, &trial.value);
-            let gain = fall / self.predicted(equations, damping, &step);
-            Iterate { damping: damping_after(damping, gain), ..trial }
+            self.trial(state, next)
         }))
     }
 
@@ -228,7 +214,7 @@ fn least_residuals<L: Lagrangian<Scalar: Real>>(system: &L, guess: &StateOf<L>) 
             state.q[i] += size * part * L::Scalar::constant(spread((i + 1) * (start + 1)));
         }
         let mut search = LeastResiduals { system, units, largest: Array::filled(L::Scalar::constant(0.0)) };
-        let first = search.trial(state, L::Scalar::constant(1.0));
+        let first = search.trial(state, L::Scalar::constant(DAMPING));
         match newton::find(&mut search, first) {
             Ok((found, _)) => return Ok(found.state),
             Err(found) if least.as_ref().is_none_or(|least| found.0 < least.0) => least = Some(found),

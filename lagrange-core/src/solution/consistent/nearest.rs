@@ -207,7 +207,8 @@ impl<L: Lagrangian<Scalar: Real>> Nearest<'_, L> {
         place: &ConstrainedPoint<L::Scalar, L::N, L::M>,
         hessian: &Array<Array<L::Scalar, L::N>, L::N>,
     ) -> Option<Vector<L::Scalar, L::N>> {
-        dampings(L::Scalar::constant(1.0)).find_map(|multiple| {
+        let one = L::Scalar::constant(1.0);
+        dampings(one, one).find_map(|[multiple, _]| {
             let sum = from_fn(|i| Array::from_fn(|j| hessian[i][j] + multiple * self.metric[i][j]));
             let factors = Factors::of(&sum, &place.f, Rank::off_constraints());
             if factors.is_semidefinite() { Self::newton(&factors, place) } else { None }

@@ -5,8 +5,8 @@ use crate::contact::Contacts;
 use crate::derivatives::tangent::parameter;
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::linearized::limits::ROUND_OFF;
 use crate::linearized::sensitivity::state::{ChangingState, ChangingStateOf};
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar, larger, largest, power_of_epsilon, unit_of};
 use crate::system::{Direction, State, StateOf};
 use crate::vector::{Entrywise, StaticLength};
@@ -49,7 +49,7 @@ impl<L: Linearized<Scalar: Real> + Contacts + Clone> NamedLaw<'_, L> {
         while part * part >= L::Scalar::EPSILON {
             let length = step * L::Scalar::constant(part);
             let [derivative, size] = differences(|count| at(count * part))?.map(|sum| sum / length);
-            let noise = L::Scalar::constant(L::Scalar::EPSILON * ROUND_OFF) * size;
+            let noise = L::Scalar::constant(L::Scalar::EPSILON * CANCELLED) * size;
             let allowed = power_of_epsilon::<L::Scalar>(0.5) * Scalar::abs(derivative) + noise;
             let is_same = |before: L::Scalar| Scalar::abs(derivative - before) <= allowed;
             agree = if known.is_some_and(is_same) { agree + 1 } else { 0 };
