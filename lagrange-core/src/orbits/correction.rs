@@ -3,128 +3,123 @@
 //! The damping is proportional to the residual, so the convergence is quadratic to orbits that fill a family too (Fan and Yuan,
 //! *Computing* 74, 2005). The iteration ends when a step no longer halves the residual: at the noise of the method.
 
+use core::cell::RefCell;
+
 use nalgebra::{DMatrix, DVector};
 
+use super::arc::Arc;
 use super::error::OrbitError;
 use super::frame::flat;
+use super::limits::LOST;
 use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
-use crate::linearized::{DifferentiableMethod, Linearized};
+use crate::linearized::{DifferentiableMethod, Linearized, Singular};
+use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar, larger};
+use crate::solution::newton::{self, Left, Search};
 use crate::vector::StaticLength;
 
-/// Steps allowed. Ten are usual; a search that takes more has left the neighbourhood of its guess.
-const STEPS: usize = 50;
-
-/// Dampings tried at a step, each ten times the one before.
-const DAMPINGS: usize = 10;
-
-/// Point of a family from which the next is sought, at a given arclength.
-#[derive(Clone, Debug)]
-pub(super) struct Arc<T> {
-    /// Direction of the family, of length 1, in the unknowns at the base.
-    pub(super) tangent: DVector<T>,
-    /// B⁺ at the base, and its start.
-    pub(super) dual: DMatrix<T>,
-    pub(super) start: DVector<T>,
-    pub(super) period: T,
-    /// Value of the parameter at the base, and its unit.
-    pub(super) parameter: (T, T),
-    /// Arclength from the base.
-    pub(super) length: T,
+/// Search for a shot that meets the conditions, at an arclength if there is one.
+struct Correction<'a, L: Linearized<Scalar: Real>, D> {
+    problem: &'a Problem<L::Scalar>,
+    method: &'a D,
+    arc: Option<&'a Arc<L::Scalar>>,
+    tolerance: L::Scalar,
+    /// Period at the start.
+    guess: L::Scalar,
 }
 
-impl<T: Real> Arc<T> {
-    pub(super) fn from<L: Linearized<Scalar = T> + Clone>(
-        problem: &Problem<T>,
-        shot: &Shot<L>,
-        tangent: DVector<T>,
-    ) -> Self {
-        Self {
-            tangent,
-            dual: shot.frames[0].dual.clone(),
-            start: flat::<L>(&shot.chain.nodes[0]),
-            period: shot.chain.period,
-            parameter: problem.parameter_of(&shot.chain.system),
-            length: T::constant(0.0),
-        }
+/// A shot, and the first damping of the step from it, in units of the residual.
+struct Iterate<L: Linearized> {
+    shot: Shot<L>,
+    damping: L::Scalar,
+}
+
+/// Equations of the step from a shot.
+struct Equations<T> {
+    factors: Singular<T>,
+    right: DVector<T>,
+    /// Reason why the last trial from the shot failed.
+    failure: RefCell<Option<Error>>,
+}
+
+impl<L, D> Correction<'_, L, D>
+where
+    L: Linearized<Scalar: Real> + Clone,
+    D: DifferentiableMethod<L> + Clone,
+{
+    /// Length of all residuals.
+    fn distance(&self, shot: &Shot<L>) -> L::Scalar {
+        let along = self.arc.map_or(L::Scalar::constant(0.0), |arc| arc.residual(self.problem, shot));
+        let found = shot.distance();
+        Scalar::sqrt(found * found + along * along)
     }
 
-    /// Direction at the base in the unknowns of another shot.
-    pub(super) fn along<L: Linearized<Scalar = T> + Clone>(
+    /// The shot after a damped step.
+    fn trial(
         &self,
-        problem: &Problem<T>,
-        shot: &Shot<L>,
-    ) -> DVector<T> {
-        let count = shot.frames[0].count();
-        let components = (self.tangent.rows(0, count).transpose() * &self.dual) * &shot.frames[0].basis;
-        let mut along = self.tangent.clone();
-        along.rows_mut(0, count).copy_from(&components.transpose());
-        if problem.conditions.period_is_free() {
-            along[count] *= shot.chain.period / self.period;
+        from: &Shot<L>,
+        equations: &Equations<L::Scalar>,
+        damping: L::Scalar,
+    ) -> Result<Shot<L>, Error> {
+        let least = equations.factors.norm() * L::Scalar::constant(L::Scalar::EPSILON);
+        let step = equations.factors.step(equations.right.iter().copied(), (least, damping), |_, x| x);
+        let chain = self.problem.moved_by(from, &step, true)?;
+        // A period that shrinks to nothing closes every motion.
+        let ratio = chain.period / self.guess;
+        if !(ratio > L::Scalar::constant(1.0 / LOST) && ratio < L::Scalar::constant(LOST)) {
+            let (guess, period) = (self.guess.to_f64(), chain.period.to_f64());
+            return Err(OrbitError::PeriodLost { guess, period }.into());
         }
-        along
+        self.problem.shoot(chain, self.method)
+    }
+}
+
+impl<L, D> Search for Correction<'_, L, D>
+where
+    L: Linearized<Scalar: Real> + Clone,
+    D: DifferentiableMethod<L> + Clone,
+{
+    type Scalar = L::Scalar;
+    type Trial = Iterate<L>;
+    type Linear = Equations<L::Scalar>;
+
+    const STEPS: usize = ITERATIONS;
+
+    fn linearize(&mut self, from: &Self::Trial) -> Result<Self::Linear, Error> {
+        let (matrix, right) = self.problem.bordered(&from.shot, self.arc);
+        let factors = Singular::of(&matrix).ok_or(Error::EigenvaluesNotFound)?;
+        Ok(Equations { factors, right, failure: RefCell::new(None) })
     }
 
-    /// Cosine of the angle between the direction at the base and one at another shot, in the units of the base.
-    pub(super) fn cosine<L: Linearized<Scalar = T> + Clone>(
+    fn left(&self, _: &Self::Linear, trial: &Self::Trial) -> Left<L::Scalar> {
+        let distance = self.distance(&trial.shot);
+        let is_rounded = distance <= L::Scalar::constant(2.0 * L::Scalar::EPSILON);
+        Left { distance, is_rounded, is_negligible: distance <= self.tolerance }
+    }
+
+    fn corrected(
         &self,
-        problem: &Problem<T>,
-        shot: &Shot<L>,
-        tangent: &DVector<T>,
-    ) -> T {
-        let count = shot.frames[0].count();
-        let mut here = tangent.clone();
-        let components = &self.dual * (&shot.frames[0].basis * tangent.rows(0, count));
-        here.rows_mut(0, count).copy_from(&components);
-        if problem.conditions.period_is_free() {
-            here[count] *= shot.chain.period / self.period;
-        }
-        self.tangent.dot(&here) / here.norm()
+        equations: &Self::Linear,
+        from: &Self::Trial,
+        converged: bool,
+    ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
+        let distance = self.distance(&from.shot);
+        let dampings = newton::dampings(from.damping, equations.factors.norm()).take(if converged {
+            1
+        } else {
+            usize::MAX
+        });
+        Ok(dampings.filter_map(move |[damping, next]| {
+            let trial = self.trial(&from.shot, equations, damping * distance);
+            let shot = trial.map_err(|error| equations.failure.replace(Some(error))).ok()?;
+            Some(Iterate { shot, damping: next })
+        }))
     }
 
-    /// Changes of the unknowns from the base to a shot.
-    fn offset<L: Linearized<Scalar = T> + Clone>(&self, problem: &Problem<T>, shot: &Shot<L>) -> DVector<T> {
-        let count = shot.frames[0].count();
-        let mut offset = DVector::zeros(self.tangent.len());
-        let moved = &self.dual * (flat::<L>(&shot.chain.nodes[0]) - &self.start);
-        offset.rows_mut(0, count).copy_from(&moved);
-        if problem.conditions.period_is_free() {
-            offset[count] = shot.chain.period / self.period - T::constant(1.0);
-        }
-        if let Some(column) = problem.parameter_column(count) {
-            offset[column] =
-                (problem.parameter_of(&shot.chain.system).0 - self.parameter.0) / self.parameter.1;
-        }
-        offset
-    }
-
-    /// True if a shot is within a step of the base, and has not just left it: on its way back.
-    pub(super) fn is_met<L: Linearized<Scalar = T> + Clone>(
-        &self,
-        problem: &Problem<T>,
-        shot: &Shot<L>,
-        step: T,
-    ) -> bool {
-        self.offset(problem, shot).norm() < step && self.residual(problem, shot) <= T::constant(0.0)
-    }
-
-    /// Distance of a shot from the point of the tangent at the arclength demanded.
-    pub(super) fn deviation<L: Linearized<Scalar = T> + Clone>(
-        &self,
-        problem: &Problem<T>,
-        shot: &Shot<L>,
-    ) -> T {
-        (self.offset(problem, shot) - &self.tangent * self.length).norm()
-    }
-
-    /// Arclength of a shot less the one demanded.
-    pub(super) fn residual<L: Linearized<Scalar = T> + Clone>(
-        &self,
-        problem: &Problem<T>,
-        shot: &Shot<L>,
-    ) -> T {
-        self.tangent.dot(&self.offset(problem, shot)) - self.length
+    #[cold]
+    fn not_found(&self, equations: &Self::Linear, from: &Self::Trial, steps: usize) -> Error {
+        equations.failure.take().unwrap_or_else(|| self.problem.not_closed(&from.shot, steps))
     }
 }
 
@@ -148,7 +143,7 @@ impl<T: Real> Problem<T> {
         bordered
     }
 
-    /// Corrects a chain until its gaps stay.
+    /// Corrects a chain until its gaps stay; returns its shot and the number of steps.
     pub(super) fn correct<L, D>(
         &self,
         chain: Chain<L>,
@@ -160,77 +155,13 @@ impl<T: Real> Problem<T> {
         L: Linearized<Scalar = T> + Clone,
         D: DifferentiableMethod<L> + Clone,
     {
-        let distance = |shot: &Shot<L>| {
-            let along = arc.map_or(T::constant(0.0), |arc| arc.residual(self, shot));
-            let found = shot.distance();
-            Scalar::sqrt(found * found + along * along)
-        };
-        let mut shot = self.shoot(chain, method)?;
-        let (mut damping, span) = (T::constant(1e-3), shot.chain.period);
-        for step in 0..STEPS {
-            let before = distance(&shot);
-            if before <= T::constant(2.0 * T::EPSILON) {
-                return Ok((shot, step));
-            }
-            let (matrix, right) = self.bordered(&shot, arc);
-            let is_small = before <= tolerance;
-            let mut failure = None;
-            // A residual that may be noise is not worth more than one try.
-            let next = (0..if is_small { 1 } else { DAMPINGS }).find_map(|_| {
-                let trial = self.trial(&shot, &matrix, &right, damping * before, method, span);
-                match trial {
-                    Ok(next) if distance(&next) < before => Some(next),
-                    other => {
-                        failure = other.err().or(failure.take());
-                        damping *= T::constant(10.0);
-                        None
-                    }
-                }
-            });
-            damping = larger(damping * T::constant(0.1), T::constant(1e-6));
-            match next {
-                Some(next) => {
-                    let stands = distance(&next) > T::constant(0.5) * before;
-                    shot = next;
-                    if is_small && stands {
-                        return Ok((shot, step + 1));
-                    }
-                }
-                None if is_small => return Ok((shot, step)),
-                None => return Err(failure.unwrap_or_else(|| self.not_closed(&shot, step))),
-            }
-        }
-        if distance(&shot) <= tolerance { Ok((shot, STEPS)) } else { Err(self.not_closed(&shot, STEPS)) }
+        let shot = self.shoot(chain, method)?;
+        let mut search = Correction { problem: self, method, arc, tolerance, guess: shot.chain.period };
+        let (found, steps) = newton::find(&mut search, Iterate { shot, damping: T::constant(1e-3) })?;
+        Ok((found.shot, steps))
     }
 
-    fn trial<L, D>(
-        &self,
-        shot: &Shot<L>,
-        matrix: &DMatrix<T>,
-        right: &DVector<T>,
-        damping: T,
-        method: &D,
-        span: T,
-    ) -> Result<Shot<L>, Error>
-    where
-        L: Linearized<Scalar = T> + Clone,
-        D: DifferentiableMethod<L> + Clone,
-    {
-        let step = least_step(matrix, right, damping, T::constant(T::EPSILON))?;
-        let chain = self.moved_by(shot, &step, true)?;
-        // A period that shrinks to nothing closes every motion.
-        let ratio = chain.period / span;
-        if !(ratio > T::constant(0.1) && ratio < T::constant(10.0)) {
-            return Err(OrbitError::PeriodLost { guess: span.to_f64(), period: chain.period.to_f64() }.into());
-        }
-        self.shoot(chain, method)
-    }
-
-    pub(super) fn not_closed<L: Linearized<Scalar = T> + Clone>(
-        &self,
-        shot: &Shot<L>,
-        steps: usize,
-    ) -> Error {
+    fn not_closed<L: Linearized<Scalar = T> + Clone>(&self, shot: &Shot<L>, steps: usize) -> Error {
         if self.conditions.energy.is_some() && !self.is_conservative {
             return OrbitError::EnergyChanges { is_driven: false }.into();
         }

@@ -4,8 +4,8 @@ use alloc::boxed::Box;
 use alloc::string::{String, ToString};
 use core::fmt::{self, Debug, Formatter};
 
+use super::arc::Arc;
 use super::bifurcation::{Bifurcation, BifurcationKind, Branch};
-use super::correction::Arc;
 use super::error::OrbitError;
 use super::orbit::PeriodicOrbit;
 use super::search::OrbitSearch;

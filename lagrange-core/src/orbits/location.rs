@@ -10,8 +10,8 @@ use alloc::vec::Vec;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::arc::Arc;
 use super::bifurcation::{Branch, Test, least_direction, least_directions, touches_circle};
-use super::correction::Arc;
 use super::error::OrbitError;
 use super::orbit::PeriodicOrbit;
 use super::shot::Shot;

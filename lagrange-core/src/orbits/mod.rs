@@ -2,6 +2,7 @@
 //!
 //! [`PeriodicMotion`] is the way in, a trait of every [`Linearized`] system over `f64` or `f32`.
 
+mod arc;
 mod bifurcation;
 mod conditions;
 mod correction;
@@ -11,6 +12,7 @@ mod error;
 mod family;
 mod form;
 mod frame;
+mod limits;
 mod location;
 mod monodromy;
 mod multipliers;

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::arc::Arc;
 use super::bifurcation::{TestValues, Tests, least_direction};
-use super::correction::Arc;
 use super::error::OrbitError;
 use super::multipliers::{logarithm, modulus, ratio};
 use super::orbit::PeriodicOrbit;
