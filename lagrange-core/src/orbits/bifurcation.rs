@@ -6,6 +6,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::conditions::Conditions;
+use super::limits::DERIVATIVES;
 use super::monodromy::Monodromy;
 use super::multipliers::{modulus, product, product_of, reciprocal};
 use super::orbit::PeriodicOrbit;
@@ -39,10 +40,6 @@ impl Display for BifurcationKind {
         })
     }
 }
-
-/// Error of the derivatives of a motion in units of the error of the motion, both relative: the methods allow this much (see
-/// [`Linearized::integrate_sensitivities`]).
-const DERIVATIVES: f64 = 10.0;
 
 /// A bifurcation of a family.
 #[derive(Clone)]
@@ -182,10 +179,8 @@ impl<T: Real> Problem<T> {
         let bordered_sizes = singular_values(&bordered)?;
         let least = bordered_sizes.iter().copied().reduce(smaller).unwrap_or(one);
         let (multipliers, once) = (monodromy.nontrivial()?, monodromy.nontrivial_product());
-        let factors = match monodromy.is_symplectic() {
-            true => differences(&multipliers),
-            false => collisions(&multipliers),
-        };
+        let collisions = monodromy.collisions(&multipliers);
+        let factors: Vec<_> = collisions.iter().map(|collision| collision.factor).collect();
         let shifted = |by: T| singular_values(&(&once + DMatrix::identity(once.nrows(), once.ncols()) * by));
         let sizes: Vec<T> = factors.iter().map(|x| modulus(*x)).collect();
         let errors = [
@@ -207,7 +202,11 @@ impl<T: Real> Problem<T> {
     }
 
     /// Rate of the parameter, or of the energy where there is none, along the family.
-    fn turning<L: Linearized<Scalar = T> + Clone>(&self, shot: &Shot<L>, tangent: &DVector<T>) -> T {
+    pub(super) fn turning<L: Linearized<Scalar = T> + Clone>(
+        &self,
+        shot: &Shot<L>,
+        tangent: &DVector<T>,
+    ) -> T {
         let count = shot.frames[0].count();
         if let Some(column) = self.parameter_column(count) {
             return tangent[column];
@@ -218,7 +217,6 @@ impl<T: Real> Problem<T> {
         }
         let energy = shot.frames[0].energy(&shot.chain.system, &shot.chain.nodes[0]);
         let gradient = energy.map(|(gradient, _)| gradient);
-        // The sign of the form is a convention; that of the energy is not needed.
         gradient.map_or(T::constant(0.0), |gradient| gradient.dot(&tangent.rows(0, count)))
     }
 
@@ -287,14 +285,6 @@ fn determinant_error<T: Real>(sizes: &[T], error: T) -> T {
     product(error) - product(T::constant(0.0))
 }
 
-/// True if a complex pair of multipliers is on the unit circle, to a thousandth.
-pub(super) fn touches_circle<T: Real>(multipliers: &[Complex<T>]) -> bool {
-    let little = T::constant(1e-3);
-    multipliers
-        .iter()
-        .any(|x| Scalar::abs(x.im) > little && Scalar::abs(modulus(*x) - T::constant(1.0)) < little)
-}
-
 /// Change of the start that the motion once around turns into its opposite.
 fn doubling<L: Linearized<Scalar: Real>>(
     shot: &Shot<L>,
@@ -315,26 +305,48 @@ fn twice<L: Linearized<Scalar: Real>>(mut chain: Chain<L>) -> Chain<L> {
     chain
 }
 
-/// Factors 1 − λ_i λ_j, of which only complex pairs on the unit circle, and real ones with the product 1, are zeros.
-fn collisions<T: Real>(multipliers: &[Complex<T>]) -> Vec<Complex<T>> {
-    let one = T::constant(1.0);
-    pairs(multipliers)
-        .map(|(x, y)| Complex::new(one - (x.re * y.re - x.im * y.im), -(x.re * y.im + x.im * y.re)))
-        .collect()
+/// True if the multipliers that collide do so on the unit circle: those with the least factor of the test.
+pub(super) fn collide_on_circle<T: Real>(monodromy: &Monodromy<T>) -> bool {
+    let collisions = monodromy.nontrivial().map_or_else(|_| Vec::new(), |all| monodromy.collisions(&all));
+    let nearest = collisions.into_iter().min_by(|x, y| order(modulus(x.factor), modulus(y.factor)));
+    nearest.is_some_and(|collision| collision.is_on_circle)
 }
 
-/// Factors (s_i − s_j)² of the discriminant of the indices s = λ + 1/λ of the pairs.
-fn differences<T: Real>(multipliers: &[Complex<T>]) -> Vec<Complex<T>> {
+/// A factor of the test of tori, which vanishes where two multipliers collide.
+struct Collision<T> {
+    factor: Complex<T>,
+    /// True if they collide on the unit circle, not on the real axis.
+    is_on_circle: bool,
+}
+
+impl<T: Real> Monodromy<T> {
+    fn collisions(&self, multipliers: &[Complex<T>]) -> Vec<Collision<T>> {
+        match self.is_symplectic() {
+            true => of_pairs(multipliers),
+            false => pairs(multipliers).map(|(x, y)| of_two(x, y)).collect(),
+        }
+    }
+}
+
+/// Factor 1 − λ_i λ_j, of which only complex pairs on the unit circle, and real ones with the product 1, are zeros.
+fn of_two<T: Real>(x: Complex<T>, y: Complex<T>) -> Collision<T> {
+    let factor = Complex::new(T::constant(1.0) - (x.re * y.re - x.im * y.im), -(x.re * y.im + x.im * y.re));
+    Collision { factor, is_on_circle: x.im != T::constant(0.0) }
+}
+
+/// Factors (s_i − s_j)² of the discriminant of the indices s = λ + 1/λ of the pairs. On the unit circle −2 < s < 2.
+fn of_pairs<T: Real>(multipliers: &[Complex<T>]) -> Vec<Collision<T>> {
     let index = |x: &Complex<T>| {
         let inverse = reciprocal(*x);
         Complex::new(x.re + inverse.re, x.im + inverse.im)
     };
     let indices: Vec<_> = multipliers.iter().step_by(2).map(index).collect();
-    let square = |(x, y): (Complex<T>, Complex<T>)| {
+    let collision = |(x, y): (Complex<T>, Complex<T>)| {
         let (re, im) = (x.re - y.re, x.im - y.im);
-        Complex::new(re * re - im * im, (re + re) * im)
+        let factor = Complex::new(re * re - im * im, (re + re) * im);
+        Collision { factor, is_on_circle: Scalar::abs(x.re + y.re) < T::constant(4.0) }
     };
-    pairs(&indices).map(square).collect()
+    pairs(&indices).map(collision).collect()
 }
 
 fn pairs<T: Real>(all: &[Complex<T>]) -> impl Iterator<Item = (Complex<T>, Complex<T>)> {

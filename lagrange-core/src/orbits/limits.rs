@@ -1,5 +1,18 @@
 //! Limits of the search for periodic orbits, and of the steps along their families.
 
+/// Error of the derivatives of a motion in units of the error of the motion, both relative: the methods allow this much (see
+/// [`Linearized::integrate_sensitivities`](crate::Linearized::integrate_sensitivities)).
+pub(super) const DERIVATIVES: f64 = 10.0;
+
 /// Largest ratio of a period to its guess, or of the guess to it. All motions close after no time, so a search that gets there has
 /// left what it was told to find.
 pub(super) const LOST: f64 = 10.0;
+
+/// Part below which something vanishes beside its unit: the error of a member beside the size of the orbit, the test of a bifurcation
+/// at its zero beside its values at both neighbours, the distance of a fold from a branch point beside the step. At a zero the search
+/// gains a digit or more with each member and ends far below; at a pole or a jump it gains none.
+pub(super) const VANISHING: f64 = 1e-3;
+
+/// Minimum of a cubic, as part of the values at the ends, above which the test is taken not to reach zero between. Of a pair of
+/// multipliers that turns by 90°, through 1 or −1, the cubic errs by 6 % of these values.
+pub(super) const SHALLOW: f64 = 0.5;

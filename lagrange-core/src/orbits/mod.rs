@@ -4,8 +4,10 @@
 
 mod arc;
 mod bifurcation;
+mod branch_point;
 mod conditions;
 mod correction;
+mod cubic;
 mod diagnosis;
 mod digits;
 mod error;
