@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::linearized::Linearized;
 use crate::motion::Simulate;
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::system::StateOf;
 use crate::vector::Vector;
 
@@ -89,7 +89,7 @@ impl<T: Real> Conditions<T> {
     }
 }
 
-/// True if the equations at these states are the same a period later: to 10⁻⁶ of what the accelerations change in eighths
+/// True if the equations at these states are the same a period later: to ε^⅓ of what the accelerations change in eighths
 /// of the period, or to round-off.
 pub(super) fn repeats<L: Linearized<Scalar: Real>>(
     system: &L,
@@ -109,6 +109,6 @@ pub(super) fn repeats<L: Linearized<Scalar: Real>>(
         let eighths = (1..8).filter_map(|k| after(f64::from(k) / 8.0));
         let most = eighths.fold(zero, |most, then| larger(most, apart(&then)));
         let round_off = L::Scalar::constant(64.0 * L::Scalar::EPSILON) * (now.amax() + most);
-        apart(&later) <= L::Scalar::constant(1e-6) * most + round_off
+        apart(&later) <= power_of_epsilon::<L::Scalar>(1.0 / 3.0) * most + round_off
     })
 }

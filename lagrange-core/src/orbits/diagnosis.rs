@@ -7,11 +7,9 @@ use crate::facts::EnergyForm;
 use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::motion::Simulate;
 use crate::number::{Real, Scalar, exceeds, power_of_epsilon, smaller};
+use crate::solution::Sample;
 use crate::system::{StateOf, entry};
 use crate::vector::{StaticLength, zeros};
-
-/// Times of the motion from the guess at which the potential is looked at.
-const SAMPLES: usize = 256;
 
 impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> OrbitSearch<L, D> {
     /// The error, or a reason for it that lies in the guess or the conditions.
@@ -49,14 +47,9 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Or
         let start = self.system.make_consistent(&self.guess).ok()?.0;
         let duration = conditions.part() * conditions.given(&self.system)?;
         let motion = self.system.motion(start).by(self.method.clone()).to(start.t + duration).ok()?;
-        let mut least = None;
-        for k in 0..=SAMPLES {
-            let t = start.t + duration * L::Scalar::constant(k as f64 / SAMPLES as f64);
-            let still = StateOf::<L> { v: zeros(), ..*motion.at(t).ok()?.state() };
-            let potential = self.system.energy(&still);
-            least = Some(least.map_or(potential, |least| smaller(least, potential)));
-        }
-        let least = least?;
+        let at_rest =
+            |sample: Sample<&L>| self.system.energy(&StateOf::<L> { v: zeros(), ..*sample.state() });
+        let least = motion.steps().map(at_rest).reduce(smaller)?;
         let (energy, least) = (energy.to_f64(), (energy < least).then(|| least.to_f64())?);
         Some(OrbitError::TooLittleEnergy { energy, least })
     }

@@ -5,11 +5,11 @@ use core::fmt::{self, Display, Formatter};
 use nalgebra::Complex;
 
 use super::multipliers::modulus;
-use crate::number::Real;
+use crate::number::{Real, power_of_epsilon};
 
-/// Resolution to which multipliers are printed, of their modulus; less precise numbers have that of eight of their last digits.
+/// Resolution to which multipliers are printed, of their modulus.
 pub(super) fn printed<T: Real>() -> f64 {
-    (8.0 * T::EPSILON).max(1e-10)
+    power_of_epsilon::<T>(2.0 / 3.0).to_f64()
 }
 
 /// The number rounded to a decimal place that is not beyond the resolution; 0 if it is less.
@@ -18,7 +18,7 @@ pub(super) fn rounded(x: f64, resolution: f64) -> f64 {
         return 0.0;
     }
     // Resolutions are mostly a power of ten of the number itself: products may be above it by their round-off.
-    let size = x.abs() * (1.0 + 1e-12);
+    let size = x.abs() * (1.0 + 16.0 * f64::EPSILON);
     let is_place = |digits: &i32| (0..*digits).fold(resolution, |unit, _| 10.0 * unit) <= size;
     let digits = (1..=16).take_while(is_place).count();
     alloc::format!("{x:.digits$e}").parse().unwrap_or(x)

@@ -7,6 +7,7 @@ use core::fmt::{self, Debug, Formatter};
 use super::arc::Arc;
 use super::bifurcation::{Bifurcation, BifurcationKind, Branch};
 use super::error::OrbitError;
+use super::limits::{EASY, GROWTH};
 use super::orbit::PeriodicOrbit;
 use super::search::OrbitSearch;
 use super::shot::Chain;
@@ -16,9 +17,6 @@ use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, set_parameter};
 use crate::number::{Real, Scalar, larger, smaller};
 use crate::system::lookup;
-
-/// Steps of Newton's method up to which the next step along the family grows.
-const EASY: usize = 6;
 
 /// Angle by which multipliers may turn in a step, in radians, at their rate where it starts. A pair that passes 1 or −1 within such
 /// a step shows it by the slopes of its test.
@@ -203,7 +201,7 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
                 found.into_iter().for_each(|found| family.push_bifurcation(found));
                 lost.into_iter().for_each(|lost| family.push_lost(lost));
                 family.push(next.orbit.clone());
-                if family.orbits().len() > 4 && first.is_met(problem, &next.shot, taken) {
+                if first.is_met(problem, &next.shot, taken) {
                     return Ok(FamilyEnding::Closed);
                 }
                 if let Some(ending) = self.ending(&next.orbit, family) {
@@ -215,7 +213,7 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
                 member = next;
             }
             let is_easy = member.orbit.iterations <= EASY;
-            step = if is_easy { smaller(taken * L::Scalar::constant(1.3), self.longest) } else { taken };
+            step = if is_easy { smaller(taken * L::Scalar::constant(GROWTH), self.longest) } else { taken };
         }
     }
 

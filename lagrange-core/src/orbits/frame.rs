@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::form::symplectic_form;
 use crate::error::Error;
 use crate::linearized::Linearized;
-use crate::number::{Real, larger, norm, smaller, unit_of};
+use crate::number::{Real, larger, norm, power_of_epsilon, smaller, unit_of};
 use crate::system::{StateOf, has_velocity_constraints};
 use crate::trajectory::Trajectory;
 use crate::vector::StaticLength;
@@ -106,7 +106,7 @@ impl<T: Real> Frame<T> {
 impl<T: Real> Frame<T> {
     /// Derivatives of the energy along the columns of B, by central differences.
     fn energy_by_differences<L: Linearized<Scalar = T>>(&self, system: &L, state: &StateOf<L>) -> DVector<T> {
-        let step = T::constant(1e-5);
+        let step = power_of_epsilon::<T>(1.0 / 3.0);
         let energy = |by: T, j: usize| system.energy(&shifted::<L>(state, &(self.basis.column(j) * by)));
         DVector::from_fn(self.basis.ncols(), |j, _| (energy(step, j) - energy(-step, j)) / (step + step))
     }

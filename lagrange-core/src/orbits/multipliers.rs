@@ -13,10 +13,6 @@ use crate::error::Error;
 use crate::linearized::eigenvalues;
 use crate::number::{Real, Scalar, norm, order};
 
-/// Cycles of the iteration. Groups of multipliers whose moduli differ by a factor of 10 or more are separated to round-off after 16;
-/// nearer ones stay in one block, where they cannot bury one another.
-const CYCLES: usize = 20;
-
 /// Eigenvalues of Φ_m … Φ_1, in descending order of the modulus.
 pub(super) fn of_product<T: Real>(factors: &[DMatrix<T>]) -> Result<Vec<Complex<T>>, Error> {
     let n = factors.first().map_or(0, DMatrix::ncols);
@@ -25,7 +21,7 @@ pub(super) fn of_product<T: Real>(factors: &[DMatrix<T>]) -> Result<Vec<Complex<
     }
     let mut frame = DMatrix::identity(n, n);
     let (mut turn, mut triangles) = (DMatrix::identity(n, n), Vec::new());
-    for _ in 0..CYCLES {
+    for _ in 0..decimal_digits::<T>() {
         let before = frame.clone();
         triangles.clear();
         for factor in factors {
@@ -46,10 +42,18 @@ pub(super) fn of_product<T: Real>(factors: &[DMatrix<T>]) -> Result<Vec<Complex<
     Ok(found)
 }
 
+/// Decimal digits of a number: cycles after which multipliers are separated whose moduli differ by a factor of 10. Nearer ones stay in
+/// one block, where they cannot bury one another.
+fn decimal_digits<T: Real>() -> usize {
+    core::iter::successors(Some(1.0), |place| Some(place * 0.1))
+        .take_while(|place| *place > T::EPSILON)
+        .count()
+}
+
 /// First rows and ends of the blocks of a matrix that is block triangular to round-off.
 fn blocks<T: Real>(turn: &DMatrix<T>) -> Vec<(usize, usize)> {
     let n = turn.nrows();
-    let negligible = T::constant(8.0 * n as f64 * T::EPSILON);
+    let negligible = T::constant(16.0 * n as f64 * T::EPSILON);
     let parts = |j: usize| turn.view((j, 0), (n - j, j)).amax() <= negligible;
     let mut starts: Vec<usize> = (1..n).filter(|&j| parts(j)).collect();
     starts.insert(0, 0);

@@ -155,7 +155,7 @@ impl<T: Real> Problem<T> {
         let whole = self.whole();
         let around = self.whole_of(&whole, shot, method)?;
         let gap = around.largest_gap();
-        if self.conditions.is_half() && exceeds(gap, T::constant(1e3) * tolerance) {
+        if self.conditions.is_half() && exceeds(gap, Scalar::sqrt(tolerance)) {
             let (entry, gap) = around.worst(&whole.conditions);
             let (gap, period) = (gap.to_f64(), shot.chain.period.to_f64());
             return Err(OrbitError::NotMirrored { entry, gap, period }.into());

@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
 use crate::motion::Simulate;
 use crate::names::Entry;
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::system::{StateOf, entry};
 use crate::vector::StaticLength;
 
@@ -217,7 +217,7 @@ impl<T: Real> Problem<T> {
     fn energy_by_parameter<L: Linearized<Scalar = T> + Clone>(&self, chain: &Chain<L>) -> T {
         let Some(k) = self.parameter else { return T::constant(0.0) };
         let (value, unit) = self.parameter_of(&chain.system);
-        let step = T::constant(1e-5);
+        let step = power_of_epsilon::<T>(1.0 / 3.0);
         let [ahead, behind] = [step, -step].map(|by| {
             let mut system = chain.system.clone();
             system.set_parameter(k, value + by * unit);

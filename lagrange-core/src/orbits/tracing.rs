@@ -5,27 +5,14 @@ use nalgebra::{DMatrix, DVector};
 use super::arc::Arc;
 use super::bifurcation::{TestValues, Tests, least_direction};
 use super::error::OrbitError;
+use super::limits::{BEND, VANISHING};
 use super::multipliers::{logarithm, modulus, ratio};
 use super::orbit::PeriodicOrbit;
 use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
-use crate::number::{Real, Scalar, exceeds, larger, norm, order, power_of_epsilon, smaller, unit_of};
+use crate::number::{Real, Scalar, exceeds, larger, norm, order, power_of_epsilon, unit_of};
 use crate::system::System;
-
-/// Least cosine of the angle between neighbours of a family; a step across which it turns more is halved. 20° are small
-/// enough that a step does not end on another family that crosses at a right angle.
-const TURN: f64 = 0.94;
-
-/// Distance of a member from where its neighbour pointed, as part of the step; where it is larger, the step is halved. A
-/// curve that turns by less than 20° over the step stays within tan 20°.
-const ASIDE: f64 = 0.36;
-
-/// Estimated error, in units of the orbit, from which it is no member.
-const VAGUE: f64 = 1e-3;
-
-/// Part of the first step below which a family counts as stuck.
-const SHORTEST: f64 = 1e-5;
 
 /// Where a family starts.
 pub(super) struct FamilyStart<L: Linearized> {
@@ -93,21 +80,11 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         shot.chain.units = shot.size();
         let shot = self.problem.shoot(shot.chain, self.method)?;
         let mut tangent = only_direction(&shot.jacobian)?;
-        if self.grows(&shot, &tangent)? == is_backwards {
+        let grows = self.problem.turning(&shot, &tangent) > L::Scalar::constant(0.0);
+        if grows == is_backwards {
             tangent = -tangent;
         }
         self.traced(shot, tangent, iterations)
-    }
-
-    /// True if the parameter, or the energy, grows in this direction.
-    fn grows(&self, shot: &Shot<L>, tangent: &DVector<L::Scalar>) -> Result<bool, Error> {
-        if let Some(column) = self.problem.parameter_column(shot.frames[0].count()) {
-            return Ok(tangent[column] > L::Scalar::constant(0.0));
-        }
-        let little = tangent * (self.step * L::Scalar::constant(1e-3));
-        let moved = self.problem.moved_by(shot, &little, false)?;
-        let energy = |chain: &Chain<L>| chain.system.energy(&chain.nodes[0]);
-        Ok(energy(&moved) > energy(&shot.chain))
     }
 
     /// The member of a corrected shot.
@@ -118,7 +95,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         iterations: usize,
     ) -> Result<TracedOrbit<L>, Error> {
         let orbit = self.problem.orbit(&shot, iterations, self.method, self.tolerance)?;
-        if exceeds(orbit.error, L::Scalar::constant(VAGUE)) {
+        if exceeds(orbit.error, L::Scalar::constant(VANISHING)) {
             let (error, period) = (orbit.error.to_f64(), orbit.period.to_f64());
             return Err(OrbitError::Vague { error, period }.into());
         }
@@ -136,7 +113,7 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         tangent: &DVector<L::Scalar>,
         (orbit, tests): (&PeriodicOrbit<L>, &Tests<L::Scalar>),
     ) -> Result<(TestValues<L::Scalar>, L::Scalar), Error> {
-        let move_by = smaller(power_of_epsilon(1.0 / 3.0), self.step * L::Scalar::constant(0.01));
+        let move_by = resolution();
         let arc = Arc::from(&self.problem, shot, tangent.clone());
         let moved =
             self.problem.shoot(self.problem.moved_by(shot, &(tangent * move_by), false)?, self.method)?;
@@ -196,16 +173,16 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
         arc: &Arc<L::Scalar>,
         mut step: L::Scalar,
     ) -> Result<(TracedOrbit<L>, L::Scalar), Error> {
-        let shortest = self.step * L::Scalar::constant(SHORTEST);
+        let bend = L::Scalar::constant(BEND);
+        let least_cosine = L::Scalar::constant(1.0) / Scalar::sqrt(L::Scalar::constant(1.0) + bend * bend);
         loop {
             let arc = Arc { length: step, ..arc.clone() };
             let found = self.member(from, &arc);
-            let is_short = step * L::Scalar::constant(0.5) < shortest;
+            let is_short = step * L::Scalar::constant(0.5) < resolution();
             match found {
                 Ok(next) => {
-                    let turns =
-                        arc.cosine(&self.problem, &next.shot, &next.tangent) < L::Scalar::constant(TURN);
-                    let strays = arc.deviation(&self.problem, &next.shot) > step * L::Scalar::constant(ASIDE);
+                    let turns = arc.cosine(&self.problem, &next.shot, &next.tangent) < least_cosine;
+                    let strays = arc.deviation(&self.problem, &next.shot) > step * bend;
                     if !(turns || strays) || is_short {
                         return Ok((next, step));
                     }
@@ -216,6 +193,11 @@ impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> Tr
             step *= L::Scalar::constant(0.5);
         }
     }
+}
+
+/// Arclength over which the tests are differenced, and to which a family is resolved.
+fn resolution<T: Real>() -> T {
+    power_of_epsilon(1.0 / 3.0)
 }
 
 /// The one direction along which the conditions stay.
