@@ -3,14 +3,13 @@
 use super::job::Job;
 use super::outcome::Outcome;
 use super::settings::Ensemble;
+use crate::StateOf;
 use crate::contact::Contacts;
 use crate::contact::across::arrive;
 use crate::error::Error;
-use crate::motion::Method;
 use crate::motion::integration::progress::unless_broken;
-use crate::motion::integration::record::Arrival;
+use crate::motion::{Arrival, Method};
 use crate::number::Real;
-use crate::system::StateOf;
 use crate::system::finite::check_finite;
 
 impl<L: Contacts<Scalar: Real> + Clone, const HAS_DENSE_OUTPUT: bool> Ensemble<'_, L, HAS_DENSE_OUTPUT> {

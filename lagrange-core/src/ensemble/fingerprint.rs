@@ -2,11 +2,11 @@
 
 use core::fmt::{self, Write};
 
-use crate::motion::Simulate;
+use crate::StateOf;
+use crate::generic::Numbers;
+use crate::motion::{Simulate, SystemChecks};
 use crate::number::Real;
-use crate::solution::system_checks::{ChecksOf, SystemChecks};
-use crate::system::StateOf;
-use crate::vector::Numbers;
+use crate::solution::system_checks::ChecksOf;
 
 /// Identifies the run and the member of a table row by three hashes: 32-bit FNV-1a (Fowler, Noll and Vo), the same on
 /// every machine.

@@ -14,15 +14,15 @@ use super::outcome::{Member, Outcome};
 use super::plan::{EnsembleProgress, Make, MemberObserver, MemberPlan, Plan, Watch};
 use super::row::{MemberRow, TWO_RESULTS};
 use crate::error::{Ending, EnsembleError, Error};
+use crate::generic::{Element, Length, State};
 use crate::motion::integration::progress::unless_broken;
-use crate::motion::integration::record::{Arrival, Moving, Recorded};
+use crate::motion::integration::record::{Moving, Recorded};
 use crate::motion::lanes::{Batch, LaneMotion};
 use crate::motion::run::{Run, Watchdog};
-use crate::motion::{LaneMethod, Method, Simulate};
+use crate::motion::{Arrival, LaneMethod, Method, Simulate, SystemChecks};
 use crate::number::Real;
-use crate::solution::system_checks::{ChecksOf, SystemChecks};
-use crate::system::{Lagrangian, State, StateOf};
-use crate::vector::{Element, Length};
+use crate::solution::system_checks::ChecksOf;
+use crate::{Lagrangian, StateOf};
 
 /// State of a running ensemble, shared by all threads.
 pub(super) struct Job<'a, L: Simulate> {

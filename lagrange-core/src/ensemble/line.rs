@@ -11,10 +11,10 @@ use super::fingerprint::Fingerprint;
 use super::names::ColumnNames;
 use super::outcome::Member;
 use super::row::{MemberCrossing, MemberRow};
+use crate::Statistics;
+use crate::generic::{Array, State, StaticLength};
 use crate::number::Real;
-use crate::statistics::Statistics;
-use crate::system::State;
-use crate::vector::{Array, StaticLength, vector};
+use crate::vector::vector;
 
 /// A row, as serde writes and reads it.
 #[derive(Serialize, Deserialize)]

@@ -14,6 +14,8 @@
 mod contacts;
 mod fingerprint;
 mod job;
+#[cfg(any(feature = "mpi", feature = "parquet"))]
+mod limits;
 #[cfg(feature = "serde")]
 mod line;
 mod names;
@@ -32,7 +34,7 @@ mod tests;
 mod within;
 
 pub use crate::error::EnsembleError;
-pub use crate::motion::integration::record::Arrival;
+pub use crate::motion::Arrival;
 pub use fingerprint::Fingerprint;
 pub use outcome::{Member, Outcome};
 #[cfg(feature = "parquet")]

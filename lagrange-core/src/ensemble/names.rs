@@ -2,9 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::error::{EnsembleError, Error};
+use crate::error::{EnsembleError, Entry, Error};
 use crate::motion::integration::record::quantity;
-use crate::names::Entry;
 
 /// Names of the numbers of a sample, shared by all members of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]

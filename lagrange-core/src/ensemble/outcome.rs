@@ -6,10 +6,9 @@ use std::sync::Arc;
 use super::fingerprint::Fingerprint;
 use super::names::ColumnNames;
 use crate::error::{EnsembleError, Error};
-use crate::motion::integration::record::Arrival;
+use crate::generic::{Element, Length, State};
+use crate::motion::Arrival;
 use crate::number::Real;
-use crate::system::State;
-use crate::vector::{Element, Length};
 
 /// Result of one member.
 ///

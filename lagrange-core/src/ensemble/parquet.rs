@@ -24,12 +24,12 @@ use super::names::ColumnNames;
 use super::outcome::Member;
 use super::row::MemberRow;
 use super::table::MemberTable;
+use crate::StateOf;
 use crate::error::{EnsembleError, Error};
+use crate::generic::{Element, StaticLength};
 use crate::linearized::Linearized;
 use crate::linearized::argument::check_parameters;
 use crate::number::Real;
-use crate::system::StateOf;
-use crate::vector::{Element, StaticLength};
 
 /// A table of members in a directory of Parquet files; rows are appended as members finish.
 ///

@@ -9,17 +9,16 @@ use super::names::ColumnNames;
 use super::outcome::Member;
 use super::row::MemberRow;
 use crate::error::{EnsembleError, Error};
+use crate::generic::{Element, Length};
 use crate::motion::event::DynEvent;
 use crate::motion::integration::record::plan::Observed;
 use crate::motion::integration::record::{
     CONTROLLER, Record, RecordPlan, SampleTimes, Steering, check_interval,
 };
-use crate::motion::{Event, EventFunction, Method, Simulate};
+use crate::motion::{Event, EventFunction, Method, Simulate, SystemChecks};
 use crate::number::Real;
-use crate::solution::Sample;
-use crate::solution::system_checks::{ChecksOf, SystemChecks};
-use crate::system::StateOf;
-use crate::vector::{Element, Length};
+use crate::solution::system_checks::ChecksOf;
+use crate::{Sample, StateOf};
 
 /// Settings of an ensemble, collected before it is integrated.
 pub(super) struct Plan<'a, L: Simulate> {

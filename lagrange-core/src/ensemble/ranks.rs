@@ -17,6 +17,7 @@ use mpi::traits::{Communicator, CommunicatorCollectives, Destination, MatchedRec
 
 use super::fingerprint::Fingerprint;
 use super::job::Job;
+use super::limits::{LEAST, PAUSE};
 use super::outcome::Outcome;
 use super::settings::{Ensemble, everywhere};
 use super::table::rows;
@@ -25,7 +26,8 @@ use crate::error::{EnsembleError, Error};
 use crate::motion::run::check_end;
 use crate::motion::{LaneMethod, Method};
 use crate::number::{Lanes, Real};
-use crate::system::{Lagrangian, Pack, check_contacts};
+use crate::system::check_contacts;
+use crate::{Lagrangian, Pack};
 
 /// An ensemble on all ranks of an MPI communicator, from [`Ensemble::on_ranks`].
 #[must_use = "an ensemble does nothing until it is integrated"]
@@ -34,11 +36,6 @@ pub struct OnRanks<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool
     world: SimpleCommunicator,
     batch: Duration,
 }
-
-/// Time that rank 0 sleeps when no message is waiting.
-const PAUSE: Duration = Duration::from_millis(1);
-/// Smallest number of members in a batch, unless fewer are left.
-const LEAST: usize = 16;
 
 impl<'a, L: Lagrangian<Scalar: Real>, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT> {
     /// Runs this ensemble on all ranks of the communicator. Each rank must call this and then integrate; see the

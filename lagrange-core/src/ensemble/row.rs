@@ -7,12 +7,10 @@ use super::fingerprint::Fingerprint;
 use super::names::ColumnNames;
 use super::outcome::Member;
 use crate::error::{Ending, EnsembleError, Error};
-use crate::motion::integration::record::Arrival;
+use crate::generic::{Element, Length, State};
+use crate::motion::Arrival;
 use crate::number::Real;
-use crate::solution::crossing::Crossing;
-use crate::statistics::Statistics;
-use crate::system::State;
-use crate::vector::{Element, Length};
+use crate::{Crossing, Statistics};
 
 /// Data of one member in a table.
 ///

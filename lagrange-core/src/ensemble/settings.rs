@@ -9,10 +9,11 @@ use super::outcome::Outcome;
 use super::plan::{EnsembleProgress, MemberPlan, Plan};
 use crate::error::Error;
 use crate::motion::run::check_end;
-use crate::motion::{LaneMethod, Method, Simulate};
+use crate::motion::{LaneMethod, Method, Simulate, SystemChecks};
 use crate::number::Lanes;
-use crate::solution::system_checks::{ChecksOf, SystemChecks};
-use crate::system::{Lagrangian, Pack, StateOf, check_contacts};
+use crate::solution::system_checks::ChecksOf;
+use crate::system::check_contacts;
+use crate::{Lagrangian, Pack, StateOf};
 
 /// Many members, each a system with its initial state, that are integrated to the same time.
 ///

@@ -14,10 +14,10 @@ use super::names::ColumnNames;
 use super::outcome::{Member, Outcome};
 use super::row::{MemberRow, TWO_RESULTS};
 use super::settings::Ensemble;
+use crate::Lagrangian;
 use crate::error::{EnsembleError, Error};
+use crate::generic::{Element, StaticLength};
 use crate::number::Real;
-use crate::system::Lagrangian;
-use crate::vector::{Element, StaticLength};
 
 /// Prints each item as an object of JSON on a line of its own.
 struct JsonLines<'m, R>(&'m [R]);

@@ -3,10 +3,10 @@
 #[cfg(feature = "tables")]
 use core::ops::ControlFlow;
 
+use crate::Pack;
 use crate::motion::{Adaptive, Pair};
 use crate::number::Lanes;
 use crate::prelude::*;
-use crate::system::Pack;
 
 #[derive(Lagrangian, Clone, Copy)]
 #[coordinates(x)]

@@ -5,8 +5,7 @@ use core::fmt::Display;
 use super::settings::Ensemble;
 use crate::motion::integration::record::SampleTimes;
 use crate::motion::{Event, EventFunction, EventValue, Simulate};
-use crate::solution::Sample;
-use crate::system::StateOf;
+use crate::{Sample, StateOf};
 
 impl<'a, L: Simulate, const HAS_DENSE_OUTPUT: bool> Ensemble<'a, L, HAS_DENSE_OUTPUT> {
     /// Stores the states of each member at these times, in [`Arrival::samples`](super::Arrival::samples).

@@ -17,7 +17,6 @@ mod variation;
 
 pub use crate::derivatives::jacobian::{Jacobian, PartialDerivatives};
 pub use crate::derivatives::{Linearized, MotionGradients, StateDerivatives};
-pub(crate) use argument::set_parameter;
 pub use discrete::DiscreteTime;
 pub use equilibrium::Equilibrium;
 pub use inverse::{BaseParameters, InverseDynamics, Regressor};

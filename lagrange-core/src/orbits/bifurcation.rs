@@ -11,10 +11,10 @@ use super::monodromy::Monodromy;
 use super::multipliers::{modulus, product, product_of, reciprocal};
 use super::orbit::PeriodicOrbit;
 use super::shot::{Chain, Problem, Shot};
+use crate::StateOf;
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
 use crate::number::{Real, Scalar, order, smaller};
-use crate::system::StateOf;
 
 /// Kind of a bifurcation of periodic orbits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

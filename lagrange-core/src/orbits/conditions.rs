@@ -2,11 +2,11 @@
 
 use alloc::vec::Vec;
 
+use crate::StateOf;
+use crate::generic::Vector;
 use crate::linearized::Linearized;
 use crate::motion::Simulate;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
-use crate::system::StateOf;
-use crate::vector::Vector;
 
 /// What is known of the period.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,11 +13,11 @@ use super::frame::flat;
 use super::limits::LOST;
 use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
+use crate::generic::StaticLength;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
 use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::newton::{self, Left, Search};
-use crate::vector::StaticLength;
 
 /// Search for a shot that meets the conditions, at an arclength if there is one.
 struct Correction<'a, L: Linearized<Scalar: Real>, D> {

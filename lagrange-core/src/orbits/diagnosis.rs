@@ -4,12 +4,13 @@ use super::error::OrbitError;
 use super::search::OrbitSearch;
 use crate::error::Error;
 use crate::facts::EnergyForm;
+use crate::generic::StaticLength;
 use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::motion::Simulate;
 use crate::number::{Real, Scalar, exceeds, power_of_epsilon, smaller};
-use crate::solution::Sample;
-use crate::system::{StateOf, entry};
-use crate::vector::{StaticLength, zeros};
+use crate::system::entry;
+use crate::vector::zeros;
+use crate::{Sample, StateOf};
 
 impl<L: Linearized<Scalar: Real> + Clone, D: DifferentiableMethod<L> + Clone> OrbitSearch<L, D> {
     /// The error, or a reason for it that lies in the guess or the conditions.

@@ -7,20 +7,16 @@ use core::fmt::{self, Debug, Formatter};
 use super::arc::Arc;
 use super::bifurcation::{Bifurcation, BifurcationKind, Branch};
 use super::error::OrbitError;
-use super::limits::{EASY, GROWTH};
+use super::limits::{EASY, GROWTH, TURN};
 use super::orbit::PeriodicOrbit;
 use super::search::OrbitSearch;
 use super::shot::Chain;
 use super::table::{Family, FamilyEnding};
 use super::tracing::{FamilyStart, TracedOrbit, Tracer};
 use crate::error::Error;
-use crate::linearized::{DifferentiableMethod, Linearized, set_parameter};
+use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::number::{Real, Scalar, larger, smaller};
 use crate::system::lookup;
-
-/// Angle by which multipliers may turn in a step, in radians, at their rate where it starts. A pair that passes 1 or −1 within such
-/// a step shows it by the slopes of its test.
-const TURN: f64 = core::f64::consts::FRAC_PI_2;
 
 /// Settings of the continuation of a periodic orbit to a family.
 ///
@@ -92,7 +88,9 @@ impl<'u, L: Linearized<Scalar: Real> + Clone, D> FamilySearch<'u, L, D> {
         self.start = self.start.and_then(|mut start| {
             let k = lookup::index::<L>(L::PARAMETERS, "parameter", name)?;
             let value = start.chain.system.parameters()[k];
-            set_parameter(&mut start.chain.system, k, value)?;
+            if !start.chain.system.set_parameter(k, value) {
+                return Err(Error::ParameterFixed { name: L::PARAMETERS[k] });
+            }
             start.choose(k);
             Ok(start)
         });

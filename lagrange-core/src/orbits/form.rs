@@ -4,10 +4,11 @@ use alloc::vec::Vec;
 
 use nalgebra::DMatrix;
 
+use crate::StateOf;
+use crate::generic::{Direction, Solution, StaticLength};
 use crate::linearized::Linearized;
 use crate::number::{Real, Scalar, larger};
-use crate::system::{Direction, Solution, StateOf};
-use crate::vector::{StaticLength, zeros};
+use crate::vector::zeros;
 
 /// Matrix Ω of the form ω(x, y) = xᵀ Ω y = δp·δq′ − δp′·δq in (q, q̇).
 ///

@@ -4,11 +4,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::form::symplectic_form;
 use crate::error::Error;
+use crate::generic::StaticLength;
 use crate::linearized::Linearized;
 use crate::number::{Real, larger, norm, power_of_epsilon, smaller, unit_of};
-use crate::system::{StateOf, has_velocity_constraints};
 use crate::trajectory::Trajectory;
-use crate::vector::StaticLength;
+use crate::{ConstraintKind, StateOf};
 
 /// Units of an orbit: its largest coordinate and its largest velocity, 1 if all are zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,7 +93,7 @@ impl<T: Real> Frame<T> {
         system: &L,
         state: &StateOf<L>,
     ) -> Option<(DVector<T>, T)> {
-        let gradient = match has_velocity_constraints::<L>() {
+        let gradient = match L::CONSTRAINT_KINDS.contains(&ConstraintKind::Velocity) {
             false => self.basis.tr_mul(&(symplectic_form(system, state) * &self.rate)),
             // There the form lacks the work of the multipliers along changes that velocities do not allow.
             true => self.energy_by_differences(system, state),

@@ -24,6 +24,10 @@ pub(super) const GROWTH: f64 = 1.3;
 /// gains a digit or more with each member and ends far below; at a pole or a jump it gains none.
 pub(super) const VANISHING: f64 = 1e-3;
 
+/// Angle by which multipliers may turn in a step, in radians, at their rate where it starts. A pair that passes 1 or −1 within such
+/// a step shows it by the slopes of its test.
+pub(super) const TURN: f64 = core::f64::consts::FRAC_PI_2;
+
 /// Minimum of a cubic, as part of the values at the ends, above which the test is taken not to reach zero between. Of a pair of
 /// multipliers that turns by 90°, through 1 or −1, the cubic errs by 6 % of these values.
 pub(super) const SHALLOW: f64 = 0.5;

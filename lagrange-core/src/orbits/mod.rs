@@ -33,10 +33,11 @@ pub use orbit::PeriodicOrbit;
 pub use search::OrbitSearch;
 pub use table::{Family, FamilyEnding, LostBifurcation};
 
+use crate::StateOf;
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, MotionDerivatives, StateSensitivity};
 use crate::number::Real;
-use crate::system::{StateOf, lookup};
+use crate::system::lookup;
 
 /// Monodromy matrices and periodic orbits of every [`Linearized`] system over `f64` or `f32`.
 ///

@@ -8,11 +8,12 @@ use nalgebra::{Complex, DMatrix};
 use super::digits::{Printed, printed, rounded};
 use super::form::{phase_derivatives, symplectic_form};
 use super::multipliers::{logarithm, modulus, of_product, paired};
+use crate::StateOf;
 use crate::error::Error;
+use crate::generic::StaticLength;
 use crate::linearized::{Linearized, Stability, StateSensitivity};
 use crate::number::{Real, Scalar, power_of_epsilon};
-use crate::system::{StateOf, lookup};
-use crate::vector::StaticLength;
+use crate::system::lookup;
 
 /// Derivative ∂(q, q̇)/∂(q, q̇) of the state at the end of a stretch of motion by the state at its start.
 ///

@@ -12,11 +12,11 @@ use super::frame::{Frame, OrbitUnits};
 use super::monodromy::Monodromy;
 use super::multipliers::reciprocal;
 use super::shot::{Chain, Problem, Shot};
+use crate::StateOf;
 use crate::error::Error;
+use crate::generic::StaticLength;
 use crate::linearized::{DifferentiableMethod, Linearized, Stability};
 use crate::number::{Real, Scalar, exceeds};
-use crate::system::StateOf;
-use crate::vector::StaticLength;
 
 /// A periodic orbit, with its stability.
 ///

@@ -12,8 +12,9 @@ use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized};
 use crate::motion::{Dop853, Simulate};
 use crate::number::{Real, Scalar, larger};
-use crate::system::{Lagrangian, StateOf, check_contacts, lookup};
+use crate::system::{check_contacts, lookup};
 use crate::trajectory::Trajectory;
+use crate::{Lagrangian, StateOf};
 
 /// Settings of a search for a periodic orbit near a state. The method is [`Dop853`] with a tolerance of 10⁻¹³ unless
 /// [`by`](Self::by) sets another.

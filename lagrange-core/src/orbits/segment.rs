@@ -7,11 +7,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::frame::{OrbitUnits, flat};
 use super::monodromy::stacked;
+use crate::StateOf;
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, MotionDerivatives};
 use crate::motion::Simulate;
 use crate::number::Real;
-use crate::system::{StateOf, lookup};
+use crate::system::lookup;
 
 /// A segment of an orbit.
 #[derive(Clone)]

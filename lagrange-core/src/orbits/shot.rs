@@ -11,13 +11,13 @@ use nalgebra::{DMatrix, DVector};
 use super::conditions::Conditions;
 use super::frame::{Frame, OrbitUnits, flat, shifted};
 use super::segment::Segment;
-use crate::error::Error;
+use crate::StateOf;
+use crate::error::{Entry, Error};
+use crate::generic::StaticLength;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
 use crate::motion::Simulate;
-use crate::names::Entry;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
-use crate::system::{StateOf, entry};
-use crate::vector::StaticLength;
+use crate::system::entry;
 
 /// Nodes of an orbit, its period, and the system with the parameter in question.
 #[derive(Clone)]

@@ -9,10 +9,10 @@ use super::limits::{BEND, VANISHING};
 use super::multipliers::{logarithm, modulus, ratio};
 use super::orbit::PeriodicOrbit;
 use super::shot::{Chain, Problem, Shot, least_step};
+use crate::System;
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
 use crate::number::{Real, Scalar, exceeds, larger, norm, order, power_of_epsilon, unit_of};
-use crate::system::System;
 
 /// Where a family starts.
 pub(super) struct FamilyStart<L: Linearized> {

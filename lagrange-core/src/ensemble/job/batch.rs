@@ -5,10 +5,10 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use super::{Job, Ledger, Part};
+use crate::Lagrangian;
 use crate::ensemble::fingerprint::Fingerprint;
 use crate::ensemble::plan::MemberObserver;
 use crate::number::Real;
-use crate::system::Lagrangian;
 
 impl<L: Lagrangian<Scalar: Real>> Job<'_, L> {
     /// Creates a job that integrates only the members of `list`, with its own work queue and results. Rank 0

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize, forward_to_deserialize_any};
 use serde_json::Value;
 
 use crate::ensemble::fingerprint::Fingerprint;
+use crate::ensemble::limits::ROWS_IN_GROUP;
 use crate::ensemble::line::Number;
 use crate::ensemble::names::ColumnNames;
 
@@ -87,10 +88,6 @@ const FIRST: &str = "lagrange.first";
 /// Keys for readers: the name and the equations of the system.
 const NAME: &str = "lagrange.system";
 const EQUATIONS: &str = "lagrange.equations";
-
-/// Rows that are converted at once, a row group of the file. Meanwhile each of their numbers takes some hundred bytes: 10 MB
-/// for members with a hundred numbers.
-const ROWS_IN_GROUP: usize = 1024;
 
 /// Writes these rows to a file. `first` is the fingerprint of member 0.
 pub(super) fn write<R: Serialize>(

@@ -5,10 +5,9 @@ use nalgebra::Const;
 use super::*;
 use crate::ensemble::MemberCrossing;
 use crate::error::Ending;
-use crate::motion::integration::record::Arrival;
-use crate::solution::crossing::Crossing;
-use crate::statistics::Statistics;
-use crate::system::State;
+use crate::generic::State;
+use crate::motion::Arrival;
+use crate::{Crossing, Statistics};
 
 const NAMES: &[&str] = &["x"];
 const EVENTS: [&str; 2] = ["up, \"again\"\r\n", "down\\u000a"];
