@@ -91,11 +91,3 @@ pub(crate) fn dampings<T: Real>(first: T, largest: T) -> impl Iterator<Item = [T
     let all = successors(Some(first), |damping| Some(*damping * T::constant(10.0)));
     all.take_while(move |damping| *damping <= last).map(|damping| [damping, damping * T::constant(0.1)])
 }
-
-/// Returns the dampings of a Levenberg–Marquardt step to try in turn, in units of the residual, and with each the first one of the
-/// step after it. Each is ten times the one before (Marquardt 1963). From ‖J‖/ε on a step J ᵀR/(σ² + μ |R|) is below round-off.
-pub(crate) fn dampings<T: Real>(first: T, norm: T) -> impl Iterator<Item = [T; 2]> {
-    let last = norm / T::constant(T::EPSILON);
-    let all = successors(Some(first), |damping| Some(*damping * T::constant(10.0)));
-    all.take_while(move |damping| *damping <= last).map(|damping| [damping, damping * T::constant(0.1)])
-}

@@ -6,7 +6,7 @@ use core::fmt::{self, Debug, Display, Formatter};
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::conditions::Conditions;
-use super::limits::DERIVATIVES;
+
 use super::monodromy::Monodromy;
 use super::multipliers::{modulus, product, product_of, reciprocal};
 use super::orbit::PeriodicOrbit;
@@ -14,6 +14,7 @@ use super::shot::{Chain, Problem, Shot};
 use crate::StateOf;
 use crate::error::Error;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
+use crate::motion::limits::SLACK;
 use crate::number::{Real, Scalar, order, smaller};
 
 /// Kind of a bifurcation of periodic orbits.
@@ -173,7 +174,7 @@ impl<T: Real> Problem<T> {
         (monodromy, error): (&Monodromy<T>, T),
     ) -> Result<Tests<T>, Error> {
         let one = T::constant(1.0);
-        let part = T::constant(DERIVATIVES) * (error + T::constant(T::EPSILON));
+        let part = T::constant(SLACK) * (error + T::constant(T::EPSILON));
         let bordered = self.with_row(shot, tangent);
         let (off, around) = (part * bordered.norm(), part * monodromy.norm);
         let bordered_sizes = singular_values(&bordered)?;

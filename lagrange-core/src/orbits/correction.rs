@@ -15,9 +15,9 @@ use super::shot::{Chain, Problem, Shot, least_step};
 use crate::error::Error;
 use crate::generic::StaticLength;
 use crate::linearized::{DifferentiableMethod, Linearized, Singular};
-use crate::number::limits::ITERATIONS;
+use crate::number::limits::DAMPING;
 use crate::number::{Real, Scalar, larger};
-use crate::solution::newton::{self, Left, Search};
+use crate::numerics::newton::{self, Left, Search};
 
 /// Search for a shot that meets the conditions, at an arclength if there is one.
 struct Correction<'a, L: Linearized<Scalar: Real>, D> {
@@ -81,10 +81,9 @@ where
     D: DifferentiableMethod<L> + Clone,
 {
     type Scalar = L::Scalar;
+    type Error = Error;
     type Trial = Iterate<L>;
     type Linear = Equations<L::Scalar>;
-
-    const STEPS: usize = ITERATIONS;
 
     fn linearize(&mut self, from: &Self::Trial) -> Result<Self::Linear, Error> {
         let (matrix, right) = self.problem.bordered(&from.shot, self.arc);
@@ -157,7 +156,7 @@ impl<T: Real> Problem<T> {
     {
         let shot = self.shoot(chain, method)?;
         let mut search = Correction { problem: self, method, arc, tolerance, guess: shot.chain.period };
-        let (found, steps) = newton::find(&mut search, Iterate { shot, damping: T::constant(1e-3) })?;
+        let (found, steps) = newton::find(&mut search, Iterate { shot, damping: T::constant(DAMPING) })?;
         Ok((found.shot, steps))
     }
 

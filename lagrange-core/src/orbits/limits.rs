@@ -1,9 +1,5 @@
 //! Limits of the search for periodic orbits, and of the steps along their families.
 
-/// Error of the derivatives of a motion in units of the error of the motion, both relative: the methods allow this much (see
-/// [`Linearized::integrate_sensitivities`](crate::Linearized::integrate_sensitivities)).
-pub(super) const DERIVATIVES: f64 = 10.0;
-
 /// Largest ratio of a period to its guess, or of the guess to it. All motions close after no time, so a search that gets there has
 /// left what it was told to find.
 pub(super) const LOST: f64 = 10.0;
