@@ -8,26 +8,14 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::limits::{ACCURACY, GAIN, ROUND_OFF};
 use super::qr::PivotedQr;
 use super::{ConeSolver, Face, RowBlock, Set, dot, length, sqrt};
-
-/// Part of its terms by which a rate may be off the law.
-pub(crate) const ACCURACY: f64 = 1e-12;
-/// Part of the change of velocities by which reactions may be off it.
-const OFF: f64 = 4e-13;
-/// Round-off that the sum x = Jᵀ r may have, in units of ε of its terms.
-const BALANCE: f64 = 64.0;
-/// Change of the velocities that this round-off may hide, as a part of the largest rate.
-const HIDDEN: f64 = 1e-6;
-/// Reactions, as multiples of the largest rate, above which energy is looked at.
-const PRESSED: f64 = 1e3;
-/// Part of its energy that a motion may gain there.
-const GAIN: f64 = 1e-9;
 
 /// The rate of friction that a reaction `p` within this limit does not allow.
 fn slip(p: [f64; 2], u: [f64; 2], limit: f64, g: f64) -> f64 {
     let (size, speed) = (length(p), length(u));
-    if size == 0.0 || size < limit * (1.0 - 8.0 * f64::EPSILON) {
+    if size == 0.0 || size < limit * (1.0 - ROUND_OFF) {
         let pulled = [0, 1].map(|c| p[c] - u[c] / g);
         let far = length(pulled);
         let over = if far > limit { limit / far } else { 1.0 };
@@ -72,13 +60,13 @@ impl ConeSolver {
         [sizes, sums]
     }
 
-    /// Whether x is Jᵀ r within the round-off of that sum, which may not be much.
+    /// Whether x is Jᵀ r within the round-off of that sum, which may hide a motion with a part [`ACCURACY`] of the energy.
     fn balances(&self, unit: f64) -> bool {
         let [sizes, sums] = self.sums();
         let length = sqrt(dot(&self.x, &self.x));
         (0..self.n).all(|c| {
-            let round_off = BALANCE * f64::EPSILON * sizes[c] + OFF * length;
-            (sums[c] - self.x[c]).abs() <= round_off && round_off <= HIDDEN * unit
+            let round_off = ROUND_OFF * sizes[c] + ACCURACY * length;
+            (sums[c] - self.x[c]).abs() <= round_off && round_off <= sqrt(ACCURACY) * unit
         })
     }
 
@@ -86,10 +74,10 @@ impl ConeSolver {
     /// rates say nothing of it. No set but a ray allows that.
     fn gains(&self, unit: f64) -> bool {
         let has_rays = self.blocks.iter().any(|block| matches!(block.set, Set::Ray { .. }));
-        if has_rays || self.sums()[0].iter().all(|size| *size <= PRESSED * unit) {
+        if has_rays || self.sums()[0].iter().all(|size| *size <= GAIN / ACCURACY * unit) {
             return false;
         }
-        let range = PivotedQr::new(self.j.clone(), [self.n, self.m], super::faces::RANKS[0]);
+        let range = PivotedQr::new(self.j.clone(), [self.n, self.m], ACCURACY);
         let (v, x) = (range.coordinates(&self.q), range.components(&self.x));
         2.0 * dot(&x, &v) + dot(&self.x, &self.x) > GAIN * dot(&v, &v)
     }
@@ -117,10 +105,10 @@ impl ConeSolver {
                     (self.limit(&limit).0, self.two(k, |i| self.r[i]), self.two(k, |i| self.rate(i)));
                 let terms = block.rows().map(|i| self.terms(i)).sum::<f64>();
                 let (size, speed) = (length(r), length(u));
-                let is_at_limit = size >= limit * (1.0 - 8.0 * f64::EPSILON);
+                let is_at_limit = size >= limit * (1.0 - ROUND_OFF);
                 // A friction at its limit may be at rest: its rate is then within the accuracy, in any direction. A limit as small as
                 // round-off may differ from the force in its last bits, so that a rate beyond the accuracy says that it slides.
-                let least = if is_at_limit { BALANCE * f64::EPSILON } else { ACCURACY };
+                let least = if is_at_limit { ROUND_OFF } else { ACCURACY };
                 let slides = speed > least * terms && r[0] * u[0] + r[1] * u[1] < 0.0;
                 match limit > 0.0 {
                     false => Face::Open,

@@ -9,22 +9,9 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::limits::{HALF_THE_DIGITS, SLOWEST, STIFFER};
 use super::{ConeSolver, Face, Limit, Set, length, sqrt};
-
-/// Factor from a compliance to the next one, as long as Newton's method settles, and that beyond which it is given up. Steps of a hundredth or a
-/// thousandth leave 1.4 to 3 times as many problems to other guesses.
-const FACTORS: [f64; 2] = [0.1, 0.8];
-/// Compliance at which guesses end. Ending at 10⁻⁷ leaves five times as many problems whose rows nearly depend on one another.
-const LEAST: f64 = 5e-10;
-/// Weights of what keeps the equations regular near reactions that the last compliance has found. Where rows nearly depend on one another, faces
-/// are right only once reactions are known to more digits than that leaves of them.
-const FINE: [f64; 6] = [1e-5, 1e-7, 1e-9, 1e-11, 1e-12, 1e-13];
-/// Weights of what keeps the equations regular.
-const WEIGHTS: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-10];
-/// Most Newton steps for one weight. With 8, 4 of 1,200 motions of boxes that are dropped come to an impulse that is not found.
-const STEPS: usize = 20;
-/// Change of the reactions, as a part of them, at which a solution is as good as a guess of faces needs it.
-const SETTLED: f64 = 1e-9;
+use crate::number::limits::ITERATIONS;
 
 /// Linear equations A δr = b of a Newton step.
 struct CompliantStep {
@@ -37,27 +24,28 @@ impl ConeSolver {
     /// Guesses faces by contacts that give way, and solves their equations: with shares as of equal springs, or else with the nearest.
     pub(super) fn by_compliance(&mut self) -> bool {
         self.stiffen();
-        if self.settle(true) || self.settle(false) {
-            return true;
-        }
-        FINE.into_iter().any(|weight| {
-            self.approach(weight);
-            self.settle(false)
-        })
+        self.settle(true) || self.refine()
     }
 
-    /// Brings reactions nearer to natural ones, until their residual is within a tolerance.
-    pub(super) fn approaches(&mut self, tolerance: f64) -> bool {
-        FINE.into_iter().any(|weight| {
+    /// Solves the equations of faces, and of those nearer and nearer to the law. Where rows nearly depend on one another, faces are right
+    /// only once reactions are known to more digits than that leaves of them.
+    pub(super) fn refine(&mut self) -> bool {
+        self.settle(false) || self.approaches(|solver| solver.settle_from(solver.faces(), false, false))
+    }
+
+    /// Brings reactions nearer to natural ones, until they are as wanted. The weight of what keeps the equations regular falls to round-off.
+    pub(super) fn approaches(&mut self, is_near: impl Fn(&mut Self) -> bool) -> bool {
+        let lighter = |weight: &f64| Some(STIFFER * STIFFER * weight).filter(|weight| *weight > f64::EPSILON);
+        core::iter::successors(Some(STIFFER * STIFFER), lighter).any(|weight| {
             self.approach(weight);
-            self.residual() <= tolerance
+            is_near(self)
         })
     }
 
     /// Takes Newton steps from the reactions so far, and keeps those that the natural map changes less.
     fn approach(&mut self, weight: f64) {
         let (before, defects) = (self.r.clone(), self.defects());
-        self.newton(weight, &before, &mut |_| {});
+        self.newton(weight, &before);
         let leads_nearer = self.defects() < defects;
         if !leads_nearer {
             self.r = before;
@@ -65,50 +53,30 @@ impl ConeSolver {
         }
     }
 
-    /// Follows the reactions of smaller and smaller compliances from no reactions on. Where Newton's method does not settle, a step in the
-    /// compliance is too long.
+    /// Follows the reactions of smaller and smaller compliances from no reactions on, to where half of the digits are lost to round-off and half
+    /// to the compliance. Where Newton's method does not settle, a step in the compliance is too long.
     pub(super) fn stiffen(&mut self) {
         self.r.fill(0.0);
         self.refresh();
         let center = vec![0.0; self.m];
         // If Newton's method does not settle with the first, the next ones are larger.
-        let (mut last, mut factor, mut weight) = (100.0, FACTORS[0], 1.0);
-        while weight > LEAST {
+        let (mut last, mut factor, mut weight) = (1.0 / (STIFFER * STIFFER), STIFFER, 1.0);
+        while weight > HALF_THE_DIGITS && factor < SLOWEST {
             let before = self.r.clone();
-            if self.newton(weight, &center, &mut |_| {}) {
+            if self.newton(weight, &center) {
                 last = weight;
             } else {
                 self.r = before;
                 self.refresh();
                 factor = sqrt(factor);
             }
-            if factor > FACTORS[1] {
-                break;
-            }
             weight = last * factor;
         }
     }
 
-    /// Takes Newton steps, and keeps the reactions that are nearest to their natural ones.
-    pub(super) fn improve(&mut self) {
-        let (mut best, mut least) = (self.r.clone(), self.defects());
-        for weight in WEIGHTS {
-            let center = self.r.clone();
-            self.newton(weight, &center, &mut |solver| {
-                let defects = solver.defects();
-                if defects < least {
-                    least = defects;
-                    best.copy_from_slice(&solver.r);
-                }
-            });
-            self.r.copy_from_slice(&best);
-            self.refresh();
-        }
-    }
-
-    /// Takes Newton steps with one weight of the compliance; `see` is called after each. Returns whether they settle.
-    fn newton(&mut self, weight: f64, center: &[f64], see: &mut dyn FnMut(&Self)) -> bool {
-        for _ in 0..STEPS {
+    /// Takes Newton steps with one weight of the compliance. Returns whether they settle.
+    fn newton(&mut self, weight: f64, center: &[f64]) -> bool {
+        for _ in 0..ITERATIONS {
             let mut equations =
                 CompliantStep { m: self.m, a: vec![0.0; self.m * self.m], b: vec![0.0; self.m] };
             (0..self.blocks.len()).for_each(|k| self.linearize(k, (weight, center), &mut equations));
@@ -117,10 +85,9 @@ impl ConeSolver {
             }
             self.r.iter_mut().zip(&equations.b).for_each(|(r, by)| *r += by);
             self.refresh();
-            see(self);
             let size = |x: &[f64]| x.iter().fold(0.0, |sum, x| sum + x.abs());
             let [change, all] = [size(&equations.b), size(&self.r)];
-            if change <= SETTLED * all || !all.is_finite() {
+            if change <= HALF_THE_DIGITS * all || !all.is_finite() {
                 return all.is_finite();
             }
         }
@@ -192,7 +159,7 @@ impl CompliantStep {
 }
 
 /// Gauss's elimination with pivots by rows; the right-hand side becomes the solution. False if it is not finite.
-pub(super) fn eliminate(matrix: &mut [f64], right: &mut [f64]) -> bool {
+fn eliminate(matrix: &mut [f64], right: &mut [f64]) -> bool {
     let size = right.len();
     for k in 0..size {
         let entry = |row: usize| matrix[row * size + k].abs();

@@ -8,26 +8,18 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::limits::{ACCURACY, HALF_THE_DIGITS};
 use super::qr::PivotedQr;
 use super::{ConeSolver, Face, Limit, RowBlock, Set, dot, length, sqrt};
-
-/// Parts of the largest pivot below which rows depend on one another: rounding leaves 10⁻¹⁶ to 10⁻¹⁵ of those that do. Where faces with
-/// the first do not satisfy the law, the second is tried.
-pub(super) const RANKS: [f64; 2] = [1e-13, 1e-10];
-/// Most Newton steps on fixed faces. The equations are linear, and need one, unless friction slides along two velocities.
-const STEPS: usize = 15;
-/// Distance from natural reactions, as a part of the reactions, up to which faces that disagree may be a tie.
-const TIE: f64 = 1e-7;
-/// Changes of all blocks that disagree with their faces, and then of the one that disagrees most.
-const CHANGES: [usize; 2] = [6, 20];
+use crate::number::limits::ITERATIONS;
 
 /// What the equations of faces lead to.
 enum OnFaces {
     Singular,
-    /// One step leaves the faces for these.
-    Leaves(Vec<Face>),
-    /// Reactions that solve the equations, and the faces on which they lie after the first step.
-    Stays(Vec<Face>),
+    /// Reactions that satisfy the law.
+    Lawful,
+    /// Others, which lie on these faces.
+    Leads(Vec<Face>),
 }
 
 fn add_multiple(sum: &mut [f64], of: &[f64], factor: f64) {
@@ -54,7 +46,7 @@ struct FaceEquations {
 }
 
 impl FaceEquations {
-    fn new(solver: &ConeSolver, faces: &[Face], (tolerance, with_shares): (f64, bool)) -> Self {
+    fn new(solver: &ConeSolver, faces: &[Face], with_shares: bool) -> Self {
         let (mut unknowns, mut columns, mut still, mut limits) =
             (vec![], Vec::<Vec<f64>>::new(), vec![], vec![]);
         for (k, (&face, block)) in faces.iter().zip(&solver.blocks).enumerate() {
@@ -79,7 +71,7 @@ impl FaceEquations {
             columns.extend(block.rows().map(|i| solver.row(i).to_vec()));
         }
         let rows = still.iter().flat_map(|&i| solver.row(i).iter().copied()).collect();
-        let span = PivotedQr::new(rows, [solver.n, still.len()], tolerance);
+        let span = PivotedQr::new(rows, [solver.n, still.len()], ACCURACY);
         let compliance = solver.compliance();
         let share = |y: Vec<f64>| {
             let mut all = vec![0.0; solver.m];
@@ -147,66 +139,58 @@ impl FaceEquations {
 }
 
 impl ConeSolver {
-    /// From the faces of the reactions so far to reactions that satisfy the law. Leaves the reactions as they were if none are found.
+    /// From the faces of the reactions so far to reactions that satisfy the law.
     pub(super) fn settle(&mut self, with_shares: bool) -> bool {
-        let before = self.r.clone();
-        for tolerance in RANKS {
-            if self.settle_from(self.faces(), (tolerance, with_shares), CHANGES[0] + CHANGES[1]) {
-                return true;
-            }
-            self.r.copy_from_slice(&before);
-            self.refresh();
-        }
-        false
+        self.settle_from(self.faces(), with_shares, true)
     }
 
-    /// From these faces to reactions that satisfy the law, with shares as of equal springs and few changes of faces. Leaves the reactions as they
-    /// were if none are found.
-    pub(super) fn settle_near(&mut self, faces: Vec<Face>) -> bool {
-        let before = self.r.clone();
-        let is_found = self.settle_from(faces, (RANKS[0], true), CHANGES[0]);
-        if !is_found {
-            self.r = before;
-            self.refresh();
-        }
-        is_found
-    }
-
-    fn settle_from(&mut self, mut faces: Vec<Face>, ranks: (f64, bool), changes: usize) -> bool {
-        let mut seen: Vec<Vec<u8>> = vec![];
-        for change in 0..changes {
-            let is_patient = change >= CHANGES[0];
-            let next = match self.solve_on(&faces, ranks, is_patient) {
-                OnFaces::Singular => return false,
-                OnFaces::Leaves(next) => next,
-                OnFaces::Stays(next) => {
-                    if self.obeys_clipped(&faces) {
-                        return true;
-                    }
-                    self.refresh();
-                    if is_patient { self.faces() } else { next }
-                }
+    /// Changes all blocks that disagree with their faces until faces come again; then, with patience, the one that disagrees most. Leaves the
+    /// reactions as they were if none are found that satisfy the law.
+    pub(super) fn settle_from(
+        &mut self,
+        mut faces: Vec<Face>,
+        with_shares: bool,
+        has_patience: bool,
+    ) -> bool {
+        let (before, mut seen, mut is_patient) = (self.r.clone(), Vec::<Vec<u8>>::new(), false);
+        for _ in 0..ITERATIONS {
+            let next = match self.solve_on(&faces, with_shares, is_patient) {
+                OnFaces::Singular => break,
+                OnFaces::Lawful => return true,
+                OnFaces::Leads(next) => next,
             };
             let [was, is] = [&faces, &next].map(|faces| self.kinds(faces));
-            let defect = |k: usize| {
-                (0..faces.len()).filter(|&l| self.pressing(l) == k).map(|l| self.defect(l)).sum::<f64>()
-            };
-            let worst = (0..faces.len())
-                .filter(|&k| was[k] != is[k])
-                .map(|k| self.pressing(k))
-                .max_by(|&one, &other| defect(one).total_cmp(&defect(other)));
-            let Some(worst) = worst else { return false };
-            if !is_patient {
-                faces = next;
-                continue;
+            let differs: Vec<usize> = (0..faces.len()).filter(|&k| was[k] != is[k]).collect();
+            if differs.is_empty() {
+                break;
             }
             if seen.contains(&was) {
-                return false;
+                if is_patient || !has_patience {
+                    break;
+                }
+                is_patient = true;
+                seen.clear();
             }
             seen.push(was);
-            (0..faces.len()).filter(|&k| self.pressing(k) == worst).for_each(|k| faces[k] = next[k]);
+            if is_patient {
+                let worst = self.worst(&differs);
+                (0..faces.len()).filter(|&k| self.pressing(k) == worst).for_each(|k| faces[k] = next[k]);
+            } else {
+                faces = next;
+            }
         }
+        self.r = before;
+        self.refresh();
         false
+    }
+
+    /// The group of blocks that is furthest from its natural reactions, of those of these blocks.
+    fn worst(&self, differs: &[usize]) -> usize {
+        let defect = |of: usize| {
+            (0..self.blocks.len()).filter(|&k| self.pressing(k) == of).map(|k| self.defect(k)).sum::<f64>()
+        };
+        let groups = differs.iter().map(|&k| self.pressing(k));
+        groups.max_by(|&one, &other| defect(one).total_cmp(&defect(other))).unwrap_or(0)
     }
 
     /// The gap that presses a friction, or the block itself: they change their faces together.
@@ -228,8 +212,8 @@ impl ConeSolver {
     }
 
     /// Whether reactions on these faces satisfy the law.
-    pub(super) fn obeys_on(&mut self, faces: &[Face], ranks: (f64, bool)) -> bool {
-        matches!(self.solve_on(faces, ranks, true), OnFaces::Stays(_)) && self.obeys_clipped(faces)
+    pub(super) fn obeys_on(&mut self, faces: &[Face], with_shares: bool) -> bool {
+        matches!(self.solve_on(faces, with_shares, true), OnFaces::Lawful)
     }
 
     /// Whether the reactions satisfy the law once round-off has been taken off those that have left their sets.
@@ -242,18 +226,18 @@ impl ConeSolver {
 
     /// Solves the equations of faces, with shared reactions or with those nearest to the reactions so far. An impatient call gives up after a
     /// step that leaves the faces, unless it is a tie.
-    fn solve_on(&mut self, faces: &[Face], ranks: (f64, bool), is_patient: bool) -> OnFaces {
+    fn solve_on(&mut self, given: &[Face], with_shares: bool, is_patient: bool) -> OnFaces {
         self.solved += 1;
-        let faces = &self.without_idle(faces)[..];
-        let equations = FaceEquations::new(self, faces, ranks);
+        let faces = &self.without_idle(given)[..];
+        let equations = FaceEquations::new(self, faces, with_shares);
         let size = equations.unknowns.len();
         (0..self.m).filter(|&i| equations.places[i] == usize::MAX).for_each(|i| self.r[i] = 0.0);
         let (mut solver, mut before, mut next) = (None, f64::INFINITY, vec![]);
-        for step in 0..STEPS {
+        for step in 0..ITERATIONS {
             equations.combine(&self.r, &mut self.x);
             let (matrix, right, is_linear) = equations.linearized(self);
             if solver.is_none() || !is_linear {
-                solver = Some(PivotedQr::new(matrix, [equations.height, size], RANKS[0]));
+                solver = Some(PivotedQr::new(matrix, [equations.height, size], ACCURACY));
             }
             let change = solver.as_ref().map_or_else(Vec::new, |solver| solver.least_norm(&right));
             let norm = sqrt(dot(&change, &change));
@@ -265,21 +249,25 @@ impl ConeSolver {
                 let r = self.r.clone();
                 self.clip(Some(faces));
                 next = self.faces();
-                let is_tie = self.defects() <= TIE * TIE * dot(&self.r, &self.r);
+                let is_tie = self.defects() <= f64::EPSILON * dot(&self.r, &self.r);
                 if !is_patient && !is_tie && self.kinds(faces) != self.kinds(&next) {
-                    return OnFaces::Leaves(next);
+                    return OnFaces::Leads(next);
                 }
                 self.r = r;
             }
             let all = sqrt(equations.unknowns.iter().fold(0.0, |sum, &i| sum + self.r[i] * self.r[i]));
-            let has_stalled = step > 2 && norm <= 1e-10 * all && norm >= 0.5 * before;
-            if norm <= 2.0 * f64::EPSILON * all || has_stalled || (is_linear && step == 1) {
+            let has_stalled = norm <= HALF_THE_DIGITS * all && norm >= 0.5 * before;
+            if has_stalled || (is_linear && step == 1) {
                 break;
             }
             before = norm;
         }
         self.stop(&equations);
-        OnFaces::Stays(next)
+        if self.obeys_clipped(given) {
+            return OnFaces::Lawful;
+        }
+        self.refresh();
+        OnFaces::Leads(if is_patient { self.faces() } else { next })
     }
 
     /// Takes the last bits of the rates that stay zero: velocities are better known than large reactions.

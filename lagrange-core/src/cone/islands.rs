@@ -3,6 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::limits::WORK;
 use super::{ConeDecision, ConeSearch, ConeSolver, Face, Limit, RowBlock, Set};
 
 /// A problem as it is stated.
@@ -69,14 +70,14 @@ impl ConeProblem {
         all
     }
 
-    /// Whether some blocks have no reactions, by trials of so many faces at most.
-    pub(crate) fn is_jammed(&self, trials: usize) -> bool {
+    /// Whether some blocks have no reactions, by trials of all faces.
+    pub(crate) fn is_jammed(&self) -> bool {
         self.islands().iter().any(|island| {
             let slides = |&k: &usize| matches!(self.blocks[k].set, Set::Ray { .. });
             let mut solver = self.solver(island);
             island.blocks.iter().any(slides)
                 && !solver.decide(ConeSearch::Law).is_found
-                && solver.solutions(trials).is_some_and(|solutions| solutions.is_empty())
+                && solver.solutions(WORK / island.rows.len()).is_some_and(|solutions| solutions.is_empty())
         })
     }
 

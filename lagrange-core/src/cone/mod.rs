@@ -19,7 +19,7 @@
 //! 2. [Contacts that give way](compliant): Newton's method with a compliance, which becomes smaller, guesses the [faces](Face).
 //! 3. [The faces](faces): their equations are solved to round-off by a rank-revealing QR of J. If the law does not hold there, blocks change
 //!    their faces.
-//! 4. Else the same from [sweeps], from [inside](interior) all sets, and from other reactions.
+//! 4. Else the same from [sweeps], from other reactions again and again.
 //!
 //! A time step [looks](ConeSearch) at the faces of the last one first, and is content with the reactions of 2, brought nearer to the law up to a
 //! tolerance, where their faces do not satisfy it.
@@ -27,8 +27,8 @@
 mod certificate;
 mod compliant;
 mod faces;
-mod interior;
 mod islands;
+mod limits;
 mod natural;
 mod qr;
 mod sweeps;
@@ -40,8 +40,11 @@ use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
 
-pub(crate) use certificate::ACCURACY;
 pub(crate) use islands::ConeProblem;
+pub(crate) use limits::ACCURACY;
+use limits::{ROUND_OFF, WORK};
+
+use crate::number::limits::ITERATIONS;
 
 /// What the reactions of a block may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,12 +140,6 @@ pub(crate) struct ConeSolver {
     solved: usize,
 }
 
-/// Solved equations of faces, times the number of rows, after which no other reactions are tried to begin with: one stack of 40 contacts took
-/// half a minute without this limit.
-const WORK: usize = 40_000;
-/// Most other reactions that are tried to begin with.
-const STARTS: usize = 24;
-
 /// x·y. Four sums, each of every fourth product, are added side by side: of one sum, each addition would wait for the one before.
 #[inline]
 pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
@@ -179,6 +176,14 @@ pub(crate) fn length(x: [f64; 2]) -> f64 {
 fn power_of_two_near_root(x: f64) -> f64 {
     let exponent = (x.to_bits() >> 52) as i64 - 1023;
     if x > 0.0 { f64::from_bits(((exponent.div_euclid(2) + 1023) as u64) << 52) } else { 1.0 }
+}
+
+/// Numbers from −1 to 1 without a pattern (SplitMix; Steele, Lea and Flood, *OOPSLA* 2014).
+fn spread(place: u64) -> f64 {
+    let z = place.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (z ^ (z >> 31)) as i64 as f64 / i64::MAX as f64
 }
 
 impl ConeSolver {
@@ -277,17 +282,19 @@ impl ConeSolver {
         let is_lawful = match search {
             ConeSearch::Law => self.by_compliance(),
             ConeSearch::Near { faces, .. } => {
-                self.settle_near(faces.to_vec()) || {
+                self.settle_from(faces.to_vec(), true, false) || {
                     self.stiffen();
-                    self.settle_near(self.faces())
+                    self.settle_from(self.faces(), true, false)
                 }
             }
         };
         match search {
-            ConeSearch::Near { tolerance, .. } if !is_lawful && self.approaches(tolerance) => {
+            ConeSearch::Near { tolerance, .. }
+                if !is_lawful && self.approaches(|solver| solver.residual() <= tolerance) =>
+            {
                 Some(self.residual())
             }
-            _ => (is_lawful || self.by_other_guesses()).then_some(0.0),
+            _ => (is_lawful || self.by_other_starts()).then_some(0.0),
         }
     }
 
@@ -307,28 +314,22 @@ impl ConeSolver {
         }
     }
 
-    fn by_other_guesses(&mut self) -> bool {
-        self.r.fill(0.0);
-        self.refresh();
-        self.by_sweeps() || self.by_interior_points() || self.by_other_starts()
-    }
-
-    /// From reactions spread over sizes from the largest rate to 10⁷ times it, by multiples of the golden ratio.
+    /// From reactions spread over sizes from the largest rate to those whose round-off hides it.
     fn by_other_starts(&mut self) -> bool {
-        let unit = self.unit();
-        for number in 0..STARTS {
+        let (unit, mut size, mut place) = (self.unit(), 0.0, 0);
+        for _ in 0..ITERATIONS {
             if self.solved * self.m > WORK {
                 break;
             }
-            let size = (0..number % 8).fold(unit, |size, _| 10.0 * size);
-            for (i, r) in self.r.iter_mut().enumerate() {
-                let part = (number * self.m + i + 1) as f64 * 0.618_033_988_749_895;
-                *r = size * (2.0 * (part - part as u64 as f64) - 1.0);
+            for r in &mut self.r {
+                place += 1;
+                *r = size * spread(place);
             }
             self.clip(None);
             if self.by_sweeps() {
                 return true;
             }
+            size = if size < sqrt(ACCURACY) / ROUND_OFF * unit { f64::max(10.0 * size, unit) } else { unit };
         }
         false
     }

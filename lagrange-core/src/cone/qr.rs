@@ -4,10 +4,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
+use super::limits::HALF_THE_DIGITS;
 use super::{dot, sqrt};
-
-/// Part of a squared norm, as it was last computed, below which it is computed anew: what is taken off has left it few digits.
-const WORN: f64 = 1e-6;
 
 /// A = Q R Pᵀ of a `rows` × `columns` matrix; the rank is the number of pivots that are not round-off.
 pub(super) struct PivotedQr {
@@ -43,7 +41,8 @@ impl Norms {
     fn pivot(&mut self, k: usize, a: &[f64], rows: usize) -> usize {
         let mut pivot = k;
         for c in k..self.0.len() {
-            if self.0[c][0] <= WORN * self.0[c][1] {
+            // What is taken off has left it less than half of its digits.
+            if self.0[c][0] <= HALF_THE_DIGITS * self.0[c][1] {
                 let rest = &a[c * rows + k..(c + 1) * rows];
                 self.0[c] = [dot(rest, rest); 2];
             }

@@ -8,11 +8,7 @@ impl ConeSolver {
     pub(super) fn by_sweeps(&mut self) -> bool {
         (0..4 + self.m / 2).for_each(|turn| self.sweep(turn % 2 == 1));
         self.refresh();
-        if self.settle(false) {
-            return true;
-        }
-        self.improve();
-        self.settle(false)
+        self.refine()
     }
 
     /// The limit of a friction is that of the new reaction of its gap.

@@ -4,13 +4,11 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::faces::RANKS;
+use super::limits::HALF_THE_DIGITS;
 use super::{ConeSolver, Face, RowBlock, Set};
 
 /// Directions that friction along two velocities is tried in to begin with.
 const DIRECTIONS: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
-/// Part of the largest reaction by which solutions differ.
-const APART: f64 = 1e-8;
 
 impl ConeSolver {
     /// All solutions on faces of which there are at most so many combinations, `None` if there are more. A solution that is not
@@ -35,9 +33,9 @@ impl ConeSolver {
             }
             self.r.fill(0.0);
             self.refresh();
-            if self.obeys_on(&faces, (RANKS[0], false)) {
+            if self.obeys_on(&faces, false) {
                 let size = self.r.iter().fold(0.0, |most, r| f64::max(most, r.abs()));
-                let is_near = |(one, other): (&f64, &f64)| (one - other).abs() <= APART * size;
+                let is_near = |(one, other): (&f64, &f64)| (one - other).abs() <= HALF_THE_DIGITS * size;
                 if !found.iter().any(|known| known.iter().zip(&self.r).all(is_near)) {
                     found.push(self.r.clone());
                 }

@@ -128,8 +128,8 @@
 //!    within its set to the bit, and none but a force that slides already gains energy. Up to the end of a leg, forces stay within the
 //!    law to 10⁻⁶ of the largest of them.
 //! 3. What cannot be decided so ends the motion by name and time, and what was computed until then is kept: of 100,000 random impacts of
-//!    each kind on up to four contacts none where rows are independent or depend on one another, 5 where they nearly do, 72 with masses from
-//!    10⁻⁴ to 10⁴, and 1,688 where contacts face each other.
+//!    each kind on up to four contacts none where rows are independent or depend on one another, 1 where they nearly do, 48 with masses from
+//!    10⁻⁴ to 10⁴, and 1,568 where contacts face each other.
 //!
 //! # A motion that ended before its time
 //!

@@ -45,9 +45,6 @@ pub(super) enum NoForces {
     Undecided,
 }
 
-/// Largest number of trials to find out whether there are any reactions.
-const TRIALS: usize = 1_000;
-
 impl<'a, L: Contacts<Scalar: Real>> ReactionProblem<'a, L> {
     /// Without reactions, but those of constraints, which keep the rates that they have if none are given.
     pub(super) fn new(rows: &'a TouchingRows<L>, mut rates: Vec<f64>, noise: &'a [f64]) -> Self {
@@ -95,7 +92,7 @@ impl<'a, L: Contacts<Scalar: Real>> ReactionProblem<'a, L> {
         };
         match found.is_found {
             true => Ok(self.reactions(found)),
-            false if problem.is_jammed(TRIALS) => Err(NoForces::Jammed),
+            false if problem.is_jammed() => Err(NoForces::Jammed),
             false => Err(NoForces::Undecided),
         }
     }
