@@ -41,7 +41,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 pub(crate) use islands::ConeProblem;
-pub(crate) use limits::ACCURACY;
+pub(crate) use limits::{ACCURACY, HALF_THE_DIGITS};
 use limits::{ROUND_OFF, WORK};
 
 use crate::number::limits::ITERATIONS;

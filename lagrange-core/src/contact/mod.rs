@@ -150,15 +150,15 @@
 //!
 //! # Bounds
 //!
-//! With u, the round-off of a gap, 8 ε (Σ |Wᵢ| max |qᵢ| + |rate · t|) with the largest entries so far, or with what the free
+//! With u, the round-off of a gap, 16 ε (Σ |Wᵢ| max |qᵢ| + |rate · t|) with the largest entries so far, or with what the free
 //! bodies move from rest in a millionth of the span of the motion:
 //!
 //! - Bodies touch up to a gap of 4 u. A contact rests if its rate is below the round-off of its terms, or if a bounce would rise by no more
 //!   than 64 u. A gap that touches zero at a single point, as x² + y² at 0, does not close there.
-//! - Friction is at rest if its velocity is below 8 ε Σ |Wᵢ| max |q̇ᵢ|, with the changes of velocities by impulses among the
+//! - Friction is at rest if its velocity is below 16 ε Σ |Wᵢ| max |q̇ᵢ|, with the changes of velocities by impulses among the
 //!   largest, or what its limit stops within the round-off of the time; or 64 times that where another one stops: heel and toe of a foot
 //!   stop together. Where 10⁻³ of the relative tolerance of the
-//!   method is more than 8 ε, it takes the place of that for friction along two velocities, since no step ends where both are zero. A velocity
+//!   method is more than 16 ε, it takes the place of that for friction along two velocities, since no step ends where both are zero. A velocity
 //!   below that which no force can stop, as along a rail, then counts as rest, too, and its friction is wrong: lower the tolerance. What begins
 //!   to slide along two gets 64 times that as a speed, and what its force changes within the round-off of the time.
 //! - The limit of friction is left once the force exceeds it by four times its round-off, or by 64 ε of both and of the largest force on a
@@ -166,7 +166,7 @@
 //!   begins at zero, once it is below by as much, but by no more than 5·10⁻⁷ of the largest force.
 //! - The direction in which bodies slide along two velocities is renewed where the velocity has turned by 60°.
 //! - Where friction is shared, the shares are those with the most of all limits left, to a factor of 2: as loads grow they are decided anew,
-//!   until less than 4·10⁻¹² of the limits is left.
+//!   until less than 2·10⁻¹² of the limits is left.
 //! - A step is not searched for forces that leave their limits where the 16 stages of `Dop853`, or those of `Dopri5` and one more
 //!   evaluation, bound the multipliers away from them: no force leaves its limit there unless it is off every cubic polynomial of
 //!   the time by more than half its range at the stages, as in a pulse exp(−(t/w)²) with w below 0.15 steps. The search itself

@@ -4,39 +4,19 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::cell::Cell;
 
+use super::limits::{INSTANT, STILL};
 use super::rows::TouchingRows;
 use super::states::{LegFriction, LegStates};
 use super::{Contact, Contacts, Friction};
 use crate::error::Error;
 use crate::motion::Simulate;
 use crate::names::name;
+use crate::number::limits::{ACCUMULATED, CANCELLED, SUM};
 use crate::number::{Real, Scalar, larger};
 use crate::solution::consistent::gradient;
 use crate::solution::solve::solve_near;
 use crate::system::{Lagrangian, StateOf};
 use crate::vector::{Array, Matrix, Vector, vector};
-
-/// Round-off of gaps and rates, in units of the round-off of the sums Σ |Wᵢ qᵢ| and Σ |Wᵢ q̇ᵢ| over the largest entries so
-/// far. A gap comes from a projection to 4 units and a location to one unit of time; a rate from a solve.
-pub(super) const UNITS: f64 = 8.0;
-
-/// Gap, relative to its sum Σ |Wᵢ qᵢ|, below which a contact is not closed but crossed.
-pub(super) const CROSSED: f64 = 1e-9;
-
-/// Gap, in units of its round-off, up to which bodies touch: twice the round-off that events estimate, below which they do not
-/// see a gap close.
-const TOUCHING: f64 = 4.0;
-
-/// Height of a bounce, in units of the round-off of its gap, up to which it counts as rest. A gap that rests is found closed
-/// by up to 25 units below zero (four times the round-off that events estimate), and is seen positive from 6 units on.
-const LOW: f64 = 64.0;
-
-/// Part of the error that a step may have, within which two velocities of friction are zero together. The direction of a velocity of
-/// 64 such errors, or a sixteenth of a step's, is known well enough to slide along.
-const STILL: f64 = 1.0 / 1024.0;
-
-/// Part of the span of a motion whose distances are the least ones of which round-off is taken.
-const INSTANT: f64 = 1e-6;
 
 /// A system with its contacts open and with its contacts closed, and the largest entries of its motion so far.
 pub(super) struct Bodies<L: Lagrangian> {
@@ -200,11 +180,12 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         self.measured_at(L::CONTACTS[k], state)
     }
 
-    /// The rate of constraint `a`, its Φ if it has one, and their round-off.
+    /// The rate of constraint `a`, its Φ if it has one, and their round-off, by the largest entries so far: a gap comes from a projection and a
+    /// location, a rate from a solve.
     pub(super) fn measured_at(&self, a: usize, state: &StateOf<L>) -> Measured<L::Scalar> {
         self.at(state, |at| {
             let ([gap, rate, bias], row) = (at.values.each_ref().map(|values| values[a]), at.jacobian.row(a));
-            let unit = L::Scalar::constant(L::Scalar::EPSILON * UNITS);
+            let unit = L::Scalar::constant(L::Scalar::EPSILON * CANCELLED);
             let [of_gap, of_rate] = self.largest.each_ref().map(|largest| {
                 let sizes = row.iter().zip(largest).map(|(w, &most)| Scalar::abs(*w) * most);
                 sizes.fold(L::Scalar::constant(0.0), |sum, size| sum + size)
@@ -225,9 +206,9 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         rows.all[..rows.count].iter().map(of).unzip()
     }
 
-    /// Gap up to which the bodies of a contact touch.
+    /// Gap up to which the bodies of a contact touch: twice the round-off that events estimate, below which they do not see a gap close.
     pub(super) fn touching(&self, k: usize, state: &StateOf<L>) -> L::Scalar {
-        self.measured(k, state).noise[0] * L::Scalar::constant(TOUCHING)
+        self.measured(k, state).noise[0] * L::Scalar::constant(SUM)
     }
 
     /// Open contact that is crossed at a state, its gap being negative. The gap of a closed one is a constraint, zero but for
@@ -237,8 +218,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let is_positive = |k: usize| gaps[L::CONTACTS[k]] >= L::Scalar::constant(0.0);
         (0..L::CONTACTS.len()).filter(|&k| !is_kept(k) && !is_positive(k)).find_map(|k| {
             let Measured { gap, noise: [noise, _], .. } = self.measured(k, state);
-            let least = -(noise * L::Scalar::constant(CROSSED / (L::Scalar::EPSILON * UNITS)));
-            let is_open = gap >= least || (gap + noise >= L::Scalar::constant(0.0));
+            let is_open = gap + noise * L::Scalar::constant(ACCUMULATED) >= L::Scalar::constant(0.0);
             let (contact, time) = (self.name(k), state.t.to_f64());
             (!is_open).then(|| Error::Penetration { contact, gap: gap.to_f64(), time })
         })
@@ -261,7 +241,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
                 let terms = || row.iter().zip(&free).map(|(&w, &free)| w * free).chain([bias]);
                 let size = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + Scalar::abs(term));
                 let sum = terms().fold(L::Scalar::constant(0.0), |sum, term| sum + term);
-                (sum.to_f64(), L::Scalar::EPSILON * UNITS * size.to_f64())
+                (sum.to_f64(), L::Scalar::EPSILON * CANCELLED * size.to_f64())
             };
             rows.all[..rows.count].iter().map(of).unzip()
         }))
@@ -270,16 +250,18 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// Error of the velocities of a friction with this round-off. A step ends where a single velocity becomes zero. Two become zero within a
     /// step, and have the error of its method.
     pub(super) fn sliding_error(&self, count: usize, noise: L::Scalar) -> L::Scalar {
-        let by_steps = self.accuracy * STILL / (L::Scalar::EPSILON * UNITS);
+        let by_steps = self.accuracy * STILL / (L::Scalar::EPSILON * CANCELLED);
         if count == 2 { noise * L::Scalar::constant(by_steps.max(1.0)) } else { noise }
     }
 
-    /// Whether a gap that is zero remains so but for round-off: its rate is none, or a bounce would rise by none. The first value is its
+    /// Whether a gap that is zero remains so but for round-off: its rate is none, or a bounce would rise by none: events find a gap that rests closed
+    /// by up to 12 units of its round-off below zero, and see it positive from 3 units on. The first value is its
     /// acceleration; the second is the round-off of the rate that the motion of all bodies has, see [`TouchingRows::motion_noise`].
     pub(super) fn rests(&self, k: usize, values: [f64; 2], state: &StateOf<L>) -> bool {
         let ([acceleration, of_motion], Measured { rate, noise: [of_gap, of_rate], .. }) =
             (values.map(L::Scalar::constant), self.measured(k, state));
-        let low = L::Scalar::constant(2.0 * LOW) * of_gap * larger(-acceleration, L::Scalar::constant(0.0));
+        let low =
+            L::Scalar::constant(2.0 * ACCUMULATED) * of_gap * larger(-acceleration, L::Scalar::constant(0.0));
         Scalar::abs(rate) <= larger(of_rate, of_motion) || rate * rate <= low
     }
 

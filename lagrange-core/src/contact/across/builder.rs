@@ -4,6 +4,7 @@ use alloc::{boxed::Box, vec::Vec};
 
 use super::driver::{Ended, Journey};
 use super::legs::{Accept, AllLegs, SampledLegs};
+use super::limits::TRANSITIONS;
 use super::motion::ContactMotion;
 use super::{Contact, Contacts};
 use crate::error::Error;
@@ -21,9 +22,6 @@ use crate::solution::Sample;
 use crate::system::{Lagrangian, StateOf, System};
 use crate::trajectory::{Leg, Legs, Path, SampledTrajectory, Samples, Trajectory};
 use crate::vector::StaticLength;
-
-/// Largest number of transitions unless [`max_transitions`](MotionBuilder::max_transitions) sets another.
-const TRANSITIONS: usize = 100_000;
 
 /// Marks a motion across contacts that keeps `K`: all steps, or samples alone. It crosses them by `C`: transitions that are located, or
 /// [time steps](super::MoreauJean).

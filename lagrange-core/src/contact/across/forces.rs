@@ -9,17 +9,14 @@ use super::{Contacts, Friction};
 use crate::cone::{Face, Limit, Set, length};
 use crate::error::Error;
 use crate::number::Real;
+use crate::number::limits::ITERATIONS;
 use crate::system::StateOf;
-
-/// Largest number of sets of contacts that are tried, where gaps are combinations of one another: a table on four legs can stand on any
-/// three of them.
-const TRIES: usize = 64;
 
 impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {
     /// Forces with this part of the limits of friction at rest.
     pub(super) fn forces(&self, part: f64, state: &StateOf<L>) -> Result<Gripped, Error> {
         let mut plays = self.carries.clone().unwrap_or_else(|| self.plays());
-        let found = self.with_fewer(part, &mut plays, &mut { TRIES });
+        let found = self.with_fewer(part, &mut plays, &mut { ITERATIONS });
         let mut gripped = found.map_err(|why| self.bodies.jams(why, (self.rows, &plays), state))?;
         self.close_idle(&mut gripped);
         Ok(gripped)

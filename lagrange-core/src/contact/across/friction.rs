@@ -12,11 +12,9 @@ use super::states::{LegFriction, LegStates};
 use super::{Contacts, Friction, FrictionRows};
 use crate::cone;
 use crate::error::Error;
+use crate::number::limits::ACCUMULATED;
 use crate::number::{Real, Scalar, larger};
 use crate::system::StateOf;
-
-/// Speed, in units of its round-off, with which bodies begin to slide along two velocities: friction has no direction at rest.
-pub(super) const BEGIN: f64 = 64.0;
 
 /// Length of a vector in a plane.
 fn length<T: Real>([x, y]: [T; 2]) -> T {
@@ -102,7 +100,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     /// the whole; that of two may have turned.
     pub(super) fn is_stopped(&self, f: usize, state: &StateOf<L>) -> bool {
         let (_, [speed, noise]) = self.sliding(f, state);
-        L::FRICTIONS[f].count == 1 || speed <= L::Scalar::constant(BEGIN) * noise
+        L::FRICTIONS[f].count == 1 || speed <= L::Scalar::constant(ACCUMULATED) * noise
     }
 
     /// No forces are known that satisfy the laws of the touching contacts that play.
@@ -175,7 +173,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
     fn start(&self, rows: [usize; 2], changes: [f64; 2], state: &StateOf<L>) -> f64 {
         let unit = self.time_unit(state);
         let [x, y] = rows.map(|a| self.sliding_error(2, self.measured_at(a, state).noise[1]).to_f64());
-        BEGIN * (x.max(y) + unit * changes[0].max(changes[1]))
+        ACCUMULATED * (x.max(y) + unit * changes[0].max(changes[1]))
     }
 
     /// Reports the friction that begins to stick or to slide, or slides back, while its contact stays closed.

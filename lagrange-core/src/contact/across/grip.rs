@@ -4,25 +4,23 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::bodies::Bodies;
-use super::friction::{BEGIN, bounds};
+use super::friction::bounds;
 use super::instant::LegEnd;
 use super::rows::TouchingRows;
 use super::states::{LegContact, LegFriction, LegStates};
 use super::{Contacts, Friction};
+use crate::cone::{ACCURACY, HALF_THE_DIGITS};
 use crate::error::Error;
 use crate::number::Real;
+use crate::number::limits::ACCUMULATED;
 use crate::system::StateOf;
 use crate::vector::StaticLength;
 
-/// Halvings up to which is known what is left of the limits of friction: 2⁻³⁸ = 4·10⁻¹², four times the accuracy of forces.
-const HALVINGS: i32 = 38;
-
-/// Halvings of what limits are lowered by where friction leaves them: 2⁻²⁴ = 6·10⁻⁸. The direction of sliding is off by that, and by
-/// round-off divided by it.
-const LOWERED: i32 = 24;
+/// Halvings up to which is known what is left of the limits of friction: the bits of the accuracy of forces.
+const HALVINGS: u32 = ((1.0 / ACCURACY) as u64).ilog2();
 
 /// 1 after so many halvings.
-fn halved(halvings: i32) -> f64 {
+fn halved(halvings: u32) -> f64 {
     (0..halvings).fold(1.0, |part, _| 0.5 * part)
 }
 
@@ -72,7 +70,7 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
         (was, end): (&'a LegStates, Option<LegEnd>),
     ) -> Result<Self, Error> {
         // What has the same velocity as another friction stops with it.
-        let units = if matches!(end, Some(LegEnd::Stops(_))) { BEGIN } else { 1.0 };
+        let units = if matches!(end, Some(LegEnd::Stops(_))) { ACCUMULATED } else { 1.0 };
         let is_at_rest = |f| end == Some(LegEnd::Stops(f)) || (end.is_some() && was.is_at_rest::<L>(f));
         let mut of_friction = vec![[0.0; 2]; L::FRICTIONS.len()];
         let mut least = vec![0.0; L::FRICTIONS.len()];
@@ -99,11 +97,12 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
         }
     }
 
-    /// Lets friction slide that does so with somewhat lower limits, on the contacts that push then.
+    /// Lets friction slide that does so with limits that are lower by half of the digits, on the contacts that push then: the direction of
+    /// sliding is off by that, and by round-off divided by it.
     fn leave(&mut self, state: &StateOf<L>) -> Result<(), Error> {
         let gripped = self.forces(1.0 - halved(HALVINGS), state)?;
         if !self.rests(&gripped) {
-            (self.part, self.carries) = (1.0 - halved(LOWERED), Some(gripped.carries));
+            (self.part, self.carries) = (1.0 - HALF_THE_DIGITS, Some(gripped.carries));
         }
         Ok(())
     }
@@ -159,7 +158,7 @@ impl<'a, L: Contacts<Scalar: Real> + Clone> Decision<'a, L> {
 
     /// Round-off of the rate of a row with these forces.
     pub(super) fn noise(&self, place: usize, forces: &[f64]) -> f64 {
-        self.pressing.1[place] + L::Scalar::EPSILON * BEGIN * self.rows.size(place, forces)
+        self.pressing.1[place] + L::Scalar::EPSILON * ACCUMULATED * self.rows.size(place, forces)
     }
 
     /// Whether the forces press another contact together, whose bounces are then low: it counts as at rest from now on.

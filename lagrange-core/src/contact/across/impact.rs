@@ -6,18 +6,16 @@ use core::ops::Range;
 
 use super::Transition;
 use super::bodies::Bodies;
-use super::friction::{BEGIN, bounds};
+use super::friction::bounds;
 use super::reactions::{NoForces, ReactionProblem, Reactions};
 use super::rows::TouchingRows;
 use super::{Contacts, ImpactLaw};
 use crate::cone::{ConeSearch, Limit, Set};
 use crate::error::Error;
+use crate::number::limits::ACCUMULATED;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
 use crate::vector::Entrywise;
-
-/// Halvings of the restitution of an impact that would gain energy.
-const HALVINGS: usize = 60;
 
 /// An impact under way, or the kick of a time step: the rows of the bodies that touch, and the laws of their contacts.
 pub(super) struct StagedImpact<'a, L> {
@@ -96,7 +94,7 @@ impl<L: Contacts<Scalar: Real>> StagedImpact<'_, L> {
             return Ok(whole);
         }
         let [mut low, mut high] = [0.0, 1.0];
-        for _ in 0..HALVINGS {
+        for _ in 0..f64::MANTISSA_DIGITS {
             let part = (low + high) * 0.5;
             *if self.gains(&self.impulses(part)?) { &mut high } else { &mut low } = part;
         }
@@ -111,7 +109,7 @@ impl<L: Contacts<Scalar: Real>> StagedImpact<'_, L> {
             [sum + work, size + work.abs()]
         });
         let bounces = self.returned.iter().chain(&self.expansion).any(|x| *x != 0.0);
-        bounces && sum > L::Scalar::EPSILON * BEGIN * size
+        bounces && sum > L::Scalar::EPSILON * ACCUMULATED * size
     }
 }
 

@@ -6,28 +6,16 @@ use super::Contacts;
 use super::Transition;
 use super::bodies::{Bodies, Measured};
 use super::grip::{Decision, Gripped};
+use super::limits::{BOUNCE, TRANSITIONS};
 use super::rows::TouchingRows;
 use super::states::LegStates;
+use crate::cone::HALF_THE_DIGITS;
 use crate::error::Error;
 use crate::names::name;
+use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
 use crate::vector::Entrywise;
-
-/// Largest number of impacts at one time. Each takes energy, or passes it on to the next of bodies in a row. A light ball that two heavy
-/// ones hit in turn takes thousands, until its rates are round-off.
-const IMPACTS: usize = 100_000;
-
-/// Largest number of rounds that stop contacts which approach at rest.
-const STOPS: usize = 8;
-
-/// Part of the largest speed so far by which a velocity of friction that stops may differ from zero by round-off. That of a slider at its dead
-/// centre is zero because of the place: nothing stops there.
-const STOPPED: f64 = 1e-6;
-
-/// Time within which a bounce is searched for, in units of v/a: it takes 2. The end is at no simple part of it, where a zero
-/// would fall on the division of a step.
-const BOUNCE: f64 = 2.7;
 
 /// What ends a leg.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +62,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         let touching = self.all_touching(was, end, state);
         self.check_gradients(&touching, state)?;
         let rows = self.rows(touching, state)?;
-        for _ in 0..IMPACTS {
+        for _ in 0..TRANSITIONS {
             let pressing = self.pressing(&rows, state)?;
             let noise = rows.motion_noise(state);
             let rests = |place: usize| {
@@ -106,7 +94,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         transitions: &mut Vec<Transition<L::Scalar>>,
     ) -> Result<Decided<L::Scalar>, Error> {
         let before = *state;
-        for _ in 0..STOPS {
+        for _ in 0..ITERATIONS {
             let mut decision = Decision::new(self, (rows, pressing), resting.clone(), state, (was, end))?;
             let gripped = decision.settle(state)?;
             let states = decision.states(&gripped);
@@ -154,7 +142,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         for place in rows.active(states) {
             span.add_change(place, -rates[place]);
         }
-        let most = STOPPED * rows.speed(&self.sizes(state).v);
+        // A velocity that stops differs from zero by round-off. That of a slider at its dead centre is zero because of the place: nothing stops.
+        let most = HALF_THE_DIGITS * rows.speed(&self.sizes(state).v);
         for (place, velocity) in self.starts(rows, (states, gripped), state) {
             span.add_change_within(place, velocity - rates[place], most);
         }

@@ -13,6 +13,7 @@ mod kinetic;
 mod last_value;
 mod legs;
 mod lifting;
+mod limits;
 mod motion;
 mod reactions;
 mod rows;

@@ -6,13 +6,14 @@ use alloc::vec::Vec;
 use core::marker::PhantomData;
 
 use super::Contacts;
-use super::bodies::{Bodies, UNITS};
+use super::bodies::Bodies;
 use super::kinetic::KineticFactor;
 use super::span::RowSpan;
 use super::states::LegStates;
-use crate::cone::{dot, sqrt};
+use crate::cone::{HALF_THE_DIGITS, dot, sqrt};
 use crate::error::Error;
 use crate::names::Names;
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar};
 use crate::solution::solve::solve;
 use crate::system::StateOf;
@@ -35,9 +36,6 @@ pub(super) struct TouchingRows<L> {
     mass: Rc<KineticFactor>,
     system: PhantomData<fn(&L)>,
 }
-
-/// Part of the largest mass along a row below which a coordinate has none: that of a unit quaternion near (1, 0, 0, 0) has its square's.
-const MASSLESS: f64 = 1e-8;
 
 /// Rows of a matrix, as W of all constraints, by their entries that are not zero.
 pub(super) struct SparseRows {
@@ -134,7 +132,8 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         for ((a, along), _) in along.iter_mut().enumerate().zip(free::<L>()).filter(|(_, is_free)| *is_free) {
             let row = jacobian.row(a);
             let most = row.iter().fold(0.0, |most, &(i, _)| f64::max(most, diagonal[i]));
-            let masses = row.iter().map(|&(i, _)| diagonal[i]).filter(|mass| *mass > MASSLESS * most);
+            // A unit quaternion near (1, 0, 0, 0) has the square of its round-off as a mass.
+            let masses = row.iter().map(|&(i, _)| diagonal[i]).filter(|mass| *mass > HALF_THE_DIGITS * most);
             let least = masses.fold(f64::INFINITY, f64::min);
             let least = if least.is_finite() { least } else { largest };
             *along = least / row.iter().map(|(_, w)| w * w).sum::<f64>();
@@ -231,7 +230,7 @@ impl<L: Contacts<Scalar: Real>> TouchingRows<L> {
     /// Round-off that the motion of all bodies leaves in rates: |J x| ≤ |J| |x|, in any coordinates. Those of a wedge and a block on it
     /// have no other size.
     pub(super) fn motion_noise(&self, state: &StateOf<L>) -> Vec<f64> {
-        let speed = L::Scalar::EPSILON * UNITS * self.speed(&state.v);
+        let speed = L::Scalar::EPSILON * CANCELLED * self.speed(&state.v);
         (0..self.count).map(|place| speed * self.length(place)).collect()
     }
 

@@ -7,10 +7,7 @@ use super::Contacts;
 use super::rows::TouchingRows;
 use crate::cone::{dot, sqrt};
 use crate::number::Real;
-
-/// Part of a row that others leave of it below which it depends on them: the elimination of a leg works with the squares of such parts,
-/// and has no digits of smaller ones.
-const DEPENDENT: f64 = 1e-7;
+use crate::number::limits::ACCUMULATED;
 
 /// The span of the rows of constraints and of others, by an orthonormal basis.
 pub(super) struct RowSpan<'a, L> {
@@ -76,11 +73,11 @@ impl<'a, L: Contacts<Scalar: Real>> RowSpan<'a, L> {
         self.basis.truncate(size);
     }
 
-    /// Whether a row depends on those of the span.
+    /// Whether a row depends on those of the span: the elimination of a leg works with the square of what they leave of it, and has no digits
+    /// of less.
     pub(super) fn depends(&self, place: usize) -> bool {
         let (row, rest) = (self.rows.row(place), self.rest(self.rows.row(place).to_vec()));
-        let least = f64::max(DEPENDENT, sqrt(L::Scalar::EPSILON));
-        dot(&rest, &rest) <= least * least * dot(row, row)
+        dot(&rest, &rest) <= ACCUMULATED * L::Scalar::EPSILON * dot(row, row)
     }
 
     /// Adds a row, if it does not depend on the others. Returns whether it does not.

@@ -9,12 +9,14 @@ use super::friction::bounds;
 use super::instant::Decided;
 use super::last_value::LastValue;
 use super::lifting::Lifting;
+use super::limits::BEYOND;
 use super::states::LegFriction;
 use super::{Contacts, Friction, FrictionRows};
 use crate::error::Error;
 use crate::motion::event::noise;
 use crate::motion::{DynEvent, Simulate};
 use crate::names::name;
+use crate::number::limits::{ACCUMULATED, SUM};
 use crate::number::{Real, Scalar, larger, smaller};
 use crate::solution::Sample;
 use crate::system::{Lagrangian, SolutionOf, StateOf, System};
@@ -72,8 +74,9 @@ where
             check_push(system, state, name, force)?;
             // One that begins at zero may have no round-off of its own.
             let solution = system.solve(state)?;
-            let sizes = [round_off::<L>(&solution), largest::<L>(&solution)];
-            let margin = margin(system, state, sizes, force)?;
+            let size = largest::<L>(&solution);
+            let round_off = L::Scalar::constant(L::Scalar::EPSILON * ACCUMULATED) * size;
+            let margin = margin(system, state, [round_off, size], force)?;
             let event = system.event(name, move |sample| Ok(force(sample)? + margin));
             return Ok((Box::new(event.condition().terminal()), LegCondition::Pushes { row }));
         }
@@ -114,20 +117,11 @@ fn check_push<L: Contacts<Scalar: Real>>(
     }
     let size = largest::<L>(&sample.solution()?);
     let noise = noise(&system.event(name, force), system, state)?;
-    let beyond = L::Scalar::constant(BEYOND) * size;
-    if push < -larger(beyond, within_law(L::Scalar::constant(AT_LIMIT) * noise, size)) {
+    if push < -larger(L::Scalar::constant(BEYOND) * size, L::Scalar::constant(ACCUMULATED) * noise) {
         return Err(Error::FrictionUndecided { friction: name, time: state.t.to_f64() });
     }
     Ok(())
 }
-
-/// Distance of a force from its limit, in units of round-off of both, within which it is watched for leaving it.
-const AT_LIMIT: f64 = 64.0;
-
-/// Part of the largest force by which friction at rest may exceed its limit, or a contact may pull, at the start of a leg. It may be off
-/// by as much more before the leg ends, so that forces are off their law by 10⁻⁶. The solver of dependent contacts shares forces by
-/// their least norm, which need not be within the limits.
-const BEYOND: f64 = 5e-7;
 
 /// The events that friction reaches its limit, or stops the bodies, with the conditions that they watch.
 pub(super) fn of_friction<'w, L>(
@@ -177,11 +171,6 @@ where
     Ok(events)
 }
 
-/// What round-off leaves of a force of contact or friction beside the largest of them.
-fn round_off<L: Contacts<Scalar: Real>>(solution: &SolutionOf<L>) -> L::Scalar {
-    L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * largest::<L>(solution)
-}
-
 /// The largest force of contact or friction.
 fn largest<L: Contacts<Scalar: Real>>(SolutionOf::<L> { multipliers, .. }: &SolutionOf<L>) -> L::Scalar {
     let frictions = L::FRICTIONS.iter().flat_map(FrictionRows::rows);
@@ -191,7 +180,7 @@ fn largest<L: Contacts<Scalar: Real>>(SolutionOf::<L> { multipliers, .. }: &Solu
 
 /// A number whose square is the least one: it gives a sign to what begins at zero and has no size.
 fn least_speed<T: Real>() -> T {
-    Scalar::sqrt(T::constant(T::SMALLEST)) * T::constant(AT_LIMIT)
+    Scalar::sqrt(T::constant(T::SMALLEST)) * T::constant(ACCUMULATED)
 }
 
 /// Limit of friction at rest, its force at the start of a leg, and the round-off of both. Fails if the force exceeds the limit by more than
@@ -204,7 +193,7 @@ fn check_held<L: Contacts<Scalar: Real> + Clone>(
     let solution = system.solve(state)?;
     let [limit, force] = held(closed, f, state, &solution)?;
     let sizes = limit + force + applied(closed, f, state);
-    let round_off = L::Scalar::constant(L::Scalar::EPSILON * AT_LIMIT) * sizes;
+    let round_off = L::Scalar::constant(L::Scalar::EPSILON * ACCUMULATED) * sizes;
     if force - limit > larger(round_off, L::Scalar::constant(BEYOND) * largest::<L>(&solution)) {
         let friction = name(L::CONSTRAINTS, L::FRICTIONS[f].row);
         return Err(Error::FrictionUndecided { friction, time: state.t.to_f64() });
@@ -266,12 +255,9 @@ fn margin<L: Lagrangian<Scalar: Real>>(
     function: impl Fn(&Sample<&L>) -> Result<L::Scalar, Error> + Copy,
 ) -> Result<L::Scalar, Error> {
     let noise = noise(&system.event("", function), system, state)?;
-    let allowed = within_law(larger(L::Scalar::constant(4.0) * noise, least), size);
+    let round_off = larger(L::Scalar::constant(SUM) * noise, least);
+    let most = L::Scalar::constant(BEYOND) * size;
+    let allowed = if round_off < size { smaller(round_off, most) } else { round_off };
     let (value, zero) = (function(&system.sample(*state))?, L::Scalar::constant(0.0));
     Ok(if value <= allowed { allowed + larger(-value, zero) } else { zero })
-}
-
-/// What round-off may leave of a force beside the largest one: at most a part [`BEYOND`] of that, unless it is round-off as well.
-fn within_law<T: Real>(round_off: T, size: T) -> T {
-    if round_off < size { smaller(round_off, T::constant(BEYOND) * size) } else { round_off }
 }

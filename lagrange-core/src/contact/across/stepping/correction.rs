@@ -11,16 +11,14 @@ use crate::contact::across::reactions::ReactionProblem;
 use crate::error::Error;
 use crate::names::name;
 use crate::number::Real;
+use crate::number::limits::ITERATIONS;
 use crate::system::StateOf;
 use crate::vector::{Entrywise, StaticLength};
-
-/// Largest number of Gauss–Newton corrections of a position. Convergence is quadratic, and the first violation that of a step.
-const CORRECTIONS: usize = 20;
 
 impl<L: ForceDerivatives<Scalar: Real> + Clone> Middle<L> {
     /// Moves a state by Gauss–Newton steps in the metric of the mass matrix. Velocities stay.
     pub(super) fn correct(&self, bodies: &Bodies<L>, state: &mut StateOf<L>) -> Result<(), Error> {
-        for _ in 0..CORRECTIONS {
+        for _ in 0..ITERATIONS {
             if self.violation(bodies, state, &self.touching).is_none() {
                 return Ok(());
             }
@@ -47,7 +45,7 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Middle<L> {
         }
         let off = (0..<L::M>::COUNT).find(|&a| residual[a].to_f64().abs() > allowed[a])?;
         let (constraint, residual) = (name(L::CONSTRAINTS, off), residual[off].to_f64());
-        Some(Error::NotProjected { constraint, residual, iterations: CORRECTIONS, time })
+        Some(Error::NotProjected { constraint, residual, iterations: ITERATIONS, time })
     }
 
     fn correct_once(&self, bodies: &Bodies<L>, state: &mut StateOf<L>) -> Result<(), Error> {

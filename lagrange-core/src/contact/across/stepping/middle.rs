@@ -6,18 +6,16 @@ use alloc::vec::Vec;
 
 use super::forces::{ImplicitForces, ThetaForces};
 use crate::cone::{dot, sqrt};
-use crate::contact::across::bodies::{Bodies, CROSSED, UNITS};
+use crate::contact::across::bodies::Bodies;
+use crate::contact::across::limits::INSTANT;
 use crate::contact::across::rows::{Inertia, SparseRows, TouchingRows};
 use crate::contact::{Contacts, ForceDerivatives};
 use crate::error::{Error, Row};
 use crate::names::name;
+use crate::number::limits::{ACCUMULATED, CANCELLED};
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
 use crate::vector::{Array, Entrywise, StaticLength, Vector, vector};
-
-/// Gaps and residuals of constraints count as zero up to this part of what the free bodies move in a step: a hundred times what
-/// velocities whose residual is the default tolerance move them, so that contacts at rest stay closed.
-const TOUCHING: f64 = 1e-6;
 
 /// Equations at the state to which the bodies drift first. Lists of values have one for each constraint, in the order of their indices.
 pub(super) struct Middle<L: Contacts<Scalar: Real>> {
@@ -104,7 +102,7 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Middle<L> {
         self.inertia.factor.solve_lower(&mut gained);
         self.inertia.factor.solve_upper(&mut gained);
         let (largest, unit, time) =
-            (bodies.sizes(&self.state), L::Scalar::EPSILON * UNITS, self.state.t.to_f64().abs());
+            (bodies.sizes(&self.state), L::Scalar::EPSILON * CANCELLED, self.state.t.to_f64().abs());
         let fastest = sqrt(dot(&gained, &gained));
         for a in 0..<L::M>::COUNT {
             let [mut of_gap, mut of_rate, mut of_bodies, mut square] = [0.0; 4];
@@ -117,10 +115,10 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Middle<L> {
             let in_time = (self.rates[a].abs() + (self.rates[a] - of_bodies).abs()) * time;
             self.noise.push(unit * (of_rate + (self.rates[a] - of_bodies).abs()));
             let (size, moved) = (of_gap + in_time, self.lengths[0] * sqrt(square) * fastest);
-            let touching = unit * size + TOUCHING * moved;
+            let touching = unit * size + INSTANT * moved;
             self.round_off.push(unit * size);
             self.touching.push(touching);
-            self.started.push(f64::max(2.0 * touching, CROSSED * size));
+            self.started.push(f64::max(2.0 * touching, ACCUMULATED * unit * size));
         }
         self.gained = gained;
         let speeds: Vec<f64> = largest.v.iter().map(|v| v.to_f64()).collect();

@@ -18,6 +18,7 @@ use crate::contact::across::reactions::Reactions;
 use crate::contact::across::rows::TouchingRows;
 use crate::contact::{Contacts, ForceDerivatives, FrictionRows};
 use crate::error::{Error, Row};
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
 use crate::vector::{Array, Entrywise, StaticLength, Vector, vector};
@@ -62,7 +63,7 @@ struct Kicked {
 impl<L: ForceDerivatives<Scalar: Real> + Clone> Steps<L> {
     pub(super) fn new(bodies: Bodies<L>, settings: MoreauJean, state: &StateOf<L>) -> Self {
         let (rates, sizes) = (bodies.closed.constraint_rate(state), bodies.closed.rate_magnitude(state));
-        let unit = L::Scalar::constant(L::Scalar::EPSILON * crate::contact::across::bodies::UNITS);
+        let unit = L::Scalar::constant(L::Scalar::EPSILON * CANCELLED);
         let is_still = |a: usize| Scalar::abs(rates[a]) <= unit * sizes[a];
         let sticks = |friction: &FrictionRows| friction.rows().all(is_still);
         let sticks = L::FRICTIONS.iter().map(sticks).collect();

@@ -6,19 +6,18 @@ use super::MoreauJean;
 use super::middle::Middle;
 use super::step::Steps;
 use super::time_step::TimeStep;
-use crate::contact::across::bodies::{Bodies, UNITS};
+use crate::contact::across::bodies::Bodies;
 use crate::contact::across::builder::{Builder, Stepwise};
+use crate::contact::across::limits::INSTANT;
 use crate::contact::{Contacts, ForceDerivatives, ImpactLaw};
 use crate::error::{Ending, Error};
 use crate::names::name;
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar};
 use crate::solution::Sample;
 use crate::solution::solve::solve;
 use crate::system::StateOf;
 use crate::vector::StaticLength;
-
-/// Part of a step by which the last one may be longer than the others, instead of one more.
-const LONGER: f64 = 1e-6;
 
 /// A motion across contacts that is taken step by step, for games and controllers. It remembers what stuck and slid: its steps equal those of
 /// [`to`](crate::MotionBuilder::to) to the last bit, and those of a controlled motion if it [steps to](Self::step_to) the times of the calls.
@@ -97,10 +96,10 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> ContactStepper<L> {
         self.advance(next)
     }
 
-    /// Takes a step of the length of the scheme, or one to the time `end` if that comes before, or after it by no more than [`LONGER`].
+    /// Takes a step of the length of the scheme, or one to the time `end` if that comes before, or after it by no more than an [`INSTANT`].
     pub(super) fn step_towards(&mut self, end: L::Scalar) -> Result<&TimeStep<L>, Ending> {
         let (time, next) = (self.last.state.t.to_f64(), self.next_time()?);
-        let longer = L::Scalar::constant(self.steps.settings.step * LONGER);
+        let longer = L::Scalar::constant(self.steps.settings.step * INSTANT);
         let taken = if next + longer < end { self.advance(next) } else { self.step_to(end) };
         taken.map_err(|error| Ending::of(error, time))
     }
@@ -196,7 +195,7 @@ fn check_start<L: ForceDerivatives<Scalar: Real> + Clone>(
     for a in 0..<L::M>::COUNT {
         // Velocities that satisfy a constraint in the middle of a step leave it by what it turns until its end.
         let allowed =
-            L::Scalar::EPSILON * UNITS * sizes[a].to_f64() + 2.0 * scheme.step * turns[a].to_f64().abs();
+            L::Scalar::EPSILON * CANCELLED * sizes[a].to_f64() + 2.0 * scheme.step * turns[a].to_f64().abs();
         if Scalar::abs(rates[a]).to_f64() > allowed + middle.touching[a] / scheme.step {
             let (constraint, time) = (name(L::CONSTRAINTS, a), state.t.to_f64());
             return Err(Error::Inconsistent { constraint, rate: true, residual: rates[a].to_f64(), time });
