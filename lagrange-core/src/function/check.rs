@@ -3,6 +3,7 @@
 use core::array::from_fn;
 use core::fmt::{self, Display, Formatter};
 
+use super::limits::STEPS;
 use super::supplied::Second;
 
 /// A derivative that disagrees with finite differences.
@@ -109,9 +110,6 @@ pub fn check_derivatives<F: Second<f64, I, O>, const I: usize, const O: usize>(
     }
     worst.map_or(Ok(()), Err)
 }
-
-/// Number of step lengths, each half of the previous one.
-const STEPS: usize = 11;
 
 /// Returns, for each result, the derivative by argument `i` and its uncertainty.
 fn differences<const I: usize, const O: usize>(

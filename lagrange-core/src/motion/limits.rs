@@ -13,9 +13,11 @@ pub(super) const LEAST_ERROR: f64 = 1e-4;
 /// step, in units of the tolerance (II.4).
 pub(super) const FIRST_CHANGE: f64 = 0.01;
 
-/// Size and rate of a state, in units of the tolerance, up to which they tell no step. The first guess then is this part of the
-/// tenth of the time (II.4).
+/// Size and rate of a state, in units of the tolerance, up to which they tell no step (II.4).
 pub(super) const VANISHING: f64 = 1e-5;
+
+/// Part of the time left that the first guess of a step is, where size and rate of the state tell none (II.4).
+pub(super) const BLIND: f64 = 1e-6;
 
 /// Largest ratio of the first step to its first guess (II.4).
 pub(crate) const FIRST: f64 = 100.0;
@@ -30,6 +32,10 @@ pub(super) const TRIALS: usize = 15;
 /// Widest gap between stages, as a fraction of the step, across which they bound the multipliers. A dip 1 − a exp(−(t/w)²) below
 /// zero with w = 0.15 steps, as narrow as the search for events finds all, then shows at a stage.
 pub(super) const WIDEST: f64 = 0.3;
+
+/// Number of points at which the Lebesgue function of the stages is taken. It is smooth between stages, so that the error of its largest
+/// value falls with the square of this number.
+pub(super) const POINTS: usize = 256;
 
 // Steps of implicit methods with steps of one length
 

@@ -6,6 +6,7 @@ use crate::StateOf;
 use crate::generic::Vector;
 use crate::linearized::Linearized;
 use crate::motion::Simulate;
+use crate::number::limits::ACCUMULATED;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 
 /// What is known of the period.
@@ -108,7 +109,7 @@ pub(super) fn repeats<L: Linearized<Scalar: Real>>(
         };
         let eighths = (1..8).filter_map(|k| after(f64::from(k) / 8.0));
         let most = eighths.fold(zero, |most, then| larger(most, apart(&then)));
-        let round_off = L::Scalar::constant(64.0 * L::Scalar::EPSILON) * (now.amax() + most);
+        let round_off = L::Scalar::constant(ACCUMULATED * L::Scalar::EPSILON) * (now.amax() + most);
         apart(&later) <= power_of_epsilon::<L::Scalar>(1.0 / 3.0) * most + round_off
     })
 }

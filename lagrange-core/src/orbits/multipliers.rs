@@ -11,6 +11,7 @@ use nalgebra::{Complex, DMatrix};
 
 use crate::error::Error;
 use crate::linearized::eigenvalues;
+use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar, norm, order};
 
 /// Eigenvalues of Φ_m … Φ_1, in descending order of the modulus.
@@ -53,7 +54,7 @@ fn decimal_digits<T: Real>() -> usize {
 /// First rows and ends of the blocks of a matrix that is block triangular to round-off.
 fn blocks<T: Real>(turn: &DMatrix<T>) -> Vec<(usize, usize)> {
     let n = turn.nrows();
-    let negligible = T::constant(16.0 * n as f64 * T::EPSILON);
+    let negligible = T::constant(CANCELLED * n as f64 * T::EPSILON);
     let parts = |j: usize| turn.view((j, 0), (n - j, j)).amax() <= negligible;
     let mut starts: Vec<usize> = (1..n).filter(|&j| parts(j)).collect();
     starts.insert(0, 0);

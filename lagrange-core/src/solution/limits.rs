@@ -1,10 +1,11 @@
 //! Chosen numbers of solutions and of projections onto constraints.
 
-/// Number of nearby states by which the round-off of a function is estimated, and ratio of its possible error to its largest
-/// change between them. The states change all entries with random signs. They underestimate the sum of the effects of all
-/// entries by more than a half with a probability of less than 1 in 250: all eight would have to lie below the median of the
-/// magnitude. The ratio covers the rest.
+/// Number of nearby states by which the round-off of a function is estimated. They change all entries with random signs, and
+/// underestimate the sum of the effects of all entries by more than a half with a probability of less than 1 in 250: all eight
+/// would have to lie below the median of the magnitude.
 pub(crate) const NEIGHBOURS: u64 = 8;
+
+/// Ratio of the possible error of a function to its largest change between these states, for what they do not show.
 pub(crate) const MARGIN: f64 = 16.0;
 
 /// Number of refinements of a solution of the general solver. On independent constraints, errors of multipliers up to 10⁷ of 1

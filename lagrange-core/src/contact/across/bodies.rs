@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::motion::Simulate;
 use crate::names::name;
 use crate::number::limits::{ACCUMULATED, CANCELLED, SUM};
-use crate::number::{Real, Scalar, larger};
+use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::consistent::gradient;
 use crate::solution::solve::solve_near;
 use crate::system::{Lagrangian, StateOf};
@@ -211,14 +211,15 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         self.measured(k, state).noise[0] * L::Scalar::constant(SUM)
     }
 
-    /// Open contact that is crossed at a state, its gap being negative. The gap of a closed one is a constraint, zero but for
-    /// round-off, which no entry need exceed where they are all zero.
+    /// First open contact whose bodies penetrate by more than √ε of the terms of the gap, half of the digits: a start need not be
+    /// given more closely. The gap of a closed one is a constraint, zero but for round-off.
     pub(super) fn crossed(&self, is_kept: impl Fn(usize) -> bool, state: &StateOf<L>) -> Option<Error> {
         let gaps = self.closed.constraint_residual(state);
         let is_positive = |k: usize| gaps[L::CONTACTS[k]] >= L::Scalar::constant(0.0);
         (0..L::CONTACTS.len()).filter(|&k| !is_kept(k) && !is_positive(k)).find_map(|k| {
             let Measured { gap, noise: [noise, _], .. } = self.measured(k, state);
-            let is_open = gap + noise * L::Scalar::constant(ACCUMULATED) >= L::Scalar::constant(0.0);
+            let terms = noise / L::Scalar::constant(CANCELLED * L::Scalar::EPSILON);
+            let is_open = gap + terms * power_of_epsilon(0.5) >= L::Scalar::constant(0.0);
             let (contact, time) = (self.name(k), state.t.to_f64());
             (!is_open).then(|| Error::Penetration { contact, gap: gap.to_f64(), time })
         })

@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::linearized::Linearized;
 use crate::linearized::argument::{Argument, set_parameter};
 use crate::linearized::singular::Singular;
-use crate::number::limits::{CANCELLED, DAMPING};
+use crate::number::limits::{CANCELLED, DAMPING, SUM};
 use crate::number::{Real, Scalar, is_within, larger, power_of_epsilon, smaller, unit_of};
 use crate::numerics::newton::{Left, Search, dampings};
 use crate::solution::consistent::{Level, project_guess};
@@ -116,7 +116,7 @@ impl<L: Linearized<Scalar: Real> + Clone> EquilibriumSearch<L> {
 
     /// True if every row of the residual is within the round-off of its terms.
     fn is_rounded(&self, trial: &Iterate<L>) -> bool {
-        let part = L::Scalar::constant(4.0 * L::Scalar::EPSILON);
+        let part = L::Scalar::constant(SUM * L::Scalar::EPSILON);
         let bound = self.terms(trial, |_, x| part * x);
         trial.residual.iter().zip(&bound).all(|(r, bound)| is_within(Scalar::abs(*r), *bound))
     }

@@ -4,7 +4,7 @@ use super::pair::{Pair, SLOPES, Slopes, TableauRow, advance, last};
 use super::pair_memory::{PairMemory, Taken};
 use super::slope::slope;
 use crate::error::Error;
-use crate::motion::limits::WIDEST;
+use crate::motion::limits::{POINTS, WIDEST};
 use crate::number::{Real, Scalar, larger, smaller};
 use crate::solution::vector_field::{StagePoint, VectorField};
 use crate::statistics::Statistics;
@@ -22,9 +22,6 @@ pub struct MultiplierBounds<T: Element, M: StaticLength> {
 
 /// Extreme points of the Chebyshev polynomial of degree 3, as fractions of the step.
 const CUBIC: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
-
-/// Points at which the Lebesgue function is taken.
-const POINTS: usize = 256;
 
 /// Number of the slopes of a step.
 const fn count<P: Pair>() -> usize {

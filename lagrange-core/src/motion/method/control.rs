@@ -5,7 +5,7 @@ use super::clock::Clock;
 use super::pair::error_needs_last;
 use super::pair::{Pair, Slopes, combine};
 
-use crate::motion::limits::{FIRST, FIRST_CHANGE, LEAST_ERROR, SAFETY, SLACK, VANISHING};
+use crate::motion::limits::{BLIND, FIRST, FIRST_CHANGE, LEAST_ERROR, SAFETY, SLACK, VANISHING};
 use crate::number::Broadcast;
 use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar, exceeds, larger, smaller, sum};
@@ -156,8 +156,7 @@ impl Tolerance {
         let (size, speed) = (norm(one, y, &allowed), norm(one, slope, &allowed));
         let least = T::constant(VANISHING);
         let usable = size > least && speed > least && speed.is_finite();
-        let guess =
-            if usable { T::constant(FIRST_CHANGE) * size / speed } else { span * least * T::constant(0.1) };
+        let guess = if usable { T::constant(FIRST_CHANGE) * size / speed } else { span * T::constant(BLIND) };
         smaller(guess, span)
     }
 
