@@ -9,8 +9,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::limits::{ACCURACY, GAIN, ROUND_OFF};
-use super::qr::PivotedQr;
-use super::{ConeSolver, Face, RowBlock, Set, dot, length, sqrt};
+use super::{ConeSolver, Face, RowBlock, Set};
+use crate::numerics::bare::{dot, length, sqrt};
+use crate::numerics::least_norm::PivotedQr;
 
 /// The rate of friction that a reaction `p` within this limit does not allow.
 fn slip(p: [f64; 2], u: [f64; 2], limit: f64, g: f64) -> f64 {

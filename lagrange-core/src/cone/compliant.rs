@@ -9,9 +9,11 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::limits::{HALF_THE_DIGITS, SLOWEST, STIFFER};
-use super::{ConeSolver, Face, Limit, Set, length, sqrt};
+use super::limits::{SLOWEST, STIFFER};
+use super::{ConeSolver, Face, Limit, Set};
+use crate::number::limits::HALF_THE_DIGITS;
 use crate::number::limits::ITERATIONS;
+use crate::numerics::bare::{length, sqrt};
 
 /// Linear equations A δr = b of a Newton step.
 struct CompliantStep {

@@ -8,10 +8,12 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::limits::{ACCURACY, HALF_THE_DIGITS};
-use super::qr::PivotedQr;
-use super::{ConeSolver, Face, Limit, RowBlock, Set, dot, length, sqrt};
+use super::limits::ACCURACY;
+use super::{ConeSolver, Face, Limit, RowBlock, Set};
+use crate::number::limits::HALF_THE_DIGITS;
 use crate::number::limits::ITERATIONS;
+use crate::numerics::bare::{dot, length, sqrt};
+use crate::numerics::least_norm::PivotedQr;
 
 /// What the equations of faces lead to.
 enum OnFaces {

@@ -14,9 +14,6 @@ pub(super) const GAIN: f64 = 1e-9;
 /// Round-off of a sum, as a part of its terms.
 pub(super) const ROUND_OFF: f64 = ACCUMULATED * f64::EPSILON;
 
-/// Half of the digits, √ε: what Newton's method has to reach so that its next step has all of them.
-pub(crate) const HALF_THE_DIGITS: f64 = 1.0 / (1 << 26) as f64;
-
 /// Factor from one compliance to the next one. Steps of a hundredth or a thousandth leave 1.4 to 3 times as many problems to other guesses.
 pub(super) const STIFFER: f64 = 0.1;
 

@@ -30,7 +30,6 @@ mod faces;
 mod islands;
 mod limits;
 mod natural;
-mod qr;
 mod sweeps;
 #[cfg(test)]
 mod tests;
@@ -41,10 +40,12 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 pub(crate) use islands::ConeProblem;
-pub(crate) use limits::{ACCURACY, HALF_THE_DIGITS};
+pub(crate) use limits::ACCURACY;
 use limits::{ROUND_OFF, WORK};
 
 use crate::number::limits::ITERATIONS;
+use crate::numerics::bare::{dot, length, power_of_two_near_root, sqrt};
+use crate::numerics::spread::scattered;
 
 /// What the reactions of a block may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,52 +139,6 @@ pub(crate) struct ConeSolver {
     x: Vec<f64>,
     /// Equations of faces solved so far.
     solved: usize,
-}
-
-/// x·y. Four sums, each of every fourth product, are added side by side: of one sum, each addition would wait for the one before.
-#[inline]
-pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    debug_assert_eq!(x.len(), y.len());
-    let (x_parts, y_parts) = (x.chunks_exact(4), y.chunks_exact(4));
-    let rest = x_parts.remainder().iter().zip(y_parts.remainder()).fold(0.0, |sum, (x, y)| sum + x * y);
-    let mut sums = [0.0; 4];
-    for (x, y) in x_parts.zip(y_parts) {
-        (0..4).for_each(|k| sums[k] += x[k] * y[k]);
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
-}
-
-#[cfg(any(feature = "std", feature = "libm"))]
-pub(crate) fn sqrt(x: f64) -> f64 {
-    crate::number::Scalar::sqrt(x)
-}
-
-#[cfg(not(any(feature = "std", feature = "libm")))]
-pub(crate) use root_by_heron as sqrt;
-
-/// Without a library of functions, by Heron's method from the power of two below.
-#[cfg(any(test, not(any(feature = "std", feature = "libm"))))]
-pub(crate) fn root_by_heron(x: f64) -> f64 {
-    let start = if x > 0.0 && x.is_finite() { power_of_two_near_root(x) } else { return x.max(0.0) };
-    (0..6).fold(start, |root, _| 0.5 * (root + x / root))
-}
-
-pub(crate) fn length(x: [f64; 2]) -> f64 {
-    sqrt(x[0] * x[0] + x[1] * x[1])
-}
-
-/// The power of two next to √x below it, 1 for 0.
-fn power_of_two_near_root(x: f64) -> f64 {
-    let exponent = (x.to_bits() >> 52) as i64 - 1023;
-    if x > 0.0 { f64::from_bits(((exponent.div_euclid(2) + 1023) as u64) << 52) } else { 1.0 }
-}
-
-/// Numbers from −1 to 1 without a pattern (SplitMix; Steele, Lea and Flood, *OOPSLA* 2014).
-fn spread(place: u64) -> f64 {
-    let z = place.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    (z ^ (z >> 31)) as i64 as f64 / i64::MAX as f64
 }
 
 impl ConeSolver {
@@ -323,7 +278,7 @@ impl ConeSolver {
             }
             for r in &mut self.r {
                 place += 1;
-                *r = size * spread(place);
+                *r = size * scattered(place);
             }
             self.clip(None);
             if self.by_sweeps() {

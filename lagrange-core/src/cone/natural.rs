@@ -3,7 +3,8 @@
 
 use alloc::vec::Vec;
 
-use super::{ConeSolver, Face, Limit, RowBlock, Set, dot, length, sqrt};
+use super::{ConeSolver, Face, Limit, RowBlock, Set};
+use crate::numerics::bare::{dot, length, sqrt};
 
 impl ConeSolver {
     /// Projects r − u/g of a friction onto the disc of this radius. Returns the point, and its face.

@@ -4,8 +4,8 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::limits::HALF_THE_DIGITS;
 use super::{ConeSolver, Face, RowBlock, Set};
+use crate::number::limits::HALF_THE_DIGITS;
 
 /// Directions that friction along two velocities is tried in to begin with.
 const DIRECTIONS: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];

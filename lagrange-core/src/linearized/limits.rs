@@ -4,9 +4,6 @@
 /// align with the growing directions. An error from n parts is known to 1/√(2n), a sixth of it.
 pub(super) const PARTS: usize = 20;
 
-/// Iterations on one block of a matrix between two exceptional shifts, as in LAPACK's `dlahqr`. A handful is usual for an eigenvalue.
-pub(super) const PATIENCE: usize = 10;
-
 /// Weight of a constraint relative to a force, each in its own unit. A search for an equilibrium that stays near the constraints does
 /// not end where a rod has shrunk to nothing.
 pub(super) const CONSTRAINTS: f64 = 10.0;

@@ -12,11 +12,11 @@ pub(crate) mod lyapunov;
 mod radau;
 mod selected;
 mod sensitivity;
-mod singular;
 mod variation;
 
 pub use crate::derivatives::jacobian::{Jacobian, PartialDerivatives};
 pub use crate::derivatives::{Linearized, MotionGradients, StateDerivatives};
+pub(crate) use crate::numerics::singular::Singular;
 pub use discrete::DiscreteTime;
 pub use equilibrium::Equilibrium;
 pub use inverse::{BaseParameters, InverseDynamics, Regressor};
@@ -31,5 +31,4 @@ pub use sensitivity::{
     DifferentiableEvent, DualSample, MotionDerivatives, OverDuals, SampledSensitivity, StateSensitivity,
     TrajectorySensitivity,
 };
-pub(crate) use singular::Singular;
 pub use variation::DifferentiableMethod;

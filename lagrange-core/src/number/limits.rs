@@ -24,3 +24,6 @@ pub(super) const PROGRESS: f64 = 0.75;
 /// First damping of a search by the method of Levenberg and Marquardt, in units of the squares of the derivatives: the first step is
 /// Newton's to a thousandth, where that one leads nearer.
 pub(crate) const DAMPING: f64 = 1e-3;
+
+/// Half of the digits, √ε: what Newton's method has to reach so that its next step has all of them.
+pub(crate) const HALF_THE_DIGITS: f64 = 1.0 / (1 << 26) as f64;

@@ -11,10 +11,10 @@ use cases::{ALL_ROWS, Case, dot};
 #[test]
 fn roots_need_no_library() {
     for x in [0.0, f64::MIN_POSITIVE, 1e-200, 0.3, 1.0, 2.0, 3.999_999, 4.0, 1e17, f64::MAX, f64::INFINITY] {
-        let root = super::root_by_heron(x);
+        let root = crate::numerics::bare::root_by_heron(x);
         assert!(root == x.sqrt() || (root / x.sqrt() - 1.0).abs() <= f64::EPSILON, "{x:e} {root:e}");
     }
-    assert_eq!(super::root_by_heron(-1.0), 0.0);
+    assert_eq!(crate::numerics::bare::root_by_heron(-1.0), 0.0);
 }
 
 /// By how much reactions are off the law as it is stated, as a multiple of what is guaranteed; none of it by scaled rows.

@@ -6,10 +6,11 @@ use alloc::vec::Vec;
 use super::grip::{Decision, Gripped};
 use super::reactions::{NoForces, ReactionProblem, Reactions};
 use super::{Contacts, Friction};
-use crate::cone::{Face, Limit, Set, length};
+use crate::cone::{Face, Limit, Set};
 use crate::error::Error;
 use crate::number::Real;
 use crate::number::limits::ITERATIONS;
+use crate::numerics::bare::length;
 use crate::system::StateOf;
 
 impl<L: Contacts<Scalar: Real> + Clone> Decision<'_, L> {

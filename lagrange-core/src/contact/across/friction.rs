@@ -10,10 +10,10 @@ use super::reactions::NoForces;
 use super::rows::TouchingRows;
 use super::states::{LegFriction, LegStates};
 use super::{Contacts, Friction, FrictionRows};
-use crate::cone;
 use crate::error::Error;
 use crate::number::limits::ACCUMULATED;
 use crate::number::{Real, Scalar, larger};
+use crate::numerics::bare;
 use crate::system::StateOf;
 
 /// Length of a vector in a plane.
@@ -159,7 +159,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
             let changes = both.map(|row| (rows.response(row, row) * gripped.forces[row]).abs());
             let (speed, acceleration) = (
                 self.start(both.map(|row| rows.all[row]), changes, state),
-                cone::length(both.map(|row| gripped.rates[row])),
+                bare::length(both.map(|row| gripped.rates[row])),
             );
             if acceleration > 0.0 { time.max(speed / acceleration) } else { time }
         });

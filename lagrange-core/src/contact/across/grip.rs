@@ -9,10 +9,11 @@ use super::instant::LegEnd;
 use super::rows::TouchingRows;
 use super::states::{LegContact, LegFriction, LegStates};
 use super::{Contacts, Friction};
-use crate::cone::{ACCURACY, HALF_THE_DIGITS};
+use crate::cone::ACCURACY;
 use crate::error::Error;
 use crate::number::Real;
 use crate::number::limits::ACCUMULATED;
+use crate::number::limits::HALF_THE_DIGITS;
 use crate::system::StateOf;
 use crate::vector::StaticLength;
 

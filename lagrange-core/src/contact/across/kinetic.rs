@@ -3,7 +3,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::cone::{dot, sqrt};
+use crate::numerics::bare::{dot, sqrt};
 
 /// Cholesky's factor L of a mass matrix, by rows, each from the first entry of the mass matrix in it to the diagonal.
 pub(super) struct KineticFactor {

@@ -6,8 +6,9 @@ use core::ops::Range;
 
 use super::Contacts;
 use super::rows::TouchingRows;
-use crate::cone::{ConeDecision, ConeProblem, ConeSearch, Face, RowBlock, Set, dot};
+use crate::cone::{ConeDecision, ConeProblem, ConeSearch, Face, RowBlock, Set};
 use crate::number::Real;
+use crate::numerics::bare::dot;
 
 /// The reactions of some rows, of which the others have none.
 pub(super) struct ReactionProblem<'a, L> {

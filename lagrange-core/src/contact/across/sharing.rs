@@ -5,8 +5,9 @@ use alloc::vec::Vec;
 use super::grip::{Decision, Gripped};
 use super::states::LegStates;
 use super::{Contacts, Friction};
-use crate::cone::{ACCURACY, length};
+use crate::cone::ACCURACY;
 use crate::number::Real;
+use crate::numerics::bare::length;
 
 /// Friction at rest.
 struct RestingFriction {

@@ -5,9 +5,9 @@ use alloc::vec::Vec;
 
 use super::Contacts;
 use super::rows::TouchingRows;
-use crate::cone::{dot, sqrt};
 use crate::number::Real;
 use crate::number::limits::ACCUMULATED;
+use crate::numerics::bare::{dot, sqrt};
 
 /// The span of the rows of constraints and of others, by an orthonormal basis.
 pub(super) struct RowSpan<'a, L> {

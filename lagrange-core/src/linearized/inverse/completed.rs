@@ -5,9 +5,9 @@ use alloc::vec::Vec;
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::Error;
-use crate::linearized::singular::Singular;
 use crate::names::Row;
 use crate::number::{Real, Scalar, exceeds, larger, power_of_epsilon, unit_of};
+use crate::numerics::singular::Singular;
 use crate::solution::consistent;
 use crate::solution::solve::first_row;
 use crate::system::{Lagrangian, StateOf, finite::check_finite, lookup};

@@ -13,11 +13,11 @@ pub(crate) use regressor::{inertial_parameters, regressor};
 
 use super::Linearized;
 use super::argument::{Argument, set_parameter};
-use super::singular::Singular;
 use crate::error::Error;
 use crate::number::limits::CANCELLED;
 use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar, larger, power_of_epsilon, unit_of};
+use crate::numerics::singular::Singular;
 use crate::solution::consistent::gradient::check_parameters;
 use crate::solution::kkt::Units;
 use crate::solution::solve::{first_row, row};

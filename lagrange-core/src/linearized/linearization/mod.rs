@@ -1,7 +1,6 @@
 //! Linear system near a state, on the constraints if there are any.
 
 mod display;
-mod francis;
 mod local;
 mod spectrum;
 

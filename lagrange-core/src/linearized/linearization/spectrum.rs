@@ -5,9 +5,9 @@ use alloc::vec::Vec;
 use nalgebra::{Complex, DMatrix};
 
 use super::Linearization;
-use super::francis;
 use crate::error::Error;
 use crate::number::{Real, Scalar, larger, norm, order, power_of_epsilon, power_of_two};
+use crate::numerics::francis;
 
 /// Stability of an equilibrium, as decided by the linear part (Lyapunov's indirect method).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -11,10 +11,10 @@
 use super::chart::Chart;
 use super::equations::Derivatives;
 use super::iteration::{StageChanges, product, zip};
-use super::lu::{Lu, Square};
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::number::Real;
+use crate::numerics::lu::{Lu, Square};
 use crate::solution::solve::solve_near;
 use crate::system::{StateOf, System};
 use crate::vector::{Array, Element, PhaseVector, StaticLength, from_fn};

@@ -8,13 +8,13 @@ use nalgebra::{Complex, ComplexField, Const};
 
 use super::chart::Chart;
 use super::iteration::{StageChanges, product, zip};
-use super::lu::{Lu, Square};
 use super::tableau::{RadauStages, Transformation};
 use crate::derivatives::jacobian::name_of;
 use crate::derivatives::tangent::{Tangent, WideOf};
 use crate::error::Error;
 use crate::linearized::StateDerivatives;
 use crate::number::{Real, Scalar, Wide};
+use crate::numerics::lu::{Lu, Square};
 use crate::solution::consistent::BOTH;
 use crate::solution::consistent::level::Level;
 use crate::system::{Direction, SolutionOf, StateOf, unit};

@@ -7,7 +7,6 @@ mod equations;
 mod estimate;
 mod iteration;
 mod limits;
-mod lu;
 mod memory;
 mod pose;
 mod step;

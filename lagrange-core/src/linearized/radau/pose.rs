@@ -8,11 +8,11 @@
 use nalgebra::Const;
 
 use super::collocation::Collocation;
-use super::lu::Lu;
 use super::memory::KnownStateOf;
 use super::tableau::RadauStages;
 use crate::error::Error;
 use crate::number::{Real, Scalar, power_of_epsilon};
+use crate::numerics::lu::Lu;
 use crate::solution::interpolant::Interpolant;
 use crate::solution::solve::solve_near;
 use crate::solution::vector_field::{LagrangianVectorField, StagePoint, VectorField};

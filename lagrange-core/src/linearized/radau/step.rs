@@ -13,7 +13,6 @@ use super::iteration::{
     Converged, Iteration, NoSolution, allowed, combination, product, reduction, within_limits, zip,
 };
 use super::limits::SHRINK;
-use super::lu::Lu;
 use super::memory::{Age, KnownState, RadauMemory};
 use super::tableau::{RadauStages, Transformation};
 use super::{Radau, pose};
@@ -24,6 +23,7 @@ use crate::motion::method::contract::check_settings;
 use crate::motion::{Limits, Method, Step};
 use crate::names::Entry;
 use crate::number::{Real, Scalar, smaller};
+use crate::numerics::lu::Lu;
 use crate::solution::solve::solve_near;
 use crate::solution::vector_field::{LagrangianVectorField, StagePoint, VectorField};
 use crate::statistics::Statistics;

@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, Const};
 
-use super::lu::Lu;
+use crate::numerics::lu::Lu;
 
 /// Number of stages of a method: 3, 5 or 7, for order 5, 9 or 13.
 #[diagnostic::on_unimplemented(

@@ -72,12 +72,15 @@ impl<S: FixedArray<T>, T: Scalar, N: StaticLength> Expansion<S, T, N> {
     }
 }
 
+/// Logarithm of the smallest normal number: exponentials of less are zero.
+const UNDERFLOW_OF_EXP: f64 = (f64::MIN_EXP - 1) as f64 * core::f64::consts::LN_2;
+
 /// Number of samples needed for a steep function whose argument has this value and changes by up to `change` in a step:
 /// e^x and tanh x (exponent 0), or x^exponent. None are needed where e^−|x| underflows.
 pub(super) fn samples_of_steep([value, change]: [f64; 2], exponent: usize) -> usize {
     let (value, change) = (value.abs(), change.abs());
     let logarithm = if exponent == 0 { change } else { exponent as f64 * change / value };
-    match logarithm <= STEEP || exponent == 0 && change - value < Scalar::ln(f64::MIN_POSITIVE) {
+    match logarithm <= STEEP || exponent == 0 && change - value < UNDERFLOW_OF_EXP {
         true => 0,
         // The quotient is NaN if value and change are zero.
         false => smaller(logarithm / STEEP, MOST as f64) as usize,

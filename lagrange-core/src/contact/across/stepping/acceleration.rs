@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use crate::cone::{dot, sqrt};
+use crate::numerics::bare::{dot, sqrt};
 
 /// Starts and results of the iterations so far, from which the next start is extrapolated. Velocities are in units in which the mass matrix is 1.
 ///

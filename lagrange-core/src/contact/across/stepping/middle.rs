@@ -5,7 +5,6 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::forces::{ImplicitForces, ThetaForces};
-use crate::cone::{dot, sqrt};
 use crate::contact::across::bodies::Bodies;
 use crate::contact::across::limits::INSTANT;
 use crate::contact::across::rows::{Inertia, SparseRows, TouchingRows};
@@ -14,6 +13,7 @@ use crate::error::{Error, Row};
 use crate::names::name;
 use crate::number::limits::{ACCUMULATED, CANCELLED};
 use crate::number::{Real, Scalar};
+use crate::numerics::bare::{dot, sqrt};
 use crate::system::StateOf;
 use crate::vector::{Array, Entrywise, StaticLength, Vector, vector};
 

@@ -10,7 +10,7 @@ use super::MoreauJean;
 use super::acceleration::Acceleration;
 use super::middle::Middle;
 use super::time_step::TimeStep;
-use crate::cone::{ConeSearch, Face, dot, sqrt};
+use crate::cone::{ConeSearch, Face};
 use crate::contact::across::bodies::Bodies;
 use crate::contact::across::friction::bounds;
 use crate::contact::across::impact::{StagedFriction, StagedImpact};
@@ -20,6 +20,7 @@ use crate::contact::{Contacts, ForceDerivatives, FrictionRows};
 use crate::error::{Error, Row};
 use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar};
+use crate::numerics::bare::{dot, sqrt};
 use crate::system::StateOf;
 use crate::vector::{Array, Entrywise, StaticLength, Vector, vector};
 

@@ -9,12 +9,12 @@ use alloc::vec::Vec;
 
 use nalgebra::{Complex, DMatrix, Hessenberg};
 
-use crate::linearized::limits::PATIENCE;
+use super::limits::PATIENCE;
 use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar, larger, norm};
 
 /// Eigenvalues of `a`; `None` if the iteration does not converge, or if an entry is not finite.
-pub(super) fn eigenvalues<T: Real>(a: DMatrix<T>) -> Option<Vec<Complex<T>>> {
+pub(crate) fn eigenvalues<T: Real>(a: DMatrix<T>) -> Option<Vec<Complex<T>>> {
     if !a.iter().all(|x| Scalar::abs(*x).is_finite()) {
         return None;
     }

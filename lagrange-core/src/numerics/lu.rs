@@ -10,10 +10,10 @@ use crate::vector::{Array, Element, StaticLength};
 
 /// N rows, or columns, of N entries, on the heap: they are never on the stack together.
 #[derive(Clone)]
-pub(super) struct Square<F: Element, N: StaticLength>(Vec<Array<F, N>>);
+pub(crate) struct Square<F: Element, N: StaticLength>(Vec<Array<F, N>>);
 
 impl<F: Element, N: StaticLength> Square<F, N> {
-    pub(super) fn filled(x: F) -> Self {
+    pub(crate) fn filled(x: F) -> Self {
         Self(vec![Array::filled(x); N::COUNT])
     }
 }
@@ -34,19 +34,19 @@ impl<F: Element, N: StaticLength> DerefMut for Square<F, N> {
 
 /// L without its diagonal of ones, U, and the row that was exchanged with each row.
 #[derive(Clone)]
-pub(super) struct Lu<F: Element, N: StaticLength> {
+pub(crate) struct Lu<F: Element, N: StaticLength> {
     rows: Square<F, N>,
     exchanged: Array<usize, N>,
 }
 
 impl<F: ComplexField + Element, N: StaticLength> Lu<F, N> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { rows: Square::filled(F::zero()), exchanged: Array::filled(0) }
     }
 
     /// Factorizes a matrix, given by its entries; false if it is singular or not finite (Golub and Van Loan, *Matrix
     /// Computations*, algorithm 3.4.1).
-    pub(super) fn factorize(&mut self, entry: impl Fn(usize, usize) -> F) -> bool {
+    pub(crate) fn factorize(&mut self, entry: impl Fn(usize, usize) -> F) -> bool {
         let Self { rows, exchanged } = self;
         for (i, row) in rows.iter_mut().enumerate() {
             row.iter_mut().enumerate().for_each(|(j, x)| *x = entry(i, j));
@@ -71,7 +71,7 @@ impl<F: ComplexField + Element, N: StaticLength> Lu<F, N> {
     }
 
     /// True if the determinant of the matrix is negative.
-    pub(super) fn has_negative_determinant(&self) -> bool
+    pub(crate) fn has_negative_determinant(&self) -> bool
     where
         F: PartialOrd,
     {
@@ -79,7 +79,7 @@ impl<F: ComplexField + Element, N: StaticLength> Lu<F, N> {
     }
 
     /// Solves the equations with this right-hand side.
-    pub(super) fn solve(&self, mut x: Array<F, N>) -> Array<F, N> {
+    pub(crate) fn solve(&self, mut x: Array<F, N>) -> Array<F, N> {
         let product = |row: &[F], x: &[F]| row.iter().zip(x).fold(F::zero(), |sum, (a, x)| sum + *a * *x);
         for k in 0..N::COUNT {
             x.swap(k, self.exchanged[k]);

@@ -4,11 +4,11 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use super::limits::HALF_THE_DIGITS;
-use super::{dot, sqrt};
+use super::bare::{dot, sqrt};
+use crate::number::limits::HALF_THE_DIGITS;
 
 /// A = Q R Pᵀ of a `rows` × `columns` matrix; the rank is the number of pivots that are not round-off.
-pub(super) struct PivotedQr {
+pub(crate) struct PivotedQr {
     rows: usize,
     columns: usize,
     /// By columns: R in and above the diagonal; below it the vectors v of the reflections 1 − v vᵀ, without their first entries.
@@ -17,7 +17,7 @@ pub(super) struct PivotedQr {
     heads: Vec<f64>,
     /// Column of A at each place of R.
     order: Vec<usize>,
-    pub(super) rank: usize,
+    pub(crate) rank: usize,
 }
 
 /// Makes `column` the vector v of the reflection that leaves only its first entry, and returns that entry.
@@ -56,7 +56,7 @@ impl Norms {
 
 impl PivotedQr {
     /// Decomposes a matrix given by columns. Pivots of at most this part of the largest are round-off.
-    pub(super) fn new(a: Vec<f64>, [rows, columns]: [usize; 2], tolerance: f64) -> Self {
+    pub(crate) fn new(a: Vec<f64>, [rows, columns]: [usize; 2], tolerance: f64) -> Self {
         let most = rows.min(columns);
         let squares = (0..columns).map(|c| [dot(&a[c * rows..][..rows], &a[c * rows..][..rows]); 2]);
         let mut norms = Norms(squares.collect());
@@ -124,7 +124,7 @@ impl PivotedQr {
     }
 
     /// Q₁ᵀ x: components of x along the columns of A.
-    pub(super) fn components(&self, x: &[f64]) -> Vec<f64> {
+    pub(crate) fn components(&self, x: &[f64]) -> Vec<f64> {
         let mut x = x.to_vec();
         (0..self.rank).for_each(|k| self.reflect(k, &mut x));
         x.truncate(self.rank);
@@ -132,7 +132,7 @@ impl PivotedQr {
     }
 
     /// Q₁ y: the vector with these components.
-    pub(super) fn combination(&self, y: &[f64]) -> Vec<f64> {
+    pub(crate) fn combination(&self, y: &[f64]) -> Vec<f64> {
         let mut x = vec![0.0; self.rows];
         x[..self.rank].copy_from_slice(&y[..self.rank]);
         (0..self.rank).rev().for_each(|k| self.reflect(k, &mut x));
@@ -140,7 +140,7 @@ impl PivotedQr {
     }
 
     /// Components y of an x along the columns of A with Aᵀ x = b, by the entries of b at the pivots.
-    pub(super) fn coordinates(&self, b: &[f64]) -> Vec<f64> {
+    pub(crate) fn coordinates(&self, b: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.rank];
         for i in 0..self.rank {
             y[i] = (b[self.order[i]] - dot(&self.a[i * self.rows..][..i], &y[..i])) / self.r(i, i);
@@ -149,7 +149,7 @@ impl PivotedQr {
     }
 
     /// Vectors y with A y = 0, one for each column beyond the rank.
-    pub(super) fn null(&self) -> Vec<Vec<f64>> {
+    pub(crate) fn null(&self) -> Vec<Vec<f64>> {
         let of = |c: usize| {
             let (mut y, mut z) = (vec![0.0; self.columns], self.a[c * self.rows..][..self.rank].to_vec());
             self.back_substitute(&mut z);
@@ -161,7 +161,7 @@ impl PivotedQr {
     }
 
     /// The shortest x that makes |A x − b| least. Of fewer pivots than columns, [R S]ᵀ = Q' R' gives [R S] x = z by x = Q' R'⁻ᵀ z.
-    pub(super) fn least_norm(&self, b: &[f64]) -> Vec<f64> {
+    pub(crate) fn least_norm(&self, b: &[f64]) -> Vec<f64> {
         let (rank, mut x) = (self.rank, vec![0.0; self.columns]);
         let mut z = self.components(b);
         if rank == self.columns {
