@@ -235,7 +235,8 @@ impl ConeSolver {
         let size = equations.unknowns.len();
         (0..self.m).filter(|&i| equations.places[i] == usize::MAX).for_each(|i| self.r[i] = 0.0);
         let (mut solver, mut before, mut next) = (None, f64::INFINITY, vec![]);
-        for step in 0..ITERATIONS {
+        // A step that gains less than a bit does not lead to a solution nearby.
+        for step in 0..f64::MANTISSA_DIGITS {
             equations.combine(&self.r, &mut self.x);
             let (matrix, right, is_linear) = equations.linearized(self);
             if solver.is_none() || !is_linear {

@@ -17,6 +17,11 @@ pub(crate) trait Search {
     /// Linearization at a trial: data for the corrections, and the units in which nearby trials are compared.
     type Linear;
 
+    /// Largest number of steps.
+    fn limit(&self) -> usize {
+        ITERATIONS
+    }
+
     fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Self::Error>;
 
     fn left(&self, near: &Self::Linear, trial: &Self::Trial) -> Left<Self::Scalar>;
@@ -57,7 +62,7 @@ pub(crate) fn find<S: Search>(search: &mut S, start: S::Trial) -> Result<(S::Tri
         };
         let converged = before.is_negligible;
         match search.corrected(&linear, &trial, converged).map(|mut trials| trials.find_map(nearer)) {
-            Ok(Some((next, after))) if steps < ITERATIONS => {
+            Ok(Some((next, after))) if steps < search.limit() => {
                 (trial, steps) = (next, steps + 1);
                 let stands = after.distance > S::Scalar::constant(0.5) * before.distance;
                 if after.is_rounded || converged && stands {

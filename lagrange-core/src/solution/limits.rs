@@ -30,7 +30,3 @@ pub(super) const NAMED: f64 = 0.1;
 /// larger. And the size of the coordinates up to which they follow, in units of their change in a step: angular rates are about
 /// 3 per step at most, so that velocities change, relatively, by at most 50 times as much as coordinates.
 pub(super) const FOLLOWED: f64 = 16.0;
-
-/// Part of the distance from the constraints that a correction at the end of a step may leave. Newton's corrections leave half of
-/// the relative distance, so that a rod may be off by half of its length; from farther away they halve the distance.
-pub(super) const LEFT: f64 = 0.25;

@@ -6,12 +6,11 @@ use super::Contacts;
 use super::Transition;
 use super::bodies::{Bodies, Measured};
 use super::grip::{Decision, Gripped};
-use super::limits::{BOUNCE, TRANSITIONS};
+use super::limits::{BOUNCE, STOPPED, TRANSITIONS};
 use super::rows::TouchingRows;
 use super::states::LegStates;
 use crate::error::Error;
 use crate::names::name;
-use crate::number::limits::HALF_THE_DIGITS;
 use crate::number::limits::ITERATIONS;
 use crate::number::{Real, Scalar};
 use crate::system::StateOf;
@@ -142,8 +141,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         for place in rows.active(states) {
             span.add_change(place, -rates[place]);
         }
-        // A velocity that stops differs from zero by round-off. That of a slider at its dead centre is zero because of the place: nothing stops.
-        let most = HALF_THE_DIGITS * rows.speed(&self.sizes(state).v);
+        let most = STOPPED * rows.speed(&self.sizes(state).v);
         for (place, velocity) in self.starts(rows, (states, gripped), state) {
             span.add_change_within(place, velocity - rates[place], most);
         }

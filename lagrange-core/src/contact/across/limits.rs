@@ -21,3 +21,8 @@ pub(super) const BOUNCE: f64 = 2.7;
 /// Each takes energy, or passes it on to the next of bodies in a row. A light ball that two heavy ones hit in turn takes thousands, until its
 /// rates are round-off.
 pub(super) const TRANSITIONS: usize = 100_000;
+
+/// Part of the largest speed so far by which a velocity of friction that stops may differ from zero: two velocities pass zero as closely as
+/// the errors of the motion let them. With 10⁻⁸, a puck whose load turns takes 10⁵ steps and more where it stops for a moment. The velocity of a
+/// slider at its dead centre is zero because of the place: nothing stops there.
+pub(super) const STOPPED: f64 = 1e-6;

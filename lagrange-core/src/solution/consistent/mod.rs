@@ -19,13 +19,12 @@ use nalgebra::ComplexField;
 
 use crate::error::Error;
 use crate::names::name;
-use crate::number::limits::CANCELLED;
+use crate::number::limits::{CANCELLED, ITERATIONS};
 use crate::number::{Real, Scalar, largest};
 use crate::numerics::newton::{self, Left, Search, halvings};
 use crate::room::Room;
 use crate::solution::eliminate::eliminate;
 use crate::solution::kkt::{Factors, Rank};
-use crate::solution::limits::LEFT;
 use crate::solution::near::{self, Corrections};
 use crate::solution::pivot::is_trustworthy;
 use crate::system::{Lagrangian, State, StateOf};
@@ -213,8 +212,7 @@ fn search<L: Lagrangian<Scalar: Real>>(
 /// Distance from the constraints at which a projection begins.
 #[derive(Clone, Copy, PartialEq)]
 enum Reach {
-    /// The end of a step: whole corrections reach the constraints, and each leaves a [small part](LEFT) of the distance. Others lead
-    /// far, to another branch.
+    /// The end of a step: whole corrections reach the constraints, and each gains a bit at least. Others lead far, to another branch.
     Near,
     /// A guess, from which corrections are damped.
     Far,
@@ -282,6 +280,13 @@ impl<L: Lagrangian<Scalar: Real>> Search for Projection<'_, L> {
     type Trial = Trial<L::Scalar, L::N, L::M>;
     type Linear = ();
 
+    fn limit(&self) -> usize {
+        match self.reach {
+            Reach::Near => f64::MANTISSA_DIGITS as usize,
+            Reach::Far => ITERATIONS,
+        }
+    }
+
     fn linearize(&mut self, _: &Self::Trial) -> Result<(), Error> {
         Ok(())
     }
@@ -302,18 +307,15 @@ impl<L: Lagrangian<Scalar: Real>> Search for Projection<'_, L> {
     ) -> Result<impl Iterator<Item = Self::Trial>, Error> {
         // Constraints that are nearly dependent at this trial are usually dependent where they hold. If these
         // steps fail, all constraints count as independent.
-        let is_near = self.reach == Reach::Near && !converged;
-        let most = trial.1.farthest().0 * L::Scalar::constant(LEFT);
         let ranks = [Rank::towards_constraints(), Rank::off_constraints()].into_iter();
         let steps = ranks.filter_map(|rank| self.correction(trial, rank));
         Ok(steps.flat_map(move |step| {
-            let trials = halvings::<L::Scalar>(converged || is_near).map(move |part| {
+            halvings::<L::Scalar>(converged || self.reach == Reach::Near).map(move |part| {
                 let mut state = trial.0;
                 let unknowns = self.level.unknowns(&mut state);
                 *unknowns = unknowns.each_with(&step, |x, change| x + change * part);
                 self.trial(state)
-            });
-            trials.filter(move |(_, left)| !is_near || left.farthest().0 <= most)
+            })
         }))
     }
 

@@ -11,7 +11,7 @@ use crate::contact::across::rows::{Inertia, SparseRows, TouchingRows};
 use crate::contact::{Contacts, ForceDerivatives};
 use crate::error::{Error, Row};
 use crate::names::name;
-use crate::number::limits::{ACCUMULATED, CANCELLED};
+use crate::number::limits::{CANCELLED, HALF_THE_DIGITS};
 use crate::number::{Real, Scalar};
 use crate::numerics::bare::{dot, sqrt};
 use crate::system::StateOf;
@@ -118,7 +118,7 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Middle<L> {
             let touching = unit * size + INSTANT * moved;
             self.round_off.push(unit * size);
             self.touching.push(touching);
-            self.started.push(f64::max(2.0 * touching, ACCUMULATED * unit * size));
+            self.started.push(f64::max(2.0 * touching, HALF_THE_DIGITS * size));
         }
         self.gained = gained;
         let speeds: Vec<f64> = largest.v.iter().map(|v| v.to_f64()).collect();
