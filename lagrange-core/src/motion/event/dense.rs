@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use super::memory::Interval;
 use crate::error::Error;
 use crate::motion::limits::{COARSEST, FINEST, WIDE};
-use crate::number::limits::CANCELLED;
+use crate::number::limits::SUM;
 use crate::number::{Real, Scalar, larger};
 use crate::solution::interpolant::Interpolant;
 use crate::solution::vector_field::VectorField;
@@ -48,7 +48,7 @@ where
         let is_wide = width * constant(WIDE) >= length;
         let finest = if width * constant(WIDE * WIDE) >= length { FINEST } else { 2 * COARSEST };
         let jitter = constant(2.0) * round_off / width;
-        (width > constant(CANCELLED) * round_off).then_some(Interval { width, jitter, finest, is_wide })
+        (width > constant(2.0 * SUM) * round_off).then_some(Interval { width, jitter, finest, is_wide })
     }
 
     /// End of part `piece` of `of` equal parts of the step from the time `from` on.
