@@ -52,6 +52,7 @@ mod items {
     #[derive(Lagrangian)]
     #[coordinates(X)]
     #[lagrangian(Mass*X_dot^2/2 - G*g*X)]
+    #[allow(non_snake_case, reason = "as they are written in the Lagrangian")]
     pub(super) struct Fall {
         pub(super) G: f64,
         pub(super) g: f64,

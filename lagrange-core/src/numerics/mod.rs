@@ -1,4 +1,17 @@
-//! Numerical methods without mechanics: factorizations, iterations and root finding, each once.
+//! Numerical methods without mechanics, each once: they know numbers and vectors alone.
+//!
+//! | file | method | where nalgebra does not serve |
+//! |---|---|---|
+//! | `ldl` | LDLᵀ without pivoting | numbers are lanes, dual numbers and power series; nothing branches |
+//! | `symmetric` | LDLᵀ of indefinite matrices, complete pivoting | rank, null vectors, directions of negative curvature |
+//! | `qr` | QR with pivoting, lengths that are constants | rank by a tolerance, no allocator, lengths that do not overflow |
+//! | `least_norm` | QR with pivoting, lengths that are not | solutions of least norm of equations that depend on one another |
+//! | `lu` | LU with partial pivoting, real and complex | factorizes again without an allocation |
+//! | `singular` | singular values by Jacobi's rotations | small ones are as accurate as large ones |
+//! | `francis` | eigenvalues by double shifts | ends for every matrix |
+//! | `newton` | damped Newton's iteration, Levenberg and Marquardt | – |
+//! | `bracket` | zero between two points of opposite sign | – |
+//! | `spread`, `bare` | evenly distributed numbers; arithmetic without a library of functions | – |
 
 #[cfg(feature = "alloc")]
 pub(crate) mod bare;

@@ -30,13 +30,13 @@ struct Correction<'a, L: Linearized<Scalar: Real>, D> {
 }
 
 /// A shot, and the first damping of the step from it, in units of the residual.
-struct Iterate<L: Linearized> {
+struct DampedShot<L: Linearized> {
     shot: Shot<L>,
     damping: L::Scalar,
 }
 
 /// Equations of the step from a shot.
-struct Equations<T> {
+struct CorrectionEquations<T> {
     factors: Singular<T>,
     right: DVector<T>,
     /// Reason why the last trial from the shot failed.
@@ -59,7 +59,7 @@ where
     fn trial(
         &self,
         from: &Shot<L>,
-        equations: &Equations<L::Scalar>,
+        equations: &CorrectionEquations<L::Scalar>,
         damping: L::Scalar,
     ) -> Result<Shot<L>, Error> {
         let least = equations.factors.norm() * L::Scalar::constant(L::Scalar::EPSILON);
@@ -82,13 +82,13 @@ where
 {
     type Scalar = L::Scalar;
     type Error = Error;
-    type Trial = Iterate<L>;
-    type Linear = Equations<L::Scalar>;
+    type Trial = DampedShot<L>;
+    type Linear = CorrectionEquations<L::Scalar>;
 
     fn linearize(&mut self, from: &Self::Trial) -> Result<Self::Linear, Error> {
         let (matrix, right) = self.problem.bordered(&from.shot, self.arc);
         let factors = Singular::of(&matrix).ok_or(Error::EigenvaluesNotFound)?;
-        Ok(Equations { factors, right, failure: RefCell::new(None) })
+        Ok(CorrectionEquations { factors, right, failure: RefCell::new(None) })
     }
 
     fn left(&self, _: &Self::Linear, trial: &Self::Trial) -> Left<L::Scalar> {
@@ -112,7 +112,7 @@ where
         Ok(dampings.filter_map(move |[damping, next]| {
             let trial = self.trial(&from.shot, equations, damping * distance);
             let shot = trial.map_err(|error| equations.failure.replace(Some(error))).ok()?;
-            Some(Iterate { shot, damping: next })
+            Some(DampedShot { shot, damping: next })
         }))
     }
 
@@ -156,7 +156,7 @@ impl<T: Real> Problem<T> {
     {
         let shot = self.shoot(chain, method)?;
         let mut search = Correction { problem: self, method, arc, tolerance, guess: shot.chain.period };
-        let (found, steps) = newton::find(&mut search, Iterate { shot, damping: T::constant(DAMPING) })?;
+        let (found, steps) = newton::find(&mut search, DampedShot { shot, damping: T::constant(DAMPING) })?;
         Ok((found.shot, steps))
     }
 

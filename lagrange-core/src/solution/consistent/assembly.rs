@@ -78,14 +78,14 @@ type NormalEquations<T, N> = (Array<T, N>, Array<Array<T, N>, N>);
 
 /// State of a search for the least residuals: the residuals of the holonomic constraints in units of their gradients at
 /// the guess, with the Jacobian in these units.
-struct Iterate<T: Element, N: StaticLength, M: StaticLength> {
+struct AssemblyTrial<T: Element, N: StaticLength, M: StaticLength> {
     state: State<T, N>,
     value: Array<T, M>,
     jacobian: Array<Array<T, N>, M>,
     damping: T,
 }
 
-impl<T: Real, N: StaticLength, M: StaticLength> Iterate<T, N, M> {
+impl<T: Real, N: StaticLength, M: StaticLength> AssemblyTrial<T, N, M> {
     fn normal_equations(&self) -> NormalEquations<T, N> {
         let sum = |of: &dyn Fn(usize) -> T| (0..M::COUNT).fold(T::constant(0.0), |sum, a| sum + of(a));
         let slope = Array::from_fn(|i| sum(&|a| self.jacobian[a][i] * self.value[a]));
@@ -113,10 +113,10 @@ struct LeastResiduals<'a, L: Lagrangian> {
 }
 
 impl<L: Lagrangian<Scalar: Real>> LeastResiduals<'_, L> {
-    fn trial(&self, state: StateOf<L>, damping: L::Scalar) -> Iterate<L::Scalar, L::N, L::M> {
+    fn trial(&self, state: StateOf<L>, damping: L::Scalar) -> AssemblyTrial<L::Scalar, L::N, L::M> {
         let value = self.system.constraint_residual(&state);
         let f = Level::Position.jacobian(self.system, &state);
-        Iterate {
+        AssemblyTrial {
             value: Array::from_fn(|a| value[a] / self.units[a]),
             jacobian: Array::from_fn(|a| Array::from_fn(|i| f[a][i] / self.units[a])),
             state,
@@ -145,7 +145,7 @@ impl<L: Lagrangian<Scalar: Real>> Search for LeastResiduals<'_, L> {
     type Scalar = L::Scalar;
     /// Largest residual, and the error.
     type Error = (L::Scalar, Error);
-    type Trial = Iterate<L::Scalar, L::N, L::M>;
+    type Trial = AssemblyTrial<L::Scalar, L::N, L::M>;
     type Linear = NormalEquations<L::Scalar, L::N>;
 
     fn linearize(&mut self, trial: &Self::Trial) -> Result<Self::Linear, Self::Error> {
