@@ -22,5 +22,8 @@ pub(super) const STIFFER: f64 = 0.1;
 pub(super) const SLOWEST: f64 = 0.8;
 
 /// Solved equations of faces, times the number of rows, after which no other reactions are tried to begin with: one stack of 40 contacts took
-/// half a minute without this limit. Few contacts come to [`ITERATIONS`](crate::number::limits::ITERATIONS) starts before.
+/// half a minute without this limit. Few contacts come to [`STARTS`] before.
 pub(super) const WORK: usize = 40_000;
+
+/// Largest number of other reactions that are tried to begin with. Problems without a solution, as of Painlevé's rod, try all of them.
+pub(super) const STARTS: usize = 24;

@@ -41,9 +41,8 @@ use core::ops::Range;
 
 pub(crate) use islands::ConeProblem;
 pub(crate) use limits::ACCURACY;
-use limits::{ROUND_OFF, WORK};
+use limits::{ROUND_OFF, STARTS, WORK};
 
-use crate::number::limits::ITERATIONS;
 use crate::numerics::bare::{dot, length, power_of_two_near_root, sqrt};
 use crate::numerics::spread::scattered;
 
@@ -272,7 +271,7 @@ impl ConeSolver {
     /// From reactions spread over sizes from the largest rate to those whose round-off hides it.
     fn by_other_starts(&mut self) -> bool {
         let (unit, mut size, mut place) = (self.unit(), 0.0, 0);
-        for _ in 0..ITERATIONS {
+        for _ in 0..STARTS {
             if self.solved * self.m > WORK {
                 break;
             }
