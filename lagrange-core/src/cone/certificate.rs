@@ -61,7 +61,8 @@ impl ConeSolver {
         [sizes, sums]
     }
 
-    /// Whether x is Jᵀ r within the round-off of that sum, which may hide a motion with a part [`ACCURACY`] of the energy.
+    /// True if x equals Jᵀ r to the round-off of that sum, and this round-off is at most √[`ACCURACY`] of the largest rate: it can then hide
+    /// a motion with at most a part `ACCURACY` of the energy.
     fn balances(&self, unit: f64) -> bool {
         let [sizes, sums] = self.sums();
         let length = sqrt(dot(&self.x, &self.x));

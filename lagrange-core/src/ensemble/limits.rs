@@ -3,8 +3,8 @@
 #[cfg(feature = "mpi")]
 use core::time::Duration;
 
-/// Rows that are converted to Parquet at once, a row group of the file. Meanwhile each of their numbers takes some hundred bytes: 10 MB
-/// for members with a hundred numbers.
+/// Number of rows in a row group of a Parquet file, which are converted together. During the conversion each number takes some hundred
+/// bytes, so that members with a hundred numbers need 10 MB.
 #[cfg(feature = "parquet")]
 pub(super) const ROWS_IN_GROUP: usize = 1024;
 

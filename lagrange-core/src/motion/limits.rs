@@ -70,12 +70,12 @@ pub(super) const FINEST: usize = 32;
 /// Lowest Chebyshev degree.
 pub(super) const COARSEST: usize = 4;
 
-/// Ratio of the variation of a function to a coefficient, or of its size to the variation, from which the smaller one no longer
-/// counts for the degree that it needs.
+/// Ratio of magnitudes from which the smaller one is neglected in the choice of the Chebyshev degree: a coefficient beside the
+/// variation of the function, and the variation beside the size of the function.
 pub(super) const RESOLVED: f64 = 256.0;
 
-/// Part of a step, as a divisor, from which an interval tells the degree that a function needs; below its square, an interval is
-/// searched by low degrees alone, since a jump or a pole is in it.
+/// Ratio of a step to an interval within it, up to which the interval tells the Chebyshev degree of later steps. Beyond the square of this
+/// ratio, low degrees alone are used: the interval surrounds a jump or a pole, which no degree resolves.
 pub(super) const WIDE: f64 = 8.0;
 
 /// Largest coefficient that may be all noise, as a part of the noise.

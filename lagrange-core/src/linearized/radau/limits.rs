@@ -30,9 +30,10 @@ pub(super) const CONTRACTION: f64 = 0.4;
 /// With 1/4, springs that swing led in one of 60 motions to errors above 10⁻⁴, with 1/10 in one of 270.
 pub(super) const FAST: f64 = 0.1;
 
-/// Ratio of a step with the derivatives at each stage to the longest with those at its start, from which it pays; and its largest
-/// ratio to the step before, whose polynomial is the guess. With 1 for the first, evaluations grow by 1 %, and factorizations of seven
-/// stages by a tenth; without the second, springs that swing take up to a fifth more evaluations.
+/// Two limits of steps with derivatives at each stage. They are taken where they are longer by this factor than steps with the derivatives
+/// at the start: with a factor of 1, evaluations grow by 1 % and factorizations of seven stages by a tenth. They are at most longer by
+/// this factor than the step before, whose polynomial is their guess: without this limit, swinging stiff springs take up to a fifth more
+/// evaluations.
 pub(super) const COUPLED: f64 = 2.0;
 
 /// Growth of the longest step with the derivatives at its start, after one for which the iteration did not converge: a longer one is
