@@ -17,6 +17,8 @@ pub use crate::system::equations::equations;
 pub use crate::system::member::FieldMember;
 pub use crate::system::switch::{FrictionState, Switch, holds, keeps, slides, slip, start, sticks};
 pub use crate::vector::Array;
+#[cfg(feature = "std")]
+pub use crate::vector::scratch::with_scratch;
 
 /// Factorizations computed in loops, for `N` coordinates and `M` constraints.
 pub type LoopFactor<T, const N: usize, const M: usize> = eliminate::LoopFactor<T, Const<N>, Const<M>>;

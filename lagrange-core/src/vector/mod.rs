@@ -8,6 +8,8 @@ mod nalgebra;
 mod phase_vector;
 #[cfg(feature = "alloc")]
 pub(crate) mod run_time;
+#[cfg(feature = "std")]
+pub(crate) mod scratch;
 
 pub(crate) use array::from_fn;
 pub use array::{Array, FixedArray};
