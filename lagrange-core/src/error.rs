@@ -5,7 +5,7 @@ mod ending;
 #[cfg_attr(not(feature = "alloc"), path = "error/never.rs")]
 pub(crate) mod owned;
 
-pub use crate::names::{Entry, Names, Row};
+pub use crate::names::{Entry, Names, Row, WrittenName};
 pub use ending::{Ending, Pace};
 pub use owned::EnsembleError;
 use owned::{BoxedEnding, BoxedOrbitError, String, Strings};

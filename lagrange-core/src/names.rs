@@ -1,6 +1,7 @@
 //! Names of entries of a state and of rows of the equations, for messages and tables.
 
-use core::fmt::{self, Display, Formatter};
+use core::fmt::{self, Debug, Display, Formatter};
+use core::ops::Deref;
 
 /// An entry of a state: the time, a coordinate `x`, its velocity `x_dot` (`r_dot[0]` for an element `r[0]`), or its
 /// momentum `p(x)`; or a parameter.
@@ -16,8 +17,10 @@ pub enum Entry {
     Momentum(&'static str),
     /// The parameter of this name.
     Parameter(&'static str),
-    /// An entry of a system whose coordinates have no names: its half, 0 for coordinates and 1 for velocities, and its index.
-    Numbered(usize, usize),
+    /// The generalized coordinate of this name, in a system that [writes its names](WrittenName).
+    WrittenCoordinate(WrittenName),
+    /// The generalized velocity of the coordinate of this name, in a system that writes its names.
+    WrittenVelocity(WrittenName),
 }
 
 impl Display for Entry {
@@ -25,14 +28,18 @@ impl Display for Entry {
         match self {
             Self::Time => f.write_str("t"),
             Self::Coordinate(name) | Self::Parameter(name) => f.write_str(name),
-            Self::Velocity(name) => {
-                let (base, index) = name.split_at(name.find('[').unwrap_or(name.len()));
-                write!(f, "{base}_dot{index}")
-            }
+            Self::Velocity(name) => write_velocity(name, f),
             Self::Momentum(name) => write!(f, "p({name})"),
-            Self::Numbered(half, index) => write!(f, "{}[{index}]", if *half == 0 { "q" } else { "q_dot" }),
+            Self::WrittenCoordinate(name) => f.write_str(name),
+            Self::WrittenVelocity(name) => write_velocity(name, f),
         }
     }
+}
+
+/// Writes the name of the velocity of a coordinate: `r_dot[0]` for `r[0]`.
+pub(crate) fn write_velocity(coordinate: &str, to: &mut dyn fmt::Write) -> fmt::Result {
+    let (base, index) = coordinate.split_at(coordinate.find('[').unwrap_or(coordinate.len()));
+    write!(to, "{base}_dot{index}")
 }
 
 /// A row of the equations of motion: the equation of a coordinate, or a constraint.
@@ -42,8 +49,8 @@ pub enum Row {
     Coordinate(&'static str),
     /// The constraint of this name.
     Constraint(&'static str),
-    /// The equation of the coordinate of this index, in a system whose coordinates have no names.
-    Numbered(usize),
+    /// The equation of the coordinate of this name, in a system that writes its names.
+    Written(WrittenName),
 }
 
 impl Display for Row {
@@ -51,8 +58,69 @@ impl Display for Row {
         match self {
             Self::Coordinate(name) => write!(f, "coordinate `{name}`"),
             Self::Constraint(name) => write!(f, "constraint `{name}`"),
-            Self::Numbered(index) => write!(f, "coordinate `q[{index}]`"),
+            Self::Written(name) => write!(f, "coordinate `{name}`"),
         }
+    }
+}
+
+/// Name of a coordinate of a system whose length is known when the program runs: `r[3][1]`, or `q[3]` where the accelerations alone are
+/// stated. It is written when a message needs it, without an allocation. Of a long name the end is kept, which has the indices.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct WrittenName {
+    text: [u8; Self::ROOM],
+    length: u8,
+}
+
+impl WrittenName {
+    /// Bytes of a name. An error with two of them, [`Error::DerivativeNotFinite`](crate::Error::DerivativeNotFinite), takes no more room
+    /// than the largest with [`Names`].
+    const ROOM: usize = 39;
+
+    /// Returns the name that a function writes.
+    pub(crate) fn of(write: impl FnOnce(&mut dyn fmt::Write) -> fmt::Result) -> Self {
+        let mut name = Self { text: [0; Self::ROOM], length: 0 };
+        // Writing to memory does not fail; after an error of the function's own the name is what it wrote until then.
+        write(&mut name).ok();
+        name
+    }
+
+    fn push(&mut self, byte: u8) {
+        if usize::from(self.length) == Self::ROOM {
+            self.text.copy_within(1.., 0);
+            self.length -= 1;
+        }
+        self.text[usize::from(self.length)] = byte;
+        self.length += 1;
+    }
+}
+
+impl fmt::Write for WrittenName {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        text.bytes().for_each(|byte| self.push(byte));
+        Ok(())
+    }
+}
+
+impl Deref for WrittenName {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        let bytes = &self.text[..usize::from(self.length)];
+        // A character whose first byte is lost is lost.
+        let whole = bytes.iter().position(|byte| byte & 0xC0 != 0x80).unwrap_or(0);
+        core::str::from_utf8(&bytes[whole..]).unwrap_or("?")
+    }
+}
+
+impl Display for WrittenName {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(self)
+    }
+}
+
+impl Debug for WrittenName {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        Debug::fmt(&**self, f)
     }
 }
 
@@ -118,4 +186,31 @@ mod written {
     }
 
     as_text!(Entry, Row);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(text: &str) -> WrittenName {
+        WrittenName::of(|to| text.chars().try_for_each(|c| to.write_char(c)))
+    }
+
+    #[test]
+    fn entries_have_the_names_that_a_system_writes() {
+        let name = written("r[3][1]");
+        assert_eq!(Entry::WrittenCoordinate(name).to_string(), "r[3][1]");
+        assert_eq!(Entry::WrittenVelocity(name).to_string(), "r_dot[3][1]");
+        assert_eq!(Row::Written(name).to_string(), "coordinate `r[3][1]`");
+        assert_eq!(Entry::WrittenVelocity(written("θ")).to_string(), "θ_dot");
+    }
+
+    /// Characters are kept whole.
+    #[test]
+    fn a_long_name_keeps_its_end() {
+        let long = "θ".repeat(30) + "[3][1]";
+        assert_eq!(*written(&long), *("θ".repeat(16) + "[3][1]"));
+        assert_eq!(*written(&"x".repeat(39)), *"x".repeat(39));
+        assert_eq!(*written(&("y".to_string() + &"x".repeat(39))), *"x".repeat(39));
+    }
 }

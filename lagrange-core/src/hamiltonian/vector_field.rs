@@ -50,7 +50,7 @@ impl<L: Lagrangian<Scalar: Real>> VectorField<L> for HamiltonianVectorField {
         legendre::invert(system, &phase, &array(point.velocity), None)
     }
 
-    fn entry(half: usize, coordinate: usize) -> Entry {
+    fn entry(_: &L, half: usize, coordinate: usize) -> Entry {
         let name = name(L::COORDINATES, coordinate);
         if half == 0 { Entry::Coordinate(name) } else { Entry::Momentum(name) }
     }

@@ -81,7 +81,7 @@ pub use {
 };
 
 pub use crate::number::Parts;
-pub use crate::solution::acceleration_field::AccelerationField;
+pub use crate::solution::acceleration_field::{AccelerationField, AccelerationsAlone, Stated};
 pub use crate::solution::consistent::assembly::Assembly;
 pub use crate::solution::crossing::Crossing;
 pub use crate::solution::interpolant::{HermiteNode, Interpolant, Polynomial};

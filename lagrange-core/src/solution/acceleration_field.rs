@@ -1,8 +1,12 @@
 //! Equations of motion that are stated as accelerations.
 
+use core::fmt;
+use core::marker::PhantomData;
+
 use nalgebra::Const;
 
 use super::consistent::{Adjustment, Consistent};
+use super::named_field::NamedField;
 use super::system_checks::{SystemChecks, check_length};
 use super::vector_field::{ActiveConstraints, StagePoint, VectorField, VelocityField};
 use crate::error::Error;
@@ -11,11 +15,52 @@ use crate::number::{Parts, Real, Scalar, are_finite};
 use crate::system::{State, StateOf, System};
 use crate::vector::{Array, Numbers, PhaseVector, VectorOf};
 
-/// The accelerations of a [`System`] that is stated by them alone.
+/// Accelerations that a system states, in the place of equations that are solved for them. `K` tells what else the system states.
 #[derive(Clone, Copy, Debug)]
-pub struct AccelerationField;
+pub struct Stated<K>(PhantomData<K>);
 
-impl<L: System<Scalar: Real, M = Const<0>>> VectorField<L> for AccelerationField {
+/// The accelerations of a [`System`] that is stated by them alone.
+pub type AccelerationField = Stated<AccelerationsAlone>;
+
+/// Kind of the systems that are stated by their accelerations alone.
+#[derive(Clone, Copy, Debug)]
+pub enum AccelerationsAlone {}
+
+/// Fields of a system whose accelerations alone a motion evaluates.
+pub trait StatedField<L: System<Scalar: Real>>: NamedField<L> {
+    /// Hash of the equations; 0 if they are written by hand.
+    const DIGEST: u32;
+
+    /// Checks that the fields of a system fit one another.
+    ///
+    /// # Errors
+    /// The field that does not fit.
+    fn check_fields(system: &L) -> Result<(), Error>;
+
+    /// Calls `visit` with each number of the fields.
+    fn visit_fields(system: &L, visit: &mut dyn FnMut(f64));
+}
+
+impl<L: System<Scalar: Real>> NamedField<L> for AccelerationField {
+    fn write_name(_: &L, coordinate: usize, to: &mut dyn fmt::Write) -> fmt::Result {
+        write!(to, "q[{coordinate}]")
+    }
+}
+
+impl<L: System<Scalar: Real>> StatedField<L> for AccelerationField {
+    const DIGEST: u32 = 0;
+
+    fn check_fields(_: &L) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn visit_fields(_: &L, _: &mut dyn FnMut(f64)) {}
+}
+
+impl<L: System<Scalar: Real, M = Const<0>>, K> VectorField<L> for Stated<K>
+where
+    Self: StatedField<L>,
+{
     const HOLDS_VELOCITY: bool = true;
 
     type Checks = Self;
@@ -35,8 +80,7 @@ impl<L: System<Scalar: Real, M = Const<0>>> VectorField<L> for AccelerationField
         system.accelerations(point.t, point.y.view(0), point.y.view(1), rates.view_mut(1));
         if !are_finite(&rates[1]) {
             let row = rates[1].iter().position(|a| !Parts::is_finite(*a)).unwrap_or(0);
-            let row = <Self as SystemChecks<L>>::row(row);
-            return Err(Error::EquationsNotFinite { row, time: point.t.to_f64() });
+            return Err(Error::EquationsNotFinite { row: Self::row(system, row), time: point.t.to_f64() });
         }
         Ok(ActiveConstraints {
             active: Array::filled(true),
@@ -53,20 +97,19 @@ impl<L: System<Scalar: Real, M = Const<0>>> VectorField<L> for AccelerationField
     fn project(system: &L, point: &StagePoint<L::Scalar, L::Length>) -> Result<StateOf<L>, Error> {
         Ok(<Self as VectorField<L>>::state(system, point))
     }
-
-    fn entry(half: usize, coordinate: usize) -> Entry {
-        Entry::Numbered(half, coordinate)
-    }
 }
 
-impl<L: System<Scalar: Real, M = Const<0>>> VelocityField<L> for AccelerationField {}
+impl<L: System<Scalar: Real, M = Const<0>>, K> VelocityField<L> for Stated<K> where Self: StatedField<L> {}
 
-impl<L: System<Scalar: Real, M = Const<0>>> SystemChecks<L> for AccelerationField {
+impl<L: System<Scalar: Real, M = Const<0>>, K> SystemChecks<L> for Stated<K>
+where
+    Self: StatedField<L>,
+{
     const HAS_CONTACTS: bool = false;
     const HAS_FRICTION: bool = false;
     const COORDINATES: &'static [&'static str] = &[];
     const CONSTRAINTS: &'static [&'static str] = &[];
-    const DIGEST: u32 = 0;
+    const DIGEST: u32 = <Self as StatedField<L>>::DIGEST;
     const SUPPLIED: &'static [&'static str] = &[];
 
     fn name() -> &'static str {
@@ -79,15 +122,21 @@ impl<L: System<Scalar: Real, M = Const<0>>> SystemChecks<L> for AccelerationFiel
         path.rsplit(':').next().unwrap_or(path)
     }
 
-    fn check_entries(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+    fn check_fit(system: &L, state: &StateOf<L>) -> Result<(), Error> {
         check_length(system, state)?;
+        Self::check_fields(system)
+    }
+
+    fn check_entries(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        Self::check_fit(system, state)?;
+        let is_wrong = |x: &L::Scalar| !Parts::is_finite(*x);
         let halves = [state.q.entries(), state.v.entries()];
-        let numbered = |half: usize| {
-            let entries = halves[half].iter().enumerate();
-            entries.map(move |(i, &x)| (<Self as VectorField<L>>::entry(half, i), x))
+        let wrong = |half: usize| {
+            let coordinate = halves[half].iter().position(is_wrong)?;
+            Some((Self::state_entry(system, half, coordinate), halves[half][coordinate]))
         };
-        let mut all = [(Entry::Time, state.t)].into_iter().chain(numbered(0)).chain(numbered(1));
-        match all.find(|(_, x)| !Parts::is_finite(*x)) {
+        let of_time = is_wrong(&state.t).then_some((Entry::Time, state.t));
+        match of_time.or_else(|| wrong(0)).or_else(|| wrong(1)) {
             None => Ok(()),
             Some((entry, x)) => Err(Error::StateNotFinite { entry, value: x.to_f64() }),
         }
@@ -109,7 +158,9 @@ impl<L: System<Scalar: Real, M = Const<0>>> SystemChecks<L> for AccelerationFiel
         Ok((state.clone(), Adjustment::none(system.length())))
     }
 
-    fn visit_numbers(_: &L, _: &mut dyn FnMut(f64)) {}
+    fn visit_numbers(system: &L, visit: &mut dyn FnMut(f64)) {
+        Self::visit_fields(system, visit);
+    }
 
     fn momenta(_: &L, state: &StateOf<L>) -> VectorOf<L::Scalar, L::Length> {
         state.v.clone()

@@ -9,6 +9,7 @@ pub(crate) mod impact;
 pub(crate) mod interpolant;
 pub(crate) mod kkt;
 pub(crate) mod limits;
+pub(crate) mod named_field;
 pub(crate) mod near;
 pub(crate) mod pivot;
 pub(crate) mod reason;

@@ -1,22 +1,22 @@
 //! Properties of a system that a motion needs besides the rates.
 
 use super::consistent::{Consistent, check, project_to_round_off};
+use super::named_field::NamedField;
 use super::solve::solve;
 use super::vector_field::{LagrangianVectorField, VectorField};
 use crate::error::Error;
-use crate::names::{Row, name};
 use crate::number::{Real, Scalar};
 use crate::system::finite::check_finite;
 use crate::system::{Lagrangian, StateOf, System};
 use crate::vector::{Length, Numbers, Vector, VectorOf};
 
 /// Checks of the states of a system, and names for messages about it.
-pub trait SystemChecks<L: System<Scalar: Real>> {
+pub trait SystemChecks<L: System<Scalar: Real>>: NamedField<L> {
     /// True for a system with [contacts](crate::contact).
     const HAS_CONTACTS: bool;
     /// True if the force of friction is a multiple of a multiplier.
     const HAS_FRICTION: bool;
-    /// Names of the coordinates; empty if they are numbered.
+    /// Names of the coordinates; empty if they are known when the program runs.
     const COORDINATES: &'static [&'static str];
     /// Names of the constraints.
     const CONSTRAINTS: &'static [&'static str];
@@ -27,6 +27,14 @@ pub trait SystemChecks<L: System<Scalar: Real>> {
 
     /// Returns the name of the system.
     fn name() -> &'static str;
+
+    /// Checks that a state has as many entries as its system has coordinates, and that the fields of the system fit one another.
+    ///
+    /// # Errors
+    /// [`Error::StateLength`].
+    fn check_fit(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        check_length(system, state)
+    }
 
     /// Checks that the entries of a state and the parameters are finite, and that the state has as many entries as the system has
     /// coordinates.
@@ -58,14 +66,6 @@ pub trait SystemChecks<L: System<Scalar: Real>> {
 
     /// Returns the momenta; of a system that is stated by its accelerations, the velocities.
     fn momenta(system: &L, state: &StateOf<L>) -> VectorOf<L::Scalar, L::Length>;
-
-    /// Returns the equation of a coordinate.
-    fn row(coordinate: usize) -> Row {
-        match Self::COORDINATES.is_empty() {
-            true => Row::Numbered(coordinate),
-            false => Row::Coordinate(name(Self::COORDINATES, coordinate)),
-        }
-    }
 }
 
 /// Checks by the constraints, the parameters and the names of a Lagrangian system.
@@ -112,7 +112,7 @@ impl<L: Lagrangian<Scalar: Real>> SystemChecks<L> for LagrangianVectorField {
 }
 
 /// Checks that a state has as many coordinates and velocities as its system has coordinates.
-pub(crate) fn check_length<L: System>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+pub(super) fn check_length<L: System>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
     let expected = system.length().count();
     match [state.q.entries(), state.v.entries()].iter().find(|half| half.len() != expected) {
         None => Ok(()),

@@ -1,10 +1,11 @@
 //! Vector fields that the methods integrate: Lagrange's equations in (q, q̇), Hamilton's in (q, p).
 
 use super::consistent::{BOTH, project};
+use super::named_field::NamedField;
 use super::solve::solve_near;
 use super::system_checks::SystemChecks;
 use crate::error::Error;
-use crate::names::{Entry, name};
+use crate::names::Entry;
 use crate::number::Real;
 use crate::system::{Lagrangian, State, StateOf, System};
 use crate::vector::{Array, Element, Length, PhaseVector, StaticLength, VectorOf, array, vector};
@@ -44,7 +45,9 @@ pub trait VectorField<L: System<Scalar: Real>> {
     fn project(system: &L, point: &StagePoint<L::Scalar, L::Length>) -> Result<StateOf<L>, Error>;
 
     /// Returns the entry of the phase in this half, 0 or 1, that belongs to a coordinate.
-    fn entry(half: usize, coordinate: usize) -> Entry;
+    fn entry(system: &L, half: usize, coordinate: usize) -> Entry {
+        Self::Checks::state_entry(system, half, coordinate)
+    }
 }
 
 /// Equations of motion in coordinates and velocities.
@@ -143,11 +146,6 @@ impl<L: Lagrangian<Scalar: Real>> VectorField<L> for LagrangianVectorField {
         let mut state = Self::state(system, point);
         project(system, &BOTH, &mut state)?;
         Ok(state)
-    }
-
-    fn entry(half: usize, coordinate: usize) -> Entry {
-        let name = name(L::COORDINATES, coordinate);
-        if half == 0 { Entry::Coordinate(name) } else { Entry::Velocity(name) }
     }
 }
 

@@ -211,7 +211,7 @@ impl<L: Contacts<Scalar: Real> + Clone> KeepsLegs<L> for SampledLegs<'_, L> {
 
     fn control(&mut self, system: &mut L, state: &StateOf<L>) -> Result<bool, Ending> {
         let due = self.record.as_mut().filter(|record| record.is_due(state.t));
-        due.map_or(Ok(false), |record| record.control(system, state).map(|()| true))
+        due.map_or(Ok(false), |record| record.control::<L::Field>(system, state).map(|()| true))
     }
 
     fn drive<P: Method<L>>(&mut self, leg: StartedLeg<'_, '_, '_, L, P>) -> Result<Driven<L>, Error> {

@@ -11,6 +11,7 @@ use crate::motion::method::clock::Clock;
 use crate::motion::method::contract::{Limits, Method, Step, check_settings, limit_setters};
 use crate::number::{Parts, Real, Scalar, are_finite};
 use crate::solution::interpolant::Polynomial;
+use crate::solution::named_field::NamedField;
 use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::{StagePoint, VectorField, VelocityField};
 use crate::statistics::Statistics;
@@ -273,7 +274,7 @@ fn failure<L: System<Scalar: Real>, F: VectorField<L>>(
     let end = end.unwrap_or(start);
     let is_finite = |i: usize| [momenta[i], end.q[i], end.v[i]].into_iter().all(Parts::is_finite);
     match (0..end.q.entries().len()).find(|&i| !is_finite(i)) {
-        Some(i) => Ending::NotFinite { time, row: F::Checks::row(i) },
+        Some(i) => Ending::NotFinite { time, row: F::Checks::row(system, i) },
         None => Ending::MethodFailed {
             time,
             reason: match <L::M as StaticLength>::COUNT {

@@ -13,7 +13,7 @@ use super::scheme::{
 };
 use super::settle::{NotSettled, Residuals, have_hardly_turned};
 use crate::number::{Parts, Scalar};
-use crate::solution::acceleration_field::AccelerationField;
+use crate::solution::acceleration_field::Stated;
 use crate::solution::near::compensated;
 use crate::solution::vector_field::LagrangianVectorField;
 use crate::structure::{ConstantMassMatrix, HolonomicConstraints, VelocityFreeForces};
@@ -153,7 +153,7 @@ where
     }
 }
 
-impl<L: System<Scalar: Parts> + VelocityFreeForces> PositionForces<L> for AccelerationField {
+impl<L: System<Scalar: Parts> + VelocityFreeForces, K> PositionForces<L> for Stated<K> {
     type Factor = Infallible;
 
     #[inline(always)]

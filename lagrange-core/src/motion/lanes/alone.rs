@@ -48,7 +48,7 @@ impl<'o, L: Lagrangian<Scalar = f64>, P: LaneMethod<L>> LaneMotion<'o, L, P> {
     /// Calls the controller, and continues from this state with the changed parameters.
     pub(super) fn control(&mut self, state: &State<f64, L::N>, method: &P) -> Result<(), Ending> {
         let Self { record, system, memory, statistics, .. } = self;
-        record.control(system, state)?;
+        record.control::<L::Field>(system, state)?;
         resume::<_, LagrangianVectorField, _>(system, method, memory, state, statistics)
             .map_err(|error| Ending::of(error, state.t))?;
         self.end = self.record.goal;

@@ -10,7 +10,7 @@ use super::contract::{Limits, Method, Step, check_settings, limit_setters};
 use crate::error::{Ending, Error};
 use crate::number::{Real, Scalar, are_finite};
 use crate::solution::interpolant::Polynomial;
-use crate::solution::system_checks::SystemChecks;
+use crate::solution::named_field::NamedField;
 use crate::solution::vector_field::{StagePoint, VectorField, VelocityField};
 use crate::statistics::Statistics;
 use crate::system::{State, StateOf, System};
@@ -266,7 +266,7 @@ fn mend<L: System<Scalar: Real>, F: VectorField<L>>(
     }
     let halves = [end.q.entries(), end.v.entries()];
     if let Some(i) = (0..halves[0].len()).find(|&i| !(halves[0][i].is_finite() && halves[1][i].is_finite())) {
-        return Err(Error::EquationsNotFinite { row: F::Checks::row(i), time: start.t.to_f64() });
+        return Err(Error::EquationsNotFinite { row: F::Checks::row(system, i), time: start.t.to_f64() });
     }
     let point = StagePoint::of(end);
     *end = F::project(system, &point)?;

@@ -4,7 +4,7 @@ use nalgebra::ComplexField;
 
 use crate::error::Error;
 use crate::number::{Real, are_finite};
-use crate::solution::system_checks::SystemChecks;
+use crate::solution::named_field::NamedField;
 use crate::solution::vector_field::{ActiveConstraints, StagePoint, VectorField};
 use crate::statistics::Statistics;
 use crate::system::System;
@@ -39,6 +39,7 @@ pub(super) fn inlined_slope<L: System<Scalar: Real>, F: VectorField<L>>(
 }
 
 pub(super) fn check_finite<L: System<Scalar: Real>, F: VectorField<L>>(
+    system: &L,
     t: L::Scalar,
     y: &PhaseVector<L::Scalar, L::Length>,
 ) -> Result<(), Error> {
@@ -47,6 +48,6 @@ pub(super) fn check_finite<L: System<Scalar: Real>, F: VectorField<L>>(
     }
     match (0..y[0].len()).find(|&i| !(y[0][i].is_finite() && y[1][i].is_finite())) {
         None => Ok(()),
-        Some(i) => Err(Error::EquationsNotFinite { row: F::Checks::row(i), time: t.to_f64() }),
+        Some(i) => Err(Error::EquationsNotFinite { row: F::Checks::row(system, i), time: t.to_f64() }),
     }
 }

@@ -137,7 +137,7 @@ where
             }
             Err(Refusal::Inaccurate(error, place)) => {
                 memory.control.refuse::<P>(h, error);
-                Ending::StepTooSmall { time: now, entry: F::entry(place.0, place.1) }
+                Ending::StepTooSmall { time: now, entry: F::entry(system, place.0, place.1) }
             }
             Err(Refusal::Unsolved(error)) => {
                 memory.control.halve(h);
@@ -327,7 +327,7 @@ impl<P: Pair> Adaptive<P> {
         stages::<P, L, F>(system, from, h, (slopes, multipliers, spare), (1, P::STAGES), statistics)?;
         advance(&from.y, h, slopes, P::WEIGHTS, &mut next.y);
         next.t = time;
-        check_finite::<L, F>(time, &next.y)?;
+        check_finite::<L, F>(system, time, &next.y)?;
         let mut active = from.active;
         let needs_last = !IS_FIXED && error_needs_last::<P>();
         if needs_last {

@@ -19,7 +19,7 @@ use crate::number::Real;
 use crate::solution::Sample;
 use crate::solution::crossing::Crossing;
 use crate::solution::interpolant::Interpolant;
-use crate::solution::system_checks::check_length;
+use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{SolutionOf, State, StateOf, System};
@@ -261,7 +261,11 @@ impl<'o, L: System<Scalar: Real>> Record<'o, L> {
     }
 
     /// Calls the controller, and sets the next goal. The caller must then resume the method.
-    pub(crate) fn control(&mut self, system: &mut L, state: &StateOf<L>) -> Result<(), Ending> {
+    pub(crate) fn control<F: VectorField<L>>(
+        &mut self,
+        system: &mut L,
+        state: &StateOf<L>,
+    ) -> Result<(), Ending> {
         let Some(Steering { interval, controller }) = &mut self.steering else { return Ok(()) };
         let time = state.t.to_f64();
         controller(system, state).map_err(|said| Ending::ControllerFailed { time, said })?;
@@ -271,7 +275,7 @@ impl<'o, L: System<Scalar: Real>> Record<'o, L> {
         if self.goal == state.t {
             return Err(Ending::TimeTooCoarse { time, step: interval.to_f64() });
         }
-        check_length(system, state)
+        F::Checks::check_fit(system, state)
             .and_then(|()| EventSearch::from(&mut self.events, system, state, true))
             .map_err(|error| Ending::of(error, time))?;
         Ok(())
@@ -376,7 +380,7 @@ where
             if let Moving::Steered(system) = system
                 && record.is_due(state.t)
             {
-                record.control(system, state)?;
+                record.control::<F>(system, state)?;
                 resume::<_, F, _>(system, method, memory, state, statistics)
                     .map_err(|error| Ending::of(error, state.t.to_f64()))?;
             }
