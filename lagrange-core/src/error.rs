@@ -30,6 +30,37 @@ pub enum Error {
         /// Number of the coordinates of the system.
         expected: usize,
     },
+    /// A field of a system of any number of bodies has more or fewer elements than it should.
+    FieldLength {
+        /// Name of the field.
+        field: &'static str,
+        /// Number of its elements.
+        found: usize,
+        /// Number that it should have.
+        expected: usize,
+        /// The length whose value that is: `n`.
+        of: &'static str,
+    },
+    /// An entry of a table of indices is beyond the end of the array that it points into.
+    FieldIndex {
+        /// Name of the table.
+        field: &'static str,
+        /// Place of the entry in the table, counted from 0.
+        entry: usize,
+        /// The entry.
+        index: usize,
+        /// Number of elements of the array.
+        length: usize,
+    },
+    /// A sum or a range leaves an array whose length is a field.
+    ElementMissing {
+        /// Name of the array.
+        array: &'static str,
+        /// Index of the first element that does not exist.
+        index: i64,
+        /// Number of elements of the array.
+        length: usize,
+    },
     /// A parameter matrix lacks the property that its type or `#[parameter(…)]` declares.
     ParameterNotAsSaid {
         /// Name of the parameter.

@@ -14,7 +14,8 @@ pub use crate::motion::{DAlembert, Dop853, Dopri5, Gauss, Lobatto, Motion, Runge
 pub use crate::number::Scalar;
 #[cfg(feature = "alloc")]
 pub use crate::{
-    linearized::MotionDerivatives, motion::Taylor, orbits::PeriodicMotion, trajectory::Trajectory,
+    linearized::MotionDerivatives, motion::Taylor, orbits::PeriodicMotion, system::ManyBodies,
+    trajectory::Trajectory,
 };
 // Both the trait and the derive macro.
 pub use crate::Lagrangian;

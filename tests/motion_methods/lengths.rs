@@ -164,7 +164,7 @@ fn a_motion_is_advanced_by_its_caller() {
     assert!((motion.state().q[3] - path.at(1.0).unwrap().state().q[3]).abs() < 1e-8);
 }
 
-/// A state that does not fit its system, and numbers that are none, are refused by index.
+/// A state that does not fit its system, and numbers that are none, are refused by name.
 #[test]
 fn what_does_not_fit_is_refused() {
     let chain = Chain { masses: 5, beta: BETA };
@@ -176,12 +176,12 @@ fn what_does_not_fit_is_refused() {
     let mut broken = Chain::start(5);
     broken.v[3] = f64::NAN;
     let error = chain.integrate(broken.clone(), 1.0, Dop853::default()).unwrap_err();
-    assert!(error.to_string().contains("`q_dot[3]`"), "{error}");
+    assert!(error.to_string().contains("`x_dot[3]`"), "{error}");
     let mut motion = Motion::new(chain, Chain::start(5), RungeKutta4::with_step(0.1)).unwrap();
-    assert!(motion.set_state(broken).unwrap_err().to_string().contains("`q_dot[3]`"));
+    assert!(motion.set_state(broken).unwrap_err().to_string().contains("`x_dot[3]`"));
     motion.system_mut().beta = f64::NAN;
     let ending = motion.advance_to(1.0).unwrap_err();
-    assert!(ending.to_string().contains("`q[0]`"), "{ending}");
+    assert!(ending.to_string().contains("`x[0]`"), "{ending}");
     motion.system_mut().beta = BETA;
     motion.advance_to(1.0).unwrap();
     motion.system_mut().masses = 6;

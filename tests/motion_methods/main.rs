@@ -4,6 +4,7 @@
 mod combinations;
 mod heun;
 mod lengths;
+mod many_bodies;
 mod midpoint;
 mod one_line;
 mod radau;

@@ -16,6 +16,20 @@ impl Display for Error {
                 f,
                 "the state given has {found} coordinates or velocities, and the system {expected} coordinates: q and q̇ have one entry for each coordinate"
             ),
+            Self::FieldLength { field, found, expected, of } => {
+                write!(
+                    f,
+                    "the field `{field}` has {found} elements, and `{of}` is {expected}: give it {expected}"
+                )
+            }
+            Self::FieldIndex { field, entry, index, length } => write!(
+                f,
+                "entry {entry} of `{field}` is {index}, and there are {length}: indices, like entries, count from 0"
+            ),
+            Self::ElementMissing { array, index, length } => write!(
+                f,
+                "`{array}[{index}]` is outside of the array, which has {length} elements, counted from 0: let the range end before it, or give the array more elements"
+            ),
             Self::ParameterNotAsSaid { name, wanted, defect } if !defect.is_finite() => {
                 write!(f, "the parameter `{name}` is not {wanted}: one of its entries is not finite")
             }

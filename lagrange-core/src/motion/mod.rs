@@ -85,6 +85,8 @@ pub use crate::solution::acceleration_field::{AccelerationField, AccelerationsAl
 pub use crate::solution::consistent::assembly::Assembly;
 pub use crate::solution::crossing::Crossing;
 pub use crate::solution::interpolant::{HermiteNode, Interpolant, Polynomial};
+#[cfg(feature = "alloc")]
+pub use crate::solution::many_body_field::{ManyBodyField, WithLagrangian};
 pub use crate::solution::system_checks::SystemChecks;
 pub use crate::solution::vector_field::{
     ActiveConstraints, LagrangianVectorField, StagePoint, VectorField, VelocityField,

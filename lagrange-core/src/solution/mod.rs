@@ -9,6 +9,8 @@ pub(crate) mod impact;
 pub(crate) mod interpolant;
 pub(crate) mod kkt;
 pub(crate) mod limits;
+#[cfg(feature = "alloc")]
+pub(crate) mod many_body_field;
 pub(crate) mod named_field;
 pub(crate) mod near;
 pub(crate) mod pivot;

@@ -11,6 +11,8 @@ mod integrability;
 mod lagrangian;
 #[cfg(feature = "alloc")]
 pub(crate) mod lookup;
+#[cfg(feature = "alloc")]
+mod many_bodies;
 pub(crate) mod member;
 mod moving;
 mod pack;
@@ -31,6 +33,8 @@ pub use facts::{Conserved, EnergyForm, Facts, LinearPart, TotalDerivative};
 pub use integrability::{Classification, Extent, Integrability, Integrals};
 pub use lagrangian::{ConstraintKind, Lagrangian};
 pub(crate) use lagrangian::{check_contacts, check_friction, check_names, entry, has_velocity_constraints};
+#[cfg(feature = "alloc")]
+pub use many_bodies::ManyBodies;
 pub use moving::System;
 pub use pack::{Pack, Packed, Shared};
 pub(crate) use state::write_state;

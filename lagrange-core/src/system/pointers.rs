@@ -1,16 +1,26 @@
 //! Forwards the traits of a system through references and smart pointers.
 
+#[cfg(feature = "alloc")]
+use core::fmt;
+
+#[cfg(feature = "alloc")]
+use nalgebra::{DVector, Dyn};
+
 use super::defect::Defect;
 use super::direction::Direction;
 use super::equations::Equations;
 use super::facts::Facts;
 use super::integrability::{Classification, Integrals};
 use super::lagrangian::{ConstraintKind, Lagrangian};
+#[cfg(feature = "alloc")]
+use super::many_bodies::ManyBodies;
 use super::moving::System;
 use super::pack::Pack;
 use super::state::{Solution, State};
 use super::structure::{ConstantMassMatrix, HolonomicConstraints, Unconstrained, VelocityFreeForces};
 use super::taylor_series::{RightHandSides, TaylorSeries};
+#[cfg(feature = "alloc")]
+use crate::error::Error;
 use crate::number::{Broadcast, PowerSeries};
 use crate::vector::{Matrix, Vector, ViewOf};
 
@@ -116,6 +126,28 @@ macro_rules! forward {
                     solution: &Solution<Self::Scalar, L::N, L::M>
                 ) -> Option<Self::Scalar>;
                 fn conserved(index: usize, state: &State<Self::Scalar, L::N>) -> Option<Self::Scalar>;
+            }
+        }
+
+        #[cfg(feature = "alloc")]
+        #[diagnostic::do_not_recommend]
+        impl<L: ManyBodies> ManyBodies for $pointer {
+            const ENERGY_IS_CONSERVED: bool = L::ENERGY_IS_CONSERVED;
+            const DIGEST: u32 = L::DIGEST;
+
+            fn write_name(&self, coordinate: usize, to: &mut dyn fmt::Write) -> fmt::Result {
+                L::write_name(self, coordinate, to)
+            }
+
+            fn visit_numbers(&self, visit: &mut dyn FnMut(f64)) {
+                L::visit_numbers(self, visit);
+            }
+
+            forward! { @methods
+                fn check() -> Result<(), Error>;
+                fn lagrangian(state: &State<Self::Scalar, Dyn>) -> Self::Scalar;
+                fn energy(state: &State<Self::Scalar, Dyn>) -> Self::Scalar;
+                fn momenta(state: &State<Self::Scalar, Dyn>) -> DVector<Self::Scalar>;
             }
         }
 

@@ -1,7 +1,9 @@
-use lagrange_core::motion::AccelerationField;
+use std::fmt;
+
+use lagrange_core::motion::{AccelerationField, ManyBodyField};
 use lagrange_core::nalgebra::{Const, DVector, Dyn};
 use lagrange_core::structure::VelocityFreeForces;
-use lagrange_core::{Lagrangian, State, System, generic};
+use lagrange_core::{Error, Lagrangian, ManyBodies, State, System, generic};
 
 /// Fermi, Pasta, Ulam and Tsingou's chain of unit masses between two walls, U = Σ d²/2 + β d⁴/4 over the springs. Its length is known
 /// when the program runs.
@@ -11,7 +13,7 @@ pub struct Chain {
     pub beta: f64,
 }
 
-/// The same chain of `N` masses.
+/// The same chain of `N` masses, by its accelerations alone.
 #[derive(Clone, Debug)]
 pub struct ChainOf<const N: usize> {
     pub beta: f64,
@@ -31,6 +33,13 @@ impl Chain {
     pub fn start(masses: usize) -> generic::State<f64, Dyn> {
         let q = DVector::from_fn(masses, |i, _| place(i));
         generic::State { t: 0.0, v: DVector::zeros(masses), q }
+    }
+
+    /// Energy of the springs.
+    fn stored(&self, x: &[f64]) -> f64 {
+        let of_spring = |d: f64| d * d / 2.0 + self.beta * d.powi(4) / 4.0;
+        let ends = x.first().into_iter().chain(x.last()).copied();
+        ends.chain(x.windows(2).map(|pair| pair[1] - pair[0])).map(of_spring).sum()
     }
 }
 
@@ -62,7 +71,7 @@ impl System for Chain {
     type Scalar = f64;
     type Length = Dyn;
     type M = Const<0>;
-    type Field = AccelerationField;
+    type Field = ManyBodyField;
 
     fn length(&self) -> Dyn {
         Dyn(self.masses)
@@ -74,6 +83,36 @@ impl System for Chain {
 }
 
 impl VelocityFreeForces for Chain {}
+
+impl ManyBodies for Chain {
+    const ENERGY_IS_CONSERVED: bool = true;
+    const DIGEST: u32 = 0;
+
+    fn write_name(&self, coordinate: usize, to: &mut dyn fmt::Write) -> fmt::Result {
+        write!(to, "x[{coordinate}]")
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    fn visit_numbers(&self, visit: &mut dyn FnMut(f64)) {
+        visit(self.masses as f64);
+        visit(self.beta);
+    }
+
+    fn lagrangian(&self, state: &generic::State<f64, Dyn>) -> f64 {
+        state.v.norm_squared() / 2.0 - self.stored(state.q.as_slice())
+    }
+
+    fn energy(&self, state: &generic::State<f64, Dyn>) -> f64 {
+        state.v.norm_squared() / 2.0 + self.stored(state.q.as_slice())
+    }
+
+    fn momenta(&self, state: &generic::State<f64, Dyn>) -> DVector<f64> {
+        state.v.clone()
+    }
+}
 
 impl<const N: usize> System for ChainOf<N> {
     type Scalar = f64;

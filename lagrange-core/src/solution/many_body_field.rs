@@ -1,0 +1,34 @@
+//! Equations of motion of systems of any number of bodies.
+
+use core::fmt;
+
+use super::acceleration_field::{Stated, StatedField};
+use super::named_field::NamedField;
+use crate::error::Error;
+use crate::number::Real;
+use crate::system::ManyBodies;
+
+/// The accelerations of [`ManyBodies`].
+pub type ManyBodyField = Stated<WithLagrangian>;
+
+/// Kind of the systems whose accelerations follow from a Lagrangian that they state too.
+#[derive(Clone, Copy, Debug)]
+pub enum WithLagrangian {}
+
+impl<L: ManyBodies<Scalar: Real>> NamedField<L> for ManyBodyField {
+    fn write_name(system: &L, coordinate: usize, to: &mut dyn fmt::Write) -> fmt::Result {
+        system.write_name(coordinate, to)
+    }
+}
+
+impl<L: ManyBodies<Scalar: Real>> StatedField<L> for ManyBodyField {
+    const DIGEST: u32 = L::DIGEST;
+
+    fn check_fields(system: &L) -> Result<(), Error> {
+        system.check()
+    }
+
+    fn visit_fields(system: &L, visit: &mut dyn FnMut(f64)) {
+        system.visit_numbers(visit);
+    }
+}

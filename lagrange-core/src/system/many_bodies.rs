@@ -1,0 +1,114 @@
+//! The trait [`ManyBodies`]: systems whose number of bodies is a field.
+
+use core::fmt;
+
+use nalgebra::{Const, DVector, Dyn};
+
+use super::moving::System;
+use super::state::State;
+use crate::error::Error;
+use crate::solution::many_body_field::ManyBodyField;
+
+/// A system of any number of bodies, as `#[derive(Lagrangian)]` emits it where an array of coordinates has a length that is a field.
+///
+/// It moves as every [`System`] of a run-time length, and has names, momenta and an energy. An implementation by hand is not needed
+/// often:
+///
+/// ```
+/// use core::fmt;
+/// use lagrange_core::motion::ManyBodyField;
+/// use lagrange_core::nalgebra::{Const, DVector, Dyn};
+/// use lagrange_core::{ManyBodies, System, generic, prelude::*};
+///
+/// type State = generic::State<f64, Dyn>;
+///
+/// /// Masses on springs of stiffness `k`, each to its own wall.
+/// struct Springs { m: Vec<f64>, k: f64 }
+///
+/// impl System for Springs {
+///     type Scalar = f64;
+///     type Length = Dyn;
+///     type M = Const<0>;
+///     type Field = ManyBodyField;
+///
+///     fn length(&self) -> Dyn {
+///         Dyn(self.m.len())
+///     }
+///
+///     fn accelerations(&self, _t: f64, q: &[f64], _v: &[f64], a: &mut [f64]) {
+///         (0..q.len()).for_each(|i| a[i] = -self.k * q[i] / self.m[i]);
+///     }
+/// }
+///
+/// impl ManyBodies for Springs {
+///     const ENERGY_IS_CONSERVED: bool = true;
+///     const DIGEST: u32 = 0;
+///
+///     fn write_name(&self, coordinate: usize, to: &mut dyn fmt::Write) -> fmt::Result {
+///         write!(to, "x[{coordinate}]")
+///     }
+///
+///     fn check(&self) -> Result<(), Error> {
+///         Ok(())
+///     }
+///
+///     fn visit_numbers(&self, visit: &mut dyn FnMut(f64)) {
+///         self.m.iter().chain([&self.k]).for_each(|x| visit(*x));
+///     }
+///
+///     fn lagrangian(&self, state: &State) -> f64 {
+///         self.momenta(state).dot(&state.v) / 2.0 - self.k * state.q.norm_squared() / 2.0
+///     }
+///
+///     fn energy(&self, state: &State) -> f64 {
+///         self.momenta(state).dot(&state.v) / 2.0 + self.k * state.q.norm_squared() / 2.0
+///     }
+///
+///     fn momenta(&self, state: &State) -> DVector<f64> {
+///         DVector::from_fn(self.m.len(), |i, _| self.m[i] * state.v[i])
+///     }
+/// }
+///
+/// let springs = Springs { m: vec![1.0, 4.0], k: 4.0 };
+/// let start = State { t: 0.0, q: DVector::from_vec(vec![1.0, 1.0]), v: DVector::zeros(2) };
+/// let path = springs.integrate(start, 3.0, Dop853::default())?;
+/// let end = path.end();
+/// assert!((end.state().q[1] - 3.0_f64.cos()).abs() < 1e-7);
+/// assert!((springs.energy(end.state()) - 4.0).abs() < 1e-7);
+/// # Ok::<(), Error>(())
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no system of any number of bodies",
+    note = "put `#[derive(Lagrangian)]` on the struct, with an array of coordinates whose length is a field: `#[coordinates(r: [n, 3])]`"
+)]
+pub trait ManyBodies: System<Length = Dyn, M = Const<0>, Field = ManyBodyField> {
+    /// True if the energy is conserved, as the derivation proved.
+    const ENERGY_IS_CONSERVED: bool;
+
+    /// Hash of the struct and of the attributes that determine its motion; 0 for a manual implementation.
+    const DIGEST: u32;
+
+    /// Writes the name of a coordinate: `r[3][1]`.
+    ///
+    /// # Errors
+    /// Those of `to`.
+    fn write_name(&self, coordinate: usize, to: &mut dyn fmt::Write) -> fmt::Result;
+
+    /// Checks the lengths of the fields, and indices in tables, when a motion starts and after each change of the system.
+    ///
+    /// # Errors
+    /// [`Error::FieldLength`], [`Error::FieldIndex`] and [`Error::ElementMissing`].
+    fn check(&self) -> Result<(), Error>;
+
+    /// Calls `visit` with the numbers of all fields, for the fingerprints of [ensembles](crate::ensemble).
+    fn visit_numbers(&self, visit: &mut dyn FnMut(f64));
+
+    /// Lagrangian L(t, q, q̇).
+    fn lagrangian(&self, state: &State<Self::Scalar, Dyn>) -> Self::Scalar;
+
+    /// Energy function E = p·q̇ − L.
+    fn energy(&self, state: &State<Self::Scalar, Dyn>) -> Self::Scalar;
+
+    /// Generalized momenta p = ∂L/∂q̇.
+    fn momenta(&self, state: &State<Self::Scalar, Dyn>) -> DVector<Self::Scalar>;
+}
