@@ -365,6 +365,19 @@ fn a_system_has_the_name_of_its_type() {
     assert!(path.to_string().starts_with("ChainOf from"), "{path}");
 }
 
+/// Coordinates of a system that is stated by its accelerations alone are numbered.
+#[test]
+fn coordinates_without_names_are_numbered() {
+    let known = ChainOf::<2> { beta: BETA };
+    let path = known.integrate(ChainOf::start(), 1.0, Dop853::default()).unwrap();
+    assert_eq!(path.end().coordinate("q[1]").unwrap(), path.end().state().q[1]);
+    assert_eq!(path.end().velocity("q[0]").unwrap(), path.end().state().v[0]);
+    let table = path.csv(2).to_string();
+    assert!(table.starts_with("t,q[0],q[1],q_dot[0],q_dot[1]\n0.0,"), "{table}");
+    let said = path.end().coordinate("x[1]").unwrap_err().to_string();
+    assert!(said.starts_with("there is no coordinate `x[1]`: did you mean `q[1]`?"), "{said}");
+}
+
 /// A chain without masses rests.
 #[test]
 fn a_system_may_have_no_coordinates() {

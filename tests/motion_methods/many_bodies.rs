@@ -205,3 +205,156 @@ fn fingerprints_tell_fields_apart() {
     assert!(one.clone().merge(ensemble(2.0)).is_ok());
     assert!(one.merge(other).unwrap_err().to_string().contains("the start or the parameters"));
 }
+
+/// A ring that has moved, and its path.
+fn moved(net: &Net) -> Trajectory<&Net> {
+    net.integrate(start(net.n), 5.0, Dop853::with_tolerance(1e-12)).expect("a motion")
+}
+
+/// Entries of states are found by name, in samples, at the end, and in events.
+#[test]
+fn entries_are_looked_up_by_name() {
+    let net = Net::ring(4);
+    let path = moved(&net);
+    let (end, state) = (path.end(), path.end().state().clone());
+    assert_eq!(end.coordinate("r[3][1]").unwrap(), state.q[7]);
+    assert_eq!(end.velocity("r[0][1]").unwrap(), state.v[1]);
+    assert_eq!(end.momentum("r[2][0]").unwrap(), 3.0 * state.v[4]);
+    // The neighbours of body 2 are 1 and 3.
+    let pull = 2.0 * (state.q[3] + state.q[7] - 2.0 * state.q[5]) / 3.0;
+    assert!((end.acceleration("r[2][1]").unwrap() - pull).abs() < 1e-14);
+    assert_eq!(end.conserved("energy").unwrap(), net.energy(&state));
+    let event = net.event("axis", |sample| sample.coordinate("r[1][1]"));
+    let crossed = net.motion(start(4)).event(event).to(5.0).unwrap();
+    assert!(!crossed.crossings().is_empty());
+    assert!(crossed.crossings().iter().all(|crossing| crossing.state.q[3].abs() < 1e-14));
+}
+
+/// Names that there are not lead to those that there are.
+#[test]
+fn unknown_names_have_hints() {
+    let net = Net::ring(4);
+    let path = moved(&net);
+    let end = path.end();
+    let said = |error: Result<f64, Error>| error.unwrap_err().to_string();
+    assert_eq!(
+        said(end.coordinate("r")),
+        "there is no coordinate `r`: it is a vector: name an element, such as `r[0][0]`"
+    );
+    assert_eq!(
+        said(end.coordinate("r_dot[3][1]")),
+        "there is no coordinate `r_dot[3][1]`: it is the velocity of `r[3][1]`, which a sample's `velocity(\"r[3][1]\")` gives"
+    );
+    assert_eq!(said(end.velocity("r[3]1]")), "there is no coordinate `r[3]1]`: did you mean `r[3][1]`?");
+    for near in ["r[4][0]", "r[3][1]]", "r[3][1", "", "s[3][1]"] {
+        let error = end.coordinate(near).unwrap_err();
+        assert!(matches!(&error, Error::UnknownName { known, .. } if known.len() == 8), "{error}");
+    }
+    assert!(said(end.conserved("momentum")).contains("`energy`"));
+}
+
+/// Tables have the names as headings, with an energy on request.
+#[test]
+fn tables_have_names_as_headings() {
+    let net = Net::ring(2);
+    let path = moved(&net);
+    let heading = "t,r[0][0],r[0][1],r[1][0],r[1][1],r_dot[0][0],r_dot[0][1],r_dot[1][0],r_dot[1][1]";
+    let first = |table: String| table.lines().next().unwrap().to_string();
+    assert_eq!(first(path.csv(3).to_string()), heading);
+    let records = path.csv(3).energy().conserved().records();
+    assert_eq!(records.names.join(","), format!("{heading},energy"));
+    for (row, sample) in records.rows.iter().zip(path.samples(3)) {
+        let state = sample.state();
+        let expected = [&[state.t], state.q.as_slice(), state.v.as_slice(), &[net.energy(state)]].concat();
+        assert_eq!(*row, expected);
+    }
+    let sampled = net.motion(start(2)).every(1.0).quantity("E", |sample| sample.energy()).to(5.0).unwrap();
+    assert_eq!(first(sampled.csv().to_string()), format!("{heading},E"));
+    let text = format!("{:.2}", path.start());
+    let named = ["r[0][0] = 0.84", "r[1][1] = -0.18", "r_dot[0][0] = ", "r_dot[1][1] = "];
+    assert!(named.iter().all(|entry| text.contains(entry)), "{text}");
+}
+
+/// Kinetic and stored energy from the textbook are that of samples, and it does not drift.
+#[test]
+fn energies_of_samples_are_conserved() {
+    let net = Net::ring(3);
+    let path = moved(&net);
+    let energy = |state: &State| {
+        let moving = |i: usize| net.m[i / 2] * state.v[i].powi(2) / 2.0;
+        let apart = |i: usize| (state.q[i] - state.q[(i + 2) % 6]).powi(2);
+        (0..6).map(moving).sum::<f64>() + (0..6).map(apart).sum::<f64>()
+    };
+    for sample in path.samples(20) {
+        assert!((sample.energy() - energy(sample.state())).abs() < 1e-13);
+        let kinetic_twice = net.momenta(sample.state()).dot(&sample.state().v);
+        assert!((net.lagrangian(sample.state()) + sample.energy() - kinetic_twice).abs() < 1e-13);
+    }
+    let drift = path.drift();
+    assert_eq!(drift.iter().map(|quantity| quantity.name).collect::<Vec<_>>(), ["energy"]);
+    let deviation = drift.get("energy").unwrap();
+    assert!((deviation.start - energy(&start(3))).abs() < 1e-13);
+    assert!(deviation.largest < 1e-10 && deviation.largest > 0.0);
+    // Of samples alone the ends are kept.
+    let sampled = net.motion(start(3)).every(1.0).to(5.0).unwrap();
+    assert!((sampled.end().energy() - path.start().energy()).abs() < 1e-6);
+}
+
+/// A net in a fluid: its energy is not conserved, and the power of the forces is not known.
+#[derive(Clone)]
+struct Damped(Net);
+
+impl System for Damped {
+    type Scalar = f64;
+    type Length = Dyn;
+    type M = Const<0>;
+    type Field = ManyBodyField;
+
+    fn length(&self) -> Dyn {
+        self.0.length()
+    }
+
+    fn accelerations(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        self.0.accelerations(t, q, v, a);
+        a.iter_mut().zip(v).for_each(|(a, v)| *a -= 0.1 * v);
+    }
+}
+
+impl ManyBodies for Damped {
+    const ENERGY_IS_CONSERVED: bool = false;
+    const DIGEST: u32 = 0;
+
+    fn write_name(&self, coordinate: usize, to: &mut dyn fmt::Write) -> fmt::Result {
+        self.0.write_name(coordinate, to)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        self.0.check()
+    }
+
+    fn visit_numbers(&self, visit: &mut dyn FnMut(f64)) {
+        self.0.visit_numbers(visit);
+    }
+
+    fn lagrangian(&self, state: &State) -> f64 {
+        self.0.lagrangian(state)
+    }
+
+    fn energy(&self, state: &State) -> f64 {
+        self.0.energy(state)
+    }
+
+    fn momenta(&self, state: &State) -> DVector<f64> {
+        self.0.momenta(state)
+    }
+}
+
+#[test]
+fn an_energy_that_is_lost_is_no_drift() {
+    let damped = Damped(Net::ring(3));
+    let path = damped.integrate(start(3), 5.0, Dop853::default()).unwrap();
+    assert!(path.end().energy() < 0.9 * path.start().energy());
+    assert_eq!(path.drift().iter().count(), 0);
+    assert!(!path.csv(2).conserved().to_string().contains("energy"));
+    assert!(path.csv(2).energy().to_string().contains("energy"));
+}

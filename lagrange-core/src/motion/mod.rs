@@ -84,9 +84,11 @@ pub use crate::number::Parts;
 pub use crate::solution::acceleration_field::{AccelerationField, AccelerationsAlone, Stated};
 pub use crate::solution::consistent::assembly::Assembly;
 pub use crate::solution::crossing::Crossing;
+pub use crate::solution::energy_field::EnergyField;
 pub use crate::solution::interpolant::{HermiteNode, Interpolant, Polynomial};
 #[cfg(feature = "alloc")]
 pub use crate::solution::many_body_field::{ManyBodyField, WithLagrangian};
+pub use crate::solution::named_field::NamedField;
 pub use crate::solution::system_checks::SystemChecks;
 pub use crate::solution::vector_field::{
     ActiveConstraints, LagrangianVectorField, StagePoint, VectorField, VelocityField,

@@ -2,11 +2,15 @@
 
 use core::fmt;
 
+use nalgebra::DVector;
+
 use super::acceleration_field::{Stated, StatedField};
+use super::energy_field::EnergyField;
 use super::named_field::NamedField;
 use crate::error::Error;
+use crate::facts::{Conserved, Evidence};
 use crate::number::Real;
-use crate::system::ManyBodies;
+use crate::system::{ManyBodies, StateOf};
 
 /// The accelerations of [`ManyBodies`].
 pub type ManyBodyField = Stated<WithLagrangian>;
@@ -18,6 +22,26 @@ pub enum WithLagrangian {}
 impl<L: ManyBodies<Scalar: Real>> NamedField<L> for ManyBodyField {
     fn write_name(system: &L, coordinate: usize, to: &mut dyn fmt::Write) -> fmt::Result {
         system.write_name(coordinate, to)
+    }
+}
+
+impl<L: ManyBodies<Scalar: Real>> EnergyField<L> for ManyBodyField {
+    const CONSERVED: &'static [Conserved] = if L::ENERGY_IS_CONSERVED {
+        &[Conserved { name: "energy", evidence: Evidence::Proved }]
+    } else {
+        &[]
+    };
+
+    fn energy(system: &L, state: &StateOf<L>) -> L::Scalar {
+        system.energy(state)
+    }
+
+    fn momentum(system: &L, state: &StateOf<L>) -> DVector<L::Scalar> {
+        system.momenta(state)
+    }
+
+    fn conserved(system: &L, index: usize, state: &StateOf<L>) -> Option<L::Scalar> {
+        <Self as EnergyField<L>>::CONSERVED.get(index).map(|_| system.energy(state))
     }
 }
 

@@ -4,6 +4,7 @@ pub(crate) mod acceleration_field;
 pub(crate) mod consistent;
 pub(crate) mod crossing;
 pub(crate) mod eliminate;
+pub(crate) mod energy_field;
 #[cfg(feature = "alloc")]
 pub(crate) mod impact;
 pub(crate) mod interpolant;

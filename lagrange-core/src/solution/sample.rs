@@ -9,9 +9,11 @@ use core::fmt::{self, Debug, Display, Formatter};
 use crate::error::Error;
 use crate::names::Entry;
 use crate::number::Real;
+use crate::solution::energy_field::EnergyField;
+use crate::solution::named_field::NamedField;
 use crate::solution::solve::solve;
-use crate::system::{Lagrangian, SolutionOf, State, StateOf, System, check_names};
-use crate::vector::zeros;
+use crate::system::{Lagrangian, SolutionOf, State, StateOf, System};
+use crate::vector::{Numbers, zeros};
 
 /// A state of a system with derived quantities: accelerations, multipliers, energy, observables.
 ///
@@ -96,6 +98,16 @@ impl<S: System> Sample<S> {
     }
 }
 
+impl<S: System<Scalar: Real>> Sample<S> {
+    /// Returns the energy E = p·q̇ − L, the value of the Hamiltonian H(t, q, p).
+    pub fn energy(&self) -> S::Scalar
+    where
+        S::Field: EnergyField<S>,
+    {
+        S::Field::energy(&self.system, &self.state)
+    }
+}
+
 impl<S: Lagrangian<Scalar: Real>> Sample<S> {
     /// Returns accelerations and multipliers, solved for at this state; in a [motion by time steps](crate::contact::MoreauJean) the
     /// means over the step that leads there, and NaN for its events.
@@ -104,11 +116,6 @@ impl<S: Lagrangian<Scalar: Real>> Sample<S> {
     /// Those of [`Simulate::solve`](crate::Simulate::solve).
     pub fn solution(&self) -> Result<SolutionOf<S>, Error> {
         self.given.map_or_else(|| solve(&self.system, &self.state), Ok)
-    }
-
-    /// Returns the energy E = p·q̇ − L, the value of the Hamiltonian H(t, q, p).
-    pub fn energy(&self) -> S::Scalar {
-        self.system.energy(&self.state)
     }
 
     /// Returns dE/dt along the motion, the power of forces, moving constraints and a Lagrangian that changes with time; see
@@ -131,20 +138,18 @@ impl<S: Lagrangian<Scalar: Real>> Sample<S> {
 
 /// Formats a sample as `t = 1.0: theta = 0.1, theta_dot = -2e-17`. Format options apply to each number:
 /// `{sample:.3}`.
-impl<S: Lagrangian> Display for Sample<S> {
+impl<S: System<Scalar: Real, Field: NamedField<S>>> Display for Sample<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        const { check_names::<S>() };
         let State { t, q, v } = &self.state;
         write!(f, "{} = ", Entry::Time)?;
         Debug::fmt(t, f)?;
-        let names = S::COORDINATES
-            .iter()
-            .copied()
-            .map(Entry::Coordinate)
-            .chain(S::COORDINATES.iter().copied().map(Entry::Velocity));
-        for (i, (name, number)) in names.zip(q.iter().chain(v)).enumerate() {
-            write!(f, "{} {name} = ", if i == 0 { ':' } else { ',' })?;
-            Debug::fmt(number, f)?;
+        let mut before = ':';
+        for (half, numbers) in [q.entries(), v.entries()].into_iter().enumerate() {
+            for (i, number) in numbers.iter().enumerate() {
+                write!(f, "{before} {} = ", S::Field::state_entry(&self.system, half, i))?;
+                Debug::fmt(number, f)?;
+                before = ',';
+            }
         }
         Ok(())
     }

@@ -72,9 +72,9 @@ use crate::solution::many_body_field::ManyBodyField;
 /// let springs = Springs { m: vec![1.0, 4.0], k: 4.0 };
 /// let start = State { t: 0.0, q: DVector::from_vec(vec![1.0, 1.0]), v: DVector::zeros(2) };
 /// let path = springs.integrate(start, 3.0, Dop853::default())?;
-/// let end = path.end();
-/// assert!((end.state().q[1] - 3.0_f64.cos()).abs() < 1e-7);
-/// assert!((springs.energy(end.state()) - 4.0).abs() < 1e-7);
+/// assert!((path.end().coordinate("x[1]")? - 3.0_f64.cos()).abs() < 1e-7);
+/// assert!((path.end().energy() - 4.0).abs() < 1e-7);
+/// assert!(path.csv(10).energy().to_string().starts_with("t,x[0],x[1],x_dot[0],x_dot[1],energy\n"));
 /// # Ok::<(), Error>(())
 /// ```
 #[diagnostic::on_unimplemented(

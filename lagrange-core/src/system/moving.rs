@@ -10,8 +10,8 @@ use crate::vector::{Length, StaticLength, ViewOf};
 /// [pairs](crate::motion::Pair), by `RungeKutta4`, and, if it has the marker
 /// [`VelocityFreeForces`](crate::structure::VelocityFreeForces), by `Verlet` and its compositions, with events, samples, quantities,
 /// controllers and progress. [Ensembles](crate::Ensemble) of it are integrated one by one; their members may have different numbers of
-/// coordinates. It has no energy, and its coordinates are called `q[0]`, `q[1]`, …; a system with
-/// [`ManyBodies`](crate::ManyBodies) has both an energy and names. Constraints are the business of its accelerations. Steps allocate nothing; dense output of
+/// coordinates. It has no energy, and its coordinates are called `q[0]`, `q[1]`, … in
+/// messages, lookup and tables; [`ManyBodies`](crate::ManyBodies) have an energy and names. Constraints are the business of its accelerations. Steps allocate nothing; dense output of
 /// a run-time length allocates once for each step in which it is evaluated.
 ///
 /// ```

@@ -1,17 +1,19 @@
 //! Trajectories as comma-separated values.
 
-use alloc::string::{String, ToString};
-use alloc::{format, vec::Vec};
+use alloc::string::String;
+use alloc::vec::Vec;
 use core::fmt::{self, Debug, Display, Formatter};
 
 use super::records::{Records, write_row};
 use super::stored::Trajectory;
-use crate::names::Entry;
+use crate::facts::Conserved;
 use crate::number::{Real, Scalar};
 use crate::solution::Sample;
-use crate::solution::vector_field::{LagrangianVectorField, VectorField};
-use crate::system::Lagrangian;
-use crate::vector::StaticLength;
+use crate::solution::energy_field::EnergyField;
+use crate::solution::named_field::NamedField;
+use crate::solution::vector_field::VectorField;
+use crate::system::{StateOf, System, lookup};
+use crate::vector::Numbers;
 
 /// Table of a trajectory, one line per sample: `t`, coordinates `x`, velocities `x_dot`, multipliers
 /// `lambda(no_slip)`, constraint forces `force(x)` and observables; on request the energy and the conserved
@@ -36,35 +38,61 @@ use crate::vector::StaticLength;
 /// # Ok::<(), Error>(())
 /// ```
 #[must_use = "a table is to be printed, or written to a file"]
-pub struct Csv<'t, S: Lagrangian, F = LagrangianVectorField> {
+pub struct Csv<'t, S: System, F = <S as System>::Field> {
     motion: &'t Trajectory<S, F>,
     count: usize,
-    has_energy: bool,
-    has_conserved: bool,
+    quantities: Vec<Quantity<S>>,
 }
 
-impl<S: Lagrangian, F> Trajectory<S, F> {
+/// Value of the quantity of an index.
+type Value<S> = fn(usize, &S, &StateOf<S>) -> <S as System>::Scalar;
+
+/// A quantity of states, with the column of a table.
+struct Quantity<S: System> {
+    name: &'static str,
+    value: Value<S>,
+    index: usize,
+}
+
+impl<S: System, F> Trajectory<S, F> {
     /// Returns a table of `count` states at evenly spaced times, as comma-separated values.
     ///
     /// Print it, or write `path.csv(200).to_string()` to a file.
     pub fn csv(&self, count: usize) -> Csv<'_, S, F> {
-        Csv { motion: self, count, has_energy: false, has_conserved: false }
+        Csv { motion: self, count, quantities: Vec::new() }
     }
 }
 
-impl<S: Lagrangian, F> Csv<'_, S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>> Csv<'_, S, F> {
     /// Adds a column `energy`, E = p·q̇ − L.
-    pub fn energy(self) -> Self {
-        Self { has_energy: true, ..self }
+    pub fn energy(mut self) -> Self
+    where
+        F::Checks: EnergyField<S>,
+    {
+        let value: Value<S> = |_, system, state| F::Checks::energy(system, state);
+        self.quantities.retain(|quantity| quantity.name != "energy");
+        self.quantities.insert(0, Quantity { name: "energy", value, index: 0 });
+        self
     }
 
-    /// Adds a column for each [conserved](crate::facts::Facts::conserved) quantity, under its name.
-    pub fn conserved(self) -> Self {
-        Self { has_conserved: true, ..self }
+    /// Adds a column for each [conserved](crate::facts::Facts::conserved) quantity that no other column contains, under its name.
+    pub fn conserved(mut self) -> Self
+    where
+        F::Checks: EnergyField<S>,
+    {
+        let value: Value<S> = |index, system, state| {
+            F::Checks::conserved(system, index, state).unwrap_or(S::Scalar::constant(f64::NAN))
+        };
+        let columns = F::Checks::columns();
+        for (index, Conserved { name, .. }) in F::Checks::CONSERVED.iter().enumerate() {
+            let is_known = columns.iter().any(|known| known == name);
+            if !is_known && self.quantities.iter().all(|known| known.name != *name) {
+                self.quantities.push(Quantity { name, value, index });
+            }
+        }
+        self
     }
-}
 
-impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Csv<'_, S, F> {
     /// Returns the names and the numbers of the table, for storage, plots, or other formats (feature `serde`).
     pub fn records(&self) -> Records<S::Scalar> {
         let row = |sample| {
@@ -75,51 +103,34 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Csv<'_, S, F> {
         Records { names: self.names(), rows: self.motion.borrowed_samples(self.count).map(row).collect() }
     }
 
-    /// Conserved quantities that no other column contains.
-    fn conserved_columns(&self) -> impl Iterator<Item = (usize, &'static str)> {
-        let (has_energy, wanted) = (self.has_energy, self.has_conserved);
-        let named = S::FACTS.conserved.iter().map(|conserved| conserved.name).enumerate();
-        named.filter(move |(_, name)| {
-            wanted && !(has_energy && *name == "energy") && !S::OBSERVABLES.contains(name)
-        })
-    }
-
     fn names(&self) -> Vec<String> {
-        let mut names = Vec::from(["t".to_string()]);
-        names.extend(S::COORDINATES.iter().copied().map(String::from));
-        names.extend(S::COORDINATES.iter().copied().map(|name| Entry::Velocity(name).to_string()));
-        names.extend(S::CONSTRAINTS.iter().copied().map(|name| format!("lambda({name})")));
-        if <S::M>::COUNT > 0 {
-            names.extend(S::COORDINATES.iter().copied().map(|name| format!("force({name})")));
-        }
-        names.extend(S::OBSERVABLES.iter().map(ToString::to_string));
-        names.extend(self.has_energy.then(|| "energy".to_string()));
-        names.extend(self.conserved_columns().map(|(_, name)| name.to_string()));
+        let mut names = names_of_entries::<_, F::Checks>(self.motion.system());
+        names.extend(F::Checks::columns());
+        names.extend(self.quantities.iter().map(|quantity| quantity.name.into()));
         names
     }
 
     /// Appends the cells of a line, in the order of the names.
     fn cells(&self, sample: &Sample<&S>, cells: &mut Vec<S::Scalar>) {
         let (system, state) = (*sample.system(), sample.state());
-        let unknown = S::Scalar::constant(f64::NAN);
-        let is_solved = <S::M>::COUNT > 0 || !S::OBSERVABLES.is_empty();
-        let solution = is_solved.then(|| sample.solution().ok()).flatten();
         cells.push(state.t);
-        cells.extend(state.q.iter().chain(&state.v));
-        if <S::M>::COUNT > 0 {
-            let multipliers = solution.map(|solution| solution.multipliers);
-            let force = multipliers.map(|lambda| system.constraint_force(state, &lambda));
-            cells.extend((0..<S::M>::COUNT).map(|a| multipliers.map_or(unknown, |lambda| lambda[a])));
-            cells.extend((0..<S::N>::COUNT).map(|i| force.map_or(unknown, |force| force[i])));
-        }
-        let observable = |k: usize| system.observable(k, state, solution.as_ref()?);
-        cells.extend((0..S::OBSERVABLES.len()).map(|k| observable(k).unwrap_or(unknown)));
-        cells.extend(self.has_energy.then(|| system.energy(state)));
-        cells.extend(self.conserved_columns().map(|(k, _)| system.conserved(k, state).unwrap_or(unknown)));
+        cells.extend(state.q.entries().iter().chain(state.v.entries()));
+        F::Checks::append_cells(sample, cells);
+        let value = |Quantity { value, index, .. }: &Quantity<S>| value(*index, system, state);
+        cells.extend(self.quantities.iter().map(value));
     }
 }
 
-impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Display for Csv<'_, S, F> {
+/// Names of the entries of a state: `t`, coordinates `x`, velocities `x_dot`.
+pub(super) fn names_of_entries<S: System<Scalar: Real>, F: NamedField<S>>(system: &S) -> Vec<String> {
+    let mut names = lookup::names::<_, F>(system);
+    let velocities: Vec<String> = names.iter().map(|name| lookup::velocity(name)).collect();
+    names.insert(0, "t".into());
+    names.extend(velocities);
+    names
+}
+
+impl<S: System<Scalar: Real>, F: VectorField<S>> Display for Csv<'_, S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.names().join(","))?;
         let mut cells = Vec::new();
@@ -132,11 +143,10 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Display for Csv<'_, S, F> {
     }
 }
 
-impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Debug for Csv<'_, S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>> Debug for Csv<'_, S, F> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { motion, count, has_energy, has_conserved } = self;
+        let names: Vec<&str> = self.quantities.iter().map(|quantity| quantity.name).collect();
         let mut fields = f.debug_struct("Csv");
-        fields.field("motion", motion).field("count", count);
-        fields.field("energy", has_energy).field("conserved", has_conserved).finish()
+        fields.field("motion", self.motion).field("count", &self.count).field("quantities", &names).finish()
     }
 }

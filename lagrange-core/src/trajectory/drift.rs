@@ -8,8 +8,9 @@ use super::stored::{Trajectory, between};
 use crate::error::Error;
 use crate::number::{Real, Scalar, exceeds};
 use crate::solution::Sample;
+use crate::solution::energy_field::EnergyField;
 use crate::solution::vector_field::VectorField;
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, System};
 use crate::vector::{StaticLength, zeros};
 
 /// Nodes in a step and weights of Gauss's formula of order 16 (Abramowitz and Stegun, table 25.4). In the long steps of
@@ -70,14 +71,28 @@ pub struct Drift<T> {
     quantities: Vec<Deviation<T>>,
 }
 
-impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>> Trajectory<S, F> {
     /// Returns the largest deviation of each conserved quantity from its initial value, and that of the balance of an energy
     /// that is not conserved, or only while nothing hits and slides. What impacts take is left out; in time steps it is work of impulses.
-    pub fn drift(&self) -> Drift<S::Scalar> {
-        let drift = Drift::of(self.legs().iter().flat_map(Leg::samples_of_steps));
-        let is_conserved = S::FACTS.energy_is_conserved.is_some() && !S::HAS_CONTACTS;
-        if is_conserved { drift } else { drift.balanced(self.legs()) }
+    pub fn drift(&self) -> Drift<S::Scalar>
+    where
+        F::Checks: EnergyField<S>,
+    {
+        let mut drift = Drift::of::<_, F::Checks>(self.legs().iter().flat_map(Leg::samples_of_steps));
+        drift.quantities.extend(F::Checks::balance(self.legs()));
+        drift
     }
+}
+
+/// Balance of the energy along these legs. What it changes from one to the next, as at an impact, is left out.
+pub(crate) fn balance<S: Lagrangian<Scalar: Real>, F: VectorField<S>>(
+    legs: &[Leg<S, F>],
+) -> Option<Deviation<S::Scalar>> {
+    let (first, zero) = (legs.first()?, S::Scalar::constant(0.0));
+    let start = first.system.energy(&first.path.start);
+    let mut balance = Deviation { name: BALANCE, start, largest: zero };
+    legs.iter().fold(zero, |left, leg| leg.balance(left, &mut balance));
+    Some(balance)
 }
 
 impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
@@ -110,36 +125,28 @@ impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> Leg<S, F> {
 
 impl<T: Real> Drift<T> {
     /// The largest deviations from the first of these samples.
-    fn of<'s, S: Lagrangian<Scalar = T> + 's>(mut steps: impl Iterator<Item = Sample<&'s S>>) -> Self {
+    fn of<'s, S, F>(mut steps: impl Iterator<Item = Sample<&'s S>>) -> Self
+    where
+        S: System<Scalar = T> + 's,
+        F: EnergyField<S>,
+    {
         // One pass for all quantities: in (q, p) every state requires a search for the velocity.
         let start = steps.next().into_iter().flat_map(|start| {
-            let conserved = S::FACTS.conserved.iter().enumerate();
+            let conserved = F::CONSERVED.iter().enumerate();
             conserved.filter_map(move |(index, conserved)| {
-                let (name, start) = (conserved.name, start.system().conserved(index, start.state())?);
+                let (name, start) = (conserved.name, F::conserved(start.system(), index, start.state())?);
                 Some((index, Deviation { name, start, largest: T::constant(0.0) }))
             })
         });
         let mut quantities: Vec<_> = start.collect();
         for step in steps {
             for (index, Deviation { start, largest, .. }) in &mut quantities {
-                if let Some(value) = step.system().conserved(*index, step.state()) {
+                if let Some(value) = F::conserved(step.system(), *index, step.state()) {
                     *largest = farther(*largest, value - *start);
                 }
             }
         }
         Self { quantities: quantities.into_iter().map(|(_, deviation)| deviation).collect() }
-    }
-
-    /// Adds the balance of the energy along these legs. What it changes from one to the next, as at an impact, is left out.
-    fn balanced<S: Lagrangian<Scalar = T>, F: VectorField<S>>(mut self, legs: &[Leg<S, F>]) -> Self {
-        let zero = T::constant(0.0);
-        self.quantities.extend(legs.first().map(|first| {
-            let start = first.system.energy(&first.path.start);
-            let mut balance = Deviation { name: BALANCE, start, largest: zero };
-            legs.iter().fold(zero, |left, leg| leg.balance(left, &mut balance));
-            balance
-        }));
-        self
     }
 
     /// Iterates over the quantities in the order of [`Facts::conserved`](crate::facts::Facts::conserved).

@@ -14,6 +14,7 @@ mod tests;
 mod transition;
 
 pub use csv::Csv;
+pub(crate) use drift::balance;
 pub use drift::{Deviation, Drift};
 pub use hybrid::{AnyTrajectory, HybridTrajectory, Named};
 pub use kept::{KeptStates, Legs};

@@ -4,16 +4,17 @@ use alloc::string::ToString;
 use alloc::vec::Vec;
 use core::fmt::{self, Debug, Formatter};
 
+use super::csv::names_of_entries;
 use super::kept::KeptStates;
 use super::records::Records;
 use super::stored::Trajectory;
 use crate::error::Error;
 use crate::motion::integration::record::{Arrival, RecordPlan, quantity};
-use crate::names::Entry;
 use crate::number::Real;
 use crate::solution::vector_field::VectorField;
 use crate::solution::{Adjustment, Sample};
-use crate::system::{Lagrangian, StateOf, System};
+use crate::system::{StateOf, System};
+use crate::vector::Numbers;
 
 /// States of a motion at chosen times, and its first and last state: what a [`SampledTrajectory`] keeps.
 pub struct Samples<S: System> {
@@ -113,23 +114,26 @@ impl<L: System + Clone, F> SampledTrajectory<&L, F> {
     }
 }
 
-impl<S: Lagrangian<Scalar: Real>, F: VectorField<S>> SampledTrajectory<S, F> {
+impl<S: System<Scalar: Real>, F: VectorField<S>> SampledTrajectory<S, F> {
     /// Returns a table of the samples: `t`, coordinates `x`, velocities `x_dot`, and the quantities. It prints as comma-separated
     /// values.
     pub fn csv(&self) -> Records<S::Scalar> {
-        let Samples { states, values, quantities, .. } = &self.kept;
-        let velocities = S::COORDINATES.iter().map(|name| Entry::Velocity(name).to_string());
-        let names = ["t"].iter().chain(S::COORDINATES).map(ToString::to_string);
-        let names = names.chain(velocities).chain(quantities.iter().map(ToString::to_string)).collect();
+        let Samples { system, states, values, quantities, .. } = &self.kept;
+        let mut names = names_of_entries::<_, F::Checks>(system);
+        names.extend(quantities.iter().map(ToString::to_string));
         let row = |(k, state): (usize, &StateOf<S>)| {
             let values = values[k * quantities.len()..].iter().take(quantities.len());
-            [state.t].iter().chain(&state.q).chain(&state.v).chain(values).copied().collect()
+            [state.t]
+                .iter()
+                .chain(state.q.entries())
+                .chain(state.v.entries())
+                .chain(values)
+                .copied()
+                .collect()
         };
         Records { names, rows: states.iter().enumerate().map(row).collect() }
     }
-}
 
-impl<S: System<Scalar: Real>, F: VectorField<S>> SampledTrajectory<S, F> {
     /// Returns the states at the times of the samples, up to the end of the motion; at a transition, the state after it.
     pub fn samples(&self) -> &[StateOf<S>] {
         &self.kept.states
