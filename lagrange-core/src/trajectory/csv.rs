@@ -44,7 +44,7 @@ pub struct Csv<'t, S: System, F = <S as System>::Field> {
     quantities: Vec<Quantity<S>>,
 }
 
-/// Value of the quantity of an index.
+/// Function that computes the quantity of an index at a state.
 type Value<S> = fn(usize, &S, &StateOf<S>) -> <S as System>::Scalar;
 
 /// A quantity of states, with the column of a table.
