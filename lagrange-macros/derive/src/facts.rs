@@ -2,6 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use crate::mechanics::many::{ManyConservedKind, ManyEquations};
 pub use crate::mechanics::{
     Classification, ConstraintKind, EnergyForm, Evidence, Integrability, Integrals, LinearPart, Marker,
 };
@@ -92,6 +93,32 @@ impl Facts {
             linear_part: found.linear_part,
             integrals: derived.equations.integrability.integrals,
             markers: derived.markers.clone(),
+        }
+    }
+}
+
+impl Facts {
+    /// Facts about a system whose number of bodies is known when the program runs.
+    pub(crate) fn of_many(equations: &ManyEquations) -> Self {
+        let proved = |name: &str| Conserved { name: name.to_owned(), evidence: Evidence::Proved };
+        let vectors = equations.conserved.iter().map(|conserved| match conserved.kind {
+            ManyConservedKind::Momentum => proved("total_momentum"),
+            ManyConservedKind::AngularMomentum => proved("total_angular_momentum"),
+        });
+        let energy = equations.energy_is_conserved.then(|| proved("energy"));
+        let mut markers = Vec::new();
+        if equations.forces_are_free_of_velocities {
+            markers.push(Marker::VelocityFreeForces);
+        }
+        Self {
+            cyclic: Vec::new(),
+            conserved: vectors.chain(energy).collect(),
+            energy_is_conserved: equations.energy_is_conserved.then_some(Evidence::Proved),
+            energy_form: EnergyForm::General,
+            total_derivatives: Vec::new(),
+            linear_part: LinearPart::Open,
+            integrals: None,
+            markers,
         }
     }
 }

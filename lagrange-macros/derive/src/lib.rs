@@ -148,12 +148,21 @@ fn stub(declaration: &Declaration, errors: Vec<syn::Error>) -> TokenStream {
 
 fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<System> {
     diagnostics.is_empty().then_some(())?;
-    let (mut graph, problem) = resolve::problem(declaration, diagnostics)?;
+    let (mut graph, mut problem) = resolve::problem(declaration, diagnostics)?;
+    if problem.many.is_open() {
+        let equations = mechanics::many::derive(&mut graph, &mut problem, diagnostics)?;
+        let forms = render::render_many(declaration, &graph, &problem, &equations);
+        let facts = Facts::of_many(&equations);
+        let tokens =
+            codegen::many::implementation(declaration, &graph, &problem, &equations, &forms, diagnostics)?;
+        return Some(System::new(declaration, &problem, Vec::new(), facts, forms, tokens));
+    }
     codegen::refuse_hopeless(&graph, &problem, diagnostics)?;
     let derived = mechanics::derive(&mut graph, &problem, diagnostics)?;
     let rendered = render::render(declaration, &graph, &problem, &derived);
     let facts = Facts::new(&problem, &derived, &rendered);
     let tokens =
         codegen::implementation(declaration, &graph, &problem, &derived, &rendered, &facts, diagnostics)?;
-    Some(System::new(declaration, &problem, &derived, facts, rendered.forms, tokens))
+    let constraints = system::constraints(&problem, &derived);
+    Some(System::new(declaration, &problem, constraints, facts, rendered.forms, tokens))
 }

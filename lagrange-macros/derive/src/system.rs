@@ -7,7 +7,9 @@ use proc_macro2::TokenStream;
 use crate::facts::{Classification, ConstraintKind, Facts};
 use crate::mechanics::Derived;
 use crate::refusal::Refusal;
-use crate::resolve::{Observed, Problem};
+use crate::render::Forms;
+use crate::resolve::{Label, Observed, Problem};
+use crate::symbolic::Id;
 use crate::syntax::Declaration;
 
 /// A mechanical system with its equations of motion.
@@ -47,7 +49,7 @@ pub struct System {
     functions: Vec<String>,
     observables: Vec<String>,
     facts: Facts,
-    forms: [[String; 3]; 3],
+    forms: Forms,
     tokens: TokenStream,
 }
 
@@ -116,23 +118,16 @@ impl System {
     pub(crate) fn new(
         declaration: &Declaration,
         problem: &Problem,
-        derived: &Derived,
+        constraints: Vec<Constraint>,
         facts: Facts,
-        forms: [[String; 3]; 3],
+        forms: Forms,
         tokens: TokenStream,
     ) -> Self {
-        let kinds = derived.equations.kinds.iter().zip(&derived.equations.integrability.classes);
-        let constraints =
-            problem.constraints.iter().zip(kinds).map(|((label, _), (&kind, &classification))| Constraint {
-                name: label.text.clone(),
-                kind,
-                classification,
-            });
         let parameters = problem.parameters.by_field().into_iter().map(|k| problem.parameters.name(k));
         Self {
             name: declaration.ident.to_string().trim_start_matches("r#").to_owned(),
             coordinates: problem.coordinates.iter().map(|label| label.text.clone()).collect(),
-            constraints: constraints.collect(),
+            constraints,
             parameters: parameters.collect(),
             functions: problem.functions.iter().map(|function| function.name.clone()).collect(),
             observables: problem.observables.iter().flat_map(Observed::names).collect(),
@@ -199,6 +194,18 @@ impl System {
     pub(crate) fn into_tokens(self) -> TokenStream {
         self.tokens
     }
+}
+
+/// The constraints of a system, with what was found about each.
+pub(crate) fn constraints(problem: &Problem, derived: &Derived) -> Vec<Constraint> {
+    let kinds = derived.equations.kinds.iter().zip(&derived.equations.integrability.classes);
+    let constraint = |((label, _), (&kind, &classification)): ((&Label, &Id), _)| Constraint {
+        name: label.text.clone(),
+        kind,
+        classification,
+    };
+    let rows = problem.constraints.iter().map(|(label, residual)| (label, residual));
+    rows.zip(kinds).map(constraint).collect()
 }
 
 impl Display for System {

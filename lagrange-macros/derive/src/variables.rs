@@ -47,6 +47,12 @@ pub(crate) enum Variable {
     Momentum(usize),
     /// Input of one iteration of a loop in the emitted code.
     Given(usize),
+    /// Running index of the loop at this depth, where the length of the loop is known when the program runs.
+    Level(usize),
+    /// Length of arrays that is known when the program runs.
+    Length(usize),
+    /// Sum over a range that is known when the program runs.
+    Total(usize),
 }
 
 impl Variable {
@@ -75,6 +81,9 @@ impl Variable {
             Self::NextWeight => (20, 0),
             Self::WeightsReciprocal => (21, 0),
             Self::Switch(k) => (22, k),
+            Self::Level(level) => (23, level),
+            Self::Length(k) => (24, k),
+            Self::Total(k) => (25, k),
         };
         Symbol { family, index: index as u32 }
     }
@@ -127,6 +136,9 @@ impl Variable {
             19 => Self::Given(index),
             20 => Self::NextWeight,
             22 => Self::Switch(index),
+            23 => Self::Level(index),
+            24 => Self::Length(index),
+            25 => Self::Total(index),
             _ => Self::WeightsReciprocal,
         }
     }

@@ -21,6 +21,11 @@ impl Forward {
         Self { seeds: seeds.into_iter().collect(), known: Vec::new() }
     }
 
+    /// Adds the rates of symbols that no node contained so far.
+    pub fn also(&mut self, seeds: impl IntoIterator<Item = (Symbol, Id)>) {
+        self.seeds.extend(seeds);
+    }
+
     /// Sets the rates of some nodes, regardless of their operands.
     pub fn through(mut self, graph: &Graph, rates: impl IntoIterator<Item = (Id, Id)>) -> Self {
         self.known.resize(graph.len(), None);

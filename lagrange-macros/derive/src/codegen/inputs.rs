@@ -99,6 +99,9 @@ impl FunctionContext<'_> {
 
     /// Emits the bindings of all used inputs, as whole arrays or one by one.
     pub(super) fn inputs(&self, used: &BTreeSet<Symbol>) -> TokenStream {
+        if self.problem.many.is_open() {
+            return self.inputs_of_loops(used);
+        }
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let whole: [(usize, VariableFamily); 8] = [
             (n, Variable::Coordinate),
@@ -180,7 +183,10 @@ impl FunctionContext<'_> {
             | Variable::Parameter(_)
             | Variable::Switch(_)
             | Variable::Momentum(_)
-            | Variable::Given(_) => return None,
+            | Variable::Given(_)
+            | Variable::Level(_)
+            | Variable::Length(_)
+            | Variable::Total(_) => return None,
         })
     }
 }

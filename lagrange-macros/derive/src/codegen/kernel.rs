@@ -169,7 +169,12 @@ fn source(symbol: Symbol) -> Argument {
         Variable::Acceleration(_) | Variable::AccelerationChange(_) => Argument::Accelerations,
         Variable::Multiplier(_) | Variable::MultiplierChange(_) => Argument::Multipliers,
         // Inputs of a loop iteration are locals of the loop.
-        Variable::Parameter(_) | Variable::Switch(_) | Variable::Given(_) => Argument::System,
+        Variable::Parameter(_)
+        | Variable::Switch(_)
+        | Variable::Given(_)
+        | Variable::Level(_)
+        | Variable::Length(_)
+        | Variable::Total(_) => Argument::System,
         Variable::Change(_) => Argument::Direction,
         Variable::Factor(_) => Argument::Factor,
         Variable::Forcing(_) => Argument::Forcing,

@@ -13,6 +13,7 @@ use super::shape::ResultShape;
 use crate::contract::{CANCELLING, COMPLETED, Gives, LAGRANGIAN, Method, Quantity, SWITCHED};
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::{Completed, ConstraintKind};
+use crate::render::Forms;
 use crate::symbolic::Id;
 use crate::variables::Variable;
 
@@ -60,8 +61,11 @@ impl Emitter<'_> {
         let kernels = || methods.kernels.iter().chain(&inherent.kernels).chain(others.clone());
         self.report_refused(kernels(), diagnostics);
         let (methods, inherent) = (&methods.tokens, &inherent.tokens);
-        let (equations, visit_parameters, visit_defects) =
-            (self.equations(), self.visit_parameters(), self.visit_defects());
+        let (equations, visit_parameters, visit_defects) = (
+            equations(&self.declaration.visibility, &self.rendered.forms),
+            self.visit_parameters(),
+            self.visit_defects(),
+        );
         let (pack, check_members) = (pack::pack(self.declaration, scalar), self.check_members());
         let markers = markers(self.declaration, &generics, &self.derived.markers);
         let [[_, _, doc], ..] = &self.rendered.forms;
@@ -296,25 +300,25 @@ impl Emitter<'_> {
             }
         }
     }
+}
 
-    fn equations(&self) -> TokenStream {
-        let visibility = &self.declaration.visibility;
-        let [[text, ..], ..] = &self.rendered.forms;
-        // Use plain text: editors and terminals show doc comments without rendering.
-        let doc = format!(" The system and its equations of motion, to be read.\n\n```text\n{text}```");
-        let [first, others @ ..] = &self.rendered.forms;
-        let forms = match others.iter().all(|form| form == first) {
-            true => quote!([[#(#first),*]; 3]),
-            false => {
-                let forms = self.rendered.forms.iter().map(|form| quote!([#(#form),*]));
-                quote!([#(#forms),*])
-            }
-        };
-        quote! {
-            #[doc = #doc]
-            #visibility const fn equations() -> __lagrange::facts::Equations {
-                __lagrange::generated::equations(#forms)
-            }
+/// Emits the method that returns the equations in readable form.
+pub(super) fn equations(visibility: &syn::Visibility, forms: &Forms) -> TokenStream {
+    let [[text, ..], ..] = forms;
+    // Use plain text: editors and terminals show doc comments without rendering.
+    let doc = format!(" The system and its equations of motion, to be read.\n\n```text\n{text}```");
+    let [first, others @ ..] = forms;
+    let forms = match others.iter().all(|form| form == first) {
+        true => quote!([[#(#first),*]; 3]),
+        false => {
+            let forms = forms.iter().map(|form| quote!([#(#form),*]));
+            quote!([#(#forms),*])
+        }
+    };
+    quote! {
+        #[doc = #doc]
+        #visibility const fn equations() -> __lagrange::facts::Equations {
+            __lagrange::generated::equations(#forms)
         }
     }
 }

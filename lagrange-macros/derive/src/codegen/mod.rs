@@ -15,6 +15,7 @@ mod integrability;
 mod kernel;
 mod lagrangian;
 mod linearized;
+pub(crate) mod many;
 mod markers;
 mod members;
 mod moving;

@@ -72,6 +72,10 @@ impl<'a> FunctionContext<'a> {
                 "self",
                 "waiting",
                 "round",
+                "q",
+                "v",
+                "a",
+                "p",
             ]
             .map(String::from),
         );
@@ -117,6 +121,15 @@ impl<'a> FunctionContext<'a> {
         }
         for k in 0..terms {
             names.insert(Variable::Term(k).symbol(), unique(format!("term{k}")));
+        }
+        for k in 0..problem.many.totals.len() {
+            names.insert(Variable::Total(k).symbol(), unique(format!("total{k}")));
+        }
+        for k in 0..problem.many.lengths.len() {
+            names.insert(Variable::Length(k).symbol(), unique(format!("number_of_{k}")));
+        }
+        for level in 0..problem.many.deepest(graph) {
+            names.insert(Variable::Level(level).symbol(), unique(format!("number_{level}")));
         }
         names.insert(Variable::Order.symbol(), unique("k".to_owned()));
         names.insert(Variable::OrderReciprocal.symbol(), unique("reciprocal_k".to_owned()));
@@ -211,6 +224,7 @@ fn is_local(name: &str) -> bool {
 /// this name, where the user's program has one.
 fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
     let mut name = text.replace("][", "_").replace("].", "_").replace(['[', '.'], "_").replace(']', "");
+    name = name.replace(" + ", "_plus_").replace(" - ", "_minus_").replace(['-', ' '], "_");
     if name.starts_with(char::is_uppercase) {
         name = name.to_lowercase();
     }

@@ -92,6 +92,39 @@ pub(crate) struct Equations {
 }
 
 impl Equations {
+    /// Equations of no coordinate.
+    pub(super) fn none() -> Self {
+        Self {
+            momentum: Vec::new(),
+            momenta_are_linear: true,
+            mass: Vec::new(),
+            momentum_rate: Vec::new(),
+            forcing: Vec::new(),
+            energy: Id::ZERO,
+            kinds: Vec::new(),
+            integrability: Kinds { classes: Vec::new(), integrals: None, functions: Vec::new() },
+            residual: Vec::new(),
+            rate: Vec::new(),
+            magnitudes: [Vec::new(), Vec::new()],
+            jacobian_round_off: Vec::new(),
+            printed_forcing: Vec::new(),
+            constraint_force: Vec::new(),
+            printed_force: Vec::new(),
+            balance: Vec::new(),
+            constraint_acceleration: Vec::new(),
+            compliance: Vec::new(),
+            linear: LinearEquations {
+                coordinates: 0,
+                forms: Vec::new(),
+                jacobian: Vec::new(),
+                bias: Vec::new(),
+                given: Vec::new(),
+            },
+            switched: None,
+            completed: None,
+        }
+    }
+
     /// Derives the equations of motion. Reports why they do not exist, and then returns `None`.
     pub(super) fn derive(
         graph: &mut Graph,

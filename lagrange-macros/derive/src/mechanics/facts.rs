@@ -27,6 +27,19 @@ pub(crate) struct Facts {
 }
 
 impl Facts {
+    /// Statements about no coordinate.
+    pub(super) fn none() -> Self {
+        Self {
+            cyclic: Vec::new(),
+            conserved: Vec::new(),
+            energy_form: EnergyForm::Quadratic,
+            energy_changes: Vec::new(),
+            energy_rate: Id::ZERO,
+            total_derivatives: Vec::new(),
+            linear_part: LinearPart::Absent,
+        }
+    }
+
     /// Derives the statements, and reports quantities declared as conserved that are not.
     pub(super) fn find(
         graph: &mut Graph,

@@ -23,6 +23,7 @@ mod integrability;
 mod kinetic;
 mod legendre;
 mod linearization;
+pub(crate) mod many;
 mod marker;
 mod moment;
 mod switched;
@@ -83,6 +84,24 @@ pub(crate) struct Derived {
     pub(crate) linearization: Option<Linearization>,
     /// Marker traits that the system implements
     pub(crate) markers: Vec<Marker>,
+}
+
+impl Derived {
+    /// Nothing but expressions: the context in which those of systems of any number of bodies are read.
+    pub(crate) fn of_expressions() -> Self {
+        Self {
+            equations: Equations::none(),
+            facts: Facts::none(),
+            energies: None,
+            inertia: Vec::new(),
+            turnings: Turnings::default(),
+            resultants: None,
+            read: FxHashMap::default(),
+            hamilton: Err(NoHamiltonian::Long),
+            linearization: None,
+            markers: Vec::new(),
+        }
+    }
 }
 
 /// Derives the equations of motion and the statements about them. Reports missing equations and wrong declarations,

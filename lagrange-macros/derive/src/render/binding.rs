@@ -19,8 +19,8 @@ impl Binding {
     pub(super) fn of(formula: &Formula, is_flat: bool) -> Self {
         match formula {
             Formula::Number(value) if value.is_negative() => Self::Sum,
-            Formula::Negative(_) | Formula::Sum(_) | Formula::SumOver { .. } => Self::Sum,
-            Formula::Product(..) => Self::Product,
+            Formula::Negative(_) | Formula::Sum(_) => Self::Sum,
+            Formula::Product(..) | Formula::SumOver { .. } | Formula::SumWhere { .. } => Self::Product,
             Formula::Call(name, _) => match name.as_str() {
                 "dot" | "cross" | "der" => Self::Product,
                 // `sin x` is a factor, but not the base of a power.

@@ -44,6 +44,12 @@ pub(super) enum Formula {
         to: Box<Self>,
         body: Box<Self>,
     },
+    /// Σ over all values of an index of which an equation holds, such as j ≠ i.
+    SumWhere {
+        condition: Box<[Self; 2]>,
+        sign: &'static str,
+        body: Box<Self>,
+    },
     Vector(Vec<Self>),
     /// Transpose of a matrix.
     Transpose(Box<Self>),
@@ -68,10 +74,13 @@ impl Formula {
         if let Some((of, member)) = text.rsplit_once('.') {
             return Self::Member(Box::new(Self::labelled(of, 0)), Box::new(Self::labelled(member, dots)));
         }
-        let mut parts = text.split('[');
-        let base = parts.next().unwrap_or_default().to_owned();
-        let indices = parts.map(|part| Self::index(part.trim_end_matches(']'))).collect();
-        Self::Name { base, dots, indices }
+        let (base, mut rest) = text.split_at(text.find('[').unwrap_or(text.len()));
+        let mut indices = Vec::new();
+        while let Some(end) = closing(rest) {
+            indices.push(Self::index(&rest[1..end]));
+            rest = &rest[end + 1..];
+        }
+        Self::Name { base: base.to_owned(), dots, indices }
     }
 
     /// A name with one more dot.
@@ -84,10 +93,20 @@ impl Formula {
         }
     }
 
-    fn index(text: &str) -> Self {
+    /// Parses an index: `2`, `i`, `n - 1 - i`, `2*i`, `bond[i][0]`.
+    pub(super) fn index(text: &str) -> Self {
+        let signs = [(" + ", false), (" - ", true)];
+        let last = signs.iter().filter_map(|&(sign, minus)| Some((text.rfind(sign)?, sign, minus))).max();
+        if let Some((place, sign, minus)) = last.filter(|(place, ..)| closing_is_behind(text, *place)) {
+            let before = Self::index(&text[..place]);
+            return Self::sum(vec![before, Self::index(&text[place + sign.len()..]).signed(minus)]);
+        }
+        if let Some((one, other)) = text.split_once('*') {
+            return Self::Product(vec![Self::index(one), Self::index(other)], Vec::new());
+        }
         match text.parse::<i128>() {
             Ok(number) => Self::Number(Rational::from_integer(number)),
-            Err(_) => Self::Name { base: text.to_owned(), dots: 0, indices: Vec::new() },
+            Err(_) => Self::labelled(text, 0),
         }
     }
 
@@ -114,6 +133,7 @@ impl Formula {
             Self::Sum(all) | Self::Vector(all) | Self::Call(_, all) => all.iter().collect(),
             Self::Product(above, below) => above.iter().chain(below).collect(),
             Self::SumOver { from, to, body, .. } => vec![from, to, body],
+            Self::SumWhere { condition, body, .. } => vec![&condition[0], &condition[1], body],
             Self::Derivative { function, argument, .. } => vec![function, argument],
             Self::Partial { function, by, arguments } => {
                 std::iter::once(&**function).chain(by).chain(arguments).collect()
@@ -266,4 +286,22 @@ impl Formula {
         };
         formula.signed(fraction.is_negative())
     }
+}
+
+/// Place of the bracket that closes the one at the beginning of the text.
+fn closing(text: &str) -> Option<usize> {
+    let mut open = 0;
+    text.char_indices().find_map(|(place, sign)| {
+        open += match sign {
+            '[' => 1,
+            ']' => -1,
+            _ => 0,
+        };
+        (open == 0 && sign == ']').then_some(place)
+    })
+}
+
+/// True if a place of the text is in no brackets.
+fn closing_is_behind(text: &str, place: usize) -> bool {
+    text[..place].matches('[').count() == text[..place].matches(']').count()
 }

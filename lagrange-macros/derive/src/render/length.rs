@@ -34,7 +34,7 @@ pub(super) fn length(formula: &Formula) -> usize {
         }
         Formula::Root(inner) => 1 + length(inner),
         Formula::Call(_, arguments) => 1 + all(arguments),
-        Formula::SumOver { body, .. } => 3 + length(body),
+        Formula::SumOver { body, .. } | Formula::SumWhere { body, .. } => 3 + length(body),
         Formula::Vector(items) => 1 + all(items),
         Formula::Derivative { argument, .. } => 2 + length(argument),
         Formula::Partial { by, arguments, .. } => 1 + by.len() + all(arguments),

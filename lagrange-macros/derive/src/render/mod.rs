@@ -18,6 +18,7 @@ mod length;
 mod letters;
 mod lines;
 mod links;
+mod many;
 mod motion;
 mod names;
 mod notation;
@@ -43,6 +44,7 @@ use crate::symbolic::Graph;
 use crate::syntax::Declaration;
 use formula::Formula;
 use lines::{Equation, Line, Section};
+pub(crate) use many::render_many;
 use notation::Notation;
 use page::Page;
 use reading::Names;
@@ -56,11 +58,13 @@ const IN_FRAMES: &str =
 /// Note on subscripts, which text does not have: there an element is `r[2]`, as in the program.
 const FROM_ZERO: &str = "Indices count from 0, as in the program.";
 
+/// Equations in readable form. Outer index: form of definitions, which is the shorter of the two, by name, or written out. Inner
+/// index: text, LaTeX, HTML with MathML.
+pub(crate) type Forms = [[String; 3]; 3];
+
 /// Written forms of a system.
 pub(crate) struct Rendered {
-    /// Outer index: form of definitions, which is the shorter of the two, by name, or written out. Inner
-    /// index: text, LaTeX, HTML with MathML.
-    pub(crate) forms: [[String; 3]; 3],
+    pub(crate) forms: Forms,
     /// Terms of the Lagrangian that are total time derivatives, in the order of the facts.
     pub(crate) total_derivatives: Vec<String>,
 }

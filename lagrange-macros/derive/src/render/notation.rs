@@ -1,6 +1,6 @@
 //! Writes a [`Formula`] by one set of rules for signs and parentheses. A [`Spelling`] provides the parts.
 
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, Zero};
 
 use super::arrays::Arrays;
 use super::binding::{Binding, PREFIX, begins_with_function, exponent_at_name, is_prefixed};
@@ -69,6 +69,11 @@ impl<'a> Notation<'a> {
             },
             Formula::Call(name, arguments) => self.call(name, arguments),
             Formula::SumOver { index, from, to, body } => self.sum_over(index, from, to, body),
+            Formula::SumWhere { condition, sign, body } => {
+                let [left, right] = condition.each_ref().map(|formula| self.write(formula));
+                let condition = left + &self.spelling.sign(&format!(" {sign} ")) + &right;
+                self.spelling.sum_where(&condition, &self.at_least(body, Binding::Product))
+            }
             Formula::Vector(items) => self.vector(items),
             Formula::Transpose(matrix) => spelling.transposed(&self.at_least(matrix, Binding::Atom)),
             Formula::Derivative { function, order, argument } => {
@@ -190,9 +195,12 @@ impl<'a> Notation<'a> {
         let (mut text, words) = (String::new(), words(factors));
         for (position, factor) in factors.iter().enumerate() {
             let factor = match (factor, factors.get(position + 1)) {
-                // A factor after a dot product would be read as part of it.
+                // A factor after a dot product or a sum would be read as part of it.
                 (Formula::Call(name, arguments), None) if name == "dot" && !is_followed => {
                     self.call(name, arguments)
+                }
+                (Formula::SumOver { .. } | Formula::SumWhere { .. }, None) if !is_followed => {
+                    self.write(factor)
                 }
                 (factor, next) => {
                     self.factor(factor, next.map_or(is_followed, |next| !begins_with_function(next)))
@@ -317,6 +325,7 @@ impl<'a> Notation<'a> {
     fn last(self, end: &Formula) -> String {
         match end {
             Formula::Number(value) => self.number(value - Rational::one()),
+            Formula::Sum(terms) => self.write(&before(terms)),
             end => self.write(end) + &self.spelling.sign(" − ") + &self.spelling.digits("1"),
         }
     }
@@ -366,4 +375,20 @@ fn words(factors: &[Formula]) -> Vec<usize> {
         first += run.len();
     }
     places
+}
+
+/// The whole number before a sum of names and whole numbers.
+fn before(terms: &[Formula]) -> Formula {
+    let (mut number, mut others) = (-Rational::one(), Vec::new());
+    for term in terms {
+        match term {
+            Formula::Number(value) => number += value,
+            Formula::Negative(inner) if let Formula::Number(value) = &**inner => number -= value,
+            other => others.push(other.clone()),
+        }
+    }
+    if !number.is_zero() {
+        others.push(Formula::Number(number));
+    }
+    Formula::sum(others)
 }

@@ -125,6 +125,9 @@ impl Lowering<'_> {
     }
 
     pub(super) fn sum_over(&mut self, sum: &SumOver) -> Option<Value> {
+        if let Some(value) = self.open_sum(sum) {
+            return value;
+        }
         if self.is_first_of_triangle(sum)? {
             return Some(Value::Scalar(Id::ZERO));
         }

@@ -88,6 +88,9 @@ impl Lowering<'_> {
     }
 
     fn value_definition(&mut self, index: usize, first: usize) {
+        if self.is_open_definition(first) || self.is_open_family(&self.defines[index].target.indices) {
+            return self.open_definition(index, first);
+        }
         for element in &*self.elements_of(index) {
             if self.progress.early.contains(&(index, element.clone())) {
                 continue;
@@ -232,6 +235,11 @@ impl Lowering<'_> {
             Definition::Wrong => return None,
             Definition::Pending => return self.too_early(first, name),
             Definition::Function => return self.without_parentheses(name),
+            Definition::Open { .. } => {
+                let text = &name.text;
+                let message = format!("take an element of this family, `{text}[i]`");
+                return self.report(name.place, message);
+            }
             Definition::Family(family) => family.part(&[])?,
         };
         self.array(first, &[], value, name.place)

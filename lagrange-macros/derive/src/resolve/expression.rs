@@ -43,7 +43,9 @@ impl Lowering<'_> {
         match &expression.kind {
             Kind::Number(value) => Some(Value::Scalar(self.graph.scaled(*value))),
             Kind::Name(name) => self.name(name),
-            Kind::Index(base, index) => self.index(base, index),
+            Kind::Index(base, index) => {
+                self.open_element(expression).unwrap_or_else(|| self.index(base, index))
+            }
             Kind::Slice(slice) => self.slice(slice),
             Kind::Member(..) => self.member(expression),
             Kind::Call(name, arguments) => self.call(name, arguments, place),
@@ -143,7 +145,13 @@ impl Lowering<'_> {
             text if is_built_in(text) => return self.without_parentheses(name),
             _ => {}
         }
+        if let Some(found) = self.open_alone(name) {
+            return found;
+        }
         match self.scope.get(&name.text) {
+            Some(Entity::Field(field)) if let Some(length) = self.many.length_in(field, &mut self.graph) => {
+                Some(Value::Scalar(length))
+            }
             Some(Entity::Field(field)) => self.field_value(&Access { field, name, parts: Vec::new() }),
             Some(Entity::Coordinate(index)) => Some(self.variable(index, Variable::Coordinate)),
             Some(Entity::Velocity(index)) => Some(self.variable(index, Variable::Velocity)),
@@ -151,7 +159,10 @@ impl Lowering<'_> {
             Some(Entity::Definition(index)) => self.definition(index, name),
             Some(Entity::Function(_)) => self.without_parentheses(name),
             Some(Entity::Frame) => self.frame_alone(name),
-            None => self.observable(name),
+            None => match self.many.length_called(&name.text, &mut self.graph) {
+                Some(length) => Some(Value::Scalar(length)),
+                None => self.observable(name),
+            },
         }
     }
 
@@ -187,6 +198,7 @@ impl Lowering<'_> {
 
     /// d/dt of every scalar in `value`. Reports accelerations at `place` where the setting forbids them.
     pub(super) fn rate_of(&mut self, value: &Value, place: Place) -> Option<Value> {
+        self.follow_totals(&value.flat());
         let rate = value.map(&mut |id| self.rate.of(&mut self.graph, id));
         let accelerations = |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_));
         if self.setting != Setting::Observable && self.graph.symbols(&rate.flat()).any(accelerations) {

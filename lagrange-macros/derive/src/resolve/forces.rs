@@ -13,6 +13,10 @@ use crate::variables::{Variable, has_velocity, symbols};
 
 impl Lowering<'_> {
     pub(super) fn forces(&mut self, declaration: &Declaration) -> Vec<Id> {
+        if self.many.is_open() {
+            self.open_forces(declaration);
+            return Vec::new();
+        }
         let mut forces = vec![Id::ZERO; self.count];
         for force in &declaration.forces {
             let name = &force.target.name;
@@ -32,7 +36,7 @@ impl Lowering<'_> {
     }
 
     /// Describes the target of a force that is no coordinate, and suggests a coordinate.
-    fn no_coordinate(&self, name: &str) -> String {
+    pub(super) fn no_coordinate(&self, name: &str) -> String {
         let coordinates = || self.coordinates.iter().map(|coordinate| coordinate.name.text.as_str());
         let near = match self.scope.get(name) {
             Some(Entity::Frame) => {

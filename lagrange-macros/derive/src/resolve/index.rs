@@ -84,12 +84,31 @@ impl Lowering<'_> {
     /// Lowers an indexed family: the first indices select an element of the family, the rest index into its value.
     fn family_element(&mut self, first: usize, name: &Name, indices: &[Indexed<'_>]) -> Option<Value> {
         let rank = self.defines[first].target.indices.len().min(indices.len());
+        if self.is_open_definition(first) {
+            return self.open_family_item(first, name, indices);
+        }
         let mut path = Vec::new();
         for (_, index) in &indices[..rank] {
             path.push(self.integer(index)?);
         }
         let mut value = self.element(first, &name.text, &path, indices[rank - 1].1.place)?;
         for &indexed in &indices[rank..] {
+            value = self.item(&value, indexed)?;
+        }
+        Some(value)
+    }
+
+    /// Lowers an indexed family whose range is known when the program runs.
+    fn open_family_item(&mut self, first: usize, name: &Name, indices: &[Indexed<'_>]) -> Option<Value> {
+        let rank = self.defines[first].target.indices.len();
+        let Some((own, rest)) = indices.split_at_checked(rank) else {
+            return self.report(name.place, format!("`{}` takes {rank} indices", name.text));
+        };
+        let path: Vec<_> = own.iter().map(|(_, index)| self.affine(index)).collect();
+        let path: Option<Vec<_>> = path.into_iter().collect();
+        let place = name.place.to(own[rank - 1].1.place);
+        let mut value = self.open_family_element(first, name, &path?, place)?;
+        for &indexed in rest {
             value = self.item(&value, indexed)?;
         }
         Some(value)

@@ -6,6 +6,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::family::Family;
 use super::frames::Frames;
+use super::many::Many;
 use super::parameters::Parameters;
 use super::problem::{ContactRow, FrictionRows};
 use super::scope::Scope;
@@ -32,6 +33,10 @@ pub(super) enum Definition {
     Pending,
     Value(Value),
     Family(Family),
+    /// A family whose range is known when the program runs; closed while its own body is lowered.
+    Open {
+        is_open: bool,
+    },
     Function,
     /// An error in the definition has been reported.
     Wrong,
@@ -63,6 +68,8 @@ pub(super) struct Lowering<'a> {
     pub(super) graph: Graph,
     pub(super) scope: Scope,
     pub(super) parameters: Parameters,
+    /// Arrays whose lengths are known when the program runs.
+    pub(super) many: Many,
     pub(super) diagnostics: &'a mut Diagnostics,
     pub(super) coordinates: &'a [Coordinate],
     /// First flat index of each coordinate; `count` is the number of scalar coordinates.
@@ -115,6 +122,7 @@ impl<'a> Lowering<'a> {
     ) -> Self {
         let Declaration { coordinates, functions, defines, frames, .. } = declaration;
         let mut graph = Graph::default();
+        let many = Many::of(declaration, &parameters, diagnostics);
         let mut count = 0;
         let offsets = coordinates
             .iter()
@@ -128,6 +136,7 @@ impl<'a> Lowering<'a> {
             graph,
             scope,
             parameters,
+            many,
             diagnostics,
             coordinates,
             offsets,

@@ -16,6 +16,7 @@ mod in_turn;
 mod index;
 mod label;
 mod lowering;
+pub(crate) mod many;
 mod matrix;
 mod members;
 pub(crate) mod nested;
@@ -51,6 +52,10 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let functions = function::supplied(declaration, &scope, diagnostics);
     let parameters = Parameters::new(declaration, diagnostics);
     let mut lowering = Lowering::new(scope, parameters, declaration, diagnostics);
+    if lowering.many.is_open() {
+        lowering.refuse_with_open_lengths(declaration);
+        lowering.diagnostics.is_empty().then_some(())?;
+    }
     lowering.define_all();
     let lagrangian = declaration.lagrangian.as_ref().and_then(|lagrangian| lowering.scalar(lagrangian));
     if let (Some(value), Some(written)) = (lagrangian, &declaration.lagrangian) {
@@ -70,10 +75,22 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
     let conserved = lowering.conserved(declaration, &observables);
     let (names, vectors) = (lowering.names(declaration), lowering.vectors(declaration));
     let frames_are_cheaper = lowering.frames_are_cheaper();
-    let coordinates = labels(declaration);
+    let coordinates = match lowering.many.is_open() {
+        true => lowering.many.labels(&lowering.parameters),
+        false => labels(declaration),
+    };
     let quaternions = lowering.quaternions(coordinates.len());
     let Lowering {
-        mut graph, parameters, diagnostics, frames, mut rates, switches, contacts, frictions, ..
+        mut graph,
+        parameters,
+        many,
+        diagnostics,
+        frames,
+        mut rates,
+        switches,
+        contacts,
+        frictions,
+        ..
     } = lowering;
     rates.sort_unstable();
     rates.dedup();
@@ -101,6 +118,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
         observables,
         conserved,
         parameters,
+        many,
         functions,
         frame_names: frames.names(),
         frames: frames.all,

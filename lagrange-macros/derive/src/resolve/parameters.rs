@@ -11,8 +11,8 @@ use super::value::Value;
 use crate::diagnostics::{Diagnostics, Place};
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::syntax::{
-    Declaration, Expression, Fact, Field, FieldShape, Kind, Layout, Name, Operator, Parameter, Property,
-    numbers,
+    Declaration, Expression, Fact, Field, FieldShape, Kind, Layout, Lengths, Name, Operator, Parameter,
+    Property, element_type, numbers,
 };
 use crate::variables::Variable;
 
@@ -108,9 +108,10 @@ impl Parameters {
     fn set(&mut self, index: usize, Parameter { name, fact }: &Parameter) -> syn::Result<()> {
         match fact {
             Fact::Struct(structure) => self.set_structure(index, structure, name.place),
-            Fact::Shape(lengths) => {
+            Fact::Shape(lengths) if !lengths.open.is_empty() => self.check_open(index, name.place),
+            Fact::Shape(Lengths { known, .. }) => {
                 self.reject_struct(index, name.place)?;
-                self.set_shape(index, lengths, name.place)
+                self.set_shape(index, known, name.place)
             }
             Fact::Property(property) => {
                 self.reject_struct(index, name.place)?;
@@ -123,6 +124,27 @@ impl Parameters {
                 Ok(())
             }
         }
+    }
+
+    /// Checks that a field whose length has a name is a `Vec` or a slice.
+    fn check_open(&self, index: usize, place: Place) -> syn::Result<()> {
+        let Field { name, ty, .. } = &self.fields[index];
+        match element_type(ty) {
+            Some(_) => Ok(()),
+            None => Err(place.error(format!(
+                "a length that is known when the program runs belongs to a `Vec` or a slice, and the type of `{}` is `{}`",
+                name.text,
+                text(ty)
+            ))),
+        }
+    }
+
+    /// Adds a field that stands for an element of another one; returns its index.
+    pub(super) fn add_virtual(&mut self, field: Field, of: usize) -> usize {
+        self.fields.push(field);
+        self.ranges.push(self.ranges[of]);
+        self.properties.push(None);
+        self.fields.len() - 1
     }
 
     fn set_shape(&mut self, index: usize, lengths: &[usize], place: Place) -> syn::Result<()> {

@@ -5,6 +5,7 @@ use rustc_hash::FxHashMap;
 use super::frames::{Body, Frame};
 use super::function::Supplied;
 use super::label::{Label, entry_names};
+use super::many::Many;
 use super::parameters::{Entry, Parameters};
 use crate::diagnostics::Place;
 use crate::symbolic::Id;
@@ -36,6 +37,8 @@ pub(crate) struct Problem {
     /// Indices of the observables declared as conserved, with the source position of each.
     pub(crate) conserved: Vec<(usize, Place)>,
     pub(crate) parameters: Parameters,
+    /// Arrays whose lengths are known when the program runs. If there are any, `coordinates` are the elements in use.
+    pub(crate) many: Many,
     pub(crate) functions: Vec<Supplied>,
     /// Frames, each after the one that it lies in; the first is the fixed frame.
     pub(crate) frames: Vec<Frame>,

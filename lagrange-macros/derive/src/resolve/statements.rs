@@ -34,7 +34,8 @@ impl Lowering<'_> {
 
     /// Rejects `min`, `max` and `clamp` in expressions whose derivatives enter the equations of motion.
     pub(super) fn reject_kink(&mut self, what: &str, value: Id, place: Place) {
-        if let Some(argument) = self.graph.kink(value) {
+        let all = self.many.with_bodies(&self.graph, &[value]);
+        if let Some(argument) = all.into_iter().find_map(|value| self.graph.kink(value)) {
             let place = self.kinks.get(&argument).copied().unwrap_or(place);
             let message = format!(
                 "`min`, `max` and `clamp` have no place in {what}, whose slopes must be smooth: they limit forces and observables"
@@ -212,6 +213,7 @@ impl Lowering<'_> {
 
     pub(super) fn observables(&mut self, declaration: &Declaration) -> Vec<Observed> {
         self.setting = Setting::Observable;
+        self.refuse_open_observables(declaration);
         let mut observables = Vec::new();
         for (position, observable) in declaration.observables.iter().enumerate() {
             let name = &observable.target.name;

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 
 use super::expression::Expression;
-use super::field::{Field, Property, numbers};
+use super::field::{Field, Lengths, Property, numbers};
 use super::name::Name;
 use super::structure::Structure;
 use super::target::{Target, TargetIndex};
@@ -32,16 +32,25 @@ pub(crate) struct Declaration {
     pub(crate) digest: u32,
 }
 
-/// One entry of `#[coordinates(x, r: [3], corners: [4, 3])]`.
+impl Declaration {
+    /// True if the number of coordinates is known when the program runs.
+    pub(crate) fn has_open_lengths(&self) -> bool {
+        self.coordinates.iter().any(|coordinate| !coordinate.open.is_empty())
+    }
+}
+
+/// One entry of `#[coordinates(x, r: [3], corners: [4, 3], masses: [n, 3])]`.
 #[derive(Clone, Debug)]
 pub(crate) struct Coordinate {
     pub(crate) name: Name,
+    /// Lengths that are known when the program runs, outermost first. Those of one element follow.
+    pub(crate) open: Vec<Expression>,
     /// Array lengths, outermost first; empty for a number.
     pub(crate) lengths: Vec<usize>,
 }
 
 impl Coordinate {
-    /// Number of scalar coordinates.
+    /// Number of scalar coordinates; of one element if there are elements whose number is known when the program runs.
     pub(crate) fn count(&self) -> usize {
         numbers(&self.lengths)
     }
@@ -161,7 +170,7 @@ pub(crate) struct Parameter {
 /// Fact that a `#[parameter(…)]` states about a field.
 #[derive(Debug)]
 pub(crate) enum Fact {
-    Shape(Vec<usize>),
+    Shape(Lengths),
     Range(Expression, Expression),
     Property(Property),
     Struct(Structure),

@@ -3,6 +3,7 @@
 use quote::ToTokens;
 use syn::{Expr, ExprLit, GenericArgument, Lit, PathArguments, PathSegment, Type};
 
+use super::expression::Expression;
 use super::name::Name;
 use crate::diagnostics::Place;
 
@@ -133,6 +134,13 @@ pub(crate) fn numbers(lengths: &[usize]) -> usize {
     lengths.iter().copied().fold(1, usize::saturating_mul)
 }
 
+/// Lengths of an array, outermost first: those that are known when the program runs, then those of one element.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lengths {
+    pub(crate) open: Vec<Expression>,
+    pub(crate) known: Vec<usize>,
+}
+
 /// Maximum number of scalars in an array that an expression uses.
 pub(crate) const LENGTH_LIMIT: usize = 100_000;
 
@@ -169,7 +177,32 @@ pub(crate) fn arrays(ty: &Type) -> (Vec<usize>, &Type) {
     }
 }
 
-fn shape(ty: &Type) -> Result<FieldShape, String> {
+/// Returns the type of the elements of a field whose length is known when the program runs: `Vec<T>` or `[T]`.
+pub(crate) fn element_type(ty: &Type) -> Option<&Type> {
+    match ty {
+        Type::Reference(reference) => element_type(&reference.elem),
+        Type::Paren(inner) => element_type(&inner.elem),
+        Type::Group(inner) => element_type(&inner.elem),
+        Type::Slice(slice) => Some(&slice.elem),
+        Type::Path(path) => {
+            let segment = path.path.segments.last()?;
+            let [GenericArgument::Type(inner), ..] = arguments(segment)[..] else { return None };
+            match segment.ident.to_string().as_str() {
+                "Vec" => Some(inner),
+                "Box" | "Rc" | "Arc" => element_type(inner),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}
+
+const OPEN_LENGTH: &str = "the length of a `Vec` is known when the program runs: say what it is called, `#[parameter(name: [n])]`, and take coordinates of this length, `#[coordinates(x: [n])]`";
+
+pub(crate) fn shape(ty: &Type) -> Result<FieldShape, String> {
+    if element_type(ty).is_some() {
+        return Err(OPEN_LENGTH.to_owned());
+    }
     match ty {
         Type::Reference(reference) => Ok(FieldShape { is_reference: true, ..shape(&reference.elem)? }),
         Type::Paren(inner) => shape(&inner.elem),

@@ -7,7 +7,7 @@ use syn::Result;
 use super::cursor::Cursor;
 use super::declaration::{Coordinate, Define, Force, FunctionDeclaration, Named, Options, Power};
 use super::expression::{self, Expression, Kind};
-use super::field::{LENGTH_LIMIT, NOT_A_LITERAL, numbers};
+use super::field::{LENGTH_LIMIT, Lengths, NOT_A_LITERAL, numbers};
 use super::name::Name;
 use super::target::{running, target};
 use super::unread::unread;
@@ -103,7 +103,9 @@ pub(super) fn coordinates(cursor: &mut Cursor, coordinates: &mut Vec<Coordinate>
     let mut count = 0;
     while !cursor.is_empty() {
         let name = cursor.name("the name of a coordinate")?;
-        let coordinate = Coordinate { name, lengths: shape(cursor)? };
+        let Lengths { open, known: lengths } =
+            if cursor.take_punct(':') { any_lengths(cursor)? } else { Lengths::default() };
+        let coordinate = Coordinate { name, open, lengths };
         count += coordinate.count();
         reject_too_many(count, &coordinate.name)?;
         coordinates.push(coordinate);
@@ -137,23 +139,38 @@ const LENGTHS: &str =
 
 /// Reads `[3]` or `[4, 3]`.
 pub(super) fn lengths(cursor: &mut Cursor) -> Result<Vec<usize>> {
-    let Some(group) = cursor.take_group(Delimiter::Bracket) else { return Err(cursor.error(LENGTHS)) };
-    let (mut inside, place) = (Cursor::inside(&group), Place::at(group.span()));
-    let mut lengths = vec![length(&mut inside.until_comma(), place)?];
-    while !inside.is_empty() {
-        lengths.push(length(&mut inside.until_comma(), place)?);
+    let Lengths { open, known } = any_lengths(cursor)?;
+    match open.first() {
+        None => Ok(known),
+        Some(Expression { place, .. }) => Err(place.error(NOT_A_LITERAL)),
     }
-    if numbers(&lengths) > LENGTH_LIMIT { Err(place.error(LENGTHS)) } else { Ok(lengths) }
 }
 
-fn length(cursor: &mut Cursor, place: Place) -> Result<usize> {
-    let value = match expression::whole(cursor).map(|length| length.kind) {
-        Ok(Kind::Number(value)) => value.to_integer().and_then(|value| usize::try_from(value).ok()),
-        Ok(Kind::Name(_)) => return Err(place.error(NOT_A_LITERAL)),
-        _ => None,
-    };
-    value.filter(|length| *length > 0).ok_or_else(|| place.error(LENGTHS))
+/// Reads `[3]`, `[n]`, `[n, 3]` or `[rows, columns, 3]`: lengths that are known when the program runs come first.
+pub(super) fn any_lengths(cursor: &mut Cursor) -> Result<Lengths> {
+    let Some(group) = cursor.take_group(Delimiter::Bracket) else { return Err(cursor.error(LENGTHS)) };
+    let (mut inside, place) = (Cursor::inside(&group), Place::at(group.span()));
+    let (mut open, mut known) = (Vec::new(), Vec::new());
+    loop {
+        let length = expression::whole(&mut inside.until_comma()).map_err(|_| place.error(LENGTHS))?;
+        match &length.kind {
+            Kind::Number(value) => {
+                let value = value.to_integer().and_then(|value| usize::try_from(value).ok());
+                known.push(value.filter(|length| *length > 0).ok_or_else(|| place.error(LENGTHS))?);
+            }
+            Kind::Name(_) | Kind::Sum(_) if known.is_empty() => open.push(length),
+            Kind::Name(_) | Kind::Sum(_) => return Err(length.place.error(OPEN_FIRST)),
+            _ => return Err(length.place.error(LENGTHS)),
+        }
+        if inside.is_empty() {
+            break;
+        }
+    }
+    if numbers(&known) > LENGTH_LIMIT { Err(place.error(LENGTHS)) } else { Ok(Lengths { open, known }) }
 }
+
+const OPEN_FIRST: &str =
+    "a length that is known when the program runs comes first: `[n, 3]` is n vectors of 3";
 
 /// Reads the last expression of an attribute, after its `=` or `:`.
 fn last(cursor: &mut Cursor, word: &str) -> Result<Expression> {

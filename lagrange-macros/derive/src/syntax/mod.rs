@@ -26,8 +26,8 @@ pub(crate) use declaration::{
 };
 pub(crate) use expression::{Expression, Kind, Operator, Sign, Slice, SumOver};
 pub(crate) use field::{
-    Field, FieldShape, Inside, LENGTH_LIMIT, Layout, Property, Segment, arguments, arrays, numbers,
-    short_enough,
+    Field, FieldShape, Inside, LENGTH_LIMIT, Layout, Lengths, Property, Segment, arguments, arrays,
+    element_type, numbers, shape, short_enough,
 };
 pub(crate) use greek::GREEK;
 pub(crate) use name::{Name, normal_form};

@@ -7,7 +7,7 @@ use super::cursor::Cursor;
 use super::declaration::{Fact, Parameter};
 use super::expression;
 use super::field::{Inside, Layout, Property};
-use super::forms::{colon, finish, form, lengths};
+use super::forms::{any_lengths, colon, finish, form, lengths};
 use super::structure::{Member, MemberShape, Structure, numbers};
 
 const MEMBER: &str = "a member is a number `m`, or says what it is: `c: [3]`, `A: [3, 3]`, `I: symmetric`, `R: rotation`, `q: quaternion`, `place: pose`, or a struct again, `tip: {m, c: [3]}`";
@@ -20,8 +20,15 @@ pub(super) fn parameter(cursor: &mut Cursor) -> Result<Parameter> {
             Fact::Struct(structure(cursor, Vec::new())?)
         }
         Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => {
-            let lengths = lengths(cursor)?;
-            if is_brace(cursor) { Fact::Struct(structure(cursor, lengths)?) } else { Fact::Shape(lengths) }
+            let mut behind = cursor.clone();
+            behind.next();
+            match is_brace(&behind) {
+                true => {
+                    let lengths = lengths(cursor)?;
+                    Fact::Struct(structure(cursor, lengths)?)
+                }
+                false => Fact::Shape(any_lengths(cursor)?),
+            }
         }
         Some(TokenTree::Ident(_)) => Fact::Property(property(cursor)?),
         _ => {

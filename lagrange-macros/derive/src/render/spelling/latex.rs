@@ -155,6 +155,10 @@ impl Spelling for Latex {
         format!(r"\sum_{{{index} = {from}}}^{{{last}}} {body}")
     }
 
+    fn sum_where(&self, condition: &str, body: &str) -> String {
+        format!(r"\sum_{{{condition}}} {body}")
+    }
+
     fn between_words(&self) -> &'static str {
         r" \, "
     }

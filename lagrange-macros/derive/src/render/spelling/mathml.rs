@@ -141,6 +141,10 @@ impl Spelling for MathMl {
         format!("<munderover><mo>∑</mo>{first}{last}</munderover>{body}")
     }
 
+    fn sum_where(&self, condition: &str, body: &str) -> String {
+        format!("<munder><mo>∑</mo>{}</munder>{body}", whole(condition))
+    }
+
     fn between_words(&self) -> &'static str {
         TIMES_AND_SPACE
     }

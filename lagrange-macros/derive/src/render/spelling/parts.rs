@@ -89,6 +89,9 @@ pub(crate) trait Spelling: Sync {
     /// A sum Σ from the first to the last value of an index.
     fn sum_over(&self, index: &str, from: &str, last: &str, body: &str) -> String;
 
+    /// A sum Σ over all that meet a condition.
+    fn sum_where(&self, condition: &str, body: &str) -> String;
+
     /// Separator between words, which would run into each other.
     fn between_words(&self) -> &'static str {
         " "

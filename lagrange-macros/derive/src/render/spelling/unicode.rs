@@ -117,6 +117,10 @@ impl Spelling for Unicode {
         format!("Σ({index} = {from} … {last}) {body}")
     }
 
+    fn sum_where(&self, condition: &str, body: &str) -> String {
+        format!("Σ({condition}) {body}")
+    }
+
     fn beside(&self, _: &str, after: &str) -> &'static str {
         if after.starts_with(|first: char| first.is_ascii_digit()) { " · " } else { " " }
     }

@@ -1,0 +1,153 @@
+//! Methods of the traits, and of the struct.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::ManyEmitter;
+use crate::codegen::observables::method_name;
+use crate::mechanics::many::ManyConservedKind;
+use crate::resolve::Observed;
+use crate::symbolic::Id;
+
+impl ManyEmitter<'_> {
+    pub(super) fn system(&self) -> TokenStream {
+        let scalar = self.style.types.scalar;
+        let (lengths, count) = (self.style.lengths(), self.style.count_of_all());
+        let a = quote!(a);
+        let forces = self.equations.forcing.iter().map(|scatter| self.scatter(&a, scatter));
+        let solved = self.equations.inertia.iter().map(|block| self.solve(block));
+        let zero = self.style.constant(0.0);
+        quote! {
+            type Scalar = #scalar;
+            type Length = __lagrange::nalgebra::Dyn;
+            type M = __lagrange::nalgebra::Const<0>;
+            type Field = __lagrange::motion::ManyBodyField;
+
+            fn length(&self) -> __lagrange::nalgebra::Dyn {
+                #lengths
+                __lagrange::nalgebra::Dyn(#count)
+            }
+
+            fn accelerations(&self, t: #scalar, q: &[#scalar], v: &[#scalar], a: &mut [#scalar]) {
+                #lengths
+                a.fill(#zero);
+                #(#forces)*
+                #(#solved)*
+            }
+        }
+    }
+
+    pub(super) fn many_bodies(&self) -> TokenStream {
+        let (scalar, digest) = (self.style.types.scalar, self.declaration.digest);
+        let state = quote!(&__lagrange::generic::State<#scalar, __lagrange::nalgebra::Dyn>);
+        let (lengths, count) = (self.style.lengths(), self.style.count_of_all());
+        let [lagrangian, energy] =
+            [self.problem.lagrangian, self.equations.energy].map(|root| self.number(root));
+        let p = quote!(p);
+        let momenta = self.equations.momentum.iter().map(|scatter| self.scatter(&p, scatter));
+        let (write_name, check, visit) = (self.write_name(), self.check(), self.visit_numbers());
+        let (zero, view) = (self.style.constant(0.0), view());
+        let is_conserved = self.equations.energy_is_conserved;
+        quote! {
+            const ENERGY_IS_CONSERVED: bool = #is_conserved;
+            const DIGEST: u32 = #digest;
+
+            #write_name
+            #check
+            #visit
+
+            fn lagrangian(&self, state: #state) -> #scalar {
+                #lengths
+                #view
+                #lagrangian
+            }
+
+            fn energy(&self, state: #state) -> #scalar {
+                #lengths
+                #view
+                #energy
+            }
+
+            fn momenta(&self, state: #state) -> __lagrange::nalgebra::DVector<#scalar> {
+                #lengths
+                #view
+                let mut p = __lagrange::nalgebra::DVector::from_element(#count, #zero);
+                #(#momenta)*
+                p
+            }
+        }
+    }
+
+    fn number(&self, root: Id) -> TokenStream {
+        let (statements, results) = self.values(&[root]);
+        quote! { #statements #(#results)* }
+    }
+
+    /// A method for each observable and for each vector that is conserved.
+    pub(super) fn inherent(&self) -> TokenStream {
+        let visibility = &self.declaration.visibility;
+        let observables = self.problem.observables.iter().map(|Observed { label, lengths, values }| {
+            let doc = format!("The observable `{}`.", label.text);
+            let name = method_name(&label.text, label.place.start());
+            self.method(&doc, &quote!(#visibility fn #name), lengths, values)
+        });
+        let names: Vec<&str> =
+            self.problem.observables.iter().map(|known| known.label.text.as_str()).collect();
+        let conserved = self.equations.conserved.iter().filter_map(|conserved| {
+            let (name, doc) = match conserved.kind {
+                ManyConservedKind::Momentum => {
+                    ("total_momentum", "Σ p of all elements, which the motion conserves.")
+                }
+                ManyConservedKind::AngularMomentum => {
+                    ("total_angular_momentum", "Σ r × p of all elements, which the motion conserves.")
+                }
+            };
+            let ident = quote::format_ident!("{name}");
+            let lengths = match conserved.values.len() {
+                1 => vec![],
+                length => vec![length],
+            };
+            let method = self.method(doc, &quote!(#visibility fn #ident), &lengths, &conserved.values);
+            (!names.contains(&name)).then_some(method)
+        });
+        quote! { #(#observables)* #(#conserved)* }
+    }
+
+    fn method(&self, doc: &str, name: &TokenStream, lengths: &[usize], values: &[Id]) -> TokenStream {
+        let (scalar, view, starts) = (self.style.types.scalar, view(), self.style.lengths());
+        let (statements, results) = self.values(values);
+        let (returns, result) = match lengths {
+            [] => (quote!(#scalar), quote!(#(#results)*)),
+            [length] => (
+                quote!(__lagrange::nalgebra::SVector<#scalar, #length>),
+                quote!(__lagrange::generated::vector([#(#results),*])),
+            ),
+            [rows, ..] => {
+                let columns = values.len() / rows;
+                let column = |j: usize| {
+                    let entries = results.iter().skip(j).step_by(columns);
+                    quote!([#(#entries),*])
+                };
+                let all = (0..columns).map(column);
+                (
+                    quote!(__lagrange::nalgebra::SMatrix<#scalar, #rows, #columns>),
+                    quote!(__lagrange::generated::matrix([#(#all),*])),
+                )
+            }
+        };
+        quote! {
+            #[doc = #doc]
+            #name(&self, state: &__lagrange::generic::State<#scalar, __lagrange::nalgebra::Dyn>) -> #returns {
+                #starts
+                #view
+                #statements
+                #result
+            }
+        }
+    }
+}
+
+/// Bindings of the parts of a state.
+fn view() -> TokenStream {
+    quote! { let (t, q, v) = (state.t, state.q.as_slice(), state.v.as_slice()); }
+}

@@ -1,0 +1,261 @@
+//! The mass matrix by blocks: velocities that meet in the kinetic energy belong to one element.
+
+use rustc_hash::FxHashMap;
+
+use super::Pattern;
+use crate::diagnostics::Diagnostics;
+use crate::resolve::Problem;
+use crate::resolve::many::{Affine, Index, NewIndices, Range, Slot, Unknown};
+use crate::symbolic::{Graph, Id};
+use crate::variables::{Variable, has_velocity};
+
+/// Equations M q̈ = h of the coordinates of one element, the same for each element.
+pub(crate) struct Inertia {
+    /// Numbers of elements along each axis; the running index of axis x has depth x.
+    pub(crate) lengths: Vec<Affine>,
+    /// Coordinate array and number in its element, of each row.
+    pub(crate) rows: Vec<(usize, usize)>,
+    /// Terms that only some elements have; the others have zeros.
+    pub(crate) guarded: Vec<Guarded>,
+    /// q̈ of each row, in terms of `Variable::Forcing`, one for each row, and of the `Variable::Term`s of `guarded`.
+    pub(crate) accelerations: Vec<Id>,
+}
+
+/// Entries of M that elements have where all conditions hold.
+pub(crate) struct Guarded {
+    pub(crate) conditions: Vec<Condition>,
+    /// Index of the `Variable::Term`, and its value.
+    pub(crate) values: Vec<(usize, Id)>,
+}
+
+/// from ≤ running index < to
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Condition {
+    pub(crate) level: usize,
+    pub(crate) range: Range,
+}
+
+/// Entry of M that a pattern gives: the slots that meet, and the second derivative of L by their velocities.
+pub(super) struct MassEntry {
+    /// Coordinate array and number in its element, of the row and the column.
+    pub(super) rows: [(usize, usize); 2],
+    pub(super) conditions: Vec<Condition>,
+    pub(super) value: Id,
+}
+
+/// Solves for the accelerations of each element. Reports velocities of different elements that meet, and coordinates without a
+/// velocity in L.
+pub(super) fn blocks(
+    graph: &mut Graph,
+    problem: &mut Problem,
+    patterns: &[Pattern],
+    diagnostics: &mut Diagnostics,
+) -> Option<(Vec<Inertia>, Vec<MassEntry>)> {
+    let mut entries = Vec::new();
+    for pattern in patterns {
+        entries.extend(entries_of(graph, problem, pattern, diagnostics)?);
+    }
+    let groups = groups(problem, &entries);
+    let blocks: Vec<Option<Inertia>> =
+        groups.into_iter().map(|arrays| block(graph, problem, &arrays, &entries, diagnostics)).collect();
+    Some((blocks.into_iter().collect::<Option<_>>()?, entries))
+}
+
+fn entries_of(
+    graph: &mut Graph,
+    problem: &mut Problem,
+    pattern: &Pattern,
+    diagnostics: &mut Diagnostics,
+) -> Option<Vec<MassEntry>> {
+    let slots = super::slots(graph, pattern.body);
+    let momenta = super::gradient(graph, pattern.body, &slots, Variable::Velocity);
+    let mut entries = Vec::new();
+    for (&a, momentum) in slots.iter().zip(momenta) {
+        let row = super::gradient(graph, momentum, &slots, Variable::Velocity);
+        for (&b, value) in slots.iter().zip(row) {
+            if value != Id::ZERO {
+                let entry = entry(graph, problem, &pattern.ranges, [a, b], value);
+                match entry {
+                    Ok(entry) => entries.push(entry),
+                    Err(message) => {
+                        diagnostics.error(problem.place, message);
+                        return None;
+                    }
+                }
+            }
+        }
+    }
+    Some(entries)
+}
+
+fn entry(
+    graph: &mut Graph,
+    problem: &mut Problem,
+    ranges: &[Range],
+    [a, b]: [usize; 2],
+    value: Id,
+) -> Result<MassEntry, String> {
+    let [one, other] = [a, b].map(|k| problem.many.slots[k].clone());
+    if one.indices != other.indices
+        || problem.many.arrays[one.array].open != problem.many.arrays[other.array].open
+    {
+        let labels = problem.many.labels(&problem.parameters);
+        let (one, other) = (&labels[a].text, &labels[b].text);
+        return Err(format!(
+            "the velocities of `{one}` and `{other}` multiply one another in the Lagrangian, and the mass matrix would couple one element to the next: with a length that is known when the program runs, only velocities of one element may do so yet"
+        ));
+    }
+    let (new, conditions) = at_element(problem, &one, ranges).ok_or_else(|| {
+        let labels = problem.many.labels(&problem.parameters);
+        format!(
+            "`{}` has a velocity in a sum whose rounds are no elements of it, so that its mass would be a sum, too: write the kinetic energy as a sum over its elements",
+            labels[a].text
+        )
+    })?;
+    let value = problem.shifted(graph, value, &new);
+    let rows = [&one, &other].map(|slot| (slot.array, slot.number));
+    Ok(MassEntry { rows, conditions, value })
+}
+
+/// The running indices of the loops at which a slot is the element (i, j, …), and the conditions on i, j, … for there to be
+/// any. `None` if several rounds belong to one element.
+pub(super) fn at_element(
+    problem: &Problem,
+    slot: &Slot,
+    ranges: &[Range],
+) -> Option<(NewIndices, Vec<Condition>)> {
+    let mut new: NewIndices = FxHashMap::default();
+    let mut fixed = Vec::new();
+    for (axis, index) in slot.indices.iter().enumerate() {
+        let Index::Affine(index) = index else { return None };
+        let mut levels = index.levels();
+        let element = Affine::of(Unknown::Level(axis));
+        match (levels.next(), levels.next()) {
+            (None, _) => fixed.push((axis, index.clone())),
+            (Some(level), None) if index.factor(Unknown::Level(level)) == 1 && !new.contains_key(&level) => {
+                let offset = index.plus(&Affine::of(Unknown::Level(level)), -1);
+                new.insert(level, element.plus(&offset, -1));
+            }
+            _ => return None,
+        }
+    }
+    (new.len() == ranges.len()).then_some(())?;
+    let mut conditions: Vec<Condition> = fixed
+        .into_iter()
+        .map(|(level, at)| Condition { level, range: Range { to: at.plus_number(1), from: at } })
+        .collect();
+    for (level, range) in ranges.iter().enumerate() {
+        let at = &new[&level];
+        let (axis, offset) = at.terms.iter().find_map(|(unknown, _)| match unknown {
+            Unknown::Level(axis) => Some((*axis, at.plus(&Affine::of(*unknown), -1))),
+            Unknown::Length(_) => None,
+        })?;
+        let bound = |bound: &Affine| bound.shifted(&new).plus(&offset, -1);
+        conditions
+            .push(Condition { level: axis, range: Range { from: bound(&range.from), to: bound(&range.to) } });
+    }
+    let lengths = &problem.many.arrays[slot.array].open;
+    let is_all = |Condition { level, range }: &Condition| {
+        range.from == Affine::number(0) && range.to == lengths[*level]
+    };
+    conditions.retain(|condition| !is_all(condition));
+    conditions.sort_by_key(|condition| condition.level);
+    Some((new, conditions))
+}
+
+/// Arrays whose elements share entries of M, in the order of the coordinates.
+fn groups(problem: &Problem, entries: &[MassEntry]) -> Vec<Vec<usize>> {
+    let mut group: Vec<usize> = (0..problem.many.arrays.len()).collect();
+    for MassEntry { rows: [(one, _), (other, _)], .. } in entries {
+        let (one, other) = (group[*one], group[*other]);
+        group.iter_mut().filter(|known| **known == other.max(one)).for_each(|known| *known = other.min(one));
+    }
+    let arrays = |first: usize| (0..group.len()).filter(|&array| group[array] == first).collect();
+    (0..group.len()).filter(|&array| group[array] == array).map(arrays).collect()
+}
+
+fn block(
+    graph: &mut Graph,
+    problem: &Problem,
+    arrays: &[usize],
+    entries: &[MassEntry],
+    diagnostics: &mut Diagnostics,
+) -> Option<Inertia> {
+    let rows: Vec<(usize, usize)> = arrays
+        .iter()
+        .flat_map(|&array| {
+            let count = crate::syntax::numbers(&problem.many.arrays[array].lengths);
+            (0..count).map(move |number| (array, number))
+        })
+        .collect();
+    let mut mass = vec![vec![Id::ZERO; rows.len()]; rows.len()];
+    let mut guarded: Vec<Guarded> = Vec::new();
+    let mut terms = 0;
+    for MassEntry { rows: at, conditions, value } in entries {
+        let place = at.map(|row| rows.iter().position(|known| *known == row));
+        let [Some(i), Some(j)] = place else { continue };
+        let value = match conditions.is_empty() {
+            true => *value,
+            false => {
+                push(&mut guarded, conditions, (terms, *value));
+                terms += 1;
+                graph.symbol(Variable::Term(terms - 1).symbol())
+            }
+        };
+        mass[i][j] = graph.add(mass[i][j], value);
+    }
+    if let Some(row) = mass.iter().position(|row| row.iter().all(|&entry| entry == Id::ZERO)) {
+        let array = &problem.many.arrays[rows[row].0];
+        diagnostics.error(array.place, format!(
+            "the velocity of `{}` does not occur in the Lagrangian, so that nothing determines its acceleration",
+            array.name
+        ));
+        return None;
+    }
+    let forcing = (0..rows.len()).map(|row| graph.symbol(Variable::Forcing(row).symbol())).collect();
+    let accelerations = solved(graph, mass, forcing);
+    let lengths = problem.many.arrays[arrays[0]].open.clone();
+    Some(Inertia { lengths, rows, guarded, accelerations })
+}
+
+fn push(guarded: &mut Vec<Guarded>, conditions: &[Condition], value: (usize, Id)) {
+    match guarded.iter_mut().find(|known| known.conditions == conditions) {
+        Some(known) => known.values.push(value),
+        None => guarded.push(Guarded { conditions: conditions.to_vec(), values: vec![value] }),
+    }
+}
+
+/// Solves M x = h for symmetric M by elimination without exchanges, as a positive definite M allows.
+fn solved(graph: &mut Graph, mut mass: Vec<Vec<Id>>, mut right: Vec<Id>) -> Vec<Id> {
+    let n = right.len();
+    for k in 0..n {
+        for i in k + 1..n {
+            if mass[i][k] == Id::ZERO {
+                continue;
+            }
+            let factor = graph.div(mass[i][k], mass[k][k]);
+            let factor = graph.defined(factor);
+            for j in k + 1..n {
+                let part = graph.mul(factor, mass[k][j]);
+                let entry = graph.sub(mass[i][j], part);
+                mass[i][j] = graph.defined(entry);
+            }
+            let part = graph.mul(factor, right[k]);
+            right[i] = graph.sub(right[i], part);
+        }
+    }
+    for i in (0..n).rev() {
+        let known: Vec<Id> = (i + 1..n).map(|j| graph.mul(mass[i][j], right[j])).collect();
+        let known = graph.total(known);
+        let rest = graph.sub(right[i], known);
+        right[i] = graph.div(rest, mass[i][i]);
+    }
+    right
+}
+
+impl Inertia {
+    pub(super) fn has_velocity(&self, graph: &Graph) -> bool {
+        let guarded = self.guarded.iter().flat_map(|guarded| &guarded.values).map(|(_, value)| *value);
+        has_velocity(graph, &self.accelerations.iter().copied().chain(guarded).collect::<Vec<_>>())
+    }
+}

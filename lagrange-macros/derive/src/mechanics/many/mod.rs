@@ -1,0 +1,183 @@
+//! Equations of motion of systems whose numbers of bodies are known when the program runs.
+//!
+//! L is a sum over loops of expressions ℓ in a few slots, elements such as `q[i]` and `q[i+1]`. Each ℓ is differentiated once by
+//! its slots; what the derivative by a slot gives belongs to the element at which the slot is in this round of the loop, and is
+//! added to it. That is ∂L/∂q_k = Σ over rounds and slots of [index of the slot = k] ∂ℓ/∂slot, without a search for the rounds.
+//! Slots that meet in one element, such as both ends of a bond from an atom to itself, add up as the chain rule demands.
+
+mod conservation;
+mod inertia;
+mod patterns;
+mod rows;
+
+use crate::diagnostics::Diagnostics;
+use crate::resolve::Problem;
+use crate::resolve::many::Range;
+use crate::symbolic::{Forward, Graph, Id};
+use crate::variables::{Variable, drift, has_velocity};
+pub(crate) use conservation::{ManyConserved, ManyConservedKind};
+pub(crate) use inertia::{Condition, Guarded, Inertia};
+pub(crate) use patterns::{Pattern, patterns};
+pub(crate) use rows::{ElementRows, ElementSum, Over, Region};
+
+/// Values that the rounds of some loops add to elements of the coordinates.
+#[derive(Clone, Debug)]
+pub(crate) struct Scatter {
+    pub(crate) ranges: Vec<Range>,
+    /// Slots, each once, and the values.
+    pub(crate) values: Vec<(usize, Id)>,
+}
+
+/// Equations M q̈ = h of a system whose number of bodies is known when the program runs.
+pub(crate) struct ManyEquations {
+    /// p = ∂L/∂q̇
+    pub(crate) momentum: Vec<Scatter>,
+    /// h = ∂L/∂q + Q − (dp/dt at q̈ = 0)
+    pub(crate) forcing: Vec<Scatter>,
+    /// M by blocks, one for each set of coordinates that share it.
+    pub(crate) inertia: Vec<Inertia>,
+    /// E = p·q̇ − L
+    pub(crate) energy: Id,
+    /// The same by loops, to be printed.
+    pub(crate) energies: Vec<Pattern>,
+    /// Equations of the elements of each array, to be printed; `None` where they have another form.
+    pub(crate) rows: Vec<Option<Vec<ElementRows>>>,
+    pub(crate) conserved: Vec<ManyConserved>,
+    pub(crate) energy_is_conserved: bool,
+    /// True if neither M nor h depends on velocities.
+    pub(crate) forces_are_free_of_velocities: bool,
+}
+
+const NOT_A_SUM: &str = "a sum over a length that is known when the program runs may be added, and multiplied by what contains no such sum: in a function, or times another sum, it cannot be differentiated yet";
+
+/// Derives the equations of motion. Reports what cannot be derived, and then returns `None`.
+pub(crate) fn derive(
+    graph: &mut Graph,
+    problem: &mut Problem,
+    diagnostics: &mut Diagnostics,
+) -> Option<ManyEquations> {
+    let Some(patterns) = patterns(graph, problem, problem.lagrangian) else {
+        diagnostics.error(problem.place, NOT_A_SUM);
+        return None;
+    };
+    let dissipation = match problem.dissipation {
+        None => Vec::new(),
+        Some((function, place)) => match self::patterns(graph, problem, function) {
+            Some(patterns) => patterns,
+            None => {
+                diagnostics.error(place, NOT_A_SUM);
+                return None;
+            }
+        },
+    };
+    let (mut momentum, mut forcing, mut energies) = (Vec::new(), Vec::new(), Vec::new());
+    let mut rate = drift(graph, problem.many.slots.len());
+    for pattern in &patterns {
+        let derived = Derived::of(graph, &mut rate, pattern);
+        energies.push(Pattern { ranges: pattern.ranges.clone(), body: derived.energy });
+        push(&mut momentum, graph, &pattern.ranges, derived.momentum);
+        push(&mut forcing, graph, &pattern.ranges, derived.forcing);
+    }
+    for pattern in &dissipation {
+        let slots = slots(graph, pattern.body);
+        let slopes = gradient(graph, pattern.body, &slots, Variable::Velocity);
+        let forces = slots.into_iter().zip(slopes.into_iter().map(|slope| graph.neg(slope))).collect();
+        push(&mut forcing, graph, &pattern.ranges, forces);
+    }
+    let mut has_forces = !dissipation.is_empty();
+    for force in std::mem::take(&mut problem.many.forces) {
+        let values: Vec<Id> = force.values.iter().map(|(_, value)| *value).collect();
+        has_forces |= values.iter().any(|&value| value != Id::ZERO);
+        push(&mut forcing, graph, &force.ranges, force.values.clone());
+        problem.many.forces.push(force);
+    }
+    let (inertia, mass) = inertia::blocks(graph, problem, &patterns, diagnostics)?;
+    let parts: Vec<Id> =
+        energies.iter().map(|Pattern { ranges, body }| problem.summed(graph, ranges, *body)).collect();
+    let energy = graph.total(parts);
+    diagnostics.stop_at_fault(problem.place, graph)?;
+    let all: Vec<Id> = forcing.iter().flat_map(|scatter| &scatter.values).map(|(_, value)| *value).collect();
+    let depends_on_time = depends_on_time(graph, problem);
+    let conserved = if has_forces { Vec::new() } else { conservation::find(graph, problem, &patterns) };
+    let rows = rows::rows(graph, problem, &forcing, &mass);
+    problem.coordinates = problem.many.labels(&problem.parameters);
+    Some(ManyEquations {
+        forces_are_free_of_velocities: !has_velocity(graph, &problem.many.with_bodies(graph, &all))
+            && inertia.iter().all(|block| !block.has_velocity(graph)),
+        momentum,
+        forcing,
+        inertia,
+        energy,
+        energies,
+        rows,
+        conserved,
+        energy_is_conserved: !has_forces && !depends_on_time,
+    })
+}
+
+/// What one pattern of L adds.
+struct Derived {
+    momentum: Vec<(usize, Id)>,
+    forcing: Vec<(usize, Id)>,
+    energy: Id,
+}
+
+impl Derived {
+    fn of(graph: &mut Graph, rate: &mut Forward, pattern: &Pattern) -> Self {
+        let slots = slots(graph, pattern.body);
+        let momenta = gradient(graph, pattern.body, &slots, Variable::Velocity);
+        let slopes = gradient(graph, pattern.body, &slots, Variable::Coordinate);
+        let velocities: Vec<Id> =
+            slots.iter().map(|&k| graph.symbol(Variable::Velocity(k).symbol())).collect();
+        let power = graph.dot(&momenta, &velocities);
+        let forces = momenta.iter().zip(slopes).map(|(&momentum, slope)| {
+            let drift = rate.of(graph, momentum);
+            graph.sub(slope, drift)
+        });
+        let forcing: Vec<(usize, Id)> = slots.iter().copied().zip(forces.collect::<Vec<_>>()).collect();
+        let energy = graph.sub(power, pattern.body);
+        Self { momentum: slots.into_iter().zip(momenta).collect(), forcing, energy }
+    }
+}
+
+/// Slots in an expression without sums, by their coordinates or velocities.
+fn slots(graph: &Graph, body: Id) -> Vec<usize> {
+    let mut slots: Vec<usize> = graph
+        .symbols(&[body])
+        .filter_map(|symbol| match Variable::of(symbol) {
+            Variable::Coordinate(k) | Variable::Velocity(k) => Some(k),
+            _ => None,
+        })
+        .collect();
+    slots.sort_unstable();
+    slots.dedup();
+    slots
+}
+
+fn gradient(graph: &mut Graph, of: Id, slots: &[usize], variable: fn(usize) -> Variable) -> Vec<Id> {
+    let symbols: Vec<_> = slots.iter().map(|&k| variable(k).symbol()).collect();
+    graph.gradient(of, &symbols)
+}
+
+/// Adds values to those of the same loops.
+fn push(all: &mut Vec<Scatter>, graph: &mut Graph, ranges: &[Range], mut values: Vec<(usize, Id)>) {
+    values.retain(|(_, value)| *value != Id::ZERO);
+    if values.is_empty() {
+        return;
+    }
+    let place = all.iter().position(|known| known.ranges == ranges).unwrap_or_else(|| {
+        all.push(Scatter { ranges: ranges.to_vec(), values: Vec::new() });
+        all.len() - 1
+    });
+    for (slot, value) in values {
+        match all[place].values.iter_mut().find(|(known, _)| *known == slot) {
+            Some((_, sum)) => *sum = graph.add(*sum, value),
+            None => all[place].values.push((slot, value)),
+        }
+    }
+}
+
+fn depends_on_time(graph: &Graph, problem: &Problem) -> bool {
+    let all = problem.many.with_bodies(graph, &[problem.lagrangian]);
+    graph.symbols(&all).any(|symbol| Variable::of(symbol) == Variable::Time)
+}

@@ -1,0 +1,299 @@
+//! Equations of motion of one element, to be printed: what all rounds of all loops add to it.
+
+use rustc_hash::FxHashMap;
+
+use super::inertia::{Condition, MassEntry, at_element};
+use super::{Scatter, slots};
+use crate::resolve::Problem;
+use crate::resolve::many::{Affine, Index, NewIndices, Range, Slot, Unknown};
+use crate::symbolic::{Graph, Id};
+use crate::variables::Variable;
+
+/// Equations of the elements of an array in a region.
+pub(crate) struct ElementRows {
+    pub(crate) array: usize,
+    pub(crate) region: Region,
+    /// Slot, M q̈ and the part of h without sums, for each number of the element.
+    pub(crate) rows: Vec<(usize, Id, Id)>,
+    pub(crate) sums: Vec<ElementSum>,
+}
+
+/// Elements to which an equation applies.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Region {
+    All,
+    /// The element i.
+    Element(Affine),
+    /// from ≤ i < to
+    Within(Range),
+    /// All that have neighbours on all sides, of an array with several axes.
+    Interior,
+}
+
+/// Sum over other elements, with the running index of depth 1; the element itself has the index of depth 0.
+pub(crate) struct ElementSum {
+    pub(crate) over: Over,
+    /// One value for each number of the element.
+    pub(crate) values: Vec<Id>,
+}
+
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Over {
+    Range(Range),
+    /// All of a range but the element itself.
+    Others(Range),
+    /// Rows of a table in which this entry is the element.
+    Entries(Range, Index),
+}
+
+/// What one slot adds to one number of an element.
+struct Contribution {
+    number: usize,
+    conditions: Vec<Condition>,
+    over: Option<Over>,
+    value: Id,
+}
+
+/// Equations of all arrays; `None` for one whose forces are in loops of another form.
+pub(super) fn rows(
+    graph: &mut Graph,
+    problem: &mut Problem,
+    forcing: &[Scatter],
+    mass: &[MassEntry],
+) -> Vec<Option<Vec<ElementRows>>> {
+    (0..problem.many.arrays.len()).map(|array| rows_of(graph, problem, array, (forcing, mass))).collect()
+}
+
+fn rows_of(
+    graph: &mut Graph,
+    problem: &mut Problem,
+    array: usize,
+    (forcing, mass): (&[Scatter], &[MassEntry]),
+) -> Option<Vec<ElementRows>> {
+    let mut forces = Vec::new();
+    for scatter in forcing {
+        for (slot, value) in &scatter.values {
+            let slot = problem.many.slots[*slot].clone();
+            if slot.array == array {
+                forces.push(contribution(graph, problem, &slot, (&scatter.ranges, *value))?);
+            }
+        }
+    }
+    let forces = paired(forces);
+    let inertia: Vec<&MassEntry> = mass.iter().filter(|entry| entry.rows[0].0 == array).collect();
+    let conditions = forces.iter().flat_map(|force| &force.conditions);
+    let conditions = conditions.chain(inertia.iter().flat_map(|entry| &entry.conditions));
+    let regions = regions(problem, array, conditions.cloned().collect());
+    let rows =
+        regions.into_iter().map(|region| in_region(graph, problem, (array, region), (&forces, &inertia)));
+    Some(rows.collect())
+}
+
+fn contribution(
+    graph: &mut Graph,
+    problem: &mut Problem,
+    slot: &Slot,
+    (ranges, value): (&[Range], Id),
+) -> Option<Contribution> {
+    let number = slot.number;
+    if let Some((new, conditions)) = at_element(problem, slot, ranges) {
+        let value = problem.shifted(graph, value, &new);
+        return Some(Contribution { number, conditions, over: None, value });
+    }
+    let [index] = &slot.indices[..] else { return None };
+    match (index, ranges) {
+        (Index::Entry(..), [range]) => {
+            let new: NewIndices = [(0, Affine::of(Unknown::Level(1)))].into_iter().collect();
+            let value = problem.shifted(graph, value, &new);
+            let entry = index.shifted(&new);
+            let value = at_entry(graph, problem, value, &entry);
+            let over = Some(Over::Entries(range.clone(), entry));
+            Some(Contribution { number, conditions: Vec::new(), over, value })
+        }
+        (Index::Affine(index), [first, second]) => {
+            let mut levels = index.levels();
+            let (Some(own), None) = (levels.next(), levels.next()) else { return None };
+            let offset = index.plus(&Affine::of(Unknown::Level(own)), -1);
+            (index.factor(Unknown::Level(own)) == 1).then_some(())?;
+            let element = Affine::of(Unknown::Level(0)).plus(&offset, -1);
+            let new: NewIndices =
+                [(own, element), (1 - own, Affine::of(Unknown::Level(1)))].into_iter().collect();
+            let value = problem.shifted(graph, value, &new);
+            let range = if own == 0 { shifted(second, &new) } else { outer(first, second, &new)? };
+            let own_range = if own == 0 { Some(first) } else { is_free(second).then_some(second) };
+            let conditions = own_range
+                .map(|range| Range { from: range.from.plus(&offset, 1), to: range.to.plus(&offset, 1) });
+            let length = &problem.many.arrays[slot.array].open[0];
+            let is_all = |range: &Range| range.from == Affine::number(0) && range.to == *length;
+            let conditions =
+                conditions.filter(|range| !is_all(range)).map(|range| Condition { level: 0, range });
+            let over = Some(Over::Range(range));
+            Some(Contribution { number, conditions: conditions.into_iter().collect(), over, value })
+        }
+        _ => None,
+    }
+}
+
+fn shifted(range: &Range, new: &NewIndices) -> Range {
+    Range { from: range.from.shifted(new), to: range.to.shifted(new) }
+}
+
+fn is_free(range: &Range) -> bool {
+    range.from.levels().next().is_none() && range.to.levels().next().is_none()
+}
+
+/// Range of the outer index of two loops, for a given inner one.
+fn outer(first: &Range, second: &Range, new: &NewIndices) -> Option<Range> {
+    let inner = &new[&1];
+    let outer = Unknown::Level(0);
+    let mut range = first.clone();
+    // inner < outer + c and inner ≥ outer + c bound the outer index.
+    let bound = |bound: &Affine| inner.plus(bound, -1).plus(&Affine::of(outer), 1).plus_number(1);
+    match (second.from.factor(outer), second.to.factor(outer)) {
+        (0, 0) => {}
+        (0, 1) => range.from = bound(&second.to),
+        (1, 0) => range.to = bound(&second.from),
+        _ => return None,
+    }
+    Some(range)
+}
+
+/// A value in which elements at an entry of a table are the element itself.
+fn at_entry(graph: &mut Graph, problem: &mut Problem, value: Id, entry: &Index) -> Id {
+    let mut new = FxHashMap::default();
+    for k in slots(graph, value) {
+        let slot = problem.many.slots[k].clone();
+        if slot.indices == [entry.clone()] {
+            let indices = vec![Index::Affine(Affine::of(Unknown::Level(0)))];
+            let (own, _) = problem.many.slots.insert_full(Slot { indices, ..slot });
+            for variable in [Variable::Coordinate as fn(usize) -> Variable, Variable::Velocity] {
+                let node = graph.symbol(variable(own).symbol());
+                new.insert(variable(k).symbol(), node);
+            }
+        }
+    }
+    graph.substituted(value, |symbol| new.get(&symbol).copied())
+}
+
+/// Joins a sum over all elements before with an equal one over all behind.
+fn paired(contributions: Vec<Contribution>) -> Vec<Contribution> {
+    let element = Affine::of(Unknown::Level(0));
+    let mut joined: Vec<Contribution> = Vec::new();
+    for contribution in contributions {
+        let other = joined.iter_mut().find(|known| {
+            known.number == contribution.number
+                && known.value == contribution.value
+                && known.conditions == contribution.conditions
+                && others(&element, known.over.as_ref(), contribution.over.as_ref()).is_some()
+        });
+        match other {
+            Some(known) => known.over = others(&element, known.over.as_ref(), contribution.over.as_ref()),
+            None => joined.push(contribution),
+        }
+    }
+    joined
+}
+
+fn others(element: &Affine, one: Option<&Over>, other: Option<&Over>) -> Option<Over> {
+    let (Over::Range(one), Over::Range(other)) = (one?, other?) else { return None };
+    let (before, behind) = if one.to == *element { (one, other) } else { (other, one) };
+    let is_joined = before.to == *element && behind.from == element.plus_number(1);
+    is_joined.then(|| Over::Others(Range { from: before.from.clone(), to: behind.to.clone() }))
+}
+
+/// Regions of elements to which the same terms contribute, for arrays that are long enough to have all of them.
+fn regions(problem: &Problem, array: usize, conditions: Vec<Condition>) -> Vec<Region> {
+    let open = &problem.many.arrays[array].open;
+    let [length] = &open[..] else {
+        return vec![if conditions.is_empty() { Region::All } else { Region::Interior }];
+    };
+    let mut bounds: Vec<Affine> =
+        conditions.into_iter().flat_map(|one| [one.range.from, one.range.to]).collect();
+    bounds.extend([Affine::number(0), length.clone()]);
+    // Bounds counted from the start come before those counted from the end.
+    bounds.sort_by_key(|bound| (bound.as_number().is_none(), bound.constant));
+    bounds.dedup();
+    let region = |pair: &[Affine]| match pair[1].plus(&pair[0], -1).as_number() {
+        Some(1) => Region::Element(pair[0].clone()),
+        _ => Region::Within(Range { from: pair[0].clone(), to: pair[1].clone() }),
+    };
+    match bounds.len() {
+        2 => vec![Region::All],
+        _ => bounds.windows(2).map(region).collect(),
+    }
+}
+
+/// True if elements of the region meet the conditions.
+fn holds(region: &Region, conditions: &[Condition]) -> bool {
+    let is_below = |one: &Affine, other: &Affine| {
+        other.plus(one, -1).as_number().map_or(one.as_number().is_some(), |difference| difference >= 0)
+    };
+    conditions.iter().all(|Condition { range, .. }| match region {
+        Region::All | Region::Interior => true,
+        Region::Element(at) => is_below(&range.from, at) && is_below(&at.plus_number(1), &range.to),
+        Region::Within(own) => is_below(&range.from, &own.from) && is_below(&own.to, &range.to),
+    })
+}
+
+fn in_region(
+    graph: &mut Graph,
+    problem: &mut Problem,
+    (array, region): (usize, Region),
+    (forces, inertia): (&[Contribution], &[&MassEntry]),
+) -> ElementRows {
+    let new: NewIndices = match &region {
+        Region::Element(at) => [(0, at.clone())].into_iter().collect(),
+        _ => NewIndices::default(),
+    };
+    let axes = problem.many.arrays[array].open.len();
+    let element: Vec<Index> =
+        (0..axes).map(|axis| Index::Affine(Affine::of(Unknown::Level(axis)).shifted(&new))).collect();
+    let count = crate::syntax::numbers(&problem.many.arrays[array].lengths);
+    let active: Vec<&Contribution> =
+        forces.iter().filter(|force| holds(&region, &force.conditions)).collect();
+    let mut rows = Vec::new();
+    for number in 0..count {
+        let (slot, _) = problem.many.slots.insert_full(Slot { array, indices: element.clone(), number });
+        let mut terms = Vec::new();
+        for entry in
+            inertia.iter().filter(|entry| entry.rows[0].1 == number && holds(&region, &entry.conditions))
+        {
+            let (other, number) = entry.rows[1];
+            let (other, _) =
+                problem.many.slots.insert_full(Slot { array: other, indices: element.clone(), number });
+            let acceleration = graph.symbol(Variable::Acceleration(other).symbol());
+            let value = problem.shifted(graph, entry.value, &new);
+            terms.push(graph.mul(value, acceleration));
+        }
+        let own = active.iter().filter(|force| force.number == number && force.over.is_none());
+        let own: Vec<Id> = own.map(|force| problem.shifted(graph, force.value, &new)).collect();
+        rows.push((slot, graph.total(terms), graph.total(own)));
+    }
+    let sums = sums(graph, problem, &active, (&new, count));
+    ElementRows { array, region, rows, sums }
+}
+
+fn sums(
+    graph: &mut Graph,
+    problem: &mut Problem,
+    active: &[&Contribution],
+    (new, count): (&NewIndices, usize),
+) -> Vec<ElementSum> {
+    let mut sums: Vec<ElementSum> = Vec::new();
+    for force in active {
+        let Some(over) = &force.over else { continue };
+        let over = match over {
+            Over::Range(range) => Over::Range(shifted(range, new)),
+            Over::Others(range) => Over::Others(shifted(range, new)),
+            Over::Entries(range, entry) => Over::Entries(range.clone(), entry.clone()),
+        };
+        let value = problem.shifted(graph, force.value, new);
+        let place = sums.iter().position(|known| known.over == over).unwrap_or_else(|| {
+            sums.push(ElementSum { over, values: vec![Id::ZERO; count] });
+            sums.len() - 1
+        });
+        let known = &mut sums[place].values[force.number];
+        *known = graph.add(*known, value);
+    }
+    sums
+}

@@ -1,0 +1,230 @@
+//! Renders systems of any number of bodies: one equation for all elements, others for the first and the last ones.
+
+use num_traits::One;
+
+use super::formula::Formula;
+use super::letters::PageQuantity;
+use super::lines::{self, Equation, Line, Section};
+use super::notation::Notation;
+use super::page::Page;
+use super::reading::Names;
+use super::remark::{Fragment, Remark};
+use super::{FROM_ZERO, Forms, html, latex};
+use crate::mechanics::Derived;
+use crate::mechanics::many::{
+    ElementRows, ElementSum, ManyConserved, ManyConservedKind, ManyEquations, Over, Pattern, Region,
+};
+use crate::resolve::Problem;
+use crate::resolve::many::{Affine, Range};
+use crate::symbolic::{Graph, Id, Rational};
+use crate::syntax::Declaration;
+
+/// Renders a system whose number of bodies is known when the program runs.
+pub(crate) fn render_many(
+    declaration: &Declaration,
+    graph: &Graph,
+    problem: &Problem,
+    equations: &ManyEquations,
+) -> Forms {
+    let derived = Derived::of_expressions();
+    let page = |names| Page::new(declaration, graph, problem, &derived, names).many_forms(equations);
+    let shortest = page(Names::Shortest);
+    let [kept, written_out] = [Names::Kept, Names::WrittenOut].map(|names| match problem.names.is_empty() {
+        true => shortest.clone(),
+        false => page(names),
+    });
+    [shortest, kept, written_out]
+}
+
+impl Page<'_> {
+    fn many_forms(&self, equations: &ManyEquations) -> [String; 3] {
+        let section = |heading, lines| Section { heading, lines, note: None };
+        let energy = self.energy_of_all(&equations.energies);
+        let (conserved, changing) = match equations.energy_is_conserved {
+            true => (vec![energy], Vec::new()),
+            false => (Vec::new(), vec![energy]),
+        };
+        let vectors = equations.conserved.iter().filter_map(|conserved| self.conserved_vector(conserved));
+        let lagrangian = self.lagrangian();
+        let mut sections = vec![
+            section("Lagrangian", lagrangian),
+            section("Equations of motion", self.rows_of_all(equations)),
+            section("Conserved", vectors.chain(conserved).collect()),
+            section("Energy", changing),
+        ];
+        for section in &mut sections[1..] {
+            section.lines.iter_mut().for_each(|line| line.map(|formula| self.as_written(formula)));
+        }
+        let name = self.declaration.ident.to_string();
+        let [in_latex, in_mathml] =
+            [Notation::LATEX, Notation::MATHML].map(|notation| self.notation(notation));
+        let text = lines::text(self.notation(Notation::UNICODE), &name, &sections);
+        sections[0].note = Some(FROM_ZERO.to_owned());
+        [
+            text,
+            latex::latex(in_latex, name.trim_start_matches("r#"), &sections),
+            html::html(in_mathml, &sections),
+        ]
+    }
+
+    fn rows_of_all(&self, equations: &ManyEquations) -> Vec<Line> {
+        let rows = equations.rows.iter().enumerate().flat_map(|(array, rows)| match rows {
+            Some(rows) => rows.iter().flat_map(|rows| self.element_rows(rows)).collect(),
+            None => {
+                let name = Formula::labelled(&self.problem.many.arrays[array].name, 0);
+                vec![Line::labelled(&name, Equation::TooLong(0))]
+            }
+        });
+        rows.collect()
+    }
+
+    /// The equation of a vector, or those of its components.
+    fn element_rows(&self, element: &ElementRows) -> Vec<Line> {
+        let remark = self.remark_on(&element.region);
+        let labels = |number: usize| &self.problem.coordinates[element.rows[number].0].text;
+        let whole = (element.rows.len() > 1).then(|| self.vector_equation(element)).flatten();
+        let line = |text: &str, equation: Equation| {
+            let mut line = Line::labelled(&Formula::labelled(text, 0), equation);
+            line.remark = Remark::of(remark.clone());
+            line
+        };
+        if let (Some([left, right]), Some(text)) = (whole, super::motion::vector(labels(0))) {
+            return vec![line(text, Equation::Known(left, right))];
+        }
+        let row = |number: usize| line(labels(number), self.component(element, number));
+        (0..element.rows.len()).map(row).collect()
+    }
+
+    fn vector_equation(&self, element: &ElementRows) -> Option<[Formula; 2]> {
+        if element.sums.is_empty() {
+            let rows: Vec<(Id, Vec<Id>)> =
+                element.rows.iter().map(|&(_, inertia, force)| (inertia, vec![force])).collect();
+            return self.vector_row(element.rows[0].0, &rows);
+        }
+        let vector = |ids: Vec<Id>| match ids.iter().all(|&id| id == Id::ZERO) {
+            true => Some(Formula::sum(Vec::new())),
+            false => self.vector_expression(&ids),
+        };
+        let left = vector(element.rows.iter().map(|row| row.1).collect())?;
+        let own = vector(element.rows.iter().map(|row| row.2).collect())?;
+        let sums: Option<Vec<Formula>> = element
+            .sums
+            .iter()
+            .map(|sum| Some(self.over(element, &sum.over, self.vector_expression(&sum.values)?)))
+            .collect();
+        Some([left, total(own, sums?)])
+    }
+
+    fn component(&self, element: &ElementRows, number: usize) -> Equation {
+        let (slot, inertia, force) = element.rows[number];
+        let is_alone = element.sums.iter().all(|sum| sum.values[number] == Id::ZERO);
+        if is_alone {
+            return self.row(slot, inertia, &[force]);
+        }
+        let sides = || {
+            let (left, own) = (self.expression(inertia)?, self.expression(force)?);
+            let sums = element.sums.iter().filter(|sum| sum.values[number] != Id::ZERO);
+            let sums: Result<Vec<Formula>, u64> = sums
+                .map(|ElementSum { over, values }| Ok(self.over(element, over, self.expression(values[number])?)))
+                .collect();
+            Ok([left, total(own, sums?)])
+        };
+        sides().into()
+    }
+
+    /// Sum of a body over other elements.
+    fn over(&self, element: &ElementRows, over: &Over, body: Formula) -> Formula {
+        let [own, other] = [0, 1].map(|level| Formula::labelled(&self.problem.many.level_name(level), 0));
+        let own = if let Region::Element(at) = &element.region { self.affine(at) } else { own };
+        let condition = match over {
+            Over::Range(range) => return self.sum_over_range(range, 1, body),
+            Over::Others(_) => ([other.clone(), own], "≠"),
+            Over::Entries(_, entry) => {
+                let text = self.problem.many.index_text(entry, &self.problem.parameters);
+                ([Formula::labelled(&text, 0), own], "=")
+            }
+        };
+        taken_out(body, &other, |body| {
+            let (condition, sign) = condition;
+            Formula::SumWhere { condition: Box::new(condition), sign, body: Box::new(body) }
+        })
+    }
+
+    fn sum_over_range(&self, range: &Range, level: usize, body: Formula) -> Formula {
+        let index = self.problem.many.level_name(level);
+        let [from, to] = [&range.from, &range.to].map(|bound| Box::new(self.affine(bound)));
+        taken_out(body, &Formula::labelled(&index, 0), |body| Formula::SumOver {
+            index,
+            from,
+            to,
+            body: Box::new(body),
+        })
+    }
+
+    fn summed_over(&self, ranges: &[Range], body: Formula) -> Formula {
+        ranges.iter().enumerate().rfold(body, |body, (level, range)| self.sum_over_range(range, level, body))
+    }
+
+    fn affine(&self, number: &Affine) -> Formula {
+        Formula::index(&number.text(|unknown| self.problem.many.name(unknown)))
+    }
+
+    fn remark_on(&self, region: &Region) -> Vec<Fragment> {
+        let range = match region {
+            Region::All | Region::Element(_) => return Vec::new(),
+            Region::Interior => return vec![Fragment::words("for elements with neighbours on all sides")],
+            Region::Within(range) => range,
+        };
+        let [from, to] = [&range.from, &range.to].map(|bound| Box::new(self.affine(bound)));
+        let index = Some(self.problem.many.level_name(0));
+        vec![Fragment::words("for "), Fragment::Formula(Formula::Running { index, from, to })]
+    }
+
+    fn energy_of_all(&self, energies: &[Pattern]) -> Line {
+        let parts: Result<Vec<Formula>, u64> = energies
+            .iter()
+            .map(|Pattern { ranges, body }| Ok(self.summed_over(ranges, self.part_of_energy(*body)?)))
+            .collect();
+        Line::known(self.letters.name(PageQuantity::Energy), parts.map(Formula::sum))
+    }
+
+    fn conserved_vector(&self, ManyConserved { kind, patterns, .. }: &ManyConserved) -> Option<Line> {
+        let part = |(ranges, values): &(Vec<Range>, Vec<Id>)| {
+            let body = match &values[..] {
+                [value] => self.expression(*value).ok(),
+                values => self.vector_expression(values),
+            };
+            Some(self.summed_over(ranges, body?))
+        };
+        let parts: Option<Vec<Formula>> = patterns.iter().map(part).collect();
+        let letter = match kind {
+            ManyConservedKind::Momentum => "P",
+            ManyConservedKind::AngularMomentum => "J",
+        };
+        Some(Line::of(Equation::Known(Formula::labelled(letter, 0), Formula::sum(parts?))))
+    }
+}
+
+fn total(own: Formula, sums: Vec<Formula>) -> Formula {
+    let mut all = vec![own];
+    all.retain(|own| *own != Formula::sum(Vec::new()));
+    all.extend(sums);
+    Formula::sum(all)
+}
+
+/// Makes a sum of a body, with its sign and the factors that do not contain the index before it.
+fn taken_out(body: Formula, index: &Formula, sum: impl FnOnce(Formula) -> Formula) -> Formula {
+    let (is_negative, magnitude) = body.sign_and_magnitude();
+    let Formula::Product(above, below) = magnitude else { return sum(magnitude).signed(is_negative) };
+    let (inside, outside): (Vec<Formula>, Vec<Formula>) =
+        above.into_iter().partition(|factor| factor.contains(index));
+    let (below, below_outside): (Vec<Formula>, Vec<Formula>) =
+        below.into_iter().partition(|factor| factor.contains(index));
+    let body = Formula::product(Rational::one().into(), inside, below);
+    if outside.is_empty() && below_outside.is_empty() {
+        return sum(body).signed(is_negative);
+    }
+    let mut factors = outside;
+    factors.push(sum(body));
+    Formula::Product(factors, below_outside).signed(is_negative)
+}

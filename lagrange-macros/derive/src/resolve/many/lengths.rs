@@ -1,0 +1,182 @@
+//! Lengths that are known when the program runs: integer fields, constants, and what `#[parameter(m: [n])]` calls the length
+//! of a field.
+
+use quote::ToTokens;
+
+use super::{Affine, Array, Many, OpenField, Unknown};
+use crate::diagnostics::{Diagnostics, Place};
+use crate::resolve::parameters::Parameters;
+use crate::symbolic::{Graph, Id};
+use crate::syntax::{
+    Declaration, Expression, Fact, FieldShape, Kind, Lengths, Name, Operator, Sign, element_type, shape,
+};
+use crate::variables::Variable;
+
+/// A length of arrays.
+pub(crate) struct Length {
+    pub(crate) name: String,
+    pub(crate) source: LengthSource,
+}
+
+/// Where the program reads a length.
+pub(crate) enum LengthSource {
+    /// An integer field, by its index.
+    Field(usize),
+    /// Number of the elements of a field, by the index of the field.
+    Of(usize),
+    /// A constant of the crate, or a parameter of the type.
+    Constant(syn::Ident),
+}
+
+impl Many {
+    /// Reads the lengths that a declaration names. Stays empty if all lengths of its coordinates are numbers.
+    pub(in crate::resolve) fn of(
+        declaration: &Declaration,
+        parameters: &Parameters,
+        diagnostics: &mut Diagnostics,
+    ) -> Self {
+        let mut many = Self::default();
+        if !declaration.has_open_lengths() {
+            return many;
+        }
+        let open: Vec<(usize, &Name, &Lengths)> = open_fields(declaration);
+        let of_coordinates = declaration.coordinates.iter().flat_map(|coordinate| &coordinate.open);
+        let written = of_coordinates.chain(open.iter().flat_map(|(_, _, lengths)| &lengths.open));
+        let mut names: Vec<&Name> = Vec::new();
+        for length in written {
+            length.names(&mut |name| {
+                let place = name.place;
+                if !many.lengths.iter().any(|known| known.name == name.text) {
+                    match source(declaration, parameters, &open, name) {
+                        Some(source) => many.lengths.push(Length { name: name.text.clone(), source }),
+                        None => unknown(name, place, diagnostics),
+                    }
+                }
+            });
+            names.clear();
+        }
+        many.arrays = declaration
+            .coordinates
+            .iter()
+            .map(|coordinate| Array {
+                name: coordinate.name.text.clone(),
+                open: coordinate.open.iter().map(|length| many.read(length, diagnostics)).collect(),
+                lengths: coordinate.lengths.clone(),
+                place: coordinate.name.place,
+            })
+            .collect();
+        for (field, name, lengths) in open {
+            let ty = &declaration.fields[field].ty;
+            let Some(element) = element_type(ty) else { continue };
+            let [length] = &lengths.open[..] else {
+                diagnostics.error(name.place, "a field has one length that is known when the program runs, `[n]` or `[n, 3]`: put what has two in one row, `a[i*columns + j]`");
+                continue;
+            };
+            let length = many.read(length, diagnostics);
+            let is_table = is_table(element);
+            many.fields.push(OpenField { field, length, element: shape(element), is_table });
+        }
+        many
+    }
+
+    fn read(&self, length: &Expression, diagnostics: &mut Diagnostics) -> Affine {
+        let read = self.affine(length);
+        if read.is_none() && diagnostics.is_empty() {
+            diagnostics.error(length.place, "a length is a name, `n`, or a sum with whole numbers, `n + 1`");
+        }
+        read.unwrap_or_default()
+    }
+
+    /// A length as written, from names of lengths and whole numbers.
+    fn affine(&self, length: &Expression) -> Option<Affine> {
+        match &length.kind {
+            Kind::Number(value) => Some(Affine::number(i64::try_from(value.to_integer()?).ok()?)),
+            Kind::Name(name) => {
+                let found = self.lengths.iter().position(|known| known.name == name.text)?;
+                Some(Affine::of(Unknown::Length(found)))
+            }
+            Kind::Sum(terms) => terms.iter().try_fold(Affine::default(), |sum, (sign, term)| {
+                Some(sum.plus(&self.affine(term)?, if *sign == Sign::Minus { -1 } else { 1 }))
+            }),
+            Kind::Product(factors) => match &factors[..] {
+                [(Operator::Times, one), (Operator::Times, other)] => {
+                    let (one, other) = (self.affine(one)?, self.affine(other)?);
+                    let of = |factor: &Affine, whole: &Affine| {
+                        Some(Affine::default().plus(whole, factor.as_number()?))
+                    };
+                    of(&one, &other).or_else(|| of(&other, &one))
+                }
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// The length that a field holds, as a node of the graph.
+    pub(in crate::resolve) fn length_in(&self, field: usize, graph: &mut Graph) -> Option<Id> {
+        let is_it = |length: &Length| matches!(length.source, LengthSource::Field(known) if known == field);
+        let found = self.lengths.iter().position(is_it)?;
+        Some(graph.symbol(Variable::Length(found).symbol()))
+    }
+
+    /// The length of this name, if it is no field, as a node of the graph.
+    pub(in crate::resolve) fn length_called(&self, name: &str, graph: &mut Graph) -> Option<Id> {
+        let is_it = |length: &Length| length.name == name && !matches!(length.source, LengthSource::Field(_));
+        let found = self.lengths.iter().position(is_it)?;
+        Some(graph.symbol(Variable::Length(found).symbol()))
+    }
+}
+
+/// Fields whose shape is stated with a length that is known when the program runs.
+fn open_fields(declaration: &Declaration) -> Vec<(usize, &Name, &Lengths)> {
+    let stated = declaration.parameters.iter().filter_map(|parameter| match &parameter.fact {
+        Fact::Shape(lengths) if !lengths.open.is_empty() => Some((&parameter.name, lengths)),
+        _ => None,
+    });
+    let field = |name: &Name| declaration.fields.iter().position(|field| field.name.text == name.text);
+    stated.filter_map(|(name, lengths)| Some((field(name)?, name, lengths))).collect()
+}
+
+fn source(
+    declaration: &Declaration,
+    parameters: &Parameters,
+    open: &[(usize, &Name, &Lengths)],
+    name: &Name,
+) -> Option<LengthSource> {
+    if let Some(field) = declaration.fields.iter().position(|field| field.name.text == name.text) {
+        let FieldShape { layout, scalar, .. } = parameters.fields[field].shape.as_ref().ok()?;
+        let is_integer = layout.is_scalar() && scalar.as_ref().is_some_and(is_index);
+        return is_integer.then_some(LengthSource::Field(field));
+    }
+    let is_alone = |length: &Expression| matches!(&length.kind, Kind::Name(known) if known.text == name.text);
+    if let Some((field, ..)) = open.iter().find(|(_, _, lengths)| lengths.open.first().is_some_and(is_alone))
+    {
+        return Some(LengthSource::Of(*field));
+    }
+    let is_constant = !name.text.chars().any(char::is_lowercase);
+    is_constant.then(|| {
+        let mut ident = syn::Ident::new(&name.text, name.place.start());
+        ident.set_span(name.place.start());
+        LengthSource::Constant(ident)
+    })
+}
+
+fn unknown(name: &Name, place: Place, diagnostics: &mut Diagnostics) {
+    let name = &name.text;
+    diagnostics.error(place, format!(
+        "the length `{name}` is no integer field and no length of a field: add a field `{name}: usize`, or say whose length it is, `#[parameter(m: [{name}])]` for `m: Vec<f64>`"
+    ));
+}
+
+/// True for `usize`.
+fn is_index(ty: &syn::Type) -> bool {
+    ty.to_token_stream().to_string() == "usize"
+}
+
+/// True if the elements are indices: `usize`, `[usize; 2]`.
+fn is_table(element: &syn::Type) -> bool {
+    match element {
+        syn::Type::Array(array) => is_table(&array.elem),
+        other => is_index(other),
+    }
+}

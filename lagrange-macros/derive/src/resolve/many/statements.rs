@@ -1,0 +1,187 @@
+//! Forces, definitions and attributes that a system of any number of bodies may have.
+
+use super::{Affine, Index, OpenForce, Slot};
+use crate::diagnostics::Place;
+use crate::resolve::expression::is_literal_zero;
+use crate::resolve::lowering::{Definition, Lowering};
+use crate::resolve::scope::Entity;
+use crate::resolve::value::{Shape, Value};
+use crate::symbolic::Id;
+use crate::syntax::{Declaration, Force, Kind, Law, Name, TargetIndex, numbers};
+
+impl Lowering<'_> {
+    /// Forces on elements of coordinates.
+    pub(in crate::resolve) fn open_forces(&mut self, declaration: &Declaration) {
+        for force in &declaration.forces {
+            let name = &force.target.name;
+            let Some(Entity::Coordinate(array)) = self.scope.get(&name.text) else {
+                self.diagnostics.error(name.place, self.no_coordinate(&name.text));
+                continue;
+            };
+            let found = self.inside_all(&force.target.indices, &mut |lowering, indices| {
+                lowering.open_force(array, indices, force)
+            });
+            self.many.forces.extend(found);
+        }
+    }
+
+    fn open_force(&mut self, array: usize, indices: &[Affine], force: &Force) -> Option<OpenForce> {
+        let (open, lengths) = (self.many.arrays[array].open.clone(), self.many.arrays[array].lengths.clone());
+        let (name, place) = (&force.target.name, force.target.name.place);
+        if indices.len() < open.len() || indices.len() > open.len() + lengths.len() {
+            let text = &name.text;
+            return self.report(
+                place,
+                format!("a force acts on elements of `{text}`: write `#[force({text}[i in 0..n]: …)]`"),
+            );
+        }
+        let (outer, inner) = indices.split_at(open.len());
+        for (index, length) in outer.iter().zip(&open) {
+            self.demand(&name.text, &Index::Affine(index.clone()), length, place)?;
+        }
+        let inner: Option<Vec<usize>> =
+            inner.iter().map(|index| index.as_number().and_then(|i| usize::try_from(i).ok())).collect();
+        let Some(inner) = inner.filter(|inner| inner.iter().zip(&lengths).all(|(i, length)| i < length))
+        else {
+            return self.report(place, format!("the components of `{}` are numbered from 0", name.text));
+        };
+        let value = self.lower(&force.value)?;
+        let (before, rest) = lengths.split_at(inner.len());
+        let first =
+            inner.iter().zip(before).fold(0, |number, (i, length)| number * length + i) * numbers(rest);
+        self.check_shape(&value, rest, force)?;
+        let at: Vec<Index> = outer.iter().cloned().map(Index::Affine).collect();
+        let values = match is_literal_zero(&force.value) {
+            true => Vec::new(),
+            false => value.flat(),
+        };
+        let slot = |(number, value): (usize, Id)| {
+            (self.slot(Slot { array, indices: at.clone(), number: first + number }), value)
+        };
+        let values = values.into_iter().enumerate().map(slot).collect();
+        Some(OpenForce { ranges: self.many.ranges.clone(), values, place: force.value.place })
+    }
+
+    fn check_shape(&mut self, value: &Value, lengths: &[usize], force: &Force) -> Option<()> {
+        if is_literal_zero(&force.value) || value.lengths() == *lengths || value.shape().lengths == *lengths {
+            return Some(());
+        }
+        let wanted = Shape::plain(lengths.to_vec());
+        let message =
+            format!("the force on `{}` is {wanted}, but this is {}", force.target.name.text, value.shape());
+        self.report(force.value.place, message)
+    }
+
+    /// Lowers a definition of a family once for its whole range, so that errors in it are reported where they stand.
+    pub(in crate::resolve) fn open_definition(&mut self, index: usize, first: usize) {
+        let define = &self.defines[index];
+        if index != first || !matches!(self.definitions[first], Definition::Pending) {
+            let message = "a family whose range is known when the program runs is one definition: write the first and the last terms where they are used";
+            self.diagnostics.error(define.target.name.place, message);
+            self.definitions[first] = Definition::Wrong;
+            return;
+        }
+        self.definitions[first] = Definition::Open { is_open: false };
+        let found = self.inside_all(&define.target.indices, &mut |lowering, _| lowering.lower(&define.body));
+        self.definitions[first] = found.map_or(Definition::Wrong, |_| Definition::Open { is_open: true });
+    }
+
+    /// Element of a family whose range is known when the program runs: its body, with these indices.
+    pub(in crate::resolve) fn open_family_element(
+        &mut self,
+        first: usize,
+        name: &Name,
+        path: &[Affine],
+        place: Place,
+    ) -> Option<Value> {
+        let define = &self.defines[first];
+        if matches!(self.definitions[first], Definition::Open { is_open: false }) {
+            return self.report(place, format!(
+                "`{}` is defined by itself along a length that is known when the program runs, which is not derived yet: take positions as coordinates",
+                name.text
+            ));
+        }
+        let mut bound = Vec::new();
+        for (index, at) in define.target.indices.iter().zip(path) {
+            match index {
+                TargetIndex::Family { index, from, to } => {
+                    let outer = std::mem::replace(&mut self.locals, bound.clone());
+                    let (low, high) = (self.affine(from), self.affine(to));
+                    self.locals = outer;
+                    let (low, high) = (low?, high?);
+                    let shifted = Index::Affine(at.plus(&low, -1));
+                    self.demand(&name.text, &shifted, &high.plus(&low, -1), place)?;
+                    let value = Value::Scalar(at.node(&mut self.graph));
+                    bound.push((index.text.clone(), value));
+                }
+                TargetIndex::Element(element) => {
+                    return self.report(
+                        element.place,
+                        "a family whose range is known when the program runs has running indices alone",
+                    );
+                }
+            }
+        }
+        let outer = std::mem::replace(&mut self.locals, bound);
+        self.calls.push(place);
+        let value = self.lower(&define.body);
+        self.calls.pop();
+        self.locals = outer;
+        Some(value?.map(&mut |id| self.graph.defined(id)))
+    }
+
+    /// Reports attributes that need a number of coordinates that is known when the program is compiled.
+    pub(in crate::resolve) fn refuse_with_open_lengths(&mut self, declaration: &Declaration) {
+        let why = "where the number of coordinates is known when the program runs";
+        for frame in &declaration.frames {
+            self.diagnostics.error(
+                frame.target.name.place,
+                format!("{why}, there are no frames yet: write positions as vectors"),
+            );
+        }
+        for function in &declaration.functions {
+            self.diagnostics.error(
+                function.name.place,
+                format!("{why}, there are no supplied functions yet: write the expression"),
+            );
+        }
+        for power in &declaration.powers {
+            self.diagnostics.error(
+                power.force.place,
+                format!("{why}, forces act on coordinates: write `#[force(r[i in 0..n]: …)]`"),
+            );
+        }
+        for constraint in &declaration.constraints {
+            let what = match constraint.law {
+                Law::Equation => "constraints",
+                Law::Contact { .. } => "contacts",
+                Law::Coulomb { .. } | Law::Dry { .. } => "friction",
+            };
+            let advice = "take independent coordinates, or stiff springs, or a number of coordinates that is an integer literal";
+            self.diagnostics
+                .error(constraint.target.name.place, format!("{why}, there is no {what} yet: {advice}"));
+        }
+    }
+
+    /// True if a definition of this name has an element `name[i]` in the form of a family.
+    pub(in crate::resolve) fn is_open_definition(&self, first: usize) -> bool {
+        matches!(self.definitions[first], Definition::Open { .. })
+    }
+
+    /// Reports observables that are families of a length that is known when the program runs.
+    pub(in crate::resolve) fn refuse_open_observables(&mut self, declaration: &Declaration) {
+        for observable in &declaration.observables {
+            if self.is_open_family(&observable.target.indices) {
+                let name = &observable.target.name;
+                self.diagnostics.error(name.place, format!(
+                    "an observable is a number, a vector or a matrix: what there is of each element is computed from the state, and `{}` may be a sum over them", name.text
+                ));
+            }
+            if let Kind::Call(call, _) = &observable.value.kind
+                && call.text == "lambda"
+            {
+                self.diagnostics.error(observable.value.place, "there are no constraints here");
+            }
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! Sums and families over ranges that are known when the program runs.
+
+use super::{Affine, Many, Range, Total, Unknown};
+use crate::resolve::lowering::Lowering;
+use crate::resolve::value::Value;
+use crate::symbolic::{Graph, Id, Node};
+use crate::syntax::{Expression, Name, SumOver, TargetIndex};
+use crate::variables::Variable;
+
+impl Many {
+    /// Largest number of nested loops.
+    pub(crate) fn deepest(&self, graph: &Graph) -> usize {
+        let levels = graph.ids().filter_map(|id| match graph.node(id) {
+            Node::Symbol(symbol) => match Variable::of(*symbol) {
+                Variable::Level(level) => Some(level + 1),
+                _ => None,
+            },
+            _ => None,
+        });
+        levels.max().unwrap_or(0)
+    }
+
+    /// These nodes, and the bodies of all sums in them.
+    pub(crate) fn with_bodies(&self, graph: &Graph, roots: &[Id]) -> Vec<Id> {
+        let (mut all, mut pending) = (roots.to_vec(), roots.to_vec());
+        while let Some(root) = pending.pop() {
+            for total in totals(graph, &[root]) {
+                let body = self.totals[total].body;
+                if !all.contains(&body) {
+                    all.push(body);
+                    pending.push(body);
+                }
+            }
+        }
+        all
+    }
+
+    /// Least and largest value of a number in the current loops, as long as none of them is empty.
+    pub(in crate::resolve) fn bounds(&self, number: &Affine) -> [Affine; 2] {
+        let bound = |is_most: bool| {
+            let mut bound = number.clone();
+            for (level, range) in self.ranges.iter().enumerate().rev() {
+                let index = Unknown::Level(level);
+                let grows = bound.factor(index) > 0;
+                let by = if grows == is_most { range.to.plus_number(-1) } else { range.from.clone() };
+                bound = bound.with(index, &by);
+            }
+            bound
+        };
+        [bound(false), bound(true)]
+    }
+}
+
+/// Sums over ranges that occur in these nodes, but not those within their bodies.
+pub(crate) fn totals(graph: &Graph, roots: &[Id]) -> Vec<usize> {
+    let mut found: Vec<usize> = graph
+        .symbols(roots)
+        .filter_map(|symbol| match Variable::of(symbol) {
+            Variable::Total(k) => Some(k),
+            _ => None,
+        })
+        .collect();
+    found.sort_unstable();
+    found
+}
+
+impl Lowering<'_> {
+    /// Adds the rates of the sums in these nodes to the total time derivative: sums of the rates.
+    pub(in crate::resolve) fn follow_totals(&mut self, roots: &[Id]) {
+        for k in totals(&self.graph, roots) {
+            let Total { level, range, body } = self.many.totals[k].clone();
+            self.follow_totals(&[body]);
+            let body = self.rate.of(&mut self.graph, body);
+            let (rate, _) = self.many.totals.insert_full(Total { level, range, body });
+            let rate = self.graph.symbol(Variable::Total(rate).symbol());
+            self.rate.also([(Variable::Total(k).symbol(), rate)]);
+        }
+    }
+
+    /// Lowers a sum whose range is known when the program runs. The outer `None` means that it is known now.
+    pub(in crate::resolve) fn open_sum(&mut self, sum: &SumOver) -> Option<Option<Value>> {
+        let range = self.open_range(&sum.from, &sum.to)?;
+        Some(range.and_then(|range| self.sum_in(range, sum)))
+    }
+
+    fn sum_in(&mut self, range: Range, sum: &SumOver) -> Option<Value> {
+        self.declare_local(&sum.index)?;
+        let level = self.many.ranges.len();
+        let value = self.inside(range.clone(), &sum.index, |lowering| lowering.lower(&sum.body))?;
+        Some(value.map(&mut |body| {
+            let total = Total { level, range: range.clone(), body };
+            let (k, _) = self.many.totals.insert_full(total);
+            self.graph.symbol(Variable::Total(k).symbol())
+        }))
+    }
+
+    /// Bounds of a range, if one of them is known when the program runs only.
+    pub(in crate::resolve) fn open_range(
+        &mut self,
+        from: &Expression,
+        to: &Expression,
+    ) -> Option<Option<Range>> {
+        if !self.many.is_open() {
+            return None;
+        }
+        let (low, high) = (self.affine(from), self.affine(to));
+        let (Some(from_bound), Some(to_bound)) = (low, high) else { return Some(None) };
+        if from_bound.as_number().is_some() && to_bound.as_number().is_some() {
+            return None;
+        }
+        let [least, _] = self.many.bounds(&from_bound);
+        if least.as_number().is_some_and(|least| least < 0) {
+            return Some(self.report(from.place, "an index is not negative"));
+        }
+        let length = to_bound.plus(&from_bound, -1).as_number();
+        if length.is_some_and(|length| length <= 0) {
+            return Some(self.report(from.place.to(to.place), "this range is empty"));
+        }
+        Some(Some(Range { from: from_bound, to: to_bound }))
+    }
+
+    /// Runs `f` in a loop with this index.
+    pub(in crate::resolve) fn inside<T>(
+        &mut self,
+        range: Range,
+        index: &Name,
+        f: impl FnOnce(&mut Self) -> Option<T>,
+    ) -> Option<T> {
+        let level = self.many.ranges.len();
+        let symbol = self.graph.symbol(Variable::Level(level).symbol());
+        self.locals.push((index.text.clone(), Value::Scalar(symbol)));
+        self.many.name_level(&index.text);
+        self.many.ranges.push(range);
+        let result = f(self);
+        self.many.ranges.pop();
+        self.locals.pop();
+        result
+    }
+
+    /// Runs `f` in the loops of a target, with the index of each bracket; elements have their index, families a running one.
+    pub(in crate::resolve) fn inside_all<T>(
+        &mut self,
+        indices: &[TargetIndex],
+        f: &mut dyn FnMut(&mut Self, &[Affine]) -> Option<T>,
+    ) -> Option<T> {
+        self.nested(indices, &mut Vec::new(), f)
+    }
+
+    fn nested<T>(
+        &mut self,
+        indices: &[TargetIndex],
+        before: &mut Vec<Affine>,
+        f: &mut dyn FnMut(&mut Self, &[Affine]) -> Option<T>,
+    ) -> Option<T> {
+        let Some((first, rest)) = indices.split_first() else { return f(self, before) };
+        match first {
+            TargetIndex::Element(index) => {
+                before.push(self.affine(index)?);
+                self.nested(rest, before, f)
+            }
+            TargetIndex::Family { index, from, to } => {
+                self.declare_local(index)?;
+                let (low, high) = (self.affine(from), self.affine(to));
+                let range = Range { from: low?, to: high? };
+                before.push(Affine::of(Unknown::Level(self.many.ranges.len())));
+                self.inside(range, index, |lowering| lowering.nested(rest, before, f))
+            }
+        }
+    }
+
+    /// True if a bound of one of these indices is known when the program runs only. Reports nothing.
+    pub(in crate::resolve) fn is_open_family(&mut self, indices: &[TargetIndex]) -> bool {
+        let names_open = |expression: &Expression, many: &Many| {
+            let mut is_open = false;
+            expression.names(&mut |name| is_open |= many.lengths.iter().any(|known| known.name == name.text));
+            is_open
+        };
+        indices.iter().any(|index| match index {
+            TargetIndex::Element(at) => names_open(at, &self.many),
+            TargetIndex::Family { from, to, .. } => {
+                names_open(from, &self.many) || names_open(to, &self.many)
+            }
+        })
+    }
+}
