@@ -114,9 +114,12 @@ impl Facts {
             cyclic: Vec::new(),
             conserved: vectors.chain(energy).collect(),
             energy_is_conserved: equations.energy_is_conserved.then_some(Evidence::Proved),
-            energy_form: EnergyForm::General,
+            energy_form: match equations.is_even {
+                true => EnergyForm::Even(Evidence::Proved),
+                false => EnergyForm::General,
+            },
             total_derivatives: Vec::new(),
-            linear_part: LinearPart::Open,
+            linear_part: if equations.is_even { LinearPart::Absent } else { LinearPart::Open },
             integrals: None,
             markers,
         }

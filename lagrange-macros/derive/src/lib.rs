@@ -142,7 +142,10 @@ fn stub(declaration: &Declaration, errors: Vec<syn::Error>) -> TokenStream {
     let outline = resolve::outline(declaration);
     let mut calls = errors.into_iter().flatten().map(syn::Error::into_compile_error);
     let unknown = if outline.coordinates.is_none() { calls.next() } else { None };
-    let stub = codegen::stub(declaration, &outline, unknown);
+    let stub = match declaration.has_open_lengths() {
+        true => codegen::many::stub(declaration, &outline),
+        false => codegen::stub(declaration, &outline, unknown),
+    };
     calls.chain([stub]).collect()
 }
 

@@ -125,7 +125,9 @@ impl Page<'_> {
             let (left, own) = (self.expression(inertia)?, self.expression(force)?);
             let sums = element.sums.iter().filter(|sum| sum.values[number] != Id::ZERO);
             let sums: Result<Vec<Formula>, u64> = sums
-                .map(|ElementSum { over, values }| Ok(self.over(element, over, self.expression(values[number])?)))
+                .map(|ElementSum { over, values }| {
+                    Ok(self.over(element, over, self.expression(values[number])?))
+                })
                 .collect();
             Ok([left, total(own, sums?)])
         };

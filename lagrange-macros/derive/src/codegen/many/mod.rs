@@ -3,6 +3,8 @@
 mod checks;
 mod indices;
 mod methods;
+mod scatter;
+mod stub;
 mod values;
 
 use proc_macro2::TokenStream;
@@ -17,6 +19,7 @@ use crate::render::Forms;
 use crate::resolve::Problem;
 use crate::symbolic::Graph;
 use crate::syntax::Declaration;
+pub(crate) use stub::stub;
 
 /// System to be emitted.
 pub(super) struct ManyEmitter<'a> {

@@ -1,4 +1,4 @@
-//! Values of expressions with sums, and loops that add values to elements.
+//! Values of expressions with sums, and accelerations from forces.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -6,9 +6,9 @@ use quote::quote;
 use super::ManyEmitter;
 use super::indices::round;
 use crate::codegen::shape::ResultShape;
-use crate::mechanics::many::{Guarded, Inertia, Scatter};
+use crate::mechanics::many::{Guarded, Inertia};
 use crate::resolve::many::{Affine, Index, Slot, Unknown, totals};
-use crate::symbolic::Id;
+use crate::symbolic::{Id, Node};
 use crate::variables::Variable;
 
 impl ManyEmitter<'_> {
@@ -49,50 +49,11 @@ impl ManyEmitter<'_> {
         loops
     }
 
-    /// Loops that add the values of a scatter to the elements of an array of all coordinates. What belongs to an element that
-    /// an inner loop does not change is summed in a local.
-    pub(super) fn scatter(&self, target: &TokenStream, scatter: &Scatter) -> TokenStream {
-        let roots: Vec<Id> = scatter.values.iter().map(|(_, value)| *value).collect();
-        let (statements, results) = self.values(&roots);
-        let depth = scatter.ranges.len();
-        let sums: Vec<(usize, &Slot, Ident)> = scatter
-            .values
-            .iter()
-            .enumerate()
-            .map(|(number, (k, _))| {
-                let slot = &self.problem.many.slots[*k];
-                let name = quote::format_ident!("sum{number}", span = proc_macro2::Span::mixed_site());
-                (depth_of(slot), slot, name)
-            })
-            .collect();
-        let adds = sums.iter().zip(results).map(|((own, slot, name), result)| match *own == depth {
-            true => {
-                let place = self.style.place_of_slot(slot);
-                quote! { #target[#place] = #target[#place] + #result; }
-            }
-            false => quote! { #name = #name + #result; },
-        });
-        let mut inner = quote! { #statements #(#adds)* };
-        let zero = self.style.constant(0.0);
-        for (level, range) in scatter.ranges.iter().enumerate().rev() {
-            let (index, range) = (round(level), self.style.range(range));
-            let own: Vec<_> = sums.iter().filter(|(own, ..)| *own == level).collect();
-            let names = own.iter().map(|(.., name)| name);
-            let adds = own.iter().map(|(_, slot, name)| {
-                let place = self.style.place_of_slot(slot);
-                quote! { #target[#place] = #target[#place] + #name; }
-            });
-            inner = quote! {
-                #(let mut #names = #zero;)*
-                for #index in #range { #inner }
-                #(#adds)*
-            };
-        }
-        quote! { { #inner } }
-    }
-
     /// Loops that replace the forces on all coordinates by the accelerations.
     pub(super) fn solve(&self, block: &Inertia) -> TokenStream {
+        if self.is_solved(block) {
+            return TokenStream::new();
+        }
         let guarded = block.guarded.iter().map(|guarded| self.guarded(guarded));
         let indices: Vec<Index> =
             (0..block.lengths.len()).map(|level| Index::Affine(Affine::of(Unknown::Level(level)))).collect();
@@ -117,6 +78,12 @@ impl ManyEmitter<'_> {
         })
     }
 
+    /// True if the accelerations are the forces.
+    fn is_solved(&self, block: &Inertia) -> bool {
+        let is_force = |(row, &id): (usize, &Id)| matches!(self.style.graph.node(id), Node::Symbol(symbol) if Variable::of(*symbol) == Variable::Forcing(row));
+        block.guarded.is_empty() && block.accelerations.iter().enumerate().all(is_force)
+    }
+
     /// Entries of M that only some elements have.
     fn guarded(&self, Guarded { conditions, values }: &Guarded) -> TokenStream {
         let roots: Vec<Id> = values.iter().map(|(_, value)| *value).collect();
@@ -131,9 +98,4 @@ impl ManyEmitter<'_> {
             let [#(#names),*] = if #(#conditions)&&* { #statements [#(#results),*] } else { [#zero; #count] };
         }
     }
-}
-
-/// Number of loops that have to be entered before the element of a slot is known.
-fn depth_of(slot: &Slot) -> usize {
-    slot.indices.iter().flat_map(Index::levels).map(|level| level + 1).max().unwrap_or(0)
 }

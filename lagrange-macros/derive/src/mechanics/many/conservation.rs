@@ -7,7 +7,7 @@ use super::{Pattern, gradient, slots};
 use crate::mechanics::evidence::{Evidence, vanishes};
 use crate::resolve::Problem;
 use crate::resolve::many::{Range, Slot};
-use crate::symbolic::{Graph, Id};
+use crate::symbolic::{Graph, Id, Polynomials};
 use crate::syntax::numbers;
 use crate::variables::Variable;
 
@@ -113,7 +113,17 @@ fn planes(dimension: usize) -> &'static [[usize; 2]] {
 
 /// True if an expression is zero, proved in symbols.
 fn is_zero(graph: &mut Graph, problem: &Problem, id: Id) -> bool {
-    id == Id::ZERO || vanishes(graph, problem, id) == Some(Evidence::Proved)
+    if id == Id::ZERO {
+        return true;
+    }
+    match vanishes(graph, problem, id) {
+        None => false,
+        Some(Evidence::Proved) => true,
+        Some(Evidence::Held(_)) => {
+            let id = graph.looked_through(id);
+            Polynomials::default().of(graph, id).is_some_and(|polynomial| polynomial.is_zero())
+        }
+    }
 }
 
 fn momentum(graph: &mut Graph, all: &[Component], component: usize) -> Id {

@@ -44,6 +44,8 @@ pub(crate) struct ManyEquations {
     pub(crate) rows: Vec<Option<Vec<ElementRows>>>,
     pub(crate) conserved: Vec<ManyConserved>,
     pub(crate) energy_is_conserved: bool,
+    /// True if L has parts of degree zero and two in the velocities only, proved.
+    pub(crate) is_even: bool,
     /// True if neither M nor h depends on velocities.
     pub(crate) forces_are_free_of_velocities: bool,
 }
@@ -99,6 +101,7 @@ pub(crate) fn derive(
     let all: Vec<Id> = forcing.iter().flat_map(|scatter| &scatter.values).map(|(_, value)| *value).collect();
     let depends_on_time = depends_on_time(graph, problem);
     let conserved = if has_forces { Vec::new() } else { conservation::find(graph, problem, &patterns) };
+    let is_even = patterns.iter().all(|pattern| is_even(graph, pattern));
     let rows = rows::rows(graph, problem, &forcing, &mass);
     problem.coordinates = problem.many.labels(&problem.parameters);
     Some(ManyEquations {
@@ -110,6 +113,7 @@ pub(crate) fn derive(
         energy,
         energies,
         rows,
+        is_even,
         conserved,
         energy_is_conserved: !has_forces && !depends_on_time,
     })
@@ -138,6 +142,18 @@ impl Derived {
         let energy = graph.sub(power, pattern.body);
         Self { momentum: slots.into_iter().zip(momenta).collect(), forcing, energy }
     }
+}
+
+/// True if the momenta of a pattern are linear in the velocities, without a part that is free of them.
+fn is_even(graph: &mut Graph, pattern: &Pattern) -> bool {
+    let slots = slots(graph, pattern.body);
+    let momenta = gradient(graph, pattern.body, &slots, Variable::Velocity);
+    momenta.into_iter().all(|momentum| {
+        let row = gradient(graph, momentum, &slots, Variable::Velocity);
+        let is_velocity = |symbol| matches!(Variable::of(symbol), Variable::Velocity(_));
+        let at_rest = graph.substituted(momentum, |symbol| is_velocity(symbol).then_some(Id::ZERO));
+        !has_velocity(graph, &row) && at_rest == Id::ZERO
+    })
 }
 
 /// Slots in an expression without sums, by their coordinates or velocities.
