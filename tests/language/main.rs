@@ -1,5 +1,6 @@
 //! What can be written in the attributes, and how it is read.
 
+mod any_number;
 mod accepted;
 mod frames;
 mod functions;

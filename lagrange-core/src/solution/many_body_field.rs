@@ -53,6 +53,6 @@ impl<L: ManyBodies<Scalar: Real>> StatedField<L> for ManyBodyField {
     }
 
     fn visit_fields(system: &L, visit: &mut dyn FnMut(f64)) {
-        system.visit_numbers(visit);
+        system.visit_numbers(&mut |number| visit(number.to_f64()));
     }
 }

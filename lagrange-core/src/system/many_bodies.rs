@@ -101,7 +101,7 @@ pub trait ManyBodies: System<Length = Dyn, M = Const<0>, Field = ManyBodyField> 
     fn check(&self) -> Result<(), Error>;
 
     /// Calls `visit` with the numbers of all fields, for the fingerprints of [ensembles](crate::ensemble).
-    fn visit_numbers(&self, visit: &mut dyn FnMut(f64));
+    fn visit_numbers(&self, visit: &mut dyn FnMut(Self::Scalar));
 
     /// Lagrangian L(t, q, q̇).
     fn lagrangian(&self, state: &State<Self::Scalar, Dyn>) -> Self::Scalar;

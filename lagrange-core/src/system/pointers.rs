@@ -139,7 +139,7 @@ macro_rules! forward {
                 L::write_name(self, coordinate, to)
             }
 
-            fn visit_numbers(&self, visit: &mut dyn FnMut(f64)) {
+            fn visit_numbers(&self, visit: &mut dyn FnMut(L::Scalar)) {
                 L::visit_numbers(self, visit);
             }
 

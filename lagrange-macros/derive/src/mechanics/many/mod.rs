@@ -16,7 +16,7 @@ use crate::resolve::many::Range;
 use crate::symbolic::{Forward, Graph, Id};
 use crate::variables::{Variable, drift, has_velocity};
 pub(crate) use conservation::{ManyConserved, ManyConservedKind};
-pub(crate) use inertia::{Condition, Guarded, Inertia};
+pub(crate) use inertia::{Guarded, Inertia};
 pub(crate) use patterns::{Pattern, patterns};
 pub(crate) use rows::{ElementRows, ElementSum, Over, Region};
 

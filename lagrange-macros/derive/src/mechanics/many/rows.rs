@@ -11,7 +11,6 @@ use crate::variables::Variable;
 
 /// Equations of the elements of an array in a region.
 pub(crate) struct ElementRows {
-    pub(crate) array: usize,
     pub(crate) region: Region,
     /// Slot, M q̈ and the part of h without sums, for each number of the element.
     pub(crate) rows: Vec<(usize, Id, Id)>,
@@ -270,7 +269,7 @@ fn in_region(
         rows.push((slot, graph.total(terms), graph.total(own)));
     }
     let sums = sums(graph, problem, &active, (&new, count));
-    ElementRows { array, region, rows, sums }
+    ElementRows { region, rows, sums }
 }
 
 fn sums(

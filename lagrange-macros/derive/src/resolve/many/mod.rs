@@ -109,7 +109,6 @@ pub(crate) struct OpenForce {
     pub(crate) ranges: Vec<Range>,
     /// Slots, and the force on each.
     pub(crate) values: Vec<(usize, Id)>,
-    pub(crate) place: Place,
 }
 
 /// An index that must be less than a length in all rounds of some loops.

@@ -7,7 +7,7 @@ use crate::resolve::lowering::{Definition, Lowering};
 use crate::resolve::scope::Entity;
 use crate::resolve::value::{Shape, Value};
 use crate::symbolic::Id;
-use crate::syntax::{Declaration, Force, Kind, Law, Name, TargetIndex, numbers};
+use crate::syntax::{Declaration, Force, Law, Name, TargetIndex, numbers};
 
 impl Lowering<'_> {
     /// Forces on elements of coordinates.
@@ -59,7 +59,7 @@ impl Lowering<'_> {
             (self.slot(Slot { array, indices: at.clone(), number: first + number }), value)
         };
         let values = values.into_iter().enumerate().map(slot).collect();
-        Some(OpenForce { ranges: self.many.ranges.clone(), values, place: force.value.place })
+        Some(OpenForce { ranges: self.many.ranges.clone(), values })
     }
 
     fn check_shape(&mut self, value: &Value, lengths: &[usize], force: &Force) -> Option<()> {
@@ -163,7 +163,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// True if a definition of this name has an element `name[i]` in the form of a family.
+    /// True if a family is defined over a range that is known when the program runs.
     pub(in crate::resolve) fn is_open_definition(&self, first: usize) -> bool {
         matches!(self.definitions[first], Definition::Open { .. })
     }
@@ -176,11 +176,6 @@ impl Lowering<'_> {
                 self.diagnostics.error(name.place, format!(
                     "an observable is a number, a vector or a matrix: what there is of each element is computed from the state, and `{}` may be a sum over them", name.text
                 ));
-            }
-            if let Kind::Call(call, _) = &observable.value.kind
-                && call.text == "lambda"
-            {
-                self.diagnostics.error(observable.value.place, "there are no constraints here");
             }
         }
     }

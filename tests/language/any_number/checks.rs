@@ -1,0 +1,1 @@
+//! Lengths, indices and names, checked where a motion starts.

@@ -1,0 +1,4 @@
+//! Numbers of bodies that are known when the program runs, each system beside the same one with its number written out.
+
+mod checks;
+mod written_out;
