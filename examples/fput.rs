@@ -1,51 +1,29 @@
 //! Fermi, Pasta, Ulam and Tsingou's chain of any number of masses: the energy that begins in the lowest mode comes back to it.
 //!
 //! `cargo run --release --example fput -- 64` takes 64 masses between two walls, at rest in the lowest mode, with springs of the force d + α d².
-//! The number is known when the program runs, so the chain is stated by its accelerations. (E. Fermi, J. Pasta, S. Ulam and M. Tsingou,
+//! The number is known when the program runs: sums in the Lagrangian become loops. (E. Fermi, J. Pasta, S. Ulam and M. Tsingou,
 //! *Studies of nonlinear problems I*, Los Alamos report LA-1940, 1955; α = 1/4, 32 masses, as in their figure 1.)
 
 mod picture;
 
 use std::f64::consts::PI;
 
-use lagrange_core::motion::{AccelerationField, Composition};
-use lagrange_core::nalgebra::{Const, DVector, Dyn};
-use lagrange_core::structure::VelocityFreeForces;
-use lagrange_core::{System, generic, prelude::*};
+use lagrange_core::motion::Composition;
+use lagrange_core::nalgebra::{DVector, Dyn};
+use lagrange_core::{generic, prelude::*};
 use picture::{BLUE, GREY, Panel, RED, Result};
 
 type State = generic::State<f64, Dyn>;
 
 /// Unit masses between two walls, n of them, and n + 1 springs.
+#[derive(Lagrangian)]
+#[coordinates(x: [n])]
+#[define(U(d) = d^2/2 + alpha*d^3/3)]
+#[lagrangian(sum(i in 0..n, x_dot[i]^2/2) - sum(i in 0..n-1, U(x[i+1] - x[i])) - U(x[0]) - U(-x[n-1]))]
 struct Chain {
     n: usize,
     alpha: f64,
 }
-
-impl System for Chain {
-    type Scalar = f64;
-    type Length = Dyn;
-    type M = Const<0>;
-    type Field = AccelerationField;
-
-    fn length(&self) -> Dyn {
-        Dyn(self.n)
-    }
-
-    fn accelerations(&self, _t: f64, q: &[f64], _v: &[f64], a: &mut [f64]) {
-        let pull = |d: f64| d + self.alpha * d * d;
-        let mut from_left = pull(q[0]);
-        for (a, pair) in a.iter_mut().zip(q.windows(2)) {
-            let from_right = pull(pair[1] - pair[0]);
-            *a = from_right - from_left;
-            from_left = from_right;
-        }
-        a[self.n - 1] = pull(-q[self.n - 1]) - from_left;
-    }
-}
-
-// The forces depend on the places alone, so that `Verlet` applies.
-impl VelocityFreeForces for Chain {}
 
 impl Chain {
     /// Entry i of mode k, normalized.
@@ -60,22 +38,15 @@ impl Chain {
         let frequency = 2.0 * (PI * k as f64 / (2 * (self.n + 1)) as f64).sin();
         (on_mode(&state.v).powi(2) + (frequency * on_mode(&state.q)).powi(2)) / 2.0
     }
-
-    fn energy(&self, state: &State) -> f64 {
-        let stored = |d: f64| d * d / 2.0 + self.alpha * d * d * d / 3.0;
-        let q = state.q.as_slice();
-        let springs = stored(q[0]) + q.windows(2).map(|pair| stored(pair[1] - pair[0])).sum::<f64>();
-        springs + stored(-q[self.n - 1]) + state.v.norm_squared() / 2.0
-    }
 }
 
 fn main() -> Result<()> {
+    println!("{}", Chain::equations());
     let n = std::env::args().nth(1).map_or(Ok(32), |n| n.parse::<usize>())?.max(2);
     let chain = Chain { n, alpha: 0.25 };
     // Amplitude 1, in the normalization of the report.
     let size = ((n + 1) as f64 / 2.0).sqrt();
-    let start =
-        State { t: 0.0, q: DVector::from_fn(n, |i, _| size * chain.mode(1, i)), v: DVector::zeros(n) };
+    let start = chain.at_rest((0..n).map(|i| size * chain.mode(1, i)));
     let period = PI / (PI / (2 * (n + 1)) as f64).sin();
     let end = 170.0 * period;
     let method = Verlet::with_step(0.2).composed(Composition::KahanLi8).max_steps(10_000_000);

@@ -1,7 +1,7 @@
 //! What can be written in the attributes, and how it is read.
 
-mod any_number;
 mod accepted;
+mod any_number;
 mod frames;
 mod functions;
 mod members;

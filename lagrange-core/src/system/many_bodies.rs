@@ -7,6 +7,7 @@ use nalgebra::{Const, DVector, Dyn};
 use super::moving::System;
 use super::state::State;
 use crate::error::Error;
+use crate::number::Scalar;
 use crate::solution::many_body_field::ManyBodyField;
 
 /// A system of any number of bodies, as `#[derive(Lagrangian)]` emits it where an array of coordinates has a length that is a field.
@@ -111,4 +112,31 @@ pub trait ManyBodies: System<Length = Dyn, M = Const<0>, Field = ManyBodyField> 
 
     /// Generalized momenta p = ∂L/∂q̇.
     fn momenta(&self, state: &State<Self::Scalar, Dyn>) -> DVector<Self::Scalar>;
+
+    /// State at t = 0 with these coordinates and velocities, in the order of their names.
+    fn state(
+        &self,
+        q: impl IntoIterator<Item = Self::Scalar>,
+        v: impl IntoIterator<Item = Self::Scalar>,
+    ) -> State<Self::Scalar, Dyn>
+    where
+        Self: Sized,
+    {
+        let vector = |entries: &mut dyn Iterator<Item = Self::Scalar>| DVector::from_vec(entries.collect());
+        let [q, v] = [vector(&mut q.into_iter()), vector(&mut v.into_iter())];
+        State { t: Self::Scalar::constant(0.0), q, v }
+    }
+
+    /// State at t = 0 with these coordinates, at rest.
+    fn at_rest(&self, q: impl IntoIterator<Item = Self::Scalar>) -> State<Self::Scalar, Dyn>
+    where
+        Self: Sized,
+    {
+        let q = DVector::from_vec(q.into_iter().collect());
+        State {
+            t: Self::Scalar::constant(0.0),
+            v: DVector::from_element(q.len(), Self::Scalar::constant(0.0)),
+            q,
+        }
+    }
 }

@@ -29,7 +29,9 @@ fn agree<const N: usize>(
         }
         let momenta = fixed.momentum(&state);
         assert!((many.momenta(&open) - DVector::from_column_slice(momenta.as_slice())).amax() < 1e-12);
-        let close = |one: f64, other: f64| assert!((one - other).abs() <= 1e-12 * (1.0 + other.abs()), "{one}, not {other}");
+        let close = |one: f64, other: f64| {
+            assert!((one - other).abs() <= 1e-12 * (1.0 + other.abs()), "{one}, not {other}")
+        };
         close(many.energy(&open), fixed.energy(&state));
         close(many.lagrangian(&open), fixed.lagrangian(&state));
         let mut names = Vec::new();
@@ -260,7 +262,7 @@ macro_rules! driven {
     };
 }
 
-driven!(Driven, N, );
+driven!(Driven, N,);
 driven!(Driven4, 4,);
 const N: usize = 4;
 

@@ -72,12 +72,12 @@ impl<'a> FunctionContext<'a> {
                 "self",
                 "waiting",
                 "round",
-                "q",
-                "v",
-                "a",
-                "p",
             ]
             .map(String::from),
+        );
+        // Arguments of the loops over elements.
+        taken.extend(
+            ["q", "v", "a", "p"].iter().filter(|_| problem.many.is_open()).map(|name| (*name).to_owned()),
         );
         taken.extend((0..6).map(|k| format!("entries{k}")));
         let mut unique = |text: String| identifier(&text, &mut taken);

@@ -375,7 +375,7 @@ fn functions_families_and_vectors() {
             Everything
 
             Lagrangian
-              L = ½ ȧ·ȧ + ½ |ḃ|² + ½ ṡ² − pair(|a − b|) − f(a, s) − f([s, 1], s) − (Σ(i = 0 … 2) p[i][0])
+              L = ½ ȧ·ȧ + ½ |ḃ|² + ½ ṡ² − pair(|a − b|) − f(a, s) − f([s, 1], s) − Σ(i = 0 … 2) p[i][0]
               p[0] = a
               p[i = 1 … 2] = p[i − 1] + b/i
               Q_a = −k ȧ
@@ -423,7 +423,7 @@ fn functions_families_and_vectors() {
             \par\medskip\noindent\textbf{Lagrangian}
             \begin{align}
               L &= \tfrac{1}{2} \dot{\mathbf{a}} \cdot \dot{\mathbf{a}} + \tfrac{1}{2} \lvert \dot{\mathbf{b}} \rvert^2 + \tfrac{1}{2} \dot s^2 - \mathit{pair}(\lvert \mathbf{a} - \mathbf{b} \rvert) - f(\mathbf{a}, s) \nonumber \\*
-                &\quad - f([s, 1], s) - \left( \sum_{i = 0}^{2} p_{i, 0} \right) \label{eq:Everything-L} \\
+                &\quad - f([s, 1], s) - \sum_{i = 0}^{2} p_{i, 0} \label{eq:Everything-L} \\
               \mathbf{p}_0 &= \mathbf{a} \label{eq:Everything-p-0} \\
               \mathbf{p}_{i = 1 \ldots 2} &= \mathbf{p}_{i - 1} + \frac{\mathbf{b}}{i} \label{eq:Everything-p-i-1-2} \\
               \mathbf{Q}_a &= -k \dot{\mathbf{a}} \label{eq:Everything-Q_a}

@@ -1,0 +1,205 @@
+//! Accelerations of systems of any number of bodies, against loops by hand.
+//!
+//! `cargo bench -p lagrange-benches --bench many_bodies`
+//!
+//! Both are timed in turn; the medians count.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use lagrange_core::{System, prelude::*};
+
+const ROUNDS: usize = 21;
+
+/// Fermi, Pasta, Ulam and Tsingou's chain between walls.
+#[derive(Lagrangian)]
+#[coordinates(x: [n])]
+#[define(U(d) = d^2/2 + beta*d^4/4)]
+#[lagrangian(sum(i in 0..n, x_dot[i]^2/2) - U(x[0]) - U(x[n-1]) - sum(i in 0..n-1, U(x[i+1] - x[i])))]
+struct Chain {
+    n: usize,
+    beta: f64,
+}
+
+fn chain(Chain { beta, .. }: &Chain, x: &[f64], a: &mut [f64]) {
+    let pull = |d: f64| d + beta * d * d * d;
+    let mut from_left = pull(x[0]);
+    for (a, pair) in a.iter_mut().zip(x.windows(2)) {
+        let from_right = pull(pair[1] - pair[0]);
+        *a = from_right - from_left;
+        from_left = from_right;
+    }
+    let last = x.len() - 1;
+    a[last] = pull(-x[last]) - from_left;
+}
+
+/// Toda's chain with free ends.
+#[derive(Lagrangian)]
+#[coordinates(x: [n])]
+#[parameter(m: [n])]
+#[lagrangian(sum(i in 0..n, m[i]*x_dot[i]^2/2) - sum(i in 0..n-1, exp(x[i+1] - x[i])))]
+struct Toda {
+    n: usize,
+    m: Vec<f64>,
+}
+
+fn toda(Toda { m, .. }: &Toda, x: &[f64], a: &mut [f64]) {
+    let mut from_left = 0.0;
+    for ((a, pair), m) in a.iter_mut().zip(x.windows(2)).zip(m) {
+        let from_right = (pair[1] - pair[0]).exp();
+        *a = (from_right - from_left) / m;
+        from_left = from_right;
+    }
+    let last = x.len() - 1;
+    a[last] = -from_left / m[last];
+}
+
+/// Bodies that attract one another.
+#[derive(Lagrangian)]
+#[coordinates(r: [n, 3])]
+#[parameter(m: [n])]
+#[lagrangian(sum(i in 0..n, m[i]/2*dot(r_dot[i], r_dot[i])) + sum(i in 0..n, sum(j in 0..i, gamma*m[i]*m[j]/norm(r[i] - r[j]))))]
+struct Cluster {
+    m: Vec<f64>,
+    gamma: f64,
+}
+
+fn cluster(Cluster { m, gamma }: &Cluster, r: &[f64], a: &mut [f64]) {
+    let r = r.as_chunks::<3>().0;
+    let a = a.as_chunks_mut::<3>().0;
+    a.fill([0.0; 3]);
+    for i in 0..r.len() {
+        let mut own = [0.0; 3];
+        for j in 0..i {
+            let d = [r[j][0] - r[i][0], r[j][1] - r[i][1], r[j][2] - r[i][2]];
+            let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+            let factor = gamma / (square * square.sqrt());
+            for c in 0..3 {
+                own[c] += m[j] * factor * d[c];
+                a[j][c] -= m[i] * factor * d[c];
+            }
+        }
+        for c in 0..3 {
+            a[i][c] += own[c];
+        }
+    }
+}
+
+/// Atoms and springs between them.
+#[derive(Lagrangian)]
+#[coordinates(r: [n, 3])]
+#[parameter(bond: [bonds, 2])]
+#[lagrangian(sum(i in 0..n, dot(r_dot[i], r_dot[i])/2) - sum(b in 0..bonds, k/2*(norm(r[bond[b][0]] - r[bond[b][1]]) - l)^2))]
+struct Molecule {
+    n: usize,
+    bond: Vec<[usize; 2]>,
+    k: f64,
+    l: f64,
+}
+
+fn molecule(Molecule { bond, k, l, .. }: &Molecule, r: &[f64], a: &mut [f64]) {
+    let r = r.as_chunks::<3>().0;
+    let a = a.as_chunks_mut::<3>().0;
+    a.fill([0.0; 3]);
+    for &[i, j] in bond {
+        let d = [r[j][0] - r[i][0], r[j][1] - r[i][1], r[j][2] - r[i][2]];
+        let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+        let pull = k * (length - l) / length;
+        for c in 0..3 {
+            a[i][c] += pull * d[c];
+            a[j][c] -= pull * d[c];
+        }
+    }
+}
+
+/// Masses in a net, with springs to their neighbours.
+#[derive(Lagrangian)]
+#[coordinates(r: [n, n, 3])]
+#[define(U(d) = k/2*(norm(d) - l)^2)]
+#[lagrangian(sum(i in 0..n, sum(j in 0..n, dot(r_dot[i][j], r_dot[i][j])/2))
+    - sum(i in 0..n-1, sum(j in 0..n, U(r[i+1][j] - r[i][j]))) - sum(i in 0..n, sum(j in 0..n-1, U(r[i][j+1] - r[i][j]))))]
+struct Net {
+    n: usize,
+    k: f64,
+    l: f64,
+}
+
+fn net(&Net { n, k, l }: &Net, r: &[f64], a: &mut [f64]) {
+    let r = r.as_chunks::<3>().0;
+    let a = a.as_chunks_mut::<3>().0;
+    a.fill([0.0; 3]);
+    let mut spring = |one: usize, other: usize| {
+        let d = [r[other][0] - r[one][0], r[other][1] - r[one][1], r[other][2] - r[one][2]];
+        let length = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+        let pull = k * (length - l) / length;
+        for c in 0..3 {
+            a[one][c] += pull * d[c];
+            a[other][c] -= pull * d[c];
+        }
+    };
+    for i in 0..n {
+        for j in 0..n {
+            let own = i * n + j;
+            if i + 1 < n {
+                spring(own, own + n);
+            }
+            if j + 1 < n {
+                spring(own, own + 1);
+            }
+        }
+    }
+}
+
+/// Compares the accelerations of a system with those by hand, and prints both times for each of `count` parts.
+fn compare<L: System<Scalar = f64, Length = lagrange_core::nalgebra::Dyn>>(
+    name: &str,
+    system: &L,
+    count: usize,
+    by_hand: impl Fn(&L, &[f64], &mut [f64]),
+) {
+    let n = system.length().0;
+    let q: Vec<f64> = (0..n).map(|i| 0.7 * (i / 3) as f64 + (1.0 + 1.7 * i as f64).sin()).collect();
+    let q: Vec<f64> = if name.contains("chain") { q.iter().map(|x| x.sin()).collect() } else { q };
+    let v = vec![0.0; n];
+    let (mut a, mut b) = (vec![0.0; n], vec![0.0; n]);
+    system.accelerations(0.0, &q, &v, &mut a);
+    by_hand(system, &q, &mut b);
+    let scale = b.iter().fold(1.0, |most: f64, b| most.max(b.abs()));
+    assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-11 * scale), "{name}");
+    let repeats = (2_000_000 / count.max(1)).clamp(1, 100_000);
+    let timed = |run: &mut dyn FnMut()| {
+        let begun = Instant::now();
+        (0..repeats).for_each(|_| run());
+        begun.elapsed().as_secs_f64() * 1e9 / (repeats * count) as f64
+    };
+    let mut times: Vec<[f64; 2]> = (0..ROUNDS)
+        .map(|_| {
+            let one = timed(&mut || system.accelerations(0.0, black_box(&q), &v, black_box(&mut a)));
+            let other = timed(&mut || by_hand(system, black_box(&q), black_box(&mut b)));
+            [one, other]
+        })
+        .collect();
+    times.sort_by(|one, other| (one[0] / one[1]).total_cmp(&(other[0] / other[1])));
+    let [one, other] = times[ROUNDS / 2];
+    println!(
+        "{name:10} {n:8} coordinates: {one:7.2} ns a part, by hand {other:7.2} ns, ratio {:.2}",
+        one / other
+    );
+}
+
+fn main() {
+    for n in [10, 1_000, 1_000_000] {
+        compare("chain", &Chain { n, beta: 0.7 }, n, chain);
+        compare("Toda chain", &Toda { n, m: vec![1.5; n] }, n, toda);
+    }
+    for n in [10, 100, 1_000] {
+        compare("cluster", &Cluster { m: vec![1.5; n], gamma: 1.0 }, n * (n - 1) / 2, cluster);
+    }
+    for n in [10, 1_000, 30_000] {
+        let bond: Vec<[usize; 2]> = (0..3 * n).map(|b| [b / 3, (b / 3 + 1 + b % 3 * 2) % n]).collect();
+        compare("molecule", &Molecule { n, bond, k: 2.0, l: 0.5 }, 3 * n, molecule);
+    }
+    for n in [3, 30, 300] {
+        compare("net", &Net { n, k: 2.0, l: 0.5 }, 2 * n * (n - 1), net);
+    }
+}
