@@ -57,6 +57,12 @@ pub fn write_accelerations<L: Lagrangian>(
     *a = L::N::entries(system.accelerations_unchecked(&state).accelerations);
 }
 
+/// The first `count` elements of a vector of all coordinates, each of `D` numbers.
+#[inline(always)]
+pub fn window<T, const D: usize>(all: &[T], count: usize) -> &[[T; D]] {
+    &all.as_chunks().0[..count]
+}
+
 /// Converts an array to a column vector, without a copy.
 #[inline]
 pub fn vector<T, const K: usize>(entries: [T; K]) -> SVector<T, K> {

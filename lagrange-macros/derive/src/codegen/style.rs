@@ -1,11 +1,13 @@
 //! Context shared by all emitted functions of a system: names, types, constants.
 
+use std::cell::RefCell;
 use std::collections::HashSet;
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 
+use super::many::Window;
 use super::signature::Types;
 use crate::mechanics::changes;
 use crate::resolve::Problem;
@@ -38,6 +40,8 @@ pub(super) struct FunctionContext<'a> {
     /// Names of inputs, valid as identifiers and unique.
     pub(super) names: FxHashMap<Symbol, Ident>,
     pub(super) definition_names: FxHashMap<Id, Ident>,
+    /// Windows on arrays of the loops around what is written.
+    pub(super) windows: RefCell<Vec<Window>>,
 }
 
 impl<'a> FunctionContext<'a> {
@@ -160,6 +164,7 @@ impl<'a> FunctionContext<'a> {
             is_f64,
             names,
             definition_names,
+            windows: RefCell::default(),
         }
     }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
+use super::windows::Source;
 use crate::codegen::style::FunctionContext;
 use crate::resolve::Entry;
 use crate::resolve::many::{Affine, Array, Index, LengthSource, Range, Slot, Unknown};
@@ -21,7 +22,7 @@ fn length_name(length: usize) -> Ident {
     format_ident!("length{length}", span = Span::mixed_site())
 }
 
-fn start_name(array: usize) -> Ident {
+pub(super) fn start_name(array: usize) -> Ident {
     format_ident!("start{array}", span = Span::mixed_site())
 }
 
@@ -158,13 +159,17 @@ impl FunctionContext<'_> {
         let (element, _) = self.problem.many.elements.iter().find(|(_, place)| *place == field)?;
         let system = &self.system;
         let ident = &self.problem.parameters.fields[field].ident;
-        let index = self.index(&element.index);
+        let window = self.in_window(Source::Field(element.field), std::slice::from_ref(&element.index));
+        let element = window.unwrap_or_else(|| {
+            let index = self.index(&element.index);
+            quote!(#system.#ident[#index])
+        });
         let FieldShape { layout, .. } = self.problem.parameters.fields[field].shape.as_ref().ok()?;
         let indices = layout.indices(number);
         let (arrays, inside) = indices.split_at(layout.arrays());
         let literal = |k: &usize| Literal::usize_unsuffixed(*k);
         let arrays = arrays.iter().map(literal);
-        let place = quote!(#system.#ident[#index] #([#arrays])*);
+        let place = quote!(#element #([#arrays])*);
         Some(match inside {
             [k] => {
                 let k = literal(&((k + 3) % 4));
@@ -188,21 +193,15 @@ impl FunctionContext<'_> {
     }
 
     fn read_in_loop(&self, symbol: Symbol) -> Option<TokenStream> {
-        let slot = |k: usize| self.place_of_slot(&self.problem.many.slots[k]);
+        let slot = |k: usize| &self.problem.many.slots[k];
         let number = |value: TokenStream| {
             let scalar = self.types.scalar;
             quote!(<#scalar as __lagrange::Scalar>::constant(#value as f64))
         };
         Some(match Variable::of(symbol) {
             Variable::Time => quote!(t),
-            Variable::Coordinate(k) => {
-                let place = slot(k);
-                quote!(q[#place])
-            }
-            Variable::Velocity(k) => {
-                let place = slot(k);
-                quote!(v[#place])
-            }
+            Variable::Coordinate(k) => self.slot_in(Source::Coordinates(slot(k).array), slot(k)),
+            Variable::Velocity(k) => self.slot_in(Source::Velocities(slot(k).array), slot(k)),
             Variable::Parameter(k) => {
                 let entry = self.problem.parameters.entries[k];
                 self.place_in_element(entry).unwrap_or_else(|| self.parameter(k))

@@ -13,10 +13,8 @@ impl ManyEmitter<'_> {
     pub(super) fn system(&self) -> TokenStream {
         let scalar = self.style.types.scalar;
         let (lengths, count) = (self.style.lengths(), self.style.count_of_all());
-        let a = quote!(a);
-        let forces = self.equations.forcing.iter().map(|scatter| self.scatter(&a, scatter));
+        let forces = self.scatters(&self.equations.forcing);
         let solved = self.equations.inertia.iter().map(|block| self.solve(block));
-        let zero = self.style.constant(0.0);
         quote! {
             type Scalar = #scalar;
             type Length = __lagrange::nalgebra::Dyn;
@@ -30,8 +28,8 @@ impl ManyEmitter<'_> {
 
             fn accelerations(&self, t: #scalar, q: &[#scalar], v: &[#scalar], a: &mut [#scalar]) {
                 #lengths
-                a.fill(#zero);
-                #(#forces)*
+                let cells = ::core::cell::Cell::from_mut(a).as_slice_of_cells();
+                #forces
                 #(#solved)*
             }
         }
@@ -43,8 +41,7 @@ impl ManyEmitter<'_> {
         let (lengths, count) = (self.style.lengths(), self.style.count_of_all());
         let [lagrangian, energy] =
             [self.problem.lagrangian, self.equations.energy].map(|root| self.number(root));
-        let p = quote!(p);
-        let momenta = self.equations.momentum.iter().map(|scatter| self.scatter(&p, scatter));
+        let momenta = self.scatters(&self.equations.momentum);
         let (write_name, check, visit) = (self.write_name(), self.check(), self.visit_numbers());
         let (zero, view) = (self.style.constant(0.0), view());
         let is_conserved = self.equations.energy_is_conserved;
@@ -72,7 +69,8 @@ impl ManyEmitter<'_> {
                 #lengths
                 #view
                 let mut p = __lagrange::nalgebra::DVector::from_element(#count, #zero);
-                #(#momenta)*
+                let cells = ::core::cell::Cell::from_mut(p.as_mut_slice()).as_slice_of_cells();
+                #momenta
                 p
             }
         }

@@ -6,6 +6,7 @@ mod methods;
 mod scatter;
 mod stub;
 mod values;
+mod windows;
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -20,6 +21,7 @@ use crate::resolve::Problem;
 use crate::symbolic::Graph;
 use crate::syntax::Declaration;
 pub(crate) use stub::stub;
+pub(super) use windows::Window;
 
 /// System to be emitted.
 pub(super) struct ManyEmitter<'a> {

@@ -6,10 +6,12 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use super::ManyEmitter;
-use super::indices::round;
+use super::indices::start_name;
+use super::windows::Source;
 use crate::mechanics::many::Scatter;
-use crate::resolve::many::{Affine, Index, Range, Slot, Unknown};
+use crate::resolve::many::{Affine, Array, Index, Slot, Unknown};
 use crate::symbolic::Id;
+use crate::syntax::numbers;
 
 /// Slots that are one element of an array in successive rounds of a loop, with the places of their values.
 struct Ring<'a> {
@@ -22,74 +24,141 @@ struct Ring<'a> {
 }
 
 impl ManyEmitter<'_> {
-    /// Loops that add the values of a scatter to the elements of a vector of all coordinates.
-    pub(super) fn scatter(&self, target: &TokenStream, scatter: &Scatter) -> TokenStream {
-        let roots: Vec<Id> = scatter.values.iter().map(|(_, value)| *value).collect();
-        let (statements, results) = self.values(&roots);
-        let names = (0..results.len()).map(value_name);
+    /// Loops that write the values of all scatters to the elements of `cells`. A loop that reaches each element of an array once
+    /// comes first and sets it; arrays without one are filled with zeros.
+    pub(super) fn scatters(&self, scatters: &[Scatter]) -> TokenStream {
+        let mut set_by: Vec<Option<usize>> = Vec::new();
+        for array in 0..self.problem.many.arrays.len() {
+            set_by.push(scatters.iter().position(|scatter| self.covers(scatter, array)));
+        }
+        let zero = self.style.constant(0.0);
+        let filled =
+            (0..set_by.len()).filter(|&array| set_by[array].is_none()).map(|array| self.fill(array, &zero));
+        let sets = |number: usize| {
+            (0..set_by.len()).filter(|&array| set_by[array] == Some(number)).collect::<Vec<_>>()
+        };
+        let mut order: Vec<usize> = (0..scatters.len()).collect();
+        order.sort_by_key(|&number| sets(number).is_empty());
+        let loops = order.into_iter().map(|number| {
+            let (scatter, sets) = (&scatters[number], sets(number));
+            let slots: Vec<&Slot> =
+                scatter.values.iter().map(|(k, _)| &self.problem.many.slots[*k]).collect();
+            let emptied = sets.iter().map(|&array| self.fill(array, &zero)).collect();
+            let loops = self.scatter_in((scatter, &sets, &emptied), &slots, 0);
+            quote! { { #loops } }
+        });
+        quote! { #(#filled)* #(#loops)* }
+    }
+
+    /// Sets all coordinates of an array to zero.
+    fn fill(&self, array: usize, zero: &TokenStream) -> TokenStream {
+        let (start, count) = (start_name(array), self.style.count(&self.problem.many.arrays[array]));
+        quote! {
+            for cell in &cells[#start..][..#count] {
+                cell.set(#zero);
+            }
+        }
+    }
+
+    /// True if the rounds of a single loop write each element of an array once.
+    fn covers(&self, scatter: &Scatter, array: usize) -> bool {
+        let Array { open, lengths, .. } = &self.problem.many.arrays[array];
+        let ([range], [length]) = (&scatter.ranges[..], &open[..]) else { return false };
         let slots: Vec<&Slot> = scatter.values.iter().map(|(k, _)| &self.problem.many.slots[*k]).collect();
+        let moving: Vec<usize> =
+            (0..slots.len()).filter(|&k| slots[k].array == array && depth_of(slots[k]) == 1).collect();
+        let rings = rings(&slots, 1);
+        (0..numbers(lengths)).all(|number| {
+            let own: Vec<usize> = moving.iter().copied().filter(|&k| slots[k].number == number).collect();
+            let ring = rings
+                .iter()
+                .find(|ring| own.iter().any(|&k| ring.members.iter().any(|(_, place)| *place == k)));
+            let (first, width) = match (ring, &own[..]) {
+                (Some(ring), own) if own.len() == ring.members.len() => (ring.last, carry_count(ring)),
+                (None, [k]) => (slots[*k], 0),
+                _ => return false,
+            };
+            let is_first = first.indices == [Index::Affine(Affine::of(Unknown::Level(0)))];
+            is_first && range.from == Affine::number(0) && range.to.plus_number(width as i64) == *length
+        })
+    }
+
+    /// The loops of a scatter from this depth on, with the locals that they sum in, and what is written after them: elements that
+    /// they do not change, and what the last round has left.
+    fn scatter_in(
+        &self,
+        (scatter, sets, emptied): (&Scatter, &[usize], &TokenStream),
+        slots: &[&Slot],
+        level: usize,
+    ) -> TokenStream {
+        let roots: Vec<Id> = scatter.values.iter().map(|(_, value)| *value).collect();
         let depth = scatter.ranges.len();
-        let rings = if depth > 0 { rings(&slots, depth) } else { Vec::new() };
+        let Some(range) = scatter.ranges.get(level) else {
+            return self.round_of_scatter((slots, sets), depth, &roots);
+        };
+        let rings = if level + 1 == depth { rings(slots, depth) } else { Vec::new() };
+        let zero = self.style.constant(0.0);
+        let own: Vec<usize> = (0..slots.len()).filter(|&k| depth_of(slots[k]) == level).collect();
+        let summed = own.iter().map(|&k| sum_name(k));
+        let carried = rings.iter().enumerate().flat_map(|(number, ring)| carry_names(number, ring));
+        let written = own.iter().map(|&k| self.add(slots[k], &sum_name(k)));
+        let left =
+            rings.iter().enumerate().map(|(number, ring)| self.left_over(number, ring, sets)).collect();
+        let alone = (0..slots.len()).filter(|k| depth_of(slots[*k]) == level + 1 && !is_carried(&rings, *k));
+        let targets: Vec<&Slot> = alone.map(|k| slots[k]).chain(rings.iter().map(|ring| ring.last)).collect();
+        let inner = || self.scatter_in((scatter, sets, emptied), slots, level + 1);
+        let loops = self.one_loop((level, range), (&roots, &targets), inner, [&left, emptied]);
+        quote! {
+            #(let mut #summed = #zero;)*
+            #(let mut #carried = #zero;)*
+            #loops
+            #(#written)*
+        }
+    }
+
+    /// One round of the innermost loop.
+    fn round_of_scatter(
+        &self,
+        (slots, sets): (&[&Slot], &[usize]),
+        depth: usize,
+        roots: &[Id],
+    ) -> TokenStream {
+        let (statements, results) = self.values(roots);
+        let names = (0..results.len()).map(value_name);
+        let rings = if depth > 0 { rings(slots, depth) } else { Vec::new() };
         let alone = (0..slots.len()).filter(|k| depth_of(slots[*k]) == depth && !is_carried(&rings, *k));
-        let alone = alone.map(|k| self.add(target, slots[k], &value_name(k)));
+        let alone = alone.map(|k| self.write(slots[k], &value_name(k), sets));
         let outer = (0..slots.len()).filter(|&k| depth_of(slots[k]) < depth);
         let (sums, values): (Vec<Ident>, Vec<Ident>) = outer.map(|k| (sum_name(k), value_name(k))).unzip();
-        let carried = rings.iter().enumerate().map(|(number, ring)| self.carry(target, number, ring));
-        let round = quote! {
+        let carried = rings.iter().enumerate().map(|(number, ring)| self.carry(number, ring, sets));
+        quote! {
             #statements
             #(let #names = #results;)*
             #(#alone)*
             #(#sums = #sums + #values;)*
             #(#carried)*
-        };
-        let loops = (0..depth).rev().fold(round, |round, level| {
-            let rings = if level + 1 == depth { &rings[..] } else { &[] };
-            self.one_loop(target, (level, &scatter.ranges[level]), (&slots, rings), &round)
-        });
-        quote! { { #loops } }
-    }
-
-    /// A loop, with the locals that it sums in, and what is written after it: elements that it does not change, and what its
-    /// last round has left.
-    fn one_loop(
-        &self,
-        target: &TokenStream,
-        (level, range): (usize, &Range),
-        (slots, rings): (&[&Slot], &[Ring]),
-        inner: &TokenStream,
-    ) -> TokenStream {
-        let (zero, index, end) = (self.style.constant(0.0), round(level), self.style.bound(&range.to));
-        let range = self.style.range(range);
-        let own = (0..slots.len()).filter(|&k| depth_of(slots[k]) == level).collect::<Vec<_>>();
-        let summed = own.iter().map(|&k| sum_name(k));
-        let carried = rings.iter().enumerate().flat_map(|(number, ring)| carry_names(number, ring));
-        let written = own.iter().map(|&k| self.add(target, slots[k], &sum_name(k)));
-        let left = rings.iter().enumerate().map(|(number, ring)| self.left_over(target, number, ring));
-        let left = (!rings.is_empty()).then(|| {
-            quote! {
-                if !range.is_empty() {
-                    let #index: usize = #end;
-                    #(#left)*
-                }
-            }
-        });
-        quote! {
-            #(let mut #summed = #zero;)*
-            #(let mut #carried = #zero;)*
-            let range = #range;
-            for #index in range.clone() { #inner }
-            #left
-            #(#written)*
         }
     }
 
-    fn add(&self, target: &TokenStream, slot: &Slot, value: &impl ToTokens) -> TokenStream {
-        let place = self.style.place_of_slot(slot);
-        quote! { let place = #place; #target[place] = #target[place] + #value; }
+    /// Sets an element, if it is in one of these arrays, or adds to it.
+    fn write(&self, slot: &Slot, value: &impl ToTokens, sets: &[usize]) -> TokenStream {
+        if !sets.contains(&slot.array) {
+            return self.add(slot, value);
+        }
+        let place = self.style.slot_in(Source::Target(slot.array), slot);
+        quote! { #place.set(#value); }
+    }
+
+    fn add(&self, slot: &Slot, value: &impl ToTokens) -> TokenStream {
+        let place = self.style.slot_in(Source::Target(slot.array), slot);
+        quote! {
+            let cell = &#place;
+            cell.set(cell.get() + #value);
+        }
     }
 
     /// Adds the values of a round to what earlier rounds have left, and writes the element that no later round reaches.
-    fn carry(&self, target: &TokenStream, number: usize, ring: &Ring) -> TokenStream {
+    fn carry(&self, number: usize, ring: &Ring, sets: &[usize]) -> TokenStream {
         let names = carry_names(number, ring);
         let value = |offset: usize| {
             let own = ring
@@ -102,7 +171,7 @@ impl ManyEmitter<'_> {
                 carried.into_iter().map(|name| quote!(#name)).chain(own.map(|name| quote!(#name))).collect();
             quote!(#(#parts)+*)
         };
-        let written = self.add(target, ring.last, &value(0));
+        let written = self.write(ring.last, &value(0), sets);
         let zero = self.style.constant(0.0);
         let next = (1..=names.len()).map(|offset| {
             let value = value(offset);
@@ -112,14 +181,14 @@ impl ManyEmitter<'_> {
     }
 
     /// Writes what the last round has left, where the running index is the end of the range.
-    fn left_over(&self, target: &TokenStream, number: usize, ring: &Ring) -> TokenStream {
+    fn left_over(&self, number: usize, ring: &Ring, sets: &[usize]) -> TokenStream {
         let names = carry_names(number, ring);
         let writes = names.iter().enumerate().map(|(offset, name)| {
             let mut slot = ring.last.clone();
             if let Index::Affine(index) = &mut slot.indices[ring.axis] {
                 *index = index.plus_number(offset as i64);
             }
-            self.add(target, &slot, name)
+            self.write(&slot, name, sets)
         });
         writes.collect()
     }
@@ -135,8 +204,13 @@ fn sum_name(place: usize) -> Ident {
 
 /// Locals that carry sums from round to round: one for each offset but the largest, whose element no earlier round has reached.
 fn carry_names(number: usize, ring: &Ring) -> Vec<Ident> {
-    let most = ring.members.iter().map(|(offset, _)| *offset).max().unwrap_or(0);
-    (0..most).map(|offset| format_ident!("carried{number}_{offset}", span = Span::mixed_site())).collect()
+    (0..carry_count(ring))
+        .map(|offset| format_ident!("carried{number}_{offset}", span = Span::mixed_site()))
+        .collect()
+}
+
+fn carry_count(ring: &Ring) -> usize {
+    ring.members.iter().map(|(offset, _)| *offset).max().unwrap_or(0)
 }
 
 /// Number of loops that have to be entered before the element of a slot is known.

@@ -5,9 +5,10 @@ use quote::quote;
 
 use super::ManyEmitter;
 use super::indices::round;
+use super::windows::Source;
 use crate::codegen::shape::ResultShape;
 use crate::mechanics::many::{Guarded, Inertia};
-use crate::resolve::many::{Affine, Index, Slot, Unknown, totals};
+use crate::resolve::many::{Affine, Index, Range, Slot, Unknown, totals};
 use crate::symbolic::{Id, Node};
 use crate::variables::Variable;
 
@@ -36,15 +37,18 @@ impl ManyEmitter<'_> {
             let bodies: Vec<Id> = own.iter().map(|&k| known[k].body).collect();
             let names: Vec<&Ident> =
                 own.iter().map(|&k| &self.style.names[&Variable::Total(k).symbol()]).collect();
-            let (statements, results) = self.values(&bodies);
-            let (zero, index, range) = (self.style.constant(0.0), round(level), self.style.range(range));
-            loops.extend(quote! {
-                #(let mut #names = #zero;)*
-                for #index in #range {
-                    #statements
-                    #(#names = #names + #results;)*
-                }
-            });
+            let zero = self.style.constant(0.0);
+            let round = || {
+                let (statements, results) = self.values(&bodies);
+                quote! { #statements #(#names = #names + #results;)* }
+            };
+            let sum = self.one_loop(
+                (level, range),
+                (&bodies, &[]),
+                round,
+                [&TokenStream::new(), &TokenStream::new()],
+            );
+            loops.extend(quote! { #(let mut #names = #zero;)* #sum });
         }
         loops
     }
@@ -54,28 +58,41 @@ impl ManyEmitter<'_> {
         if self.is_solved(block) {
             return TokenStream::new();
         }
-        let guarded = block.guarded.iter().map(|guarded| self.guarded(guarded));
         let indices: Vec<Index> =
             (0..block.lengths.len()).map(|level| Index::Affine(Affine::of(Unknown::Level(level)))).collect();
-        let places: Vec<TokenStream> = block
-            .rows
-            .iter()
-            .map(|&(array, number)| {
-                self.style.place_of_slot(&Slot { array, indices: indices.clone(), number })
-            })
-            .collect();
-        let forces = (0..block.rows.len()).map(|row| &self.style.names[&Variable::Forcing(row).symbol()]);
+        let slot = |&(array, number): &(usize, usize)| Slot { array, indices: indices.clone(), number };
+        let slots: Vec<Slot> = block.rows.iter().map(slot).collect();
+        self.over_elements(block, &slots, 0)
+    }
+
+    /// Loops over the elements along the axes from this one on.
+    fn over_elements(&self, block: &Inertia, slots: &[Slot], axis: usize) -> TokenStream {
+        let Some(length) = block.lengths.get(axis) else { return self.solve_element(block, slots) };
+        let range = Range { from: Affine::number(0), to: length.clone() };
+        let (roots, targets) = (&block.accelerations[..], slots.iter().collect::<Vec<_>>());
+        let inner = || self.over_elements(block, slots, axis + 1);
+        let loops = self.one_loop(
+            (axis, &range),
+            (roots, &targets),
+            inner,
+            [&TokenStream::new(), &TokenStream::new()],
+        );
+        quote! { { #loops } }
+    }
+
+    /// Replaces the forces on one element by its accelerations.
+    fn solve_element(&self, block: &Inertia, slots: &[Slot]) -> TokenStream {
+        let guarded = block.guarded.iter().map(|guarded| self.guarded(guarded));
+        let places: Vec<TokenStream> =
+            slots.iter().map(|slot| self.style.slot_in(Source::Target(slot.array), slot)).collect();
+        let forces = (0..slots.len()).map(|row| &self.style.names[&Variable::Forcing(row).symbol()]);
         let (statements, results) = self.values(&block.accelerations);
-        let inner = quote! {
+        quote! {
             #(#guarded)*
-            #(let #forces = a[#places];)*
+            #(let #forces = #places.get();)*
             #statements
-            #(a[#places] = #results;)*
-        };
-        block.lengths.iter().enumerate().rfold(inner, |inner, (level, length)| {
-            let (index, length) = (round(level), self.style.bound(length));
-            quote! { for #index in 0..#length { #inner } }
-        })
+            #(#places.set(#results);)*
+        }
     }
 
     /// True if the accelerations are the forces.
