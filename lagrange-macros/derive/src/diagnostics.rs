@@ -81,6 +81,16 @@ impl Diagnostics {
         None
     }
 
+    /// Number of errors so far.
+    pub(crate) fn count(&self) -> usize {
+        self.errors.len()
+    }
+
+    /// Forgets all errors but the first `count`: those of an attempt for which there is another way.
+    pub(crate) fn forget_after(&mut self, count: usize) {
+        self.errors.truncate(count);
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.errors.is_empty()
     }

@@ -10,12 +10,13 @@ use super::page::Page;
 use super::reading::Names;
 use super::remark::{Fragment, Remark};
 use super::{FROM_ZERO, Forms, html, latex};
-use crate::mechanics::Derived;
+use crate::diagnostics::Diagnostics;
 use crate::mechanics::many::{
     ElementRows, ElementSum, ManyConserved, ManyConservedKind, ManyEquations, Over, Pattern, Region,
 };
-use crate::resolve::Problem;
+use crate::mechanics::{self, Derived};
 use crate::resolve::many::{Affine, Range};
+use crate::resolve::{Problem, families};
 use crate::symbolic::{Graph, Id, Rational};
 use crate::syntax::Declaration;
 
@@ -34,6 +35,28 @@ pub(crate) fn render_many(
         false => page(names),
     });
     [shortest, kept, written_out]
+}
+
+/// Equations of all elements of arrays at once.
+pub(super) struct FamilyLines {
+    pub(super) motion: Vec<Line>,
+    pub(super) energy: Option<Formula>,
+}
+
+impl FamilyLines {
+    /// Finds them, if a declaration is about all elements of arrays.
+    pub(super) fn of(declaration: &Declaration, names: Names) -> Option<Self> {
+        let (mut graph, mut problem) = families(declaration)?;
+        let equations = mechanics::many::derive(&mut graph, &mut problem, &mut Diagnostics::default())?;
+        equations.rows.iter().all(Option::is_some).then_some(())?;
+        let derived = Derived::of_expressions();
+        let page = Page::new(declaration, &graph, &problem, &derived, names);
+        let motion = page.rows_of_all(&equations);
+        let Equation::Known(_, energy) = page.energy_of_all(&equations.energies).equation else {
+            return Some(Self { motion, energy: None });
+        };
+        Some(Self { motion, energy: Some(energy) })
+    }
 }
 
 impl Page<'_> {
@@ -173,8 +196,9 @@ impl Page<'_> {
 
     fn remark_on(&self, region: &Region) -> Vec<Fragment> {
         let range = match region {
-            Region::All | Region::Element(_) => return Vec::new(),
+            Region::Element(_) | Region::All { length: None } => return Vec::new(),
             Region::Interior => return vec![Fragment::words("for elements with neighbours on all sides")],
+            Region::All { length: Some(length) } => &Range { from: Affine::number(0), to: length.clone() },
             Region::Within(range) => range,
         };
         let [from, to] = [&range.from, &range.to].map(|bound| Box::new(self.affine(bound)));

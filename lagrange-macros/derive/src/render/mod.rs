@@ -44,6 +44,7 @@ use crate::symbolic::Graph;
 use crate::syntax::Declaration;
 use formula::Formula;
 use lines::{Equation, Line, Section};
+use many::FamilyLines;
 pub(crate) use many::render_many;
 use notation::Notation;
 use page::Page;
@@ -76,7 +77,10 @@ pub(crate) fn render(
     problem: &Problem,
     derived: &Derived,
 ) -> Rendered {
-    let page = |names| Page::new(declaration, graph, problem, derived, names);
+    let page = |names| Page {
+        families: FamilyLines::of(declaration, names),
+        ..Page::new(declaration, graph, problem, derived, names)
+    };
     let mut shortest = page(Names::Shortest);
     let totals = shortest.total_derivatives();
     let total_derivatives = totals.iter().map(|formula| Notation::UNICODE.write(formula)).collect();

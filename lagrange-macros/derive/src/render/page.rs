@@ -9,6 +9,7 @@ use super::formula::Formula;
 use super::length::{length, symbols};
 use super::letters::{Letters, PageQuantity};
 use super::links::NamedBodies;
+use super::many::FamilyLines;
 use super::motion::vector;
 use super::notation::Notation;
 use super::reading::{Names, Reading, constants, readings};
@@ -57,6 +58,10 @@ pub(super) struct Page<'a> {
     /// Nodes without names that are written as these formulas: entries of rotation matrices, and entries of the mass matrix where
     /// a reading is shorter than the computed form.
     pub(super) entries: FxHashMap<Id, Formula>,
+    /// Equations of all elements of arrays at once, if they are not printed yet.
+    pub(super) families: Option<FamilyLines>,
+    /// The energy by sums over elements, if the equations are those of all elements.
+    pub(super) energy_of_families: Option<Formula>,
     /// Terms of the sums in the declaration.
     pub(super) sums: Vec<Vec<Formula>>,
 }
@@ -97,6 +102,8 @@ impl<'a> Page<'a> {
             axes_lengths: Vec::new(),
             axes,
             vectors: problem.vectors.iter().map(|(name, n)| (Formula::labelled(name, 0), *n)).collect(),
+            families: None,
+            energy_of_families: None,
             sums: Vec::new(),
         };
         let norms = bases(graph, problem.lagrangian).into_iter();

@@ -116,13 +116,12 @@ pub(super) struct Lowering<'a> {
 impl<'a> Lowering<'a> {
     pub(super) fn new(
         scope: Scope,
-        parameters: Parameters,
+        (parameters, many): (Parameters, Many),
         declaration: &'a Declaration,
         diagnostics: &'a mut Diagnostics,
     ) -> Self {
         let Declaration { coordinates, functions, defines, frames, .. } = declaration;
         let mut graph = Graph::default();
-        let many = Many::of(declaration, &parameters, diagnostics);
         let mut count = 0;
         let offsets = coordinates
             .iter()

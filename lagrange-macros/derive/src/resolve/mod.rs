@@ -39,6 +39,7 @@ pub(crate) use frames::{is_of_frames, is_step};
 pub(crate) use function::Supplied;
 pub(crate) use label::{Label, entry_names, labels};
 use lowering::Lowering;
+use many::Many;
 pub(crate) use outline::{Observable, Outline, outline};
 pub(crate) use parameters::{Entry, Parameters, Switch, SwitchReading};
 pub(crate) use problem::{FrictionRows, Observed, Problem};
@@ -48,10 +49,29 @@ pub(crate) use value::cross;
 
 /// Resolves a declaration into a graph and a problem; returns `None` after reporting any error.
 pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<(Graph, Problem)> {
+    let parameters = Parameters::new(declaration, diagnostics);
+    let many = Many::of(declaration, &parameters, diagnostics);
+    resolved(declaration, (parameters, many), diagnostics)
+}
+
+/// Resolves a declaration with arrays of several elements so that the equations of all elements are one; `None` if it has none, or
+/// states something that is not said of all elements.
+pub(crate) fn families(declaration: &Declaration) -> Option<(Graph, Problem)> {
+    let many = Many::attempt(declaration);
+    many.is_open().then_some(())?;
+    let diagnostics = &mut Diagnostics::default();
+    let parameters = Parameters::new(declaration, diagnostics);
+    resolved(declaration, (parameters, many), diagnostics)
+}
+
+fn resolved(
+    declaration: &Declaration,
+    (parameters, many): (Parameters, Many),
+    diagnostics: &mut Diagnostics,
+) -> Option<(Graph, Problem)> {
     let scope = Scope::new(declaration, diagnostics);
     let functions = function::supplied(declaration, &scope, diagnostics);
-    let parameters = Parameters::new(declaration, diagnostics);
-    let mut lowering = Lowering::new(scope, parameters, declaration, diagnostics);
+    let mut lowering = Lowering::new(scope, (parameters, many), declaration, diagnostics);
     if lowering.many.is_open() {
         lowering.refuse_with_open_lengths(declaration);
         lowering.diagnostics.is_empty().then_some(())?;

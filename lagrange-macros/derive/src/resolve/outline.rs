@@ -3,6 +3,7 @@
 
 use super::label::Label;
 use super::lowering::{Lowering, Setting};
+use super::many::Many;
 use super::parameters::Parameters;
 use super::scope::{Entity, Scope};
 use super::value::Value;
@@ -40,7 +41,8 @@ pub(crate) fn outline(declaration: &Declaration) -> Outline {
     let diagnostics = &mut Diagnostics::default();
     let scope = Scope::new(declaration, diagnostics);
     let parameters = Parameters::new(declaration, diagnostics);
-    let mut lowering = Lowering::new(scope, parameters, declaration, diagnostics);
+    let many = Many::of(declaration, &parameters, diagnostics);
+    let mut lowering = Lowering::new(scope, (parameters, many), declaration, diagnostics);
     lowering.is_guessing = true;
     // The second pass resolves definitions that are used above the line that defines them.
     lowering.define_all();

@@ -33,6 +33,13 @@ pub(crate) struct Declaration {
 }
 
 impl Declaration {
+    /// Expressions that determine the motion.
+    pub(crate) fn expressions(&self) -> impl Iterator<Item = &Expression> {
+        let forces = self.forces.iter().map(|force| &force.value);
+        let defines = self.defines.iter().map(|define| &define.body);
+        self.lagrangian.iter().chain(&self.dissipation).chain(defines).chain(forces)
+    }
+
     /// True if the number of coordinates is known when the program runs.
     pub(crate) fn has_open_lengths(&self) -> bool {
         self.coordinates.iter().any(|coordinate| !coordinate.open.is_empty())

@@ -344,6 +344,15 @@ impl Expression {
         self.parts().into_iter().for_each(|part| part.names(visit));
     }
 
+    /// Calls `visit` with every name that is used without an index.
+    pub(crate) fn whole_names(&self, visit: &mut impl FnMut(&Name)) {
+        match &self.kind {
+            Kind::Name(name) => visit(name),
+            Kind::Index(base, index) if matches!(base.kind, Kind::Name(_)) => index.whole_names(visit),
+            _ => self.parts().into_iter().for_each(|part| part.whole_names(visit)),
+        }
+    }
+
     /// Calls `visit` with the index of every `sum` in the expression.
     pub(crate) fn indices(&self, visit: &mut impl FnMut(&Name)) {
         if let Kind::SumOver(sum) = &self.kind {

@@ -6,7 +6,7 @@
 use super::{Pattern, gradient, slots};
 use crate::mechanics::evidence::{Evidence, vanishes};
 use crate::resolve::Problem;
-use crate::resolve::many::{Range, Slot};
+use crate::resolve::many::Range;
 use crate::symbolic::{Graph, Id, Polynomials};
 use crate::syntax::numbers;
 use crate::variables::Variable;
@@ -74,9 +74,8 @@ fn components(
     let slopes = by_place.into_iter().zip(by_velocity);
     let component = |(slot, (q, v)): (usize, (Id, Id))| {
         let place = problem.many.slots[slot].clone();
-        let slots = &mut problem.many.slots;
-        let sibling = |number| slots.insert_full(Slot { number, ..place.clone() }).0;
-        Component { number: place.number, element: (0..dimension).map(sibling).collect(), slopes: [q, v] }
+        let first = slot - place.number;
+        Component { number: place.number, element: (first..first + dimension).collect(), slopes: [q, v] }
     };
     slots.into_iter().zip(slopes).map(component).collect()
 }

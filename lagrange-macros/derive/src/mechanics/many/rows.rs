@@ -20,7 +20,8 @@ pub(crate) struct ElementRows {
 /// Elements to which an equation applies.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Region {
-    All,
+    /// All of an array of this length along its axis, if it has one.
+    All { length: Option<Affine> },
     /// The element i.
     Element(Affine),
     /// from ≤ i < to
@@ -164,7 +165,7 @@ fn at_entry(graph: &mut Graph, problem: &mut Problem, value: Id, entry: &Index) 
         let slot = problem.many.slots[k].clone();
         if slot.indices == [entry.clone()] {
             let indices = vec![Index::Affine(Affine::of(Unknown::Level(0)))];
-            let (own, _) = problem.many.slots.insert_full(Slot { indices, ..slot });
+            let own = problem.many.slot(Slot { indices, ..slot });
             for variable in [Variable::Coordinate as fn(usize) -> Variable, Variable::Velocity] {
                 let node = graph.symbol(variable(own).symbol());
                 new.insert(variable(k).symbol(), node);
@@ -204,7 +205,7 @@ fn others(element: &Affine, one: Option<&Over>, other: Option<&Over>) -> Option<
 fn regions(problem: &Problem, array: usize, conditions: Vec<Condition>) -> Vec<Region> {
     let open = &problem.many.arrays[array].open;
     let [length] = &open[..] else {
-        return vec![if conditions.is_empty() { Region::All } else { Region::Interior }];
+        return vec![if conditions.is_empty() { Region::All { length: None } } else { Region::Interior }];
     };
     let mut bounds: Vec<Affine> =
         conditions.into_iter().flat_map(|one| [one.range.from, one.range.to]).collect();
@@ -217,7 +218,7 @@ fn regions(problem: &Problem, array: usize, conditions: Vec<Condition>) -> Vec<R
         _ => Region::Within(Range { from: pair[0].clone(), to: pair[1].clone() }),
     };
     match bounds.len() {
-        2 => vec![Region::All],
+        2 => vec![Region::All { length: Some(length.clone()) }],
         _ => bounds.windows(2).map(region).collect(),
     }
 }
@@ -228,7 +229,7 @@ fn holds(region: &Region, conditions: &[Condition]) -> bool {
         other.plus(one, -1).as_number().map_or(one.as_number().is_some(), |difference| difference >= 0)
     };
     conditions.iter().all(|Condition { range, .. }| match region {
-        Region::All | Region::Interior => true,
+        Region::All { .. } | Region::Interior => true,
         Region::Element(at) => is_below(&range.from, at) && is_below(&at.plus_number(1), &range.to),
         Region::Within(own) => is_below(&range.from, &own.from) && is_below(&own.to, &range.to),
     })
@@ -252,14 +253,13 @@ fn in_region(
         forces.iter().filter(|force| holds(&region, &force.conditions)).collect();
     let mut rows = Vec::new();
     for number in 0..count {
-        let (slot, _) = problem.many.slots.insert_full(Slot { array, indices: element.clone(), number });
+        let slot = problem.many.slot(Slot { array, indices: element.clone(), number });
         let mut terms = Vec::new();
         for entry in
             inertia.iter().filter(|entry| entry.rows[0].1 == number && holds(&region, &entry.conditions))
         {
             let (other, number) = entry.rows[1];
-            let (other, _) =
-                problem.many.slots.insert_full(Slot { array: other, indices: element.clone(), number });
+            let other = problem.many.slot(Slot { array: other, indices: element.clone(), number });
             let acceleration = graph.symbol(Variable::Acceleration(other).symbol());
             let value = problem.shifted(graph, entry.value, &new);
             terms.push(graph.mul(value, acceleration));

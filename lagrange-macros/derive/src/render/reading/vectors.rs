@@ -82,7 +82,13 @@ impl Collector<'_, '_> {
 
     /// Vector that an atom is a component of, and index of the component.
     fn component(&self, atom: Atom) -> Option<(Vector, usize)> {
-        let (written, place) = component(&self.atom(atom))?;
+        let formula = self.atom(atom);
+        if let Formula::Name { base, indices, .. } = &formula
+            && self.page.problem.many.is_element(base, indices.len(), &self.page.problem.parameters)
+        {
+            return None;
+        }
+        let (written, place) = component(&formula)?;
         if let Formula::Multiplier(constraint) = &written {
             self.is_of_space(constraint).then_some(())?;
         }

@@ -59,6 +59,8 @@ impl System {
 struct Page<'a> {
     system: &'a System,
     text: String,
+    /// True for the plain text. Running indices are read there alone: what other forms spell has the same symbols.
+    is_plain: bool,
     /// Writes a name as `text` spells it.
     written: fn(&System, &Formula) -> String,
 }
@@ -119,8 +121,9 @@ fn outer(formula: &Formula) -> Vec<Formula> {
 pub(super) fn check(system: &System) {
     for [text, _, html] in &system.forms {
         let read = mathml::read(text, html);
-        for (text, written) in [(text.clone(), systems::in_unicode as _), (read, mathml::written as _)] {
-            let page = Page { system, text, written };
+        let forms = [(text.clone(), systems::in_unicode as _, true), (read, mathml::written as _, false)];
+        for (text, written, is_plain) in forms {
+            let page = Page { system, text, is_plain, written };
             checks::check_axes(&page);
             links::check(&page);
             potential::check(&page);

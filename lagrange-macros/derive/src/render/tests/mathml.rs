@@ -14,7 +14,7 @@ enum Xml {
 }
 
 /// Elements of HTML and MathML Core that the pages use.
-const ELEMENTS: [&str; 23] = [
+const ELEMENTS: [&str; 24] = [
     "div",
     "h5",
     "p",
@@ -33,6 +33,7 @@ const ELEMENTS: [&str; 23] = [
     "msup",
     "msubsup",
     "mover",
+    "munder",
     "munderover",
     "mtable",
     "mtr",
@@ -41,8 +42,8 @@ const ELEMENTS: [&str; 23] = [
 ];
 
 /// Required number of children of these elements.
-const PARTS: [(&str, usize); 6] =
-    [("mfrac", 2), ("msub", 2), ("msup", 2), ("msubsup", 3), ("mover", 2), ("munderover", 3)];
+const PARTS: [(&str, usize); 7] =
+    [("mfrac", 2), ("msub", 2), ("msup", 2), ("msubsup", 3), ("mover", 2), ("munder", 2), ("munderover", 3)];
 
 /// Parses a text, which must be well-formed.
 fn parsed(text: &str) -> Vec<Xml> {
@@ -148,6 +149,7 @@ impl Xml {
                     if base.said().chars().count() == 1 { ["\u{307}", "\u{308}"] } else { ["_dot", "_ddot"] };
                 base.said() + if dots.text() == "˙" { one } else { two }
             }
+            ("munder" | "munderover", _) => "Σ".to_owned(),
             _ => String::new(),
         }
     }
@@ -306,7 +308,13 @@ impl Row {
         let (label, said) = plain.split_once(": ").unwrap_or(("", plain));
         let said = said.trim();
         let (equation, remark) =
-            said.split_once("   (").map_or((said, ""), |(equation, _)| (equation, "   (…)"));
+            said.split_once("   (").map_or((said, ""), |(equation, remark)| (equation, remark));
+        let remark = match remark {
+            "" => String::new(),
+            // The elements for which the row stands.
+            range if range.starts_with("for ") => format!("   ({range}"),
+            _ => "   (…)".to_owned(),
+        };
         let [ours, theirs] = [&self.symbols, equation].map(symbols);
         assert_eq!(ours, theirs, "{} for {plain}", self.equation);
         if self.equation.is_empty() {

@@ -15,6 +15,11 @@ pub(super) trait Meanings {
     /// ∂f/∂x∂y, at the formal arguments if none are given.
     fn partial(&self, function: &str, by: &[String], arguments: Option<&[f64]>) -> Value;
 
+    /// Number of elements of the arrays that a sum over all others than one is about.
+    fn elements(&self) -> i64 {
+        panic!("no arrays here")
+    }
+
     /// d/dt (∂f/∂x)
     fn rate_of_partial(&self, function: &str, by: &[String]) -> Value {
         panic!("no rate of ∂{function}/∂{by:?} here")
@@ -45,7 +50,12 @@ pub(super) fn read(text: &str) -> f64 {
 
 /// Value of a text, given the values of its names.
 pub(super) fn read_with(text: &str, meanings: &dyn Meanings) -> Value {
-    let mut reader = Reader { text: text.chars().collect(), at: 0, meanings };
+    read_at(text, meanings, Vec::new())
+}
+
+/// The same for these values of running indices.
+pub(super) fn read_at(text: &str, meanings: &dyn Meanings, indices: Vec<(String, i64)>) -> Value {
+    let mut reader = Reader { text: text.chars().collect(), at: 0, meanings, indices };
     let value = reader.sum();
     assert_eq!(reader.at, reader.text.len(), "«{text}» goes on after {}", reader.at);
     value
@@ -120,6 +130,8 @@ struct Reader<'a> {
     text: Vec<char>,
     at: usize,
     meanings: &'a dyn Meanings,
+    /// Names and values of running indices.
+    indices: Vec<(String, i64)>,
 }
 
 const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
@@ -227,7 +239,64 @@ impl Reader<'_> {
         Some(if negative { -value } else { value })
     }
 
+    /// Reads `Σ(i = 0 … 4) body` or `Σ(j ≠ i) body` after the sign: the body is a product.
+    fn sum_over(&mut self) -> Value {
+        self.expect("(");
+        let name = self.letters();
+        let values: Vec<i64> = if self.take(" = ") {
+            let from = self.index();
+            self.expect(" … ");
+            (from..=self.index()).collect()
+        } else {
+            self.expect(" ≠ ");
+            let other = self.index();
+            (0..self.meanings.elements()).filter(|value| *value != other).collect()
+        };
+        self.expect(") ");
+        let (start, mut total) = (self.at, None);
+        // An empty sum is read once, to find its end.
+        for value in values.iter().copied().chain(values.is_empty().then_some(0)) {
+            self.at = start;
+            self.indices.push((name.clone(), value));
+            let term = self.product();
+            self.indices.pop();
+            total = Some(total.map_or_else(|| term.clone(), |total| plus(&total, &term, 1.0)));
+        }
+        let total = total.expect("a term");
+        if values.is_empty() { vec![0.0; total.len()] } else { total }
+    }
+
+    fn letters(&mut self) -> String {
+        let letters: String = self.text[self.at..].iter().take_while(|sign| sign.is_alphanumeric()).collect();
+        self.at += letters.chars().count();
+        letters
+    }
+
+    /// Reads a sum of running indices and whole numbers.
+    fn index(&mut self) -> i64 {
+        let mut sum = self.index_term();
+        loop {
+            if self.take(" + ") {
+                sum += self.index_term();
+            } else if self.take(" − ") {
+                sum -= self.index_term();
+            } else {
+                return sum;
+            }
+        }
+    }
+
+    fn index_term(&mut self) -> i64 {
+        let sign = if self.take("−") { -1 } else { 1 };
+        let word = self.letters();
+        let known = self.indices.iter().rev().find(|(name, _)| *name == word).map(|(_, value)| *value);
+        sign * known.unwrap_or_else(|| word.parse().unwrap_or_else(|_| panic!("«{word}» is no index")))
+    }
+
     fn atom(&mut self) -> Value {
+        if self.take("Σ") {
+            return self.sum_over();
+        }
         if self.take("(") {
             if self.peek() == Some('∂') {
                 return self.partial_in_parentheses();
@@ -368,9 +437,17 @@ impl Reader<'_> {
 
     /// Reads a name with its indices and members.
     fn name(&mut self) -> String {
-        let start = self.at;
+        let mut name = String::new();
         let mut is_in_index = false;
         while let Some(sign) = self.peek() {
+            let is_running =
+                sign == '[' && !self.text[self.at + 1..].first().is_some_and(char::is_ascii_digit);
+            if is_running && !self.indices.is_empty() {
+                self.at += 1;
+                name += &format!("[{}]", self.index());
+                self.expect("]");
+                continue;
+            }
             let next = self.text.get(self.at + 1).copied().unwrap_or(' ');
             let goes_on = match sign {
                 '[' => next.is_ascii_digit(),
@@ -387,9 +464,10 @@ impl Reader<'_> {
                 break;
             }
             is_in_index = is_in_index && sign != ']' || sign == '[';
+            name.push(sign);
             self.at += 1;
         }
-        self.text[start..self.at].iter().collect()
+        name
     }
 
     /// Reads a name, or a function with its argument.

@@ -109,13 +109,14 @@ impl Lowering<'_> {
 
     /// Index of a slot. A new one changes in time at the rate of its velocity.
     pub(super) fn slot(&mut self, slot: Slot) -> usize {
-        let (k, is_new) = self.many.slots.insert_full(slot);
-        if is_new {
+        let known = self.many.slots.len();
+        let found = self.many.slot(slot);
+        for k in known..self.many.slots.len() {
             let rates = [Variable::Coordinate(k), Variable::Velocity(k), Variable::Acceleration(k)];
             let [_, velocity, acceleration] = rates.map(|variable| self.graph.symbol(variable.symbol()));
             self.rate.also([(rates[0].symbol(), velocity), (rates[1].symbol(), acceleration)]);
         }
-        k
+        found
     }
 
     /// Value of an element of a field: a virtual field stands for it among the parameters.

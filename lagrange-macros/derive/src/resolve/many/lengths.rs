@@ -8,9 +8,13 @@ use crate::diagnostics::{Diagnostics, Place};
 use crate::resolve::parameters::Parameters;
 use crate::symbolic::{Graph, Id};
 use crate::syntax::{
-    Declaration, Expression, Fact, FieldShape, Kind, Lengths, Name, Operator, Sign, element_type, shape,
+    Coordinate, Declaration, Expression, Fact, FieldShape, Kind, Layout, Lengths, Name, Operator, Sign,
+    arrays, element_type, shape,
 };
 use crate::variables::Variable;
+
+/// Longest array of scalars that is a vector, and no family of elements.
+const VECTOR: usize = 3;
 
 /// A length of arrays.
 pub(crate) struct Length {
@@ -75,6 +79,42 @@ impl Many {
             let length = many.read(length, diagnostics);
             let is_table = is_table(element);
             many.fields.push(OpenField { field, length, element: shape(element), is_table });
+        }
+        many
+    }
+
+    /// Reads arrays whose lengths are numbers as if these were known when the program runs: the equations of all elements at once are an
+    /// attempt. Stays empty if there is no array of several elements.
+    pub(in crate::resolve) fn attempt(declaration: &Declaration) -> Self {
+        let mut many = Self { is_attempt: true, ..Self::default() };
+        let apart = |lengths: &[usize]| match lengths {
+            [length, rest @ ..] if !rest.is_empty() || *length > VECTOR => (Some(*length), rest.to_vec()),
+            lengths => (None, lengths.to_vec()),
+        };
+        let lengths = declaration.coordinates.iter().map(|coordinate| apart(&coordinate.lengths));
+        let open: Vec<usize> = lengths.filter_map(|(open, _)| open).collect();
+        if open.is_empty() {
+            return many;
+        }
+        let array = |coordinate: &Coordinate| {
+            let (open, lengths) = apart(&coordinate.lengths);
+            let open = open.map(|length| Affine::number(length as i64)).into_iter().collect();
+            Array { name: coordinate.name.text.clone(), open, lengths, place: coordinate.name.place }
+        };
+        many.arrays = declaration.coordinates.iter().map(array).collect();
+        let mut whole = Vec::new();
+        declaration
+            .expressions()
+            .for_each(|part| part.whole_names(&mut |name| whole.push(name.text.clone())));
+        let fields = declaration.fields.iter().enumerate();
+        for (index, field) in fields.filter(|(_, field)| !whole.contains(&field.name.text)) {
+            let (Ok(shape), (lengths, _)) = (&field.shape, arrays(&field.ty)) else { continue };
+            let Some(length) = lengths.first().filter(|length| open.contains(length)) else { continue };
+            let rest = shape.layout.lengths[1..].to_vec();
+            let layout = Layout { lengths: rest, inside: shape.layout.inside };
+            let element = Ok(FieldShape { layout, ..shape.clone() });
+            let length = Affine::number(*length as i64);
+            many.fields.push(OpenField { field: index, length, element, is_table: false });
         }
         many
     }

@@ -17,7 +17,7 @@ use super::label::{Label, entry_names};
 use super::parameters::Parameters;
 use crate::diagnostics::Place;
 use crate::symbolic::Id;
-use crate::syntax::{Field, FieldShape, Name};
+use crate::syntax::{Field, FieldShape, Name, numbers};
 pub(crate) use affine::{Affine, Unknown};
 pub(crate) use lengths::{Length, LengthSource};
 pub(crate) use shift::NewIndices;
@@ -41,6 +41,9 @@ pub(crate) struct Many {
     pub(crate) demands: IndexSet<Demand>,
     /// Name of the running index at each depth.
     pub(crate) level_names: Vec<String>,
+    /// True if all lengths are numbers, and loops are an attempt to state the equations of all elements at once: what is no loop is
+    /// written out.
+    pub(super) is_attempt: bool,
     /// Loops around the current expression, outermost first.
     pub(super) ranges: Vec<Range>,
 }
@@ -125,6 +128,26 @@ impl Many {
     /// True if the number of coordinates is known when the program runs.
     pub(crate) fn is_open(&self) -> bool {
         !self.arrays.is_empty()
+    }
+
+    /// Index of a slot. The slots of all components of an element follow one another.
+    pub(crate) fn slot(&mut self, slot: Slot) -> usize {
+        if let Some(k) = self.slots.get_index_of(&slot) {
+            return k;
+        }
+        let first = self.slots.len();
+        for number in 0..numbers(&self.arrays[slot.array].lengths) {
+            self.slots.insert(Slot { number, ..slot.clone() });
+        }
+        first + slot.number
+    }
+
+    /// True if a name with so many indices is an element of an array, and no component of one.
+    pub(crate) fn is_element(&self, name: &str, indices: usize, parameters: &Parameters) -> bool {
+        let array = self.arrays.iter().find(|array| array.name == name).map(|array| array.open.len());
+        let is_field = |field: &OpenField| parameters.fields[field.field].name.text == name;
+        let open = array.or_else(|| self.fields.iter().any(is_field).then_some(1));
+        open.is_some_and(|open| indices <= open)
     }
 
     /// Name of a running index, from its depth, or of a length.

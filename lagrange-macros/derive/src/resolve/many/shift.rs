@@ -58,7 +58,7 @@ impl Problem {
     pub(crate) fn shifted_slot(&mut self, k: usize, new: &NewIndices) -> usize {
         let Slot { array, indices, number } = self.many.slots[k].clone();
         let indices = indices.iter().map(|index| index.shifted(new)).collect();
-        self.many.slots.insert_full(Slot { array, indices, number }).0
+        self.many.slot(Slot { array, indices, number })
     }
 
     fn shifted_parameter(&mut self, k: usize, new: &NewIndices) -> Option<usize> {

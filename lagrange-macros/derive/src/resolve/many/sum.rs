@@ -79,8 +79,14 @@ impl Lowering<'_> {
 
     /// Lowers a sum whose range is known when the program runs. The outer `None` means that it is known now.
     pub(in crate::resolve) fn open_sum(&mut self, sum: &SumOver) -> Option<Option<Value>> {
+        let errors = self.diagnostics.count();
         let range = self.open_range(&sum.from, &sum.to)?;
-        Some(range.and_then(|range| self.sum_in(range, sum)))
+        let value = range.and_then(|range| self.sum_in(range, sum));
+        if value.is_none() && self.many.is_attempt {
+            self.diagnostics.forget_after(errors);
+            return None;
+        }
+        Some(value)
     }
 
     fn sum_in(&mut self, range: Range, sum: &SumOver) -> Option<Value> {
@@ -105,7 +111,7 @@ impl Lowering<'_> {
         }
         let (low, high) = (self.affine(from), self.affine(to));
         let (Some(from_bound), Some(to_bound)) = (low, high) else { return Some(None) };
-        if from_bound.as_number().is_some() && to_bound.as_number().is_some() {
+        if from_bound.as_number().is_some() && to_bound.as_number().is_some() && !self.many.is_attempt {
             return None;
         }
         let [least, _] = self.many.bounds(&from_bound);
@@ -170,6 +176,9 @@ impl Lowering<'_> {
 
     /// True if a bound of one of these indices is known when the program runs only. Reports nothing.
     pub(in crate::resolve) fn is_open_family(&mut self, indices: &[TargetIndex]) -> bool {
+        if self.many.is_attempt {
+            return indices.iter().any(|index| matches!(index, TargetIndex::Family { .. }));
+        }
         let names_open = |expression: &Expression, many: &Many| {
             let mut is_open = false;
             expression.names(&mut |name| is_open |= many.lengths.iter().any(|known| known.name == name.text));

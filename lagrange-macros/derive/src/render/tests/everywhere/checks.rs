@@ -42,30 +42,70 @@ pub(super) fn check_motion(system: &Page) {
             continue;
         }
         let (label, equation) = row.split_once(": ").expect("a label");
-        let labels = system.problem.coordinates[first..].iter();
-        let labels = labels.map(|label| Notation::UNICODE.write(&Formula::labelled(&label.text, 0)));
-        let is_it = |known: &String| {
-            let index = known.strip_prefix(label).and_then(|rest| rest.strip_prefix('['));
-            *known == label || index.is_some_and(|index| index.matches(']').count() == 1)
-        };
-        let count = labels.take_while(is_it).count();
-        assert!(count > 0, "{row} has no coordinate in {}", system.text);
-        if let Some((left, right)) = equation.trim().split_once(" = ") {
-            check_rows(system, first..first + count, [left, right]);
+        if let Some(running) = Running::of(row) {
+            for value in running.values.clone() {
+                first = check_element(system, first, &running.at(value), equation);
+            }
+            continue;
         }
-        first += count;
+        first = check_element(system, first, &(label.to_owned(), None), equation);
     }
     assert_eq!(first, system.derived.inertia.len(), "{}", system.text);
 }
 
-fn check_rows(system: &Page, rows: Range<usize>, sides: [&str; 2]) {
-    check_sides(system, rows.len(), sides, |sample| left_over(system, sample, rows.clone()));
+/// Checks the row of a coordinate or a vector, which begins with the coordinate `first`; returns the next one.
+fn check_element(
+    system: &Page,
+    first: usize,
+    (label, index): &(String, Option<(String, i64)>),
+    equation: &str,
+) -> usize {
+    let labels = system.problem.coordinates[first..].iter();
+    let labels = labels.map(|label| Notation::UNICODE.write(&Formula::labelled(&label.text, 0)));
+    let is_it = |known: &String| {
+        let index = known.strip_prefix(label.as_str()).and_then(|rest| rest.strip_prefix('['));
+        known == label || index.is_some_and(|index| index.matches(']').count() == 1)
+    };
+    let count = labels.take_while(is_it).count();
+    assert!(count > 0, "{label} has no coordinate in {}", system.text);
+    let equation = equation.split("   (").next().unwrap_or_default().trim();
+    let has_running = index.is_some() || equation.contains('Σ') || equation.contains('∑');
+    if let Some((left, right)) = equation.split_once(" = ").filter(|_| system.is_plain || !has_running) {
+        let rows = first..first + count;
+        let computed = |sample: &mut Sample| left_over(system, sample, rows.clone());
+        check_sides(system, count, ([left, right], index.as_ref()), computed);
+    }
+    first + count
+}
+
+/// A row for several values of a running index, as in `x[i]: … (for i = 1 … 30)`.
+struct Running {
+    label: String,
+    index: String,
+    values: std::ops::RangeInclusive<i64>,
+}
+
+impl Running {
+    fn of(row: &str) -> Option<Self> {
+        let (label, equation) = row.split_once(": ")?;
+        let (_, range) = equation.split_once("   (for ")?;
+        let (index, range) = range.split(')').next()?.split_once(" = ")?;
+        let (from, to) = range.split_once(" … ")?;
+        let (label, index) = (label.to_owned(), index.to_owned());
+        Some(Self { label, index, values: from.parse().ok()?..=to.parse().ok()? })
+    }
+
+    /// Label of an element, and the value of the index there.
+    fn at(&self, value: i64) -> (String, Option<(String, i64)>) {
+        let label = self.label.replace(&format!("[{}]", self.index), &format!("[{value}]"));
+        (label, Some((self.index.clone(), value)))
+    }
 }
 
 pub(super) fn check_sides(
     system: &Page,
     count: usize,
-    sides: [&str; 2],
+    (sides, index): ([&str; 2], Option<&(String, i64)>),
     computed: impl Fn(&mut Sample) -> Vec<f64>,
 ) {
     let mut states = 0;
@@ -75,7 +115,7 @@ pub(super) fn check_sides(
             system.moved(&mut sample, 1000 * (other + 1) + draw);
             let left_over = computed(&mut sample);
             let state = State::new(system, &mut sample, draw);
-            let [left, right] = sides.map(|side| state.read(side));
+            let [left, right] = sides.map(|side| state.read_at(side, index));
             assert!(right.len() == left.len() || right == [0.0], "{sides:?}");
             let right = right.into_iter().chain(std::iter::repeat(0.0));
             let read: Vec<f64> = left.into_iter().zip(right).map(|(left, right)| left - right).collect();
@@ -200,6 +240,9 @@ fn check_by_coordinate(
 /// Checks that the right side of a line has the computed value, within the rounding errors of both.
 pub(super) fn check_line(system: &Page, line: &str, computed: impl Fn(&mut Sample) -> Value) {
     let Some((_, text)) = line.split_once(" = ") else { return };
+    if !system.is_plain && (text.contains('Σ') || text.contains('∑')) {
+        return;
+    }
     let text = text.split("   (").next().expect("a formula");
     let mut states = 0;
     for draw in 0..STATES {

@@ -8,7 +8,7 @@ use crate::render::axes::named_axes;
 use crate::render::formula::Formula;
 use crate::render::letters::PageQuantity;
 use crate::render::roots::named_roots;
-use crate::render::tests::reader::{Meanings, Value, read_with};
+use crate::render::tests::reader::{Meanings, Value, read_at, read_with};
 use crate::render::tests::systems::System;
 use crate::resolve::{self, Entry, Parameters, Supplied};
 use crate::symbolic::{Approximate, External, Function, Id, Sample, superposition};
@@ -150,6 +150,11 @@ impl<'a> State<'a> {
         read_with(text, self)
     }
 
+    /// Value of a text for a value of a running index.
+    pub(super) fn read_at(&self, text: &str, index: Option<&(String, i64)>) -> Value {
+        read_at(text, self, index.cloned().into_iter().collect())
+    }
+
     /// Returns whether a written name is this entry, or an array that contains it.
     fn is_in(&self, written: &str, entry: &str) -> bool {
         let entry = Formula::labelled(entry, 0);
@@ -194,6 +199,12 @@ fn all_entries(parameters: &Parameters) -> Vec<(Entry, usize)> {
 }
 
 impl Meanings for State<'_> {
+    fn elements(&self) -> i64 {
+        let labels = self.system.problem.coordinates.iter();
+        let first = labels.filter_map(|label| label.text.split_once('[')?.1.split_once(']')?.0.parse().ok());
+        first.max().map_or(0, |last: i64| last + 1)
+    }
+
     fn name(&self, name: &str) -> Option<Value> {
         self.names.get(name).cloned()
     }

@@ -100,7 +100,7 @@ pub(super) fn check<'l>(
         Some(_) if !is_by_component => {
             let equation = line(lines, &label(&omega));
             if let Some((left, right)) = equation.split_once(" = ") {
-                check_sides(system, 3, [left, right], |sample| torques(sample).to_vec());
+                check_sides(system, 3, ([left, right], None), |sample| torques(sample).to_vec());
             }
             if let Some(inertia) =
                 lines.next_if(|line| !line.contains(": ") && !links::is_resultant(system, line))
@@ -116,7 +116,7 @@ pub(super) fn check<'l>(
             for axis in 0..3 {
                 let equation = line(lines, &label(&format!("{omega}[{axis}]")));
                 if let Some((left, right)) = equation.split_once(" = ") {
-                    check_sides(system, 1, [left, right], |sample| vec![torques(sample)[axis]]);
+                    check_sides(system, 1, ([left, right], None), |sample| vec![torques(sample)[axis]]);
                 }
             }
         }
