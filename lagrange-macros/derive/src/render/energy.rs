@@ -81,7 +81,7 @@ impl Page<'_> {
 
     pub(super) fn energy_line(&self, remark: Vec<Fragment>) -> Line {
         let of_turnings = || self.energy_of_turnings().filter(|_| self.bodies.is_none());
-        let of_families = || self.energy_of_families.clone().map(Ok);
+        let of_families = || self.families().and_then(|families| families.energy.clone()).map(Ok);
         let energy =
             self.energy_by_bodies().map(Ok).or_else(of_turnings).or_else(of_families).unwrap_or_else(|| {
                 let apart = self.derived.energies.and_then(|energies| self.energy(energies));

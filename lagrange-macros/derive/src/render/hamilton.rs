@@ -10,7 +10,7 @@ use super::page::Page;
 use crate::mechanics::{Conserved, ConservedKind, EnergyForm, Hamilton, NoHamiltonian};
 
 /// Longest Hamiltonian, in symbols, that is written out. A longer one is illegible.
-const LONG: usize = 100;
+pub(super) const LONG: usize = 100;
 
 /// Maximum number of coordinates whose momenta are expanded to find out whether they are short.
 const MANY: usize = 8;
@@ -20,6 +20,9 @@ impl Page<'_> {
     pub(super) fn momenta(&self, has_hamiltonian: bool) -> Vec<Line> {
         if !has_hamiltonian && self.derived.equations.momentum.len() > MANY {
             return Vec::new();
+        }
+        if let Some(families) = self.families() {
+            return families.momenta.clone();
         }
         let others = self.all_momenta().into_iter().filter(|(rows, _)| !self.are_conserved(rows));
         let others: Vec<Line> = others.map(|(_, line)| line).collect();
@@ -44,6 +47,9 @@ impl Page<'_> {
 
     /// Line of the Hamiltonian H(t, q, p), if it is short enough for a reader.
     pub(super) fn hamiltonian(&self) -> Result<Line, NoHamiltonian> {
+        if let Some(line) = self.families().and_then(|families| families.hamiltonian.clone()) {
+            return Ok(line);
+        }
         let hamilton = self.derived.hamilton.as_ref().map_err(|why| *why)?;
         let written = self.written_out(hamilton).filter(|written| length(written) <= LONG);
         let name = self.letters.name(PageQuantity::Hamiltonian);
@@ -79,6 +85,9 @@ impl Page<'_> {
 
     /// Hamilton's equations q̇ = ∂H/∂p, ṗ = −∂H/∂q + Q + Fᵀλ.
     pub(super) fn canonical(&self) -> Vec<Line> {
+        if let Some(families) = self.families() {
+            return families.canonical.clone();
+        }
         let Ok(hamilton) = &self.derived.hamilton else { return Vec::new() };
         let velocities = self.by_coordinate(&hamilton.velocities, |text| Formula::labelled(text, 1));
         let rates = self.by_coordinate(&hamilton.rates, |text| self.momentum_name(text, 1));

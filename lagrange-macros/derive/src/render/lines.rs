@@ -14,6 +14,7 @@ pub(super) struct Section {
     pub(super) note: Option<String>,
 }
 
+#[derive(Clone)]
 pub(super) struct Line {
     pub(super) label: Option<String>,
     pub(super) equation: Equation,
@@ -80,6 +81,7 @@ impl Line {
     }
 }
 
+#[derive(Clone)]
 pub(super) enum Equation {
     Known(Formula, Formula),
     /// A gap and the multiplier of a contact: 0 ≤ gap ⊥ λ ≥ 0.

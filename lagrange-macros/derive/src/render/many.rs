@@ -3,6 +3,8 @@
 use num_traits::One;
 
 use super::formula::Formula;
+use super::hamilton::LONG;
+use super::length::length;
 use super::letters::PageQuantity;
 use super::lines::{self, Equation, Line, Section};
 use super::notation::Notation;
@@ -41,6 +43,9 @@ pub(crate) fn render_many(
 pub(super) struct FamilyLines {
     pub(super) motion: Vec<Line>,
     pub(super) energy: Option<Formula>,
+    pub(super) momenta: Vec<Line>,
+    pub(super) hamiltonian: Option<Line>,
+    pub(super) canonical: Vec<Line>,
 }
 
 impl FamilyLines {
@@ -51,11 +56,17 @@ impl FamilyLines {
         equations.rows.iter().all(Option::is_some).then_some(())?;
         let derived = Derived::of_expressions();
         let page = Page::new(declaration, &graph, &problem, &derived, names);
-        let motion = page.rows_of_all(&equations);
-        let Equation::Known(_, energy) = page.energy_of_all(&equations.energies).equation else {
-            return Some(Self { motion, energy: None });
+        let energy = match page.energy_of_all(&equations.energies).equation {
+            Equation::Known(_, energy) => Some(energy),
+            _ => None,
         };
-        Some(Self { motion, energy: Some(energy) })
+        Some(Self {
+            motion: page.rows_of_all(&equations),
+            energy,
+            momenta: page.momenta_of_all(&equations),
+            hamiltonian: page.hamiltonian_of_all(&equations),
+            canonical: page.canonical_of_all(&equations),
+        })
     }
 }
 
@@ -74,6 +85,9 @@ impl Page<'_> {
             section("Equations of motion", self.rows_of_all(equations)),
             section("Conserved", vectors.chain(conserved).collect()),
             section("Energy", changing),
+            section("Momenta", self.momenta_of_all(equations)),
+            section("Hamiltonian", self.hamiltonian_of_all(equations).into_iter().collect()),
+            section("Hamilton's equations", self.canonical_of_all(equations)),
         ];
         for section in &mut sections[1..] {
             section.lines.iter_mut().for_each(|line| line.map(|formula| self.as_written(formula)));
@@ -116,6 +130,76 @@ impl Page<'_> {
         }
         let row = |number: usize| line(labels(number), self.component(element, number));
         (0..element.rows.len()).map(row).collect()
+    }
+
+    /// Lines name = value of all elements, each of a vector or of its components.
+    fn values_of_all(&self, rows: &[Vec<ElementRows>], name: &dyn Fn(&str) -> Formula) -> Option<Vec<Line>> {
+        let mut lines = Vec::new();
+        for element in rows.iter().flatten() {
+            let labels = |number: usize| &self.problem.coordinates[element.rows[number].0].text;
+            let line = |text: &str, value: Formula| {
+                let remark = Remark::of(self.remark_on(&element.region));
+                Line { remark, ..Line::of(Equation::Known(name(text), value)) }
+            };
+            let whole = (element.rows.len() > 1).then(|| self.vector_value(element)).flatten();
+            match (whole, super::motion::vector(labels(0))) {
+                (Some(value), Some(text)) => lines.push(line(text, value)),
+                _ => {
+                    for number in 0..element.rows.len() {
+                        lines.push(line(labels(number), self.value_of(element, number)?));
+                    }
+                }
+            }
+        }
+        Some(lines)
+    }
+
+    fn vector_value(&self, element: &ElementRows) -> Option<Formula> {
+        let own: Vec<Id> = element.rows.iter().map(|row| row.2).collect();
+        let own = match own.iter().all(|&id| id == Id::ZERO) {
+            true => Formula::sum(Vec::new()),
+            false => self.vector_expression(&own)?,
+        };
+        let sums = element.sums.iter().map(|ElementSum { over, values }| {
+            Some(self.over(element, over, self.vector_expression(values)?))
+        });
+        Some(total(own, sums.collect::<Option<Vec<_>>>()?))
+    }
+
+    fn value_of(&self, element: &ElementRows, number: usize) -> Option<Formula> {
+        let own = self.expression(element.rows[number].2).ok()?;
+        let sums = element.sums.iter().filter(|sum| sum.values[number] != Id::ZERO);
+        let sums = sums.map(|ElementSum { over, values }| {
+            Some(self.over(element, over, self.expression(values[number]).ok()?))
+        });
+        Some(total(own, sums.collect::<Option<Vec<_>>>()?))
+    }
+
+    fn momenta_of_all(&self, equations: &ManyEquations) -> Vec<Line> {
+        let rows: Option<Vec<Vec<ElementRows>>> = equations.momenta.iter().cloned().collect();
+        let lines = rows.and_then(|rows| self.values_of_all(&rows, &|text| self.momentum_name(text, 0)));
+        lines.unwrap_or_default()
+    }
+
+    fn hamiltonian_of_all(&self, equations: &ManyEquations) -> Option<Line> {
+        let energies = &equations.hamilton.as_ref()?.energies;
+        let parts: Result<Vec<Formula>, u64> = energies
+            .iter()
+            .map(|Pattern { ranges, body }| Ok(self.summed_over(ranges, self.part_of_energy(*body)?)))
+            .collect();
+        let hamiltonian = Formula::sum(parts.ok()?);
+        (length(&hamiltonian) <= LONG).then_some(())?;
+        Some(Line::of(Equation::Known(self.letters.name(PageQuantity::Hamiltonian), hamiltonian)))
+    }
+
+    fn canonical_of_all(&self, equations: &ManyEquations) -> Vec<Line> {
+        let Some(hamilton) = &equations.hamilton else { return Vec::new() };
+        let velocities = self.values_of_all(&hamilton.velocities, &|text| Formula::labelled(text, 1));
+        let rates = self.values_of_all(&hamilton.rates, &|text| self.momentum_name(text, 1));
+        match (velocities, rates) {
+            (Some(velocities), Some(rates)) => [velocities, rates].into_iter().flatten().collect(),
+            _ => Vec::new(),
+        }
     }
 
     fn vector_equation(&self, element: &ElementRows) -> Option<[Formula; 2]> {
@@ -247,10 +331,21 @@ fn taken_out(body: Formula, index: &Formula, sum: impl FnOnce(Formula) -> Formul
     let (below, below_outside): (Vec<Formula>, Vec<Formula>) =
         below.into_iter().partition(|factor| factor.contains(index));
     let body = Formula::product(Rational::one().into(), inside, below);
-    if outside.is_empty() && below_outside.is_empty() {
-        return sum(body).signed(is_negative);
+    let (mut number, mut factors) = (Rational::one(), Vec::new());
+    for factor in outside {
+        match factor {
+            Formula::Number(value) => number *= value,
+            factor => factors.push(factor),
+        }
     }
-    let mut factors = outside;
+    let divisors = below_outside.into_iter().filter(|factor| match factor {
+        Formula::Number(value) => {
+            number /= value;
+            false
+        }
+        _ => true,
+    });
+    let divisors = divisors.collect();
     factors.push(sum(body));
-    Formula::Product(factors, below_outside).signed(is_negative)
+    Formula::product(number.into(), factors, divisors).signed(is_negative)
 }

@@ -24,9 +24,9 @@ impl Page<'_> {
     pub(super) fn motion(&mut self) -> Vec<Line> {
         let rows = self.rows();
         let lines = rows.iter().map(|row| row.lines.len()).sum::<usize>();
-        if let Some(families) = self.families.take_if(|families| families.motion.len() < lines) {
-            self.energy_of_families = families.energy;
-            return families.motion;
+        if let Some(families) = self.families.as_mut().filter(|families| families.motion.len() < lines) {
+            self.is_by_families = true;
+            return std::mem::take(&mut families.motion);
         }
         let has_energy = || !self.energy_line(Vec::new()).is_too_long();
         if rows.iter().flat_map(|row| &row.lines).any(Line::is_too_long) || !has_energy() {

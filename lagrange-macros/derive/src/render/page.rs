@@ -58,10 +58,10 @@ pub(super) struct Page<'a> {
     /// Nodes without names that are written as these formulas: entries of rotation matrices, and entries of the mass matrix where
     /// a reading is shorter than the computed form.
     pub(super) entries: FxHashMap<Id, Formula>,
-    /// Equations of all elements of arrays at once, if they are not printed yet.
+    /// Equations of all elements of arrays at once.
     pub(super) families: Option<FamilyLines>,
-    /// The energy by sums over elements, if the equations are those of all elements.
-    pub(super) energy_of_families: Option<Formula>,
+    /// True if the equations of motion are those of all elements.
+    pub(super) is_by_families: bool,
     /// Terms of the sums in the declaration.
     pub(super) sums: Vec<Vec<Formula>>,
 }
@@ -103,7 +103,7 @@ impl<'a> Page<'a> {
             axes,
             vectors: problem.vectors.iter().map(|(name, n)| (Formula::labelled(name, 0), *n)).collect(),
             families: None,
-            energy_of_families: None,
+            is_by_families: false,
             sums: Vec::new(),
         };
         let norms = bases(graph, problem.lagrangian).into_iter();
@@ -121,6 +121,11 @@ impl<'a> Page<'a> {
     /// A notation with the arrays and letters of the page.
     pub(super) fn notation(&self, notation: Notation<'static>) -> Notation<'_> {
         notation.with(&self.arrays, &self.letters)
+    }
+
+    /// Lines of all elements of arrays, if the equations of motion are theirs.
+    pub(super) fn families(&self) -> Option<&FamilyLines> {
+        self.families.as_ref().filter(|_| self.is_by_families)
     }
 
     /// Momentum of a coordinate, with dots.

@@ -4,7 +4,7 @@ use super::formula::Formula;
 use super::notation::Notation;
 
 /// Parts of a remark, each of words with formulas between them.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Remark(Vec<Vec<Fragment>>);
 
 #[derive(Clone, PartialEq)]

@@ -6,6 +6,7 @@
 //! Slots that meet in one element, such as both ends of a bond from an atom to itself, add up as the chain rule demands.
 
 mod conservation;
+mod hamilton;
 mod inertia;
 mod patterns;
 mod rows;
@@ -16,6 +17,7 @@ use crate::resolve::many::Range;
 use crate::symbolic::{Forward, Graph, Id};
 use crate::variables::{Variable, drift, has_velocity};
 pub(crate) use conservation::{ManyConserved, ManyConservedKind};
+pub(crate) use hamilton::ManyHamilton;
 pub(crate) use inertia::{Guarded, Inertia};
 pub(crate) use patterns::{Pattern, patterns};
 pub(crate) use rows::{ElementRows, ElementSum, Over, Region};
@@ -44,6 +46,10 @@ pub(crate) struct ManyEquations {
     pub(crate) rows: Vec<Option<Vec<ElementRows>>>,
     pub(crate) conserved: Vec<ManyConserved>,
     pub(crate) energy_is_conserved: bool,
+    /// p of the elements of each array, to be printed, as `rows`.
+    pub(crate) momenta: Vec<Option<Vec<ElementRows>>>,
+    /// `None` if momenta do not determine the velocities of each element alone.
+    pub(crate) hamilton: Option<ManyHamilton>,
     /// True if L has parts of degree zero and two in the velocities only, proved.
     pub(crate) is_even: bool,
     /// True if neither M nor h depends on velocities.
@@ -72,25 +78,27 @@ pub(crate) fn derive(
             }
         },
     };
-    let (mut momentum, mut forcing, mut energies) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut momentum, mut forcing, mut rates, mut energies) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut rate = drift(graph, problem.many.slots.len());
     for pattern in &patterns {
         let derived = Derived::of(graph, &mut rate, pattern);
         energies.push(Pattern { ranges: pattern.ranges.clone(), body: derived.energy });
         push(&mut momentum, graph, &pattern.ranges, derived.momentum);
+        push(&mut rates, graph, &pattern.ranges, derived.rate);
         push(&mut forcing, graph, &pattern.ranges, derived.forcing);
     }
     for pattern in &dissipation {
         let slots = slots(graph, pattern.body);
         let slopes = gradient(graph, pattern.body, &slots, Variable::Velocity);
         let forces = slots.into_iter().zip(slopes.into_iter().map(|slope| graph.neg(slope))).collect();
-        push(&mut forcing, graph, &pattern.ranges, forces);
+        push_both(graph, [&mut forcing, &mut rates], (&pattern.ranges, forces));
     }
     let mut has_forces = !dissipation.is_empty();
     for force in std::mem::take(&mut problem.many.forces) {
         let values: Vec<Id> = force.values.iter().map(|(_, value)| *value).collect();
         has_forces |= values.iter().any(|&value| value != Id::ZERO);
-        push(&mut forcing, graph, &force.ranges, force.values.clone());
+        push_both(graph, [&mut forcing, &mut rates], (&force.ranges, force.values.clone()));
         problem.many.forces.push(force);
     }
     let (inertia, mass) = inertia::blocks(graph, problem, &patterns, diagnostics)?;
@@ -103,6 +111,8 @@ pub(crate) fn derive(
     let conserved = if has_forces { Vec::new() } else { conservation::find(graph, problem, &patterns) };
     let is_even = patterns.iter().all(|pattern| is_even(graph, pattern));
     let rows = rows::rows(graph, problem, &forcing, &mass);
+    let momenta = rows::rows(graph, problem, &momentum, &[]);
+    let hamilton = ManyHamilton::of(graph, problem, (&inertia, &momenta), (&energies, &rates));
     problem.coordinates = problem.many.labels(&problem.parameters);
     Some(ManyEquations {
         forces_are_free_of_velocities: !has_velocity(graph, &problem.many.with_bodies(graph, &all))
@@ -113,6 +123,8 @@ pub(crate) fn derive(
         energy,
         energies,
         rows,
+        momenta,
+        hamilton,
         is_even,
         conserved,
         energy_is_conserved: !has_forces && !depends_on_time,
@@ -122,6 +134,8 @@ pub(crate) fn derive(
 /// What one pattern of L adds.
 struct Derived {
     momentum: Vec<(usize, Id)>,
+    /// ∂ℓ/∂q
+    rate: Vec<(usize, Id)>,
     forcing: Vec<(usize, Id)>,
     energy: Id,
 }
@@ -134,13 +148,14 @@ impl Derived {
         let velocities: Vec<Id> =
             slots.iter().map(|&k| graph.symbol(Variable::Velocity(k).symbol())).collect();
         let power = graph.dot(&momenta, &velocities);
+        let of_places: Vec<(usize, Id)> = slots.iter().copied().zip(slopes.iter().copied()).collect();
         let forces = momenta.iter().zip(slopes).map(|(&momentum, slope)| {
             let drift = rate.of(graph, momentum);
             graph.sub(slope, drift)
         });
         let forcing: Vec<(usize, Id)> = slots.iter().copied().zip(forces.collect::<Vec<_>>()).collect();
         let energy = graph.sub(power, pattern.body);
-        Self { momentum: slots.into_iter().zip(momenta).collect(), forcing, energy }
+        Self { momentum: slots.into_iter().zip(momenta).collect(), rate: of_places, forcing, energy }
     }
 }
 
@@ -191,6 +206,15 @@ fn push(all: &mut Vec<Scatter>, graph: &mut Graph, ranges: &[Range], mut values:
             None => all[place].values.push((slot, value)),
         }
     }
+}
+
+fn push_both(
+    graph: &mut Graph,
+    [one, other]: [&mut Vec<Scatter>; 2],
+    (ranges, values): (&[Range], Vec<(usize, Id)>),
+) {
+    push(one, graph, ranges, values.clone());
+    push(other, graph, ranges, values);
 }
 
 fn depends_on_time(graph: &Graph, problem: &Problem) -> bool {

@@ -10,6 +10,7 @@ use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
 
 /// Equations of the elements of an array in a region.
+#[derive(Clone)]
 pub(crate) struct ElementRows {
     pub(crate) region: Region,
     /// Slot, M q̈ and the part of h without sums, for each number of the element.
@@ -31,6 +32,7 @@ pub(crate) enum Region {
 }
 
 /// Sum over other elements, with the running index of depth 1; the element itself has the index of depth 0.
+#[derive(Clone)]
 pub(crate) struct ElementSum {
     pub(crate) over: Over,
     /// One value for each number of the element.

@@ -48,6 +48,7 @@ impl Problem {
             Variable::Level(level) => return Some(new.get(&level)?.node(graph)),
             Variable::Coordinate(k) => Variable::Coordinate(self.shifted_slot(k, new)),
             Variable::Velocity(k) => Variable::Velocity(self.shifted_slot(k, new)),
+            Variable::Momentum(k) => Variable::Momentum(self.shifted_slot(k, new)),
             Variable::Parameter(k) => Variable::Parameter(self.shifted_parameter(k, new)?),
             _ => return None,
         };

@@ -44,7 +44,7 @@ pub(super) fn check_motion(system: &Page) {
         let (label, equation) = row.split_once(": ").expect("a label");
         if let Some(running) = Running::of(row) {
             for value in running.values.clone() {
-                first = check_element(system, first, &running.at(value), equation);
+                first = check_element(system, first, &running.at(label, value), equation);
             }
             continue;
         }
@@ -78,27 +78,24 @@ fn check_element(
     first + count
 }
 
-/// A row for several values of a running index, as in `x[i]: … (for i = 1 … 30)`.
+/// Values of a running index, as in `(for i = 1 … 30)`.
 struct Running {
-    label: String,
     index: String,
     values: std::ops::RangeInclusive<i64>,
 }
 
 impl Running {
-    fn of(row: &str) -> Option<Self> {
-        let (label, equation) = row.split_once(": ")?;
-        let (_, range) = equation.split_once("   (for ")?;
+    fn of(line: &str) -> Option<Self> {
+        let (_, range) = line.split_once("   (for ")?;
         let (index, range) = range.split(')').next()?.split_once(" = ")?;
         let (from, to) = range.split_once(" … ")?;
-        let (label, index) = (label.to_owned(), index.to_owned());
-        Some(Self { label, index, values: from.parse().ok()?..=to.parse().ok()? })
+        Some(Self { index: index.to_owned(), values: from.parse().ok()?..=to.parse().ok()? })
     }
 
-    /// Label of an element, and the value of the index there.
-    fn at(&self, value: i64) -> (String, Option<(String, i64)>) {
-        let label = self.label.replace(&format!("[{}]", self.index), &format!("[{value}]"));
-        (label, Some((self.index.clone(), value)))
+    /// Name of an element, and the value of the index there.
+    fn at(&self, name: &str, value: i64) -> (String, Option<(String, i64)>) {
+        let name = name.replace(&format!("[{}]", self.index), &format!("[{value}]"));
+        (name, Some((self.index.clone(), value)))
     }
 }
 
@@ -226,19 +223,37 @@ fn check_by_coordinate(
     let names: Vec<Formula> = names.collect();
     for line in lines {
         let left = line.split(" = ").next().expect("a side");
-        let is_it = |name: &Formula| {
-            let written = |formula: &Formula| system.written(formula) == left;
-            written(name) || outer(name).last().is_some_and(written)
+        let elements = match Running::of(line).filter(|_| system.is_plain) {
+            Some(running) => running.values.clone().map(|value| running.at(left, value)).collect(),
+            None => vec![(left.to_owned(), None)],
         };
-        let rows: Vec<usize> = (0..names.len()).filter(|&i| is_it(&names[i])).collect();
-        if !rows.is_empty() {
-            check_line(system, line, |sample| rows.iter().map(|&i| computed(sample, i)).collect());
+        for (left, index) in elements {
+            let is_it = |name: &Formula| {
+                let written = |formula: &Formula| system.written(formula) == left;
+                written(name) || outer(name).last().is_some_and(written)
+            };
+            let rows: Vec<usize> = (0..names.len()).filter(|&i| is_it(&names[i])).collect();
+            if !rows.is_empty() {
+                check_line_at(system, line, index.as_ref(), |sample| {
+                    rows.iter().map(|&i| computed(sample, i)).collect()
+                });
+            }
         }
     }
 }
 
 /// Checks that the right side of a line has the computed value, within the rounding errors of both.
 pub(super) fn check_line(system: &Page, line: &str, computed: impl Fn(&mut Sample) -> Value) {
+    check_line_at(system, line, None, computed);
+}
+
+/// The same for a value of a running index.
+fn check_line_at(
+    system: &Page,
+    line: &str,
+    index: Option<&(String, i64)>,
+    computed: impl Fn(&mut Sample) -> Value,
+) {
     let Some((_, text)) = line.split_once(" = ") else { return };
     if !system.is_plain && (text.contains('Σ') || text.contains('∑')) {
         return;
@@ -248,7 +263,7 @@ pub(super) fn check_line(system: &Page, line: &str, computed: impl Fn(&mut Sampl
     for draw in 0..STATES {
         let mut sample = system.sample(draw);
         let computed = computed(&mut sample);
-        let read = State::new(system, &mut sample, draw).read(text);
+        let read = State::new(system, &mut sample, draw).read_at(text, index);
         if !computed.iter().chain(&read).all(|x| x.is_finite()) {
             continue;
         }
