@@ -9,6 +9,7 @@ use crate::vector::{StaticLength, ViewOf};
 
 pub use crate::derivatives::MotionGradients;
 pub use crate::derivatives::bodies::{Joint, JointColumn, Tree, TreeNumbers};
+pub use crate::function::gradients::{along, write_gradients};
 pub use crate::number::numeric::{only_where, sin_cos_of_small};
 pub use crate::numerics::band::{factor_band, solve_band};
 pub use crate::solution::eliminate::nan_if_ill_conditioned;

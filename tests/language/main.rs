@@ -4,6 +4,7 @@ mod accepted;
 mod any_number;
 mod frames;
 mod functions;
+mod long_functions;
 mod members;
 mod pictures;
 mod shapes;

@@ -5,6 +5,7 @@
 //! compile with a clear message. A type that implements [`Function`] has all of them.
 
 mod check;
+pub(crate) mod gradients;
 mod limits;
 mod supplied;
 #[cfg(feature = "alloc")]

@@ -1,5 +1,6 @@
 //! Derivatives of user-supplied functions, compared with closed forms.
 
+use super::gradients::{along, write_gradients};
 use super::{
     First, Function, FunctionWithDerivatives, Second, Third, Value, WithDerivatives, check_derivatives,
 };
@@ -43,6 +44,26 @@ fn derivatives_up_to_the_third_are_exact_on_monomials() {
             assert_eq!(Monomials.third(x, [i, j, k]), closed(x, &[i, j, k]));
         }
     }
+}
+
+#[test]
+fn gradients_are_rows_of_derivatives_and_multiply_directions() {
+    let x = PLACES[0];
+    let mut rows = [0.0; 2 * 2 * 3];
+    write_gradients(3, &[[2], [0]], |[i], j| Monomials.second(x, [i, j]), &mut rows);
+    for (row, [i, output]) in rows.chunks(3).zip([[2, 0], [2, 1], [0, 0], [0, 1]]) {
+        assert_eq!(row, [0, 1, 2].map(|j| closed(x, &[i, j])[output]));
+    }
+    let direction = [1.0, -2.0, 0.5];
+    let product = |row: &[f64]| row[0] - 2.0 * row[1] + 0.5 * row[2];
+    assert_eq!(along(&rows[6..], direction), [product(&rows[6..9]), product(&rows[9..])]);
+}
+
+#[test]
+fn an_infinite_slope_counts_only_where_the_direction_has_a_part() {
+    let gradients = [f64::INFINITY, 3.0, f64::NAN];
+    assert_eq!(along(&gradients, [0.0, 2.0, 0.0]), [6.0]);
+    assert_eq!(along(&gradients, [1.0, 2.0, 0.0]), [f64::INFINITY]);
 }
 
 /// The function sin(x) e^y.

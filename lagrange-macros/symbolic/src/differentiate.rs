@@ -13,12 +13,22 @@ use super::rational::{Rational, plus};
 pub struct Forward {
     seeds: FxHashMap<Symbol, Id>,
     known: Vec<Option<Id>>,
+    keeps_sums: bool,
 }
+
+/// Most arguments of a supplied function whose derivatives along a direction are written out as sums of partial
+/// derivatives. The Jacobian of a longer function has more than a thousand entries, which take rustc seconds.
+pub const MOST_PARTIALS: usize = 32;
 
 impl Forward {
     /// Direction in which the given symbols change at the given rates, and all others are constant.
     pub fn along(seeds: impl IntoIterator<Item = (Symbol, Id)>) -> Self {
-        Self { seeds: seeds.into_iter().collect(), known: Vec::new() }
+        Self { seeds: seeds.into_iter().collect(), known: Vec::new(), keeps_sums: false }
+    }
+
+    /// Leaves the derivative of a supplied function of more than [`MOST_PARTIALS`] arguments a single node.
+    pub fn keeping_sums(self) -> Self {
+        Self { keeps_sums: true, ..self }
     }
 
     /// Adds the rates of symbols that no node contained so far.
@@ -72,6 +82,11 @@ impl Forward {
                 graph.sum(rates)
             }
             Node::Defined(inner) => graph.defined(self.rate(*inner)),
+            Node::External(external) if self.keeps_sums && external.arguments.len() > MOST_PARTIALS => {
+                let direction = external.arguments.iter().map(|&x| self.rate(x)).collect();
+                let external = (**external).clone();
+                graph.along(external, direction)
+            }
             _ => self.chain_rule(graph, id),
         }
     }
@@ -183,13 +198,30 @@ impl Graph {
         self.sum([(part, slope)])
     }
 
-    /// Σ ∂f/∂x_i over all positions i of the operand among the arguments.
+    /// Derivative of a supplied function along a direction.
+    fn along(&mut self, external: External, direction: Vec<Id>) -> Id {
+        if direction.iter().all(|&rate| rate == Id::ZERO) {
+            return Id::ZERO;
+        }
+        let arguments = [&external.arguments[..], &direction].concat().into();
+        self.external(External { arguments, is_along: true, ..external })
+    }
+
+    /// Σ ∂f/∂x_i over all positions i of the operand among the arguments. A derivative along v is linear in v.
     fn external_partial(&mut self, id: Id, operand: Id, weight: Id) -> Id {
         let Node::External(external) = self.node(id).clone() else { return weight };
+        let inputs = external.inputs();
         let mut slope = Id::ZERO;
         for (position, _) in external.arguments.iter().enumerate().filter(|&(_, &x)| x == operand) {
-            let derivatives = [&external.derivatives[..], &[position as u32]].concat().into();
-            let part = self.external(External { derivatives, ..(*external).clone() });
+            let is_argument = position < inputs;
+            let derivatives = [&external.derivatives[..], &[(position % inputs) as u32]].concat().into();
+            let kept = if is_argument { external.arguments.len() } else { inputs };
+            let part = self.external(External {
+                derivatives,
+                arguments: external.arguments[..kept].into(),
+                is_along: external.is_along && is_argument,
+                ..*external
+            });
             slope = self.add(slope, part);
         }
         self.mul(weight, slope)

@@ -108,14 +108,29 @@ pub enum Node {
     External(Box<External>),
 }
 
-/// ∂^k f_o(x₀, x₁, …)/∂x_i ∂x_j … for the function `function` and its result `output`.
+/// ∂^k f_o(x₀, x₁, …)/∂x_i ∂x_j … for the function `function` and its result `output`, or the derivative of it along a
+/// direction v, Σ v_i ∂/∂x_i.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct External {
     pub function: u32,
     pub output: u32,
     /// Positions i ≤ j ≤ … of the arguments of differentiation.
     pub derivatives: Box<[u32]>,
+    /// The arguments x, followed by the direction v if there is one.
     pub arguments: Box<[Id]>,
+    pub is_along: bool,
+}
+
+impl External {
+    /// Number of the arguments, without those of the direction.
+    pub fn inputs(&self) -> usize {
+        if self.is_along { self.arguments.len() / 2 } else { self.arguments.len() }
+    }
+
+    /// Number of derivatives taken, partial or along a direction.
+    pub fn order(&self) -> usize {
+        self.derivatives.len() + usize::from(self.is_along)
+    }
 }
 
 /// Failure of exact arithmetic. The first fault stays until it is [taken](Graph::take_fault).

@@ -31,7 +31,7 @@ mod wave;
 mod wide;
 mod zero;
 
-pub use differentiate::Forward;
+pub use differentiate::{Forward, MOST_PARTIALS};
 pub use elimination::{rank, solve};
 pub use evaluate::Approximate;
 pub use graph::{External, Fault, Function, Graph, Id, Node, Symbol};

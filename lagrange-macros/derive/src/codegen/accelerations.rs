@@ -8,6 +8,7 @@ use super::emitter::{Emitter, Written};
 use super::kernel::Kernel;
 use super::shape::ResultShape;
 use super::signature::wide;
+use super::slopes::SlopeLayout;
 use crate::contract::Method;
 use crate::mechanics::{Equations, Form, LinearEquations};
 use crate::symbolic::Id;
@@ -96,7 +97,7 @@ impl Emitter<'_> {
             return (Kernel::default(), quote!(factor.solve(forcing, &#bias)));
         };
         let (wide, shapes) = (wide(), [ResultShape::Vector(n), ResultShape::Vector(m), ResultShape::Number]);
-        let kernel = self.style.over(&wide, 0).write(name, solve, &shapes);
+        let kernel = self.style.over(&wide, SlopeLayout::default()).write(name, solve, &shapes);
         let result = solved(&kernel.results, m);
         (kernel, result)
     }

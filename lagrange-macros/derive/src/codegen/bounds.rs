@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote, quote_spanned};
 use syn::GenericParam;
 use syn::spanned::Spanned;
 
 use super::emitter::{Emitter, runtime};
-use super::operation::Call;
+use super::operation::{Call, CallKind};
+use super::slopes::literals;
 use super::style::FunctionContext;
 use crate::resolve::Supplied;
 use crate::symbolic::{Id, Node};
@@ -36,14 +37,11 @@ impl Emitter<'_> {
         roots.push(problem.lagrangian);
         roots.extend(problem.observables.iter().flat_map(|observed| &observed.values));
         roots.extend(more);
-        let mut orders = BTreeMap::new();
-        for id in graph.reachable(&roots) {
-            if let Node::External(external) = graph.node(id) {
-                let order = orders.entry(external.function).or_default();
-                *order = external.derivatives.len().max(*order);
-            }
-        }
-        orders
+        let functions = graph.reachable(&roots).into_iter().filter_map(|id| match graph.node(id) {
+            Node::External(external) => Some((external.function, external.order())),
+            _ => None,
+        });
+        orders_of(BTreeMap::new(), functions)
     }
 
     /// Generics of the struct with bounds on the types of the fields. The compiler checks a bound on a concrete type
@@ -76,36 +74,70 @@ impl Emitter<'_> {
     }
 }
 
-/// Highest order of the derivatives of each function, in `known` and in the calls.
-pub(super) fn orders_of<'c, X: 'c>(
+/// Highest order of the derivatives of each function, in `known` and among these functions with an order.
+pub(super) fn orders_of(
     known: BTreeMap<u32, usize>,
-    calls: impl Iterator<Item = &'c Call<X>>,
+    more: impl Iterator<Item = (u32, usize)>,
 ) -> BTreeMap<u32, usize> {
-    calls.fold(known, |mut orders, call| {
-        let order = orders.entry(call.function).or_default();
-        *order = call.derivatives.len().max(*order);
+    more.fold(known, |mut orders, (function, order)| {
+        let known = orders.entry(function).or_default();
+        *known = order.max(*known);
         orders
     })
 }
 
 impl FunctionContext<'_> {
-    /// Emits a call of a user-supplied function on numbers of type `scalar`.
-    pub(super) fn call_on<X>(
+    /// Emits the calls of a user-supplied function, or of its partial derivatives `by`, on numbers of type `scalar`. Several
+    /// of them are an array.
+    pub(super) fn calls_on<X>(
         &self,
         scalar: &TokenStream,
         call: &Call<X>,
+        by: &[&[u32]],
         argument: impl FnMut(&X) -> TokenStream,
     ) -> TokenStream {
-        let Supplied { field, is_reference, inputs, outputs, .. } =
-            &self.problem.functions[call.function as usize];
-        let system = &self.system;
-        let field = if *is_reference { quote!(#system.#field) } else { quote!(&#system.#field) };
         let arguments = call.arguments.iter().map(argument);
-        let by = call.derivatives.iter().map(|&i| Literal::u32_unsuffixed(i));
-        let by = (!call.derivatives.is_empty()).then(|| quote!(, [#(#by),*]));
+        let which = by.iter().map(|derivatives| self.which(call, derivatives));
+        match by.len() {
+            1 => self.call_on(scalar, call, &quote!([#(#arguments),*]), &quote!(#(#which)*)),
+            _ => {
+                let call = self.call_on(scalar, call, &quote!(x), &quote!(which));
+                quote!({ let x = [#(#arguments),*]; [#(#which),*].map(|which| #call) })
+            }
+        }
+    }
+
+    /// Emits the arguments of differentiation, or where gradients begin among the slopes.
+    fn which<X>(&self, call: &Call<X>, derivatives: &[u32]) -> TokenStream {
+        match call.kind {
+            CallKind::Slopes(block) => self.start_of_gradients(block, derivatives),
+            _ => literals(derivatives),
+        }
+    }
+
+    fn call_on<X>(
+        &self,
+        scalar: &TokenStream,
+        call: &Call<X>,
+        x: &TokenStream,
+        which: &TokenStream,
+    ) -> TokenStream {
+        let Supplied { inputs, outputs, .. } = &self.problem.functions[call.function as usize];
+        if let CallKind::Slopes(_) = call.kind {
+            return quote!(__lagrange::generated::along::<_, _, #inputs, #outputs>(&slopes[#which..], #x));
+        }
+        let field = self.supplied_field(call.function);
+        let which = (!call.derivatives.is_empty()).then(|| quote!(, #which));
         let (capability, method) = capability(call.derivatives.len());
         let (capability, method) = (format_ident!("{capability}"), format_ident!("{method}"));
-        quote!(__lagrange::function::#capability::<#scalar, #inputs, #outputs>::#method(#field, [#(#arguments),*] #by))
+        quote!(__lagrange::function::#capability::<#scalar, #inputs, #outputs>::#method(#field, #x #which))
+    }
+
+    /// Reference to the field that holds a function.
+    pub(super) fn supplied_field(&self, function: u32) -> TokenStream {
+        let Supplied { field, is_reference, .. } = &self.problem.functions[function as usize];
+        let system = &self.system;
+        if *is_reference { quote!(#system.#field) } else { quote!(&#system.#field) }
     }
 }
 

@@ -8,6 +8,7 @@ use super::emitter::Emitter;
 use super::linearized::Changing;
 use super::shape::ResultShape;
 use super::signature::{Types, wide};
+use super::slopes::SlopeLayout;
 use crate::contract::{Argument, Dimension};
 use crate::mechanics::Linearization;
 
@@ -23,9 +24,10 @@ impl Emitter<'_> {
         let orders = self.orders(&linearization.forces);
         (n > 0 && orders.values().all(|&order| order <= FUNCTION_ORDER)).then_some(())?;
         let [slopes, changes] = &changing.of_forces;
-        let (wide, count) = (wide(), slopes.results.len());
-        let of_slopes = self.style.write("force_slopes", slopes, &[ResultShape::Vector(count)]);
-        let over = self.style.over(&wide, count);
+        let (wide, layout) = (wide(), SlopeLayout::of(self.problem, slopes));
+        let (numbers, count) = (slopes.results.len(), layout.length);
+        let of_slopes = self.style.write("force_slopes", slopes, &[ResultShape::Vector(numbers)]);
+        let over = self.style.over(&wide, layout);
         let of_changes = over.write("force_change_with", changes, &[ResultShape::Vector(n)]);
         let kernels = [&of_slopes, &of_changes];
         kernels.iter().all(|kernel| kernel.refused.is_none()).then_some(())?;
@@ -35,8 +37,9 @@ impl Emitter<'_> {
         let types = Types { scalar: &wide, ..types };
         let [direction, vector] = [types.argument(Argument::Direction), types.vector(Dimension::Coordinates)];
         let arguments = changing.force_arguments.iter();
+        let found = self.style.slopes(slopes, &of_slopes.results);
         let [slopes, changes] = kernels.map(|kernel| &kernel.statements);
-        let [found, changed] = kernels.map(|kernel| &kernel.results);
+        let changed = &of_changes.results;
         let items = quote! {
             type ForceSlopes = [#scalar; #count];
             const FORCE_ARGUMENTS: &'static [usize] = &[#(#arguments),*];
@@ -44,7 +47,7 @@ impl Emitter<'_> {
             #[allow(unused_variables)]
             fn force_slopes(&self, #state) -> Self::ForceSlopes {
                 #slopes
-                #(#found)*
+                #found
             }
 
             #[allow(unused_variables)]

@@ -105,7 +105,10 @@ impl FunctionContext<'_> {
         waiting: usize,
         arrays: &ResultArrays,
     ) -> (TokenStream, Part) {
-        let is_read = |argument: &Argument| part.reads().any(|symbol| source(symbol) == *argument);
+        let is_read = |argument: &Argument| {
+            part.reads().any(|symbol| source(symbol) == *argument)
+                || (*argument == Argument::Slopes && part.reads_gradients())
+        };
         let read = [
             Argument::State,
             Argument::Accelerations,

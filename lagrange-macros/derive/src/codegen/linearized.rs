@@ -11,6 +11,7 @@ use super::emitter::{Emitter, Written};
 use super::passes::Program;
 use super::shape::ResultShape;
 use super::signature::wide;
+use super::slopes::SlopeLayout;
 use crate::contract::{LINEARIZED, Method, Quantity, STATE_DERIVATIVES};
 use crate::mechanics::{Changes, Linearization};
 use crate::symbolic::{Graph, Id};
@@ -55,7 +56,7 @@ impl Changing {
         }
     }
 
-    /// Number of slopes: the larger of the numbers for states and for parameters.
+    /// Number of slopes without gradients: the larger of the numbers for states and for parameters.
     pub(super) fn slopes(&self) -> usize {
         [&self.by_state, &self.by_parameters, &self.of_forces]
             .into_iter()
@@ -100,8 +101,8 @@ impl Emitter<'_> {
         let p = self.style.types.parameters;
         let arguments = changing.state_arguments.iter().copied();
         let scalar = self.style.types.scalar;
-        let [of_state_slopes, of_parameter_slopes] =
-            [&changing.by_state, &changing.by_parameters].map(|[slopes, _]| slopes.results.len());
+        let [of_state_slopes, of_parameter_slopes] = [&changing.by_state, &changing.by_parameters]
+            .map(|[slopes, _]| SlopeLayout::of(self.problem, slopes).length);
         let slopes = quote!([#scalar; #of_state_slopes]);
         let slopes = match tree {
             Some(_) => quote!((#slopes, __lagrange::generated::MotionGradients<#scalar, Self::N>)),
@@ -166,7 +167,8 @@ impl Emitter<'_> {
     /// Emits the method that computes the slopes, the coefficients of a linear function.
     pub(super) fn slopes(&self, method: &Method, slopes: &Program) -> Written {
         let kernel = self.style.write(method.name, slopes, &[ResultShape::Vector(slopes.results.len())]);
-        let (statements, results, doc) = (&kernel.statements, &kernel.results, &kernel.doc);
+        let (statements, doc) = (&kernel.statements, &kernel.doc);
+        let results = self.style.slopes(slopes, &kernel.results);
         let signature = self.style.types.signature(method);
         let tokens = quote! {
             #[doc = #doc]
@@ -175,7 +177,7 @@ impl Emitter<'_> {
             #signature {
                 let (accelerations, multipliers) = (&solution.accelerations, &solution.multipliers);
                 #statements
-                #(#results)*
+                #results
             }
         };
         Written { tokens, kernels: vec![kernel] }
@@ -190,7 +192,7 @@ impl Emitter<'_> {
     ) -> Written {
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let wide = wide();
-        let style = self.style.over(&wide, slopes.results.len());
+        let style = self.style.over(&wide, SlopeLayout::of(self.problem, slopes));
         let kernel = style.write(method.name, changes, &[n, m, m, m].map(ResultShape::Vector));
         let names = ["motion", "acceleration", "rate", "position"].map(|name| format_ident!("{name}"));
         let (statements, results, doc) = (&kernel.statements, &kernel.results, &kernel.doc);

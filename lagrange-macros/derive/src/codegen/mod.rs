@@ -28,6 +28,7 @@ mod schedule;
 mod series;
 mod shape;
 mod signature;
+mod slopes;
 mod solving;
 mod stub;
 mod style;

@@ -1,6 +1,6 @@
 //! Operations of a schedule and their operands.
 
-use crate::symbolic::{Function, Symbol};
+use crate::symbolic::{Function, MOST_PARTIALS, Symbol};
 
 /// Result of one operation of a schedule.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -48,12 +48,52 @@ pub(super) enum Operation<X = Register> {
     },
 }
 
-/// Call of a user-supplied function, or of a partial derivative of it.
+/// Call of a user-supplied function, or of a derivative of it.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Call<X = Register> {
     pub(super) function: u32,
     pub(super) derivatives: Box<[u32]>,
     pub(super) arguments: Box<[X]>,
+    pub(super) kind: CallKind,
+}
+
+/// Meaning of the arguments of a call.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum CallKind {
+    /// The arguments of the function.
+    Partial,
+    /// The arguments of the function, followed by a direction to differentiate along. [Slopes](super::slopes) replace it.
+    Along,
+    /// A direction, which multiplies the gradients in [block](super::slopes::SlopeBlock) number so-and-so of the slopes.
+    Slopes(usize),
+}
+
+/// Function, order, partial derivative if it stands apart, kind, arguments.
+pub(super) type Family<'c, X = Register> = (u32, usize, &'c [u32], CallKind, &'c [X]);
+
+/// Argument of a call outside of a schedule.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum CallArgument {
+    /// Constant, as the bits of an `f64`.
+    Constant(u64),
+    /// A number that is kept, by its index.
+    Kept(usize),
+}
+
+impl<X> Call<X> {
+    /// Calls with equal families are emitted together: those of a long function that differ only in the arguments of differentiation.
+    /// Calls of a short function are optimized better apart: six partial derivatives take 50 ns, and 256 ns in a loop.
+    pub(super) fn family(&self) -> Family<'_, X> {
+        let is_long = self.arguments.len() > MOST_PARTIALS;
+        let apart = if is_long { &[] } else { &self.derivatives[..] };
+        (self.function, self.derivatives.len(), apart, self.kind, &self.arguments)
+    }
+
+    /// The same call with other arguments.
+    pub(super) fn on<Y>(&self, argument: impl FnMut(&X) -> Y) -> Call<Y> {
+        let (function, derivatives, kind) = (self.function, self.derivatives.clone(), self.kind);
+        Call { function, derivatives, arguments: self.arguments.iter().map(argument).collect(), kind }
+    }
 }
 
 impl Operation {

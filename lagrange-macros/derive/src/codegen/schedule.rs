@@ -5,7 +5,7 @@ use num_traits::{One, Signed, ToPrimitive};
 use rustc_hash::FxHashMap;
 
 use super::count::Count;
-use super::operation::{Call, Operation, Register};
+use super::operation::{Call, CallKind, Operation, Register};
 use crate::symbolic::{Function, Graph, Id, Node, Rational, Scaled, to_f64};
 
 /// Result of folding an operation: an existing register, or a simpler operation.
@@ -166,7 +166,8 @@ impl Schedule {
             Node::External(external) => {
                 let arguments = external.arguments.iter().map(|&x| self.register_of(graph, x)).collect();
                 let (function, derivatives) = (external.function, external.derivatives.clone());
-                let (call, _) = self.calls.insert_full(Call { function, derivatives, arguments });
+                let kind = if external.is_along { CallKind::Along } else { CallKind::Partial };
+                let (call, _) = self.calls.insert_full(Call { function, derivatives, arguments, kind });
                 self.push(Operation::Result { call: call as u32, output: external.output })
             }
             Node::Defined(inner) => {

@@ -9,6 +9,7 @@ use rustc_hash::FxHashMap;
 
 use super::many::Window;
 use super::signature::Types;
+use super::slopes::SlopeLayout;
 use crate::mechanics::changes;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id, Symbol};
@@ -28,9 +29,9 @@ pub(super) struct FunctionContext<'a> {
     pub(super) factor: TokenStream,
     /// Number type of the system, for functions that are generic over a wider type; else `None`.
     pub(super) narrow: Option<&'a syn::Type>,
-    /// Number of [slopes](Variable::Slope) that the functions read: coefficients that all directional
-    /// derivatives at one state share.
-    slopes: usize,
+    /// [Slopes](Variable::Slope) that the functions read: coefficients that all directional derivatives at one state
+    /// share.
+    pub(super) slopes: SlopeLayout,
     /// Number of convolution sums of Taylor coefficients that the functions read.
     pub(super) sums: usize,
     /// Number of inputs of the kind [`Variable::Term`], the known parts of Taylor coefficients.
@@ -158,7 +159,7 @@ impl<'a> FunctionContext<'a> {
             types,
             factor,
             narrow: None,
-            slopes,
+            slopes: SlopeLayout::default(),
             sums,
             terms,
             is_f64,
@@ -168,15 +169,14 @@ impl<'a> FunctionContext<'a> {
         }
     }
 
-    /// Context of functions that are generic over the number type `wide`, with `slopes` [`Variable::Slope`]s
-    /// as inputs.
-    pub(super) fn over<'w>(&'w self, wide: &'w syn::Type, slopes: usize) -> FunctionContext<'w> {
+    /// Context of functions that are generic over the number type `wide`, with [`Variable::Slope`]s as inputs.
+    pub(super) fn over<'w>(&'w self, wide: &'w syn::Type, slopes: SlopeLayout) -> FunctionContext<'w> {
         let types = Types { scalar: wide, ..self.types };
         FunctionContext { types, narrow: Some(self.types.scalar), slopes, is_f64: false, ..self.clone() }
     }
 
-    /// Context of functions with `slopes` [`Variable::Slope`]s as inputs.
-    pub(super) fn reading(&self, slopes: usize) -> Self {
+    /// Context of functions with [`Variable::Slope`]s as inputs.
+    pub(super) fn reading(&self, slopes: SlopeLayout) -> Self {
         FunctionContext { slopes, ..self.clone() }
     }
 
@@ -192,7 +192,7 @@ impl<'a> FunctionContext<'a> {
 
     /// Type of the array of [slopes](Variable::Slope).
     pub(super) fn slopes_type(&self) -> TokenStream {
-        let (number, slopes) = (self.narrow.unwrap_or(self.types.scalar), self.slopes);
+        let (number, slopes) = (self.narrow.unwrap_or(self.types.scalar), self.slopes.length);
         quote!([#number; #slopes])
     }
 

@@ -46,6 +46,7 @@ impl Emitter<'_> {
         let signature = self.style.types.signature(method);
         let [Kernel { statements, results, doc, .. }, Kernel { statements: placed, results: numbers, .. }] =
             [&rest, &bodies];
+        let results = self.style.slopes(slopes, results);
         let names =
             ["poses", "axes", "rates", "bends", "bodies", "fixed"].map(|name| format_ident!("{name}"));
         let structure = structure(tree);
@@ -65,7 +66,7 @@ impl Emitter<'_> {
                     gradients.add_bodies::<_, _, #blocks>(&TREE, &bodies, &state.v, accelerations);
                 }
                 #statements
-                (#(#results)*, gradients)
+                (#results, gradients)
             }
         };
         Written { tokens, kernels: vec![rest, bodies] }

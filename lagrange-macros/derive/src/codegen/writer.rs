@@ -46,8 +46,16 @@ impl FunctionContext<'_> {
                 let turns = self.turns(turns, &together);
                 quote!(#word #turns;)
             }
-            Statement::Call(call, results) => {
-                let (pattern, call) = (self.pattern(&call, &results), self.call(&call));
+            Statement::Call(call, calls) => {
+                let patterns = calls.iter().map(|(_, results)| self.pattern(&call, results));
+                let pattern = match calls.len() {
+                    1 => quote!(#(#patterns)*),
+                    _ => quote!([#(#patterns),*]),
+                };
+                let by: Vec<&[u32]> = calls.iter().map(|(derivatives, _)| &derivatives[..]).collect();
+                let scalar = self.types.scalar;
+                let call =
+                    self.calls_on(&quote!(#scalar), &call, &by, |argument| self.operand(argument.clone()));
                 quote!(#word #pattern = #call;)
             }
             Statement::Store(place, value) => {
@@ -142,11 +150,6 @@ impl FunctionContext<'_> {
             None => quote!(_),
         });
         quote!([#(#names),*])
-    }
-
-    fn call(&self, call: &Call<Operand>) -> TokenStream {
-        let scalar = self.types.scalar;
-        self.call_on(&quote!(#scalar), call, |argument| self.operand(argument.clone()))
     }
 
     /// Name of a local: that of its definition, else `r12`, `angle4` or `call3_0`.

@@ -122,7 +122,7 @@ fn forces(
 
 /// Derivatives along the direction whose components are the second of these pairs of symbols.
 fn along(graph: &mut Graph, pairs: &[(Symbol, Symbol)]) -> Forward {
-    Forward::along(pairs.iter().map(|&(argument, change)| (argument, graph.symbol(change))))
+    Forward::along(pairs.iter().map(|&(argument, change)| (argument, graph.symbol(change)))).keeping_sums()
 }
 
 fn residual(balance: &[Id], equations: &Equations) -> Vec<Id> {

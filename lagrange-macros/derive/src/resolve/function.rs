@@ -117,8 +117,8 @@ impl Lowering<'_> {
         }
         let output = |lowering: &mut Self, output| {
             let arguments = flat.clone().into();
-            let external =
-                External { function: index as u32, output, derivatives: Box::default(), arguments };
+            let (function, derivatives) = (index as u32, Box::default());
+            let external = External { function, output, derivatives, arguments, is_along: false };
             lowering.graph.external(external)
         };
         let outputs: Vec<_> = (0..numbers(&function.lengths)).map(|i| output(self, i as u32)).collect();

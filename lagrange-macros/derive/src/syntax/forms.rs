@@ -16,8 +16,8 @@ use crate::diagnostics::Place;
 /// Maximum number of coordinates. With more, rustc takes minutes and the matrices overflow the stack.
 const COORDINATE_LIMIT: usize = 1000;
 
-/// Maximum number of results of a user-supplied function. The emitted code requests each result by its own call, with
-/// all arguments.
+/// Maximum number of results of a user-supplied function: as many as there are coordinates. Each is a node of the graph that holds all
+/// arguments.
 const RESULT_LIMIT: usize = 1000;
 
 /// Names of the attributes, with an example of each for error messages.

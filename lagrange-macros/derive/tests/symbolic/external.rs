@@ -13,6 +13,7 @@ fn partial(graph: &mut Graph, output: u32, derivatives: &[u32], arguments: &[Id]
         output,
         derivatives: derivatives.into(),
         arguments: arguments.into(),
+        is_along: false,
     })
 }
 
@@ -166,6 +167,7 @@ fn what_may_differ_is_told_apart() {
             output: 0,
             derivatives: Box::default(),
             arguments: [x, y].into(),
+            is_along: false,
         }),
         Id::ZERO,
     ];

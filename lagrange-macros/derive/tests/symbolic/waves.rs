@@ -5,7 +5,13 @@ use lagrange_symbolic::Approximate;
 use lagrange_symbolic::{External, Graph, Id};
 
 fn unknown(graph: &mut Graph, output: u32, arguments: [Id; 2]) -> Id {
-    graph.external(External { function: 0, output, derivatives: Box::new([]), arguments: arguments.into() })
+    graph.external(External {
+        function: 0,
+        output,
+        derivatives: Box::new([]),
+        arguments: arguments.into(),
+        is_along: false,
+    })
 }
 
 /// Values of `roots` at x = 0.3, y = −0.7 and z = 0.3 + `shift`.

@@ -10,7 +10,7 @@ mod tests;
 
 use std::collections::BTreeSet;
 
-use super::operation::{Call, Operation};
+use super::operation::{Call, CallKind, Operation};
 use crate::symbolic::{Id, Symbol};
 
 #[derive(Clone, Debug)]
@@ -44,6 +44,15 @@ impl Chunk {
             Given::SpillSlots(_) => None,
         });
         self.inputs.iter().chain(given.flatten()).copied()
+    }
+
+    /// True if the chunk multiplies gradients among the slopes.
+    pub(super) fn reads_gradients(&self) -> bool {
+        let reads = |statement: &Statement| match statement {
+            Statement::Call(call, _) => matches!(call.kind, CallKind::Slopes(_)),
+            _ => false,
+        };
+        self.statements.iter().any(reads)
     }
 }
 
@@ -95,10 +104,13 @@ pub(super) enum Statement {
     /// Sines and cosines, evaluated together. More than one angle requires that all were reduced by
     /// [`Small`](Self::Small).
     Turns(Vec<SineAndCosine>),
-    /// Call of a user-supplied function, with the indices and locals of the results in use.
-    Call(Call<Operand>, Vec<(u32, Local)>),
+    /// Calls of a user-supplied function, or of its derivatives of one order, on the same arguments.
+    Call(Call<Operand>, Vec<CalledDerivative>),
     Store(Slot, Operand),
 }
+
+/// Positions of the arguments of differentiation of a call, with the indices and locals of the results in use.
+pub(super) type CalledDerivative = (Box<[u32]>, Vec<(u32, Local)>);
 
 /// Sine and cosine of one angle. `None` if unused.
 #[derive(Clone, Debug)]

@@ -143,8 +143,12 @@ mod tests {
     }
 
     fn order(schedule: &Schedule, roots: &[Register]) -> Order {
-        let order =
-            Order::new(&Program { schedule: schedule.clone(), results: roots.to_vec(), counts: Vec::new() });
+        let order = Order::new(&Program {
+            schedule: schedule.clone(),
+            results: roots.to_vec(),
+            blocks: Vec::new(),
+            counts: Vec::new(),
+        });
         let mut is_done = vec![false; schedule.operations.len()];
         for &index in &order.sequence {
             assert!(operands(schedule, index).into_iter().all(|operand| is_done[operand]), "operands first");

@@ -30,7 +30,7 @@ fn function(call: &Call<f64>, output: u32) -> f64 {
     let mut graph = Graph::default();
     let arguments = (0..call.arguments.len()).map(|index| graph.symbol(symbol(index as u32))).collect();
     let (function, derivatives) = (call.function, call.derivatives.clone());
-    let root = graph.external(External { function, output, derivatives, arguments });
+    let root = graph.external(External { function, output, derivatives, arguments, is_along: false });
     graph.sample(&[root], 7, |symbol| Approximate::exact(call.arguments[symbol.index as usize]))[0].value
 }
 
@@ -169,16 +169,19 @@ fn the_results_of_a_call_that_are_used_come_together() {
             output,
             derivatives: derivatives.into(),
             arguments: [x, y].into(),
+            is_along: false,
         })
     };
     let (first, third, slope) = (call(0, &[]), call(2, &[]), call(2, &[1]));
     let roots = [graph.add(third, slope), graph.mul(first, third)];
     let body = checked(&graph, &roots);
     let calls = statements(&body).iter().filter_map(|statement| match statement {
-        Statement::Call(_, results) => Some(results.iter().map(|(output, _)| *output).collect::<Vec<_>>()),
+        Statement::Call(_, calls) => Some(
+            calls.iter().map(|(_, results)| results.iter().map(|(output, _)| *output).collect::<Vec<_>>()),
+        ),
         _ => None,
     });
-    let mut calls: Vec<_> = calls.collect();
+    let mut calls: Vec<_> = calls.flatten().collect();
     calls.sort();
     assert_eq!(calls, [vec![0, 2], vec![2]]);
 }
@@ -191,7 +194,7 @@ fn results_of_a_call_wait_for_later_parts() {
     let [x, y] = inputs(&mut graph);
     let [first, second] = [0, 1].map(|output| {
         let (derivatives, arguments) = (Box::default(), [x, y].into());
-        graph.external(External { function: 0, output, derivatives, arguments })
+        graph.external(External { function: 0, output, derivatives, arguments, is_along: false })
     });
     let sum = far(&mut graph, first, y);
     let second = graph.defined(second);
@@ -240,7 +243,7 @@ fn long(seed: u64, length: usize) -> Program {
         registers.push(schedule.push(operation));
     }
     let results = (0..300).map(|_| registers[below(length)]).chain([registers[0]]).collect();
-    Program { schedule, results, counts: Vec::new() }
+    Program { schedule, results, blocks: Vec::new(), counts: Vec::new() }
 }
 
 #[test]
@@ -361,7 +364,7 @@ fn with_rounds(seed: u64, rounds: usize, length: usize, is_steady: bool) -> Prog
         schedule.push(Operation::Minimum(other, early[k % 300]))
     });
     results.push(late);
-    Program { schedule, results, counts: Vec::new() }
+    Program { schedule, results, blocks: Vec::new(), counts: Vec::new() }
 }
 
 fn rounds(body: &FunctionBody) -> Vec<usize> {

@@ -15,6 +15,7 @@ mod vanishing;
 use super::count::{Count, OPERATION_LIMIT};
 use super::operation::{Operation, Register};
 use super::schedule::Schedule;
+use super::slopes::SlopeBlock;
 use super::time::Time;
 use crate::symbolic::{Graph, Id};
 use crate::variables::Variable;
@@ -27,6 +28,8 @@ const HOPELESS: usize = 2 * OPERATION_LIMIT;
 pub(super) struct Program {
     pub(super) schedule: Schedule,
     pub(super) results: Vec<Register>,
+    /// Gradients that follow the results of a program of slopes.
+    pub(super) blocks: Vec<SlopeBlock>,
     /// Operation counts, as derived and after each pass.
     pub(super) counts: Vec<(&'static str, Count)>,
 }
@@ -46,8 +49,10 @@ impl Program {
         let (results, residual) = registers.split_at(roots.len());
         let (schedule, results) = guard::guarded(&schedule, results, residual);
         let whole = Self::new(schedule, results);
-        let split::TwoParts { slopes, changes } = split::split(&whole.schedule, &whole.results);
-        [slopes, changes].map(|(schedule, results)| Self::unchanged(schedule, results).fused())
+        let split::TwoParts { slopes, changes, blocks } = split::split(&whole.schedule, &whole.results);
+        let [slopes, changes] =
+            [slopes, changes].map(|(schedule, results)| Self::unchanged(schedule, results).fused());
+        [Self { blocks, ..slopes }, changes]
     }
 
     /// Compiles functions that are linear in Taylor coefficients. The first program computes the numbers that do not
@@ -59,7 +64,7 @@ impl Program {
         kept: &[Register],
     ) -> (Self, [Self; 2], Vec<Option<usize>>) {
         let whole = Self::new(schedule, [&results.concat(), kept].concat());
-        let split::TwoParts { slopes: (numbers, slopes), changes: (changes, all) } =
+        let split::TwoParts { slopes: (numbers, slopes), changes: (changes, all), blocks } =
             split::split(&whole.schedule, &whole.results);
         let (first, rest) = all.split_at(results[0].len());
         let (second, kept) = rest.split_at(results[1].len());
@@ -72,7 +77,7 @@ impl Program {
             _ => None,
         };
         let kept = kept.iter().map(place).collect();
-        (Self::unchanged(numbers, slopes), parts, kept)
+        (Self { blocks, ..Self::unchanged(numbers, slopes) }, parts, kept)
     }
 
     /// Optimizes the schedule with all passes.
@@ -91,7 +96,7 @@ impl Program {
 
     fn unchanged(schedule: Schedule, results: Vec<Register>) -> Self {
         let counts = vec![("as derived", schedule.count(&results))];
-        Self { schedule, results, counts }
+        Self { schedule, results, blocks: Vec::new(), counts }
     }
 
     /// Rewrites long sums as balanced trees, for functions whose latency matters.

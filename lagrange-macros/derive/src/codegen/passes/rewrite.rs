@@ -1,6 +1,6 @@
 //! Rebuilds a schedule from another one, operation by operation.
 
-use crate::codegen::operation::{Call, Operation, Register};
+use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 
 /// Copies an operation of `old` to `new`. `at` maps its operands to registers of `new`.
@@ -12,9 +12,8 @@ pub(super) fn carried_over(
 ) -> Register {
     let operation = match operation {
         Operation::Result { call, output } => {
-            let Call { function, derivatives, arguments } = old.calls[call as usize].clone();
-            let arguments = arguments.iter().map(|&argument| at(new, argument)).collect();
-            let (call, _) = new.calls.insert_full(Call { function, derivatives, arguments });
+            let call = old.calls[call as usize].on(|&argument| at(new, argument));
+            let (call, _) = new.calls.insert_full(call);
             Operation::Result { call: call as u32, output }
         }
         operation => operation.with_operands(|operand| at(new, operand)),

@@ -1,11 +1,13 @@
 //! Splits a linear function of rates of change into two programs: one computes the coefficients, the other applies
 //! them to rates. The coefficients are computed once and serve any rates, also several at once.
 
+use indexmap::{IndexMap, IndexSet};
 use rustc_hash::FxHashMap;
 
 use super::rewrite::{carried_over, carry_definitions};
-use crate::codegen::operation::{Operation, Register};
+use crate::codegen::operation::{Call, CallArgument, CallKind, Operation, Register};
 use crate::codegen::schedule::Schedule;
+use crate::codegen::slopes::SlopeBlock;
 use crate::variables::Variable;
 
 /// Linear function of rates of change, as two schedules.
@@ -15,6 +17,8 @@ pub(super) struct TwoParts {
     pub(super) slopes: (Schedule, Vec<Register>),
     /// Schedule that depends on rates, and the registers of the results.
     pub(super) changes: (Schedule, Vec<Register>),
+    /// Gradients of long functions, which the other part reads after the slopes.
+    pub(super) blocks: Vec<SlopeBlock>,
 }
 
 /// Splits the computation of `results`.
@@ -24,6 +28,7 @@ pub(super) fn split(source: &Schedule, results: &[Register]) -> TwoParts {
         changes: Schedule::default(),
         slopes: Vec::new(),
         known: FxHashMap::default(),
+        blocks: IndexMap::new(),
     };
     let mut values: Vec<ResultLocation> = Vec::new();
     for &operation in &source.operations {
@@ -33,6 +38,9 @@ pub(super) fn split(source: &Schedule, results: &[Register]) -> TwoParts {
             Operation::Input(symbol) if is_rate(symbol) => {
                 ResultLocation::from(split.changes.push(operation))
             }
+            Operation::Result { call, output } if source.calls[call as usize].kind == CallKind::Along => {
+                split.along(&source.calls[call as usize], output, &values)
+            }
             _ if depends => split.rate(operation, &values),
             _ => ResultLocation::Number(carried_over(&mut split.numbers, source, operation, |_, x| {
                 values[x.index()].number()
@@ -41,12 +49,13 @@ pub(super) fn split(source: &Schedule, results: &[Register]) -> TwoParts {
         values.push(value);
     }
     let results = results.iter().map(|result| split.changed(values[result.index()])).collect();
+    let blocks = split.blocks();
     let Split { mut numbers, changes, slopes, .. } = split;
     carry_definitions(&mut numbers, source, |register| match values[register.index()] {
         ResultLocation::Number(register) => Some(register),
         ResultLocation::Rate { .. } => None,
     });
-    TwoParts { slopes: (numbers, slopes), changes: (changes, results) }
+    TwoParts { slopes: (numbers, slopes), changes: (changes, results), blocks }
 }
 
 fn is_rate(symbol: crate::symbolic::Symbol) -> bool {
@@ -84,9 +93,35 @@ struct Split {
     slopes: Vec<Register>,
     /// Index among `slopes` of each number of the first schedule that the second reads.
     known: FxHashMap<Register, usize>,
+    /// For each order, function and place, the partial derivatives whose gradients are slopes.
+    blocks: IndexMap<(usize, Call), IndexSet<Box<[u32]>>>,
 }
 
 impl Split {
+    /// Replaces a derivative along a direction by the product of a gradient, which is a slope, and the direction.
+    fn along(&mut self, call: &Call, output: u32, values: &[ResultLocation]) -> ResultLocation {
+        let (at, direction) = call.arguments.split_at(call.arguments.len() / 2);
+        let at = at.iter().map(|x| values[x.index()].number()).collect();
+        let of = Call { arguments: at, kind: CallKind::Partial, derivatives: Box::default(), ..*call };
+        let next = self.blocks.entry((call.derivatives.len(), of));
+        let kind = CallKind::Slopes(next.index());
+        next.or_default().insert(call.derivatives.clone());
+        let arguments = direction.iter().map(|x| self.changed(values[x.index()])).collect();
+        let call = Call { arguments, kind, derivatives: call.derivatives.clone(), ..*call };
+        let (call, _) = self.changes.calls.insert_full(call);
+        self.changes.push(Operation::Result { call: call as u32, output }).into()
+    }
+
+    /// Returns the blocks, with their arguments as slopes.
+    fn blocks(&mut self) -> Vec<SlopeBlock> {
+        let blocks = std::mem::take(&mut self.blocks).into_iter();
+        let argument = |split: &mut Self, number: Register| match split.numbers.operations[number.index()] {
+            Operation::Constant(bits) => CallArgument::Constant(bits),
+            _ => CallArgument::Kept(split.place(number)),
+        };
+        blocks.map(|((_, call), by)| SlopeBlock { call: call.on(|&x| argument(self, x)), by }).collect()
+    }
+
     /// Copies an operation with at least one rate among its operands.
     fn rate(&mut self, operation: Operation, values: &[ResultLocation]) -> ResultLocation {
         let of = |register: Register| values[register.index()];
@@ -131,11 +166,17 @@ impl Split {
         if let constant @ Operation::Constant(_) = self.numbers.operations[number.index()] {
             return self.changes.push(constant);
         }
+        let place = self.place(number);
+        self.changes.push(Operation::Input(Variable::Slope(place).symbol()))
+    }
+
+    /// Index of a number among the slopes.
+    fn place(&mut self, number: Register) -> usize {
         let next = self.slopes.len();
         let place = *self.known.entry(number).or_insert(next);
         if place == next {
             self.slopes.push(number);
         }
-        self.changes.push(Operation::Input(Variable::Slope(place).symbol()))
+        place
     }
 }

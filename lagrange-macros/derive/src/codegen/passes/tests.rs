@@ -284,7 +284,7 @@ fn what_does_not_depend_on_a_direction_is_computed_apart() {
     let third = push(&mut schedule, Operation::Multiply(sine, in_x));
     let sum = push(&mut schedule, Operation::Add(first, second));
     let sum = push(&mut schedule, Operation::Add(sum, third));
-    let TwoParts { slopes: (numbers, slopes), changes: (changes, results) } = split(&schedule, &[sum]);
+    let TwoParts { slopes: (numbers, slopes), changes: (changes, results), .. } = split(&schedule, &[sum]);
     let value = |symbol| match Variable::of(symbol) {
         Variable::Change(i) => [5.0, 7.0][i],
         _ => 0.3 + 0.1 * f64::from(symbol.index),

@@ -17,11 +17,12 @@ use super::emitter::{Emitter, Written};
 use super::operation::Register;
 use super::passes::Program;
 use super::shape::ResultShape;
+use super::slopes::SlopeLayout;
 use crate::contract::{Method, Quantity, TAYLOR_SERIES};
 use crate::mechanics::Equations;
 use crate::symbolic::Graph;
 use coefficients::Recurrences;
-use supplied::CallOnSeries;
+use supplied::CallsOnSeries;
 
 /// Number of convolution sums that the runtime computes side by side, one per SIMD lane.
 const WIDTH: usize = 4;
@@ -49,7 +50,7 @@ pub(super) struct TaylorPrograms {
     /// For each argument of a [steep] function: index of a sum whose left factor is that argument, index
     /// of its value in the results of `slopes`, and the exponent of a power, else 0.
     steep: Vec<[usize; 3]>,
-    calls: Vec<CallOnSeries>,
+    calls: Vec<CallsOnSeries>,
 }
 
 impl TaylorPrograms {
@@ -110,7 +111,9 @@ fn places<const K: usize>(name: &str, all: &[[usize; K]]) -> Option<TokenStream>
 impl Emitter<'_> {
     /// Emits the implementation of `TaylorSeries`.
     pub(super) fn taylor_series(&self, series: &TaylorPrograms) -> TokenStream {
-        let style = self.style.reading(series.slopes());
+        let layout = SlopeLayout::of(self.problem, &series.slopes);
+        let slopes = layout.length;
+        let style = self.style.reading(layout);
         let (n, m) = (self.problem.coordinates.len(), self.problem.constraints.len());
         let TaylorPrograms { sums, terms, .. } = *series;
         let of_order = |method: &Method, program: &Program, shapes: &[usize]| {
@@ -134,7 +137,7 @@ impl Emitter<'_> {
         };
         let Written { tokens, kernels } = TAYLOR_SERIES.iter().map(write).collect();
         let generics = self.generics_on_series(&series.slopes, &series.calls);
-        let (scalar, slopes) = (style.types.scalar, series.slopes());
+        let scalar = style.types.scalar;
         let [roots, arguments] = [("ROOTS", &series.roots), ("ARGUMENTS", &series.arguments)]
             .map(|(name, pairs)| places(name, pairs));
         let steep = places("STEEP", &series.steep);

@@ -10,7 +10,7 @@
 use rustc_hash::FxHashMap;
 
 use super::coefficients::{Recurrences, SeriesQuantity, Sum};
-use crate::codegen::operation::{Call, Operation, Register};
+use crate::codegen::operation::{Operation, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
@@ -24,9 +24,8 @@ impl Recurrences {
         {
             let quantity = match operation {
                 Operation::Result { call, output } => {
-                    let Call { function, derivatives, arguments } = source.calls[call as usize].clone();
-                    let arguments = arguments.iter().map(|argument| quantities[argument]).collect();
-                    self.result(Call { function, derivatives, arguments }, output)?
+                    let call = source.calls[call as usize].on(|argument| quantities[argument]);
+                    self.result(call, output)?
                 }
                 _ => self.operation(operation.with_operands(|x| quantities[&x]))?,
             };

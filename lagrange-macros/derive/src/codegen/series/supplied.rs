@@ -2,28 +2,24 @@
 
 use std::collections::BTreeMap;
 
+use indexmap::{IndexMap, IndexSet};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::coefficients::{Recurrences, STAGES, SeriesQuantity, Stage, Sum};
 use crate::codegen::bounds::{FUNCTION_ORDER, orders_of};
 use crate::codegen::emitter::Emitter;
-use crate::codegen::operation::{Call, Operation, Register};
+use crate::codegen::operation::{Call, CallArgument, CallKind, Operation, Register};
 use crate::codegen::passes::Program;
+use crate::codegen::slopes::SlopeBlock;
+use crate::symbolic::MOST_PARTIALS;
 
-/// Argument of a call on series.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum CallArgument {
-    /// Constant, as the bits of an `f64`.
-    Constant(u64),
-    /// Series, by its index among the arguments that the runtime stores.
-    Kept(usize),
-}
-
-/// Call on series. `results` holds pairs of an output and the index of the sum that receives it.
-pub(super) struct CallOnSeries {
+/// Calls on series, which differ in their derivatives. The arguments are indices of those that the runtime stores.
+pub(super) struct CallsOnSeries {
     call: Call<CallArgument>,
-    results: Vec<(u32, usize)>,
+    by: Vec<Box<[u32]>>,
+    /// Index of the derivative, index of its result, and index of the sum that receives it.
+    results: Vec<[usize; 3]>,
 }
 
 impl Recurrences {
@@ -35,60 +31,83 @@ impl Recurrences {
             return Some(self.add(first, None));
         }
         (call.derivatives.len() < FUNCTION_ORDER).then_some(())?;
-        let moving = (0..).zip(call.arguments.clone()).filter(|&(_, x)| !self.is_at_rest(x));
-        let moving: Vec<(u32, SeriesQuantity)> = moving.collect();
-        let slopes: Vec<(Register, SeriesQuantity)> =
-            moving.into_iter().map(|(i, x)| (self.value(&call, Some(i), output), x)).collect();
+        let changes = STAGES.map(|stage| self.change(&call, output, stage));
         let (place, _) = self.calls.insert_full(call);
         let sum = self.place(Sum::Value(place, output));
-        let newest = STAGES.map(|stage| {
-            let mut all = (stage == Stage::Known).then_some(sum);
-            for &(slope, x) in &slopes {
-                let change = self.times(slope, self.part(x, stage));
-                all = self.sum(all, change);
-            }
-            all
-        });
-        Some(self.add(first, Some(newest)))
+        let [known, added] = changes;
+        let known = self.sum(Some(sum), known);
+        Some(self.add(first, Some([known, added])))
+    }
+
+    /// Σ ∂U/∂x_i x_{i,k} for a part of the coefficients x_{i,k}. `None` if they vanish.
+    fn change(&mut self, call: &Call<SeriesQuantity>, output: u32, stage: Stage) -> Option<Register> {
+        let newest: Vec<Option<Register>> = call.arguments.iter().map(|&x| self.part(x, stage)).collect();
+        newest.iter().any(Option::is_some).then_some(())?;
+        if newest.len() > MOST_PARTIALS {
+            return Some(self.along(call, output, &newest));
+        }
+        let mut all = None;
+        for (i, newest) in (0..).zip(newest).filter(|(_, newest)| newest.is_some()) {
+            let slope = self.value(call, Some(i), output);
+            let change = self.times(slope, newest);
+            all = self.sum(all, change);
+        }
+        all
+    }
+
+    /// The same sum as a single call.
+    fn along(&mut self, call: &Call<SeriesQuantity>, output: u32, newest: &[Option<Register>]) -> Register {
+        let zero = self.schedule.constant(0.0);
+        let at = call.on(|&x| self.first(x));
+        let newest = newest.iter().map(|x| x.unwrap_or(zero));
+        let arguments = at.arguments.iter().copied().chain(newest).collect();
+        self.call(Call { arguments, kind: CallKind::Along, ..at }, output)
     }
 
     /// Returns a result of the call at order 0, or its derivative with respect to argument `by`.
     fn value(&mut self, call: &Call<SeriesQuantity>, by: Option<u32>, output: u32) -> Register {
         let mut derivatives: Vec<u32> = call.derivatives.iter().copied().chain(by).collect();
         derivatives.sort_unstable();
-        let arguments = call.arguments.iter().map(|&x| self.first(x)).collect();
-        let call = Call { function: call.function, derivatives: derivatives.into(), arguments };
+        let at = call.on(|&x| self.first(x));
+        self.call(Call { derivatives: derivatives.into(), ..at }, output)
+    }
+
+    fn call(&mut self, call: Call, output: u32) -> Register {
         let (call, _) = self.schedule.calls.insert_full(call);
         self.schedule.push(Operation::Result { call: call as u32, output })
     }
 
-    /// Returns the calls, and for each argument that is not constant the index of its sum and its value at order 0.
-    pub(super) fn calls(&mut self) -> (Vec<CallOnSeries>, Vec<(usize, Register)>) {
-        let mut kept: Vec<(usize, Register)> = Vec::new();
+    /// Returns the calls, those of a [family](Call::family) together, and for each argument that is not constant the index of
+    /// its sum and its value at order 0.
+    pub(super) fn calls(&mut self) -> (Vec<CallsOnSeries>, Vec<(usize, Register)>) {
+        let mut kept = IndexMap::new();
+        let (mut families, mut places) = (IndexSet::new(), Vec::new());
+        let mut found: Vec<CallsOnSeries> = Vec::new();
         let calls = core::mem::take(&mut self.calls);
-        let calls =
-            calls.into_iter().enumerate().map(|(place, Call { function, derivatives, arguments })| {
-                let arguments = arguments.iter().map(|&x| self.argument(x, &mut kept)).collect();
-                let results = self.sums.iter().enumerate().filter_map(|(at, sum)| match sum {
-                    Sum::Value(of, output) if *of == place => Some((*output, at)),
-                    _ => None,
-                });
-                CallOnSeries { call: Call { function, derivatives, arguments }, results: results.collect() }
-            });
-        (calls.collect(), kept)
+        for call in &calls {
+            let (family, is_new) = families.insert_full(call.family());
+            if is_new {
+                let call = call.on(|&x| self.argument(x, &mut kept));
+                found.push(CallsOnSeries { call, by: Vec::new(), results: Vec::new() });
+            }
+            places.push((family, found[family].by.len()));
+            found[family].by.push(call.derivatives.clone());
+        }
+        for (at, sum) in self.sums.iter().enumerate() {
+            if let &Sum::Value(call, output) = sum {
+                let (family, which) = places[call];
+                found[family].results.push([which, output as usize, at]);
+            }
+        }
+        (found, kept.into_iter().collect())
     }
 
-    fn argument(&mut self, x: SeriesQuantity, kept: &mut Vec<(usize, Register)>) -> CallArgument {
+    fn argument(&mut self, x: SeriesQuantity, kept: &mut IndexMap<usize, Register>) -> CallArgument {
         let first = self.first(x);
         if let Operation::Constant(bits) = self.schedule.operations[first.index()] {
             return CallArgument::Constant(bits);
         }
-        let place = self.argument_place(x);
-        let known = kept.iter().position(|&(known, _)| known == place);
-        CallArgument::Kept(known.unwrap_or_else(|| {
-            kept.push((place, first));
-            kept.len() - 1
-        }))
+        CallArgument::Kept(kept.insert_full(self.argument_place(x), first).0)
     }
 
     /// Index of the entry of `sums` where the runtime stores the series of an argument.
@@ -99,9 +118,9 @@ impl Recurrences {
 
 impl Emitter<'_> {
     /// Emits the method that evaluates the functions on series. `None` if there are no calls.
-    pub(super) fn series_functions(&self, calls: &[CallOnSeries]) -> Option<TokenStream> {
+    pub(super) fn series_functions(&self, calls: &[CallsOnSeries]) -> Option<TokenStream> {
         let scalar = self.style.types.scalar;
-        let written = calls.iter().map(|call| self.call_on_series(call));
+        let written = calls.iter().map(|calls| self.calls_on_series(calls));
         (!calls.is_empty()).then(|| {
             quote! {
                 #[doc = "What the functions add to an order."]
@@ -112,19 +131,20 @@ impl Emitter<'_> {
         })
     }
 
-    fn call_on_series(&self, CallOnSeries { call, results }: &CallOnSeries) -> TokenStream {
+    fn calls_on_series(&self, CallsOnSeries { call, by, results }: &CallsOnSeries) -> TokenStream {
         let scalar = self.style.types.scalar;
         let series = quote!(__lagrange::PowerSeries<#scalar>);
-        let values = self.style.call_on(&series, call, |argument| match argument {
+        let by: Vec<&[u32]> = by.iter().map(|derivatives| &derivatives[..]).collect();
+        let values = self.style.calls_on(&series, call, &by, |argument| match argument {
             CallArgument::Constant(bits) => {
                 let value = Literal::f64_unsuffixed(f64::from_bits(*bits));
                 quote!(__lagrange::Scalar::constant(#value))
             }
             CallArgument::Kept(place) => quote!(arguments[#place]),
         });
-        let puts = results.iter().map(|&(output, place)| {
-            let output = output as usize;
-            quote!(sums[#place] = values[#output].coefficient(order);)
+        let puts = results.iter().map(|&[which, output, place]| {
+            let which = (by.len() > 1).then(|| quote!([#which]));
+            quote!(sums[#place] = values #which [#output].coefficient(order);)
         });
         quote! {
             let values = #values;
@@ -134,11 +154,13 @@ impl Emitter<'_> {
 
     /// Generics with bounds on the functions: series as arguments, and one derivative more than the equations of
     /// motion need. The compiler checks these bounds only where the trait is used.
-    pub(super) fn generics_on_series(&self, slopes: &Program, calls: &[CallOnSeries]) -> syn::Generics {
+    pub(super) fn generics_on_series(&self, slopes: &Program, calls: &[CallsOnSeries]) -> syn::Generics {
         let scalar = self.style.types.scalar;
-        let orders = orders_of(self.orders(&[]), slopes.schedule.calls.iter());
+        let called = slopes.schedule.calls.iter().map(|call| (call.function, call.derivatives.len()));
+        let orders = orders_of(self.orders(&[]), called.chain(slopes.blocks.iter().map(SlopeBlock::order)));
         let mut generics = self.generics(&orders, calls.is_empty());
-        let on_series = orders_of(BTreeMap::new(), calls.iter().map(|of| &of.call));
+        let called = calls.iter().map(|CallsOnSeries { call, .. }| (call.function, call.derivatives.len()));
+        let on_series = orders_of(BTreeMap::new(), called);
         self.ask_for(&mut generics, &on_series, &quote!(__lagrange::PowerSeries<#scalar>), false);
         generics
     }

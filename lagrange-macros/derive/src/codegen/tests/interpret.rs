@@ -131,10 +131,12 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
                     cosine.iter().for_each(|&cosine| self.define(cosine, angle.cos()));
                 }
             }
-            Statement::Call(Call { function: f, derivatives, arguments }, outputs) => {
-                let arguments = arguments.iter().map(|argument| self.value(argument)).collect();
-                let call = Call { function: *f, derivatives: derivatives.clone(), arguments };
-                outputs.iter().for_each(|&(output, local)| self.define(local, function(&call, output)));
+            Statement::Call(call, calls) => {
+                let on = call.on(|argument| self.value(argument));
+                for (derivatives, outputs) in calls {
+                    let call = Call { derivatives: derivatives.clone(), ..on.clone() };
+                    outputs.iter().for_each(|&(output, local)| self.define(local, function(&call, output)));
+                }
             }
             Statement::Store(Slot::Result(index), value) => results[*index] = self.value(value),
             Statement::Store(Slot::SpillSlots(series), value) => {

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 use crate::codegen::body::chunks::SpillSlots;
 use crate::codegen::body::repeats::Repeat;
 use crate::codegen::body::{Chunk, Given, Local, Operand, Slot, SlotSequence, Statement};
-use crate::codegen::operation::{Call, Operation, Register};
+use crate::codegen::operation::{Family, Operation, Register};
 use crate::codegen::passes::Program;
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::{Function, Id};
@@ -27,6 +27,8 @@ pub(super) struct Planner<'p> {
     definitions: FxHashMap<Register, Id>,
     /// Indices of the results in use, for each call.
     outputs: FxHashMap<u32, Vec<u32>>,
+    /// Calls in use that are emitted together.
+    families: FxHashMap<Family<'p>, Vec<u32>>,
     /// Destinations to which each register is stored as soon as it is computed.
     pub(super) places: FxHashMap<Register, Vec<Slot>>,
     pub(super) waiting: SpillSlots,
@@ -91,6 +93,12 @@ impl<'p> Planner<'p> {
             }
         }
         outputs.values_mut().for_each(|outputs| outputs.sort_unstable());
+        let mut families = FxHashMap::<Family, Vec<u32>>::default();
+        for (call, of) in schedule.calls.iter().enumerate().map(|(call, of)| (call as u32, of)) {
+            if outputs.contains_key(&call) {
+                families.entry(of.family()).or_default().push(call);
+            }
+        }
         let values = schedule.operations.iter().map(|_| None).collect();
         let (places, waiting, index, part, fetched, kept, layout) = Default::default();
         let early = plain.pop().unwrap_or_default();
@@ -101,6 +109,7 @@ impl<'p> Planner<'p> {
             values,
             definitions,
             outputs,
+            families,
             places,
             waiting,
             index,
@@ -173,9 +182,21 @@ impl<'p> Planner<'p> {
         self.values[register.index()].as_ref().map_or(0, |value| value.depth)
     }
 
-    /// Emits a call and computes all its results, when the first of them is needed.
+    /// Emits the calls of a family and computes all their results, when the first of them is needed.
     fn call(&mut self, call: u32) {
-        let Call { function, derivatives, arguments } = self.schedule.calls[call as usize].clone();
+        let schedule = self.schedule;
+        let on = schedule.calls[call as usize].on(|&argument| self.value(argument));
+        let mut calls = Vec::new();
+        for call in self.families[&schedule.calls[call as usize].family()].clone() {
+            let results = self.results_of(call);
+            self.part.locals.extend(results.iter().map(|(_, local)| local));
+            calls.push((schedule.calls[call as usize].derivatives.clone(), results));
+        }
+        self.part.statements.push(Statement::Call(on, calls));
+    }
+
+    /// Puts the results of a call that are in use into locals.
+    fn results_of(&mut self, call: u32) -> Vec<(u32, Local)> {
         let mut results = Vec::new();
         for output in self.outputs.get(&call).cloned().unwrap_or_default() {
             let register = self.schedule.find(Operation::Result { call, output });
@@ -185,9 +206,7 @@ impl<'p> Planner<'p> {
             results.push((output, self.local(register)));
             self.keep(register, self.local(register));
         }
-        let arguments = arguments.iter().map(|&argument| self.value(argument)).collect();
-        self.part.locals.extend(results.iter().map(|(_, local)| local));
-        self.part.statements.push(Statement::Call(Call { function, derivatives, arguments }, results));
+        results
     }
 
     /// Local of a register, the same in every chunk.

@@ -144,7 +144,8 @@ impl Planner<'_> {
 
 fn one_round(repeat: &Repeat, left: &[(usize, SlotSequence)]) -> Chunk {
     let results: Vec<Register> = left.iter().map(|&(offset, _)| repeat.registers[offset]).collect();
-    let program = Program { schedule: repeat.schedule.clone(), results, counts: Vec::new() };
+    let program =
+        Program { schedule: repeat.schedule.clone(), results, blocks: Vec::new(), counts: Vec::new() };
     let is_computed =
         |operation: &Operation| !matches!(operation, Operation::Constant(_) | Operation::Input(_));
     let operations = program.schedule.operations.iter().enumerate();

@@ -178,7 +178,8 @@ impl<'a> State<'a> {
             .map(|(_, index, output)| {
                 let (function, output) = (index as u32, output as u32);
                 let derivatives = derivatives.into();
-                let external = External { function, output, derivatives, arguments: Box::default() };
+                let external =
+                    External { function, output, derivatives, arguments: Box::default(), is_along: false };
                 superposition(&external, &arguments, self.draw).value
             })
             .collect();
