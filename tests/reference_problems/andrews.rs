@@ -31,7 +31,7 @@ use crate::reference::{BAR, IS_LONG, Problem, assert_relative, table};
 #[constraint(fifth: crank = [e*sin(phi + delta) + zt*cos(delta) + xa, zt*sin(delta) - e*cos(phi + delta) + ya])]
 #[constraint(seventh: crank = [zf*cos(omega + epsilon) + u*sin(epsilon) + xa,
     zf*sin(omega + epsilon) - u*cos(epsilon) + ya])]
-struct Squeezer {
+pub(crate) struct Squeezer {
     m: [f64; 7],
     inertia: [f64; 7],
     xa: f64,
@@ -100,7 +100,7 @@ const SQUEEZER: Squeezer = Squeezer {
 /// T + V without the motor's share −motor·β at β = 0.
 const ENERGY: f64 = 1.437_832_957_532_139_8;
 
-fn squeezer() -> Problem<Squeezer, 7, 6> {
+pub(crate) fn squeezer() -> Problem<Squeezer, 7, 6> {
     Problem { name: "Andrews' squeezer", system: SQUEEZER, known: table!("andrews") }
 }
 

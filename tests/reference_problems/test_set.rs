@@ -22,7 +22,7 @@ use crate::reference::{BAR, IS_LONG, Problem, assert_relative, table};
 #[constraint(across: xl*xb + yl*yb = 0)]
 #[constraint(axis: (xl - xr)^2 + (yl - yr)^2 = L^2)]
 #[allow(non_snake_case)]
-struct CarAxis {
+pub(crate) struct CarAxis {
     L: f64,
     L0: f64,
     M: f64,
@@ -32,10 +32,14 @@ struct CarAxis {
     g: f64,
 }
 
+pub(crate) fn car_axis() -> Problem<CarAxis, 4, 2> {
+    let system = CarAxis { L: 1.0, L0: 0.5, M: 10.0, eps: 0.01, r: 0.1, w: 10.0, g: 1.0 };
+    Problem { name: "car axis", system, known: table!("car_axis") }
+}
+
 #[test]
 fn the_car_axis_reaches_its_reference() {
-    let system = CarAxis { L: 1.0, L0: 0.5, M: 10.0, eps: 0.01, r: 0.1, w: 10.0, g: 1.0 };
-    let axis = Problem { name: "car axis", system, known: table!("car_axis") };
+    let axis = car_axis();
     axis.check(&[BAR, BAR, BAR]);
     if IS_LONG {
         axis.row("Verlet Kahan–Li 8 5e-3 s", Verlet::with_step(5e-3).composed(KahanLi8)).reaches(BAR);

@@ -9,6 +9,9 @@
 #[allow(dead_code, unused_imports, reason = "its tests are not compiled here")]
 #[path = "../../../../../tests/reference_problems/andrews.rs"]
 mod andrews;
+#[allow(dead_code, unused_imports, reason = "its tests are not compiled here")]
+#[path = "../../../../../tests/reference_problems/noninertial.rs"]
+mod noninertial;
 #[allow(dead_code, reason = "only the problems are used here")]
 #[path = "../../../../../tests/reference_problems/reference.rs"]
 mod reference;
@@ -18,7 +21,7 @@ mod test_set;
 
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{StateDerivatives, prelude::*};
-use reference::{BAR, Moment, Problem, Scale};
+use reference::{Known, Problem};
 
 /// A pendulum in honey: a bob on a rod, let go at the horizontal.
 #[derive(Lagrangian)]
@@ -41,14 +44,9 @@ fn honey() -> Problem<Honey, 2, 1> {
     let a = slow(t) + g / (c * c) * first;
     let rate = g / c * a.cos() * (1.0 + g / (c * c) * a.sin());
     let (q, v) = ([a.cos(), -a.sin()], [-rate * a.sin(), -rate * a.cos()]);
-    Problem {
-        name: "pendulum in honey",
-        system: Honey { g, c },
-        start: State::at_rest([1.0, 0.0]),
-        moments: vec![Moment { t, q, v, lambda: None }],
-        scale: Scale::Moments,
-        bar: BAR,
-    }
+    let start = Known { t: 0.0, q: [1.0, 0.0], v: [0.0; 2], lambda: None };
+    let end = Known { t, q, v, lambda: None };
+    Problem { name: "pendulum in honey", system: Honey { g, c }, known: vec![start, end] }
 }
 
 /// Work on a problem: its system, its start, and the end with the state that is known there.
@@ -63,8 +61,9 @@ fn given<W: Work, L, const N: usize, const M: usize>(work: W, problem: Problem<L
 where
     L: StateDerivatives<N = Const<N>, M = Const<M>, Scalar = f64>,
 {
-    let Moment { t, q, v, .. } = problem.moments[problem.moments.len() - 1];
-    work.on(&problem.system, problem.start, State::new(q, v).at_time(t))
+    let state = |&Known { t, q, v, .. }: &Known<N, M>| State::new(q, v).at_time(t);
+    let [start, .., end] = &problem.known[..] else { panic!("{} has no end", problem.name) };
+    work.on(&problem.system, state(start), state(end))
 }
 
 /// Does work on the problem of this name; `None` if there is none.
@@ -138,7 +137,12 @@ macro_rules! export {
     )*};
 }
 
-unsafe fn slices<'a>(y: *const f64, out: *mut f64, given: usize, wanted: usize) -> (&'a [f64], &'a mut [f64]) {
+unsafe fn slices<'a>(
+    y: *const f64,
+    out: *mut f64,
+    given: usize,
+    wanted: usize,
+) -> (&'a [f64], &'a mut [f64]) {
     unsafe { (std::slice::from_raw_parts(y, given), std::slice::from_raw_parts_mut(out, wanted)) }
 }
 
