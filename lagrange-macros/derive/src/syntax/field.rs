@@ -301,5 +301,4 @@ fn length(expression: &Expr) -> Result<usize, String> {
     }
 }
 
-pub(super) const NOT_A_LITERAL: &str =
-    "the length must be an integer literal: the equations are derived before const generics have values";
+pub(super) const NOT_A_LITERAL: &str = "the length must be an integer literal: the equations are derived before constants and const generics have values. `const _: () = assert!(N == 3);` beside the struct keeps a constant equal to it";
