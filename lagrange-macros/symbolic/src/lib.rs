@@ -15,6 +15,7 @@ mod combined;
 mod differentiate;
 mod elimination;
 mod evaluate;
+mod fraction;
 mod graph;
 mod monomials;
 mod nested;

@@ -23,7 +23,7 @@ const WORK: usize = 100_000;
 const POWER: u32 = 16;
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-enum Generator {
+pub(super) enum Generator {
     Node(Id),
     /// base^(1/degree)
     Root(Id, u32),
@@ -33,11 +33,11 @@ enum Generator {
 
 /// Generators in descending order, with their exponents. As vectors they compare lexicographically, a monomial order
 /// that products preserve.
-type PowerProduct = Vec<(Generator, u32)>;
+pub(super) type PowerProduct = Vec<(Generator, u32)>;
 
 /// Σ coefficient · monomial, all coefficients nonzero.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
-pub struct ExactPolynomial(BTreeMap<PowerProduct, Rational>);
+pub struct ExactPolynomial(pub(super) BTreeMap<PowerProduct, Rational>);
 
 /// Cache of expressions as polynomials, and rewriting rules for powers of generators.
 #[derive(Debug, Default)]
@@ -58,7 +58,7 @@ impl ExactPolynomial {
         Self::term(PowerProduct::new(), value)
     }
 
-    fn term(monomial: PowerProduct, coefficient: Rational) -> Self {
+    pub(super) fn term(monomial: PowerProduct, coefficient: Rational) -> Self {
         Self([(monomial, coefficient)].into_iter().filter(|(_, c)| !c.is_zero()).collect())
     }
 
@@ -301,7 +301,7 @@ fn joined(x: &PowerProduct, y: &PowerProduct) -> PowerProduct {
     exponents.into_iter().rev().collect()
 }
 
-fn divided(x: &PowerProduct, y: &PowerProduct) -> Option<PowerProduct> {
+pub(super) fn divided(x: &PowerProduct, y: &PowerProduct) -> Option<PowerProduct> {
     let mut exponents: BTreeMap<Generator, u32> = x.iter().copied().collect();
     for (generator, exponent) in y {
         let left = exponents.get_mut(generator)?;

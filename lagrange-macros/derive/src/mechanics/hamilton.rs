@@ -36,7 +36,7 @@ pub(crate) enum NoHamiltonian {
 }
 
 /// Largest number of coordinates: H of more would be too long to read.
-const COORDINATES: usize = 9;
+pub(super) const COORDINATES: usize = 9;
 
 /// Largest block of M that is inverted by Cramer's rule: the inverse of a block of four has hundreds of terms.
 const BLOCK: usize = 3;
@@ -99,7 +99,7 @@ impl Parts {
         let at_rest = nodes(graph, mass.len(), Variable::Velocity);
         let rest: Vec<Id> = block.iter().map(|&i| graph.without(equations.momentum[i], &at_rest)).collect();
         let moving = moving(graph, block, &rest);
-        let inverse = inverse(graph, problem, mass, block)?;
+        let inverse = inverse_of_block(graph, problem, mass, block)?;
         for (&i, row) in block.iter().zip(&inverse) {
             self.velocities[i] = graph.dot(row, &moving);
         }
@@ -169,8 +169,23 @@ fn blocks(mass: &[Vec<Id>]) -> Vec<Vec<usize>> {
     blocks
 }
 
-/// The inverse of a block of M: adjugate over determinant.
+/// The inverse of a symmetric matrix, block by block.
 pub(super) fn inverse(
+    graph: &mut Graph,
+    problem: &Problem,
+    matrix: &[Vec<Id>],
+) -> Result<Vec<Vec<Id>>, NoHamiltonian> {
+    let mut inverse = vec![vec![Id::ZERO; matrix.len()]; matrix.len()];
+    for block in blocks(matrix) {
+        for (&i, row) in block.iter().zip(inverse_of_block(graph, problem, matrix, &block)?) {
+            block.iter().zip(row).for_each(|(&j, entry)| inverse[i][j] = entry);
+        }
+    }
+    Ok(inverse)
+}
+
+/// The inverse of a block of M: adjugate over determinant.
+pub(super) fn inverse_of_block(
     graph: &mut Graph,
     problem: &Problem,
     mass: &[Vec<Id>],

@@ -10,7 +10,7 @@
 use num_traits::One;
 
 use super::evidence::vanishes;
-use super::hamilton::{NoHamiltonian, inverse};
+use super::hamilton::{NoHamiltonian, inverse_of_block};
 use crate::resolve::Problem;
 use crate::symbolic::{Function, Graph, Id, Node, Rational, Sample, Symbol, times};
 use crate::variables::{Variable, has_velocity, nodes, symbols};
@@ -126,7 +126,7 @@ impl PowerTerm {
             form[i] = row.into_iter().map(|entry| graph.sum([(entry, Rational::new_raw(1, 2))])).collect();
         }
         let slopes: Vec<Id> = block.iter().map(|&i| graph.without(slopes[i], &at_rest)).collect();
-        let inverse = inverse(graph, problem, &form, block).map_err(|_| NoHamiltonian::NotSolved)?;
+        let inverse = inverse_of_block(graph, problem, &form, block).map_err(|_| NoHamiltonian::NotSolved)?;
         let square = quadratic(graph, &inverse, moving);
         let shift: Vec<Id> = inverse.iter().map(|row| graph.dot(row, &slopes)).collect();
         let [along, own] = [moving, &slopes].map(|side| graph.dot(side, &shift));

@@ -26,6 +26,7 @@ mod linearization;
 pub(crate) mod many;
 mod marker;
 mod moment;
+mod multipliers;
 mod switched;
 mod twists;
 mod vanishing;
@@ -56,6 +57,8 @@ pub(crate) use linearization::SplitResidual;
 use linearization::linearize;
 pub(crate) use linearization::{Changes, Linearization, changes};
 pub use marker::Marker;
+#[cfg(test)]
+pub(crate) use moment::{Moment, Moments};
 pub(crate) use switched::{Row, RowGroup, SwitchedEquations};
 #[cfg(test)]
 pub(crate) use twists::TreeColumn;
@@ -72,6 +75,8 @@ pub(crate) struct Derived {
     pub(crate) energies: Option<[Id; 2]>,
     /// M q̈, for display
     pub(crate) inertia: Vec<Id>,
+    /// Multipliers as functions of the state, for display, where the constraints hold
+    pub(crate) multipliers: Option<Vec<Id>>,
     /// Rotations by quaternions, with their equations of motion, for display
     pub(crate) turnings: Turnings,
     /// Rigid bodies by the forces and torques on them, for display
@@ -122,6 +127,8 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
     let of_frames = energies.filter(|_| problem.frames.len() > 1);
     read.extend(of_frames.into_iter().flatten().map(|id| (id, shorter(graph, id))));
     let hamilton = Hamilton::derive(graph, problem, &equations);
+    let multipliers = multipliers::multipliers(graph, problem, &equations);
+    graph.take_fault();
     let markers = Marker::proved(graph, &equations);
     let is_of_power = |(change, _): &&(EnergyChange, Id)| *change != EnergyChange::Time;
     let power = facts.energy_changes.iter().filter(is_of_power).map(|(_, part)| *part).collect::<Vec<_>>();
@@ -135,6 +142,7 @@ pub(crate) fn derive(graph: &mut Graph, problem: &Problem, diagnostics: &mut Dia
         facts,
         energies,
         inertia,
+        multipliers,
         turnings,
         resultants,
         read,

@@ -12,7 +12,7 @@ use crate::variables::{Variable, symbols};
 const DRAWS: u64 = 48;
 
 /// Random states with their accelerations, drawn on demand.
-pub(super) struct Moments<'a> {
+pub(crate) struct Moments<'a> {
     pub(super) problem: &'a Problem,
     pub(super) equations: &'a Equations,
     /// Whether friction slides in some of them.
@@ -22,7 +22,7 @@ pub(super) struct Moments<'a> {
 }
 
 impl<'a> Moments<'a> {
-    pub(super) fn new(problem: &'a Problem, equations: &'a Equations, slides: bool) -> Self {
+    pub(crate) fn new(problem: &'a Problem, equations: &'a Equations, slides: bool) -> Self {
         Self { problem, equations, slides, found: Vec::new(), draws: 0 }
     }
 
@@ -37,7 +37,7 @@ impl<'a> Moments<'a> {
 }
 
 /// Values of parameters, time, coordinates, velocities, accelerations and multipliers at one instant of a motion.
-pub(super) struct Moment(Sample);
+pub(crate) struct Moment(pub(crate) Sample);
 
 /// Stream of random numbers for states, used for nothing else.
 const STATES: u64 = 252;
@@ -82,7 +82,8 @@ impl SwitchState {
 }
 
 impl Moment {
-    fn drawn(graph: &Graph, moments: &Moments, draw: u64) -> Option<Self> {
+    /// State of this random draw; `None` if no state on the constraints, or no acceleration, is found from it.
+    pub(crate) fn drawn(graph: &Graph, moments: &Moments, draw: u64) -> Option<Self> {
         let &Moments { problem, equations, slides, .. } = moments;
         let mut entries: Vec<Entry> = problem.parameters.switches.iter().map(|switch| switch.entry).collect();
         entries.sort_unstable();

@@ -37,7 +37,9 @@ impl Page<'_> {
 
     /// Line of each momentum, or vector of momenta, with the range of its coordinates.
     pub(super) fn all_momenta(&self) -> Vec<(Range<usize>, Line)> {
-        self.by_vector(&self.derived.equations.momentum, Self::momentum, |text| self.momentum_name(text, 0))
+        let momenta = &self.derived.equations.momentum;
+        let name = |text: &str| self.momentum_name(text, 0);
+        self.by_vector(&self.problem.coordinates, momenta, Self::momentum, name)
     }
 
     pub(super) fn are_conserved(&self, rows: &Range<usize>) -> bool {

@@ -1,6 +1,7 @@
 //! Headings and lines of a page, and its plain text.
 
 use super::formula::Formula;
+use super::length::length;
 use super::notation::Notation;
 use super::remark::Remark;
 
@@ -51,6 +52,14 @@ impl Line {
             Equation::TooLong(_) => false,
         };
         is_in_equation || self.remark.any(is_it)
+    }
+
+    /// True if the equation fits on a line.
+    pub(super) fn is_short(&self) -> bool {
+        match &self.equation {
+            Equation::Known(left, right) => length(left) + length(right) <= LINE,
+            _ => false,
+        }
     }
 
     pub(super) fn is_too_long(&self) -> bool {

@@ -109,7 +109,10 @@ impl Page<'_> {
                 note: problem.frames_are_cheaper.then(|| IN_FRAMES.to_owned()),
                 ..section("Equations of motion", motion)
             },
-            section("Constraint forces", self.constraint_forces()),
+            section(
+                "Constraint forces",
+                self.multipliers().into_iter().chain(self.constraint_forces()).collect(),
+            ),
             section("Conserved", self.conserved()),
             section("Energy", self.changing_energy()),
         ];

@@ -3,9 +3,8 @@
 use std::ops::Range;
 
 use super::formula::Formula;
-use super::length::length;
 use super::letters::PageQuantity;
-use super::lines::{Equation, LINE, Line};
+use super::lines::{Equation, Line};
 use super::page::Page;
 use super::resultants::Speed;
 use crate::mechanics::{Derived, Turning};
@@ -52,7 +51,7 @@ impl Page<'_> {
             inertia.iter().enumerate().map(|(i, &left)| (left, right(i))).collect();
         self.derived.turnings.coupled.iter().for_each(|(i, row)| rows[*i] = row.clone());
         let mut first = 0;
-        let lines = self.vectors().flat_map(|labels| {
+        let lines = vectors(&self.problem.coordinates).flat_map(|labels| {
             let turning = self.derived.turnings.all.iter().position(|turning| turning.first == first);
             let own = first;
             first += labels.len();
@@ -85,26 +84,24 @@ impl Page<'_> {
 
     /// The equations of a row by forces and torques on bodies; `None` if the row fits on a line, or if they are too long, too.
     fn by_bodies(&self, row: &MotionRow) -> Option<Vec<Line>> {
-        let is_short = row.lines.first().is_some_and(|line| match &line.equation {
-            Equation::Known(left, right) => length(left) + length(right) <= LINE,
-            _ => false,
-        });
+        let is_short = row.lines.first().is_some_and(Line::is_short);
         (!is_short && !row.speeds.is_empty()).then_some(())?;
         row.speeds.iter().map(|&speed| self.row_by_bodies(speed)).collect()
     }
 
-    /// Coordinates in groups: the components of each vector together, all others alone.
-    fn vectors(&self) -> impl Iterator<Item = &[Label]> {
-        let are_together = |one: &Label, other: &Label| {
-            vector(&one.text).is_some() && vector(&one.text) == vector(&other.text)
-        };
-        self.problem.coordinates.chunk_by(are_together)
+    /// Multipliers as functions of the state, where these fit on a line.
+    pub(super) fn multipliers(&self) -> Vec<Line> {
+        let labels: Vec<Label> = self.problem.constraints.iter().map(|(label, _)| label.clone()).collect();
+        let values = self.derived.multipliers.as_deref().unwrap_or_default();
+        let name = |text: &str| Formula::Multiplier(text.to_owned());
+        let lines = self.by_vector(&labels, values, Self::factored, name).into_iter();
+        lines.map(|(_, line)| line).filter(Line::is_short).collect()
     }
 
     /// Constraint force Fᵀλ on each coordinate that a constraint acts on.
     pub(super) fn constraint_forces(&self) -> Vec<Line> {
         let forces = &self.derived.equations.printed_force;
-        let by_vector = self.by_vector(forces, Self::expression, |text| {
+        let by_vector = self.by_vector(&self.problem.coordinates, forces, Self::expression, |text| {
             self.letters.name_of(PageQuantity::ConstraintForce, text, 0)
         });
         let lines = by_vector.into_iter().map(|(rows, line)| {
@@ -132,18 +129,23 @@ impl Page<'_> {
 
     /// One equation for each coordinate, or for each vector whose components form one vector equation.
     pub(super) fn by_coordinate(&self, values: &[Id], left: impl Fn(&str) -> Formula) -> Vec<Line> {
-        self.by_vector(values, Self::expression, left).into_iter().map(|(_, line)| line).collect()
+        self.by_vector(&self.problem.coordinates, values, Self::expression, left)
+            .into_iter()
+            .map(|(_, line)| line)
+            .collect()
     }
 
+    /// Lines of values that belong to coordinates or constraints with these labels.
     pub(super) fn by_vector(
         &self,
+        labels: &[Label],
         values: &[Id],
         read: impl Fn(&Self, Id) -> Result<Formula, u64>,
         left: impl Fn(&str) -> Formula,
     ) -> Vec<(Range<usize>, Line)> {
         let mut lines = Vec::new();
         let mut first = 0;
-        for labels in self.vectors() {
+        for labels in vectors(labels) {
             let rows = first..first + labels.len();
             first = rows.end;
             // Without constraints there are no constraint forces.
@@ -160,6 +162,13 @@ impl Page<'_> {
         }
         lines
     }
+}
+
+/// Labels in groups: the components of each vector together, all others alone.
+fn vectors(labels: &[Label]) -> impl Iterator<Item = &[Label]> {
+    let are_together =
+        |one: &Label, other: &Label| vector(&one.text).is_some() && vector(&one.text) == vector(&other.text);
+    labels.chunk_by(are_together)
 }
 
 /// Name without its last index: `r` for `r[0]`, `r[1]` for `r[1][0]`.

@@ -11,6 +11,7 @@ mod golden_contacts;
 mod golden_lines;
 mod letters;
 mod mathml;
+mod multipliers;
 mod potentials;
 mod reader;
 mod systems;

@@ -61,6 +61,55 @@ fn quotients_of_products_are_their_factors() {
     });
 }
 
+/// A fraction keeps the value of its expression, also where a multiple of x + y − z − ½, which is zero at the point, is added.
+#[test]
+fn fractions_keep_their_values() {
+    for_all(400, 0.4, (trees(), trees()), |(first, second)| {
+        let (mut graph, [x, y, z]) = graph();
+        let [first, second] = [first, second].map(|tree| tree.build(&mut graph));
+        let ratio = graph.div(first, second);
+        let zero = graph.sum([
+            (x, rational(1, 1)),
+            (y, rational(1, 1)),
+            (z, rational(-1, 1)),
+            (Id::ONE, rational(-1, 2)),
+        ]);
+        let mut ring = Polynomials::default();
+        let zero = ring.of(&mut graph, zero).expect("short");
+        for zeros in [vec![], vec![zero]] {
+            let Some(fraction) = ring.fraction(&mut graph, ratio, &zeros) else {
+                return Ok(Outcome::Skipped);
+            };
+            let [before, after] = [ratio, fraction].map(|id| graph.evaluate(id, at(&[0.7, 0.9, 1.1])));
+            if graph.take_fault().is_some() || !before.value.is_finite() || !after.value.is_finite() {
+                return Ok(Outcome::Skipped);
+            }
+            prop_assert!(!before.minus(after).excludes_zero(), "{before:?} is not {after:?}");
+        }
+        Ok(Outcome::Checked)
+    });
+}
+
+/// (x² + x y)/(x (z + 1)) is (x + y)/(z + 1), and x² + y² is c² where this vanishes.
+#[test]
+fn fractions_are_short() {
+    let (mut graph, [x, y, z]) = graph();
+    let [first, second] = [(x, x), (x, y)].map(|(x, y)| graph.mul(x, y));
+    let above = graph.add(first, second);
+    let below = graph.add(z, Id::ONE);
+    let below = graph.mul(x, below);
+    let ratio = graph.div(above, below);
+    let mut ring = Polynomials::default();
+    let [sum, rest] = [(x, y), (z, Id::ONE)].map(|(x, y)| graph.add(x, y));
+    let expected = graph.div(sum, rest);
+    assert_eq!(ring.fraction(&mut graph, ratio, &[]), Some(expected));
+    let [x, y, c] = [x, y, z].map(|symbol| graph.square(symbol));
+    let square = graph.add(x, y);
+    let zero = graph.sub(square, c);
+    let zero = ring.of(&mut graph, zero).expect("short");
+    assert_eq!(ring.fraction(&mut graph, square, &[zero]), Some(c));
+}
+
 #[test]
 fn squares_of_sines_and_powers_of_roots_are_rewritten() {
     let (mut graph, [x, y, z]) = graph();

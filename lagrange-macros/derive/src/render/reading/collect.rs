@@ -41,11 +41,10 @@ impl Collector<'_, '_> {
 
     /// The sum, with its common factors before it.
     pub(super) fn factored(&self, polynomial: &Polynomial) -> Formula {
-        let (number, monomial) = polynomial.content();
-        let rest =
-            monomial.power(-Rational::one()).and_then(|inverse| polynomial.scaled(&inverse, number.recip()));
-        match rest {
-            Some(rest) if rest.len() > 1 => self.product(number, &monomial, &[(&rest, false)]),
+        match taken_out(polynomial) {
+            Some((number, monomial, rest)) if rest.len() > 1 => {
+                self.product(number, &monomial, &[(&rest, false)])
+            }
             _ => self.sum(polynomial),
         }
     }
@@ -268,6 +267,15 @@ impl Collector<'_, '_> {
         }
         true
     }
+}
+
+/// Splits common factors from a sum: number, monomial and quotient. The number is negative if all terms are.
+pub(super) fn taken_out(polynomial: &Polynomial) -> Option<(Rational, Monomial, Polynomial)> {
+    let (number, monomial) = polynomial.content();
+    let is_negative = polynomial.terms().all(|(_, c)| c.is_negative());
+    let number = if is_negative { -number } else { number };
+    let quotient = polynomial.scaled(&monomial.power(-Rational::one())?, number.recip())?;
+    Some((number, monomial, quotient))
 }
 
 fn in_order(mut parts: Vec<(TermOrder, Formula)>) -> Formula {

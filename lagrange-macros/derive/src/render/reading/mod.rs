@@ -171,6 +171,11 @@ impl Page<'_> {
         self.unmixed(id, |collector, all| collector.sum(all))
     }
 
+    /// The same, with common factors before sums.
+    pub(super) fn factored(&self, id: Id) -> Result<Formula, u64> {
+        self.unmixed(id, |collector, all| collector.factored(all))
+    }
+
     /// Shortest formula of a node. A formula that has velocities both by themselves and inside definitions is taken only if there
     /// is no other.
     fn unmixed(&self, id: Id, write: fn(&Collector, &Polynomial) -> Formula) -> Result<Formula, u64> {

@@ -7,7 +7,7 @@ use super::super::digits::decimal;
 use super::super::formula::Formula;
 use super::super::length::length;
 use super::atoms::Meaning;
-use super::collect::Collector;
+use super::collect::{Collector, taken_out};
 use super::dependence::is_velocity;
 use crate::symbolic::{self, Atom, Monomial, Polynomial, Rational, common};
 use crate::variables::Variable;
@@ -97,10 +97,7 @@ impl Collector<'_, '_> {
 
     /// Product coefficient · q̈.
     fn multiplied(&self, atom: Atom, coefficient: &Polynomial) -> Option<Formula> {
-        let (number, monomial) = coefficient.content();
-        let is_negative = coefficient.terms().all(|(_, c)| c.is_negative());
-        let number = if is_negative { -number } else { number };
-        let quotient = coefficient.scaled(&monomial.power(-Rational::one())?, number.recip())?;
+        let (number, monomial, quotient) = taken_out(coefficient)?;
         let monomial = monomial.times(&Monomial::of(atom, Rational::one()))?;
         let sums = [(&quotient, false)];
         Some(self.product(number, &monomial, if quotient.len() > 1 { &sums } else { &[] }))

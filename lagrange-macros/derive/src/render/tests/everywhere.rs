@@ -129,6 +129,7 @@ pub(super) fn check(system: &System) {
             potential::check(&page);
             checks::check_motion(&page);
             checks::check_quantities(&page);
+            checks::check_multipliers(&page);
             checks::check_hamilton(&page);
         }
     }

@@ -49,6 +49,7 @@ fn sphere_down_an_incline() {
               φ: inertia φ̈ = −a λ_no_slip
 
             Constraint forces
+              λ_no_slip = −2/7 m g sin α
               R_x = λ_no_slip
               R_φ = −a λ_no_slip
 
@@ -86,6 +87,7 @@ fn sphere_down_an_incline() {
             \end{align}
             \par\medskip\noindent\textbf{Constraint forces}
             \begin{align}
+              \lambda_{\mathrm{no}\,\mathrm{slip}} &= -\tfrac{2}{7} m g \sin \alpha \label{eq:RollingSphere-lambda_no_slip} \\
               R_x &= \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-R_x} \\
               R_\varphi &= -a \lambda_{\mathrm{no}\,\mathrm{slip}} \label{eq:RollingSphere-R_phi}
             \end{align}
@@ -138,6 +140,7 @@ fn spherical_pendulum() {
               z: m z̈ = −m g + λ_string z
 
             Constraint forces
+              λ_string = m (g z − ẋ² − ẏ² − ż²)/l²
               R_x = λ_string x
               R_y = λ_string y
               R_z = λ_string z
@@ -179,6 +182,7 @@ fn spherical_pendulum() {
             \end{align}
             \par\medskip\noindent\textbf{Constraint forces}
             \begin{align}
+              \lambda_{\mathrm{string}} &= \frac{m (g z - \dot x^2 - \dot y^2 - \dot z^2)}{l^2} \label{eq:SphericalPendulum-lambda_string} \\
               R_x &= \lambda_{\mathrm{string}} x \label{eq:SphericalPendulum-R_x} \\
               R_y &= \lambda_{\mathrm{string}} y \label{eq:SphericalPendulum-R_y} \\
               R_z &= \lambda_{\mathrm{string}} z \label{eq:SphericalPendulum-R_z}
@@ -391,6 +395,7 @@ fn functions_families_and_vectors() {
               s:    s̈ = −(∂f/∂s)(a, s) − (∂f/∂s)([s, 1], s) − (∂f/∂r[0])([s, 1], s)
 
             Constraint forces
+              λ_meet = (2 ȧ[1] ḃ[0] + k (b[1] ȧ[0] − b[0] ȧ[1]) + 3 b[1] + b[1] (∂f/∂r[0])(a, s) − 2 ȧ[0] ḃ[1] − 5/2 a[1] − b[0] (∂f/∂r[1])(a, s))/(a·a + b·b)
               R_a[0] = λ_meet b[1]
               R_a[1] = −λ_meet b[0]
               R_b[0] = −λ_meet a[1]
@@ -445,6 +450,9 @@ fn functions_families_and_vectors() {
             \end{align}
             \par\medskip\noindent\textbf{Constraint forces}
             \begin{align}
+              \lambda_{\mathrm{meet}} &= \frac{1}{\mathbf{a} \cdot \mathbf{a} + \mathbf{b} \cdot \mathbf{b}} \bigl(2 \dot a_1 \dot b_0 + k (b_1 \dot a_0 - b_0 \dot a_1) + 3 b_1 \nonumber \\*
+                &\quad + b_1 \left( \frac{\partial f}{\partial r_0} \right)(\mathbf{a}, s) - 2 \dot a_0 \dot b_1 - \tfrac{5}{2} a_1 \nonumber \\*
+                &\quad - b_0 \left( \frac{\partial f}{\partial r_1} \right)(\mathbf{a}, s)\bigr) \label{eq:Everything-lambda_meet} \\
               R_{a, 0} &= \lambda_{\mathrm{meet}} b_1 \label{eq:Everything-R_a-0} \\
               R_{a, 1} &= -\lambda_{\mathrm{meet}} b_0 \label{eq:Everything-R_a-1} \\
               R_{b, 0} &= -\lambda_{\mathrm{meet}} a_1 \label{eq:Everything-R_b-0} \\

@@ -6,7 +6,7 @@ use lagrange_random::cases;
 
 use super::state::State;
 use super::{Page, links, outer, turns, value};
-use crate::mechanics::Derived;
+use crate::mechanics::{Derived, Moment, Moments};
 use crate::render::axes::named_axes;
 use crate::render::formula::Formula;
 use crate::render::letters::PageQuantity;
@@ -193,6 +193,28 @@ pub(super) fn check_quantities(system: &Page) {
     }
 }
 
+/// Checks multipliers against those that solve the equations of motion at states on the constraints.
+pub(super) fn check_multipliers(system: &Page) {
+    let labels = system.problem.constraints.iter().enumerate();
+    let names: Vec<(usize, Formula)> =
+        labels.map(|(a, (label, _))| (a, Formula::Multiplier(label.text.clone()))).collect();
+    let moments = Moments::new(&system.problem, &system.derived.equations, false);
+    for line in system.lines("Constraint forces\n") {
+        let left = line.split(" = ").next().expect("a side");
+        let is_it = |name: &Formula| {
+            system.written(name) == left || outer(name).iter().any(|name| system.written(name) == left)
+        };
+        let rows: Vec<usize> = names.iter().filter(|(_, name)| is_it(name)).map(|(a, _)| *a).collect();
+        if !rows.is_empty() {
+            check_line_at(system, (line, None), |draw| {
+                let Moment(sample) = Moment::drawn(&system.graph, &moments, draw)?;
+                let values = rows.iter().map(|&a| value(&sample, Variable::Multiplier(a))).collect();
+                Some((sample, values))
+            });
+        }
+    }
+}
+
 /// Checks that at p = ∂L/∂q̇ of a state, H is the energy, ∂H/∂p the velocity and ṗ the forces.
 pub(super) fn check_hamilton(system: &Page) {
     let equations = &system.derived.equations;
@@ -234,7 +256,7 @@ fn check_by_coordinate(
             };
             let rows: Vec<usize> = (0..names.len()).filter(|&i| is_it(&names[i])).collect();
             if !rows.is_empty() {
-                check_line_at(system, line, index.as_ref(), |sample| {
+                check_element_of_line(system, line, index.as_ref(), |sample| {
                     rows.iter().map(|&i| computed(sample, i)).collect()
                 });
             }
@@ -244,15 +266,28 @@ fn check_by_coordinate(
 
 /// Checks that the right side of a line has the computed value, within the rounding errors of both.
 pub(super) fn check_line(system: &Page, line: &str, computed: impl Fn(&mut Sample) -> Value) {
-    check_line_at(system, line, None, computed);
+    check_element_of_line(system, line, None, computed);
 }
 
 /// The same for a value of a running index.
-fn check_line_at(
+fn check_element_of_line(
     system: &Page,
     line: &str,
     index: Option<&(String, i64)>,
     computed: impl Fn(&mut Sample) -> Value,
+) {
+    check_line_at(system, (line, index), |draw| {
+        let mut sample = system.sample(draw);
+        let computed = computed(&mut sample);
+        Some((sample, computed))
+    });
+}
+
+/// The same at states that are given with their values.
+fn check_line_at(
+    system: &Page,
+    (line, index): (&str, Option<&(String, i64)>),
+    state: impl Fn(u64) -> Option<(Sample, Value)>,
 ) {
     let Some((_, text)) = line.split_once(" = ") else { return };
     if !system.is_plain && (text.contains('Σ') || text.contains('∑')) {
@@ -261,8 +296,7 @@ fn check_line_at(
     let text = text.split("   (").next().expect("a formula");
     let mut states = 0;
     for draw in 0..STATES {
-        let mut sample = system.sample(draw);
-        let computed = computed(&mut sample);
+        let Some((mut sample, computed)) = state(draw) else { continue };
         let read = State::new(system, &mut sample, draw).read_at(text, index);
         if !computed.iter().chain(&read).all(|x| x.is_finite()) {
             continue;
