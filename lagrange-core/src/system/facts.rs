@@ -105,7 +105,7 @@ pub struct Facts {
     /// Cyclic coordinates: the Lagrangian contains at most their velocities, and no force or constraint acts along them.
     pub cyclic: &'static [&'static str],
     /// Conserved quantities, in the order of [`Lagrangian::conserved`](crate::Lagrangian::conserved): momenta,
-    /// the energy, and those given in `#[conserved(…)]`.
+    /// momentum and angular momentum of all vectors together, the energy, and those given in `#[conserved(…)]`.
     pub conserved: &'static [Conserved],
     /// Evidence that the energy function E = p·q̇ − L is conserved; `None` if it is not known to be. A
     /// constraint with an inhomogeneous part does work even if it does not contain the time.

@@ -40,7 +40,7 @@ use crate::resolve::Problem;
 pub struct Facts {
     /// Cyclic coordinates: the Lagrangian contains at most their velocities, and no force or constraint acts along them.
     pub cyclic: Vec<String>,
-    /// Conserved quantities: momenta, the energy, and those given in `#[conserved(…)]`.
+    /// Conserved quantities: momenta, momentum and angular momentum of all vectors together, the energy, and those given in `#[conserved(…)]`.
     pub conserved: Vec<Conserved>,
     /// Evidence that the energy function E = p·q̇ − L is conserved; `None` if it is not known to be.
     pub energy_is_conserved: Option<Evidence>,
@@ -59,7 +59,8 @@ pub struct Facts {
 /// A quantity that the motion conserves.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Conserved {
-    /// Name: `p_phi` for the momentum of a coordinate `phi`, `energy`, or the name given in `#[conserved(…)]`.
+    /// Name: `p_phi` for the momentum of a coordinate `phi`, `momentum[0]` and `angular_momentum[0]` of all vectors together, `energy`,
+    /// or the name given in `#[conserved(…)]`.
     pub name: String,
     /// Evidence for the conservation.
     pub evidence: Evidence,

@@ -10,6 +10,7 @@ use crate::contract::Method;
 use crate::facts::{Conserved, EnergyForm, Evidence, Facts, LinearPart, TotalDerivative};
 use crate::mechanics::ConservedKind;
 use crate::resolve::Observed;
+use crate::symbolic::Id;
 
 impl Emitter<'_> {
     pub(super) fn facts(&self) -> TokenStream {
@@ -48,23 +49,20 @@ impl Emitter<'_> {
     pub(super) fn conserved_by_index(&self, method: &Method) -> Written {
         let conserved = self.derived.facts.conserved.iter().enumerate();
         let arms = conserved.map(|(index, conserved)| {
-            let Written { tokens: value, kernels } = self.conserved_value(conserved.quantity);
+            let Written { tokens: value, kernels } = self.conserved_value(index, conserved.quantity);
             let tokens = quote!(#index => ::core::option::Option::Some(#value),);
             Written { tokens, kernels }
         });
         self.by_index(method, arms.collect())
     }
 
-    fn conserved_value(&self, quantity: ConservedKind) -> Written {
+    fn conserved_value(&self, index: usize, quantity: ConservedKind) -> Written {
         let tokens = match quantity {
             ConservedKind::Energy => quote!(__lagrange::Lagrangian::energy(self, state)),
             ConservedKind::Momentum(a) => {
-                let momentum = [self.derived.equations.momentum[a]];
-                let kernel = self.style.kernel(&format!("momentum_{a}"), &momentum, &[ResultShape::Number]);
-                let (statements, results) = (&kernel.statements, &kernel.results);
-                let tokens = quote!({ #statements #(#results)* });
-                return Written { tokens, kernels: vec![kernel] };
+                return self.sum_of_momenta(index, self.derived.equations.momentum[a]);
             }
+            ConservedKind::Total(.., [value, _]) => return self.sum_of_momenta(index, value),
             ConservedKind::Observable(observable, entry) => {
                 let Observed { label, lengths, .. } = &self.problem.observables[observable];
                 let (method, entry) =
@@ -73,6 +71,13 @@ impl Emitter<'_> {
             }
         };
         Written { tokens, kernels: Vec::new() }
+    }
+
+    fn sum_of_momenta(&self, index: usize, value: Id) -> Written {
+        let kernel = self.style.kernel(&format!("conserved_{index}"), &[value], &[ResultShape::Number]);
+        let (statements, results) = (&kernel.statements, &kernel.results);
+        let tokens = quote!({ #statements #(#results)* });
+        Written { tokens, kernels: vec![kernel] }
     }
 }
 

@@ -29,9 +29,29 @@ const INFORMATIVE: f64 = 1e-6;
 pub(crate) enum ConservedKind {
     /// Generalized momentum of this coordinate.
     Momentum(usize),
+    /// Momentum or angular momentum of all vectors together: symmetry, component, and value in velocities and in momenta. In a plane,
+    /// the angular momentum is one number.
+    Total(Symmetry, Option<usize>, [Id; 2]),
     Energy,
     /// One entry of an observable: indices of the observable and of the entry.
     Observable(usize, usize),
+}
+
+/// Symmetry of space.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Symmetry {
+    Translation,
+    Rotation,
+}
+
+impl Symmetry {
+    /// Name of the conserved quantity.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Translation => "momentum",
+            Self::Rotation => "angular_momentum",
+        }
+    }
 }
 
 #[derive(Debug)]

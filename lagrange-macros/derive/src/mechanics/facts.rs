@@ -7,6 +7,7 @@ use super::equations::Equations;
 use super::evidence::vanishes;
 use super::gauge::{self, LinearPart, TotalDerivative};
 use super::moment::Moments;
+use super::symmetries;
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
 use crate::symbolic::{Graph, Id};
@@ -49,6 +50,7 @@ impl Facts {
     ) -> Self {
         let mut moments = Moments::new(problem, equations, true);
         let (cyclic, mut conserved) = momenta(graph, &mut moments);
+        conserved.extend(symmetries::totals(graph, problem, equations, &conserved));
         // The energy is said to be conserved while nothing slides.
         let mut at_rest = (!problem.frictions.is_empty()).then(|| Moments::new(problem, equations, false));
         let (energy, changes) = conservation::of_energy(graph, at_rest.as_mut().unwrap_or(&mut moments));
@@ -58,7 +60,7 @@ impl Facts {
         let energy_changes = changes.into_iter().filter(|_| energy.is_none()).collect();
         conserved.extend(energy);
         let said = conservation::of_observables(graph, &mut moments, diagnostics);
-        conserved.retain(|found| said.iter().all(|said| said.name != found.name));
+        conserved.retain(|found| !said.iter().any(|said| is_same(graph, problem, found, said)));
         conserved.extend(said);
         let (energy_form, even) = energy_form::find(graph, problem, equations);
         let linear_part = match even {
@@ -68,6 +70,18 @@ impl Facts {
         let total_derivatives = gauge::total_derivatives(graph, problem);
         Self { cyclic, conserved, energy_form, energy_changes, energy_rate, total_derivatives, linear_part }
     }
+}
+
+/// Returns whether a declared quantity has the name of one that was found, or is a total that was found.
+fn is_same(graph: &mut Graph, problem: &Problem, found: &Conserved, said: &Conserved) -> bool {
+    let is_equal = match (found.quantity, said.quantity) {
+        (ConservedKind::Total(.., [total, _]), ConservedKind::Observable(observable, entry)) => {
+            let difference = graph.sub(total, problem.observables[observable].values[entry]);
+            vanishes(graph, problem, difference).is_some()
+        }
+        _ => false,
+    };
+    found.name == said.name || is_equal
 }
 
 /// Returns the cyclic coordinates and the conserved momenta. A momentum is conserved if L and the forces do not depend

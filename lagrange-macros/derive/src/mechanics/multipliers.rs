@@ -2,14 +2,15 @@
 
 use super::equations::{Equations, LinearEquations};
 use super::hamilton::{COORDINATES, inverse};
+use super::moment::Moments;
 use crate::resolve::Problem;
-use crate::symbolic::{ExactPolynomial, Graph, Id, Polynomials};
+use crate::symbolic::{ExactPolynomial, Graph, Id, Polynomials, rank};
 
 /// Largest number of nodes in the equations: what longer ones give is no formula for a reader.
 const NODES: usize = 200;
 
 /// λ = −(F M⁻¹Fᵀ)⁻¹ (F M⁻¹h + γ), where the constraints hold. `None` if contacts open or friction slides, if M or F M⁻¹Fᵀ has
-/// no inverse in symbols, or if the equations are long.
+/// no inverse in symbols where the constraints hold, or if the equations are long.
 pub(super) fn multipliers(graph: &mut Graph, problem: &Problem, equations: &Equations) -> Option<Vec<Id>> {
     let Equations { mass, forcing, linear: LinearEquations { jacobian, bias, .. }, residual, .. } = equations;
     let all = [mass.concat(), jacobian.concat(), forcing.clone(), bias.clone(), residual.clone()].concat();
@@ -23,6 +24,10 @@ pub(super) fn multipliers(graph: &mut Graph, problem: &Problem, equations: &Equa
         fractions.written(graph, &row)
     });
     let compliance = compliance.collect::<Option<Vec<_>>>()?;
+    // Constraints may depend on each other where they hold, and only there.
+    let mut moments = Moments::new(problem, equations, false);
+    let values = moments.get(0, graph)?.values(graph, &compliance.concat());
+    (rank(values.chunks(compliance.len()).map(<[_]>::to_vec).collect()) == compliance.len()).then_some(())?;
     let pushed = applied(graph, &responses, forcing);
     let free: Vec<Id> = pushed.into_iter().zip(bias).map(|(pushed, &bias)| graph.add(pushed, bias)).collect();
     let stiffness = inverse(graph, problem, &compliance).ok()?;

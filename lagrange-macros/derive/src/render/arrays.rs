@@ -22,6 +22,8 @@ impl Arrays {
             let of_coordinate = [PageQuantity::Momentum, PageQuantity::ConstraintForce, PageQuantity::Force];
             of_coordinate.iter().for_each(|&quantity| arrays.add(&letters.text_of(quantity, &label.text)));
         }
+        let totals = [PageQuantity::TotalMomentum, PageQuantity::AngularMomentum];
+        totals.iter().for_each(|&total| arrays.add(&format!("{}[0]", letters.letter(total))));
         (0..problem.parameters.entries.len()).for_each(|k| arrays.add(&problem.parameters.name(k)));
         for turning in &turnings.all {
             let quaternion = problem.coordinates[turning.first].text.trim_end_matches("[0]");

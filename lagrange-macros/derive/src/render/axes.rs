@@ -4,12 +4,11 @@
 use super::formula::Formula;
 use super::length::length;
 use super::lines::{Equation, Line};
-use super::motion::vector;
 use super::page::Page;
 use super::remark::{Fragment, Remark};
 use super::roots::{is_taken, taken};
 use crate::mechanics::Turnings;
-use crate::resolve::Problem;
+use crate::resolve::{Problem, vector};
 use crate::symbolic::{Graph, Id, Node};
 
 /// Letters for a matrix: the first that is free.

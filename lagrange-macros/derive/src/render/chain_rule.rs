@@ -3,11 +3,11 @@
 use super::formula::Formula;
 use super::length::{READABLE, length};
 use super::lines::LINE;
-use super::motion::vector;
 use super::page::Page;
 use super::resultants::component;
 use super::roots::{is_taken, taken};
 use crate::mechanics::{ChainArgument, ChainRule, ConstraintKind, Resultants};
+use crate::resolve::vector;
 use crate::symbolic::Id;
 use crate::variables::Variable;
 

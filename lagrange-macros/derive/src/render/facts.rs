@@ -1,10 +1,14 @@
 //! Renders conserved quantities and total time derivatives.
 
 use super::formula::Formula;
-use super::lines::{Equation, Line};
+use super::length::length;
+use super::letters::PageQuantity;
+use super::lines::{Equation, LINE, Line};
 use super::page::Page;
 use super::remark::{Fragment, Remark};
-use crate::mechanics::{Conserved, ConservedKind, Evidence};
+use crate::mechanics::{Conserved, ConservedKind, Evidence, Symmetry};
+use crate::resolve::vectors;
+use crate::symbolic::Id;
 use crate::syntax::{Expression, Sign};
 
 impl Page<'_> {
@@ -21,6 +25,9 @@ impl Page<'_> {
     fn conserved_quantity(&self, Conserved { quantity, evidence, .. }: &Conserved) -> Option<Line> {
         let line = match *quantity {
             ConservedKind::Momentum(a) => self.conserved_momentum(a)?,
+            ConservedKind::Total(symmetry, component, values) => {
+                self.conserved_total(symmetry, component, values)?
+            }
             ConservedKind::Energy => return Some(self.conserved_energy(*evidence)),
             // A conserved vector is written once, at its first component.
             ConservedKind::Observable(observable, 0) => {
@@ -54,6 +61,32 @@ impl Page<'_> {
             Line::known(self.momentum_name(&self.problem.coordinates[a].text, 0), momentum),
             a,
         ))
+    }
+
+    /// A total whose components are all conserved is written once, at its first component. Beyond a line, it is a sum of momenta.
+    fn conserved_total(&self, symmetry: Symmetry, component: Option<usize>, values: [Id; 2]) -> Option<Line> {
+        let all = self.derived.facts.conserved.iter().filter_map(|conserved| match conserved.quantity {
+            ConservedKind::Total(of, Some(_), values) if of == symmetry => Some(values),
+            _ => None,
+        });
+        let all: Vec<[Id; 2]> = all.collect();
+        let dimension = vectors(&self.problem.coordinates).map(<[_]>::len).filter(|n| *n <= 3).max();
+        let is_whole = dimension == Some(all.len());
+        let written = |k: usize| match is_whole {
+            true => self.vector_expression(&all.iter().map(|values| values[k]).collect::<Vec<_>>()),
+            false => self.momentum(values[k]).ok(),
+        };
+        let fits = |formula: &Formula| length(formula) <= LINE;
+        let formula = written(0).filter(fits).or_else(|| written(1))?;
+        let letter = self.letters.letter(match symmetry {
+            Symmetry::Translation => PageQuantity::TotalMomentum,
+            Symmetry::Rotation => PageQuantity::AngularMomentum,
+        });
+        let (is_first, name) = match component.filter(|_| !is_whole) {
+            Some(k) => (true, format!("{letter}[{k}]")),
+            None => (component.is_none_or(|k| k == 0), letter.to_owned()),
+        };
+        is_first.then(|| Line::known(Formula::labelled(&name, 0), Ok(formula)))
     }
 
     /// Terms of the Lagrangian that are total time derivatives.

@@ -4,10 +4,9 @@
 use rustc_hash::FxHashSet;
 
 use super::formula::Formula;
-use super::motion::vector;
 use super::roots::{names_of, written_base};
-use crate::mechanics::{Derived, EnergyForm};
-use crate::resolve::Problem;
+use crate::mechanics::{Conserved, ConservedKind, Derived, EnergyForm, Symmetry};
+use crate::resolve::{Problem, vector};
 use crate::syntax::Declaration;
 
 /// Quantity that has a symbol on the page.
@@ -24,6 +23,9 @@ pub(super) enum PageQuantity {
     /// Momentum of a coordinate.
     Momentum,
     Power,
+    /// Momentum of all vectors together.
+    TotalMomentum,
+    AngularMomentum,
     /// Force of constraint on a coordinate.
     ConstraintForce,
     /// Force on a coordinate.
@@ -41,7 +43,7 @@ pub(super) enum PageQuantity {
 use PageQuantity::*;
 
 /// Letters of each symbol, in the order of [`PageQuantity`].
-const LETTERS: [(PageQuantity, &[&str]); 15] = [
+const LETTERS: [(PageQuantity, &[&str]); 17] = [
     (Lagrangian, &["L", "ℒ"]),
     (Energy, &["E", "ℰ"]),
     (Hamiltonian, &["H", "ℋ"]),
@@ -51,6 +53,8 @@ const LETTERS: [(PageQuantity, &[&str]); 15] = [
     (Dissipation, &["D", "ℱ"]),
     (Momentum, &["p", "P", "Pi"]),
     (Power, &["P", "𝒫"]),
+    (TotalMomentum, &["P", "Pi"]),
+    (AngularMomentum, &["J", "𝒥"]),
     (ConstraintForce, &["R", "ℛ"]),
     (Force, &["Q", "𝒬"]),
     (Multiplier, &["lambda", "Lambda"]),
@@ -66,15 +70,17 @@ impl Letters {
     pub(super) fn of(declaration: &Declaration, problem: &Problem, derived: &Derived) -> Self {
         let taken = taken(declaration, problem);
         let is_free = |name: &str| !taken.contains(&written_base(name));
-        let mut chosen: Vec<String> = Vec::new();
+        let (mut chosen, mut on_page) = (Vec::new(), FxHashSet::default());
         for (quantity, letters) in LETTERS {
             let behind = behind(quantity, problem, derived);
             let fits = |letter: &String| {
-                !chosen.contains(letter) && behind.iter().all(|behind| is_free(&format!("{letter}{behind}")))
+                !on_page.contains(letter) && behind.iter().all(|behind| is_free(&format!("{letter}{behind}")))
             };
             let numbered = (1..).map(|number| format!("{}_{number}", letters[0]));
             let mut all = letters.iter().map(|&letter| letter.to_owned()).chain(numbered);
-            chosen.extend(all.find(fits));
+            let letter = all.find(fits).expect("numbers do not end");
+            on_page.extend((!behind.is_empty()).then(|| letter.clone()));
+            chosen.push(letter);
         }
         Self(std::array::from_fn(|place| std::mem::take(&mut chosen[place])))
     }
@@ -108,13 +114,17 @@ impl Letters {
     }
 }
 
-/// What stands behind the letter of a symbol wherever the page has it: `_x` for the momentum of x.
+/// What stands behind the letter of a symbol wherever the page has it: `_x` for the momentum of x. Nothing if it is not on the page.
 fn behind(quantity: PageQuantity, problem: &Problem, derived: &Derived) -> Vec<String> {
     let facts = &derived.facts;
     let coordinates = || problem.coordinates.iter().map(|label| &*label.text).collect();
     let quaternions = || {
         let first = derived.turnings.all.iter().map(|turning| &*problem.coordinates[turning.first].text);
         first.filter_map(vector).collect()
+    };
+    let has_total = |symmetry| {
+        let is_it = |conserved: &Conserved| matches!(conserved.quantity, ConservedKind::Total(of, ..) if of == symmetry);
+        facts.conserved.iter().any(is_it)
     };
     let changes = !facts.energy_changes.is_empty();
     let (names, is_alone): (Vec<&str>, bool) = match quantity {
@@ -123,6 +133,9 @@ fn behind(quantity: PageQuantity, problem: &Problem, derived: &Derived) -> Vec<S
         ConstraintForce => (coordinates(), false),
         Force => (coordinates(), changes),
         Multiplier => (problem.constraints.iter().map(|(label, _)| &*label.text).collect(), changes),
+        Power => (Vec::new(), !problem.powers.is_empty()),
+        TotalMomentum => (Vec::new(), has_total(Symmetry::Translation)),
+        AngularMomentum => (Vec::new(), has_total(Symmetry::Rotation)),
         AngularVelocity | Inertia => (quaternions(), false),
         _ => (Vec::new(), true),
     };

@@ -5,12 +5,11 @@ use super::axes::named_axes;
 use super::formula::Formula;
 use super::letters::{Letters, PageQuantity};
 use super::lines::{Line, Section};
-use super::motion::vector;
 use super::page::Page;
 use super::remark::{Fragment, Remark};
 use super::roots::{is_taken, taken};
 use crate::mechanics::{Derived, Link, Resultants, RigidBody, Turning};
-use crate::resolve::{Frame, Problem, Triple};
+use crate::resolve::{Frame, Problem, Triple, vector};
 use crate::symbolic::{Id, Node};
 use crate::variables::Variable;
 

@@ -8,7 +8,7 @@ use super::lines::{Equation, Line};
 use super::page::Page;
 use super::resultants::Speed;
 use crate::mechanics::{Derived, Turning};
-use crate::resolve::Label;
+use crate::resolve::{Label, vector, vectors};
 use crate::symbolic::Id;
 
 /// Lines of an equation of motion and of the names in it, and the velocities whose equations these are.
@@ -162,16 +162,4 @@ impl Page<'_> {
         }
         lines
     }
-}
-
-/// Labels in groups: the components of each vector together, all others alone.
-fn vectors(labels: &[Label]) -> impl Iterator<Item = &[Label]> {
-    let are_together =
-        |one: &Label, other: &Label| vector(&one.text).is_some() && vector(&one.text) == vector(&other.text);
-    labels.chunk_by(are_together)
-}
-
-/// Name without its last index: `r` for `r[0]`, `r[1]` for `r[1][0]`.
-pub(super) fn vector(text: &str) -> Option<&str> {
-    text.strip_suffix(']')?.rsplit_once('[').map(|(vector, _)| vector)
 }

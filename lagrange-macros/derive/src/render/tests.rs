@@ -16,6 +16,7 @@ mod potentials;
 mod reader;
 mod systems;
 mod texts;
+mod totals;
 mod typeset;
 
 use lagrange_random::cases;

@@ -6,13 +6,13 @@ use super::formula::Formula;
 use super::length::{READABLE, length};
 use super::letters::PageQuantity;
 use super::lines::{Equation, Line};
-use super::motion::{MotionRow, vector};
+use super::motion::MotionRow;
 use super::notation::Notation;
 use super::page::Page;
 use super::remark::{Fragment, Remark};
 use super::resultants::Speed;
 use crate::mechanics::{EnergyForm, Euler, Turning, Turnings};
-use crate::resolve::Label;
+use crate::resolve::{Label, vector};
 use crate::symbolic::{Id, Node, Rational};
 use crate::variables::Variable;
 

@@ -31,3 +31,15 @@ pub(crate) fn entry_names(name: &str, lengths: &[usize]) -> Vec<String> {
     let layout = Layout::array(lengths);
     (0..layout.numbers()).map(|number| element_name(name, &layout.indices(number))).collect()
 }
+
+/// Labels in groups: the components of each vector together, all others alone.
+pub(crate) fn vectors(labels: &[Label]) -> impl Iterator<Item = &[Label]> {
+    let are_together =
+        |one: &Label, other: &Label| vector(&one.text).is_some() && vector(&one.text) == vector(&other.text);
+    labels.chunk_by(are_together)
+}
+
+/// Name without its last index: `r` for `r[0]`, `r[1]` for `r[1][0]`.
+pub(crate) fn vector(text: &str) -> Option<&str> {
+    text.strip_suffix(']')?.rsplit_once('[').map(|(vector, _)| vector)
+}

@@ -37,7 +37,7 @@ use crate::syntax::Declaration;
 pub(crate) use frames::{Body, Frame, Step, Triple, columns, named, sum, symmetric};
 pub(crate) use frames::{is_of_frames, is_step};
 pub(crate) use function::Supplied;
-pub(crate) use label::{Label, entry_names, labels};
+pub(crate) use label::{Label, entry_names, labels, vector, vectors};
 use lowering::Lowering;
 use many::Many;
 pub(crate) use outline::{Observable, Outline, outline};

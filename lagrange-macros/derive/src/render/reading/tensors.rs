@@ -5,11 +5,10 @@ use rustc_hash::FxHashSet;
 use super::super::axes::NamedAxes;
 use super::super::formula::Formula;
 use super::super::letters::{Letters, PageQuantity};
-use super::super::motion::vector;
 use super::atoms::Meaning;
 use super::expand::Expansion;
 use crate::mechanics::Derived;
-use crate::resolve::Problem;
+use crate::resolve::{Problem, vector};
 use crate::symbolic::{Graph, Id, Node};
 use crate::variables::Variable;
 

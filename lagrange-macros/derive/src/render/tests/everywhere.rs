@@ -130,6 +130,7 @@ pub(super) fn check(system: &System) {
             checks::check_motion(&page);
             checks::check_quantities(&page);
             checks::check_multipliers(&page);
+            checks::check_totals(&page);
             checks::check_hamilton(&page);
         }
     }

@@ -62,13 +62,16 @@ fn multipliers_are_functions_of_the_state() {
     }
 }
 
-/// Where contacts open, and where M has no inverse, no formula of λ is found.
+/// Where contacts open, where M has no inverse, and where constraints depend on each other once they hold, λ has no formula.
 #[test]
 fn multipliers_without_a_formula_are_not_printed() {
     for source in [
         "#[coordinates(z)] #[lagrangian(m/2*z_dot^2 - m*g*z)] #[contact(floor: z >= 0, restitution: e)]
          struct Bouncing { m: f64, g: f64, e: f64, floor: Contact }",
         "#[coordinates(x, y)] #[lagrangian(m/2*x_dot^2 - y)] #[constraint(tied: y = x)] struct Massless { m: f64 }",
+        "#[coordinates(x, y, z)] #[lagrangian(m/2*(x_dot^2 + y_dot^2 + z_dot^2))]
+         #[constraint(sphere: a*(x^2 + y^2 + z^2 - l^2) = 0)] #[constraint(also: b*(x*x_dot + y*y_dot + z*z_dot) = 0)]
+         struct Twice { m: f64, a: f64, b: f64, l: f64 }",
     ] {
         let system = System::new(source.parse().expect("tokens")).unwrap_or_else(|| panic!("{source}"));
         assert_eq!(system.derived.multipliers, None, "{source}");

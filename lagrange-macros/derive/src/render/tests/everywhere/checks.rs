@@ -6,7 +6,7 @@ use lagrange_random::cases;
 
 use super::state::State;
 use super::{Page, links, outer, turns, value};
-use crate::mechanics::{Derived, Moment, Moments};
+use crate::mechanics::{ConservedKind, Derived, Moment, Moments, Symmetry};
 use crate::render::axes::named_axes;
 use crate::render::formula::Formula;
 use crate::render::letters::PageQuantity;
@@ -190,6 +190,37 @@ pub(super) fn check_quantities(system: &Page) {
         check_by_coordinate(system, &lines, (Some(PageQuantity::Momentum), 0), |sample, i| {
             value(sample, equations.momentum.get(i))
         });
+    }
+}
+
+/// Checks the momentum and angular momentum of all vectors against the computed ones.
+pub(super) fn check_totals(system: &Page) {
+    let quantities = [
+        (Symmetry::Translation, PageQuantity::TotalMomentum),
+        (Symmetry::Rotation, PageQuantity::AngularMomentum),
+    ];
+    for (symmetry, quantity) in quantities {
+        let totals = system.derived.facts.conserved.iter().filter_map(|conserved| match conserved.quantity {
+            ConservedKind::Total(of, component, [value, _]) if of == symmetry => Some((component, value)),
+            _ => None,
+        });
+        let totals: Vec<(Option<usize>, Id)> = totals.collect();
+        let letter = system.letters.letter(quantity);
+        for line in system.lines("Conserved\n") {
+            let left = line.split(" = ").next().expect("a side");
+            let names = |component: Option<usize>| {
+                let element = component.map(|k| format!("{letter}[{k}]"));
+                let mut names = element.into_iter().chain([letter.to_owned()]);
+                names.any(|name| system.written(&Formula::labelled(&name, 0)) == left)
+            };
+            let values: Vec<Id> =
+                totals.iter().filter(|(component, _)| names(*component)).map(|(_, value)| *value).collect();
+            if !values.is_empty() {
+                check_line(system, line, |sample| {
+                    sample.values(&system.graph, &values).iter().map(|value| value.value).collect()
+                });
+            }
+        }
     }
 }
 
