@@ -2,12 +2,13 @@
 //! instead.
 
 use num_traits::One;
+use rustc_hash::FxHashMap;
 
 use super::equations::Equations;
 use super::euler_lagrange::generalized_forces;
 use super::evidence::vanishes;
 use super::legendre::PowerTerms;
-use crate::resolve::Problem;
+use crate::resolve::{Limit, Problem};
 use crate::symbolic::{Approximate, Graph, Id, Rational, Sample, rank};
 use crate::variables::{Variable, has_velocity, nodes, symbols};
 
@@ -21,6 +22,8 @@ pub(crate) struct Hamilton {
     pub(crate) velocities: Vec<Id>,
     /// ṗ = −∂H/∂q + Q + Fᵀλ
     pub(crate) rates: Vec<Id>,
+    /// Calls of `min`, `max` and `clamp` in forces, by momenta.
+    pub(crate) limits: Vec<Limit>,
     /// Entries of M, row by row, kept as definitions: simplifying them shortens H.
     pub(crate) entries: Vec<Id>,
 }
@@ -71,12 +74,15 @@ impl Hamilton {
         let at_rest = graph.without(still, &at_rest);
         let energies = [graph.sum(parts.terms), graph.neg(at_rest)];
         let hamiltonian = graph.total(energies);
-        let rates = rates(graph, problem, equations, hamiltonian, &parts.velocities);
+        let by_momenta = by_momenta(problem, graph, &parts.velocities);
+        let rates = rates(graph, problem, equations, hamiltonian, &by_momenta);
+        let limits = problem.limits.iter().map(|limit| limit.map(|id| graph.replaced(id, &by_momenta)));
+        let limits = limits.collect();
         let entries = mass.concat();
         let is_exact = graph.take_fault().is_none();
         let velocities = parts.velocities;
         is_exact
-            .then_some(Self { hamiltonian, energies, velocities, rates, entries })
+            .then_some(Self { hamiltonian, energies, velocities, rates, limits, entries })
             .ok_or(NoHamiltonian::Long)
     }
 }
@@ -135,20 +141,26 @@ fn moving(graph: &mut Graph, block: &[usize], rest: &[Id]) -> Vec<Id> {
     momenta.into_iter().zip(rest).map(|(momentum, &rest)| graph.sub(momentum, rest)).collect()
 }
 
+/// Replacements of the velocities, and of switches, which are on.
+fn by_momenta(problem: &Problem, graph: &mut Graph, velocities: &[Id]) -> FxHashMap<Id, Id> {
+    let speeds = nodes(graph, velocities.len(), Variable::Velocity);
+    let switches = symbols(problem.parameters.switches.len(), Variable::Switch).into_iter();
+    let on =
+        switches.filter_map(|symbol| Some((graph.symbol(symbol), problem.parameters.switched_on(symbol)?)));
+    on.chain(speeds.into_iter().zip(velocities.iter().copied())).collect()
+}
+
 fn rates(
     graph: &mut Graph,
     problem: &Problem,
     equations: &Equations,
     hamiltonian: Id,
-    velocities: &[Id],
+    by_momenta: &FxHashMap<Id, Id>,
 ) -> Vec<Id> {
-    let slopes = graph.gradient(hamiltonian, &symbols(velocities.len(), Variable::Coordinate));
     let forces = generalized_forces(graph, problem);
+    let slopes = graph.gradient(hamiltonian, &symbols(forces.len(), Variable::Coordinate));
     let rate = |(i, (slope, force)): (usize, (Id, Id))| {
-        let force = graph.substituted(force, |symbol| match Variable::of(symbol) {
-            Variable::Velocity(i) => Some(velocities[i]),
-            _ => problem.parameters.switched_on(symbol),
-        });
+        let force = graph.replaced(force, by_momenta);
         let applied = graph.sub(force, slope);
         graph.add(applied, equations.printed_force.get(i).copied().unwrap_or(Id::ZERO))
     };

@@ -36,7 +36,7 @@ mod velocities;
 use rustc_hash::FxHashMap;
 
 use crate::diagnostics::Diagnostics;
-use crate::resolve::Problem;
+use crate::resolve::{Limit, Problem};
 use crate::symbolic::{Graph, Id};
 use crate::variables::{Variable, nodes};
 pub(crate) use completion::Completed;
@@ -105,8 +105,14 @@ impl Derived {
             read: FxHashMap::default(),
             hamilton: Err(NoHamiltonian::Long),
             linearization: None,
+            multipliers: None,
             markers: Vec::new(),
         }
+    }
+
+    /// Calls of `min`, `max` and `clamp`, by velocities and by momenta.
+    pub(crate) fn limits<'a>(&'a self, problem: &'a Problem) -> impl Iterator<Item = &'a Limit> {
+        problem.limits.iter().chain(self.hamilton.iter().flat_map(|hamilton| &hamilton.limits))
     }
 }
 

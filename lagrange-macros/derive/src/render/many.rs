@@ -18,7 +18,7 @@ use crate::mechanics::many::{
 };
 use crate::mechanics::{self, Derived};
 use crate::resolve::many::{Affine, Range};
-use crate::resolve::{Problem, families};
+use crate::resolve::{Problem, families, vector};
 use crate::symbolic::{Graph, Id, Rational};
 use crate::syntax::Declaration;
 
@@ -125,7 +125,7 @@ impl Page<'_> {
             line.remark = Remark::of(remark.clone());
             line
         };
-        if let (Some([left, right]), Some(text)) = (whole, super::motion::vector(labels(0))) {
+        if let (Some([left, right]), Some(text)) = (whole, vector(labels(0))) {
             return vec![line(text, Equation::Known(left, right))];
         }
         let row = |number: usize| line(labels(number), self.component(element, number));
@@ -142,7 +142,7 @@ impl Page<'_> {
                 Line { remark, ..Line::of(Equation::Known(name(text), value)) }
             };
             let whole = (element.rows.len() > 1).then(|| self.vector_value(element)).flatten();
-            match (whole, super::motion::vector(labels(0))) {
+            match (whole, vector(labels(0))) {
                 (Some(value), Some(text)) => lines.push(line(text, value)),
                 _ => {
                     for number in 0..element.rows.len() {

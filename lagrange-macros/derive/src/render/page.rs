@@ -14,7 +14,7 @@ use super::notation::Notation;
 use super::reading::{Names, Reading, constants, readings};
 use super::roots::{NamedRoot, bases, named_roots};
 use crate::mechanics::Derived;
-use crate::resolve::{Problem, vector};
+use crate::resolve::{Limit, Problem, vector};
 use crate::symbolic::{Graph, Id, Node, Rational};
 use crate::syntax::{Declaration, Expression, Kind, Operator};
 use crate::variables::Variable;
@@ -105,6 +105,10 @@ impl<'a> Page<'a> {
             is_by_families: false,
             sums: Vec::new(),
         };
+        for Limit { value, name, arguments } in derived.limits(problem) {
+            let arguments = arguments.iter().map(|&argument| page.derived(argument)).collect();
+            page.entries.insert(*value, Formula::Call(name.clone(), arguments));
+        }
         let norms = bases(graph, problem.lagrangian).into_iter();
         page.norms = norms.filter_map(|base| Some((base, page.norm(base)?))).collect();
         let by_name =

@@ -4,6 +4,7 @@ use num_traits::Signed;
 
 use super::frames::is_of_frames;
 use super::lowering::{Definition, Lowering, Setting};
+use super::problem::Limit;
 use super::quaternion;
 use super::scope::Entity;
 use super::unknown::{nearest, or_meant};
@@ -58,13 +59,17 @@ impl Lowering<'_> {
             "min" | "max" => {
                 let [x, y] = self.arguments(name, arguments, place)?;
                 let (x, y) = (self.scalar(x), self.scalar(y));
-                return Some(Value::Scalar(self.extreme(&name.text, [x?, y?], place)));
+                let arguments = [x?, y?];
+                let value = self.extreme(&name.text, arguments, place);
+                return Some(self.limited(&name.text, value, &arguments));
             }
             "clamp" => {
                 let [x, low, high] = self.arguments(name, arguments, place)?;
                 let (x, low, high) = (self.scalar(x), self.scalar(low), self.scalar(high));
-                let above = self.extreme("max", [x?, low?], place);
-                return Some(Value::Scalar(self.extreme("min", [above, high?], place)));
+                let arguments = [x?, low?, high?];
+                let above = self.extreme("max", [arguments[0], arguments[1]], place);
+                let value = self.extreme("min", [above, arguments[2]], place);
+                return Some(self.limited(&name.text, value, &arguments));
             }
             "transpose" | "trace" | "identity" | "skew" => {
                 let [x] = self.arguments(name, arguments, place)?;
@@ -128,6 +133,14 @@ impl Lowering<'_> {
         self.kinks.insert(difference, place);
         let beyond = graph.function(Function::Ramp, difference);
         if name == "max" { graph.add(y, beyond) } else { graph.sub(y, beyond) }
+    }
+
+    /// A value that keeps its call as it is written.
+    fn limited(&mut self, name: &str, value: Id, arguments: &[Id]) -> Value {
+        let kept = self.graph.defined(value);
+        let limit = || Limit { value: kept, name: name.to_owned(), arguments: arguments.to_vec() };
+        self.limits.extend((kept != value).then(limit));
+        Value::Scalar(kept)
     }
 
     /// Lowers a scalar argument. Reports a constant outside the real domain of the function.

@@ -8,7 +8,7 @@ use super::family::Family;
 use super::frames::Frames;
 use super::many::Many;
 use super::parameters::Parameters;
-use super::problem::{ContactRow, FrictionRows};
+use super::problem::{ContactRow, FrictionRows, Limit};
 use super::scope::Scope;
 use super::turns::Turns;
 use super::value::Value;
@@ -87,6 +87,7 @@ pub(super) struct Lowering<'a> {
     /// Source position of the last `min`, `max` or `clamp`, keyed by the argument of the ramp function that represents
     /// it.
     pub(super) kinks: FxHashMap<Id, Place>,
+    pub(super) limits: Vec<Limit>,
     /// State of each definition, at the index of the first `define` of its name.
     pub(super) definitions: Vec<Definition>,
     pub(super) progress: Progress,
@@ -148,6 +149,7 @@ impl<'a> Lowering<'a> {
             differentiated: Vec::new(),
             rates: Vec::new(),
             kinks: FxHashMap::default(),
+            limits: Vec::new(),
             definitions: defines.iter().map(|_| Definition::Pending).collect(),
             progress: Progress::default(),
             multipliers: Vec::new(),

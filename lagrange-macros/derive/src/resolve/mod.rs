@@ -42,7 +42,7 @@ use lowering::Lowering;
 use many::Many;
 pub(crate) use outline::{Observable, Outline, outline};
 pub(crate) use parameters::{Entry, Parameters, Switch, SwitchReading};
-pub(crate) use problem::{FrictionRows, Observed, Problem};
+pub(crate) use problem::{FrictionRows, Limit, Observed, Problem};
 use scope::Scope;
 pub(crate) use scope::is_built_in;
 pub(crate) use value::cross;
@@ -107,6 +107,7 @@ fn resolved(
         diagnostics,
         frames,
         mut rates,
+        limits,
         switches,
         contacts,
         frictions,
@@ -146,6 +147,7 @@ fn resolved(
         quaternions,
         rates,
         frames_are_cheaper,
+        limits,
         names,
         vectors,
     };

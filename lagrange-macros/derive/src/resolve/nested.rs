@@ -1,7 +1,7 @@
 //! Shares partial sums of definitions: `vx[i] = sum(j in 0..i+1, …)` becomes `vx[i-1]` plus one term, however it is
 //! spelled.
 
-use super::problem::Problem;
+use super::problem::{Limit, Problem};
 use crate::symbolic::{Graph, Id};
 
 impl Problem {
@@ -39,6 +39,9 @@ impl Problem {
         }
         self.switches.iter_mut().flatten().for_each(&mut visit);
         self.contacts.iter_mut().for_each(|contact| visit(&mut contact.restitution));
+        self.limits.iter_mut().for_each(|Limit { value, arguments, .. }| {
+            arguments.iter_mut().chain([value]).for_each(&mut visit);
+        });
         self.observables.iter_mut().flat_map(|observed| &mut observed.values).for_each(visit);
     }
 }

@@ -51,10 +51,28 @@ pub(crate) struct Problem {
     pub(crate) rates: Vec<Vec<Id>>,
     /// True if the system could be stated in frames at lower cost.
     pub(crate) frames_are_cheaper: bool,
+    /// Calls of `min`, `max` and `clamp`.
+    pub(crate) limits: Vec<Limit>,
     /// Names of nodes that are definitions.
     pub(crate) names: FxHashMap<Id, String>,
     /// Names of the definitions that are vectors, with the numbers of their components.
     pub(crate) vectors: Vec<(String, usize)>,
+}
+
+/// Value of `min`, `max` or `clamp`, with the arguments as they are written.
+#[derive(Debug)]
+pub(crate) struct Limit {
+    pub(crate) value: Id,
+    pub(crate) name: String,
+    pub(crate) arguments: Vec<Id>,
+}
+
+impl Limit {
+    /// The same with each node replaced.
+    pub(crate) fn map(&self, mut node: impl FnMut(Id) -> Id) -> Self {
+        let arguments = self.arguments.iter().map(|&argument| node(argument)).collect();
+        Self { value: node(self.value), name: self.name.clone(), arguments }
+    }
 }
 
 /// A contact: a constraint that holds while its gap is closed.

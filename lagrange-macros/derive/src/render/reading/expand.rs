@@ -179,10 +179,14 @@ pub(in crate::render) fn readings<'a>(
     (roots, axes, letters): (&[NamedRoot], &[NamedAxes], &Letters),
     names: Names,
 ) -> Vec<Reading<'a>> {
-    let all: FxHashSet<Id> = problem.names.keys().copied().collect();
-    let none = FxHashSet::default();
+    // The values of `min`, `max` and `clamp` are written by their calls everywhere.
+    let unnamed =
+        derived.limits(problem).map(|limit| limit.value).filter(|id| !problem.names.contains_key(id));
+    let none: FxHashSet<Id> = unnamed.collect();
+    let with = |names: &FxHashSet<Id>| names.union(&none).copied().collect::<FxHashSet<Id>>();
+    let all = with(&problem.names.keys().copied().collect());
     let mut kept = match names {
-        Names::Shortest => vec![all, constants.clone(), none],
+        Names::Shortest => vec![all, with(constants), none],
         Names::Kept => vec![all],
         Names::WrittenOut => vec![none],
     };

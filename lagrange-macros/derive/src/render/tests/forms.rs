@@ -27,6 +27,18 @@ const ENTRIES: &[(&str, &[&str])] = &[
             "H = (p_r·p_r)/(2 m) + ½ k (|r| − l)² + m g r[2]",
         ],
     ),
+    // Limits of forces stay as they are written.
+    (
+        "#[coordinates(x, y)] #[lagrangian(m/2*(x_dot^2 + y_dot^2))]
+         #[force(x: min(f, max(-f, -k*x)) - c*x_dot)] #[force(y: clamp(k*(x - y) - c*y_dot, -f, f))]
+         struct LimitedForces { m: f64, f: f64, k: f64, c: f64 }",
+        &[
+            "m ẍ = min(f, max(−f, −k x)) − c ẋ",
+            "m ÿ = clamp(k (x − y) − c ẏ, −f, f)",
+            "ṗ_x = min(f, max(−f, −k x)) − c p_x/m",
+            "ṗ_y = clamp(k (x − y) − c p_y/m, −f, f)",
+        ],
+    ),
     // The terms of a kinetic energy over their own denominators.
     (
         "#[coordinates(phi, theta, psi)] #[frame(top: rotate_z(phi), rotate_x(theta), rotate_z(psi))]

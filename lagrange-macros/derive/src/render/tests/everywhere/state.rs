@@ -214,6 +214,8 @@ impl Meanings for State<'_> {
         let number = match (Function::named(function), function, arguments) {
             (Some(function), _, &[x]) => codegen::apply(function, &x),
             (_, "max", [x, y]) => x.max(*y),
+            (_, "min", [x, y]) => x.min(*y),
+            (_, "clamp", [x, low, high]) => x.max(*low).min(*high),
             (_, "step", [x]) => f64::from(u8::from(*x > 0.0)),
             (_, "atan2", [y, x]) => y.atan2(*x),
             _ => return self.external(function, &vec![0; primes], arguments),
