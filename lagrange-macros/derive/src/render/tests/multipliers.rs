@@ -26,7 +26,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
     (
         "#[coordinates(x, y)] #[lagrangian(m/2*x_dot^2 + M/2*y_dot^2 + g*(m*x + M*y))] #[constraint(rope: x + 2*y = l)]
          struct MovablePulley { m: f64, M: f64, g: f64, l: f64 }",
-        &["λ_rope = −3 g m M/(M + 4 m)"],
+        &["λ_rope = −3 g m M/(4 m + M)"],
     ),
     // A bead on a parabola, and a knife edge.
     (

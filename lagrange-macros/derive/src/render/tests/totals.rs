@@ -19,7 +19,7 @@ const ENTRIES: &[(&str, &[&str])] = &[
         "#[coordinates(a: [3], b: [3])] #[dissipation(c/2*dot(a_dot - b_dot, a_dot - b_dot))]
          #[lagrangian(m/2*(dot(a_dot, a_dot) + dot(b_dot, b_dot)) - k/2*(norm(a - b) - l)^2)]
          struct DampedMolecule { m: f64, k: f64, l: f64, c: f64 }",
-        &["P = m (ȧ + ḃ)"],
+        &["P = m ȧ + m ḃ"],
     ),
     // The centre is fixed; one body alone has the momentum of its coordinates.
     (
@@ -37,13 +37,13 @@ const ENTRIES: &[(&str, &[&str])] = &[
         "#[coordinates(a: [3], b: [3])] #[constraint(rod: norm(a - b) = l)]
          #[lagrangian(m/2*(dot(a_dot, a_dot) + dot(b_dot, b_dot)) - m*g*(a[2] + b[2]))]
          struct FallingRod { m: f64, g: f64, l: f64 }",
-        &["P[0] = m (ȧ[0] + ḃ[0])", "P[1] = m (ȧ[1] + ḃ[1])"],
+        &["P[0] = m ȧ[0] + m ḃ[0]", "P[1] = m ȧ[1] + m ḃ[1]"],
     ),
     // In a plane the angular momentum is a number.
     (
         "#[coordinates(a: [2], b: [2])] #[lagrangian(m/2*(dot(a_dot, a_dot) + dot(b_dot, b_dot)) - k/2*dot(a - b, a - b))]
          struct PlaneMolecule { m: f64, k: f64 }",
-        &["P = m (ȧ + ḃ)", "J = m (a[0] ȧ[1] − a[1] ȧ[0] + b[0] ḃ[1] − b[1] ḃ[0])"],
+        &["P = m ȧ + m ḃ", "J = m (a[0] ȧ[1] + b[0] ḃ[1] − a[1] ȧ[0] − b[1] ḃ[0])"],
     ),
     // An angular momentum of more than a line is a sum of named momenta. The field P leaves another letter to the momentum.
     (
