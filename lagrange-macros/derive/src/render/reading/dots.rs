@@ -7,7 +7,7 @@ use num_traits::Zero;
 use super::super::formula::Formula;
 use super::atoms::Meaning;
 use super::collect::Collector;
-use super::vectors::{Components, Vector, VectorTerm};
+use super::vectors::{Components, Products, Vector, VectorTerm, terms_of};
 use crate::symbolic::{self, Monomial, Polynomial, Rational};
 use crate::variables::Variable;
 
@@ -30,12 +30,12 @@ impl Collector<'_, '_> {
         let (mut terms, mut is_any) = (Vec::new(), false);
         for ((scalar, vectors), members) in groups {
             let products = members.iter().map(|(components, _, c)| (components.clone(), *c)).collect();
-            let found = self.product_of(&vectors, &products, &known);
+            let read = |vectors: &[usize], rows: &Vec<_>| self.product_of(vectors, &rows[0], &known);
+            let found = terms_of(&scalar, (&vectors, &vec![products]), &known, &read);
             is_any |= found.is_some();
-            let whole = |(coefficient, factors)| VectorTerm { coefficient, scalar: scalar.clone(), factors };
             let alone = |(_, scalar, coefficient)| VectorTerm { coefficient, scalar, factors: Vec::new() };
             match found {
-                Some(found) => terms.extend(found.into_iter().map(whole)),
+                Some(found) => terms.extend(found),
                 None => terms.extend(members.into_iter().map(alone)),
             }
         }
@@ -48,7 +48,7 @@ impl Collector<'_, '_> {
         vectors: &[usize],
         products: &ComponentProducts,
         known: &[Vector],
-    ) -> Option<Vec<(Rational, Vec<Meaning>)>> {
+    ) -> Option<Products> {
         let n = products.keys().flatten().map(|&(_, place)| place + 1).max()?;
         (n > 1 && vectors.iter().any(|&i| self.has_length(&known[i], n))).then_some(())?;
         let of = |components: &[(usize, usize)]| {

@@ -11,20 +11,27 @@ use super::collect::Collector;
 use crate::symbolic::{Atom, Monomial, Polynomial, Rational};
 use crate::variables::Variable;
 
-/// A vector as written, and the variable of its first component.
-#[derive(Clone, PartialEq)]
+/// A vector as written, the variable of its first component, and the components that were met.
 pub(super) struct Vector {
     pub(super) written: Formula,
     pub(super) of: Option<Variable>,
+    atoms: BTreeMap<usize, Atom>,
 }
 
 /// Product of vector components, sorted: index of each vector, and index of its component.
 pub(super) type Components = Vec<(usize, usize)>;
 
 /// Products of components in every row, keyed by their scalar factor and the set of vectors multiplied.
-type Groups = BTreeMap<(Monomial, Vec<usize>), Vec<BTreeMap<Components, Rational>>>;
+type Groups = BTreeMap<(Monomial, Vec<usize>), Rows>;
+
+/// Products of components in each row.
+type Rows = Vec<BTreeMap<Components, Rational>>;
+
+/// Products of vectors with their coefficients.
+pub(super) type Products = Vec<(Rational, Vec<Meaning>)>;
 
 /// Term of a vector equation: coefficient, scalar factors, and vector factors.
+#[derive(Clone)]
 pub(super) struct VectorTerm {
     pub(super) coefficient: Rational,
     pub(super) scalar: Monomial,
@@ -52,14 +59,10 @@ impl Collector<'_, '_> {
             return None;
         }
         let terms = groups.into_iter().map(|((scalar, vectors), products)| {
-            let found = in_vectors(&vectors, &products, &known, sign)?;
-            Some(found.into_iter().map(move |(coefficient, factors)| VectorTerm {
-                coefficient,
-                scalar: scalar.clone(),
-                factors,
-            }))
+            let read = |vectors: &[usize], rows: &Rows| in_vectors(vectors, rows, &known, sign);
+            terms_of(&scalar, (&vectors, &products), &known, &read)
         });
-        Some(joined(terms.collect::<Option<Vec<_>>>()?.into_iter().flatten().collect()))
+        Some(joined(terms.collect::<Option<Vec<_>>>()?.concat()))
     }
 
     /// Splits a monomial into its scalar factors and the components of vectors.
@@ -69,10 +72,12 @@ impl Collector<'_, '_> {
         for &(atom, exponent) in monomial.factors() {
             let is_product = exponent.is_integer() && exponent >= Rational::one();
             let Some((vector, place)) = self.component(atom).filter(|_| is_product) else { continue };
-            let index = known.iter().position(|known| *known == vector).unwrap_or(known.len());
+            let is_it = |known: &Vector| known.written == vector.written && known.of == vector.of;
+            let index = known.iter().position(is_it).unwrap_or(known.len());
             if index == known.len() {
                 known.push(vector);
             }
+            known[index].atoms.insert(place, atom);
             found.push(atom);
             components.extend((0..exponent.to_integer()).map(|_| (index, place)));
         }
@@ -93,7 +98,7 @@ impl Collector<'_, '_> {
             self.is_of_space(constraint).then_some(())?;
         }
         let of = self.variable(atom).map(|variable| first(variable, place));
-        Some((Vector { written, of }, place))
+        Some((Vector { written, of, atoms: BTreeMap::new() }, place))
     }
 
     /// Returns whether a constraint has three components.
@@ -166,6 +171,46 @@ impl Collector<'_, '_> {
     }
 }
 
+/// Products of vectors that a group of terms is made of, as `read` finds them. Where it finds none, components of an array of
+/// parameters may be scalars, such as the masses m₀ and m₁.
+pub(super) fn terms_of(
+    scalar: &Monomial,
+    (vectors, rows): (&[usize], &Rows),
+    known: &[Vector],
+    read: &dyn Fn(&[usize], &Rows) -> Option<Products>,
+) -> Option<Vec<VectorTerm>> {
+    if let Some(found) = read(vectors, rows) {
+        let term = |(coefficient, factors)| VectorTerm { coefficient, scalar: scalar.clone(), factors };
+        return Some(found.into_iter().map(term).collect());
+    }
+    let mut arrays = vectors.to_vec();
+    arrays.dedup();
+    arrays.retain(|&vector| matches!(known[vector].of, Some(Variable::Parameter(_))));
+    arrays.into_iter().find_map(|array| {
+        let others: Vec<usize> = vectors.iter().copied().filter(|&vector| vector != array).collect();
+        let parts = apart(rows, array).into_iter().map(|(components, rows)| {
+            let mut factors = components.iter().map(|(_, place)| known[array].atoms[place]);
+            let scalar = factors.try_fold(scalar.clone(), |scalar, atom| {
+                scalar.times(&Monomial::of(atom, Rational::one()))
+            })?;
+            terms_of(&scalar, (&others, &rows), known, read)
+        });
+        Some(parts.collect::<Option<Vec<_>>>()?.concat())
+    })
+}
+
+/// Rows by the components of one vector in them.
+fn apart(rows: &Rows, vector: usize) -> BTreeMap<Components, Rows> {
+    let mut parts: BTreeMap<Components, Rows> = BTreeMap::new();
+    for (row, products) in rows.iter().enumerate() {
+        for (components, &c) in products {
+            let (own, others) = components.iter().copied().partition(|&(of, _)| of == vector);
+            parts.entry(own).or_insert_with(|| vec![BTreeMap::new(); rows.len()])[row].insert(others, c);
+        }
+    }
+    parts
+}
+
 /// Vector that a formula is a component of, and index of the component.
 fn component(formula: &Formula) -> Option<(Formula, usize)> {
     match formula {
@@ -227,7 +272,7 @@ fn in_vectors(
     rows: &[BTreeMap<Components, Rational>],
     known: &[Vector],
     sign: Rational,
-) -> Option<Vec<(Rational, Vec<Meaning>)>> {
+) -> Option<Products> {
     let whole = |i: usize| Meaning::Vector(known[i].written.clone(), known[i].of.into_iter().collect());
     // A product is counted among the accelerations, but not among the velocities, that it contains.
     let accelerations = vectors.iter().filter_map(|&i| known[i].of);

@@ -27,6 +27,16 @@ const ENTRIES: &[(&str, &[&str])] = &[
             "H = (p_r·p_r)/(2 m) + ½ k (|r| − l)² + m g r[2]",
         ],
     ),
+    // The masses of an array are no components of a vector.
+    (
+        "#[coordinates(r: [2, 3])]
+         #[lagrangian(sum(i in 0..2, m[i]/2*dot(r_dot[i] + cross(W, r[i]), r_dot[i] + cross(W, r[i]))) + G*m[0]*m[1]/norm(r[0] - r[1]))]
+         struct MassesInFrame { m: [f64; 2], G: f64, W: [f64; 3] }",
+        &[
+            "r̈[0] = G m[1] (r[1] − r[0])/|r[0] − r[1]|³ + 2 (ṙ[0]×W) − W×(W×r[0])",
+            "p_r[1] = m[1] ṙ[1] + m[1] (W×r[1])",
+        ],
+    ),
     // Limits of forces stay as they are written.
     (
         "#[coordinates(x, y)] #[lagrangian(m/2*(x_dot^2 + y_dot^2))]
