@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::mechanics::many::{ManyConservedKind, ManyEquations};
+use crate::mechanics::many::ManyEquations;
 pub use crate::mechanics::{
     Classification, ConstraintKind, EnergyForm, Evidence, Integrability, Integrals, LinearPart, Marker,
 };
@@ -102,10 +102,7 @@ impl Facts {
     /// Facts about a system whose number of bodies is known when the program runs.
     pub(crate) fn of_many(equations: &ManyEquations) -> Self {
         let proved = |name: &str| Conserved { name: name.to_owned(), evidence: Evidence::Proved };
-        let vectors = equations.conserved.iter().map(|conserved| match conserved.kind {
-            ManyConservedKind::Momentum => proved("total_momentum"),
-            ManyConservedKind::AngularMomentum => proved("total_angular_momentum"),
-        });
+        let vectors = equations.conserved.iter().map(|conserved| proved(conserved.symmetry.name()));
         let energy = equations.energy_is_conserved.then(|| proved("energy"));
         let mut markers = Vec::new();
         if equations.forces_are_free_of_velocities {

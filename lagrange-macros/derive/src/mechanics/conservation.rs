@@ -46,7 +46,7 @@ pub(crate) enum Symmetry {
 
 impl Symmetry {
     /// Name of the conserved quantity.
-    pub(super) fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Translation => "momentum",
             Self::Rotation => "angular_momentum",

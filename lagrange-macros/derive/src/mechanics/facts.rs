@@ -1,10 +1,10 @@
 //! Statements about a system that need no simulation: cyclic coordinates, conserved quantities, form of the energy.
 
 use super::conservation;
-use super::conservation::{Conserved, ConservedKind, EnergyChange, found};
+use super::conservation::{Conserved, ConservedKind, EnergyChange, Symmetry, found};
 use super::energy_form::{self, EnergyForm};
 use super::equations::Equations;
-use super::evidence::vanishes;
+use super::evidence::{Evidence, vanishes};
 use super::gauge::{self, LinearPart, TotalDerivative};
 use super::moment::Moments;
 use super::symmetries;
@@ -28,12 +28,17 @@ pub(crate) struct Facts {
 }
 
 impl Facts {
-    /// Statements about no coordinate.
-    pub(super) fn none() -> Self {
+    /// Symmetries and the form of the energy alone.
+    pub(super) fn of_symmetries(symmetries: impl Iterator<Item = Symmetry>, is_even: bool) -> Self {
+        let conserved = symmetries.map(|symmetry| Conserved {
+            name: symmetry.name().to_owned(),
+            quantity: ConservedKind::Total(symmetry, None, [Id::ZERO; 2]),
+            evidence: Evidence::Proved,
+        });
         Self {
             cyclic: Vec::new(),
-            conserved: Vec::new(),
-            energy_form: EnergyForm::Quadratic,
+            conserved: conserved.collect(),
+            energy_form: if is_even { EnergyForm::Even(Evidence::Proved) } else { EnergyForm::General },
             energy_changes: Vec::new(),
             energy_rate: Id::ZERO,
             total_derivatives: Vec::new(),

@@ -94,10 +94,11 @@ pub(crate) struct Derived {
 
 impl Derived {
     /// Nothing but expressions: the context in which those of systems of any number of bodies are read.
-    pub(crate) fn of_expressions() -> Self {
+    /// `symmetries` are those of the system, and its Lagrangian is even in the velocities or not.
+    pub(crate) fn of_expressions(symmetries: impl Iterator<Item = Symmetry>, is_even: bool) -> Self {
         Self {
             equations: Equations::none(),
-            facts: Facts::none(),
+            facts: Facts::of_symmetries(symmetries, is_even),
             energies: None,
             inertia: Vec::new(),
             turnings: Turnings::default(),

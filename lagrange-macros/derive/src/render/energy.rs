@@ -90,7 +90,7 @@ impl Page<'_> {
         Line { remark: Remark::of(remark), ..Line::known(self.letters.name(PageQuantity::Energy), energy) }
     }
 
-    fn energy_form(&self) -> Vec<Fragment> {
+    pub(super) fn energy_form(&self) -> Vec<Fragment> {
         let letter = |quantity| self.letters.name(quantity);
         let t_plus_u = || sum([letter(PageQuantity::Kinetic), letter(PageQuantity::Potential)]);
         let of_degree = |degree| self.letters.name_of(PageQuantity::Lagrangian, degree, 0);
@@ -126,7 +126,9 @@ impl Page<'_> {
         let written = potential.and_then(|potential| self.part_of_energy(potential).ok());
         let (sum, potential) = match (potential, written) {
             (Some(Id::ZERO), _) => (letter(PageQuantity::Kinetic), vec![Fragment::words("0")]),
-            (_, Some(written)) if length(&written) <= LONG => (t_plus_u, vec![Fragment::Formula(written)]),
+            (_, Some(written)) if length(&written) <= LONG && self.families().is_none() => {
+                (t_plus_u, vec![Fragment::Formula(written)])
+            }
             _ => {
                 let negative = self.letters.name(PageQuantity::Lagrangian).negated();
                 (t_plus_u, vec![Fragment::Formula(negative), Fragment::words(" at rest")])

@@ -2,7 +2,6 @@
 
 use super::formula::Formula;
 use super::length::length;
-use super::letters::PageQuantity;
 use super::lines::{Equation, LINE, Line};
 use super::page::Page;
 use super::remark::{Fragment, Remark};
@@ -77,11 +76,13 @@ impl Page<'_> {
             false => self.momentum(values[k]).ok(),
         };
         let fits = |formula: &Formula| length(formula) <= LINE;
+        let of_families =
+            self.families().filter(|_| is_whole).into_iter().flat_map(|families| &families.totals);
+        if let Some((_, line)) = of_families.clone().find(|(of, _)| *of == symmetry) {
+            return (component.is_none_or(|component| component == 0)).then(|| line.clone());
+        }
         let formula = written(0).filter(fits).or_else(|| written(1))?;
-        let letter = self.letters.letter(match symmetry {
-            Symmetry::Translation => PageQuantity::TotalMomentum,
-            Symmetry::Rotation => PageQuantity::AngularMomentum,
-        });
+        let letter = self.letters.letter(symmetry.quantity());
         let (is_first, name) = match component.filter(|_| !is_whole) {
             Some(k) => (true, format!("{letter}[{k}]")),
             None => (component.is_none_or(|k| k == 0), letter.to_owned()),

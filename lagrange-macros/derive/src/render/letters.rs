@@ -66,6 +66,16 @@ const LETTERS: [(PageQuantity, &[&str]); 17] = [
 /// Letter of each symbol of a page, as it is written in attributes: `lambda`.
 pub(super) struct Letters([String; LETTERS.len()]);
 
+impl Symmetry {
+    /// The total that it conserves.
+    pub(super) fn quantity(self) -> PageQuantity {
+        match self {
+            Self::Translation => TotalMomentum,
+            Self::Rotation => AngularMomentum,
+        }
+    }
+}
+
 impl Letters {
     pub(super) fn of(declaration: &Declaration, problem: &Problem, derived: &Derived) -> Self {
         let taken = taken(declaration, problem);

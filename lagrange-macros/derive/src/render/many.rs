@@ -13,10 +13,8 @@ use super::reading::Names;
 use super::remark::{Fragment, Remark};
 use super::{FROM_ZERO, Forms, html, latex};
 use crate::diagnostics::Diagnostics;
-use crate::mechanics::many::{
-    ElementRows, ElementSum, ManyConserved, ManyConservedKind, ManyEquations, Over, Pattern, Region,
-};
-use crate::mechanics::{self, Derived};
+use crate::mechanics::many::{ElementRows, ElementSum, ManyConserved, ManyEquations, Over, Pattern, Region};
+use crate::mechanics::{self, Derived, Symmetry};
 use crate::resolve::many::{Affine, Range};
 use crate::resolve::{Problem, families, vector};
 use crate::symbolic::{Graph, Id, Rational};
@@ -29,7 +27,7 @@ pub(crate) fn render_many(
     problem: &Problem,
     equations: &ManyEquations,
 ) -> Forms {
-    let derived = Derived::of_expressions();
+    let derived = context(equations);
     let page = |names| Page::new(declaration, graph, problem, &derived, names).many_forms(equations);
     let shortest = page(Names::Shortest);
     let [kept, written_out] = [Names::Kept, Names::WrittenOut].map(|names| match problem.names.is_empty() {
@@ -39,9 +37,16 @@ pub(crate) fn render_many(
     [shortest, kept, written_out]
 }
 
+/// What expressions of these equations are read in.
+fn context(equations: &ManyEquations) -> Derived {
+    Derived::of_expressions(equations.conserved.iter().map(|conserved| conserved.symmetry), equations.is_even)
+}
+
 /// Equations of all elements of arrays at once.
 pub(super) struct FamilyLines {
     pub(super) motion: Vec<Line>,
+    /// Lines of the total momentum and the total angular momentum, if they are conserved.
+    pub(super) totals: Vec<(Symmetry, Line)>,
     pub(super) energy: Option<Formula>,
     pub(super) momenta: Vec<Line>,
     pub(super) hamiltonian: Option<Line>,
@@ -54,7 +59,7 @@ impl FamilyLines {
         let (mut graph, mut problem) = families(declaration)?;
         let equations = mechanics::many::derive(&mut graph, &mut problem, &mut Diagnostics::default())?;
         equations.rows.iter().all(Option::is_some).then_some(())?;
-        let derived = Derived::of_expressions();
+        let derived = context(&equations);
         let page = Page::new(declaration, &graph, &problem, &derived, names);
         let energy = match page.energy_of_all(&equations.energies).equation {
             Equation::Known(_, energy) => Some(energy),
@@ -62,6 +67,11 @@ impl FamilyLines {
         };
         Some(Self {
             motion: page.rows_of_all(&equations),
+            totals: equations
+                .conserved
+                .iter()
+                .filter_map(|conserved| Some((conserved.symmetry, page.conserved_vector(conserved)?)))
+                .collect(),
             energy,
             momenta: page.momenta_of_all(&equations),
             hamiltonian: page.hamiltonian_of_all(&equations),
@@ -295,10 +305,11 @@ impl Page<'_> {
             .iter()
             .map(|Pattern { ranges, body }| Ok(self.summed_over(ranges, self.part_of_energy(*body)?)))
             .collect();
-        Line::known(self.letters.name(PageQuantity::Energy), parts.map(Formula::sum))
+        let remark = Remark::of(self.energy_form());
+        Line { remark, ..Line::known(self.letters.name(PageQuantity::Energy), parts.map(Formula::sum)) }
     }
 
-    fn conserved_vector(&self, ManyConserved { kind, patterns, .. }: &ManyConserved) -> Option<Line> {
+    fn conserved_vector(&self, ManyConserved { symmetry, patterns, .. }: &ManyConserved) -> Option<Line> {
         let part = |(ranges, values): &(Vec<Range>, Vec<Id>)| {
             let body = match &values[..] {
                 [value] => self.expression(*value).ok(),
@@ -307,11 +318,7 @@ impl Page<'_> {
             Some(self.summed_over(ranges, body?))
         };
         let parts: Option<Vec<Formula>> = patterns.iter().map(part).collect();
-        let letter = match kind {
-            ManyConservedKind::Momentum => "P",
-            ManyConservedKind::AngularMomentum => "J",
-        };
-        Some(Line::of(Equation::Known(Formula::labelled(letter, 0), Formula::sum(parts?))))
+        Some(Line::of(Equation::Known(self.letters.name(symmetry.quantity()), Formula::sum(parts?))))
     }
 }
 

@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::ManyEmitter;
 use crate::codegen::observables::method_name;
-use crate::mechanics::many::ManyConservedKind;
+use crate::mechanics::Symmetry;
 use crate::resolve::Observed;
 use crate::symbolic::Id;
 
@@ -92,11 +92,11 @@ impl ManyEmitter<'_> {
         let names: Vec<&str> =
             self.problem.observables.iter().map(|known| known.label.text.as_str()).collect();
         let conserved = self.equations.conserved.iter().filter_map(|conserved| {
-            let (name, doc) = match conserved.kind {
-                ManyConservedKind::Momentum => {
+            let (name, doc) = match conserved.symmetry {
+                Symmetry::Translation => {
                     ("total_momentum", "Σ p of all elements, which the motion conserves.")
                 }
-                ManyConservedKind::AngularMomentum => {
+                Symmetry::Rotation => {
                     ("total_angular_momentum", "Σ r × p of all elements, which the motion conserves.")
                 }
             };

@@ -4,6 +4,7 @@
 //! J = Σ r_k × p_k.
 
 use super::{Pattern, gradient, slots};
+use crate::mechanics::Symmetry;
 use crate::mechanics::evidence::{Evidence, vanishes};
 use crate::resolve::Problem;
 use crate::resolve::many::Range;
@@ -13,17 +14,11 @@ use crate::variables::Variable;
 
 /// A vector that the motion conserves, proved.
 pub(crate) struct ManyConserved {
-    pub(crate) kind: ManyConservedKind,
+    pub(crate) symmetry: Symmetry,
     /// Its components, with sums.
     pub(crate) values: Vec<Id>,
     /// The same by loops, to be printed: the components in each.
     pub(crate) patterns: Vec<(Vec<Range>, Vec<Id>)>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum ManyConservedKind {
-    Momentum,
-    AngularMomentum,
 }
 
 /// Finds what is conserved if no forces act. All coordinates must be vectors of one length, or scalars in a row.
@@ -39,7 +34,7 @@ pub(super) fn find(graph: &mut Graph, problem: &mut Problem, patterns: &[Pattern
     if patterns.iter().all(|pattern| is_moved(graph, problem, pattern, dimension)) {
         let of =
             |graph: &mut Graph, all: &[Component]| (0..dimension).map(|c| momentum(graph, all, c)).collect();
-        found.push(conserved(graph, problem, patterns, (ManyConservedKind::Momentum, dimension, &of)));
+        found.push(conserved(graph, problem, patterns, (Symmetry::Translation, dimension, &of)));
     }
     let turns = !planes(dimension).is_empty()
         && patterns.iter().all(|pattern| is_turned(graph, problem, pattern, dimension));
@@ -48,7 +43,7 @@ pub(super) fn find(graph: &mut Graph, problem: &mut Problem, patterns: &[Pattern
         let of = |graph: &mut Graph, all: &[Component]| {
             planes(dimension).iter().map(|&plane| moment(graph, all, plane, by_velocity)).collect()
         };
-        found.push(conserved(graph, problem, patterns, (ManyConservedKind::AngularMomentum, dimension, &of)));
+        found.push(conserved(graph, problem, patterns, (Symmetry::Rotation, dimension, &of)));
     }
     found
 }
@@ -155,7 +150,7 @@ fn conserved(
     graph: &mut Graph,
     problem: &mut Problem,
     patterns: &[Pattern],
-    (kind, dimension, of): (ManyConservedKind, usize, &dyn Fn(&mut Graph, &[Component]) -> Vec<Id>),
+    (symmetry, dimension, of): (Symmetry, usize, &dyn Fn(&mut Graph, &[Component]) -> Vec<Id>),
 ) -> ManyConserved {
     let mut parts = Vec::new();
     for pattern in patterns {
@@ -172,5 +167,5 @@ fn conserved(
         graph.total(parts)
     };
     let values = (0..count).map(value).collect();
-    ManyConserved { kind, values, patterns: parts }
+    ManyConserved { symmetry, values, patterns: parts }
 }

@@ -16,7 +16,7 @@ use crate::resolve::Problem;
 use crate::resolve::many::Range;
 use crate::symbolic::{Forward, Graph, Id};
 use crate::variables::{Variable, drift, has_velocity};
-pub(crate) use conservation::{ManyConserved, ManyConservedKind};
+pub(crate) use conservation::ManyConserved;
 pub(crate) use hamilton::ManyHamilton;
 pub(crate) use inertia::{Guarded, Inertia};
 pub(crate) use patterns::{Pattern, patterns};
