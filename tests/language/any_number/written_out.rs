@@ -280,3 +280,32 @@ fn sums_in_forces_and_observables() {
     assert!((many.spread(&open) - fixed.spread(&state)).abs() < 1e-14);
     assert!((many.moments(&open) - fixed.moments(&state)).amax() < 1e-14);
 }
+
+macro_rules! embedded {
+    ($name:ident, $n:tt, $($field:tt)*) => {
+        /// Functions of sums: atoms in the density of all others, and collective forces.
+        #[derive(lagrange_core::Lagrangian)]
+        #[coordinates(r: [$n, 2])]
+        #[define(rho[i in 0..$n] = sum(j in 0..$n, c[j]*exp(-dot(r[i] - r[j], r[i] - r[j]))))]
+        #[define(middle = sum(i in 0..$n, r[i])/$n)]
+        #[parameter(c: [$n])]
+        #[lagrangian(sum(i in 0..$n, dot(r_dot[i], r_dot[i])/2) + sum(i in 0..$n, c[i]*sqrt(1 + rho[i])) - cos(sum(i in 0..$n, r[i][0]))
+            - r[0][1]*sum(i in 0..$n, r[i][0]^2)*sum(i in 0..$n-1, r[i+1][1]*r[i][1]) - dot(middle, middle)^2*exp(-t))]
+        #[dissipation(sum(i in 0..$n, dot(r_dot[i], r_dot[i]))*dot(middle, middle)/9)]
+        #[observable(densities = sum(i in 0..$n, rho[i]^2))]
+        struct $name { $($field)* }
+    };
+}
+
+embedded!(Embedded, n, n: usize, c: Vec<f64>,);
+embedded!(Embedded2, 2, c: [f64; 2],);
+embedded!(Embedded4, 4, c: [f64; 4],);
+
+#[test]
+fn functions_of_sums() {
+    let mut random = Random(9);
+    let c: [f64; 2] = positive(&mut random);
+    agree::<4>(&Embedded { n: 2, c: c.to_vec() }, &Embedded2 { c }, &mut random);
+    let c: [f64; 4] = positive(&mut random);
+    agree::<8>(&Embedded { n: 4, c: c.to_vec() }, &Embedded4 { c }, &mut random);
+}

@@ -153,6 +153,9 @@ impl Page<'_> {
             Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
             Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
             Variable::Switch(k) => Formula::labelled(&self.problem.parameters.name_of_switch(k), 0),
+            Variable::Total(k) => self.totals[k].clone(),
+            Variable::Level(level) => Formula::labelled(&self.problem.many.level_name(level), 0),
+            Variable::Length(length) => Formula::labelled(&self.problem.many.lengths[length].name, 0),
             Variable::Momentum(i) => self.momentum_name(&self.problem.coordinates[i].text, 0),
             // All other variables occur in generated functions only, never in an equation.
             only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),

@@ -15,7 +15,7 @@ use super::{FROM_ZERO, Forms, html, latex};
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::many::{ElementRows, ElementSum, ManyConserved, ManyEquations, Over, Pattern, Region};
 use crate::mechanics::{self, Derived, Symmetry};
-use crate::resolve::many::{Affine, Range};
+use crate::resolve::many::{Affine, Range, Total};
 use crate::resolve::{Problem, families, vector};
 use crate::symbolic::{Graph, Id, Rational};
 use crate::syntax::Declaration;
@@ -28,7 +28,11 @@ pub(crate) fn render_many(
     equations: &ManyEquations,
 ) -> Forms {
     let derived = context(equations);
-    let page = |names| Page::new(declaration, graph, problem, &derived, names).many_forms(equations);
+    let page = |names| {
+        let mut page = Page::new(declaration, graph, problem, &derived, names);
+        page.write_totals();
+        page.many_forms(equations)
+    };
     let shortest = page(Names::Shortest);
     let [kept, written_out] = [Names::Kept, Names::WrittenOut].map(|names| match problem.names.is_empty() {
         true => shortest.clone(),
@@ -60,7 +64,8 @@ impl FamilyLines {
         let equations = mechanics::many::derive(&mut graph, &mut problem, &mut Diagnostics::default())?;
         equations.rows.iter().all(Option::is_some).then_some(())?;
         let derived = context(&equations);
-        let page = Page::new(declaration, &graph, &problem, &derived, names);
+        let mut page = Page::new(declaration, &graph, &problem, &derived, names);
+        page.write_totals();
         let energy = match page.energy_of_all(&equations.energies).equation {
             Equation::Known(_, energy) => Some(energy),
             _ => None,
@@ -195,7 +200,7 @@ impl Page<'_> {
         let energies = &equations.hamilton.as_ref()?.energies;
         let parts: Result<Vec<Formula>, u64> = energies
             .iter()
-            .map(|Pattern { ranges, body }| Ok(self.summed_over(ranges, self.part_of_energy(*body)?)))
+            .map(|Pattern { ranges, body, .. }| Ok(self.summed_over(ranges, self.part_of_energy(*body)?)))
             .collect();
         let hamiltonian = Formula::sum(parts.ok()?);
         (length(&hamiltonian) <= LONG).then_some(())?;
@@ -280,6 +285,15 @@ impl Page<'_> {
         })
     }
 
+    /// Writes the sums that stand in expressions. Those in a sum come before it.
+    fn write_totals(&mut self) {
+        for Total { level, range, body } in &self.problem.many.totals {
+            let body = self.expression(*body).unwrap_or_else(|_| Formula::labelled("…", 0));
+            let formula = self.sum_over_range(range, *level, body);
+            self.totals.push(formula);
+        }
+    }
+
     fn summed_over(&self, ranges: &[Range], body: Formula) -> Formula {
         ranges.iter().enumerate().rfold(body, |body, (level, range)| self.sum_over_range(range, level, body))
     }
@@ -303,7 +317,7 @@ impl Page<'_> {
     fn energy_of_all(&self, energies: &[Pattern]) -> Line {
         let parts: Result<Vec<Formula>, u64> = energies
             .iter()
-            .map(|Pattern { ranges, body }| Ok(self.summed_over(ranges, self.part_of_energy(*body)?)))
+            .map(|Pattern { ranges, body, .. }| Ok(self.summed_over(ranges, self.part_of_energy(*body)?)))
             .collect();
         let remark = Remark::of(self.energy_form());
         Line { remark, ..Line::known(self.letters.name(PageQuantity::Energy), parts.map(Formula::sum)) }

@@ -59,6 +59,8 @@ pub(super) struct Page<'a> {
     pub(super) entries: FxHashMap<Id, Formula>,
     /// Equations of all elements of arrays at once.
     pub(super) families: Option<FamilyLines>,
+    /// Sums over ranges that are known when the program runs.
+    pub(super) totals: Vec<Formula>,
     /// True if the equations of motion are those of all elements.
     pub(super) is_by_families: bool,
     /// Terms of the sums in the declaration.
@@ -102,6 +104,7 @@ impl<'a> Page<'a> {
             axes,
             vectors: problem.vectors.iter().map(|(name, n)| (Formula::labelled(name, 0), *n)).collect(),
             families: None,
+            totals: Vec::new(),
             is_by_families: false,
             sums: Vec::new(),
         };

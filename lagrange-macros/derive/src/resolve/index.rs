@@ -1,7 +1,7 @@
 //! Elements and slices of arrays, fields and families.
 
 use super::access::AccessPart;
-use super::lowering::Lowering;
+use super::lowering::{Definition, Lowering};
 use super::parameters::text;
 use super::scope::Entity;
 use super::value::Value;
@@ -84,6 +84,9 @@ impl Lowering<'_> {
     /// Lowers an indexed family: the first indices select an element of the family, the rest index into its value.
     fn family_element(&mut self, first: usize, name: &Name, indices: &[Indexed<'_>]) -> Option<Value> {
         let rank = self.defines[first].target.indices.len().min(indices.len());
+        if self.many.is_open() && matches!(self.definitions[first], Definition::Wrong) {
+            return None;
+        }
         if self.is_open_definition(first) {
             return self.open_family_item(first, name, indices);
         }

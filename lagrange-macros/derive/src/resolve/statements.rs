@@ -228,6 +228,9 @@ impl Lowering<'_> {
                 self.twice(name, earlier.target.name.place, "observables");
                 continue;
             }
+            if self.is_open_family(&observable.target.indices) {
+                continue;
+            }
             let Some(value) = self.observed(observable) else { continue };
             let lengths = value.lengths();
             if lengths.len() > 2 {

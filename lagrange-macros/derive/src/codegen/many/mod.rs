@@ -29,6 +29,8 @@ pub(super) struct ManyEmitter<'a> {
     problem: &'a Problem,
     equations: &'a ManyEquations,
     style: FunctionContext<'a>,
+    /// Sums that the statements around those that are written compute.
+    known: std::cell::RefCell<Vec<usize>>,
     /// Operation counts of loop bodies that are too long.
     refused: std::cell::RefCell<Vec<String>>,
 }
@@ -46,7 +48,14 @@ pub(crate) fn implementation(
     let terms = equations.inertia.iter().flat_map(|block| &block.guarded).flat_map(|guarded| &guarded.values);
     let terms = terms.map(|(term, _)| term + 1).max().unwrap_or(0);
     let style = FunctionContext::new(graph, (&declaration.ident, problem), (Some(0), 0), 0, [0, terms]);
-    let emitter = ManyEmitter { declaration, problem, equations, style, refused: Default::default() };
+    let emitter = ManyEmitter {
+        declaration,
+        problem,
+        equations,
+        style,
+        known: Default::default(),
+        refused: Default::default(),
+    };
     let tokens = emitter.implementations(forms);
     let refused = emitter.refused.into_inner();
     if let Some(first) = refused.first() {

@@ -97,6 +97,8 @@ impl ManyEmitter<'_> {
             return self.round_of_scatter((slots, sets), depth, &roots);
         };
         let rings = if level + 1 == depth { rings(slots, depth) } else { Vec::new() };
+        let mark = self.mark();
+        let before = self.sums_before(&roots, level);
         let zero = self.style.constant(0.0);
         let own: Vec<usize> = (0..slots.len()).filter(|&k| depth_of(slots[k]) == level).collect();
         let summed = own.iter().map(|&k| sum_name(k));
@@ -108,7 +110,9 @@ impl ManyEmitter<'_> {
         let targets: Vec<&Slot> = alone.map(|k| slots[k]).chain(rings.iter().map(|ring| ring.last)).collect();
         let inner = || self.scatter_in((scatter, sets, emptied), slots, level + 1);
         let loops = self.one_loop((level, range), (&roots, &targets), inner, [&left, emptied]);
+        self.forget(mark);
         quote! {
+            #before
             #(let mut #summed = #zero;)*
             #(let mut #carried = #zero;)*
             #loops

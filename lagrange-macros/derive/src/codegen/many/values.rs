@@ -8,21 +8,54 @@ use super::indices::round;
 use super::windows::Source;
 use crate::codegen::shape::ResultShape;
 use crate::mechanics::many::{Guarded, Inertia};
-use crate::resolve::many::{Affine, Index, Range, Slot, Unknown, totals};
+use crate::resolve::many::{Affine, Index, Range, Slot, Total, Unknown, totals};
 use crate::symbolic::{Id, Node};
 use crate::variables::Variable;
 
 impl ManyEmitter<'_> {
     /// Statements that compute expressions, and the results. Sums in them are loops before them.
     pub(super) fn values(&self, roots: &[Id]) -> (TokenStream, Vec<TokenStream>) {
-        let sums = self.sums(totals(self.style.graph, roots));
+        let mark = self.mark();
+        let sums = self.sums_before(roots, usize::MAX);
         let shapes = vec![ResultShape::Number; roots.len()];
         let kernel = self.style.kernel("loop", roots, &shapes);
         let too_long = kernel.refused.map(|count| count.to_string());
         let too_long = too_long.or_else(|| (!kernel.parts.is_empty()).then(|| kernel.doc.clone()));
         self.refused.borrow_mut().extend(too_long);
         let statements = kernel.statements;
+        self.forget(mark);
         (quote! { #sums #statements }, kernel.results)
+    }
+
+    /// Loops that compute the sums in some expressions that are not known yet, as far as the indices of this many loops around them
+    /// determine them. They are known from here on, until [`forget`](Self::forget).
+    pub(super) fn sums_before(&self, roots: &[Id], depth: usize) -> TokenStream {
+        let is_new = |k: &usize| !self.known.borrow().contains(k) && self.depth_of_sum(*k) <= depth;
+        let new: Vec<usize> = totals(self.style.graph, roots).into_iter().filter(is_new).collect();
+        let sums = self.sums(new.clone());
+        self.known.borrow_mut().extend(new);
+        sums
+    }
+
+    /// Number of sums that are known.
+    pub(super) fn mark(&self) -> usize {
+        self.known.borrow().len()
+    }
+
+    /// Forgets the sums that are known since a mark: the block that computes them ends.
+    pub(super) fn forget(&self, mark: usize) {
+        self.known.borrow_mut().truncate(mark);
+    }
+
+    /// Number of loops whose indices a sum depends on.
+    fn depth_of_sum(&self, k: usize) -> usize {
+        let Total { level, range, body } = &self.problem.many.totals[k];
+        let (many, graph) = (&self.problem.many, self.style.graph);
+        let bodies = many.with_bodies_from(graph, &[*body], level + 1);
+        let others = totals(graph, &bodies).into_iter().filter(|&k| many.totals[k].level <= *level);
+        let levels = self.problem.levels(graph, &bodies).into_iter();
+        let levels = levels.chain(range.from.levels()).chain(range.to.levels()).filter(|outer| outer < level);
+        levels.map(|outer| outer + 1).chain(others.map(|k| self.depth_of_sum(k))).max().unwrap_or(0)
     }
 
     /// Loops that compute these sums, one for each range.
@@ -38,6 +71,8 @@ impl ManyEmitter<'_> {
             let names: Vec<&Ident> =
                 own.iter().map(|&k| &self.style.names[&Variable::Total(k).symbol()]).collect();
             let zero = self.style.constant(0.0);
+            let mark = self.mark();
+            let before = self.sums_before(&bodies, level);
             let round = || {
                 let (statements, results) = self.values(&bodies);
                 quote! { #statements #(#names = #names + #results;)* }
@@ -48,7 +83,8 @@ impl ManyEmitter<'_> {
                 round,
                 [&TokenStream::new(), &TokenStream::new()],
             );
-            loops.extend(quote! { #(let mut #names = #zero;)* #sum });
+            self.forget(mark);
+            loops.extend(quote! { #(let mut #names = #zero;)* { #before #sum } });
         }
         loops
     }

@@ -118,7 +118,7 @@ impl ManyEmitter<'_> {
         let many = &self.problem.many;
         let mut elements: Vec<(Source, Vec<Index>)> = Vec::new();
         let graph = self.style.graph;
-        let mut symbols: Vec<_> = graph.symbols(&many.with_bodies(graph, roots)).collect();
+        let mut symbols: Vec<_> = graph.symbols(&many.with_bodies_from(graph, roots, level + 1)).collect();
         symbols.sort_unstable();
         for symbol in symbols {
             let element = match Variable::of(symbol) {

@@ -34,8 +34,8 @@ impl ManyHamilton {
             in_momenta(graph, problem, &by_momenta, value)
         };
         let mut of_energy = Vec::new();
-        for Pattern { ranges, body } in energies {
-            of_energy.push(Pattern { ranges: ranges.clone(), body: replaced(graph, problem, *body)? });
+        for pattern in energies {
+            of_energy.push(Pattern { body: replaced(graph, problem, pattern.body)?, ..pattern.clone() });
         }
         let mut of_rates = Vec::new();
         for Scatter { ranges, values } in rates {

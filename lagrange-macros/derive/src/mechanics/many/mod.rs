@@ -56,7 +56,7 @@ pub(crate) struct ManyEquations {
     pub(crate) forces_are_free_of_velocities: bool,
 }
 
-const NOT_A_SUM: &str = "a sum over a length that is known when the program runs may be added, and multiplied by what contains no such sum: in a function, or times another sum, it cannot be differentiated yet";
+const NOT_A_SUM: &str = "here a sum of velocities, over a length that is known when the program runs, is in a function or times another sum, so that the mass matrix would be full: such sums may be added, and multiplied by what contains no sum";
 
 /// Derives the equations of motion. Reports what cannot be derived, and then returns `None`.
 pub(crate) fn derive(
@@ -64,26 +64,22 @@ pub(crate) fn derive(
     problem: &mut Problem,
     diagnostics: &mut Diagnostics,
 ) -> Option<ManyEquations> {
-    let Some(patterns) = patterns(graph, problem, problem.lagrangian) else {
+    let patterns = self::patterns(graph, problem, problem.lagrangian);
+    if !patterns::have_momenta_of_their_own(graph, &patterns) {
         diagnostics.error(problem.place, NOT_A_SUM);
         return None;
-    };
-    let dissipation = match problem.dissipation {
-        None => Vec::new(),
-        Some((function, place)) => match self::patterns(graph, problem, function) {
-            Some(patterns) => patterns,
-            None => {
-                diagnostics.error(place, NOT_A_SUM);
-                return None;
-            }
-        },
-    };
+    }
+    let dissipation =
+        problem.dissipation.map_or(Vec::new(), |(function, _)| self::patterns(graph, problem, function));
     let (mut momentum, mut forcing, mut rates, mut energies) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut rate = drift(graph, problem.many.slots.len());
     for pattern in &patterns {
         let derived = Derived::of(graph, &mut rate, pattern);
-        energies.push(Pattern { ranges: pattern.ranges.clone(), body: derived.energy });
+        // The value of a function of a sum is in the pattern that contains the function.
+        if pattern.factor == Id::ONE {
+            energies.push(Pattern { body: derived.energy, ..pattern.clone() });
+        }
         push(&mut momentum, graph, &pattern.ranges, derived.momentum);
         push(&mut rates, graph, &pattern.ranges, derived.rate);
         push(&mut forcing, graph, &pattern.ranges, derived.forcing);
@@ -91,7 +87,9 @@ pub(crate) fn derive(
     for pattern in &dissipation {
         let slots = slots(graph, pattern.body);
         let slopes = gradient(graph, pattern.body, &slots, Variable::Velocity);
-        let forces = slots.into_iter().zip(slopes.into_iter().map(|slope| graph.neg(slope))).collect();
+        let factor = graph.neg(pattern.factor);
+        let forces =
+            slots.into_iter().zip(slopes.into_iter().map(|slope| graph.mul(factor, slope))).collect();
         push_both(graph, [&mut forcing, &mut rates], (&pattern.ranges, forces));
     }
     let mut has_forces = !dissipation.is_empty();
@@ -103,7 +101,7 @@ pub(crate) fn derive(
     }
     let (inertia, mass) = inertia::blocks(graph, problem, &patterns, diagnostics)?;
     let parts: Vec<Id> =
-        energies.iter().map(|Pattern { ranges, body }| problem.summed(graph, ranges, *body)).collect();
+        energies.iter().map(|Pattern { ranges, body, .. }| problem.summed(graph, ranges, *body)).collect();
     let energy = graph.total(parts);
     diagnostics.stop_at_fault(problem.place, graph)?;
     let all: Vec<Id> = forcing.iter().flat_map(|scatter| &scatter.values).map(|(_, value)| *value).collect();
@@ -145,6 +143,7 @@ impl Derived {
         let slots = slots(graph, pattern.body);
         let momenta = gradient(graph, pattern.body, &slots, Variable::Velocity);
         let slopes = gradient(graph, pattern.body, &slots, Variable::Coordinate);
+        let slopes: Vec<Id> = slopes.into_iter().map(|slope| graph.mul(pattern.factor, slope)).collect();
         let velocities: Vec<Id> =
             slots.iter().map(|&k| graph.symbol(Variable::Velocity(k).symbol())).collect();
         let power = graph.dot(&momenta, &velocities);

@@ -8,6 +8,7 @@ use super::super::formula::Formula;
 use super::arms::joined;
 use super::atoms::Meaning;
 use super::collect::Collector;
+use crate::resolve::Problem;
 use crate::symbolic::{Atom, Monomial, Polynomial, Rational};
 use crate::variables::Variable;
 
@@ -85,12 +86,27 @@ impl Collector<'_, '_> {
         (monomial.filtered(|atom| !found.contains(&atom)), components)
     }
 
+    /// True for an element of an array of scalars, which is no component of a vector.
+    fn is_element(&self, atom: Atom, formula: &Formula) -> bool {
+        let Problem { many, parameters, .. } = self.page.problem;
+        match self.variable(atom) {
+            Some(
+                Variable::Coordinate(k)
+                | Variable::Velocity(k)
+                | Variable::Acceleration(k)
+                | Variable::Momentum(k),
+            ) => many.slots.get_index(k).is_some_and(|slot| many.arrays[slot.array].lengths.is_empty()),
+            _ => match formula {
+                Formula::Name { base, indices, .. } => many.is_element(base, indices.len(), parameters),
+                _ => false,
+            },
+        }
+    }
+
     /// Vector that an atom is a component of, and index of the component.
     fn component(&self, atom: Atom) -> Option<(Vector, usize)> {
         let formula = self.atom(atom);
-        if let Formula::Name { base, indices, .. } = &formula
-            && self.page.problem.many.is_element(base, indices.len(), &self.page.problem.parameters)
-        {
+        if self.is_element(atom, &formula) {
             return None;
         }
         let (written, place) = component(&formula)?;

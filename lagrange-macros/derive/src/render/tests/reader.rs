@@ -474,6 +474,9 @@ impl Reader<'_> {
     fn word(&mut self) -> Value {
         let word = self.name();
         let is_called = matches!(self.peek(), Some('(' | '′'));
+        if let Some((_, value)) = self.indices.iter().rev().find(|(name, _)| *name == word) {
+            return vec![*value as f64];
+        }
         if let Some(value) = self.meanings.name(&word).filter(|_| !is_called) {
             return value;
         }

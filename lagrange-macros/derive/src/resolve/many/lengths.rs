@@ -39,25 +39,30 @@ impl Many {
         parameters: &Parameters,
         diagnostics: &mut Diagnostics,
     ) -> Self {
-        let mut many = Self::default();
+        let mut many = Self { taken: taken(declaration), ..Self::default() };
         if !declaration.has_open_lengths() {
             return many;
         }
         let open: Vec<(usize, &Name, &Lengths)> = open_fields(declaration);
         let of_coordinates = declaration.coordinates.iter().flat_map(|coordinate| &coordinate.open);
         let written = of_coordinates.chain(open.iter().flat_map(|(_, _, lengths)| &lengths.open));
-        let mut names: Vec<&Name> = Vec::new();
         for length in written {
             length.names(&mut |name| {
                 let place = name.place;
                 if !many.lengths.iter().any(|known| known.name == name.text) {
                     match source(declaration, parameters, &open, name) {
                         Some(source) => many.lengths.push(Length { name: name.text.clone(), source }),
-                        None => unknown(name, place, diagnostics),
+                        None => unknown(declaration, name, place, diagnostics),
                     }
                 }
             });
-            names.clear();
+        }
+        for (field, known) in declaration.fields.iter().enumerate() {
+            let is_known = many.lengths.iter().any(|length| length.name == known.name.text);
+            if !is_known && is_integer(parameters, field) {
+                let source = LengthSource::Field(field);
+                many.lengths.push(Length { name: known.name.text.clone(), source });
+            }
         }
         many.arrays = declaration
             .coordinates
@@ -86,7 +91,7 @@ impl Many {
     /// Reads arrays whose lengths are numbers as if these were known when the program runs: the equations of all elements at once are an
     /// attempt. Stays empty if there is no array of several elements.
     pub(in crate::resolve) fn attempt(declaration: &Declaration) -> Self {
-        let mut many = Self { is_attempt: true, ..Self::default() };
+        let mut many = Self { is_attempt: true, taken: taken(declaration), ..Self::default() };
         let apart = |lengths: &[usize]| match lengths {
             [length, rest @ ..] if !rest.is_empty() || *length > VECTOR => (Some(*length), rest.to_vec()),
             lengths => (None, lengths.to_vec()),
@@ -184,9 +189,7 @@ fn source(
     name: &Name,
 ) -> Option<LengthSource> {
     if let Some(field) = declaration.fields.iter().position(|field| field.name.text == name.text) {
-        let FieldShape { layout, scalar, .. } = parameters.fields[field].shape.as_ref().ok()?;
-        let is_integer = layout.is_scalar() && scalar.as_ref().is_some_and(is_index);
-        return is_integer.then_some(LengthSource::Field(field));
+        return is_integer(parameters, field).then_some(LengthSource::Field(field));
     }
     let is_alone = |length: &Expression| matches!(&length.kind, Kind::Name(known) if known.text == name.text);
     if let Some((field, ..)) = open.iter().find(|(_, _, lengths)| lengths.open.first().is_some_and(is_alone))
@@ -201,11 +204,31 @@ fn source(
     })
 }
 
-fn unknown(name: &Name, place: Place, diagnostics: &mut Diagnostics) {
+fn unknown(declaration: &Declaration, name: &Name, place: Place, diagnostics: &mut Diagnostics) {
     let name = &name.text;
+    if let Some(field) = declaration.fields.iter().find(|field| field.name.text == *name) {
+        let ty = field.ty.to_token_stream();
+        return diagnostics.error(
+            place,
+            format!("a length is a whole number: the type of `{name}` has to be `usize`, and is `{ty}`"),
+        );
+    }
     diagnostics.error(place, format!(
         "the length `{name}` is no integer field and no length of a field: add a field `{name}: usize`, or say whose length it is, `#[parameter(m: [{name}])]` for `m: Vec<f64>`"
     ));
+}
+
+fn is_integer(parameters: &Parameters, field: usize) -> bool {
+    let is_it = |shape: &FieldShape| shape.layout.is_scalar() && shape.scalar.as_ref().is_some_and(is_index);
+    parameters.fields[field].shape.as_ref().is_ok_and(is_it)
+}
+
+/// Names of fields, coordinates and definitions.
+fn taken(declaration: &Declaration) -> Vec<String> {
+    let fields = declaration.fields.iter().map(|field| &field.name);
+    let coordinates = declaration.coordinates.iter().map(|coordinate| &coordinate.name);
+    let definitions = declaration.defines.iter().map(|define| &define.target.name);
+    fields.chain(coordinates).chain(definitions).map(|name| name.text.clone()).collect()
 }
 
 /// True for `usize`.

@@ -41,6 +41,8 @@ pub(crate) struct Many {
     pub(crate) demands: IndexSet<Demand>,
     /// Name of the running index at each depth.
     pub(crate) level_names: Vec<String>,
+    /// Names of fields, coordinates and definitions, which no running index is given.
+    pub(super) taken: Vec<String>,
     /// True if all lengths are numbers, and loops are an attempt to state the equations of all elements at once: what is no loop is
     /// written out.
     pub(super) is_attempt: bool,
@@ -142,12 +144,10 @@ impl Many {
         first + slot.number
     }
 
-    /// True if a name with so many indices is an element of an array, and no component of one.
+    /// True if a name with so many indices is an element of an open field, and no component of one.
     pub(crate) fn is_element(&self, name: &str, indices: usize, parameters: &Parameters) -> bool {
-        let array = self.arrays.iter().find(|array| array.name == name).map(|array| array.open.len());
-        let is_field = |field: &OpenField| parameters.fields[field.field].name.text == name;
-        let open = array.or_else(|| self.fields.iter().any(is_field).then_some(1));
-        open.is_some_and(|open| indices <= open)
+        let is_it = |field: &OpenField| parameters.fields[field.field].name.text == name;
+        indices <= 1 && self.fields.iter().any(is_it)
     }
 
     /// Name of a running index, from its depth, or of a length.
@@ -165,7 +165,7 @@ impl Many {
         }
         let numbered = (4..).map(|number| format!("i{number}"));
         let all = ["i", "j", "k", "l"].into_iter().map(str::to_owned).chain(numbered);
-        all.filter(|name| !self.level_names.contains(name))
+        all.filter(|name| !self.level_names.contains(name) && !self.taken.contains(name))
             .nth(level - self.level_names.len())
             .unwrap_or_default()
     }

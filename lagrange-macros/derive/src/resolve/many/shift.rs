@@ -2,11 +2,14 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Affine, FieldElement, Index, Slot, Unknown};
+use super::{Affine, FieldElement, Index, Range, Slot, Total, Unknown};
 use crate::resolve::Problem;
 use crate::resolve::parameters::Entry;
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
+
+/// Number of depths that indices of equations have at most: that of the element, and that of a sum over others.
+const AWAY: usize = 2;
 
 /// New value of each running index, by its depth.
 pub(crate) type NewIndices = FxHashMap<usize, Affine>;
@@ -33,8 +36,28 @@ impl Index {
 }
 
 impl Problem {
-    /// An expression, without sums, with all running indices replaced.
+    /// Depths of the loops whose indices occur in these expressions, without those of sums in them.
+    pub(crate) fn levels(&self, graph: &Graph, roots: &[Id]) -> Vec<usize> {
+        let of_field = |k: usize| {
+            let field = self.parameters.entries[k].field;
+            let element = self.many.elements.iter().find(|(_, place)| *place == field);
+            element.map_or(Vec::new(), |(element, _)| element.index.levels())
+        };
+        let of_slot = |k: usize| self.many.slots[k].indices.iter().flat_map(Index::levels).collect();
+        let levels = graph.symbols(roots).flat_map(|symbol| match Variable::of(symbol) {
+            Variable::Level(level) => vec![level],
+            Variable::Coordinate(k) | Variable::Velocity(k) => of_slot(k),
+            Variable::Parameter(k) => of_field(k),
+            _ => Vec::new(),
+        });
+        levels.collect()
+    }
+
+    /// An expression with all running indices replaced. Those of sums in it move out of the way of the new ones.
     pub(crate) fn shifted(&mut self, graph: &mut Graph, root: Id, new: &NewIndices) -> Id {
+        if new.is_empty() {
+            return root;
+        }
         let symbols: Vec<Symbol> = graph.symbols(&[root]).collect();
         let replaced: FxHashMap<Symbol, Id> = symbols
             .into_iter()
@@ -50,9 +73,20 @@ impl Problem {
             Variable::Velocity(k) => Variable::Velocity(self.shifted_slot(k, new)),
             Variable::Momentum(k) => Variable::Momentum(self.shifted_slot(k, new)),
             Variable::Parameter(k) => Variable::Parameter(self.shifted_parameter(k, new)?),
+            Variable::Total(k) => Variable::Total(self.shifted_sum(graph, k, new)),
             _ => return None,
         };
         Some(graph.symbol(variable.symbol()))
+    }
+
+    fn shifted_sum(&mut self, graph: &mut Graph, k: usize, new: &NewIndices) -> usize {
+        let Total { level, range, body } = self.many.totals[k].clone();
+        let deeper = level + AWAY;
+        let mut new = new.clone();
+        new.insert(level, Affine::of(Unknown::Level(deeper)));
+        let body = self.shifted(graph, body, &new);
+        let range = Range { from: range.from.shifted(&new), to: range.to.shifted(&new) };
+        self.many.totals.insert_full(Total { level: deeper, range, body }).0
     }
 
     /// Index of the slot with all running indices replaced.

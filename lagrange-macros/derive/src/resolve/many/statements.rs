@@ -159,7 +159,7 @@ impl Lowering<'_> {
             };
             let advice = "take independent coordinates, or stiff springs, or a number of coordinates that is an integer literal";
             self.diagnostics
-                .error(constraint.target.name.place, format!("{why}, there is no {what} yet: {advice}"));
+                .error(constraint.target.name.place, format!("{why}, there can be no {what} yet: {advice}"));
         }
     }
 

@@ -22,11 +22,16 @@ impl Many {
 
     /// These nodes, and the bodies of all sums in them.
     pub(crate) fn with_bodies(&self, graph: &Graph, roots: &[Id]) -> Vec<Id> {
+        self.with_bodies_from(graph, roots, 0)
+    }
+
+    /// The same with the bodies of sums whose running index has at least this depth: those of sums before have another meaning of it.
+    pub(crate) fn with_bodies_from(&self, graph: &Graph, roots: &[Id], depth: usize) -> Vec<Id> {
         let (mut all, mut pending) = (roots.to_vec(), roots.to_vec());
         while let Some(root) = pending.pop() {
             for total in totals(graph, &[root]) {
-                let body = self.totals[total].body;
-                if !all.contains(&body) {
+                let Total { level, body, .. } = self.totals[total];
+                if level >= depth && !all.contains(&body) {
                     all.push(body);
                     pending.push(body);
                 }
