@@ -34,7 +34,7 @@ pub(super) fn find(graph: &mut Graph, problem: &mut Problem, patterns: &[Pattern
     if patterns.iter().all(|pattern| is_moved(graph, problem, pattern, dimension)) {
         let of =
             |graph: &mut Graph, all: &[Component]| (0..dimension).map(|c| momentum(graph, all, c)).collect();
-        found.push(conserved(graph, problem, patterns, (Symmetry::Translation, dimension, &of)));
+        found.push(conserved(graph, problem, patterns, (Symmetry::Translation, dimension), of));
     }
     let turns = !planes(dimension).is_empty()
         && patterns.iter().all(|pattern| is_turned(graph, problem, pattern, dimension));
@@ -43,7 +43,7 @@ pub(super) fn find(graph: &mut Graph, problem: &mut Problem, patterns: &[Pattern
         let of = |graph: &mut Graph, all: &[Component]| {
             planes(dimension).iter().map(|&plane| moment(graph, all, plane, by_velocity)).collect()
         };
-        found.push(conserved(graph, problem, patterns, (Symmetry::Rotation, dimension, &of)));
+        found.push(conserved(graph, problem, patterns, (Symmetry::Rotation, dimension), of));
     }
     found
 }
@@ -150,7 +150,8 @@ fn conserved(
     graph: &mut Graph,
     problem: &mut Problem,
     patterns: &[Pattern],
-    (symmetry, dimension, of): (Symmetry, usize, &dyn Fn(&mut Graph, &[Component]) -> Vec<Id>),
+    (symmetry, dimension): (Symmetry, usize),
+    of: impl Fn(&mut Graph, &[Component]) -> Vec<Id>,
 ) -> ManyConserved {
     let mut parts = Vec::new();
     for pattern in patterns {

@@ -229,16 +229,17 @@ fn push(guarded: &mut Vec<Guarded>, conditions: &[Condition], value: (usize, Id)
 fn solved(graph: &mut Graph, mut mass: Vec<Vec<Id>>, mut right: Vec<Id>) -> Vec<Id> {
     let n = right.len();
     for k in 0..n {
+        let pivot = mass[k].clone();
         for i in k + 1..n {
             if mass[i][k] == Id::ZERO {
                 continue;
             }
-            let factor = graph.div(mass[i][k], mass[k][k]);
+            let factor = graph.div(mass[i][k], pivot[k]);
             let factor = graph.defined(factor);
-            for j in k + 1..n {
-                let part = graph.mul(factor, mass[k][j]);
-                let entry = graph.sub(mass[i][j], part);
-                mass[i][j] = graph.defined(entry);
+            for (entry, &above) in mass[i].iter_mut().zip(&pivot).skip(k + 1) {
+                let part = graph.mul(factor, above);
+                let rest = graph.sub(*entry, part);
+                *entry = graph.defined(rest);
             }
             let part = graph.mul(factor, right[k]);
             right[i] = graph.sub(right[i], part);
