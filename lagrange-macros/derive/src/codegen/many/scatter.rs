@@ -24,27 +24,29 @@ struct Ring<'a> {
 }
 
 impl ManyEmitter<'_> {
-    /// Loops that write the values of all scatters to the elements of `cells`. A loop that reaches each element of an array once
-    /// comes first and sets it; arrays without one are filled with zeros.
+    /// Loops that write the values of all scatters to the elements of `cells`. Loops that reach each element of an array once come
+    /// first. The first loop that reaches an array sets it, if it reaches all of it; other arrays are filled with zeros before.
     pub(super) fn scatters(&self, scatters: &[Scatter]) -> TokenStream {
-        let mut set_by: Vec<Option<usize>> = Vec::new();
-        for array in 0..self.problem.many.arrays.len() {
-            set_by.push(scatters.iter().position(|scatter| self.covers(scatter, array)));
+        let arrays = 0..self.problem.many.arrays.len();
+        let covered = |scatter: &Scatter| {
+            arrays.clone().filter(|&array| self.covers(scatter, array)).collect::<Vec<_>>()
+        };
+        let mut order: Vec<(&Scatter, Vec<usize>)> =
+            scatters.iter().map(|scatter| (scatter, covered(scatter))).collect();
+        order.sort_by_key(|(_, covered)| covered.is_empty());
+        let mut reached: Vec<usize> = Vec::new();
+        for (scatter, sets) in &mut order {
+            sets.retain(|array| !reached.contains(array));
+            reached.extend(scatter.values.iter().map(|(k, _)| self.problem.many.slots[*k].array));
         }
         let zero = self.style.constant(0.0);
-        let filled =
-            (0..set_by.len()).filter(|&array| set_by[array].is_none()).map(|array| self.fill(array, &zero));
-        let sets = |number: usize| {
-            (0..set_by.len()).filter(|&array| set_by[array] == Some(number)).collect::<Vec<_>>()
-        };
-        let mut order: Vec<usize> = (0..scatters.len()).collect();
-        order.sort_by_key(|&number| sets(number).is_empty());
-        let loops = order.into_iter().map(|number| {
-            let (scatter, sets) = (&scatters[number], sets(number));
+        let is_set = |array: usize| order.iter().any(|(_, sets)| sets.contains(&array));
+        let filled = arrays.filter(|&array| !is_set(array)).map(|array| self.fill(array, &zero));
+        let loops = order.iter().map(|(scatter, sets)| {
             let slots: Vec<&Slot> =
                 scatter.values.iter().map(|(k, _)| &self.problem.many.slots[*k]).collect();
             let emptied = sets.iter().map(|&array| self.fill(array, &zero)).collect();
-            let loops = self.scatter_in((scatter, &sets, &emptied), &slots, 0);
+            let loops = self.scatter_in((scatter, sets, &emptied), &slots, 0);
             quote! { { #loops } }
         });
         quote! { #(#filled)* #(#loops)* }
