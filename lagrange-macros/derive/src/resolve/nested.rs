@@ -6,9 +6,9 @@ use crate::symbolic::{Graph, Id};
 
 impl Problem {
     /// Rewrites the sums in L by their common partial sums, in L and in every other expression. Systems with frames are
-    /// skipped: their lowered form already shares sums.
+    /// skipped: their lowered form already shares sums. So are loops over elements, whose equations have few terms.
     pub(super) fn nest_sums(&mut self, graph: &mut Graph) {
-        if self.frames.len() > 1 {
+        if self.frames.len() > 1 || self.many.is_open() {
             return;
         }
         let mut roots: Vec<Id> = self.names.keys().copied().collect();
