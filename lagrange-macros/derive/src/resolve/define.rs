@@ -119,10 +119,10 @@ impl Lowering<'_> {
     fn define_element(&mut self, index: usize, first: usize, element: &[usize]) -> Option<()> {
         let define = &self.defines[index];
         self.progress.current.push((index, element.to_vec()));
-        let outer = std::mem::take(&mut self.locals);
+        let outer = (std::mem::take(&mut self.locals), std::mem::take(&mut self.many.ranges));
         let value =
             self.with_indices(&define.target.indices, element, |lowering| lowering.lower(&define.body));
-        self.locals = outer;
+        (self.locals, self.many.ranges) = outer;
         self.progress.current.pop();
         let Some(value) = value else {
             self.definitions[first] = Definition::Wrong;

@@ -74,8 +74,7 @@ impl Problem {
     /// The sum of a body over nested loops, as one expression.
     pub(crate) fn summed(&mut self, graph: &mut Graph, ranges: &[Range], body: Id) -> Id {
         ranges.iter().enumerate().rfold(body, |body, (level, range)| {
-            let (k, _) = self.many.totals.insert_full(Total { level, range: range.clone(), body });
-            graph.symbol(Variable::Total(k).symbol())
+            self.many.total(graph, Total { level, range: range.clone(), body })
         })
     }
 }

@@ -121,7 +121,7 @@ fn contribution(
             let new: NewIndices =
                 [(own, element), (1 - own, Affine::of(Unknown::Level(1)))].into_iter().collect();
             let value = problem.shifted(graph, value, &new);
-            let range = if own == 0 { shifted(second, &new) } else { outer(first, second, &new)? };
+            let range = if own == 0 { second.shifted(&new) } else { outer(first, second, &new)? };
             let own_range = if own == 0 { Some(first) } else { is_free(second).then_some(second) };
             let conditions = own_range
                 .map(|range| Range { from: range.from.plus(&offset, 1), to: range.to.plus(&offset, 1) });
@@ -134,10 +134,6 @@ fn contribution(
         }
         _ => None,
     }
-}
-
-fn shifted(range: &Range, new: &NewIndices) -> Range {
-    Range { from: range.from.shifted(new), to: range.to.shifted(new) }
 }
 
 fn is_free(range: &Range) -> bool {
@@ -284,8 +280,8 @@ fn sums(
     for force in active {
         let Some(over) = &force.over else { continue };
         let over = match over {
-            Over::Range(range) => Over::Range(shifted(range, new)),
-            Over::Others(range) => Over::Others(shifted(range, new)),
+            Over::Range(range) => Over::Range(range.shifted(new)),
+            Over::Others(range) => Over::Others(range.shifted(new)),
             Over::Entries(range, entry) => Over::Entries(range.clone(), entry.clone()),
         };
         let value = problem.shifted(graph, force.value, new);

@@ -111,12 +111,17 @@ impl Lowering<'_> {
     pub(super) fn slot(&mut self, slot: Slot) -> usize {
         let known = self.many.slots.len();
         let found = self.many.slot(slot);
+        self.follow_slots(known);
+        found
+    }
+
+    /// Adds the rates of the slots from this one on to the total time derivative.
+    pub(super) fn follow_slots(&mut self, known: usize) {
         for k in known..self.many.slots.len() {
             let rates = [Variable::Coordinate(k), Variable::Velocity(k), Variable::Acceleration(k)];
             let [_, velocity, acceleration] = rates.map(|variable| self.graph.symbol(variable.symbol()));
             self.rate.also([(rates[0].symbol(), velocity), (rates[1].symbol(), acceleration)]);
         }
-        found
     }
 
     /// Value of an element of a field: a virtual field stands for it among the parameters.

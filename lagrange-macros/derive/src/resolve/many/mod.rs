@@ -47,7 +47,7 @@ pub(crate) struct Many {
     /// written out.
     pub(super) is_attempt: bool,
     /// Loops around the current expression, outermost first.
-    pub(super) ranges: Vec<Range>,
+    pub(in crate::resolve) ranges: Vec<Range>,
 }
 
 /// An entry of `#[coordinates(…)]`.

@@ -2,9 +2,10 @@
 
 use rustc_hash::FxHashMap;
 
-use super::{Affine, FieldElement, Index, Range, Slot, Total, Unknown};
+use super::{Affine, FieldElement, Index, Many, Range, Slot, Total, Unknown, totals};
 use crate::resolve::Problem;
-use crate::resolve::parameters::Entry;
+use crate::resolve::lowering::Lowering;
+use crate::resolve::parameters::{Entry, Parameters};
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
 
@@ -35,7 +36,21 @@ impl Index {
     }
 }
 
+impl Range {
+    pub(crate) fn shifted(&self, new: &NewIndices) -> Self {
+        Self { from: self.from.shifted(new), to: self.to.shifted(new) }
+    }
+}
+
 impl Problem {
+    /// An expression with all running indices replaced. Those of sums in it move out of the way of the new ones.
+    pub(crate) fn shifted(&mut self, graph: &mut Graph, root: Id, new: &NewIndices) -> Id {
+        match new.is_empty() {
+            true => root,
+            false => self.many.shifted((graph, &mut self.parameters), root, (new, AWAY)),
+        }
+    }
+
     /// Depths of the loops whose indices occur in these expressions, without those of sums in them.
     pub(crate) fn levels(&self, graph: &Graph, roots: &[Id]) -> Vec<usize> {
         let of_field = |k: usize| {
@@ -52,56 +67,90 @@ impl Problem {
         });
         levels.collect()
     }
+}
 
-    /// An expression with all running indices replaced. Those of sums in it move out of the way of the new ones.
-    pub(crate) fn shifted(&mut self, graph: &mut Graph, root: Id, new: &NewIndices) -> Id {
-        if new.is_empty() {
-            return root;
-        }
+impl Many {
+    /// An expression with running indices replaced, and those of sums in it this much deeper.
+    fn shifted(
+        &mut self,
+        (graph, parameters): (&mut Graph, &mut Parameters),
+        root: Id,
+        (new, by): (&NewIndices, usize),
+    ) -> Id {
         let symbols: Vec<Symbol> = graph.symbols(&[root]).collect();
         let replaced: FxHashMap<Symbol, Id> = symbols
             .into_iter()
-            .filter_map(|symbol| Some((symbol, self.replacement(graph, symbol, new)?)))
+            .filter_map(|symbol| Some((symbol, self.replacement((graph, parameters), symbol, (new, by))?)))
             .collect();
         graph.substituted(root, |symbol| replaced.get(&symbol).copied())
     }
 
-    fn replacement(&mut self, graph: &mut Graph, symbol: Symbol, new: &NewIndices) -> Option<Id> {
+    fn replacement(
+        &mut self,
+        (graph, parameters): (&mut Graph, &mut Parameters),
+        symbol: Symbol,
+        (new, by): (&NewIndices, usize),
+    ) -> Option<Id> {
         let variable = match Variable::of(symbol) {
             Variable::Level(level) => return Some(new.get(&level)?.node(graph)),
             Variable::Coordinate(k) => Variable::Coordinate(self.shifted_slot(k, new)),
             Variable::Velocity(k) => Variable::Velocity(self.shifted_slot(k, new)),
             Variable::Momentum(k) => Variable::Momentum(self.shifted_slot(k, new)),
-            Variable::Parameter(k) => Variable::Parameter(self.shifted_parameter(k, new)?),
-            Variable::Total(k) => Variable::Total(self.shifted_sum(graph, k, new)),
+            Variable::Parameter(k) => Variable::Parameter(self.shifted_parameter(parameters, k, new)?),
+            Variable::Total(k) => return Some(self.shifted_sum((graph, parameters), k, (new, by))),
             _ => return None,
         };
         Some(graph.symbol(variable.symbol()))
     }
 
-    fn shifted_sum(&mut self, graph: &mut Graph, k: usize, new: &NewIndices) -> usize {
-        let Total { level, range, body } = self.many.totals[k].clone();
-        let deeper = level + AWAY;
+    fn shifted_sum(
+        &mut self,
+        (graph, parameters): (&mut Graph, &mut Parameters),
+        k: usize,
+        (new, by): (&NewIndices, usize),
+    ) -> Id {
+        let Total { level, range, body } = self.totals[k].clone();
         let mut new = new.clone();
-        new.insert(level, Affine::of(Unknown::Level(deeper)));
-        let body = self.shifted(graph, body, &new);
-        let range = Range { from: range.from.shifted(&new), to: range.to.shifted(&new) };
-        self.many.totals.insert_full(Total { level: deeper, range, body }).0
+        new.insert(level, Affine::of(Unknown::Level(level + by)));
+        let body = self.shifted((graph, parameters), body, (&new, by));
+        self.total(graph, Total { level: level + by, range: range.shifted(&new), body })
     }
 
-    /// Index of the slot with all running indices replaced.
-    pub(crate) fn shifted_slot(&mut self, k: usize, new: &NewIndices) -> usize {
-        let Slot { array, indices, number } = self.many.slots[k].clone();
+    fn shifted_slot(&mut self, k: usize, new: &NewIndices) -> usize {
+        let Slot { array, indices, number } = self.slots[k].clone();
         let indices = indices.iter().map(|index| index.shifted(new)).collect();
-        self.many.slot(Slot { array, indices, number })
+        self.slot(Slot { array, indices, number })
     }
 
-    fn shifted_parameter(&mut self, k: usize, new: &NewIndices) -> Option<usize> {
-        let Entry { field, number } = self.parameters.entries[k];
-        let (element, _) = self.many.elements.iter().find(|(_, place)| *place == field)?;
+    fn shifted_parameter(
+        &mut self,
+        parameters: &mut Parameters,
+        k: usize,
+        new: &NewIndices,
+    ) -> Option<usize> {
+        let Entry { field, number } = parameters.entries[k];
+        let (element, _) = self.elements.iter().find(|(_, place)| *place == field)?;
         let element = FieldElement { field: element.field, index: element.index.shifted(new) };
-        let known = self.many.elements.iter().find(|(known, _)| *known == element).map(|(_, place)| *place);
-        let field = known.unwrap_or_else(|| self.many.virtual_field(&mut self.parameters, element));
-        Some(self.parameters.entries.insert_full(Entry { field, number }).0)
+        let known = self.elements.iter().find(|(known, _)| *known == element).map(|(_, place)| *place);
+        let field = known.unwrap_or_else(|| self.virtual_field(parameters, element));
+        Some(parameters.entries.insert_full(Entry { field, number }).0)
+    }
+}
+
+impl Lowering<'_> {
+    /// A value as it reads within the current loops. The index of a sum that was lowered outside of them, as a definition or an
+    /// argument is, becomes that of a loop inside.
+    pub(super) fn within_loops(&mut self, id: Id) -> Id {
+        let depth = self.many.ranges.len();
+        let outside = totals(&self.graph, &[id]).into_iter().find(|&k| self.many.totals[k].level < depth);
+        let Some(k) = outside else { return id };
+        let by = depth - self.many.totals[k].level;
+        let own = Variable::Total(k).symbol();
+        let known = self.many.slots.len();
+        let context = (&mut self.graph, &mut self.parameters);
+        let inside = self.many.shifted_sum(context, k, (&NewIndices::default(), by));
+        self.follow_slots(known);
+        let id = self.graph.substituted(id, |symbol| (symbol == own).then_some(inside));
+        self.within_loops(id)
     }
 }

@@ -53,7 +53,7 @@ impl Lowering<'_> {
         let at: Vec<Index> = outer.iter().cloned().map(Index::Affine).collect();
         let values = match is_literal_zero(&force.value) {
             true => Vec::new(),
-            false => value.flat(),
+            false => value.flat().into_iter().map(|id| self.within_loops(id)).collect(),
         };
         let slot = |(number, value): (usize, Id)| {
             (self.slot(Slot { array, indices: at.clone(), number: first + number }), value)

@@ -8,6 +8,15 @@ use crate::syntax::{Expression, Name, SumOver, TargetIndex};
 use crate::variables::Variable;
 
 impl Many {
+    /// A sum as a node of the graph.
+    pub(crate) fn total(&mut self, graph: &mut Graph, total: Total) -> Id {
+        if total.body == Id::ZERO {
+            return Id::ZERO;
+        }
+        let (k, _) = self.totals.insert_full(total);
+        graph.symbol(Variable::Total(k).symbol())
+    }
+
     /// Largest number of nested loops.
     pub(crate) fn deepest(&self, graph: &Graph) -> usize {
         let levels = graph.ids().filter_map(|id| match graph.node(id) {
@@ -76,8 +85,7 @@ impl Lowering<'_> {
             let Total { level, range, body } = self.many.totals[k].clone();
             self.follow_totals(&[body]);
             let body = self.rate.of(&mut self.graph, body);
-            let (rate, _) = self.many.totals.insert_full(Total { level, range, body });
-            let rate = self.graph.symbol(Variable::Total(rate).symbol());
+            let rate = self.many.total(&mut self.graph, Total { level, range, body });
             self.rate.also([(Variable::Total(k).symbol(), rate)]);
         }
     }
@@ -97,12 +105,15 @@ impl Lowering<'_> {
     fn sum_in(&mut self, range: Range, sum: &SumOver) -> Option<Value> {
         self.declare_local(&sum.index)?;
         let level = self.many.ranges.len();
-        let value = self.inside(range.clone(), &sum.index, |lowering| lowering.lower(&sum.body))?;
-        Some(value.map(&mut |body| {
-            let total = Total { level, range: range.clone(), body };
-            let (k, _) = self.many.totals.insert_full(total);
-            self.graph.symbol(Variable::Total(k).symbol())
-        }))
+        let value = self.inside(range.clone(), &sum.index, |lowering| {
+            let value = lowering.lower(&sum.body)?;
+            Some(value.map(&mut |id| lowering.within_loops(id)))
+        })?;
+        Some(
+            value.map(&mut |body| {
+                self.many.total(&mut self.graph, Total { level, range: range.clone(), body })
+            }),
+        )
     }
 
     /// Bounds of a range, if one of them is known when the program runs only.
