@@ -52,14 +52,16 @@ pub enum Error {
         /// Number of elements of the array.
         length: usize,
     },
-    /// A sum or a range leaves an array whose length is a field.
+    /// A sum or a range leaves an array whose length is a field, or a family of definitions.
     ElementMissing {
         /// Name of the array.
         array: &'static str,
         /// Index of the first element that does not exist.
         index: i64,
-        /// Number of elements of the array.
-        length: usize,
+        /// Index of the first element of the array.
+        from: usize,
+        /// Index after the last element.
+        to: usize,
     },
     /// A parameter matrix lacks the property that its type or `#[parameter(…)]` declares.
     ParameterNotAsSaid {

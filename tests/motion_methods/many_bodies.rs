@@ -147,9 +147,9 @@ fn fields_that_do_not_fit_are_refused() {
 
 #[test]
 fn an_element_that_is_missing_is_named() {
-    let error = Error::ElementMissing { array: "q", index: -1, length: 5 };
+    let error = Error::ElementMissing { array: "q", index: -1, from: 0, to: 5 };
     assert!(
-        error.to_string().starts_with("`q[-1]` is outside of the array, which has 5 elements"),
+        error.to_string().starts_with("`q[-1]` does not exist, the indices of `q` are 0..5: "),
         "{error}"
     );
 }

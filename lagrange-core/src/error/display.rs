@@ -26,9 +26,9 @@ impl Display for Error {
                 f,
                 "entry {entry} of `{field}` is {index}, and there are {length}: indices, like entries, count from 0"
             ),
-            Self::ElementMissing { array, index, length } => write!(
+            Self::ElementMissing { array, index, from, to } => write!(
                 f,
-                "`{array}[{index}]` is outside of the array, which has {length} elements, counted from 0: let the range end before it, or give the array more elements"
+                "`{array}[{index}]` does not exist, the indices of `{array}` are {from}..{to}: let the range end before it, or give the array more elements"
             ),
             Self::ParameterNotAsSaid { name, wanted, defect } if !defect.is_finite() => {
                 write!(f, "the parameter `{name}` is not {wanted}: one of its entries is not finite")

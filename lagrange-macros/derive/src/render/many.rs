@@ -306,7 +306,7 @@ impl Page<'_> {
         let range = match region {
             Region::Element(_) | Region::All { length: None } => return Vec::new(),
             Region::Interior => return vec![Fragment::words("for elements with neighbours on all sides")],
-            Region::All { length: Some(length) } => &Range { from: Affine::number(0), to: length.clone() },
+            Region::All { length: Some(length) } => &Range::up_to(length),
             Region::Within(range) => range,
         };
         let [from, to] = [&range.from, &range.to].map(|bound| Box::new(self.affine(bound)));

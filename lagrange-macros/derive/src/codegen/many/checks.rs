@@ -76,20 +76,19 @@ impl ManyEmitter<'_> {
     }
 
     /// Goes through all rounds of the loops in which an index is used.
-    fn check_demand(&self, Demand { name, ranges, index, length }: &Demand) -> TokenStream {
-        let length = self.style.bound(length);
+    fn check_demand(&self, Demand { name, ranges, index, within }: &Demand) -> TokenStream {
+        let (from, to) = (self.style.bound(&within.from), self.style.bound(&within.to));
         let (value, is_wrong, error) = match index {
             Index::Affine(affine) => (
                 self.signed(affine),
-                quote!(value < 0 || value >= #length as i64),
-                quote!(ElementMissing { array: #name, index: value, length: #length }),
+                quote!(!(#from as i64..#to as i64).contains(&value)),
+                quote!(ElementMissing { array: #name, index: value, from: #from, to: #to }),
             ),
             Index::Entry(field, path) => {
                 let field = &self.problem.parameters.fields[self.problem.many.fields[*field].field].name.text;
                 let entry = self.style.affine(&path[0]);
-                let error =
-                    quote!(FieldIndex { field: #field, entry: #entry, index: value, length: #length });
-                (self.style.index(index), quote!(value >= #length), error)
+                let error = quote!(FieldIndex { field: #field, entry: #entry, index: value, length: #to });
+                (self.style.index(index), quote!(value >= #to), error)
             }
         };
         let inner = quote! {

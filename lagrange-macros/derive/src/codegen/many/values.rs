@@ -104,7 +104,7 @@ impl ManyEmitter<'_> {
     /// Loops over the elements along the axes from this one on.
     fn over_elements(&self, block: &Inertia, slots: &[Slot], axis: usize) -> TokenStream {
         let Some(length) = block.lengths.get(axis) else { return self.solve_element(block, slots) };
-        let range = Range { from: Affine::number(0), to: length.clone() };
+        let range = Range::up_to(length);
         let (roots, targets) = (&block.accelerations[..], slots.iter().collect::<Vec<_>>());
         let inner = || self.over_elements(block, slots, axis + 1);
         let loops = self.one_loop(

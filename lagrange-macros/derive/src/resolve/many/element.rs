@@ -1,6 +1,6 @@
 //! Elements of arrays whose lengths are known when the program runs.
 
-use super::{Affine, Demand, FieldElement, Index, Slot};
+use super::{Affine, Demand, FieldElement, Index, Range, Slot};
 use crate::diagnostics::Place;
 use crate::resolve::lowering::{Lowering, Setting};
 use crate::resolve::scope::Entity;
@@ -80,7 +80,7 @@ impl Lowering<'_> {
         let outer: Vec<Option<Index>> = outer.iter().map(|index| self.position(index)).collect();
         let outer = outer.into_iter().collect::<Option<Vec<Index>>>()?;
         for ((index, length), written) in outer.iter().zip(&lengths).zip(indices) {
-            self.demand(&name.text, index, length, written.place)?;
+            self.demand(&name.text, index, Range::up_to(length), written.place)?;
         }
         let mut value = match open {
             Open::Array(array, variable) => self.slots(array, outer, variable),
@@ -166,7 +166,7 @@ impl Lowering<'_> {
         let indices: Vec<Option<Affine>> = path.iter().map(|index| self.affine(index)).collect();
         let indices = indices.into_iter().collect::<Option<Vec<Affine>>>()?;
         for ((index, length), written) in indices.iter().zip(&lengths).zip(path) {
-            self.demand(&name.text, &Index::Affine(index.clone()), length, written.place)?;
+            self.demand(&name.text, &Index::Affine(index.clone()), Range::up_to(length), written.place)?;
         }
         Some(Index::Entry(field, indices))
     }
@@ -188,43 +188,39 @@ impl Lowering<'_> {
         })
     }
 
-    /// Requires 0 ≤ index < length in the current loops: reports what is wrong whatever the lengths are, and leaves to the start
-    /// of a motion what depends on them.
+    /// Requires an index to be in the range of the indices of an array, in all rounds of the loops that it is taken from, though loops
+    /// inside be empty. Reports what is wrong whatever the lengths are, and leaves to the start of a motion what depends on them.
     pub(in crate::resolve) fn demand(
         &mut self,
         name: &str,
         index: &Index,
-        length: &Affine,
+        within: Range,
         place: Place,
     ) -> Option<()> {
         if let Index::Affine(affine) = index {
             let [least, most] = self.many.bounds(affine);
             let text = |affine: &Affine| affine.text(|unknown| self.many.name(unknown));
-            let beyond = most.plus(length, -1).as_number();
-            let (below, beyond) = (least.as_number(), beyond);
-            if below.is_some_and(|below| below < 0) {
-                let message =
-                    format!("this reaches element {} of `{name}`: elements begin at 0", text(&least));
+            let above = least.plus(&within.from, -1).as_number();
+            let below = within.to.plus(&most, -1).as_number();
+            if above.is_some_and(|above| above < 0) {
+                let (least, first) = (text(&least), text(&within.from));
+                let message = format!("this reaches element {least} of `{name}`: elements begin at {first}");
                 return self.report(place, message);
             }
-            if beyond.is_some_and(|beyond| beyond >= 0) {
-                let (most, last) = (text(&most), text(&length.plus_number(-1)));
+            if below.is_some_and(|below| below <= 0) {
+                let (most, last) = (text(&most), text(&within.to.plus_number(-1)));
                 return self.report(
                     place,
                     format!("this reaches element {most} of `{name}`, and the last is {last}"),
                 );
             }
-            if below.is_some() && beyond.is_some() {
+            if above.is_some() && below.is_some() {
                 return Some(());
             }
         }
-        let demand = Demand {
-            name: name.to_owned(),
-            ranges: self.many.ranges.clone(),
-            index: index.clone(),
-            length: length.clone(),
-        };
-        self.many.demands.insert(demand);
+        let depth = index.levels().into_iter().max().map_or(0, |level| level + 1);
+        let ranges = self.many.ranges[..depth].to_vec();
+        self.many.demands.insert(Demand { name: name.to_owned(), ranges, index: index.clone(), within });
         Some(())
     }
 }

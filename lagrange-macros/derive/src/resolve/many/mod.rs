@@ -116,14 +116,21 @@ pub(crate) struct OpenForce {
     pub(crate) values: Vec<(usize, Id)>,
 }
 
-/// An index that must be less than a length in all rounds of some loops.
+/// An index that must be in a range in all rounds of some loops.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct Demand {
     /// Name of the array.
     pub(crate) name: String,
     pub(crate) ranges: Vec<Range>,
     pub(crate) index: Index,
-    pub(crate) length: Affine,
+    pub(crate) within: Range,
+}
+
+impl Range {
+    /// Indices of an array.
+    pub(crate) fn up_to(length: &Affine) -> Self {
+        Self { from: Affine::number(0), to: length.clone() }
+    }
 }
 
 impl Many {

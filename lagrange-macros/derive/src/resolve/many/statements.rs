@@ -1,6 +1,6 @@
 //! Forces, definitions and attributes that a system of any number of bodies may have.
 
-use super::{Affine, Index, OpenForce, Slot};
+use super::{Affine, Index, OpenForce, Range, Slot};
 use crate::diagnostics::Place;
 use crate::resolve::expression::is_literal_zero;
 use crate::resolve::lowering::{Definition, Lowering};
@@ -37,7 +37,7 @@ impl Lowering<'_> {
         }
         let (outer, inner) = indices.split_at(open.len());
         for (index, length) in outer.iter().zip(&open) {
-            self.demand(&name.text, &Index::Affine(index.clone()), length, place)?;
+            self.demand(&name.text, &Index::Affine(index.clone()), Range::up_to(length), place)?;
         }
         let inner: Option<Vec<usize>> =
             inner.iter().map(|index| index.as_number().and_then(|i| usize::try_from(i).ok())).collect();
@@ -108,9 +108,8 @@ impl Lowering<'_> {
                     let outer = std::mem::replace(&mut self.locals, bound.clone());
                     let (low, high) = (self.affine(from), self.affine(to));
                     self.locals = outer;
-                    let (low, high) = (low?, high?);
-                    let shifted = Index::Affine(at.plus(&low, -1));
-                    self.demand(&name.text, &shifted, &high.plus(&low, -1), place)?;
+                    let within = Range { from: low?, to: high? };
+                    self.demand(&name.text, &Index::Affine(at.clone()), within, place)?;
                     let value = Value::Scalar(at.node(&mut self.graph));
                     bound.push((index.text.clone(), value));
                 }
