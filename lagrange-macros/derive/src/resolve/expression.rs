@@ -4,6 +4,7 @@ use num_traits::Zero;
 
 use super::access::Access;
 use super::lowering::{Lowering, Setting};
+use super::many::Affine;
 use super::scope::{Entity, is_built_in};
 use super::value::Value;
 use crate::diagnostics::{Place, fault_message};
@@ -109,7 +110,11 @@ impl Lowering<'_> {
         let id = self.scalar(expression)?;
         let value = self.graph.as_number(id).filter(Rational::is_integer).map(|value| value.to_integer());
         value.or_else(|| {
-            self.report(expression.place, "an index or a bound is a whole number known while compiling")
+            let message = match Affine::read(&self.graph, id) {
+                Some(_) => "this is known when the program runs, but the length of the array while compiling: make the field a `Vec`, and name its length, `#[parameter(name: [n])]`",
+                None => "an index or a bound is a whole number known while compiling",
+            };
+            self.report(expression.place, message)
         })
     }
 

@@ -84,7 +84,7 @@ impl Lowering<'_> {
     /// Lowers an indexed family: the first indices select an element of the family, the rest index into its value.
     fn family_element(&mut self, first: usize, name: &Name, indices: &[Indexed<'_>]) -> Option<Value> {
         let rank = self.defines[first].target.indices.len().min(indices.len());
-        if self.many.is_open() && matches!(self.definitions[first], Definition::Wrong) {
+        if matches!(self.definitions[first], Definition::Wrong) {
             return None;
         }
         if self.is_open_definition(first) {

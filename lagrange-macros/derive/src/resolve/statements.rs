@@ -213,7 +213,6 @@ impl Lowering<'_> {
 
     pub(super) fn observables(&mut self, declaration: &Declaration) -> Vec<Observed> {
         self.setting = Setting::Observable;
-        self.refuse_open_observables(declaration);
         let mut observables = Vec::new();
         for (position, observable) in declaration.observables.iter().enumerate() {
             let name = &observable.target.name;
@@ -228,10 +227,8 @@ impl Lowering<'_> {
                 self.twice(name, earlier.target.name.place, "observables");
                 continue;
             }
-            if self.is_open_family(&observable.target.indices) {
-                continue;
-            }
-            let Some(value) = self.observed(observable) else { continue };
+            let is_known = self.refuse_open_observable(&observable.target);
+            let Some(value) = is_known.and_then(|()| self.observed(observable)) else { continue };
             let lengths = value.lengths();
             if lengths.len() > 2 {
                 let message =

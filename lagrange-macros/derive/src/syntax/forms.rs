@@ -158,8 +158,10 @@ pub(super) fn any_lengths(cursor: &mut Cursor) -> Result<Lengths> {
                 let value = value.to_integer().and_then(|value| usize::try_from(value).ok());
                 known.push(value.filter(|length| *length > 0).ok_or_else(|| place.error(LENGTHS))?);
             }
-            Kind::Name(_) | Kind::Sum(_) if known.is_empty() => open.push(length),
-            Kind::Name(_) | Kind::Sum(_) => return Err(length.place.error(OPEN_FIRST)),
+            _ if has_names(&length) => match known.is_empty() {
+                true => open.push(length),
+                false => return Err(length.place.error(OPEN_FIRST)),
+            },
             _ => return Err(length.place.error(LENGTHS)),
         }
         if inside.is_empty() {
@@ -167,6 +169,12 @@ pub(super) fn any_lengths(cursor: &mut Cursor) -> Result<Lengths> {
         }
     }
     if numbers(&known) > LENGTH_LIMIT { Err(place.error(LENGTHS)) } else { Ok(Lengths { open, known }) }
+}
+
+fn has_names(expression: &Expression) -> bool {
+    let mut has_names = false;
+    expression.names(&mut |_| has_names = true);
+    has_names
 }
 
 const OPEN_FIRST: &str =

@@ -4,7 +4,7 @@
 use quote::ToTokens;
 
 use super::{Affine, Array, Many, OpenField, Unknown};
-use crate::diagnostics::{Diagnostics, Place};
+use crate::diagnostics::Diagnostics;
 use crate::resolve::parameters::Parameters;
 use crate::symbolic::{Graph, Id};
 use crate::syntax::{
@@ -46,22 +46,22 @@ impl Many {
         let open: Vec<(usize, &Name, &Lengths)> = open_fields(declaration);
         let of_coordinates = declaration.coordinates.iter().flat_map(|coordinate| &coordinate.open);
         let written = of_coordinates.chain(open.iter().flat_map(|(_, _, lengths)| &lengths.open));
-        for length in written {
-            length.names(&mut |name| {
-                let place = name.place;
-                if !many.lengths.iter().any(|known| known.name == name.text) {
-                    match source(declaration, parameters, &open, name) {
-                        Some(source) => many.lengths.push(Length { name: name.text.clone(), source }),
-                        None => unknown(declaration, name, place, diagnostics),
-                    }
-                }
-            });
+        let mut length = |name: &Name, source: Option<LengthSource>| {
+            if many.lengths.iter().any(|known| known.name == name.text) {
+                return;
+            }
+            match source {
+                Some(source) => many.lengths.push(Length { name: name.text.clone(), source }),
+                None => unknown(declaration, name, diagnostics),
+            }
+        };
+        for written in written {
+            written.names(&mut |name| length(name, source(declaration, parameters, &open, name)));
         }
-        for (field, known) in declaration.fields.iter().enumerate() {
-            let is_known = many.lengths.iter().any(|length| length.name == known.name.text);
-            if !is_known && is_integer(parameters, field) {
-                let source = LengthSource::Field(field);
-                many.lengths.push(Length { name: known.name.text.clone(), source });
+        // Bounds and expressions may name other integer fields.
+        for (index, field) in declaration.fields.iter().enumerate() {
+            if is_length(parameters, index) {
+                length(&field.name, Some(LengthSource::Field(index)));
             }
         }
         many.arrays = declaration
@@ -189,7 +189,7 @@ fn source(
     name: &Name,
 ) -> Option<LengthSource> {
     if let Some(field) = declaration.fields.iter().position(|field| field.name.text == name.text) {
-        return is_integer(parameters, field).then_some(LengthSource::Field(field));
+        return is_length(parameters, field).then_some(LengthSource::Field(field));
     }
     let is_alone = |length: &Expression| matches!(&length.kind, Kind::Name(known) if known.text == name.text);
     if let Some((field, ..)) = open.iter().find(|(_, _, lengths)| lengths.open.first().is_some_and(is_alone))
@@ -204,23 +204,23 @@ fn source(
     })
 }
 
-fn unknown(declaration: &Declaration, name: &Name, place: Place, diagnostics: &mut Diagnostics) {
-    let name = &name.text;
+/// True for a field of type `usize`.
+fn is_length(parameters: &Parameters, field: usize) -> bool {
+    let shape = parameters.fields[field].shape.as_ref();
+    shape.is_ok_and(|shape| shape.layout.is_scalar() && shape.scalar.as_ref().is_some_and(is_index))
+}
+
+fn unknown(declaration: &Declaration, Name { text: name, place }: &Name, diagnostics: &mut Diagnostics) {
     if let Some(field) = declaration.fields.iter().find(|field| field.name.text == *name) {
         let ty = field.ty.to_token_stream();
         return diagnostics.error(
-            place,
+            *place,
             format!("a length is a whole number: the type of `{name}` has to be `usize`, and is `{ty}`"),
         );
     }
-    diagnostics.error(place, format!(
+    diagnostics.error(*place, format!(
         "the length `{name}` is no integer field and no length of a field: add a field `{name}: usize`, or say whose length it is, `#[parameter(m: [{name}])]` for `m: Vec<f64>`"
     ));
-}
-
-fn is_integer(parameters: &Parameters, field: usize) -> bool {
-    let is_it = |shape: &FieldShape| shape.layout.is_scalar() && shape.scalar.as_ref().is_some_and(is_index);
-    parameters.fields[field].shape.as_ref().is_ok_and(is_it)
 }
 
 /// Names of fields, coordinates and definitions.

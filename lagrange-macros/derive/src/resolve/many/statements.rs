@@ -7,7 +7,7 @@ use crate::resolve::lowering::{Definition, Lowering};
 use crate::resolve::scope::Entity;
 use crate::resolve::value::{Shape, Value};
 use crate::symbolic::Id;
-use crate::syntax::{Declaration, Force, Law, Name, TargetIndex, numbers};
+use crate::syntax::{Declaration, Force, Law, Name, Target, TargetIndex, numbers};
 
 impl Lowering<'_> {
     /// Forces on elements of coordinates.
@@ -152,13 +152,22 @@ impl Lowering<'_> {
         }
         for constraint in &declaration.constraints {
             let what = match constraint.law {
-                Law::Equation => "constraints",
-                Law::Contact { .. } => "contacts",
-                Law::Coulomb { .. } | Law::Dry { .. } => "friction",
+                Law::Equation => "are no constraints",
+                Law::Contact { .. } => "are no contacts",
+                Law::Coulomb { .. } | Law::Dry { .. } => "is no friction",
             };
             let advice = "take independent coordinates, or stiff springs, or a number of coordinates that is an integer literal";
             self.diagnostics
-                .error(constraint.target.name.place, format!("{why}, there can be no {what} yet: {advice}"));
+                .error(constraint.target.name.place, format!("{why}, there {what} yet: {advice}"));
+        }
+        for conserved in declaration.observables.iter().filter(|observable| observable.is_conserved) {
+            self.diagnostics.error(
+                conserved.target.name.place,
+                format!(
+                    "{why}, no quantity is proved to be conserved yet: write `#[observable({} = …)]`",
+                    conserved.target.name.text
+                ),
+            );
         }
     }
 
@@ -167,15 +176,16 @@ impl Lowering<'_> {
         matches!(self.definitions[first], Definition::Open { .. })
     }
 
-    /// Reports observables that are families of a length that is known when the program runs.
-    pub(in crate::resolve) fn refuse_open_observables(&mut self, declaration: &Declaration) {
-        for observable in &declaration.observables {
-            if self.is_open_family(&observable.target.indices) {
-                let name = &observable.target.name;
-                self.diagnostics.error(name.place, format!(
-                    "an observable is a number, a vector or a matrix: what there is of each element is computed from the state, and `{}` may be a sum over them", name.text
-                ));
-            }
+    /// Reports an observable that is a family of a length that is known when the program runs.
+    pub(in crate::resolve) fn refuse_open_observable(
+        &mut self,
+        Target { name, indices }: &Target,
+    ) -> Option<()> {
+        if !self.is_open_family(indices) {
+            return Some(());
         }
+        self.report(name.place, format!(
+            "an observable is a number, a vector or a matrix: what there is of each element is computed from the state, and `{}` may be a sum over them", name.text
+        ))
     }
 }
