@@ -40,6 +40,42 @@ fn names_of_arrays_are_those_of_their_elements() -> Result<(), Refusal> {
     Ok(())
 }
 
+/// Running indices stand as numbers, sums within sums, and no equation is stated for elements that have another one.
+#[test]
+fn equations_of_all_elements_hold_for_them() -> Result<(), Refusal> {
+    let printed = |text: &str| Ok::<_, Refusal>(System::parse(text)?.to_string());
+    let weighted = printed(
+        "#[coordinates(q: [n])]
+         #[define(mean = sum(i in 0..n, q[i])/n)]
+         #[lagrangian(sum(i in 0..n, q_dot[i]^2/2 - i*q[i]^2/n) - q[0])]
+         #[force(q[i in 0..n]: mean*i + sum(j in 0..i, sin(q[j]*i)))]
+         struct S { n: usize }",
+    )?;
+    assert!(weighted.contains("q[0]: q̈[0] = −1\n"), "{weighted}");
+    let others = "q̈[i] = i (Σ(j = 0 … n − 1) q[j])/n + Σ(j = 0 … i − 1) sin(q[j] i) − 2 q[i] i/n   (for i = 1 … n − 1)";
+    assert!(weighted.contains(others), "{weighted}");
+    let product = printed(
+        "#[coordinates(q: [n])]
+         #[define(mean = sum(i in 0..n, q[i]))]
+         #[lagrangian(sum(i in 0..n, q_dot[i]^2/2) - sum(i in 1..n, i*q[i]*mean))]
+         struct S { n: usize }",
+    )?;
+    assert!(product.contains("q̈[0] = −Σ(j = 1 … n − 1) q[j] j"), "{product}");
+    let fixed = printed(
+        "#[coordinates(u: [n, w])]
+         #[lagrangian(sum(i in 0..n, sum(j in 0..w, u_dot[i][j]^2/2)) - u[0][0]^2)]
+         struct S { n: usize, w: usize }",
+    )?;
+    assert!(!fixed.contains("ü[i][j] ="), "{fixed}");
+    let two_lengths = printed(
+        "#[coordinates(q: [n])]
+         #[lagrangian(sum(i in 0..n, q_dot[i]^2/2) - sum(i in 0..n-3, q[i]^2) - sum(i in 0..k, q[i]^4))]
+         struct S { n: usize, k: usize }",
+    )?;
+    assert!(!two_lengths.contains("q̈[i] ="), "{two_lengths}");
+    Ok(())
+}
+
 /// Returns what a terminal shows of a refused text.
 fn shown(text: &str) -> String {
     System::parse(text).expect_err(text).to_string()

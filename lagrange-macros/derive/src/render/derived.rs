@@ -5,6 +5,7 @@ use num_traits::{One, Signed};
 use super::formula::Formula;
 use super::length::READABLE;
 use super::page::Page;
+use crate::resolve::many::Unknown;
 use crate::symbolic::{Function, Id, Node, Rational, Scaled, times};
 use crate::variables::Variable;
 
@@ -140,6 +141,10 @@ impl Page<'_> {
         self.graph.symbols(&[id]).all(|symbol| matches!(Variable::of(symbol), Variable::Parameter(_)))
     }
 
+    fn whole_number(&self, unknown: Unknown) -> Formula {
+        Formula::labelled(&self.problem.many.name(unknown), 0)
+    }
+
     pub(super) fn variable(&self, variable: Variable) -> Formula {
         let coordinate = |i: usize, dots: usize| match self.problem.coordinates.get(i) {
             Some(coordinate) => Formula::labelled(&coordinate.text, dots),
@@ -153,9 +158,9 @@ impl Page<'_> {
             Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
             Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
             Variable::Switch(k) => Formula::labelled(&self.problem.parameters.name_of_switch(k), 0),
+            Variable::Level(level) => self.whole_number(Unknown::Level(level)),
+            Variable::Length(length) => self.whole_number(Unknown::Length(length)),
             Variable::Total(k) => self.totals[k].clone(),
-            Variable::Level(level) => Formula::labelled(&self.problem.many.level_name(level), 0),
-            Variable::Length(length) => Formula::labelled(&self.problem.many.lengths[length].name, 0),
             Variable::Momentum(i) => self.momentum_name(&self.problem.coordinates[i].text, 0),
             // All other variables occur in generated functions only, never in an equation.
             only_emitted => Formula::labelled(&format!("{only_emitted:?}"), 0),

@@ -274,7 +274,7 @@ impl Page<'_> {
         })
     }
 
-    fn sum_over_range(&self, range: &Range, level: usize, body: Formula) -> Formula {
+    pub(super) fn sum_over_range(&self, range: &Range, level: usize, body: Formula) -> Formula {
         let index = self.problem.many.level_name(level);
         let [from, to] = [&range.from, &range.to].map(|bound| Box::new(self.affine(bound)));
         taken_out(body, &Formula::labelled(&index, 0), |body| Formula::SumOver {

@@ -85,7 +85,7 @@ fn rows_of(
     let inertia: Vec<&MassEntry> = mass.iter().filter(|entry| entry.rows[0].0 == array).collect();
     let conditions = forces.iter().flat_map(|force| &force.conditions);
     let conditions = conditions.chain(inertia.iter().flat_map(|entry| &entry.conditions));
-    let regions = regions(problem, array, conditions.cloned().collect());
+    let regions = regions(problem, array, conditions.cloned().collect())?;
     let rows =
         regions.into_iter().map(|region| in_region(graph, problem, (array, region), (&forces, &inertia)));
     Some(rows.collect())
@@ -199,15 +199,23 @@ fn others(element: &Affine, one: Option<&Over>, other: Option<&Over>) -> Option<
     is_joined.then(|| Over::Others(Range { from: before.from.clone(), to: behind.to.clone() }))
 }
 
-/// Regions of elements to which the same terms contribute, for arrays that are long enough to have all of them.
-fn regions(problem: &Problem, array: usize, conditions: Vec<Condition>) -> Vec<Region> {
+/// Regions of elements to which the same terms contribute, for arrays that are long enough to have all of them. `None` if a bound is
+/// not counted from the first or the last element, or elements other than the outermost differ along one of several axes.
+fn regions(problem: &Problem, array: usize, conditions: Vec<Condition>) -> Option<Vec<Region>> {
     let open = &problem.many.arrays[array].open;
+    let ends = |Condition { level, range }: &Condition| {
+        let outside = [range.from.clone(), open[*level].plus(&range.to, -1)];
+        outside.into_iter().all(|outside| outside.as_number().is_some_and(|count| count <= 1))
+    };
     let [length] = &open[..] else {
-        return vec![if conditions.is_empty() { Region::All { length: None } } else { Region::Interior }];
+        let region = if conditions.is_empty() { Region::All { length: None } } else { Region::Interior };
+        return conditions.iter().all(ends).then(|| vec![region]);
     };
     let mut bounds: Vec<Affine> =
         conditions.into_iter().flat_map(|one| [one.range.from, one.range.to]).collect();
     bounds.extend([Affine::number(0), length.clone()]);
+    let is_from_end = |bound: &Affine| length.plus(bound, -1).as_number().is_some();
+    bounds.iter().all(|bound| bound.as_number().is_some() || is_from_end(bound)).then_some(())?;
     // Bounds counted from the start come before those counted from the end.
     bounds.sort_by_key(|bound| (bound.as_number().is_none(), bound.constant));
     bounds.dedup();
@@ -215,10 +223,10 @@ fn regions(problem: &Problem, array: usize, conditions: Vec<Condition>) -> Vec<R
         Some(1) => Region::Element(pair[0].clone()),
         _ => Region::Within(Range { from: pair[0].clone(), to: pair[1].clone() }),
     };
-    match bounds.len() {
+    Some(match bounds.len() {
         2 => vec![Region::All { length: Some(length.clone()) }],
         _ => bounds.windows(2).map(region).collect(),
-    }
+    })
 }
 
 /// True if elements of the region meet the conditions.
