@@ -5,7 +5,7 @@ use lagrange_core::{Lagrangian, ManyBodies, State, generic};
 use lagrange_random::{Random, cases};
 
 /// Compares a system of any number of bodies with one of `N` coordinates at random states.
-fn agree<const N: usize>(
+pub(super) fn agree<const N: usize>(
     many: &impl ManyBodies<Scalar = f64>,
     fixed: &impl Lagrangian<Scalar = f64, N = lagrange_core::nalgebra::Const<N>>,
     random: &mut Random,
@@ -56,7 +56,7 @@ impl<L: Lagrangian> Names for L {
 }
 
 /// Random positive numbers.
-fn positive<const N: usize>(random: &mut Random) -> [f64; N] {
+pub(super) fn positive<const N: usize>(random: &mut Random) -> [f64; N] {
     random.array(|random| random.between(0.5, 1.5))
 }
 
