@@ -72,9 +72,10 @@
 //! starts from a state, returns [`Error::ParameterNotAsSaid`](crate::Error::ParameterNotAsSaid) if a matrix is off by
 //! more than round-off (ε^(2/3) of its size, 4·10⁻¹¹ for `f64`). The functions ending in `_unchecked` do not check.
 //!
-//! The macro writes out all sums and families at compile time. So ranges have at most 10,000 elements, the expressions
-//! of a system use at most 10,000 numbers of its fields, and there are at most 1,000 coordinates and 1,000 constraints.
-//! Put larger sums into a supplied function with a loop (below).
+//! The macro writes out all sums and families over numbers at compile time. So ranges have at most 10,000 elements, the
+//! expressions of a system use at most 10,000 numbers of its fields, and there are at most 1,000 coordinates and 1,000
+//! constraints. Lengths that have names instead become loops ([any number of bodies](#any-number-of-bodies)). A supplied
+//! function (below) may contain a loop, too.
 //!
 //! # Structs among the fields
 //!
@@ -604,6 +605,57 @@
 //! #[lagrangian(m/2 * (x_dot^2 + y_dot^2) - k/2 * (x^2 + 2*y^2))]
 //! #[conserved(rotation = m*(x*y_dot - y*x_dot))] // the springs differ
 //! struct TwoSprings { m: f64, k: f64 }
+//! ```
+//!
+//! # Any number of bodies
+//!
+//! The lengths of a coordinate may be known when the program runs, `r: [n, 3]` or `u: [rows, columns]`. Such a length is
+//!
+//! | | |
+//! |---|---|
+//! | `#[parameter(m: [n])]` for `m: Vec<f64>` | length of a field; further fields of this length have to agree |
+//! | `n: usize` | value of a field |
+//! | `N` | a constant of the crate, or a const generic of the struct, without lower-case letters |
+//!
+//! or a sum of such names and whole numbers, `#[parameter(k: [n + 1])]`. The fields hold numbers, `Vec<f64>`, or vectors,
+//! `Vec<[f64; 3]>`. Expressions take single elements. An index is a sum of running indices, lengths and whole numbers,
+//! `q[n-1-i]`, or an entry of a table of type `Vec<usize>` or `Vec<[usize; 2]>`, `r[bond[b][0]]` with `#[parameter(bond:
+//! [bonds, 2])]`. Sums over lengths nest, `sum(i in 0..n, sum(j in 0..i, …))` over pairs. In L they are added, and multiplied by
+//! what contains no such sum; forces and observables take them anywhere. Definitions and forces may be families over
+//! lengths. Velocities that multiply each other in L belong to one element.
+//!
+//! The struct implements [`ManyBodies`](crate::ManyBodies), which has the energy, the momenta and states, in the place of
+//! [`Lagrangian`](crate::Lagrangian). Where the momentum or the angular momentum is proved to be conserved, it has the methods
+//! `total_momentum` and `total_angular_momentum`. It moves by pairs, by [`RungeKutta4`](crate::RungeKutta4) and, if its
+//! forces contain no velocities, by `Verlet`. There are no frames, supplied functions, constraints, contacts, frictions and
+//! `#[power]`, no definitions by recursion, and no accelerations in observables; each is an error at its place.
+//!
+//! ```
+//! use lagrange_core::prelude::*;
+//!
+//! /// Beads on a string of springs that falls, pulled aside at its first bead.
+//! #[derive(Lagrangian)]
+//! #[coordinates(r: [n, 2])]
+//! #[parameter(m: [n]; k: [n - 1])]
+//! #[define(mass = sum(i in 0..n, m[i]))]
+//! #[define(stretch[i in 0..n-1] = norm(r[i+1] - r[i]))]
+//! #[lagrangian(sum(i in 0..n, m[i]/2*dot(r_dot[i], r_dot[i]) - m[i]*g*r[i][1]) - sum(i in 0..n-1, k[i]/2*stretch[i]^2))]
+//! #[force(r[0]: [pull, 0])]
+//! #[observable(centre = sum(i in 0..n, m[i]*r[i])/mass)]
+//! struct Beads { m: Vec<f64>, k: Vec<f64>, g: f64, pull: f64 }
+//!
+//! let beads = Beads { m: vec![1.0, 2.0, 3.0, 4.0], k: vec![50.0; 3], g: 9.81, pull: 2.0 };
+//! let start = beads.at_rest((0..4).flat_map(|i| [f64::from(i), 0.0]));
+//! let path = beads.integrate(start.clone(), 2.0, Dop853::default())?;
+//! let moved = beads.centre(path.end().state()) - beads.centre(&start);
+//! // The centre of mass moves as one body of mass 10: by a t²/2 in each direction.
+//! assert!((moved[0] - 0.2 * 2.0).abs() < 1e-8 && (moved[1] + 9.81 * 2.0).abs() < 1e-8);
+//!
+//! // Lengths that do not agree are told of before the first step.
+//! let short = Beads { k: vec![50.0; 2], ..beads };
+//! let error = short.integrate(start, 2.0, Dop853::default()).unwrap_err();
+//! assert_eq!(error.to_string(), "the field `k` has 2 elements, and `n - 1` is 3: give it 3");
+//! # Ok::<(), lagrange_core::Error>(())
 //! ```
 //!
 //! # Number types

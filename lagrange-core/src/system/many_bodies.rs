@@ -1,4 +1,4 @@
-//! The trait [`ManyBodies`]: systems whose number of bodies is a field.
+//! The trait [`ManyBodies`]: systems whose number of bodies is known when the program runs.
 
 use core::fmt;
 
@@ -10,10 +10,30 @@ use crate::error::Error;
 use crate::number::Scalar;
 use crate::solution::many_body_field::ManyBodyField;
 
-/// A system of any number of bodies, as `#[derive(Lagrangian)]` emits it where an array of coordinates has a length that is a field.
+/// A system of any number of bodies, as `#[derive(Lagrangian)]` emits it where the length of a coordinate has a name
+/// ([the language](crate::language#any-number-of-bodies)).
 ///
-/// It moves as every [`System`] of a run-time length, and has names, momenta and an energy. An implementation by hand is not needed
-/// often:
+/// It moves as every [`System`] of a run-time length, and has names of coordinates, momenta and an energy:
+///
+/// ```
+/// use lagrange_core::prelude::*;
+///
+/// /// Masses on springs of stiffness `k`, each to its own wall.
+/// #[derive(Lagrangian)]
+/// #[coordinates(x: [n])]
+/// #[parameter(m: [n])]
+/// #[lagrangian(sum(i in 0..n, m[i]*x_dot[i]^2/2 - k*x[i]^2/2))]
+/// struct Springs { m: Vec<f64>, k: f64 }
+///
+/// let springs = Springs { m: vec![1.0, 4.0], k: 4.0 };
+/// let start = springs.state([1.0, 1.0], [0.0, 0.5]);
+/// assert_eq!(springs.energy(&start), 4.5);
+/// assert_eq!(springs.momenta(&start).as_slice(), [0.0, 2.0]);
+/// const { assert!(Springs::ENERGY_IS_CONSERVED) };
+/// # Ok::<(), Error>(())
+/// ```
+///
+/// The same by hand, which is not needed often:
 ///
 /// ```
 /// use core::fmt;
@@ -113,7 +133,8 @@ pub trait ManyBodies: System<Length = Dyn, M = Const<0>, Field = ManyBodyField> 
     /// Generalized momenta p = ∂L/∂q̇.
     fn momenta(&self, state: &State<Self::Scalar, Dyn>) -> DVector<Self::Scalar>;
 
-    /// State at t = 0 with these coordinates and velocities, in the order of their names.
+    /// State at t = 0 with these coordinates and velocities, in the order of their names: `r[0][0]`, `r[0][1]`, …. Their numbers are
+    /// compared with the [length](System::length) of the system when a motion starts.
     fn state(
         &self,
         q: impl IntoIterator<Item = Self::Scalar>,
