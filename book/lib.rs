@@ -29,6 +29,7 @@ pages!(
     nonholonomic,
     moving_frames,
     bodies,
+    any_number,
     printed,
     hamiltonian,
     small_motions,
