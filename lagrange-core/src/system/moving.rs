@@ -5,8 +5,8 @@ use crate::vector::{Length, StaticLength, ViewOf};
 
 /// A system that moves: the number of its coordinates, and their accelerations.
 ///
-/// `#[derive(Lagrangian)]` implements it. An implementation by hand states a system whose number of coordinates is known when the
-/// program runs, or whose accelerations are computed by functions of its own. Such a system is integrated by `Dop853`, `Dopri5` and other
+/// `#[derive(Lagrangian)]` implements it, also for [any number of bodies](crate::language#any-number-of-bodies). An implementation by
+/// hand states a system whose accelerations are computed by functions of its own. Such a system is integrated by `Dop853`, `Dopri5` and other
 /// [pairs](crate::motion::Pair), by `RungeKutta4`, and, if it has the marker
 /// [`VelocityFreeForces`](crate::structure::VelocityFreeForces), by `Verlet` and its compositions, with events, samples, quantities,
 /// controllers and progress. [Ensembles](crate::Ensemble) of it are integrated one by one; their members may have different numbers of
