@@ -1,4 +1,4 @@
-//! Accelerations of systems of any number of bodies, against loops by hand.
+//! Accelerations of systems of any number of bodies, against loops by hand, and few bodies against a length that is a literal.
 //!
 //! `cargo bench -p lagrange-benches --bench many_bodies`
 //!
@@ -7,6 +7,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use lagrange_core::nalgebra::{Const, Dyn};
 use lagrange_core::{System, prelude::*};
 
 const ROUNDS: usize = 21;
@@ -150,12 +151,46 @@ fn net(&Net { n, k, l }: &Net, r: &[f64], a: &mut [f64]) {
     }
 }
 
-/// Compares the accelerations of a system with those by hand, and prints both times for each of `count` parts.
-fn compare<L: System<Scalar = f64, Length = lagrange_core::nalgebra::Dyn>>(
+/// Chain and cluster with literals as lengths.
+macro_rules! with_literals {
+    ($chain:ident, $cluster:ident, $n:literal) => {
+        #[derive(Lagrangian)]
+        #[coordinates(x: [$n])]
+        #[define(U(d) = d^2/2 + beta*d^4/4)]
+        #[lagrangian(sum(i in 0..$n, x_dot[i]^2/2) - U(x[0]) - U(x[$n-1]) - sum(i in 0..$n-1, U(x[i+1] - x[i])))]
+        struct $chain {
+            beta: f64,
+        }
+
+        #[derive(Lagrangian)]
+        #[coordinates(r: [$n, 3])]
+        #[lagrangian(sum(i in 0..$n, m[i]/2*dot(r_dot[i], r_dot[i])) + sum(i in 0..$n, sum(j in 0..i, gamma*m[i]*m[j]/norm(r[i] - r[j]))))]
+        struct $cluster {
+            m: [f64; $n],
+            gamma: f64,
+        }
+    };
+}
+
+with_literals!(ChainOf3, ClusterOf3, 3);
+with_literals!(ChainOf10, ClusterOf10, 10);
+
+/// Accelerations of a system of `N` coordinates at rest, on slices.
+fn on_slices<const N: usize>(
+    system: &impl System<Scalar = f64, Length = Const<N>>,
+    q: &[f64],
+    a: &mut [f64],
+) {
+    let (q, a) = (q.try_into().expect("N coordinates"), a.try_into().expect("N accelerations"));
+    system.accelerations(0.0, q, &[0.0; N], a);
+}
+
+/// Compares the accelerations of a system with others, and prints both times for each of `count` parts.
+fn compare<L: System<Scalar = f64, Length = Dyn>>(
     name: &str,
     system: &L,
     count: usize,
-    by_hand: impl Fn(&L, &[f64], &mut [f64]),
+    others: impl Fn(&L, &[f64], &mut [f64]),
 ) {
     let n = system.length().0;
     let q: Vec<f64> = (0..n).map(|i| 0.7 * (i / 3) as f64 + (1.0 + 1.7 * i as f64).sin()).collect();
@@ -163,7 +198,7 @@ fn compare<L: System<Scalar = f64, Length = lagrange_core::nalgebra::Dyn>>(
     let v = vec![0.0; n];
     let (mut a, mut b) = (vec![0.0; n], vec![0.0; n]);
     system.accelerations(0.0, &q, &v, &mut a);
-    by_hand(system, &q, &mut b);
+    others(system, &q, &mut b);
     let scale = b.iter().fold(1.0, |most: f64, b| most.max(b.abs()));
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-11 * scale), "{name}");
     let repeats = (2_000_000 / count.max(1)).clamp(1, 100_000);
@@ -175,19 +210,20 @@ fn compare<L: System<Scalar = f64, Length = lagrange_core::nalgebra::Dyn>>(
     let mut times: Vec<[f64; 2]> = (0..ROUNDS)
         .map(|_| {
             let one = timed(&mut || system.accelerations(0.0, black_box(&q), &v, black_box(&mut a)));
-            let other = timed(&mut || by_hand(system, black_box(&q), black_box(&mut b)));
+            let other = timed(&mut || others(system, black_box(&q), black_box(&mut b)));
             [one, other]
         })
         .collect();
     times.sort_by(|one, other| (one[0] / one[1]).total_cmp(&(other[0] / other[1])));
     let [one, other] = times[ROUNDS / 2];
     println!(
-        "{name:10} {n:8} coordinates: {one:7.2} ns a part, by hand {other:7.2} ns, ratio {:.2}",
+        "{name:10} {n:8} coordinates: {one:7.2} ns a part, against {other:7.2} ns, ratio {:.2}",
         one / other
     );
 }
 
 fn main() {
+    println!("against loops by hand:");
     for n in [10, 1_000, 1_000_000] {
         compare("chain", &Chain { n, beta: 0.7 }, n, chain);
         compare("Toda chain", &Toda { n, m: vec![1.5; n] }, n, toda);
@@ -202,4 +238,14 @@ fn main() {
     for n in [3, 30, 300] {
         compare("net", &Net { n, k: 2.0, l: 0.5 }, 2 * n * (n - 1), net);
     }
+    println!("against literals:");
+    let beta = black_box(0.7);
+    let (three, ten) = (ChainOf3 { beta }, ChainOf10 { beta });
+    compare("chain", &Chain { n: 3, beta }, 3, |_, q, a| on_slices(&three, q, a));
+    compare("chain", &Chain { n: 10, beta }, 10, |_, q, a| on_slices(&ten, q, a));
+    let (m, gamma) = (black_box(1.5), 1.0);
+    let stars = |n| Cluster { m: vec![m; n], gamma };
+    let (three, ten) = (ClusterOf3 { m: [m; 3], gamma }, ClusterOf10 { m: [m; 10], gamma });
+    compare("cluster", &stars(3), 3, |_, q, a| on_slices(&three, q, a));
+    compare("cluster", &stars(10), 45, |_, q, a| on_slices(&ten, q, a));
 }

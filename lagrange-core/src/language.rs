@@ -617,8 +617,8 @@
 //! | `n: usize` | value of a field |
 //! | `N` | a constant of the crate, or a const generic of the struct, without lower-case letters |
 //!
-//! or a sum of such names and whole numbers, `#[parameter(k: [n + 1])]`. The fields hold numbers, `Vec<f64>`, or vectors,
-//! `Vec<[f64; 3]>`. Expressions take single elements. An index is a sum of running indices, lengths and whole numbers,
+//! or a sum of such names and whole numbers, `#[parameter(k: [n + 1])]`. The fields hold numbers, `Vec<f64>` or `&[f64]`, or
+//! vectors, `Vec<[f64; 3]>`. Expressions take single elements. An index is a sum of running indices, lengths and whole numbers,
 //! `q[n-1-i]`, or an entry of a table of type `Vec<usize>` or `Vec<[usize; 2]>`, `r[bond[b][0]]` with `#[parameter(bond:
 //! [bonds, 2])]`. Sums over lengths nest, `sum(i in 0..n, sum(j in 0..i, …))` over pairs. In L they are added, and multiplied by
 //! what contains no such sum; forces and observables take them anywhere. Definitions and forces may be families over
