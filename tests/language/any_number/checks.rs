@@ -54,11 +54,11 @@ struct Held {
 fn elements_that_may_be_missing_are_looked_for_at_the_start() {
     assert_eq!(Held { n: 3, held: 3 }.check(), Ok(()));
     let beyond = Held { n: 3, held: 5 }.check();
-    assert_eq!(beyond, Err(Error::ElementMissing { array: "x", index: 3, length: 3 }));
+    assert_eq!(beyond, Err(Error::ElementMissing { array: "x", index: 3, from: 0, to: 3 }));
     let below = Held { n: 1, held: 1 }.check();
-    assert_eq!(below, Err(Error::ElementMissing { array: "x", index: -1, length: 1 }));
+    assert_eq!(below, Err(Error::ElementMissing { array: "x", index: -1, from: 0, to: 1 }));
     let none = Held { n: 0, held: 0 }.check();
-    assert_eq!(none, Err(Error::ElementMissing { array: "x", index: 0, length: 0 }));
+    assert_eq!(none, Err(Error::ElementMissing { array: "x", index: 0, from: 0, to: 0 }));
 }
 
 #[test]
