@@ -229,7 +229,11 @@ fn is_local(name: &str) -> bool {
 /// this name, where the user's program has one.
 fn identifier(text: &str, taken: &mut HashSet<String>) -> Ident {
     let mut name = text.replace("][", "_").replace("].", "_").replace(['[', '.'], "_").replace(']', "");
-    name = name.replace(" + ", "_plus_").replace(" - ", "_minus_").replace(['-', ' '], "_");
+    name = name
+        .replace(" + ", "_plus_")
+        .replace(" - ", "_minus_")
+        .replace('*', "_times_")
+        .replace(['-', ' '], "_");
     if name.starts_with(char::is_uppercase) {
         name = name.to_lowercase();
     }
@@ -250,6 +254,7 @@ mod tests {
         for name in ["r12", "angle4", "given7", "call3_0"] {
             assert_ne!(identifier(name, &mut HashSet::new()), name);
         }
+        assert_eq!(identifier("x[2*i + 1][n - 1]", &mut HashSet::new()), "x_2_times_i_plus_1_n_minus_1");
         for name in ["r", "r_1", "angle", "angle_4", "call3"] {
             assert_eq!(identifier(name, &mut HashSet::new()), name);
         }

@@ -97,7 +97,10 @@ impl Page<'_> {
         let lagrangian = self.lagrangian();
         let mut sections = vec![
             section("Lagrangian", lagrangian),
-            section("Equations of motion", self.rows_of_all(equations)),
+            Section {
+                note: self.unwritten(equations),
+                ..section("Equations of motion", self.rows_of_all(equations))
+            },
             section("Conserved", vectors.chain(conserved).collect()),
             section("Energy", changing),
             section("Momenta", self.momenta_of_all(equations)),
@@ -119,13 +122,19 @@ impl Page<'_> {
         ]
     }
 
+    /// Note on arrays whose elements have no equation of one form.
+    fn unwritten(&self, equations: &ManyEquations) -> Option<String> {
+        let missing = equations.rows.iter().zip(&self.problem.many.arrays).filter(|(rows, _)| rows.is_none());
+        let names: Vec<String> = missing.map(|(_, array)| format!("`{}`", array.name)).collect();
+        let names = names.join(", ");
+        (!names.is_empty())
+            .then(|| format!("Not written out for {names}: its elements have no equation of one form."))
+    }
+
     fn rows_of_all(&self, equations: &ManyEquations) -> Vec<Line> {
-        let rows = equations.rows.iter().enumerate().flat_map(|(array, rows)| match rows {
+        let rows = equations.rows.iter().flat_map(|rows| match rows {
             Some(rows) => rows.iter().flat_map(|rows| self.element_rows(rows)).collect(),
-            None => {
-                let name = Formula::labelled(&self.problem.many.arrays[array].name, 0);
-                vec![Line::labelled(&name, Equation::TooLong(0))]
-            }
+            None => Vec::new(),
         });
         rows.collect()
     }

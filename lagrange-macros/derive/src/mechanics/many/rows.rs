@@ -203,13 +203,10 @@ fn others(element: &Affine, one: Option<&Over>, other: Option<&Over>) -> Option<
 /// not counted from the first or the last element, or elements other than the outermost differ along one of several axes.
 fn regions(problem: &Problem, array: usize, conditions: Vec<Condition>) -> Option<Vec<Region>> {
     let open = &problem.many.arrays[array].open;
-    let ends = |Condition { level, range }: &Condition| {
-        let outside = [range.from.clone(), open[*level].plus(&range.to, -1)];
-        outside.into_iter().all(|outside| outside.as_number().is_some_and(|count| count <= 1))
-    };
     let [length] = &open[..] else {
         let region = if conditions.is_empty() { Region::All { length: None } } else { Region::Interior };
-        return conditions.iter().all(ends).then(|| vec![region]);
+        let is_known = |condition: &Condition| condition.has_interior(open) || condition.is_edge(open);
+        return conditions.iter().all(is_known).then(|| vec![region]);
     };
     let mut bounds: Vec<Affine> =
         conditions.into_iter().flat_map(|one| [one.range.from, one.range.to]).collect();
@@ -229,11 +226,29 @@ fn regions(problem: &Problem, array: usize, conditions: Vec<Condition>) -> Optio
     })
 }
 
+impl Condition {
+    /// True if all elements but the outermost meet it.
+    fn has_interior(&self, open: &[Affine]) -> bool {
+        let outside = [self.range.from.clone(), open[self.level].plus(&self.range.to, -1)];
+        outside.into_iter().all(|outside| outside.as_number().is_some_and(|count| count <= 1))
+    }
+
+    /// True if the first or the last element alone meets it.
+    fn is_edge(&self, open: &[Affine]) -> bool {
+        let Range { from, to } = &self.range;
+        let is_one = to.plus(from, -1).as_number() == Some(1);
+        is_one && (*from == Affine::number(0) || *to == open[self.level])
+    }
+}
+
 /// True if elements of the region meet the conditions.
-fn holds(region: &Region, conditions: &[Condition]) -> bool {
+fn holds(region: &Region, conditions: &[Condition], open: &[Affine]) -> bool {
     let is_below = |one: &Affine, other: &Affine| {
         other.plus(one, -1).as_number().map_or(one.as_number().is_some(), |difference| difference >= 0)
     };
+    if let Region::Interior = region {
+        return conditions.iter().all(|condition| condition.has_interior(open));
+    }
     conditions.iter().all(|Condition { range, .. }| match region {
         Region::All { .. } | Region::Interior => true,
         Region::Element(at) => is_below(&range.from, at) && is_below(&at.plus_number(1), &range.to),
@@ -251,18 +266,20 @@ fn in_region(
         Region::Element(at) => [(0, at.clone())].into_iter().collect(),
         _ => NewIndices::default(),
     };
-    let axes = problem.many.arrays[array].open.len();
+    let open = problem.many.arrays[array].open.clone();
+    let axes = open.len();
     let element: Vec<Index> =
         (0..axes).map(|axis| Index::Affine(Affine::of(Unknown::Level(axis)).shifted(&new))).collect();
     let count = crate::syntax::numbers(&problem.many.arrays[array].lengths);
     let active: Vec<&Contribution> =
-        forces.iter().filter(|force| holds(&region, &force.conditions)).collect();
+        forces.iter().filter(|force| holds(&region, &force.conditions, &open)).collect();
     let mut rows = Vec::new();
     for number in 0..count {
         let slot = problem.many.slot(Slot { array, indices: element.clone(), number });
         let mut terms = Vec::new();
-        for entry in
-            inertia.iter().filter(|entry| entry.rows[0].1 == number && holds(&region, &entry.conditions))
+        for entry in inertia
+            .iter()
+            .filter(|entry| entry.rows[0].1 == number && holds(&region, &entry.conditions, &open))
         {
             let (other, number) = entry.rows[1];
             let other = problem.many.slot(Slot { array: other, indices: element.clone(), number });
