@@ -24,7 +24,7 @@ fn molecule() -> Molecule {
 /// Message of the error with which a motion does not begin.
 fn refusal(molecule: &Molecule) -> String {
     let start = molecule.at_rest(vec![0.5; 2 * molecule.atoms]);
-    molecule.integrate(start, 1.0, Dop853::default()).unwrap_err().to_string()
+    molecule.integrate(start, 1.0, Dop853::default()).expect_err("a refusal").to_string()
 }
 
 #[test]
@@ -65,9 +65,9 @@ fn elements_that_may_be_missing_are_looked_for_at_the_start() {
 fn elements_have_names_and_systems_an_energy() {
     let molecule = molecule();
     let start = molecule.state([0.1, 0.0, 1.0, 0.2, 0.5, 1.0], [0.0, 0.3, 0.0, 0.0, 0.2, 0.0]);
-    let path = molecule.integrate(start.clone(), 5.0, Dop853::with_tolerance(1e-12)).unwrap();
-    assert_eq!(path.end().coordinate("r[2][1]").unwrap(), path.end().state().q[5]);
-    assert_eq!(path.end().velocity("r[1][0]").unwrap(), path.end().state().v[2]);
+    let path = molecule.integrate(start.clone(), 5.0, Dop853::with_tolerance(1e-12)).expect("a motion");
+    assert_eq!(path.end().coordinate("r[2][1]").expect("a motion"), path.end().state().q[5]);
+    assert_eq!(path.end().velocity("r[1][0]").expect("a motion"), path.end().state().v[2]);
     assert!(path.end().coordinate("r[3][0]").is_err());
     let drift = path.drift();
     assert!(drift.iter().any(|quantity| quantity.name == "energy" && quantity.largest < 1e-10), "{drift}");
@@ -76,7 +76,7 @@ fn elements_have_names_and_systems_an_energy() {
     assert!((centre[0] - (0.1 + 2.0 + 1.5) / 6.0).abs() < 1e-15);
     let mut wrong = start;
     wrong.v[3] = f64::NAN;
-    let error = molecule.integrate(wrong, 1.0, Dop853::default()).unwrap_err().to_string();
+    let error = molecule.integrate(wrong, 1.0, Dop853::default()).expect_err("a refusal").to_string();
     assert!(error.contains("r[1][1]") || error.contains("r_dot[1][1]"), "{error}");
 }
 
@@ -90,10 +90,12 @@ fn systems_without_bodies_rest() {
     }
     for n in [0, 1] {
         let cluster = Cluster { n };
-        let path = cluster.integrate(cluster.at_rest(vec![1.0; 3 * n]), 2.0, Dop853::default()).unwrap();
+        let path =
+            cluster.integrate(cluster.at_rest(vec![1.0; 3 * n]), 2.0, Dop853::default()).expect("a motion");
         assert_eq!(path.end().time(), 2.0);
-        let verlet =
-            cluster.integrate(cluster.at_rest(vec![1.0; 3 * n]), 2.0, Verlet::with_step(0.1)).unwrap();
+        let verlet = cluster
+            .integrate(cluster.at_rest(vec![1.0; 3 * n]), 2.0, Verlet::with_step(0.1))
+            .expect("a motion");
         assert!(verlet.end().state().q.iter().all(|&q| q == 1.0));
     }
 }
@@ -107,7 +109,7 @@ fn members_of_ensembles_have_numbers_of_their_own() {
         let start = molecule.at_rest((0..2 * n).map(|i| i as f64));
         (molecule, start)
     };
-    let outcome = Ensemble::from_fn(4, member).integrate(3.0, Dop853::default()).unwrap();
+    let outcome = Ensemble::from_fn(4, member).integrate(3.0, Dop853::default()).expect("a motion");
     assert_eq!(outcome.completed().count(), 4);
     for (k, end) in outcome.completed() {
         let (molecule, start) = member(k);

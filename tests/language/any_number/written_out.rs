@@ -10,7 +10,7 @@ pub(super) fn agree<const N: usize>(
     fixed: &impl Lagrangian<Scalar = f64, N = lagrange_core::nalgebra::Const<N>>,
     random: &mut Random,
 ) {
-    many.check().unwrap();
+    many.check().expect("lengths that fit");
     assert_eq!(many.length(), Dyn(N));
     for _ in 0..cases([3, 20, 1000]) {
         let state = State::<f64, N>::new(random.array(Random::signed), random.array(Random::signed));
@@ -30,14 +30,14 @@ pub(super) fn agree<const N: usize>(
         let momenta = fixed.momentum(&state);
         assert!((many.momenta(&open) - DVector::from_column_slice(momenta.as_slice())).amax() < 1e-12);
         let close = |one: f64, other: f64| {
-            assert!((one - other).abs() <= 1e-12 * (1.0 + other.abs()), "{one}, not {other}")
+            assert!((one - other).abs() <= 1e-12 * (1.0 + other.abs()), "{one}, not {other}");
         };
         close(many.energy(&open), fixed.energy(&state));
         close(many.lagrangian(&open), fixed.lagrangian(&state));
         let mut names = Vec::new();
         for i in 0..N {
             let mut name = String::new();
-            many.write_name(i, &mut name).unwrap();
+            many.write_name(i, &mut name).expect("a text");
             names.push(name);
         }
         assert_eq!(names, fixed.names());

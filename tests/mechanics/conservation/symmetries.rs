@@ -40,11 +40,11 @@ fn kepler() {
 /// Three bodies that attract each other.
 #[derive(Lagrangian)]
 #[coordinates(r: [3, 3])]
-#[define(pair(i, j) = G*m[i]*m[j]/norm(r[i] - r[j]))]
+#[define(pair(i, j) = gamma*m[i]*m[j]/norm(r[i] - r[j]))]
 #[lagrangian(sum(i in 0..3, m[i]/2 * dot(r_dot[i], r_dot[i])) + pair(0, 1) + pair(0, 2) + pair(1, 2))]
 struct Bodies {
     m: [f64; 3],
-    G: f64,
+    gamma: f64,
 }
 
 /// Momentum and angular momentum are sums by hand, and stay constant along a motion.
@@ -53,7 +53,7 @@ fn bodies_have_a_momentum_and_an_angular_momentum() {
     let names = ["momentum[0]", "momentum[1]", "momentum[2]"];
     let angular = ["angular_momentum[0]", "angular_momentum[1]", "angular_momentum[2]"];
     check(Bodies::FACTS, &[], &[&names[..], &angular, &["energy"]].concat(), &[]);
-    let bodies = Bodies { m: [1.0, 0.8, 0.3], G: 1.0 };
+    let bodies = Bodies { m: [1.0, 0.8, 0.3], gamma: 1.0 };
     let place = |i: usize| [[0.0, 0.1, -0.2], [2.0, 0.0, 0.3], [-1.0, 3.0, 0.5]][i];
     let speed = |i: usize| [[0.1, -0.3, 0.2], [-0.2, 0.6, 0.1], [0.3, 0.2, -0.5]][i];
     let flat = |of: &dyn Fn(usize) -> [f64; 3]| std::array::from_fn(|k| of(k / 3)[k % 3]);
@@ -68,8 +68,8 @@ fn bodies_have_a_momentum_and_an_angular_momentum() {
             assert!((value - expected).abs() < 1e-14, "{value} is not {expected}");
         }
     }
-    let path = bodies.integrate(state.clone(), 5.0, Dop853::with_tolerance(1e-12)).expect("a motion");
-    let end = path.end().state().clone();
+    let path = bodies.integrate(state, 5.0, Dop853::with_tolerance(1e-12)).expect("a motion");
+    let end = *path.end().state();
     for index in 0..6 {
         let [before, after] = [&state, &end].map(|state| bodies.conserved(index, state).expect("a quantity"));
         assert!((before - after).abs() < 1e-10, "{index}: {before} becomes {after}");
