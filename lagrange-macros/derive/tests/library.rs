@@ -73,6 +73,22 @@ fn equations_of_all_elements_hold_for_them() -> Result<(), Refusal> {
          struct S { n: usize, k: usize }",
     )?;
     assert!(!two_lengths.contains("q̈[i] ="), "{two_lengths}");
+    let triangle = printed(
+        "#[coordinates(x: [n], y: [n])]
+         #[lagrangian(sum(i in 0..n, x_dot[i]^2/2 + y_dot[i]^2/2) - sum(k in 0..n, sum(j in 0..k, k*x[j+1]*y[j])))]
+         struct S { n: usize, k: f64 }",
+    )?;
+    assert!(triangle.contains("x[0]: ẍ[0] = 0\n"), "{triangle}");
+    assert!(
+        triangle.contains("x[i]: ẍ[i] = −y[i − 1] Σ(j = i … n − 1) j   (for i = 1 … n − 1)"),
+        "{triangle}"
+    );
+    let beyond = printed(
+        "#[coordinates(x: [n])]
+         #[lagrangian(sum(i in 0..n, x_dot[i]^2/2) - sum(i in 2..n, sum(j in 0..i, x[j]^2)))]
+         struct S { n: usize }",
+    )?;
+    assert!(!beyond.contains("ẍ[i] ="), "{beyond}");
     Ok(())
 }
 

@@ -122,13 +122,14 @@ fn contribution(
                 [(own, element), (1 - own, Affine::of(Unknown::Level(1)))].into_iter().collect();
             let value = problem.shifted(graph, value, &new);
             let range = if own == 0 { second.shifted(&new) } else { outer(first, second, &new)? };
-            let own_range = if own == 0 { Some(first) } else { is_free(second).then_some(second) };
-            let conditions = own_range
-                .map(|range| Range { from: range.from.plus(&offset, 1), to: range.to.plus(&offset, 1) });
+            let own_range = if own == 0 { first } else { second };
             let length = &problem.many.arrays[slot.array].open[0];
-            let is_all = |range: &Range| range.from == Affine::number(0) && range.to == *length;
-            let conditions =
-                conditions.filter(|range| !is_all(range)).map(|range| Condition { level: 0, range });
+            // Elements beyond a bound that varies have empty sums.
+            let [from, to] = [(&own_range.from, Affine::number(0)), (&own_range.to, length.clone())]
+                .map(|(bound, end)| if is_free(bound) { bound.plus(&offset, 1) } else { end });
+            let own_range = Range { from, to };
+            let is_all = own_range == Range::up_to(length);
+            let conditions = (!is_all).then_some(Condition { level: 0, range: own_range });
             let over = Some(Over::Range(range));
             Some(Contribution { number, conditions: conditions.into_iter().collect(), over, value })
         }
@@ -136,21 +137,31 @@ fn contribution(
     }
 }
 
-fn is_free(range: &Range) -> bool {
-    range.from.levels().next().is_none() && range.to.levels().next().is_none()
+fn is_free(bound: &Affine) -> bool {
+    bound.levels().next().is_none()
 }
 
-/// Range of the outer index of two loops, for a given inner one.
+/// Range of the outer index of two loops, for a given inner one; `None` if it has two lower or two upper bounds.
 fn outer(first: &Range, second: &Range, new: &NewIndices) -> Option<Range> {
     let inner = &new[&1];
     let outer = Unknown::Level(0);
     let mut range = first.clone();
     // inner < outer + c and inner ≥ outer + c bound the outer index.
-    let bound = |bound: &Affine| inner.plus(bound, -1).plus(&Affine::of(outer), 1).plus_number(1);
+    let bound =
+        |inner: &Affine, bound: &Affine| inner.plus(bound, -1).plus(&Affine::of(outer), 1).plus_number(1);
+    let is_at_most =
+        |one: &Affine, other: &Affine| other.plus(one, -1).as_number().is_some_and(|rest| rest >= 0);
     match (second.from.factor(outer), second.to.factor(outer)) {
         (0, 0) => {}
-        (0, 1) => range.from = bound(&second.to),
-        (1, 0) => range.to = bound(&second.from),
+        (0, 1) => {
+            is_at_most(&first.from, &bound(&second.from, &second.to)).then_some(())?;
+            range.from = bound(inner, &second.to);
+        }
+        (1, 0) => {
+            let most = bound(&second.to.plus_number(-1), &second.from);
+            is_at_most(&most, &first.to).then_some(())?;
+            range.to = bound(inner, &second.from);
+        }
         _ => return None,
     }
     Some(range)
