@@ -39,7 +39,7 @@ impl Many {
         parameters: &Parameters,
         diagnostics: &mut Diagnostics,
     ) -> Self {
-        let mut many = Self { taken: taken(declaration), ..Self::default() };
+        let mut many = Self { taken: names(declaration), ..Self::default() };
         if !declaration.has_open_lengths() {
             return many;
         }
@@ -91,7 +91,7 @@ impl Many {
     /// Reads arrays whose lengths are numbers as if these were known when the program runs: the equations of all elements at once are an
     /// attempt. Stays empty if there is no array of several elements.
     pub(in crate::resolve) fn attempt(declaration: &Declaration) -> Self {
-        let mut many = Self { is_attempt: true, taken: taken(declaration), ..Self::default() };
+        let mut many = Self { is_attempt: true, taken: names(declaration), ..Self::default() };
         let apart = |lengths: &[usize]| match lengths {
             [length, rest @ ..] if !rest.is_empty() || *length > VECTOR => (Some(*length), rest.to_vec()),
             lengths => (None, lengths.to_vec()),
@@ -172,6 +172,14 @@ impl Many {
     }
 }
 
+/// Names of fields, coordinates and definitions.
+fn names(declaration: &Declaration) -> Vec<String> {
+    let fields = declaration.fields.iter().map(|field| &field.name);
+    let coordinates = declaration.coordinates.iter().map(|coordinate| &coordinate.name);
+    let definitions = declaration.defines.iter().map(|define| &define.target.name);
+    fields.chain(coordinates).chain(definitions).map(|name| name.text.clone()).collect()
+}
+
 /// Fields whose shape is stated with a length that is known when the program runs.
 fn open_fields(declaration: &Declaration) -> Vec<(usize, &Name, &Lengths)> {
     let stated = declaration.parameters.iter().filter_map(|parameter| match &parameter.fact {
@@ -221,14 +229,6 @@ fn unknown(declaration: &Declaration, Name { text: name, place }: &Name, diagnos
     diagnostics.error(*place, format!(
         "the length `{name}` is no integer field and no length of a field: add a field `{name}: usize`, or say whose length it is, `#[parameter(m: [{name}])]` for `m: Vec<f64>`"
     ));
-}
-
-/// Names of fields, coordinates and definitions.
-fn taken(declaration: &Declaration) -> Vec<String> {
-    let fields = declaration.fields.iter().map(|field| &field.name);
-    let coordinates = declaration.coordinates.iter().map(|coordinate| &coordinate.name);
-    let definitions = declaration.defines.iter().map(|define| &define.target.name);
-    fields.chain(coordinates).chain(definitions).map(|name| name.text.clone()).collect()
 }
 
 /// True for `usize`.

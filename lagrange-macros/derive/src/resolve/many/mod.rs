@@ -41,7 +41,7 @@ pub(crate) struct Many {
     pub(crate) demands: IndexSet<Demand>,
     /// Name of the running index at each depth.
     pub(crate) level_names: Vec<String>,
-    /// Names of fields, coordinates and definitions, which no running index is given.
+    /// Names of fields, coordinates and definitions, which no running index that is printed bears.
     pub(super) taken: Vec<String>,
     /// True if all lengths are numbers, and loops are an attempt to state the equations of all elements at once: what is no loop is
     /// written out.
@@ -172,20 +172,22 @@ impl Many {
         }
         let numbered = (4..).map(|number| format!("i{number}"));
         let all = ["i", "j", "k", "l"].into_iter().map(str::to_owned).chain(numbered);
-        all.filter(|name| !self.level_names.contains(name) && !self.taken.contains(name))
-            .nth(level - self.level_names.len())
-            .unwrap_or_default()
+        all.filter(|name| !self.is_taken(name)).nth(level - self.level_names.len()).unwrap_or_default()
     }
 
     /// Remembers the name of the index of a loop that is about to begin.
     fn name_level(&mut self, name: &str) {
         if self.level_names.len() == self.ranges.len() {
-            let name = match self.level_names.iter().any(|known| known == name) {
+            let name = match self.is_taken(name) {
                 true => self.level_name(self.ranges.len()),
                 false => name.to_owned(),
             };
             self.level_names.push(name);
         }
+    }
+
+    fn is_taken(&self, name: &str) -> bool {
+        self.level_names.iter().chain(&self.taken).any(|known| known == name)
     }
 
     /// Text of an index: `i + 1`, `bond[i][0]`.
