@@ -314,7 +314,7 @@ impl Page<'_> {
     fn remark_on(&self, region: &Region) -> Vec<Fragment> {
         let range = match region {
             Region::Element(_) | Region::All { length: None } => return Vec::new(),
-            Region::Interior => return vec![Fragment::words("for elements with neighbours on all sides")],
+            Region::Interior => return vec![Fragment::words("for elements that are not at an edge")],
             Region::All { length: Some(length) } => &Range::up_to(length),
             Region::Within(range) => range,
         };

@@ -27,7 +27,7 @@ pub(crate) enum Region {
     Element(Affine),
     /// from ≤ i < to
     Within(Range),
-    /// All that have neighbours on all sides, of an array with several axes.
+    /// All that are not the first or the last along an axis, of an array with several axes.
     Interior,
 }
 
