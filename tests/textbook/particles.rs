@@ -59,6 +59,6 @@ fn momenta_8_52_and_energy_8_53() {
 #[test]
 fn equations_name_the_derivative_of_the_interaction() {
     let equations = Particles::equations();
-    let force = "− (∂V/∂s[0])([r[0][0] − r[1][0], r[0][1] − r[1][1], r[0][2] − r[1][2]])";
+    let force = "− (∂V/∂s)([r[0][0] − r[1][0], r[0][1] − r[1][1], r[0][2] − r[1][2]])";
     assert!(equations.text().contains(force), "{equations}");
 }
