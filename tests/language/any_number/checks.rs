@@ -117,3 +117,31 @@ fn members_of_ensembles_have_numbers_of_their_own() {
         assert!((molecule.energy(end) - molecule.energy(&start)).abs() < 1e-6);
     }
 }
+
+/// Pairs of oscillators whose velocities are coupled: M = (1 c; c 1) for each.
+#[derive(Clone, lagrange_core::Lagrangian)]
+#[coordinates(x: [n], y: [n])]
+#[parameter(c: [n])]
+#[lagrangian(sum(i in 0..n, (x_dot[i]^2 + y_dot[i]^2)/2 + c[i]*x_dot[i]*y_dot[i] - (x[i]^2 + y[i]^2)/2))]
+struct Coupled {
+    n: usize,
+    c: Vec<f64>,
+}
+
+#[test]
+fn accelerations_that_would_lose_their_digits_are_refused() {
+    let moved = |c: f64| {
+        let coupled = Coupled { n: 2, c: vec![0.5, c] };
+        let path = coupled.integrate(coupled.at_rest([1.0; 4]), 1.0, Dop853::with_tolerance(1e-13));
+        path.map(|path| path.end().state().q.clone()).map_err(|error| error.to_string())
+    };
+    let end = moved(0.25).expect("a motion");
+    for (k, c) in [0.5f64, 0.25].into_iter().enumerate() {
+        let expected = (1.0 / (1.0 + c).sqrt()).cos();
+        assert!((end[k] - expected).abs() < 1e-12, "{}", end[k]);
+    }
+    for c in [1.0, -1.0, 1.0 - 1e-15, 2.0] {
+        let error = moved(c).expect_err("a refusal");
+        assert!(error.contains("x[1]") || error.contains("y[1]"), "{error}");
+    }
+}

@@ -33,6 +33,14 @@ pub(crate) struct LinearEquations {
 }
 
 impl LinearEquations {
+    /// M x = h without constraints.
+    pub(super) fn of_masses(graph: &mut Graph, mass: Vec<Vec<Id>>, forcing: Vec<Id>) -> Self {
+        let coordinates = forcing.len();
+        let mut form = Form::new(mass, forcing, Vec::new());
+        form.divide_what_is_alone(graph);
+        Self { coordinates, forms: vec![form], jacobian: Vec::new(), bias: Vec::new(), given: Vec::new() }
+    }
+
     /// The same with each node replaced.
     pub(super) fn map(&self, mut node: impl FnMut(Id) -> Id) -> Self {
         Self {

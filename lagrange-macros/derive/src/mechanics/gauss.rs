@@ -57,7 +57,8 @@ impl Form {
         }
     }
 
-    fn divide_what_is_alone(&mut self, graph: &mut Graph) {
+    /// Divides the entries of `linear` whose variables are coupled to no other one.
+    pub(super) fn divide_what_is_alone(&mut self, graph: &mut Graph) {
         let free = self.matrix.len() - self.definitions.len();
         for i in (0..free).filter(|&i| self.is_alone(i)).collect::<Vec<_>>() {
             let quotient = graph.div(self.linear[i], self.matrix[i][i]);

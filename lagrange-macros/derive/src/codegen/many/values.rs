@@ -6,19 +6,25 @@ use quote::quote;
 use super::ManyEmitter;
 use super::indices::round;
 use super::windows::Source;
+use crate::codegen::passes::Program;
 use crate::codegen::shape::ResultShape;
+use crate::codegen::solving::solve;
 use crate::mechanics::many::{Guarded, Inertia};
 use crate::resolve::many::{Affine, Index, Range, Slot, Total, Unknown, totals};
-use crate::symbolic::{Id, Node};
+use crate::symbolic::Id;
 use crate::variables::Variable;
 
 impl ManyEmitter<'_> {
     /// Statements that compute expressions, and the results. Sums in them are loops before them.
     pub(super) fn values(&self, roots: &[Id]) -> (TokenStream, Vec<TokenStream>) {
+        self.results(roots, &Program::of(self.style.graph, roots))
+    }
+
+    /// The same for a program in terms of some expressions.
+    fn results(&self, roots: &[Id], program: &Program) -> (TokenStream, Vec<TokenStream>) {
         let mark = self.mark();
         let sums = self.sums_before(roots, usize::MAX);
-        let shapes = vec![ResultShape::Number; roots.len()];
-        let kernel = self.style.kernel("loop", roots, &shapes);
+        let kernel = self.style.write("loop", program, &vec![ResultShape::Number; program.results.len()]);
         let too_long = kernel.refused.map(|count| count.to_string());
         let too_long = too_long.or_else(|| (!kernel.parts.is_empty()).then(|| kernel.doc.clone()));
         self.refused.borrow_mut().extend(too_long);
@@ -105,11 +111,11 @@ impl ManyEmitter<'_> {
     fn over_elements(&self, block: &Inertia, slots: &[Slot], axis: usize) -> TokenStream {
         let Some(length) = block.lengths.get(axis) else { return self.solve_element(block, slots) };
         let range = Range::up_to(length);
-        let (roots, targets) = (&block.accelerations[..], slots.iter().collect::<Vec<_>>());
+        let (roots, targets) = (block.equations.forms[0].matrix.concat(), slots.iter().collect::<Vec<_>>());
         let inner = || self.over_elements(block, slots, axis + 1);
         let loops = self.one_loop(
             (axis, &range),
-            (roots, &targets),
+            (&roots, &targets),
             inner,
             [&TokenStream::new(), &TokenStream::new()],
         );
@@ -122,19 +128,27 @@ impl ManyEmitter<'_> {
         let places: Vec<TokenStream> =
             slots.iter().map(|slot| self.style.slot_in(Source::Target(slot.array), slot)).collect();
         let forces = (0..slots.len()).map(|row| &self.style.names[&Variable::Forcing(row).symbol()]);
-        let (statements, results) = self.values(&block.accelerations);
+        let (equations, form) = (&block.equations, &block.equations.forms[0]);
+        let Some(program) = solve(self.style.graph, form, equations) else {
+            self.refused
+                .borrow_mut()
+                .push(format!("the elimination of {} coordinates", equations.coordinates));
+            return TokenStream::new();
+        };
+        let (statements, results) = self.results(&form.matrix.concat(), &program.fused());
+        let accelerations = &results[..slots.len()];
         quote! {
             #(#guarded)*
             #(let #forces = #places.get();)*
             #statements
-            #(#places.set(#results);)*
+            #(#places.set(#accelerations);)*
         }
     }
 
     /// True if the accelerations are the forces.
     fn is_solved(&self, block: &Inertia) -> bool {
-        let is_force = |(row, &id): (usize, &Id)| matches!(self.style.graph.node(id), Node::Symbol(symbol) if Variable::of(*symbol) == Variable::Forcing(row));
-        block.guarded.is_empty() && block.accelerations.iter().enumerate().all(is_force)
+        let form = &block.equations.forms[0];
+        form.alone.iter().zip(&form.linear).all(|(quotient, force)| *quotient == Some(*force))
     }
 
     /// Entries of M that only some elements have.

@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 use super::inertia::Inertia;
 use super::rows::{self, ElementRows};
 use super::{Pattern, Scatter};
+use crate::mechanics::hamilton::inverse;
 use crate::resolve::Problem;
 use crate::resolve::many::{Index, NewIndices, Slot};
 use crate::symbolic::{Graph, Id, Symbol};
@@ -68,19 +69,22 @@ fn velocities(
     let mut found = FxHashMap::default();
     for block in inertia {
         block.guarded.is_empty().then_some(())?;
-        let mut new: FxHashMap<Symbol, Id> = FxHashMap::default();
-        for (row, &(array, number)) in block.rows.iter().enumerate() {
+        let mut sides = Vec::new();
+        for &(array, number) in &block.rows {
             let [rows] = &momenta[array].as_ref()?[..] else { return None };
             rows.sums.is_empty().then_some(())?;
             let (slot, _, momentum) = rows.rows[number];
             let is_velocity = |symbol| matches!(Variable::of(symbol), Variable::Velocity(_));
             let at_rest = graph.substituted(momentum, |symbol| is_velocity(symbol).then_some(Id::ZERO));
             let momentum = graph.symbol(Variable::Momentum(slot).symbol());
-            new.insert(Variable::Forcing(row).symbol(), graph.sub(momentum, at_rest));
+            sides.push(graph.sub(momentum, at_rest));
         }
-        for (&key, &value) in block.rows.iter().zip(&block.accelerations) {
-            let value = graph.substituted(value, |symbol| new.get(&symbol).copied());
-            found.insert(key, value);
+        let mass = &block.equations.forms[0].matrix;
+        let inverse = inverse(graph, problem, mass).ok()?;
+        for (&key, row) in block.rows.iter().zip(inverse) {
+            let parts: Vec<Id> =
+                row.iter().zip(&sides).map(|(&entry, &side)| graph.mul(entry, side)).collect();
+            found.insert(key, graph.total(parts));
         }
     }
     let are_linear = !crate::variables::has_velocity(graph, &found.values().copied().collect::<Vec<_>>());

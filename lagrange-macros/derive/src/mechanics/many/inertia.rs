@@ -4,6 +4,8 @@ use rustc_hash::FxHashMap;
 
 use super::Pattern;
 use crate::diagnostics::Diagnostics;
+use crate::mechanics::LinearEquations;
+use crate::mechanics::hamilton::{self, NoHamiltonian};
 use crate::resolve::Problem;
 use crate::resolve::many::{Affine, Index, NewIndices, Range, Slot, Unknown};
 use crate::symbolic::{Graph, Id};
@@ -17,8 +19,8 @@ pub(crate) struct Inertia {
     pub(crate) rows: Vec<(usize, usize)>,
     /// Terms that only some elements have; the others have zeros.
     pub(crate) guarded: Vec<Guarded>,
-    /// q̈ of each row, in terms of `Variable::Forcing`, one for each row, and of the `Variable::Term`s of `guarded`.
-    pub(crate) accelerations: Vec<Id>,
+    /// M and h, in terms of the `Variable::Term`s of `guarded` and of `Variable::Forcing`, one for each row.
+    pub(crate) equations: LinearEquations,
 }
 
 /// Entries of M that elements have where all conditions hold.
@@ -204,18 +206,53 @@ fn block(
         };
         mass[i][j] = graph.add(mass[i][j], value);
     }
-    if let Some(row) = mass.iter().position(|row| row.iter().all(|&entry| entry == Id::ZERO)) {
-        let array = &problem.many.arrays[rows[row].0];
-        diagnostics.error(array.place, format!(
-            "the velocity of `{}` does not occur in the Lagrangian, so that nothing determines its acceleration",
-            array.name
-        ));
+    if let Some((row, message)) = undetermined(graph, problem, &rows, &mass) {
+        diagnostics.error(problem.many.arrays[rows[row].0].place, message);
         return None;
     }
     let forcing = (0..rows.len()).map(|row| graph.symbol(Variable::Forcing(row).symbol())).collect();
-    let accelerations = solved(graph, mass, forcing);
+    let equations = LinearEquations::of_masses(graph, mass, forcing);
     let lengths = problem.many.arrays[arrays[0]].open.clone();
-    Some(Inertia { lengths, rows, guarded, accelerations })
+    Some(Inertia { lengths, rows, guarded, equations })
+}
+
+/// Row of M at fault, and why M does not determine the accelerations of an element, or an elimination without exchanges does not find
+/// them.
+fn undetermined(
+    graph: &mut Graph,
+    problem: &Problem,
+    rows: &[(usize, usize)],
+    mass: &[Vec<Id>],
+) -> Option<(usize, String)> {
+    let name = |row: usize| &problem.many.arrays[rows[row].0].name;
+    let all: Vec<usize> = (0..rows.len()).collect();
+    if let Some(&row) = all.iter().find(|&&row| mass[row].iter().all(|&entry| entry == Id::ZERO)) {
+        return Some((
+            row,
+            format!(
+                "the velocity of `{}` does not occur in the Lagrangian, so that nothing determines its acceleration",
+                name(row)
+            ),
+        ));
+    }
+    if let Some(&row) = all.iter().find(|&&row| mass[row][row] == Id::ZERO) {
+        return Some((
+            row,
+            format!(
+                "the square of the velocity of `{}` does not occur in the Lagrangian: where the number of coordinates is known when the program runs, the square of each velocity must; for a product of two velocities, take the sum and the difference of their coordinates",
+                name(row)
+            ),
+        ));
+    }
+    let is_singular =
+        matches!(hamilton::inverse_of_block(graph, problem, mass, &all), Err(NoHamiltonian::Singular));
+    let message = || {
+        format!(
+            "the Lagrangian does not determine the accelerations of an element of `{}`: some motion of it has no kinetic energy, which makes its mass matrix singular",
+            name(0)
+        )
+    };
+    is_singular.then(|| (0, message()))
 }
 
 fn push(guarded: &mut Vec<Guarded>, conditions: &[Condition], value: (usize, Id)) {
@@ -225,38 +262,12 @@ fn push(guarded: &mut Vec<Guarded>, conditions: &[Condition], value: (usize, Id)
     }
 }
 
-/// Solves M x = h for symmetric M by elimination without exchanges, as a positive definite M allows.
-fn solved(graph: &mut Graph, mut mass: Vec<Vec<Id>>, mut right: Vec<Id>) -> Vec<Id> {
-    let n = right.len();
-    for k in 0..n {
-        let pivot = mass[k].clone();
-        for i in k + 1..n {
-            if mass[i][k] == Id::ZERO {
-                continue;
-            }
-            let factor = graph.div(mass[i][k], pivot[k]);
-            let factor = graph.defined(factor);
-            for (entry, &above) in mass[i].iter_mut().zip(&pivot).skip(k + 1) {
-                let part = graph.mul(factor, above);
-                let rest = graph.sub(*entry, part);
-                *entry = graph.defined(rest);
-            }
-            let part = graph.mul(factor, right[k]);
-            right[i] = graph.sub(right[i], part);
-        }
-    }
-    for i in (0..n).rev() {
-        let known: Vec<Id> = (i + 1..n).map(|j| graph.mul(mass[i][j], right[j])).collect();
-        let known = graph.total(known);
-        let rest = graph.sub(right[i], known);
-        right[i] = graph.div(rest, mass[i][i]);
-    }
-    right
-}
-
 impl Inertia {
     pub(super) fn has_velocity(&self, graph: &Graph) -> bool {
         let guarded = self.guarded.iter().flat_map(|guarded| &guarded.values).map(|(_, value)| *value);
-        has_velocity(graph, &self.accelerations.iter().copied().chain(guarded).collect::<Vec<_>>())
+        has_velocity(
+            graph,
+            &self.equations.forms[0].matrix.concat().into_iter().chain(guarded).collect::<Vec<_>>(),
+        )
     }
 }
