@@ -149,7 +149,7 @@ fn fields_that_do_not_fit_are_refused() {
 fn an_element_that_is_missing_is_named() {
     let error = Error::ElementMissing { array: "q", index: -1, from: 0, to: 5 };
     assert!(
-        error.to_string().starts_with("`q[-1]` does not exist, the indices of `q` are 0..5: "),
+        error.to_string().starts_with("`q[-1]` does not exist: the indices of `q` are 0..5; "),
         "{error}"
     );
 }

@@ -28,7 +28,7 @@ impl Display for Error {
             ),
             Self::ElementMissing { array, index, from, to } => write!(
                 f,
-                "`{array}[{index}]` does not exist, the indices of `{array}` are {from}..{to}: let the range end before it, or give the array more elements"
+                "`{array}[{index}]` does not exist: the indices of `{array}` are {from}..{to}; let the range end before it, or give the array more elements"
             ),
             Self::ParameterNotAsSaid { name, wanted, defect } if !defect.is_finite() => {
                 write!(f, "the parameter `{name}` is not {wanted}: one of its entries is not finite")

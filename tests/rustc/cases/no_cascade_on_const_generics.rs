@@ -20,8 +20,8 @@ struct System<T, const N: usize, const M: usize> {
 
 fn main() {
     let unread = Unread { m: 1.0, tags: [[0; 3]; 4] };
-    let state = State::at_rest([0.0; 3]);
-    println!("{:?} {}", unread.accelerations_unchecked(&state), unread.speed(&state));
+    let state = unread.at_rest([0.0; 3]);
+    println!("{} {}", unread.energy(&state), unread.speed(&state));
     let system = System { m: 1.0_f32, tags: [[0; 3]; 4] };
     let state = State::at_rest([0.0; 2]);
     println!("{:?} {}", system.accelerations_unchecked(&state), system.speed(&state)[1]);

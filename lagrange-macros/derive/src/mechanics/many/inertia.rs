@@ -206,7 +206,8 @@ fn block(
         };
         mass[i][j] = graph.add(mass[i][j], value);
     }
-    if let Some((row, message)) = undetermined(graph, problem, &rows, &mass) {
+    let partly = || massless(problem, &rows, entries);
+    if let Some((row, message)) = undetermined(graph, problem, &rows, &mass).or_else(partly) {
         diagnostics.error(problem.many.arrays[rows[row].0].place, message);
         return None;
     }
@@ -253,6 +254,41 @@ fn undetermined(
         )
     };
     is_singular.then(|| (0, message()))
+}
+
+/// Row whose velocity has a square for some elements only, of an array along one axis.
+fn massless(problem: &Problem, rows: &[(usize, usize)], entries: &[MassEntry]) -> Option<(usize, String)> {
+    let row = rows.iter().position(|row| {
+        let [length] = &problem.many.arrays[row.0].open[..] else { return false };
+        let own = entries.iter().filter(|entry| entry.rows == [*row; 2]);
+        let ranges = own.map(|entry| match &entry.conditions[..] {
+            [condition] => condition.range.clone(),
+            _ => Range::up_to(length),
+        });
+        !is_covered(ranges.collect(), length)
+    })?;
+    let name = &problem.many.arrays[rows[row].0].name;
+    Some((
+        row,
+        format!(
+            "the square of the velocity of `{name}` occurs in the Lagrangian for some elements only, so that nothing determines the accelerations of the others: sum the kinetic energy over all elements"
+        ),
+    ))
+}
+
+/// True if ranges that begin where others end reach from 0 to the length.
+fn is_covered(mut ranges: Vec<Range>, length: &Affine) -> bool {
+    let rest = |to: &Affine, from: &Affine| to.plus(from, -1).as_number();
+    let mut reached = Affine::number(0);
+    while rest(length, &reached).is_none_or(|rest| rest > 0) {
+        let goes_on = |range: &Range| {
+            rest(&reached, &range.from).is_some_and(|rest| rest >= 0)
+                && rest(&range.to, &reached).is_none_or(|rest| rest > 0)
+        };
+        let Some(next) = ranges.iter().position(goes_on) else { return false };
+        reached = ranges.swap_remove(next).to;
+    }
+    true
 }
 
 fn push(guarded: &mut Vec<Guarded>, conditions: &[Condition], value: (usize, Id)) {

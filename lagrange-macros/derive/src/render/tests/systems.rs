@@ -135,7 +135,7 @@ fn files(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
 
 /// Number of files of which the systems of one are checked.
 pub(super) fn share() -> usize {
-    cases([60, 30, 1])
+    cases([30, 30, 1])
 }
 
 /// Pages about the systems of some folders, which are derived once for several tests.
