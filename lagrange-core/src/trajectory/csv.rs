@@ -44,7 +44,7 @@ pub struct Csv<'t, S: System, F = <S as System>::Field> {
     quantities: Vec<Quantity<S>>,
 }
 
-/// Function that computes the quantity of an index at a state.
+/// Evaluates component k of a quantity at a state.
 type Value<S> = fn(usize, &S, &StateOf<S>) -> <S as System>::Scalar;
 
 /// A quantity of states, with the column of a table.

@@ -57,7 +57,7 @@ pub(super) struct Call<X = Register> {
     pub(super) kind: CallKind,
 }
 
-/// Meaning of the arguments of a call.
+/// Arguments that a call of a supplied function takes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum CallKind {
     /// The arguments of the function.

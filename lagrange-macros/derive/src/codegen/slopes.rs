@@ -27,7 +27,7 @@ impl SlopeBlock {
     }
 }
 
-/// Length of an array of slopes, and where its blocks begin. The blocks follow the numbers.
+/// Layout of an array of slopes: single numbers first, then blocks.
 #[derive(Clone, Default)]
 pub(super) struct SlopeLayout {
     pub(super) length: usize,

@@ -6,7 +6,7 @@ use super::moment::Moments;
 use crate::resolve::Problem;
 use crate::symbolic::{ExactPolynomial, Graph, Id, Polynomials, rank};
 
-/// Largest number of nodes in the equations: what longer ones give is no formula for a reader.
+/// Largest number of nodes in the equations of motion. Longer ones give a multiplier that fills more than a printed line.
 const NODES: usize = 200;
 
 /// λ = −(F M⁻¹Fᵀ)⁻¹ (F M⁻¹h + γ), where the constraints hold. `None` if contacts open or friction slides, if M or F M⁻¹Fᵀ has

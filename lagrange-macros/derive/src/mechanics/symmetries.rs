@@ -71,7 +71,7 @@ fn displacements(
     moved
 }
 
-/// Evidence that L and the work of all forces do not change along δq.
+/// Proof or numerical evidence that the displacement δq changes neither L nor the work of the forces.
 fn evidence(graph: &mut Graph, problem: &Problem, equations: &Equations, moved: &[Id]) -> Option<Evidence> {
     let mut along_motion = drift(graph, moved.len());
     let seeds = moved.iter().enumerate().flat_map(|(i, &shift)| {

@@ -20,7 +20,7 @@ use crate::resolve::{Problem, families, vector};
 use crate::symbolic::{Graph, Id, Rational};
 use crate::syntax::Declaration;
 
-/// Renders a system whose number of bodies is known when the program runs.
+/// Renders a system whose number of bodies is known at run time.
 pub(crate) fn render_many(
     declaration: &Declaration,
     graph: &Graph,
@@ -41,12 +41,12 @@ pub(crate) fn render_many(
     [shortest, kept, written_out]
 }
 
-/// What expressions of these equations are read in.
+/// Facts that the reading of expressions depends on.
 fn context(equations: &ManyEquations) -> Derived {
     Derived::of_expressions(equations.conserved.iter().map(|conserved| conserved.symmetry), equations.is_even)
 }
 
-/// Equations of all elements of arrays at once.
+/// Equations stated once for all elements of an array.
 pub(super) struct FamilyLines {
     pub(super) motion: Vec<Line>,
     /// Lines of the total momentum and the total angular momentum, if they are conserved.
@@ -58,7 +58,7 @@ pub(super) struct FamilyLines {
 }
 
 impl FamilyLines {
-    /// Finds them, if a declaration is about all elements of arrays.
+    /// Derives the equations of a declaration once for all elements; `None` if they have no such form.
     pub(super) fn of(declaration: &Declaration, names: Names) -> Option<Self> {
         let (mut graph, mut problem) = families(declaration)?;
         let equations = mechanics::many::derive(&mut graph, &mut problem, &mut Diagnostics::default())?;
@@ -294,7 +294,7 @@ impl Page<'_> {
         })
     }
 
-    /// Writes the sums that stand in expressions. Those in a sum come before it.
+    /// Renders the sums in expressions, inner sums first.
     fn write_totals(&mut self) {
         for Total { level, range, body } in &self.problem.many.totals {
             let body = self.expression(*body).unwrap_or_else(|_| Formula::labelled("…", 0));
@@ -352,7 +352,7 @@ fn total(own: Formula, sums: Vec<Formula>) -> Formula {
     Formula::sum(all)
 }
 
-/// Makes a sum of a body, with its sign and the factors that do not contain the index before it.
+/// Writes Σ of a body. The sign and factors without the running index precede the Σ.
 fn taken_out(body: Formula, index: &Formula, sum: impl FnOnce(Formula) -> Formula) -> Formula {
     let (is_negative, magnitude) = body.sign_and_magnitude();
     let Formula::Product(above, below) = magnitude else { return sum(magnitude).signed(is_negative) };

@@ -57,7 +57,7 @@ pub(super) struct Page<'a> {
     /// Nodes without names that are written as these formulas: entries of rotation matrices, and entries of the mass matrix where
     /// a reading is shorter than the computed form.
     pub(super) entries: FxHashMap<Id, Formula>,
-    /// Equations of all elements of arrays at once.
+    /// Equations stated once for all elements of an array.
     pub(super) families: Option<FamilyLines>,
     /// Sums over ranges that are known when the program runs.
     pub(super) totals: Vec<Formula>,

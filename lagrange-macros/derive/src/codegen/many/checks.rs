@@ -75,7 +75,7 @@ impl ManyEmitter<'_> {
         }
     }
 
-    /// Goes through all rounds of the loops in which an index is used.
+    /// Checks an index in all iterations of its loops.
     fn check_demand(&self, Demand { name, ranges, index, within }: &Demand) -> TokenStream {
         let (from, to) = (self.style.bound(&within.from), self.style.bound(&within.to));
         let (value, is_wrong, error) = match index {

@@ -1,4 +1,4 @@
-//! Emits systems whose numbers of bodies are known when the program runs: loops over elements.
+//! Emits systems whose numbers of bodies are known at run time: loops over elements.
 
 mod checks;
 mod indices;
@@ -29,7 +29,7 @@ pub(super) struct ManyEmitter<'a> {
     problem: &'a Problem,
     equations: &'a ManyEquations,
     style: FunctionContext<'a>,
-    /// Sums that the statements around those that are written compute.
+    /// Sums that enclosing statements compute.
     known: std::cell::RefCell<Vec<usize>>,
     /// Operation counts of loop bodies that are too long.
     refused: std::cell::RefCell<Vec<String>>,

@@ -1,6 +1,6 @@
 //! Loops that add values to elements.
 //!
-//! What neighbouring rounds add to one element is carried from round to round in locals, so that each element is written once.
+//! Contributions of neighbouring iterations to one element are carried in locals, so each element is written once.
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
@@ -13,19 +13,19 @@ use crate::resolve::many::{Affine, Array, Index, Slot, Unknown};
 use crate::symbolic::Id;
 use crate::syntax::numbers;
 
-/// Slots that are one element of an array in successive rounds of a loop, with the places of their values.
+/// Slots that address the same element in successive iterations of a loop: q[i] and q[i+1].
 struct Ring<'a> {
-    /// The slot of the least offset: its element is not reached by later rounds.
+    /// Slot with the smallest offset. Later iterations do not reach its element.
     last: &'a Slot,
     /// Axis with the index of the loop.
     axis: usize,
-    /// Offset from the least one, and place of the value, of each slot.
+    /// For each slot, its offset from `last` and the index of its value.
     members: Vec<(usize, usize)>,
 }
 
 impl ManyEmitter<'_> {
-    /// Loops that write the values of all scatters to the elements of `cells`. Loops that reach each element of an array once come
-    /// first. The first loop that reaches an array sets it, if it reaches all of it; other arrays are filled with zeros before.
+    /// Loops that write the values of all scatters to the elements of `cells`. Loops that reach each element of an array exactly once
+    /// come first, and assign an array that no earlier loop reached. All other arrays start from zero.
     pub(super) fn scatters(&self, scatters: &[Scatter]) -> TokenStream {
         let arrays = 0..self.problem.many.arrays.len();
         let covered = |scatter: &Scatter| {
@@ -62,7 +62,7 @@ impl ManyEmitter<'_> {
         }
     }
 
-    /// True if the rounds of a single loop write each element of an array once.
+    /// True if a single loop writes each element of an array exactly once.
     fn covers(&self, scatter: &Scatter, array: usize) -> bool {
         let Array { open, lengths, .. } = &self.problem.many.arrays[array];
         let ([range], [length]) = (&scatter.ranges[..], &open[..]) else { return false };
@@ -85,8 +85,8 @@ impl ManyEmitter<'_> {
         })
     }
 
-    /// The loops of a scatter from this depth on, with the locals that they sum in, and what is written after them: elements that
-    /// they do not change, and what the last round has left.
+    /// Loops of a scatter from a depth on, with their accumulators. Elements that the loops do not change, and sums that the last
+    /// iteration leaves in locals, are written after them.
     fn scatter_in(
         &self,
         (scatter, sets, emptied): (&Scatter, &[usize], &TokenStream),
@@ -122,7 +122,7 @@ impl ManyEmitter<'_> {
         }
     }
 
-    /// One round of the innermost loop.
+    /// One iteration of the innermost loop.
     fn round_of_scatter(
         &self,
         (slots, sets): (&[&Slot], &[usize]),
@@ -163,7 +163,7 @@ impl ManyEmitter<'_> {
         }
     }
 
-    /// Adds the values of a round to what earlier rounds have left, and writes the element that no later round reaches.
+    /// Adds the values of an iteration to the carried sums, and writes the element that no later iteration reaches.
     fn carry(&self, number: usize, ring: &Ring, sets: &[usize]) -> TokenStream {
         let names = carry_names(number, ring);
         let value = |offset: usize| {
@@ -186,7 +186,7 @@ impl ManyEmitter<'_> {
         quote! { #written #(#names = #next;)* }
     }
 
-    /// Writes what the last round has left, where the running index is the end of the range.
+    /// Writes the carried sums after the last iteration, with the running index at the end of the range.
     fn left_over(&self, number: usize, ring: &Ring, sets: &[usize]) -> TokenStream {
         let names = carry_names(number, ring);
         let writes = names.iter().enumerate().map(|(offset, name)| {
@@ -208,7 +208,7 @@ fn sum_name(place: usize) -> Ident {
     format_ident!("sum{place}", span = Span::mixed_site())
 }
 
-/// Locals that carry sums from round to round: one for each offset but the largest, whose element no earlier round has reached.
+/// Locals that carry sums to the next iteration: one for each offset below the largest.
 fn carry_names(number: usize, ring: &Ring) -> Vec<Ident> {
     (0..carry_count(ring))
         .map(|offset| format_ident!("carried{number}_{offset}", span = Span::mixed_site()))
@@ -219,19 +219,20 @@ fn carry_count(ring: &Ring) -> usize {
     ring.members.iter().map(|(offset, _)| *offset).max().unwrap_or(0)
 }
 
-/// Number of loops that have to be entered before the element of a slot is known.
+/// Number of nested loops that determine the element of a slot.
 fn depth_of(slot: &Slot) -> usize {
     slot.indices.iter().flat_map(Index::levels).map(|level| level + 1).max().unwrap_or(0)
 }
 
-/// Largest distance of slots that are carried: locals for more would spill.
+/// Largest offset between carried slots, in elements. Each offset takes one of the 16 vector registers of x86-64; half of them are
+/// left for the values of an iteration.
 const WIDTH: i64 = 8;
 
 fn is_carried(rings: &[Ring], value: usize) -> bool {
     rings.iter().any(|ring| ring.members.iter().any(|(_, place)| *place == value))
 }
 
-/// Groups of slots that are one element in successive rounds of the innermost of so many loops.
+/// Groups slots that address the same element in successive iterations of the innermost loop.
 fn rings<'a>(slots: &[&'a Slot], depth: usize) -> Vec<Ring<'a>> {
     let mut groups: Vec<(Slot, usize, Vec<(i64, usize)>)> = Vec::new();
     for (k, slot) in slots.iter().enumerate() {
@@ -251,7 +252,7 @@ fn rings<'a>(slots: &[&'a Slot], depth: usize) -> Vec<Ring<'a>> {
     groups.into_iter().filter_map(ring).collect()
 }
 
-/// Axis whose index grows with the loop at this depth by one in each round, its constant, and the slot without it.
+/// Axis whose index increases by one per iteration of the loop at this depth, the constant of the index, and the slot without it.
 fn without_offset(slot: &Slot, level: usize) -> Option<(usize, i64, Slot)> {
     let mut moving = slot.indices.iter().enumerate().filter(|(_, index)| index.levels().contains(&level));
     let (Some((axis, Index::Affine(index))), None) = (moving.next(), moving.next()) else { return None };

@@ -33,8 +33,8 @@ impl ManyEmitter<'_> {
         (quote! { #sums #statements }, kernel.results)
     }
 
-    /// Loops that compute the sums in some expressions that are not known yet, as far as the indices of this many loops around them
-    /// determine them. They are known from here on, until [`forget`](Self::forget).
+    /// Loops for the sums in these expressions that no earlier statement computes, if at most `depth` loop indices determine them.
+    /// The sums count as computed until [`forget`](Self::forget).
     pub(super) fn sums_before(&self, roots: &[Id], depth: usize) -> TokenStream {
         let is_new = |k: &usize| !self.known.borrow().contains(k) && self.depth_of_sum(*k) <= depth;
         let new: Vec<usize> = totals(self.style.graph, roots).into_iter().filter(is_new).collect();
@@ -43,12 +43,12 @@ impl ManyEmitter<'_> {
         sums
     }
 
-    /// Number of sums that are known.
+    /// Number of sums computed so far.
     pub(super) fn mark(&self) -> usize {
         self.known.borrow().len()
     }
 
-    /// Forgets the sums that are known since a mark: the block that computes them ends.
+    /// Ends the scope of the sums computed since a mark.
     pub(super) fn forget(&self, mark: usize) {
         self.known.borrow_mut().truncate(mark);
     }

@@ -1,6 +1,6 @@
-//! Windows on arrays: the elements that successive rounds of a loop read or write, as a slice of the length of the loop.
+//! Windows on arrays: the elements that successive iterations of a loop read or write, as a slice of the length of the loop.
 //!
-//! rustc then sees that no index of a round is out of range.
+//! rustc then sees that no index of an iteration is out of range.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -13,7 +13,7 @@ use crate::symbolic::Id;
 use crate::syntax::numbers;
 use crate::variables::Variable;
 
-/// Slice of the elements that the rounds of a loop use, one after the other.
+/// Slice with one element for each iteration of a loop.
 #[derive(Clone)]
 pub(in crate::codegen) struct Window {
     source: Source,
@@ -23,20 +23,20 @@ pub(in crate::codegen) struct Window {
     name: Ident,
 }
 
-/// What a window is on.
+/// Array that a window borrows from.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Source {
     /// Coordinates of an array, the argument `q`.
     Coordinates(usize),
     /// Velocities of an array, the argument `v`.
     Velocities(usize),
-    /// What the function writes for an array, cells called `cells`.
+    /// Results of the function for an array, in `cells`.
     Target(usize),
     /// An open field.
     Field(usize),
 }
 
-/// Number of the round of the loop at a depth, from 0.
+/// Number of the iteration of the loop at a depth, from 0.
 fn step(level: usize) -> Ident {
     format_ident!("step{level}", span = Span::mixed_site())
 }
@@ -55,7 +55,7 @@ impl FunctionContext<'_> {
         Some(quote!(#name[#step]))
     }
 
-    /// Place expression of a number that a slot reads or writes.
+    /// Place expression of a slot.
     pub(super) fn slot_in(&self, source: Source, slot: &Slot) -> TokenStream {
         let number = Literal::usize_unsuffixed(slot.number);
         if let Some(element) = self.in_window(source, &slot.indices) {
@@ -67,7 +67,7 @@ impl FunctionContext<'_> {
     }
 }
 
-/// Vector of all coordinates that a window is on.
+/// Vector that contains a window.
 fn whole(source: Source) -> TokenStream {
     match source {
         Source::Coordinates(_) => quote!(q),
@@ -77,8 +77,8 @@ fn whole(source: Source) -> TokenStream {
 }
 
 impl ManyEmitter<'_> {
-    /// A loop over a range. `inner` writes a round of it, `last` what follows where the running index is the end of the range, and
-    /// `otherwise` what stands for both if the range is empty. `roots` are what the rounds compute, and `targets` the slots that they write.
+    /// Emits a loop over a range: `inner` emits one iteration, `last` follows the loop with the running index at the end of the range,
+    /// and `otherwise` replaces both if the range is empty. An iteration computes `roots` and writes `targets`.
     pub(super) fn one_loop(
         &self,
         (level, range): (usize, &Range),
@@ -113,7 +113,7 @@ impl ManyEmitter<'_> {
         }
     }
 
-    /// Declares the windows of a loop, and remembers them for its rounds.
+    /// Declares the windows of a loop, for use in its body.
     fn open_windows(&self, level: usize, roots: &[Id], targets: &[&Slot]) -> TokenStream {
         let many = &self.problem.many;
         let mut elements: Vec<(Source, Vec<Index>)> = Vec::new();
@@ -156,7 +156,7 @@ impl ManyEmitter<'_> {
         self.problem.many.elements.iter().find(|(_, place)| *place == field).map(|(element, _)| element)
     }
 
-    /// The window, from the element of the first round.
+    /// The window, from the element of the first iteration.
     fn declaration(&self, level: usize, source: Source, indices: &[Index], name: &Ident) -> TokenStream {
         let (index, bounds) = (round(level), range_name(level));
         let window = match source {
@@ -182,7 +182,7 @@ impl ManyEmitter<'_> {
     }
 }
 
-/// True if successive rounds of the loop at this depth use successive elements, known from the loops around it.
+/// True if successive iterations of the loop at this depth use successive elements, known from the loops around it.
 fn runs_along(indices: &[Index], level: usize) -> bool {
     let Some((Index::Affine(last), others)) = indices.split_last() else { return false };
     let own = Unknown::Level(level);

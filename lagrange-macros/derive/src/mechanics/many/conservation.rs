@@ -21,7 +21,7 @@ pub(crate) struct ManyConserved {
     pub(crate) patterns: Vec<(Vec<Range>, Vec<Id>)>,
 }
 
-/// Finds what is conserved if no forces act. All coordinates must be vectors of one length, or scalars in a row.
+/// Finds conserved momenta of a system without generalized forces. Coordinates must all be vectors of one dimension, or all scalars.
 pub(super) fn find(graph: &mut Graph, problem: &mut Problem, patterns: &[Pattern]) -> Vec<ManyConserved> {
     let lengths: Vec<usize> = problem.many.arrays.iter().map(|array| numbers(&array.lengths)).collect();
     let is_uniform = lengths.iter().all(|length| *length == lengths[0])
@@ -75,7 +75,7 @@ fn components(
     slots.into_iter().zip(slopes).map(component).collect()
 }
 
-/// True if ℓ stays as it is where all vectors move by one.
+/// True if ℓ is invariant under a common translation of all vectors.
 fn is_moved(graph: &mut Graph, problem: &mut Problem, pattern: &Pattern, dimension: usize) -> bool {
     let all = components(graph, problem, pattern, dimension);
     (0..dimension).all(|c| {
@@ -85,7 +85,7 @@ fn is_moved(graph: &mut Graph, problem: &mut Problem, pattern: &Pattern, dimensi
     })
 }
 
-/// True if ℓ stays as it is where all vectors turn together.
+/// True if ℓ is invariant under a common rotation of all vectors.
 fn is_turned(graph: &mut Graph, problem: &mut Problem, pattern: &Pattern, dimension: usize) -> bool {
     let all = components(graph, problem, pattern, dimension);
     planes(dimension).iter().all(|&plane| {

@@ -1,4 +1,4 @@
-//! The mass matrix by blocks: velocities that meet in the kinetic energy belong to one element.
+//! Block-diagonal mass matrix: the kinetic energy couples only velocities of one element.
 
 use rustc_hash::FxHashMap;
 
@@ -13,20 +13,20 @@ use crate::variables::{Variable, has_velocity};
 
 /// Equations M q̈ = h of the coordinates of one element, the same for each element.
 pub(crate) struct Inertia {
-    /// Numbers of elements along each axis; the running index of axis x has depth x.
+    /// Number of elements along each axis. The running index of axis k has depth k.
     pub(crate) lengths: Vec<Affine>,
-    /// Coordinate array and number in its element, of each row.
+    /// Array and component of each row.
     pub(crate) rows: Vec<(usize, usize)>,
-    /// Terms that only some elements have; the others have zeros.
+    /// Entries of M that are zero for some elements.
     pub(crate) guarded: Vec<Guarded>,
     /// M and h, in terms of the `Variable::Term`s of `guarded` and of `Variable::Forcing`, one for each row.
     pub(crate) equations: LinearEquations,
 }
 
-/// Entries of M that elements have where all conditions hold.
+/// Entries of M that are nonzero only for elements that meet all conditions.
 pub(crate) struct Guarded {
     pub(crate) conditions: Vec<Condition>,
-    /// Index of the `Variable::Term`, and its value.
+    /// Entries of M: k of the `Variable::Term(k)` that stands for the entry, and its value.
     pub(crate) values: Vec<(usize, Id)>,
 }
 
@@ -37,9 +37,9 @@ pub(crate) struct Condition {
     pub(crate) range: Range,
 }
 
-/// Entry of M that a pattern gives: the slots that meet, and the second derivative of L by their velocities.
+/// Entry of M: the second derivative of a pattern by two velocities of one element.
 pub(super) struct MassEntry {
-    /// Coordinate array and number in its element, of the row and the column.
+    /// Array and component of the row, and of the column.
     pub(super) rows: [(usize, usize); 2],
     pub(super) conditions: Vec<Condition>,
     pub(super) value: Id,
@@ -119,8 +119,8 @@ fn entry(
     Ok(MassEntry { rows, conditions, value })
 }
 
-/// The running indices of the loops at which a slot is the element (i, j, …), and the conditions on i, j, … for there to be
-/// any. `None` if several rounds belong to one element.
+/// Solves for the loop indices at which a slot is the element (i, j, …). Also returns the conditions on i, j, … under which
+/// they are in range. Returns `None` if several iterations reach one element.
 pub(super) fn at_element(
     problem: &Problem,
     slot: &Slot,

@@ -1,8 +1,8 @@
-//! Equations of motion of systems whose numbers of bodies are known when the program runs.
+//! Equations of motion of systems whose numbers of bodies are known at run time.
 //!
 //! L is a sum over loops of expressions ℓ in a few slots, elements such as `q[i]` and `q[i+1]`. Each ℓ is differentiated once by
-//! its slots; what the derivative by a slot gives belongs to the element at which the slot is in this round of the loop, and is
-//! added to it. That is ∂L/∂q_k = Σ over rounds and slots of [index of the slot = k] ∂ℓ/∂slot, without a search for the rounds.
+//! its slots; what the derivative by a slot gives belongs to the element at which the slot is in this iteration of the loop, and is
+//! added to it. That is ∂L/∂q_k = Σ over iterations and slots of [index of the slot = k] ∂ℓ/∂slot, without a search for the iterations.
 //! Slots that meet in one element, such as both ends of a bond from an atom to itself, add up as the chain rule demands.
 
 mod conservation;
@@ -22,7 +22,7 @@ pub(crate) use inertia::{Guarded, Inertia};
 pub(crate) use patterns::{Pattern, patterns};
 pub(crate) use rows::{ElementRows, ElementSum, Over, Region};
 
-/// Values that the rounds of some loops add to elements of the coordinates.
+/// Values that loop iterations add to elements of the coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Scatter {
     pub(crate) ranges: Vec<Range>,
@@ -30,7 +30,7 @@ pub(crate) struct Scatter {
     pub(crate) values: Vec<(usize, Id)>,
 }
 
-/// Equations M q̈ = h of a system whose number of bodies is known when the program runs.
+/// Equations M q̈ = h of a system whose number of bodies is known at run time.
 pub(crate) struct ManyEquations {
     /// p = ∂L/∂q̇
     pub(crate) momentum: Vec<Scatter>,
@@ -129,7 +129,7 @@ pub(crate) fn derive(
     })
 }
 
-/// What one pattern of L adds.
+/// Contributions of one pattern of L.
 struct Derived {
     momentum: Vec<(usize, Id)>,
     /// ∂ℓ/∂q

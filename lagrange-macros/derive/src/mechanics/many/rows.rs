@@ -1,4 +1,4 @@
-//! Equations of motion of one element, to be printed: what all rounds of all loops add to it.
+//! Printed equations of motion of one element: the sum over all loop iterations that contribute to it.
 
 use rustc_hash::FxHashMap;
 
@@ -13,7 +13,7 @@ use crate::variables::Variable;
 #[derive(Clone)]
 pub(crate) struct ElementRows {
     pub(crate) region: Region,
-    /// Slot, M q̈ and the part of h without sums, for each number of the element.
+    /// For each component of the element: its slot, M q̈, and the terms of h that are not sums.
     pub(crate) rows: Vec<(usize, Id, Id)>,
     pub(crate) sums: Vec<ElementSum>,
 }
@@ -27,15 +27,15 @@ pub(crate) enum Region {
     Element(Affine),
     /// from ≤ i < to
     Within(Range),
-    /// All that are not the first or the last along an axis, of an array with several axes.
+    /// Elements away from both ends of every axis, for arrays of several axes.
     Interior,
 }
 
-/// Sum over other elements, with the running index of depth 1; the element itself has the index of depth 0.
+/// Sum over other elements. The element has running index 0, the summand running index 1.
 #[derive(Clone)]
 pub(crate) struct ElementSum {
     pub(crate) over: Over,
-    /// One value for each number of the element.
+    /// Summand of each component of the element.
     pub(crate) values: Vec<Id>,
 }
 
@@ -48,7 +48,7 @@ pub(crate) enum Over {
     Entries(Range, Index),
 }
 
-/// What one slot adds to one number of an element.
+/// Term that one slot contributes to one component of an element.
 struct Contribution {
     number: usize,
     conditions: Vec<Condition>,
@@ -56,7 +56,7 @@ struct Contribution {
     value: Id,
 }
 
-/// Equations of all arrays; `None` for one whose forces are in loops of another form.
+/// Equations of all arrays; `None` for an array whose loops have no closed form for one element.
 pub(super) fn rows(
     graph: &mut Graph,
     problem: &mut Problem,
@@ -167,7 +167,7 @@ fn outer(first: &Range, second: &Range, new: &NewIndices) -> Option<Range> {
     Some(range)
 }
 
-/// A value in which elements at an entry of a table are the element itself.
+/// Substitutes the element itself for the entry of a table in a value.
 fn at_entry(graph: &mut Graph, problem: &mut Problem, value: Id, entry: &Index) -> Id {
     let mut new = FxHashMap::default();
     for k in slots(graph, value) {
@@ -184,7 +184,7 @@ fn at_entry(graph: &mut Graph, problem: &mut Problem, value: Id, entry: &Index) 
     graph.substituted(value, |symbol| new.get(&symbol).copied())
 }
 
-/// Joins a sum over all elements before with an equal one over all behind.
+/// Merges equal sums over the preceding and the following elements into a sum over all others.
 fn paired(contributions: Vec<Contribution>) -> Vec<Contribution> {
     let element = Affine::of(Unknown::Level(0));
     let mut joined: Vec<Contribution> = Vec::new();
@@ -210,8 +210,8 @@ fn others(element: &Affine, one: Option<&Over>, other: Option<&Over>) -> Option<
     is_joined.then(|| Over::Others(Range { from: before.from.clone(), to: behind.to.clone() }))
 }
 
-/// Regions of elements to which the same terms contribute, for arrays that are long enough to have all of them. `None` if a bound is
-/// not counted from the first or the last element, or elements other than the outermost differ along one of several axes.
+/// Regions of elements with the same terms, in arrays long enough to contain each region. Returns `None` if a bound is
+/// an offset from neither end, or if elements inside an array of several axes differ.
 fn regions(problem: &Problem, array: usize, conditions: Vec<Condition>) -> Option<Vec<Region>> {
     let open = &problem.many.arrays[array].open;
     let [length] = &open[..] else {

@@ -47,7 +47,7 @@ impl System {
         let declaration = syntax::declaration(syn::parse2(tokens).ok()?, &mut diagnostics);
         diagnostics.is_empty().then_some(())?;
         let (mut graph, problem) = resolve::problem(&declaration, &mut diagnostics)?;
-        // What is printed of a number of bodies that is known when the program runs is compared with that of a constant one.
+        // Systems of any number of bodies have tests of their own, beside the same system with a constant number.
         (!problem.many.is_open()).then_some(())?;
         let derived = mechanics::derive(&mut graph, &problem, &mut diagnostics)?;
         let Rendered { forms, .. } = render(&declaration, &graph, &problem, &derived);

@@ -5,7 +5,7 @@ use num_traits::ToPrimitive;
 use crate::symbolic::{Graph, Id, Node, Rational, Symbol};
 use crate::variables::Variable;
 
-/// A whole number that is known when the program runs.
+/// A whole number that is known at run time.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) enum Unknown {
     /// Running index of the loop at this depth.

@@ -1,4 +1,4 @@
-//! Elements of arrays whose lengths are known when the program runs.
+//! Elements of arrays whose lengths are known at run time.
 
 use super::{Affine, Demand, FieldElement, Index, Range, Slot};
 use crate::diagnostics::Place;
@@ -8,7 +8,7 @@ use crate::resolve::value::Value;
 use crate::syntax::{Expression, FieldShape, Kind, Name, numbers};
 use crate::variables::Variable;
 
-/// Array with a length that is known when the program runs.
+/// Array with a length that is known at run time.
 #[derive(Clone, Copy)]
 enum Open {
     Array(usize, fn(usize) -> Variable),
@@ -17,8 +17,8 @@ enum Open {
 }
 
 impl Lowering<'_> {
-    /// Lowers `r[i]`, `r_dot[i+1][0]` or `m[i]`, where the length of the array is known when the program runs. The outer `None`
-    /// means that it is known now.
+    /// Lowers `r[i]`, `r_dot[i+1][0]` or `m[i]` of an array with a length that is known at run time. Returns an outer `None` for
+    /// an array of constant length.
     pub(in crate::resolve) fn open_element(&mut self, expression: &Expression) -> Option<Option<Value>> {
         let (name, indices) = expression.element()?;
         let open = self.open(name)?;
@@ -171,7 +171,7 @@ impl Lowering<'_> {
         Some(Index::Entry(field, indices))
     }
 
-    /// Lowers a whole number that is known when the program runs.
+    /// Lowers a whole number that is known at run time.
     pub(in crate::resolve) fn affine(&mut self, expression: &Expression) -> Option<Affine> {
         let id = self.scalar(expression)?;
         let found = Affine::read(&self.graph, id);
@@ -188,8 +188,8 @@ impl Lowering<'_> {
         })
     }
 
-    /// Requires an index to be in the range of the indices of an array, in all rounds of the loops that it is taken from, though loops
-    /// inside be empty. Reports what is wrong whatever the lengths are, and leaves to the start of a motion what depends on them.
+    /// Requires an index to be valid in all iterations of the loops whose indices it contains, even if inner loops are empty.
+    /// Reports an index that is invalid for all lengths. Others are checked at the start of a motion.
     pub(in crate::resolve) fn demand(
         &mut self,
         name: &str,

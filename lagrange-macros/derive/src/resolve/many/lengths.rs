@@ -1,4 +1,4 @@
-//! Lengths that are known when the program runs: integer fields, constants, and what `#[parameter(m: [n])]` calls the length
+//! Lengths that are known at run time: integer fields, constants, and what `#[parameter(m: [n])]` calls the length
 //! of a field.
 
 use quote::ToTokens;
@@ -13,7 +13,7 @@ use crate::syntax::{
 };
 use crate::variables::Variable;
 
-/// Longest array of scalars that is a vector, and no family of elements.
+/// Largest dimension of an array that is printed as one vector: Cartesian space. Longer arrays of scalars are families of elements.
 const VECTOR: usize = 3;
 
 /// A length of arrays.
@@ -22,7 +22,7 @@ pub(crate) struct Length {
     pub(crate) source: LengthSource,
 }
 
-/// Where the program reads a length.
+/// Source of a length at run time.
 pub(crate) enum LengthSource {
     /// An integer field, by its index.
     Field(usize),
@@ -88,8 +88,8 @@ impl Many {
         many
     }
 
-    /// Reads arrays whose lengths are numbers as if these were known when the program runs: the equations of all elements at once are an
-    /// attempt. Stays empty if there is no array of several elements.
+    /// Reads arrays of constant length as if the lengths were known at run time, to try equations that hold for all elements.
+    /// Stays empty if no array has several elements.
     pub(in crate::resolve) fn attempt(declaration: &Declaration) -> Self {
         let mut many = Self { is_attempt: true, taken: names(declaration), ..Self::default() };
         let apart = |lengths: &[usize]| match lengths {
@@ -180,7 +180,7 @@ fn names(declaration: &Declaration) -> Vec<String> {
     fields.chain(coordinates).chain(definitions).map(|name| name.text.clone()).collect()
 }
 
-/// Fields whose shape is stated with a length that is known when the program runs.
+/// Fields whose shape is stated with a length that is known at run time.
 fn open_fields(declaration: &Declaration) -> Vec<(usize, &Name, &Lengths)> {
     let stated = declaration.parameters.iter().filter_map(|parameter| match &parameter.fact {
         Fact::Shape(lengths) if !lengths.open.is_empty() => Some((&parameter.name, lengths)),

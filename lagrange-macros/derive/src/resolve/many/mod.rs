@@ -1,4 +1,4 @@
-//! Arrays whose lengths are known when the program runs, and what expressions read of them.
+//! Arrays with lengths that are known at run time, and the elements and sums that expressions read.
 //!
 //! Expressions stay scalars of the graph. An element such as `r[i+1]` becomes a variable of its own, a coordinate slot or an
 //! entry of a virtual field, and a sum over such elements becomes a variable, too, with its range and its body. Equal elements
@@ -23,7 +23,7 @@ pub(crate) use lengths::{Length, LengthSource};
 pub(crate) use shift::NewIndices;
 pub(crate) use sum::totals;
 
-/// What is known of the arrays of a system whose lengths are known when the program runs.
+/// Arrays with lengths that are known at run time: their elements, sums and index checks.
 #[derive(Default)]
 pub(crate) struct Many {
     pub(crate) lengths: Vec<Length>,
@@ -37,13 +37,13 @@ pub(crate) struct Many {
     pub(crate) totals: IndexSet<Total>,
     /// Forces on elements, with the loops over them.
     pub(crate) forces: Vec<OpenForce>,
-    /// Indices that are checked when a motion starts.
+    /// Index checks at the start of a motion.
     pub(crate) demands: IndexSet<Demand>,
     /// Name of the running index at each depth.
     pub(crate) level_names: Vec<String>,
-    /// Names of fields, coordinates and definitions, which no running index that is printed bears.
+    /// Names of fields, coordinates and definitions. Printed running indices get other names.
     pub(super) taken: Vec<String>,
-    /// True if all lengths are numbers, and loops are an attempt to state the equations of all elements at once: what is no loop is
+    /// True if all lengths are literals. Loops are then tried to state the equations once for all elements; anything else is
     /// written out.
     pub(super) is_attempt: bool,
     /// Loops around the current expression, outermost first.
@@ -94,7 +94,7 @@ pub(crate) struct FieldElement {
     pub(crate) index: Index,
 }
 
-/// A running index from a bound up to another, which is excluded.
+/// Half-open range of a running index.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct Range {
     pub(crate) from: Affine,
@@ -116,7 +116,7 @@ pub(crate) struct OpenForce {
     pub(crate) values: Vec<(usize, Id)>,
 }
 
-/// An index that must be in a range in all rounds of some loops.
+/// Index that must stay in a range during all iterations of some loops.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct Demand {
     /// Name of the array.
@@ -134,7 +134,7 @@ impl Range {
 }
 
 impl Many {
-    /// True if the number of coordinates is known when the program runs.
+    /// True if the number of coordinates is known at run time.
     pub(crate) fn is_open(&self) -> bool {
         !self.arrays.is_empty()
     }
@@ -151,7 +151,7 @@ impl Many {
         first + slot.number
     }
 
-    /// True if a name with so many indices is an element of an open field, and no component of one.
+    /// True if a name with this number of indices is an element of an open field, and not one of its components.
     pub(crate) fn is_element(&self, name: &str, indices: usize, parameters: &Parameters) -> bool {
         let is_it = |field: &OpenField| parameters.fields[field.field].name.text == name;
         indices <= 1 && self.fields.iter().any(is_it)
@@ -175,7 +175,7 @@ impl Many {
         all.filter(|name| !self.is_taken(name)).nth(level - self.level_names.len()).unwrap_or_default()
     }
 
-    /// Remembers the name of the index of a loop that is about to begin.
+    /// Records the index name of a loop before its body is lowered.
     fn name_level(&mut self, name: &str) {
         if self.level_names.len() == self.ranges.len() {
             let name = match self.is_taken(name) {

@@ -9,10 +9,10 @@ use crate::resolve::parameters::{Entry, Parameters};
 use crate::symbolic::{Graph, Id, Symbol};
 use crate::variables::Variable;
 
-/// Number of depths that indices of equations have at most: that of the element, and that of a sum over others.
+/// Largest depth of indices in printed equations: the element has depth 0, a sum over other elements depth 1.
 const AWAY: usize = 2;
 
-/// New value of each running index, by its depth.
+/// Substitution of running indices: maps the depth of a loop to the number that replaces its index.
 pub(crate) type NewIndices = FxHashMap<usize, Affine>;
 
 impl Affine {
@@ -43,7 +43,7 @@ impl Range {
 }
 
 impl Problem {
-    /// An expression with all running indices replaced. Those of sums in it move out of the way of the new ones.
+    /// Substitutes all running indices of an expression. Indices of its sums are renumbered to avoid the new ones.
     pub(crate) fn shifted(&mut self, graph: &mut Graph, root: Id, new: &NewIndices) -> Id {
         match new.is_empty() {
             true => root,
@@ -51,7 +51,7 @@ impl Problem {
         }
     }
 
-    /// Depths of the loops whose indices occur in these expressions, without those of sums in them.
+    /// Depths of the loops whose indices occur free in these expressions.
     pub(crate) fn levels(&self, graph: &Graph, roots: &[Id]) -> Vec<usize> {
         let of_field = |k: usize| {
             let field = self.parameters.entries[k].field;
@@ -70,7 +70,7 @@ impl Problem {
 }
 
 impl Many {
-    /// An expression with running indices replaced, and those of sums in it this much deeper.
+    /// Substitutes running indices of an expression, and moves its sums deeper by an offset.
     fn shifted(
         &mut self,
         (graph, parameters): (&mut Graph, &mut Parameters),
@@ -138,8 +138,8 @@ impl Many {
 }
 
 impl Lowering<'_> {
-    /// A value as it reads within the current loops. The index of a sum that was lowered outside of them, as a definition or an
-    /// argument is, becomes that of a loop inside.
+    /// Renumbers the sums of a value for use in the current loops. Definitions and arguments are lowered outside of these, so their
+    /// sums may have the depth of a current loop.
     pub(super) fn within_loops(&mut self, id: Id) -> Id {
         let depth = self.many.ranges.len();
         let outside = totals(&self.graph, &[id]).into_iter().find(|&k| self.many.totals[k].level < depth);

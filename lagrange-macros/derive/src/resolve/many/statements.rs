@@ -86,7 +86,7 @@ impl Lowering<'_> {
         self.definitions[first] = found.map_or(Definition::Wrong, |_| Definition::Open { is_open: true });
     }
 
-    /// Element of a family whose range is known when the program runs: its body, with these indices.
+    /// Element of a family whose range is known at run time: its body, with these indices.
     pub(in crate::resolve) fn open_family_element(
         &mut self,
         first: usize,
@@ -129,7 +129,7 @@ impl Lowering<'_> {
         Some(value?.map(&mut |id| self.graph.defined(id)))
     }
 
-    /// Reports attributes that need a number of coordinates that is known when the program is compiled.
+    /// Reports attributes that need a constant number of coordinates.
     pub(in crate::resolve) fn refuse_with_open_lengths(&mut self, declaration: &Declaration) {
         let why = "where the number of coordinates is known when the program runs";
         for frame in &declaration.frames {
@@ -171,12 +171,12 @@ impl Lowering<'_> {
         }
     }
 
-    /// True if a family is defined over a range that is known when the program runs.
+    /// True if a family is defined over a range that is known at run time.
     pub(in crate::resolve) fn is_open_definition(&self, first: usize) -> bool {
         matches!(self.definitions[first], Definition::Open { .. })
     }
 
-    /// Reports an observable that is a family of a length that is known when the program runs.
+    /// Reports an observable that is a family over a range known at run time.
     pub(in crate::resolve) fn refuse_open_observable(
         &mut self,
         Target { name, indices }: &Target,

@@ -1,4 +1,4 @@
-//! Sums and families over ranges that are known when the program runs.
+//! Sums and families over ranges that are known at run time.
 
 use super::{Affine, Many, Range, Total, Unknown};
 use crate::resolve::lowering::Lowering;
@@ -34,7 +34,7 @@ impl Many {
         self.with_bodies_from(graph, roots, 0)
     }
 
-    /// The same with the bodies of sums whose running index has at least this depth: those of sums before have another meaning of it.
+    /// These nodes, and the bodies of sums in them that have at least this depth. In shallower sums the index means another loop.
     pub(crate) fn with_bodies_from(&self, graph: &Graph, roots: &[Id], depth: usize) -> Vec<Id> {
         let (mut all, mut pending) = (roots.to_vec(), roots.to_vec());
         while let Some(root) = pending.pop() {
@@ -49,7 +49,7 @@ impl Many {
         all
     }
 
-    /// Least and largest value of a number in the current loops, as long as none of them is empty.
+    /// Minimum and maximum of a number over the iterations of the current loops, none of which is empty.
     pub(in crate::resolve) fn bounds(&self, number: &Affine) -> [Affine; 2] {
         let bound = |is_most: bool| {
             let mut bound = number.clone();
@@ -90,7 +90,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Lowers a sum whose range is known when the program runs. The outer `None` means that it is known now.
+    /// Lowers a sum over a range that is known at run time. Returns an outer `None` for a constant range.
     pub(in crate::resolve) fn open_sum(&mut self, sum: &SumOver) -> Option<Option<Value>> {
         let errors = self.diagnostics.count();
         let range = self.open_range(&sum.from, &sum.to)?;
@@ -116,7 +116,7 @@ impl Lowering<'_> {
         )
     }
 
-    /// Bounds of a range, if one of them is known when the program runs only.
+    /// Bounds of a range; `None` if both are constants.
     pub(in crate::resolve) fn open_range(
         &mut self,
         from: &Expression,
@@ -159,7 +159,7 @@ impl Lowering<'_> {
         result
     }
 
-    /// Runs `f` in the loops of a target, with the index of each bracket; elements have their index, families a running one.
+    /// Runs `f` in the loops of a target, with the index of each bracket: an element's own index, or a family's running index.
     pub(in crate::resolve) fn inside_all<T>(
         &mut self,
         indices: &[TargetIndex],
@@ -190,7 +190,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// True if a bound of one of these indices is known when the program runs only. Reports nothing.
+    /// True if a bound of one of these indices is known only at run time. Reports no errors.
     pub(in crate::resolve) fn is_open_family(&mut self, indices: &[TargetIndex]) -> bool {
         if self.many.is_attempt {
             return indices.iter().any(|index| matches!(index, TargetIndex::Family { .. }));
