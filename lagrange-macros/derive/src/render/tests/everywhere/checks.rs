@@ -26,83 +26,85 @@ fn wanted() -> usize {
 }
 
 /// Checks that each row, or vector of rows, is proportional to the computed one in accelerations and multipliers: the
-/// printed row may be divided by a factor.
+/// printed row may be divided by a factor. Each coordinate has one row.
 pub(super) fn check_motion(system: &Page) {
-    let mut first = 0;
+    let mut is_read = vec![false; system.derived.inertia.len()];
+    let mut read = |rows: Range<usize>| {
+        for row in rows {
+            assert!(!is_read[row], "row {row} twice in {}", system.text);
+            is_read[row] = true;
+        }
+        is_read.iter().position(|is_read| !is_read)
+    };
+    let mut first = read(0..0);
     let mut lines = system.lines("Equations of motion\n").into_iter().peekable();
-    while let Some(row) = lines.peek() {
-        if let Some(turning) = system.derived.turnings.all.iter().find(|turning| turning.first == first) {
+    while let Some(&row) = lines.peek() {
+        if let Some(turning) = system.derived.turnings.all.iter().find(|turning| Some(turning.first) == first)
+        {
             turns::check(system, turning, &mut lines);
-            first += 4;
+            first = read(turning.first..turning.first + 4);
             continue;
         }
-        let row = *row;
         lines.next();
         if links::is_resultant(system, row) {
             continue;
         }
         let (label, equation) = row.split_once(": ").expect("a label");
-        if let Some(running) = Running::of(row) {
-            for value in running.values.clone() {
-                first = check_element(system, first, &running.at(label, value), equation);
-            }
-            continue;
+        for (label, index) in elements(row, label) {
+            let rows = rows_of(system, &label);
+            check_element(system, rows.clone(), index.as_ref(), equation);
+            first = read(rows);
         }
-        first = check_element(system, first, &(label.to_owned(), None), equation);
     }
-    assert_eq!(first, system.derived.inertia.len(), "{}", system.text);
+    assert_eq!(first, None, "{}", system.text);
 }
 
-/// Checks the row of a coordinate or a vector, which begins with the coordinate `first`; returns the next one.
-fn check_element(
-    system: &Page,
-    first: usize,
-    (label, index): &(String, Option<(String, i64)>),
-    equation: &str,
-) -> usize {
-    let labels = system.problem.coordinates[first..].iter();
+/// Coordinates of a row with this label: one, or those of a vector.
+fn rows_of(system: &Page, label: &str) -> Range<usize> {
+    let labels = system.problem.coordinates.iter();
     let labels = labels.map(|label| Notation::UNICODE.write(&Formula::labelled(&label.text, 0)));
     let is_it = |known: &String| {
-        let index = known.strip_prefix(label.as_str()).and_then(|rest| rest.strip_prefix('['));
+        let index = known.strip_prefix(label).and_then(|rest| rest.strip_prefix('['));
         known == label || index.is_some_and(|index| index.matches(']').count() == 1)
     };
-    let count = labels.take_while(is_it).count();
-    assert!(count > 0, "{label} has no coordinate in {}", system.text);
+    let mut labels = labels.enumerate().skip_while(|(_, known)| !is_it(known)).peekable();
+    let first = labels.peek().map(|(first, _)| *first);
+    let first = first.unwrap_or_else(|| panic!("{label} has no coordinate in {}", system.text));
+    first..first + labels.take_while(|(_, known)| is_it(known)).count()
+}
+
+fn check_element(system: &Page, rows: Range<usize>, index: Option<&RunningIndex>, equation: &str) {
     let equation = equation.split("   (").next().unwrap_or_default().trim();
     let has_running = index.is_some() || equation.contains('Σ') || equation.contains('∑');
     if let Some((left, right)) = equation.split_once(" = ").filter(|_| system.is_plain || !has_running) {
-        let rows = first..first + count;
         let computed = |sample: &mut Sample| left_over(system, sample, rows.clone());
-        check_sides(system, count, ([left, right], index.as_ref()), computed);
+        check_sides(system, rows.len(), ([left, right], index), computed);
     }
-    first + count
 }
 
-/// Values of a running index, as in `(for i = 1 … 30)`.
-struct Running {
-    index: String,
-    values: std::ops::RangeInclusive<i64>,
-}
+/// Name and value of a running index.
+type RunningIndex = (String, i64);
 
-impl Running {
-    fn of(line: &str) -> Option<Self> {
+/// Names of the elements that a line is about, `(for i = 1 … 30)`, with the running index.
+fn elements(line: &str, name: &str) -> Vec<(String, Option<RunningIndex>)> {
+    let running = || {
         let (_, range) = line.split_once("   (for ")?;
         let (index, range) = range.split(')').next()?.split_once(" = ")?;
         let (from, to) = range.split_once(" … ")?;
-        Some(Self { index: index.to_owned(), values: from.parse().ok()?..=to.parse().ok()? })
-    }
-
-    /// Name of an element, and the value of the index there.
-    fn at(&self, name: &str, value: i64) -> (String, Option<(String, i64)>) {
-        let name = name.replace(&format!("[{}]", self.index), &format!("[{value}]"));
-        (name, Some((self.index.clone(), value)))
-    }
+        let values = from.parse().ok()?..=to.parse().ok()?;
+        let at = |value| {
+            let name = name.replace(&format!("[{index}]"), &format!("[{value}]"));
+            (name, Some((index.to_owned(), value)))
+        };
+        Some(values.map(at).collect())
+    };
+    running().unwrap_or_else(|| vec![(name.to_owned(), None)])
 }
 
 pub(super) fn check_sides(
     system: &Page,
     count: usize,
-    (sides, index): ([&str; 2], Option<&(String, i64)>),
+    (sides, index): ([&str; 2], Option<&RunningIndex>),
     computed: impl Fn(&mut Sample) -> Vec<f64>,
 ) {
     let mut states = 0;
@@ -276,10 +278,8 @@ fn check_by_coordinate(
     let names: Vec<Formula> = names.collect();
     for line in lines {
         let left = line.split(" = ").next().expect("a side");
-        let elements = match Running::of(line).filter(|_| system.is_plain) {
-            Some(running) => running.values.clone().map(|value| running.at(left, value)).collect(),
-            None => vec![(left.to_owned(), None)],
-        };
+        let elements =
+            elements(line, left).into_iter().filter(|(_, index)| system.is_plain || index.is_none());
         for (left, index) in elements {
             let is_it = |name: &Formula| {
                 let written = |formula: &Formula| system.written(formula) == left;
@@ -304,7 +304,7 @@ pub(super) fn check_line(system: &Page, line: &str, computed: impl Fn(&mut Sampl
 fn check_element_of_line(
     system: &Page,
     line: &str,
-    index: Option<&(String, i64)>,
+    index: Option<&RunningIndex>,
     computed: impl Fn(&mut Sample) -> Value,
 ) {
     check_line_at(system, (line, index), |draw| {
@@ -317,7 +317,7 @@ fn check_element_of_line(
 /// The same at states that are given with their values.
 fn check_line_at(
     system: &Page,
-    (line, index): (&str, Option<&(String, i64)>),
+    (line, index): (&str, Option<&RunningIndex>),
     state: impl Fn(u64) -> Option<(Sample, Value)>,
 ) {
     let Some((_, text)) = line.split_once(" = ") else { return };
