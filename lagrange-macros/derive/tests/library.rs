@@ -54,6 +54,14 @@ fn equations_of_all_elements_hold_for_them() -> Result<(), Refusal> {
     assert!(weighted.contains("q[0]: q̈[0] = −1\n"), "{weighted}");
     let others = "q̈[i] = i (Σ(l = 0 … n − 1) q[l])/n + Σ(l = 0 … i − 1) sin(q[l] i) − 2 q[i] i/n   (for i = 1 … n − 1)";
     assert!(weighted.contains(others), "{weighted}");
+    let limited = printed(
+        "#[coordinates(q: [n])]
+         #[lagrangian(sum(i in 0..n, q_dot[i]^2/2))]
+         #[force(q[i in 0..n]: max(-f, min(f, sum(j in 0..n, clamp(q[j], -1, 1)))))]
+         struct S { n: usize, f: f64 }",
+    )?;
+    let force = "Q_q[i = 0 … n − 1] = max(−f, min(f, Σ(j = 0 … n − 1) clamp(q[j], −1, 1)))";
+    assert!(limited.contains(force), "{limited}");
     let product = printed(
         "#[coordinates(q: [n])]
          #[define(mean = sum(i in 0..n, q[i]))]

@@ -15,8 +15,8 @@ use super::{FROM_ZERO, Forms, html, latex};
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::many::{ElementRows, ElementSum, ManyConserved, ManyEquations, Over, Pattern, Region};
 use crate::mechanics::{self, Derived, Symmetry};
-use crate::resolve::many::{Affine, Range, Total};
-use crate::resolve::{Problem, families, vector};
+use crate::resolve::many::{Affine, Range, Total, totals};
+use crate::resolve::{Limit, Problem, families, vector};
 use crate::symbolic::{Graph, Id, Rational};
 use crate::syntax::Declaration;
 
@@ -28,11 +28,7 @@ pub(crate) fn render_many(
     equations: &ManyEquations,
 ) -> Forms {
     let derived = context(equations);
-    let page = |names| {
-        let mut page = Page::new(declaration, graph, problem, &derived, names);
-        page.write_totals();
-        page.many_forms(equations)
-    };
+    let page = |names| Page::new(declaration, graph, problem, &derived, names).many_forms(equations);
     let shortest = page(Names::Shortest);
     let [kept, written_out] = [Names::Kept, Names::WrittenOut].map(|names| match problem.names.is_empty() {
         true => shortest.clone(),
@@ -64,8 +60,7 @@ impl FamilyLines {
         let equations = mechanics::many::derive(&mut graph, &mut problem, &mut Diagnostics::default())?;
         equations.rows.iter().all(Option::is_some).then_some(())?;
         let derived = context(&equations);
-        let mut page = Page::new(declaration, &graph, &problem, &derived, names);
-        page.write_totals();
+        let page = Page::new(declaration, &graph, &problem, &derived, names);
         let energy = match page.energy_of_all(&equations.energies).equation {
             Equation::Known(_, energy) => Some(energy),
             _ => None,
@@ -294,9 +289,19 @@ impl Page<'_> {
         })
     }
 
-    /// Renders the sums in expressions, inner sums first.
-    fn write_totals(&mut self) {
-        for Total { level, range, body } in &self.problem.many.totals {
+    /// Renders the sums, and the calls of `min`, `max` and `clamp`, in expressions, inner ones first.
+    pub(super) fn write_sums_and_limits(&mut self) {
+        let mut limits: Vec<&Limit> = self.derived.limits(self.problem).collect();
+        for k in 0..=self.problem.many.totals.len() {
+            let is_ready =
+                |limit: &&Limit| totals(self.graph, &limit.arguments).into_iter().all(|total| total < k);
+            let (ready, others): (Vec<&Limit>, Vec<&Limit>) = limits.into_iter().partition(is_ready);
+            limits = others;
+            for Limit { value, name, arguments } in ready {
+                let arguments = arguments.iter().map(|&argument| self.derived(argument)).collect();
+                self.entries.insert(*value, Formula::Call(name.clone(), arguments));
+            }
+            let Some(Total { level, range, body }) = self.problem.many.totals.get_index(k) else { continue };
             let body = self.expression(*body).unwrap_or_else(|_| Formula::labelled("…", 0));
             let formula = self.sum_over_range(range, *level, body);
             self.totals.push(formula);

@@ -14,7 +14,7 @@ use super::notation::Notation;
 use super::reading::{Names, Reading, constants, readings};
 use super::roots::{NamedRoot, bases, named_roots};
 use crate::mechanics::Derived;
-use crate::resolve::{Limit, Problem, vector};
+use crate::resolve::{Problem, vector};
 use crate::symbolic::{Graph, Id, Node, Rational};
 use crate::syntax::{Declaration, Expression, Kind, Operator};
 use crate::variables::Variable;
@@ -59,7 +59,7 @@ pub(super) struct Page<'a> {
     pub(super) entries: FxHashMap<Id, Formula>,
     /// Equations stated once for all elements of an array.
     pub(super) families: Option<FamilyLines>,
-    /// Sums over ranges that are known when the program runs.
+    /// Sums over ranges that are known at run time.
     pub(super) totals: Vec<Formula>,
     /// True if the equations of motion are those of all elements.
     pub(super) is_by_families: bool,
@@ -108,10 +108,7 @@ impl<'a> Page<'a> {
             is_by_families: false,
             sums: Vec::new(),
         };
-        for Limit { value, name, arguments } in derived.limits(problem) {
-            let arguments = arguments.iter().map(|&argument| page.derived(argument)).collect();
-            page.entries.insert(*value, Formula::Call(name.clone(), arguments));
-        }
+        page.write_sums_and_limits();
         let norms = bases(graph, problem.lagrangian).into_iter();
         page.norms = norms.filter_map(|base| Some((base, page.norm(base)?))).collect();
         let by_name =
