@@ -13,7 +13,7 @@ use crate::resolve::many::{Affine, Array, Index, Slot, Unknown};
 use crate::symbolic::Id;
 use crate::syntax::numbers;
 
-/// Slots that address the same element in successive iterations of a loop: q[i] and q[i+1].
+/// Slots that address the same element in successive iterations of a loop: `q[i]` and `q[i + 1]`.
 struct Ring<'a> {
     /// Slot with the smallest offset. Later iterations do not reach its element.
     last: &'a Slot,
