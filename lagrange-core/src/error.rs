@@ -137,7 +137,7 @@ pub enum Error {
     /// The given state violates a constraint.
     Inconsistent {
         /// The constraint at fault.
-        constraint: &'static str,
+        constraint: Row,
         /// True if the rate of change F q̇ + b is violated, false if Φ is.
         rate: bool,
         /// Value of Φ or F q̇ + b, which should be zero.
@@ -155,7 +155,15 @@ pub enum Error {
     /// at that pose alone: no first derivative then tells which way a motion leaves rest.
     NoGradient {
         /// The constraint at fault.
-        constraint: &'static str,
+        constraint: Row,
+        /// The time of the state.
+        time: f64,
+    },
+    /// A constraint of a system of any number of bodies depends on others, so that its multiplier is not determined: its
+    /// pivot has lost half of its digits.
+    Dependent {
+        /// The constraint.
+        constraint: Row,
         /// The time of the state.
         time: f64,
     },
@@ -191,7 +199,7 @@ pub enum Error {
     /// Newton's iteration found no state on the constraints near the given one.
     NotProjected {
         /// Constraint farthest from being satisfied.
-        constraint: &'static str,
+        constraint: Row,
         /// Residual of that constraint.
         residual: f64,
         /// Iterations done.

@@ -210,6 +210,7 @@ pub use {
     linearized::{Linearization, MotionDerivatives},
     motion::{MotionBuilder, Taylor},
     solution::impact::Impact,
+    solution::many_constraints::ConstraintRows,
     system::ManyBodies,
     trajectory::{HybridTrajectory, SampledTrajectory, Trajectory},
 };

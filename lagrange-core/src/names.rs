@@ -51,6 +51,8 @@ pub enum Row {
     Constraint(&'static str),
     /// The equation of the coordinate of this name, in a system that writes its names.
     Written(WrittenName),
+    /// The constraint of this name, in a system that writes its names.
+    WrittenConstraint(WrittenName),
 }
 
 impl Display for Row {
@@ -59,6 +61,7 @@ impl Display for Row {
             Self::Coordinate(name) => write!(f, "coordinate `{name}`"),
             Self::Constraint(name) => write!(f, "constraint `{name}`"),
             Self::Written(name) => write!(f, "coordinate `{name}`"),
+            Self::WrittenConstraint(name) => write!(f, "constraint `{name}`"),
         }
     }
 }

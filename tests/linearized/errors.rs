@@ -36,7 +36,7 @@ fn names_are_checked() {
 #[test]
 fn a_state_off_the_constraints_has_no_linear_system() {
     let error = PENDULUM.linearize(&State::at_rest([0.0, -1.0]), &[]).unwrap_err();
-    assert!(matches!(error, Error::Inconsistent { constraint: "rod", .. }), "{error}");
+    assert!(matches!(error, Error::Inconsistent { constraint: Row::Constraint("rod"), .. }), "{error}");
 }
 
 #[test]

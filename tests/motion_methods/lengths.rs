@@ -3,7 +3,6 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use lagrange_core::generated::{factor_band, solve_band, with_scratch};
 use lagrange_core::motion::{AccelerationField, Composition};
 use lagrange_core::nalgebra::{Const, DVector, Dyn};
 use lagrange_core::structure::VelocityFreeForces;
@@ -391,66 +390,6 @@ fn a_system_may_have_no_coordinates() {
     ] {
         assert_eq!(ending, Ending::Complete { time: 3.0 });
     }
-}
-
-/// A bar between two walls in linear finite elements of length 1: its mass matrix has rows (1, 4, 1)/6.
-struct Bar {
-    nodes: usize,
-}
-
-impl System for Bar {
-    type Scalar = f64;
-    type Length = Dyn;
-    type M = Const<0>;
-    type Field = AccelerationField;
-
-    fn length(&self) -> Dyn {
-        Dyn(self.nodes)
-    }
-
-    fn accelerations(&self, _: f64, q: &[f64], _: &[f64], a: &mut [f64]) {
-        let at = |i: usize| q.get(i).copied().unwrap_or(0.0);
-        (0..q.len()).for_each(|i| a[i] = at(i.wrapping_sub(1)) - 2.0 * at(i) + at(i + 1));
-        with_scratch(2 * q.len(), |band| {
-            band.chunks_exact_mut(2).for_each(|row| row.copy_from_slice(&[1.0 / 6.0, 2.0 / 3.0]));
-            let least = factor_band(band, 1);
-            assert!(least > 0.5);
-            solve_band(band, 1, a);
-        });
-    }
-}
-
-/// A mode of the bar has ω² = 6 (1 − cos θ)/(2 + cos θ) with θ = πk/(n + 1). Its mass matrix is factorized at each evaluation, in scratch
-/// memory: after the first steps nothing is allocated.
-#[test]
-fn a_mode_of_a_bar_keeps_its_shape_and_allocates_nothing() {
-    let (n, k) = (60, 7.0);
-    let angle = std::f64::consts::PI * k / (n as f64 + 1.0);
-    let omega = (6.0 * (1.0 - angle.cos()) / (2.0 + angle.cos())).sqrt();
-    let shape = DVector::from_fn(n, |i, _| (angle * (i as f64 + 1.0)).sin());
-    let mode = generic::State { t: 0.0, q: shape.clone(), v: DVector::zeros(n) };
-    let mut motion = Motion::new(Bar { nodes: n }, mode, Dop853::with_tolerance(1e-12)).unwrap();
-    motion.advance_to(1.0).unwrap();
-    let used = allocation_counter::measure(|| motion.advance_to(40.0).unwrap());
-    assert_eq!(used.count_total, 0);
-    for (x, shape) in motion.state().q.iter().zip(&shape) {
-        assert!((x - (40.0 * omega).cos() * shape).abs() < 1e-10);
-    }
-}
-
-/// Once calls have been made, the same calls find their scratch memory again, on each thread and within one another.
-#[test]
-fn scratch_memory_is_found_again() {
-    let nested = || {
-        let inner = |outer: &mut [f64]| with_scratch(50, |inner: &mut [f64]| inner.len() + outer.len());
-        assert_eq!(with_scratch(100, inner), 150);
-    };
-    let count = move || {
-        nested();
-        allocation_counter::measure(|| (0..100).for_each(|_| nested())).count_total
-    };
-    assert_eq!(count(), 0);
-    assert_eq!(std::thread::spawn(count).join().unwrap(), 0);
 }
 
 /// Once a motion has begun, its steps allocate nothing.

@@ -2,6 +2,7 @@
 //!
 //! A failure says the number of its case.
 
+use lagrange_core::error::Row;
 use lagrange_core::nalgebra::Const;
 use lagrange_core::{SolutionOf, prelude::*};
 use lagrange_random::{Random, cases};
@@ -79,7 +80,7 @@ pub(crate) fn linkage(random: &mut Random, error: f64) -> (Loop, State<f64, 3>) 
 }
 
 pub(crate) fn is_refused<T>(found: &Result<T, Error>) -> bool {
-    matches!(found, Err(Error::NoGradient { constraint: "closed[2]" | "rope", .. }))
+    matches!(found, Err(Error::NoGradient { constraint: Row::Constraint("closed[2]" | "rope"), .. }))
 }
 
 #[test]

@@ -4,6 +4,7 @@
 
 use std::f64::consts::PI;
 
+use lagrange_core::error::Row;
 use lagrange_core::nalgebra::Vector3;
 use lagrange_core::prelude::*;
 use lagrange_random::{Random, cases};
@@ -88,7 +89,7 @@ fn is_told(state: &State<f64, 3>, a: [f64; 3], l: f64) -> bool {
 }
 
 fn is_without_gradient<T>(found: &Result<T, Error>) -> bool {
-    matches!(found, Err(Error::NoGradient { constraint: "c", .. }))
+    matches!(found, Err(Error::NoGradient { constraint: Row::Constraint("c"), .. }))
 }
 
 #[test]

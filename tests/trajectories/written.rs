@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use lagrange_core::error::Row;
 use lagrange_core::prelude::*;
 use lagrange_core::{
     Ending, Solution, Statistics, hamiltonian::PhaseDerivative, nalgebra::Const, trajectory::Records,
@@ -107,7 +108,8 @@ fn endings_are_written_with_their_names() {
     let path = BlowUp.motion(START).towards(3.0).unwrap();
     let written = to_value(path.ending()).unwrap();
     assert_eq!((&written["ending"], &written["entry"]), (&json!("StepTooSmall"), &json!("x_dot")));
-    let error = Error::NotProjected { constraint: "rod", residual: 1.0, iterations: 3, time: 2.0 };
+    let error =
+        Error::NotProjected { constraint: Row::Constraint("rod"), residual: 1.0, iterations: 3, time: 2.0 };
     let ending = Ending::OffConstraints { time: 2.0, error: error.clone() };
     let expected = json!({ "ending": "OffConstraints", "time": 2.0, "error": error.to_string() });
     assert_eq!(to_value(ending).unwrap(), expected);

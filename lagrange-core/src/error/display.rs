@@ -78,12 +78,16 @@ impl Display for Error {
             ),
             Self::Inconsistent { constraint, rate, residual, time } => write!(
                 f,
-                "the state violates constraint `{constraint}` at t = {time}: its {} is {residual:e}, not 0; call `make_consistent` first",
+                "the state violates {constraint} at t = {time}: its {} is {residual:e}, not 0; call `make_consistent` first",
                 if *rate { "rate F q_dot + b" } else { "residual" }
             ),
             Self::NoGradient { constraint, time } => write!(
                 f,
-                "the gradient of constraint `{constraint}` vanishes at t = {time}, where it holds, so that it fixes no acceleration; write it by a function that changes sign there, as `sin(a) = 0` for `cos(a) = 1` or `x - y = 0` for `(x - y)^2 = 0`, or leave it out if others imply it, or the parameters alone; if it vanishes at this pose alone, start beside it"
+                "the gradient of {constraint} vanishes at t = {time}, where it holds, so that it fixes no acceleration; write it by a function that changes sign there, as `sin(a) = 0` for `cos(a) = 1` or `x - y = 0` for `(x - y)^2 = 0`, or leave it out if others imply it, or the parameters alone; if it vanishes at this pose alone, start beside it"
+            ),
+            Self::Dependent { constraint, time } => write!(
+                f,
+                "{constraint} depends on others at t = {time}, so that its multiplier is not determined; leave out a constraint that others imply, or start beside a pose like this one"
             ),
             Self::DependentToFirstOrder { constraints, time } => write!(
                 f,
@@ -99,7 +103,7 @@ impl Display for Error {
             ),
             Self::NotProjected { constraint, residual, iterations, time } => write!(
                 f,
-                "no consistent state found near the one given at t = {time}: constraint `{constraint}` has residual {residual:e} after {iterations} iterations; start closer to the constraints, or check that they can hold together"
+                "no consistent state found near the one given at t = {time}: {constraint} has residual {residual:e} after {iterations} iterations; start closer to the constraints, or check that they can hold together"
             ),
             Self::HeldTooMuch { constraint, rate, residual, held, time } => write!(
                 f,

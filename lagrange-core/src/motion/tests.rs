@@ -275,7 +275,7 @@ fn each_error_is_the_ending_that_says_it() {
     let of = |error: Error| Ending::of(error, time);
     let row = crate::names::Row::Constraint(constraint);
     assert_eq!(of(Error::EquationsNotFinite { row, time: 3.0 }), Ending::NotFinite { time, row });
-    let error = Error::NotProjected { constraint, residual: 1.0, iterations: 3, time: 3.0 };
+    let error = Error::NotProjected { constraint: row, residual: 1.0, iterations: 3, time: 3.0 };
     assert_eq!(of(error.clone()), Ending::OffConstraints { time, error });
     let error = Error::Contradictory { constraint, time: 3.0 };
     assert_eq!(of(error.clone()), Ending::Contradictory { time, error });

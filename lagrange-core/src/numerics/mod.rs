@@ -3,7 +3,7 @@
 //! | file | method | where nalgebra does not serve |
 //! |---|---|---|
 //! | `ldl` | LDLᵀ without pivoting | numbers are lanes, dual numbers and power series; nothing branches |
-//! | `band` | the same of band matrices, whose size is known when the program runs | the work is n w², not n³ |
+//! | `sparse` | the same of sparse matrices, whose pattern is known when the program runs | no fill where none is needed; no allocation once the pattern is known |
 //! | `symmetric` | LDLᵀ of indefinite matrices, complete pivoting | rank, null vectors, directions of negative curvature |
 //! | `qr` | QR with pivoting, lengths that are constants | rank by a tolerance, no allocator, lengths that do not overflow |
 //! | `least_norm` | QR with pivoting, lengths that are not | solutions of least norm of equations that depend on one another |
@@ -14,7 +14,6 @@
 //! | `bracket` | zero between two points of opposite sign | – |
 //! | `spread`, `bare` | evenly distributed numbers; arithmetic without a library of functions | – |
 
-pub(crate) mod band;
 #[cfg(feature = "alloc")]
 pub(crate) mod bare;
 pub(crate) mod bracket;
@@ -31,5 +30,7 @@ pub(crate) mod newton;
 pub(crate) mod qr;
 #[cfg(feature = "alloc")]
 pub(crate) mod singular;
+#[cfg(feature = "alloc")]
+pub(crate) mod sparse;
 pub(crate) mod spread;
 pub(crate) mod symmetric;

@@ -39,6 +39,27 @@ pub trait StatedField<L: System<Scalar: Real>>: NamedField<L> {
 
     /// Calls `visit` with each number of the fields.
     fn visit_fields(system: &L, visit: &mut dyn FnMut(f64));
+
+    /// Reason why a state has no accelerations, if it is not one of numbers.
+    fn fault(_: &L, _: &StateOf<L>) -> Option<Error> {
+        None
+    }
+
+    /// Checks that a state satisfies the constraints, to √ε.
+    ///
+    /// # Errors
+    /// [`Error::Inconsistent`].
+    fn check_constraints(_: &L, _: &StateOf<L>) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Projects a state near the constraints onto them, to round-off.
+    ///
+    /// # Errors
+    /// [`Error::NotProjected`].
+    fn project(_: &L, _: &mut StateOf<L>) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 impl<L: System<Scalar: Real>> NamedField<L> for AccelerationField {
@@ -80,7 +101,11 @@ where
         system.accelerations(point.t, point.y.view(0), point.y.view(1), rates.view_mut(1));
         if !are_finite(&rates[1]) {
             let row = rates[1].iter().position(|a| !Parts::is_finite(*a)).unwrap_or(0);
-            return Err(Error::EquationsNotFinite { row: Self::row(system, row), time: point.t.to_f64() });
+            let not_finite =
+                Error::EquationsNotFinite { row: Self::row(system, row), time: point.t.to_f64() };
+            let fault =
+                <Self as StatedField<L>>::fault(system, &<Self as VectorField<L>>::state(system, point));
+            return Err(fault.unwrap_or(not_finite));
         }
         Ok(ActiveConstraints {
             active: Array::filled(true),
@@ -95,7 +120,9 @@ where
     }
 
     fn project(system: &L, point: &StagePoint<L::Scalar, L::Length>) -> Result<StateOf<L>, Error> {
-        Ok(<Self as VectorField<L>>::state(system, point))
+        let mut state = <Self as VectorField<L>>::state(system, point);
+        <Self as StatedField<L>>::project(system, &mut state)?;
+        Ok(state)
     }
 }
 
@@ -150,12 +177,15 @@ where
         <Self as VectorField<L>>::evaluate(system, &point, None, &mut rates).map(|_| ())
     }
 
-    fn check_constraints(_: &L, _: &StateOf<L>) -> Result<(), Error> {
-        Ok(())
+    fn check_constraints(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        <Self as StatedField<L>>::check_constraints(system, state)
     }
 
     fn adjust(system: &L, state: &StateOf<L>) -> Result<Consistent<L::Scalar, L::Length>, Error> {
-        Ok((state.clone(), Adjustment::none(system.length())))
+        let mut settled = state.clone();
+        <Self as StatedField<L>>::project(system, &mut settled)?;
+        let adjustment = Adjustment::between(state, &settled);
+        Ok((settled, adjustment))
     }
 
     fn visit_numbers(system: &L, visit: &mut dyn FnMut(f64)) {

@@ -6,6 +6,7 @@ use nalgebra::DVector;
 
 use super::acceleration_field::{Stated, StatedField};
 use super::energy_field::EnergyField;
+use super::many_constraints;
 use super::named_field::NamedField;
 use crate::error::Error;
 use crate::facts::{Conserved, Evidence};
@@ -54,5 +55,17 @@ impl<L: ManyBodies<Scalar: Real>> StatedField<L> for ManyBodyField {
 
     fn visit_fields(system: &L, visit: &mut dyn FnMut(f64)) {
         system.visit_numbers(&mut |number| visit(number.to_f64()));
+    }
+
+    fn fault(system: &L, state: &StateOf<L>) -> Option<Error> {
+        many_constraints::fault(system, state)
+    }
+
+    fn check_constraints(system: &L, state: &StateOf<L>) -> Result<(), Error> {
+        many_constraints::check(system, state)
+    }
+
+    fn project(system: &L, state: &mut StateOf<L>) -> Result<(), Error> {
+        many_constraints::project(system, state)
     }
 }

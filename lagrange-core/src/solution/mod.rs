@@ -12,6 +12,8 @@ pub(crate) mod kkt;
 pub(crate) mod limits;
 #[cfg(feature = "alloc")]
 pub(crate) mod many_body_field;
+#[cfg(feature = "alloc")]
+pub(crate) mod many_constraints;
 pub(crate) mod named_field;
 pub(crate) mod near;
 pub(crate) mod pivot;

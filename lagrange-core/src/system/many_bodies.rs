@@ -7,8 +7,10 @@ use nalgebra::{Const, DVector, Dyn};
 use super::moving::System;
 use super::state::State;
 use crate::error::Error;
-use crate::number::Scalar;
+use crate::number::{Real, Scalar};
+use crate::solution::consistent::Consistent;
 use crate::solution::many_body_field::ManyBodyField;
+use crate::solution::many_constraints::{self, ConstraintRows};
 
 /// A system of any number of bodies, as `#[derive(Lagrangian)]` emits it where the length of a coordinate has a name
 /// ([the language](crate::language#any-number-of-bodies)).
@@ -132,6 +134,73 @@ pub trait ManyBodies: System<Length = Dyn, M = Const<0>, Field = ManyBodyField> 
 
     /// Generalized momenta p = ∂L/∂q̇.
     fn momenta(&self, state: &State<Self::Scalar, Dyn>) -> DVector<Self::Scalar>;
+
+    /// Writes the accelerations without the forces of constraints, as [`accelerations`](System::accelerations) writes those with them.
+    /// Without constraints they are the same.
+    fn free_accelerations(
+        &self,
+        t: Self::Scalar,
+        q: &[Self::Scalar],
+        v: &[Self::Scalar],
+        a: &mut [Self::Scalar],
+    ) where
+        Self: Sized,
+    {
+        self.accelerations(t, q, v, a);
+    }
+
+    /// Divides a vector of forces by the mass matrix. A system without constraints needs no such method.
+    fn divide_by_masses(
+        &self,
+        _t: Self::Scalar,
+        _q: &[Self::Scalar],
+        _v: &[Self::Scalar],
+        _forces: &mut [Self::Scalar],
+    ) {
+    }
+
+    /// States the constraints at a state, row by row. Without this method there are none.
+    fn constraints(
+        &self,
+        _t: Self::Scalar,
+        _q: &[Self::Scalar],
+        _v: &[Self::Scalar],
+        _rows: &mut ConstraintRows<Self::Scalar>,
+    ) {
+    }
+
+    /// Writes the name of a constraint: `rod[3]`.
+    ///
+    /// # Errors
+    /// Those of `to`.
+    fn write_constraint_name(&self, _constraint: usize, _to: &mut dyn fmt::Write) -> fmt::Result {
+        Ok(())
+    }
+
+    /// Multipliers λ of the constraints at a state, in the order of the constraints and of their elements.
+    ///
+    /// # Errors
+    /// [`Error::Dependent`], [`Error::NoGradient`] and [`Error::EquationsNotFinite`].
+    fn multipliers(&self, state: &State<Self::Scalar, Dyn>) -> Result<DVector<Self::Scalar>, Error>
+    where
+        Self: Sized,
+        Self::Scalar: Real,
+    {
+        many_constraints::multipliers(self, state)
+    }
+
+    /// Projects a state onto the constraints by Newton's method: the coordinates onto those that are holonomic, then the velocities onto
+    /// all. Each correction is the least in the metric of the mass matrix. Returns the state and its displacement.
+    ///
+    /// # Errors
+    /// [`Error::NotProjected`], [`Error::Dependent`] and [`Error::NoGradient`].
+    fn project(&self, state: &State<Self::Scalar, Dyn>) -> Result<Consistent<Self::Scalar, Dyn>, Error>
+    where
+        Self: Sized,
+        Self::Scalar: Real,
+    {
+        many_constraints::make_consistent(self, state)
+    }
 
     /// State at t = 0 with these coordinates and velocities, in the order of their names: `r[0][0]`, `r[0][1]`, …. Their numbers are
     /// compared with the [length](System::length) of the system when a motion starts.

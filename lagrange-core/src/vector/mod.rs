@@ -8,7 +8,7 @@ mod nalgebra;
 mod phase_vector;
 #[cfg(feature = "alloc")]
 pub(crate) mod run_time;
-#[cfg(feature = "std")]
+#[cfg(feature = "alloc")]
 pub(crate) mod scratch;
 
 pub(crate) use array::from_fn;

@@ -1,35 +1,37 @@
-//! Scratch vectors for functions that take a shared reference and must not allocate at each call.
+//! Scratch memory for functions that take a shared reference and must not allocate at each call.
 
+#[cfg(feature = "std")]
 use alloc::{boxed::Box, vec::Vec};
-use core::any::Any;
-use core::cell::RefCell;
+#[cfg(feature = "std")]
+use core::{any::Any, cell::RefCell};
 
-use crate::number::Scalar;
-
+#[cfg(feature = "std")]
 std::thread_local! {
-    /// For each type of number a `Vec<Vec<T>>`: the vectors that no call on this thread uses.
+    /// For each type of scratch memory a `Vec<S>`: those that no call on this thread uses.
     static UNUSED: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Calls a function with a vector of `length` numbers of any value. Vectors are kept for later calls on the same thread: once calls
-/// have been made with the same lengths and nested as deeply, they allocate nothing.
-pub fn with_scratch<T: Scalar, R>(length: usize, function: impl FnOnce(&mut [T]) -> R) -> R {
-    let mut vector: Vec<T> = on_unused(Vec::pop).flatten().unwrap_or_default();
-    if vector.len() < length {
-        vector.resize(length, T::constant(0.0));
-    }
-    let result = function(&mut vector[..length]);
-    on_unused(|unused| unused.push(vector));
+/// Calls a function with scratch memory, in which it finds what an earlier call left. Memory is kept for later calls on the same thread:
+/// once calls have been nested as deeply, no new one is made. Without `std` each call has a new one.
+pub(crate) fn with_scratch<S: Default + 'static, R>(function: impl FnOnce(&mut S) -> R) -> R {
+    #[cfg(feature = "std")]
+    let mut scratch: S = on_unused(Vec::pop).flatten().unwrap_or_default();
+    #[cfg(not(feature = "std"))]
+    let mut scratch = S::default();
+    let result = function(&mut scratch);
+    #[cfg(feature = "std")]
+    on_unused(|unused| unused.push(scratch));
     result
 }
 
-/// Calls a function with the unused vectors of a type; `None` while the thread ends.
-fn on_unused<T: Scalar, R>(function: impl FnOnce(&mut Vec<Vec<T>>) -> R) -> Option<R> {
+/// Calls a function with the unused memory of a type; `None` while the thread ends.
+#[cfg(feature = "std")]
+fn on_unused<S: 'static, R>(function: impl FnOnce(&mut Vec<S>) -> R) -> Option<R> {
     let on_types = |types: &mut Vec<Box<dyn Any>>| {
-        let known = types.iter().position(|unused| unused.is::<Vec<Vec<T>>>());
+        let known = types.iter().position(|unused| unused.is::<Vec<S>>());
         let place = known.unwrap_or(types.len());
         if known.is_none() {
-            types.push(Box::new(Vec::<Vec<T>>::new()));
+            types.push(Box::new(Vec::<S>::new()));
         }
         types[place].downcast_mut().map(function)
     };
@@ -38,57 +40,60 @@ fn on_unused<T: Scalar, R>(function: impl FnOnce(&mut Vec<Vec<T>>) -> R) -> Opti
 
 #[cfg(test)]
 mod tests {
+    use alloc::{vec, vec::Vec};
+
     use super::*;
 
-    /// Address of a scratch vector.
-    fn place<T: Scalar>(scratch: &mut [T]) -> usize {
-        scratch.as_ptr() as usize
-    }
-
     #[test]
-    fn a_vector_is_used_again() {
-        let first = with_scratch::<f64, _>(100, place);
-        assert_eq!(with_scratch::<f64, _>(7, place), first);
-        assert_eq!(with_scratch::<f64, _>(100, |scratch| scratch.len()), 100);
-        with_scratch::<f64, _>(0, |scratch| assert!(scratch.is_empty()));
+    fn memory_is_used_again() {
+        with_scratch(|numbers: &mut Vec<i64>| numbers.push(5));
+        assert_eq!(with_scratch(|numbers: &mut Vec<i64>| numbers.clone()), [5]);
     }
 
-    /// Calls within one another have vectors of their own, and find them again.
+    /// Calls within one another have memory of their own, and find it again.
     #[test]
     fn nested_calls_share_nothing() {
         let nested = || {
-            with_scratch::<f64, _>(3, |outer| {
-                outer.fill(1.0);
-                let inner = with_scratch::<f64, _>(5, |inner| {
-                    inner.fill(2.0);
-                    with_scratch::<f32, _>(4, |other| other.fill(3.0));
-                    assert_eq!(inner, [2.0; 5]);
-                    place(inner)
+            with_scratch(|outer: &mut Vec<i8>| {
+                *outer = vec![1; 3];
+                let inner = with_scratch(|inner: &mut Vec<i8>| {
+                    *inner = vec![2; 5];
+                    with_scratch(|other: &mut Vec<i16>| other.push(3));
+                    assert_eq!(*inner, [2; 5]);
+                    inner.as_ptr() as usize
                 });
-                assert_eq!(outer, [1.0; 3]);
-                [place(outer), inner]
+                assert_eq!(*outer, [1; 3]);
+                [outer.as_ptr() as usize, inner]
             })
         };
-        assert_eq!(nested(), nested());
+        nested();
+        let places = || {
+            with_scratch(|outer: &mut Vec<i8>| {
+                with_scratch(|inner: &mut Vec<i8>| {
+                    [outer.as_ptr(), inner.as_ptr()].map(|place| place as usize)
+                })
+            })
+        };
+        assert_eq!(places(), places());
     }
 
     #[test]
     fn threads_share_nothing() {
-        with_scratch::<f64, _>(3, |ours| {
-            ours.fill(1.0);
-            let theirs = || with_scratch::<f64, _>(3, |theirs| theirs.fill(2.0));
+        with_scratch(|ours: &mut Vec<u8>| {
+            ours.push(1);
+            let theirs = || with_scratch(|theirs: &mut Vec<u8>| theirs.push(2));
             std::thread::scope(|scope| {
                 (0..2).for_each(|_| drop(scope.spawn(theirs)));
             });
-            assert_eq!(ours, [1.0; 3]);
+            assert_eq!(*ours, [1]);
         });
     }
 
-    /// A function that panics loses its vector alone.
+    /// A function that panics loses its memory alone.
     #[test]
     fn a_panic_leaves_the_others() {
-        let panics = || with_scratch::<f64, ()>(3, |_| panic!("on purpose"));
+        let panics = || with_scratch::<Vec<u16>, ()>(|_| panic!("on purpose"));
         assert!(std::panic::catch_unwind(panics).is_err());
-        assert_eq!(with_scratch::<f64, _>(3, |scratch| scratch.len()), 3);
+        assert!(with_scratch(|numbers: &mut Vec<u16>| numbers.is_empty()));
     }
 }

@@ -10,7 +10,7 @@ use super::states::{LegFriction, LegStates};
 use super::{Contact, Contacts, Friction};
 use crate::error::Error;
 use crate::motion::Simulate;
-use crate::names::name;
+use crate::names::{Row, name};
 use crate::number::limits::{ACCUMULATED, CANCELLED, SUM};
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::consistent::gradient;
@@ -117,7 +117,7 @@ impl<L: Contacts<Scalar: Real> + Clone> Bodies<L> {
         state: &StateOf<L>,
     ) -> Result<(), Error> {
         self.with(&LegStates::closed::<L>(is_closed)).check_consistent(state).map_err(|error| match error {
-            Error::Inconsistent { constraint: contact, rate, residual, time }
+            Error::Inconsistent { constraint: Row::Constraint(contact), rate, residual, time }
                 if (0..L::CONTACTS.len()).any(|k| self.name(k) == contact) =>
             {
                 Error::ClosedApart { contact, rate, residual, time }

@@ -6,7 +6,7 @@
 
 use super::level::Level;
 use crate::error::Error;
-use crate::names::name;
+use crate::names::{Row, name};
 use crate::number::limits::SUM;
 use crate::number::{Real, Scalar, larger, power_of_epsilon};
 use crate::solution::limits::{ASIDE, MARGIN};
@@ -25,7 +25,10 @@ pub(crate) fn check<L: Lagrangian<Scalar: Real>>(system: &L, state: &StateOf<L>)
     let is_at_fault = |&a: &usize| holds(system, state, a) && is_felt(system, state, a);
     match (0..<L::M>::COUNT).filter(|&a| vanishing[a]).find(is_at_fault) {
         None => Ok(()),
-        Some(a) => Err(Error::NoGradient { constraint: name(L::CONSTRAINTS, a), time: state.t.to_f64() }),
+        Some(a) => {
+            let constraint = Row::Constraint(name(L::CONSTRAINTS, a));
+            Err(Error::NoGradient { constraint, time: state.t.to_f64() })
+        }
     }
 }
 
@@ -46,7 +49,10 @@ pub(crate) fn check_parameters<L: Lagrangian<Scalar: Real>>(
     };
     match (0..<L::M>::COUNT).find(is_nothing) {
         None => Ok(()),
-        Some(a) => Err(Error::NoGradient { constraint: name(L::CONSTRAINTS, a), time: state.t.to_f64() }),
+        Some(a) => {
+            let constraint = Row::Constraint(name(L::CONSTRAINTS, a));
+            Err(Error::NoGradient { constraint, time: state.t.to_f64() })
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The two levels of constraints, positions and velocities, and their residuals.
 
 use crate::error::Error;
-use crate::names::name;
+use crate::names::{Row, name};
 use crate::number::limits::{CANCELLED, CHANGE};
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon, smaller, sum};
 use crate::system::{ConstraintKind, Lagrangian, State, StateOf};
@@ -163,7 +163,7 @@ pub(crate) fn check_level<L: Lagrangian<Scalar: Real>>(
     match residual.first_above(power_of_epsilon(0.5)) {
         None => Ok(()),
         Some(row) => Err(Error::Inconsistent {
-            constraint: name(L::CONSTRAINTS, row),
+            constraint: Row::Constraint(name(L::CONSTRAINTS, row)),
             rate: level == Level::Velocity,
             residual: residual.value[row].to_f64(),
             time: state.t.to_f64(),

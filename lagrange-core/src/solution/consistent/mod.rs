@@ -18,7 +18,7 @@ use core::fmt::{self, Display, Formatter};
 use nalgebra::ComplexField;
 
 use crate::error::Error;
-use crate::names::name;
+use crate::names::{Row, name};
 use crate::number::limits::{CANCELLED, ITERATIONS};
 use crate::number::{Real, Scalar, largest};
 use crate::numerics::newton::{self, Left, Search, halvings};
@@ -50,6 +50,16 @@ impl<T: Real, N: Length> Adjustment<T, N> {
     pub(crate) fn none(length: N) -> Self {
         let none = vector_of::<_, N>(length.count(), T::constant(0.0));
         Self { q: none.clone(), v: none }
+    }
+
+    /// Returns the displacement from one state to another.
+    pub(crate) fn between(given: &State<T, N>, projected: &State<T, N>) -> Self {
+        let change = |from: &VectorOf<T, N>, to: &VectorOf<T, N>| {
+            let mut change = to.clone();
+            change.entries_mut().iter_mut().zip(from.entries()).for_each(|(to, from)| *to = *to - *from);
+            change
+        };
+        Self { q: change(&given.q, &projected.q), v: change(&given.v, &projected.v) }
     }
 
     /// Returns the largest change of a coordinate, in magnitude.
@@ -112,7 +122,7 @@ fn adjusted<L: Lagrangian<Scalar: Real>>(
         }
         error => error,
     })?;
-    Ok((consistent, Adjustment { q: consistent.q.minus(&state.q), v: consistent.v.minus(&state.v) }))
+    Ok((consistent, Adjustment::between(state, &consistent)))
 }
 
 /// Projects the coordinates, the velocities or both, the coordinates first, to the nearest ones on their
@@ -326,6 +336,7 @@ impl<L: Lagrangian<Scalar: Real>> Search for Projection<'_, L> {
         let left = residual.value.get(row).map_or(f64::NAN, |value| value.to_f64());
         let time = state.t.to_f64();
         if !self.held.contains(&true) {
+            let constraint = Row::Constraint(constraint);
             return Error::NotProjected { constraint, residual: left, iterations: steps, time };
         }
         let held = (0..<L::N>::COUNT).filter(|&i| self.held[i]).map(|i| L::COORDINATES[i]).collect();

@@ -1,3 +1,4 @@
+use crate::names::Row;
 use nalgebra::Const;
 
 use crate::fixtures::{Mechanism, dependent_on_the_manifold, identity, rolling_sphere, spherical_pendulum};
@@ -70,11 +71,14 @@ fn constraints_that_cannot_hold_are_named() {
     };
     let error = system.make_consistent(&State::at_rest([0.3])).unwrap_err();
     assert!(
-        matches!(error, Error::NotProjected { constraint: "c0", residual, .. } if residual >= 1.0),
+        matches!(error, Error::NotProjected { constraint: Row::Constraint("c0"), residual, .. } if residual >= 1.0),
         "{error}"
     );
     let error = spherical_pendulum().make_consistent(&State::at_rest([0.0; 3])).unwrap_err();
-    assert!(matches!(error, Error::NotProjected { constraint: "c0", residual: -0.5, .. }), "{error}");
+    assert!(
+        matches!(error, Error::NotProjected { constraint: Row::Constraint("c0"), residual: -0.5, .. }),
+        "{error}"
+    );
 }
 
 #[test]
@@ -113,11 +117,17 @@ fn an_inconsistent_start_is_refused_with_its_constraint() {
     let pendulum = spherical_pendulum();
     let off = State::at_rest([0.6, 0.0, -0.81]);
     let error = pendulum.integrate(off, 1.0, Dop853::default()).unwrap_err();
-    assert!(matches!(error, Error::Inconsistent { constraint: "c0", rate: false, .. }), "{error}");
+    assert!(
+        matches!(error, Error::Inconsistent { constraint: Row::Constraint("c0"), rate: false, .. }),
+        "{error}"
+    );
     assert!(std::format!("{error}").contains("call `make_consistent`"));
     let off = State::new([0.0, 0.0], [1.0, 9.9]);
     let error = rolling_sphere().integrate(off, 1.0, Dop853::default()).unwrap_err();
-    assert!(matches!(error, Error::Inconsistent { constraint: "c0", rate: true, .. }), "{error}");
+    assert!(
+        matches!(error, Error::Inconsistent { constraint: Row::Constraint("c0"), rate: true, .. }),
+        "{error}"
+    );
     let nearly = State::at_rest([0.6, 0.0, -0.8 + 1e-9]);
     let path = pendulum.integrate(nearly, 0.1, Dop853::default()).unwrap();
     let moved = path.adjustment().largest_coordinate_change();
@@ -206,7 +216,10 @@ fn too_much_held_is_said_with_the_constraint() {
     );
     // If the constraints cannot hold with all entries free, the held entries are not blamed.
     let error = pendulum.make_consistent_holding(&State::at_rest([0.0; 3]), &["x"]).unwrap_err();
-    assert!(matches!(error, Error::NotProjected { constraint: "c0", residual: -0.5, .. }), "{error}");
+    assert!(
+        matches!(error, Error::NotProjected { constraint: Row::Constraint("c0"), residual: -0.5, .. }),
+        "{error}"
+    );
     // All entries may be held if the state is consistent.
     let on = State::new([0.6, 0.0, -0.8], [0.8, 3.0, 0.6]);
     assert_eq!(

@@ -1,3 +1,4 @@
+use crate::names::Row;
 use nalgebra::{Const, SMatrix};
 
 use super::*;
@@ -201,7 +202,7 @@ fn a_constraint_without_a_gradient_is_named() {
     let error = system.solve(&State::new([0.0], [1.0])).unwrap_err();
     assert_eq!(error, Error::Contradictory { constraint: "c0", time: 0.0 });
     let error = system.solve(&State::at_rest([0.0])).unwrap_err();
-    assert_eq!(error, Error::NoGradient { constraint: "c0", time: 0.0 });
+    assert_eq!(error, Error::NoGradient { constraint: Row::Constraint("c0"), time: 0.0 });
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::contact::ForceDerivatives;
 use crate::contact::across::bodies::Bodies;
 use crate::contact::across::reactions::ReactionProblem;
 use crate::error::Error;
-use crate::names::name;
+use crate::names::{Row, name};
 use crate::number::Real;
 use crate::number::limits::ITERATIONS;
 use crate::system::StateOf;
@@ -44,7 +44,7 @@ impl<L: ForceDerivatives<Scalar: Real> + Clone> Middle<L> {
             return Some(Error::Penetration { contact, gap: gaps[row].to_f64(), time });
         }
         let off = (0..<L::M>::COUNT).find(|&a| residual[a].to_f64().abs() > allowed[a])?;
-        let (constraint, residual) = (name(L::CONSTRAINTS, off), residual[off].to_f64());
+        let (constraint, residual) = (Row::Constraint(name(L::CONSTRAINTS, off)), residual[off].to_f64());
         Some(Error::NotProjected { constraint, residual, iterations: ITERATIONS, time })
     }
 

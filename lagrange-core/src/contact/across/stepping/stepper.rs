@@ -11,7 +11,7 @@ use crate::contact::across::builder::{Builder, Stepwise};
 use crate::contact::across::limits::INSTANT;
 use crate::contact::{Contacts, ForceDerivatives, ImpactLaw};
 use crate::error::{Ending, Error};
-use crate::names::name;
+use crate::names::{Row, name};
 use crate::number::limits::CANCELLED;
 use crate::number::{Real, Scalar};
 use crate::solution::Sample;
@@ -197,7 +197,7 @@ fn check_start<L: ForceDerivatives<Scalar: Real> + Clone>(
         let allowed =
             L::Scalar::EPSILON * CANCELLED * sizes[a].to_f64() + 2.0 * scheme.step * turns[a].to_f64().abs();
         if Scalar::abs(rates[a]).to_f64() > allowed + middle.touching[a] / scheme.step {
-            let (constraint, time) = (name(L::CONSTRAINTS, a), state.t.to_f64());
+            let (constraint, time) = (Row::Constraint(name(L::CONSTRAINTS, a)), state.t.to_f64());
             return Err(Error::Inconsistent { constraint, rate: true, residual: rates[a].to_f64(), time });
         }
     }

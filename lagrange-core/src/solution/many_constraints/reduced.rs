@@ -1,0 +1,195 @@
+//! The equations for the multipliers, (F M⁻¹ Fᵀ) λ = r.
+//!
+//! M couples the coordinates of one element alone, so that M⁻¹ of all elements comes from as many divisions by M as an element has
+//! coordinates: each of vectors with a one in every element. Which entries F M⁻¹ Fᵀ has follows from the coordinates in the rows; as long
+//! as these are the same, only values change.
+
+use alloc::collections::BTreeSet;
+use alloc::vec::Vec;
+
+use super::rows::{ConstraintRows, Pattern, Row};
+use crate::number::Scalar;
+use crate::numerics::sparse::SparseLdl;
+use crate::system::ManyBodies;
+
+/// Equations for the multipliers at a state, and memory for the next ones.
+pub(super) struct Reduced<T> {
+    pub(super) stated: ConstraintRows<T>,
+    plan: Plan,
+    ldl: SparseLdl<T>,
+    /// M⁻¹, as results of the divisions one behind the other.
+    inverse: Vec<T>,
+    /// Values of M⁻¹ Fᵀ.
+    moved: Vec<T>,
+    /// Right-hand side r, then λ.
+    pub(super) multipliers: Vec<T>,
+}
+
+/// Where each value comes from and goes to, for rows of one pattern.
+#[derive(Default)]
+struct Plan {
+    pattern: Pattern,
+    coordinates: usize,
+    /// Coordinates with a one in each division by M.
+    ones: Vec<Vec<usize>>,
+    /// First entry of M⁻¹ Fᵀ of each row, and the number of all.
+    starts: Vec<usize>,
+    moved: Vec<Moved>,
+    /// Products of a slope and an entry of M⁻¹ Fᵀ, in the order of the values of F M⁻¹ Fᵀ; first product of each value.
+    products: Vec<(usize, usize)>,
+    product_starts: Vec<usize>,
+    /// The diagonal among these values.
+    diagonal: Vec<usize>,
+}
+
+/// An entry of M⁻¹ Fᵀ: a slope times an entry of M⁻¹.
+struct Moved {
+    coordinate: usize,
+    slope: usize,
+    inverse: usize,
+}
+
+impl<T: Scalar> Default for Reduced<T> {
+    fn default() -> Self {
+        Self {
+            stated: ConstraintRows { pattern: Pattern::default(), rows: Vec::new(), slopes: Vec::new() },
+            plan: Plan::default(),
+            ldl: SparseLdl::of(Vec::new()),
+            inverse: Vec::new(),
+            moved: Vec::new(),
+            multipliers: Vec::new(),
+        }
+    }
+}
+
+impl<T: Scalar> Reduced<T> {
+    /// Evaluates the rows at a state.
+    pub(super) fn evaluate<L: ManyBodies<Scalar = T>>(&mut self, system: &L, (t, q, v): (T, &[T], &[T])) {
+        self.stated.clear();
+        system.constraints(t, q, v, &mut self.stated);
+        if self.stated.pattern != self.plan.pattern || q.len() != self.plan.coordinates {
+            self.ldl = self.plan.renew(&self.stated.pattern, q.len());
+        }
+        self.multipliers.resize(self.stated.rows.len(), T::constant(0.0));
+    }
+
+    /// Factorizes F M⁻¹ Fᵀ of all constraints at a state, or of the holonomic ones. Returns the smallest ratio of a pivot to its
+    /// diagonal entry.
+    pub(super) fn factor<L: ManyBodies<Scalar = T>>(
+        &mut self,
+        system: &L,
+        at: (T, &[T], &[T]),
+        is_of_positions: bool,
+    ) -> T {
+        self.evaluate(system, at);
+        self.invert(system, at);
+        let is_left_out = |stated: &Row<T>| is_of_positions && stated.residual.is_none();
+        for (row, _) in self.stated.rows.iter().enumerate().filter(|(_, stated)| is_left_out(stated)) {
+            self.stated.slopes[self.plan.pattern.slopes(row)].fill(T::constant(0.0));
+        }
+        let slopes = &self.stated.slopes;
+        self.moved.clear();
+        self.moved.extend(self.plan.moved.iter().map(|at| slopes[at.slope] * self.inverse[at.inverse]));
+        for (value, ends) in self.ldl.values().iter_mut().zip(self.plan.product_starts.windows(2)) {
+            let products = self.plan.products[ends[0]..ends[1]].iter();
+            *value = products
+                .fold(T::constant(0.0), |sum, &(slope, moved)| sum + slopes[slope] * self.moved[moved]);
+        }
+        // A constraint that is left out has a row of its own, and a multiplier of zero.
+        for (_, &value) in
+            self.stated.rows.iter().zip(&self.plan.diagonal).filter(|(stated, _)| is_left_out(stated))
+        {
+            self.ldl.values()[value] = T::constant(1.0);
+        }
+        self.ldl.factor()
+    }
+
+    /// Entries of M⁻¹.
+    fn invert<L: ManyBodies<Scalar = T>>(&mut self, system: &L, (t, q, v): (T, &[T], &[T])) {
+        let count = q.len();
+        self.inverse.clear();
+        self.inverse.resize(count * self.plan.ones.len(), T::constant(0.0));
+        for (ones, x) in self.plan.ones.iter().zip(self.inverse.chunks_exact_mut(count.max(1))) {
+            ones.iter().for_each(|&one| x[one] = T::constant(1.0));
+            system.divide_by_masses(t, q, v, x);
+        }
+    }
+
+    /// Σ F x of a row.
+    pub(super) fn along(&self, row: usize, x: &[T]) -> T {
+        let (slopes, pattern) = (&self.stated.slopes, &self.plan.pattern);
+        let terms = pattern.slopes(row).map(|slope| slopes[slope] * x[pattern.coordinate(slope)]);
+        terms.fold(T::constant(0.0), |sum, term| sum + term)
+    }
+
+    /// Replaces the right-hand sides by the multipliers, and adds M⁻¹ Fᵀ λ to `x`.
+    pub(super) fn solve(&mut self, x: &mut [T]) {
+        self.ldl.solve(&mut self.multipliers);
+        for (row, &multiplier) in self.multipliers.iter().enumerate() {
+            for entry in self.plan.starts[row]..self.plan.starts[row + 1] {
+                let coordinate = self.plan.moved[entry].coordinate;
+                x[coordinate] = x[coordinate] + self.moved[entry] * multiplier;
+            }
+        }
+    }
+
+    /// Row that depends most on others, and the ratio of its pivot to its diagonal entry.
+    pub(super) fn weakest(&self) -> Option<(usize, T)>
+    where
+        T: PartialOrd,
+    {
+        self.ldl.weakest()
+    }
+}
+
+impl Plan {
+    /// Plans the values for a pattern of rows.
+    fn renew<T: Scalar>(&mut self, pattern: &Pattern, coordinates: usize) -> SparseLdl<T> {
+        *self = Self { pattern: pattern.clone(), coordinates, starts: alloc::vec![0], ..Self::default() };
+        let rows = pattern.starts.len();
+        // Slopes, and entries of M⁻¹ Fᵀ, at each coordinate, with their rows.
+        let mut slopes = alloc::vec![Vec::new(); coordinates];
+        let mut moved = slopes.clone();
+        for row in 0..rows {
+            for slope in pattern.slopes(row) {
+                slopes[pattern.coordinate(slope)].push((row, slope));
+                for (place, &coordinate) in pattern.element(slope).iter().enumerate() {
+                    moved[coordinate].push((row, self.moved.len()));
+                    let inverse = pattern.own[slope] * coordinates + coordinate;
+                    self.moved.push(Moved { coordinate, slope, inverse });
+                    self.add_one(place, coordinate);
+                }
+            }
+            self.starts.push(self.moved.len());
+        }
+        let meetings = || {
+            slopes.iter().zip(&moved).flat_map(|(slopes, moved)| {
+                slopes.iter().flat_map(move |&one| moved.iter().map(move |&other| (one, other)))
+            })
+        };
+        let mut neighbours = alloc::vec![BTreeSet::new(); rows];
+        for ((row, _), (other, _)) in meetings().filter(|((row, _), (other, _))| row != other) {
+            neighbours[row].insert(other);
+            neighbours[other].insert(row);
+        }
+        let mut ldl = SparseLdl::of(neighbours);
+        let mut products: Vec<(usize, (usize, usize))> = meetings()
+            .filter(|((row, _), (other, _))| row >= other)
+            .filter_map(|((row, slope), (other, entry))| Some((ldl.entry(row, other)?, (slope, entry))))
+            .collect();
+        products.sort_unstable();
+        self.diagonal = (0..rows).filter_map(|row| ldl.entry(row, row)).collect();
+        self.product_starts = (0..=ldl.values().len())
+            .map(|value| products.partition_point(|(known, _)| *known < value))
+            .collect();
+        self.products = products.into_iter().map(|(_, product)| product).collect();
+        ldl
+    }
+
+    fn add_one(&mut self, place: usize, coordinate: usize) {
+        if self.ones.len() <= place {
+            self.ones.resize(place + 1, Vec::new());
+        }
+        self.ones[place].push(coordinate);
+    }
+}
