@@ -22,10 +22,17 @@ pub(super) fn agree<const N: usize>(
         };
         let mut a = vec![f64::NAN; N];
         many.accelerations(open.t, open.q.as_slice(), open.v.as_slice(), &mut a);
-        let expected = fixed.accelerations_unchecked(&state).accelerations;
+        let solution = fixed.accelerations_unchecked(&state);
+        let expected = solution.accelerations;
         let scale = 1.0 + expected.amax();
         for (i, (one, other)) in a.iter().zip(&expected).enumerate() {
             assert!((one - other).abs() <= 1e-12 * scale, "a[{i}] of {N}: {one}, not {other}");
+        }
+        let multipliers = many.multipliers(&open).expect("independent constraints");
+        let scale = 1.0 + solution.multipliers.iter().fold(0.0_f64, |most, lambda| most.max(lambda.abs()));
+        assert_eq!(multipliers.len(), solution.multipliers.len());
+        for (i, (one, other)) in multipliers.iter().zip(&solution.multipliers).enumerate() {
+            assert!((one - other).abs() <= 1e-12 * scale, "λ[{i}]: {one}, not {other}");
         }
         let momenta = fixed.momentum(&state);
         assert!((many.momenta(&open) - DVector::from_column_slice(momenta.as_slice())).amax() < 1e-12);

@@ -155,7 +155,7 @@ impl Page<'_> {
             Variable::Coordinate(i) => coordinate(i, 0),
             Variable::Velocity(i) => coordinate(i, 1),
             Variable::Acceleration(i) => coordinate(i, 2),
-            Variable::Multiplier(a) => Formula::Multiplier(self.problem.constraints[a].0.text.clone()),
+            Variable::Multiplier(a) => Formula::Multiplier(self.problem.multiplier(a).text.clone()),
             Variable::Parameter(k) => Formula::labelled(&self.problem.parameters.name(k), 0),
             Variable::Switch(k) => Formula::labelled(&self.problem.parameters.name_of_switch(k), 0),
             Variable::Level(level) => self.whole_number(Unknown::Level(level)),

@@ -203,7 +203,7 @@ impl Lowering<'_> {
 
     /// d/dt of every scalar in `value`. Reports accelerations at `place` where the setting forbids them.
     pub(super) fn rate_of(&mut self, value: &Value, place: Place) -> Option<Value> {
-        self.follow_totals(&value.flat());
+        self.many.follow_totals(&mut self.graph, &mut self.rate, &value.flat());
         let rate = value.map(&mut |id| self.rate.of(&mut self.graph, id));
         let accelerations = |symbol| matches!(Variable::of(symbol), Variable::Acceleration(_));
         if self.setting != Setting::Observable && self.graph.symbols(&rate.flat()).any(accelerations) {

@@ -58,7 +58,7 @@ pub(crate) fn problem(declaration: &Declaration, diagnostics: &mut Diagnostics) 
 /// states something that is not said of all elements.
 pub(crate) fn families(declaration: &Declaration) -> Option<(Graph, Problem)> {
     let many = Many::attempt(declaration);
-    many.is_open().then_some(())?;
+    (many.is_open() && declaration.constraints.is_empty()).then_some(())?;
     let diagnostics = &mut Diagnostics::default();
     let parameters = Parameters::new(declaration, diagnostics);
     resolved(declaration, (parameters, many), diagnostics)
@@ -89,7 +89,13 @@ fn resolved(
     if let Some((Some(value), place)) = dissipation {
         lowering.reject_kink("a dissipation function", value, place);
     }
-    let constraints = lowering.constraints(&declaration.constraints, &mut powers);
+    let constraints = match lowering.many.is_open() {
+        true => {
+            lowering.open_constraints(declaration);
+            Vec::new()
+        }
+        false => lowering.constraints(&declaration.constraints, &mut powers),
+    };
     lowering.parameters.check_states(lowering.diagnostics);
     let observables = lowering.observables(declaration);
     let conserved = lowering.conserved(declaration, &observables);

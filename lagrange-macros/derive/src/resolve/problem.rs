@@ -59,6 +59,16 @@ pub(crate) struct Problem {
     pub(crate) vectors: Vec<(String, usize)>,
 }
 
+impl Problem {
+    /// Name of a multiplier.
+    pub(crate) fn multiplier(&self, multiplier: usize) -> &Label {
+        match self.many.is_open() {
+            true => &self.coordinates[multiplier],
+            false => &self.constraints[multiplier].0,
+        }
+    }
+}
+
 /// Value of `min`, `max` or `clamp`, with the arguments as they are written.
 #[derive(Debug)]
 pub(crate) struct Limit {

@@ -4,7 +4,6 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::ManyEmitter;
-use super::indices::round;
 use crate::resolve::many::{Affine, Array, Demand, Index, OpenField, Unknown};
 use crate::syntax::numbers;
 
@@ -97,10 +96,7 @@ impl ManyEmitter<'_> {
                 return ::core::result::Result::Err(__lagrange::Error::#error);
             }
         };
-        ranges.iter().enumerate().rfold(quote!({ #inner }), |inner, (level, range)| {
-            let (index, range) = (round(level), self.style.range(range));
-            quote! { for #index in #range { #inner } }
-        })
+        self.style.nested(ranges, inner)
     }
 
     /// A whole number of type `i64`, which may be negative.

@@ -116,6 +116,14 @@ impl FunctionContext<'_> {
         quote!(#from..#to)
     }
 
+    /// Nested loops around statements.
+    pub(super) fn nested(&self, ranges: &[Range], inner: TokenStream) -> TokenStream {
+        ranges.iter().enumerate().rfold(quote!({ #inner }), |inner, (level, range)| {
+            let (index, range) = (round(level), self.range(range));
+            quote! { for #index in #range { #inner } }
+        })
+    }
+
     pub(super) fn index(&self, index: &Index) -> TokenStream {
         match index {
             Index::Affine(affine) => self.affine(affine),

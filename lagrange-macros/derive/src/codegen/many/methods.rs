@@ -13,8 +13,10 @@ impl ManyEmitter<'_> {
     pub(super) fn system(&self) -> TokenStream {
         let scalar = self.style.types.scalar;
         let (lengths, count) = (self.style.lengths(), self.style.count_of_all());
-        let forces = self.scatters(&self.equations.forcing);
-        let solved = self.equations.inertia.iter().map(|block| self.solve(block));
+        let accelerations = match self.equations.constraints.is_empty() {
+            true => self.free_accelerations(),
+            false => quote!(__lagrange::generated::write_constrained_accelerations(self, t, [q, v], a)),
+        };
         quote! {
             type Scalar = #scalar;
             type Length = __lagrange::nalgebra::Dyn;
@@ -27,11 +29,21 @@ impl ManyEmitter<'_> {
             }
 
             fn accelerations(&self, t: #scalar, q: &[#scalar], v: &[#scalar], a: &mut [#scalar]) {
-                #lengths
-                let cells = ::core::cell::Cell::from_mut(a).as_slice_of_cells();
-                #forces
-                #(#solved)*
+                #accelerations
             }
+        }
+    }
+
+    /// Statements that write the accelerations without constraints to `a`.
+    fn free_accelerations(&self) -> TokenStream {
+        let lengths = self.style.lengths();
+        let forces = self.scatters(&self.equations.forcing);
+        let solved = self.equations.inertia.iter().map(|block| self.solve(block));
+        quote! {
+            #lengths
+            let cells = ::core::cell::Cell::from_mut(a).as_slice_of_cells();
+            #forces
+            #(#solved)*
         }
     }
 
@@ -45,6 +57,7 @@ impl ManyEmitter<'_> {
         let (write_name, check, visit) = (self.write_name(), self.check(), self.visit_numbers());
         let (zero, view) = (self.style.constant(0.0), view());
         let is_conserved = self.equations.energy_is_conserved;
+        let constrained = self.constrained(&self.free_accelerations());
         quote! {
             const ENERGY_IS_CONSERVED: bool = #is_conserved;
             const DIGEST: u32 = #digest;
@@ -52,6 +65,7 @@ impl ManyEmitter<'_> {
             #write_name
             #check
             #visit
+            #constrained
 
             fn lagrangian(&self, state: #state) -> #scalar {
                 #lengths

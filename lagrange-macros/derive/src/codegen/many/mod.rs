@@ -1,6 +1,7 @@
 //! Emits systems whose numbers of bodies are known at run time: loops over elements.
 
 mod checks;
+mod constraints;
 mod indices;
 mod methods;
 mod scatter;

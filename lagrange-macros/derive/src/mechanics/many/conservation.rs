@@ -3,7 +3,7 @@
 //! If moving or turning all vectors together leaves each pattern of L as it is, in symbols, Noether's theorem gives P = Σ p_k and
 //! J = Σ r_k × p_k.
 
-use super::{Pattern, gradient, slots};
+use super::{ConstraintRow, ManyConstraint, Pattern, gradient, slots};
 use crate::mechanics::Symmetry;
 use crate::mechanics::evidence::{Evidence, vanishes};
 use crate::resolve::Problem;
@@ -21,8 +21,13 @@ pub(crate) struct ManyConserved {
     pub(crate) patterns: Vec<(Vec<Range>, Vec<Id>)>,
 }
 
-/// Finds conserved momenta of a system without generalized forces. Coordinates must all be vectors of one dimension, or all scalars.
-pub(super) fn find(graph: &mut Graph, problem: &mut Problem, patterns: &[Pattern]) -> Vec<ManyConserved> {
+/// Finds conserved momenta of a system without generalized forces other than those of constraints. Coordinates must all be vectors of one
+/// dimension, or all scalars.
+pub(super) fn find(
+    graph: &mut Graph,
+    problem: &mut Problem,
+    (patterns, constraints): (&[Pattern], &[ManyConstraint]),
+) -> Vec<ManyConserved> {
     let lengths: Vec<usize> = problem.many.arrays.iter().map(|array| numbers(&array.lengths)).collect();
     let is_uniform = lengths.iter().all(|length| *length == lengths[0])
         && problem.many.arrays.iter().all(|array| array.lengths.len() <= 1);
@@ -31,13 +36,20 @@ pub(super) fn find(graph: &mut Graph, problem: &mut Problem, patterns: &[Pattern
         return Vec::new();
     }
     let mut found = Vec::new();
-    if patterns.iter().all(|pattern| is_moved(graph, problem, pattern, dimension)) {
+    let rows: Vec<(usize, &ConstraintRow)> = constraints
+        .iter()
+        .flat_map(|constraint| constraint.rows.iter().map(|row| (constraint.ranges.len(), row)))
+        .collect();
+    if patterns.iter().all(|pattern| is_moved(graph, problem, pattern, dimension))
+        && rows.iter().all(|&row| has_no_force(graph, problem, row, dimension))
+    {
         let of =
             |graph: &mut Graph, all: &[Component]| (0..dimension).map(|c| momentum(graph, all, c)).collect();
         found.push(conserved(graph, problem, patterns, (Symmetry::Translation, dimension), of));
     }
     let turns = !planes(dimension).is_empty()
-        && patterns.iter().all(|pattern| is_turned(graph, problem, pattern, dimension));
+        && patterns.iter().all(|pattern| is_turned(graph, problem, pattern, dimension))
+        && rows.iter().all(|&row| has_no_moment(graph, problem, row, dimension));
     if turns {
         let by_velocity: (fn(usize) -> Variable, usize) = (Variable::Coordinate, 1);
         let of = |graph: &mut Graph, all: &[Component]| {
@@ -93,6 +105,49 @@ fn is_turned(graph: &mut Graph, problem: &mut Problem, pattern: &Pattern, dimens
         let velocities = moment(graph, &all, plane, (Variable::Velocity, 1));
         let slope = graph.add(coordinates, velocities);
         is_zero(graph, problem, slope)
+    })
+}
+
+/// Coefficients of a constraint in loops of some depth, as slopes of F q̇ + b by the velocities; `None` if some are in deeper loops.
+fn coefficients(
+    problem: &Problem,
+    (depth, row): (usize, &ConstraintRow),
+    dimension: usize,
+) -> Option<Vec<Component>> {
+    let is_own = row.slopes.iter().all(|part| part.ranges.len() == depth);
+    let component = |&(slot, slope): &(usize, Id)| {
+        let number = problem.many.slots[slot].number;
+        let first = slot - number;
+        Component { number, element: (first..first + dimension).collect(), slopes: [Id::ZERO, slope] }
+    };
+    is_own.then(|| row.slopes.iter().flat_map(|part| &part.values).map(component).collect())
+}
+
+/// True if the forces of a constraint add up to zero.
+fn has_no_force(
+    graph: &mut Graph,
+    problem: &Problem,
+    row: (usize, &ConstraintRow),
+    dimension: usize,
+) -> bool {
+    let Some(all) = coefficients(problem, row, dimension) else { return false };
+    (0..dimension).all(|component| {
+        let sum = momentum(graph, &all, component);
+        is_zero(graph, problem, sum)
+    })
+}
+
+/// True if the moments of the forces of a constraint add up to zero.
+fn has_no_moment(
+    graph: &mut Graph,
+    problem: &Problem,
+    row: (usize, &ConstraintRow),
+    dimension: usize,
+) -> bool {
+    let Some(all) = coefficients(problem, row, dimension) else { return false };
+    planes(dimension).iter().all(|&plane| {
+        let sum = moment(graph, &all, plane, (Variable::Coordinate, 1));
+        is_zero(graph, problem, sum)
     })
 }
 

@@ -6,6 +6,7 @@
 //! Slots that meet in one element, such as both ends of a bond from an atom to itself, add up as the chain rule demands.
 
 mod conservation;
+mod constraints;
 mod hamilton;
 mod inertia;
 mod patterns;
@@ -17,6 +18,7 @@ use crate::resolve::many::Range;
 use crate::symbolic::{Forward, Graph, Id};
 use crate::variables::{Variable, drift, has_velocity};
 pub(crate) use conservation::ManyConserved;
+pub(crate) use constraints::{ConstraintRow, ManyConstraint};
 pub(crate) use hamilton::ManyHamilton;
 pub(crate) use inertia::{Guarded, Inertia};
 pub(crate) use patterns::{Pattern, patterns};
@@ -34,10 +36,11 @@ pub(crate) struct Scatter {
 pub(crate) struct ManyEquations {
     /// p = ∂L/∂q̇
     pub(crate) momentum: Vec<Scatter>,
-    /// h = ∂L/∂q + Q − (dp/dt at q̈ = 0)
+    /// h = ∂L/∂q + Q − (dp/dt at q̈ = 0), without the forces of constraints.
     pub(crate) forcing: Vec<Scatter>,
     /// M by blocks, one for each set of coordinates that share it.
     pub(crate) inertia: Vec<Inertia>,
+    pub(crate) constraints: Vec<ManyConstraint>,
     /// E = p·q̇ − L
     pub(crate) energy: Id,
     /// The same by loops, to be printed.
@@ -106,14 +109,23 @@ pub(crate) fn derive(
     diagnostics.stop_at_fault(problem.place, graph)?;
     let all: Vec<Id> = forcing.iter().flat_map(|scatter| &scatter.values).map(|(_, value)| *value).collect();
     let depends_on_time = depends_on_time(graph, problem);
-    let conserved = if has_forces { Vec::new() } else { conservation::find(graph, problem, &patterns) };
+    let constraints = constraints::derive(graph, problem, diagnostics)?;
+    let conserved =
+        if has_forces { Vec::new() } else { conservation::find(graph, problem, (&patterns, &constraints)) };
     let is_even = patterns.iter().all(|pattern| is_even(graph, pattern));
-    let rows = rows::rows(graph, problem, &forcing, &mass);
+    let mut printed = forcing.clone();
+    for Scatter { ranges, values } in
+        constraints.iter().flat_map(|constraint| constraint.forces(graph)).collect::<Vec<_>>()
+    {
+        push_both(graph, [&mut printed, &mut rates], (&ranges, values));
+    }
+    let rows = rows::rows(graph, problem, &printed, &mass);
     let momenta = rows::rows(graph, problem, &momentum, &[]);
     let hamilton = ManyHamilton::of(graph, problem, (&inertia, &momenta), (&energies, &rates));
     problem.coordinates = problem.many.labels(&problem.parameters);
     Some(ManyEquations {
-        forces_are_free_of_velocities: !has_velocity(graph, &problem.many.with_bodies(graph, &all))
+        forces_are_free_of_velocities: constraints.is_empty()
+            && !has_velocity(graph, &problem.many.with_bodies(graph, &all))
             && inertia.iter().all(|block| !block.has_velocity(graph)),
         momentum,
         forcing,
@@ -125,7 +137,10 @@ pub(crate) fn derive(
         hamilton,
         is_even,
         conserved,
-        energy_is_conserved: !has_forces && !depends_on_time,
+        energy_is_conserved: !has_forces
+            && !depends_on_time
+            && constraints.iter().flat_map(|constraint| &constraint.rows).all(|row| row.is_homogeneous),
+        constraints,
     })
 }
 

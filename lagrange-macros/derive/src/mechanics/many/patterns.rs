@@ -18,8 +18,13 @@ pub(crate) struct Pattern {
 
 /// Writes the derivatives of an expression as those of patterns, one for each set of loops.
 pub(crate) fn patterns(graph: &mut Graph, problem: &Problem, root: Id) -> Vec<Pattern> {
+    within(graph, problem, &[], root)
+}
+
+/// The same of an expression in the body of loops.
+pub(super) fn within(graph: &mut Graph, problem: &Problem, ranges: &[Range], body: Id) -> Vec<Pattern> {
     let mut all: Vec<Pattern> = Vec::new();
-    collect(graph, problem, Pattern { ranges: Vec::new(), factor: Id::ONE, body: root }, &mut all);
+    collect(graph, problem, Pattern { ranges: ranges.to_vec(), factor: Id::ONE, body }, &mut all);
     all
 }
 

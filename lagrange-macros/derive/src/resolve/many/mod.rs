@@ -37,6 +37,9 @@ pub(crate) struct Many {
     pub(crate) totals: IndexSet<Total>,
     /// Forces on elements, with the loops over them.
     pub(crate) forces: Vec<OpenForce>,
+    pub(crate) constraints: Vec<OpenConstraint>,
+    /// Multipliers, an array for each constraint. Their slots count arrays from `arrays.len()` on.
+    pub(crate) multipliers: Vec<Array>,
     /// Index checks at the start of a motion.
     pub(crate) demands: IndexSet<Demand>,
     /// Name of the running index at each depth.
@@ -116,6 +119,14 @@ pub(crate) struct OpenForce {
     pub(crate) values: Vec<(usize, Id)>,
 }
 
+/// Constraints of the elements of some loops: one for each component of an expression.
+pub(crate) struct OpenConstraint {
+    pub(crate) ranges: Vec<Range>,
+    pub(crate) place: Place,
+    /// For each component the slot of its multiplier, and the residual as written, left − right.
+    pub(crate) rows: Vec<(usize, Id)>,
+}
+
 /// Index that must stay in a range during all iterations of some loops.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct Demand {
@@ -139,13 +150,18 @@ impl Many {
         !self.arrays.is_empty()
     }
 
+    /// The array of coordinates or of multipliers that a slot is an element of.
+    pub(crate) fn array(&self, array: usize) -> &Array {
+        self.arrays.get(array).unwrap_or_else(|| &self.multipliers[array - self.arrays.len()])
+    }
+
     /// Index of a slot. The slots of all components of an element follow one another.
     pub(crate) fn slot(&mut self, slot: Slot) -> usize {
         if let Some(k) = self.slots.get_index_of(&slot) {
             return k;
         }
         let first = self.slots.len();
-        for number in 0..numbers(&self.arrays[slot.array].lengths) {
+        for number in 0..numbers(&self.array(slot.array).lengths) {
             self.slots.insert(Slot { number, ..slot.clone() });
         }
         first + slot.number
@@ -205,7 +221,7 @@ impl Many {
     /// Names of the slots: `r[i + 1][0]`.
     pub(crate) fn labels(&self, parameters: &Parameters) -> Vec<Label> {
         let label = |Slot { array, indices, number }: &Slot| {
-            let Array { name, lengths, place, .. } = &self.arrays[*array];
+            let Array { name, lengths, place, .. } = self.array(*array);
             let open = indices
                 .iter()
                 .fold(name.clone(), |text, index| format!("{text}[{}]", self.index_text(index, parameters)));

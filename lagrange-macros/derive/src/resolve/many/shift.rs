@@ -61,7 +61,7 @@ impl Problem {
         let of_slot = |k: usize| self.many.slots[k].indices.iter().flat_map(Index::levels).collect();
         let levels = graph.symbols(roots).flat_map(|symbol| match Variable::of(symbol) {
             Variable::Level(level) => vec![level],
-            Variable::Coordinate(k) | Variable::Velocity(k) => of_slot(k),
+            Variable::Coordinate(k) | Variable::Velocity(k) | Variable::Multiplier(k) => of_slot(k),
             Variable::Parameter(k) => of_field(k),
             _ => Vec::new(),
         });
@@ -96,6 +96,7 @@ impl Many {
             Variable::Coordinate(k) => Variable::Coordinate(self.shifted_slot(k, new)),
             Variable::Velocity(k) => Variable::Velocity(self.shifted_slot(k, new)),
             Variable::Momentum(k) => Variable::Momentum(self.shifted_slot(k, new)),
+            Variable::Multiplier(k) => Variable::Multiplier(self.shifted_slot(k, new)),
             Variable::Parameter(k) => Variable::Parameter(self.shifted_parameter(parameters, k, new)?),
             Variable::Total(k) => return Some(self.shifted_sum((graph, parameters), k, (new, by))),
             _ => return None,

@@ -1,13 +1,13 @@
 //! Forces, definitions and attributes that a system of any number of bodies may have.
 
-use super::{Affine, Index, OpenForce, Range, Slot};
+use super::{Affine, Array, Index, OpenConstraint, OpenForce, Range, Slot};
 use crate::diagnostics::Place;
 use crate::resolve::expression::is_literal_zero;
 use crate::resolve::lowering::{Definition, Lowering};
 use crate::resolve::scope::Entity;
 use crate::resolve::value::{Shape, Value};
 use crate::symbolic::Id;
-use crate::syntax::{Declaration, Force, Law, Name, Target, TargetIndex, numbers};
+use crate::syntax::{Constraint, Declaration, Force, Law, Name, Target, TargetIndex, numbers};
 
 impl Lowering<'_> {
     /// Forces on elements of coordinates.
@@ -60,6 +60,53 @@ impl Lowering<'_> {
         };
         let values = values.into_iter().enumerate().map(slot).collect();
         Some(OpenForce { ranges: self.many.ranges.clone(), values })
+    }
+
+    /// Constraints of elements. Each family has the multipliers of its elements.
+    pub(in crate::resolve) fn open_constraints(&mut self, declaration: &Declaration) {
+        for constraint in &declaration.constraints {
+            let target = &constraint.target;
+            let found = self.inside_all(&target.indices, &mut |lowering, indices| {
+                lowering.open_constraint(constraint, indices)
+            });
+            self.many.constraints.extend(found);
+        }
+    }
+
+    fn open_constraint(&mut self, constraint: &Constraint, indices: &[Affine]) -> Option<OpenConstraint> {
+        let place = constraint.left.place.to(constraint.right.place);
+        let residual = self.residual(constraint)?;
+        residual.flat().into_iter().for_each(|row| self.reject_kink("a constraint", row, place));
+        let (name, lengths) = (&constraint.target.name, residual.shape().lengths);
+        let known = self.many.multipliers.iter().position(|known| known.name == name.text);
+        let array = known.unwrap_or_else(|| {
+            self.many.multipliers.push(Array {
+                name: name.text.clone(),
+                open: Vec::new(),
+                lengths: lengths.clone(),
+                place: name.place,
+            });
+            self.many.multipliers.len() - 1
+        });
+        let indices: Vec<Index> = indices.iter().cloned().map(Index::Affine).collect();
+        let slots: Vec<Slot> = self
+            .many
+            .slots
+            .iter()
+            .filter(|slot| slot.array == self.many.arrays.len() + array)
+            .cloned()
+            .collect();
+        let is_twice =
+            slots.iter().any(|slot| slot.indices == indices || slot.indices.len() != indices.len());
+        if self.many.multipliers[array].lengths != lengths || is_twice {
+            return self.report(name.place, format!("two constraints are called `{}`", name.text));
+        }
+        let array = self.many.arrays.len() + array;
+        let rows = residual.flat().into_iter().enumerate().map(|(number, row)| {
+            let row = self.within_loops(row);
+            (self.slot(Slot { array, indices: indices.clone(), number }), row)
+        });
+        Some(OpenConstraint { rows: rows.collect(), ranges: self.many.ranges.clone(), place })
     }
 
     fn check_shape(&mut self, value: &Value, lengths: &[usize], force: &Force) -> Option<()> {
@@ -152,11 +199,12 @@ impl Lowering<'_> {
         }
         for constraint in &declaration.constraints {
             let what = match constraint.law {
-                Law::Equation => "are no constraints",
+                Law::Equation if constraint.when.is_none() => continue,
+                Law::Equation => "are no constraints with `when`",
                 Law::Contact { .. } => "are no contacts",
                 Law::Coulomb { .. } | Law::Dry { .. } => "is no friction",
             };
-            let advice = "take independent coordinates, or stiff springs, or a number of coordinates that is an integer literal";
+            let advice = "take stiff springs, or a number of coordinates that is an integer literal";
             self.diagnostics
                 .error(constraint.target.name.place, format!("{why}, there {what} yet: {advice}"));
         }

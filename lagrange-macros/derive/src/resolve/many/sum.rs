@@ -3,7 +3,7 @@
 use super::{Affine, Many, Range, Total, Unknown};
 use crate::resolve::lowering::Lowering;
 use crate::resolve::value::Value;
-use crate::symbolic::{Graph, Id, Node};
+use crate::symbolic::{Forward, Graph, Id, Node};
 use crate::syntax::{Expression, Name, SumOver, TargetIndex};
 use crate::variables::Variable;
 
@@ -27,6 +27,17 @@ impl Many {
             _ => None,
         });
         levels.max().unwrap_or(0)
+    }
+
+    /// Adds the rates of the sums in these nodes to a total time derivative: sums of the rates.
+    pub(crate) fn follow_totals(&mut self, graph: &mut Graph, rate: &mut Forward, roots: &[Id]) {
+        for k in totals(graph, roots) {
+            let Total { level, range, body } = self.totals[k].clone();
+            self.follow_totals(graph, rate, &[body]);
+            let body = rate.of(graph, body);
+            let of_sum = self.total(graph, Total { level, range, body });
+            rate.also([(Variable::Total(k).symbol(), of_sum)]);
+        }
     }
 
     /// These nodes, and the bodies of all sums in them.
@@ -79,17 +90,6 @@ pub(crate) fn totals(graph: &Graph, roots: &[Id]) -> Vec<usize> {
 }
 
 impl Lowering<'_> {
-    /// Adds the rates of the sums in these nodes to the total time derivative: sums of the rates.
-    pub(in crate::resolve) fn follow_totals(&mut self, roots: &[Id]) {
-        for k in totals(&self.graph, roots) {
-            let Total { level, range, body } = self.many.totals[k].clone();
-            self.follow_totals(&[body]);
-            let body = self.rate.of(&mut self.graph, body);
-            let rate = self.many.total(&mut self.graph, Total { level, range, body });
-            self.rate.also([(Variable::Total(k).symbol(), rate)]);
-        }
-    }
-
     /// Lowers a sum over a range that is known at run time. Returns an outer `None` for a constant range.
     pub(in crate::resolve) fn open_sum(&mut self, sum: &SumOver) -> Option<Option<Value>> {
         let errors = self.diagnostics.count();
