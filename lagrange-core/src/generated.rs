@@ -13,13 +13,15 @@ pub use crate::function::gradients::{along, write_gradients};
 pub use crate::number::numeric::{only_where, sin_cos_of_small};
 pub use crate::solution::eliminate::nan_if_ill_conditioned;
 #[cfg(feature = "alloc")]
-pub use crate::solution::many_constraints::write_constrained_accelerations;
+pub use crate::solution::many_constraints::{Band, BandRow, around, write_constrained_accelerations};
 pub use crate::solution::switched::{ConstraintRow, Switched, SwitchedFactorOf, accelerations};
 pub use crate::system::defect::{Defect, asymmetry, distortion};
 pub use crate::system::equations::equations;
 pub use crate::system::member::FieldMember;
 pub use crate::system::switch::{FrictionState, Switch, holds, keeps, slides, slip, start, sticks};
 pub use crate::vector::Array;
+#[cfg(feature = "alloc")]
+pub use alloc::vec::Vec;
 
 /// Factorizations computed in loops, for `N` coordinates and `M` constraints.
 pub type LoopFactor<T, const N: usize, const M: usize> = eliminate::LoopFactor<T, Const<N>, Const<M>>;

@@ -210,7 +210,7 @@ pub use {
     linearized::{Linearization, MotionDerivatives},
     motion::{MotionBuilder, Taylor},
     solution::impact::Impact,
-    solution::many_constraints::ConstraintRows,
+    solution::many_constraints::{ConstraintRows, Correction},
     system::ManyBodies,
     trajectory::{HybridTrajectory, SampledTrajectory, Trajectory},
 };

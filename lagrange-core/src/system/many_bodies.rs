@@ -1,5 +1,6 @@
 //! The trait [`ManyBodies`]: systems whose number of bodies is known when the program runs.
 
+use alloc::vec::Vec;
 use core::fmt;
 
 use nalgebra::{Const, DVector, Dyn};
@@ -10,7 +11,7 @@ use crate::error::Error;
 use crate::number::{Real, Scalar};
 use crate::solution::consistent::Consistent;
 use crate::solution::many_body_field::ManyBodyField;
-use crate::solution::many_constraints::{self, ConstraintRows};
+use crate::solution::many_constraints::{self, ConstraintRows, Correction};
 
 /// A system of any number of bodies, as `#[derive(Lagrangian)]` emits it where the length of a coordinate has a name
 /// ([the language](crate::language#any-number-of-bodies)).
@@ -167,6 +168,22 @@ pub trait ManyBodies: System<Length = Dyn, M = Const<0>, Field = ManyBodyField> 
         _v: &[Self::Scalar],
         _rows: &mut ConstraintRows<Self::Scalar>,
     ) {
+    }
+
+    /// Adds M⁻¹ Fᵀ λ to `x`, so that it satisfies the constraints at a state, and writes the multipliers. Returns the smallest ratio of a
+    /// pivot of F M⁻¹ Fᵀ to its diagonal entry: how many digits are left.
+    ///
+    /// This method serves any constraints; generated code overrides it where they are between neighbours along an array.
+    fn correct(
+        &self,
+        at: (Self::Scalar, &[Self::Scalar], &[Self::Scalar]),
+        target: Correction,
+        results: (&mut [Self::Scalar], &mut Vec<Self::Scalar>),
+    ) -> Self::Scalar
+    where
+        Self: Sized,
+    {
+        many_constraints::correct(self, at, target, results)
     }
 
     /// Writes the name of a constraint: `rod[3]`.

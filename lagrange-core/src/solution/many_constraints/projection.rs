@@ -1,18 +1,17 @@
 //! Projection of states of systems of any number of bodies onto their constraints.
 //!
 //! Newton's iteration with corrections δ = M⁻¹ Fᵀ μ, F δ = −residual, which are least in the metric of M: of the coordinates onto Φ = 0,
-//! then of the velocities onto F q̇ + b = 0, as for [other systems](crate::solution::consistent). The corrections at the end of a
-//! step share one factorization.
+//! then of the velocities onto F q̇ + b = 0, as for [other systems](crate::solution::consistent).
 
-use nalgebra::{DVector, Dyn};
+use alloc::vec::Vec;
 
-use super::reduced::Reduced;
-use super::{doubt, name};
+use nalgebra::{ComplexField, DVector, Dyn};
+
+use super::{ConstraintRows, Correction, doubt, fault, name};
 use crate::error::Error;
 use crate::number::limits::{CANCELLED, SUM};
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon};
 use crate::numerics::newton::{self, Left, Search, halvings};
-use crate::solution::consistent::level::{BOTH, Level};
 use crate::solution::consistent::{Adjustment, Consistent};
 use crate::system::{ManyBodies, State, StateOf};
 use crate::vector::scratch::with_scratch;
@@ -20,38 +19,39 @@ use crate::vector::scratch::with_scratch;
 /// Corrections at the end of a step.
 const CORRECTIONS: usize = 3;
 
+/// What is projected, in turn.
+const BOTH: [Correction; 2] = [Correction::Coordinates, Correction::Velocities];
+
 /// Projects a state near the constraints onto them, to round-off. Allocates nothing where a few corrections suffice.
 pub(crate) fn project<L: ManyBodies<Scalar: Real>>(system: &L, state: &mut StateOf<L>) -> Result<(), Error> {
-    BOTH.into_iter().try_for_each(|level| {
-        let is_done = with_scratch(|reduced: &mut Reduced<L::Scalar>| reduced.settle(system, level, state));
-        if is_done { Ok(()) } else { search(system, level, state) }
+    BOTH.into_iter().try_for_each(|target| match settle(system, target, state) {
+        true => Ok(()),
+        false => search(system, target, state),
     })
 }
 
-/// Implements [`ManyBodies::make_consistent`].
+/// Implements [`ManyBodies::project`].
 pub(crate) fn make_consistent<L: ManyBodies<Scalar: Real>>(
     system: &L,
     state: &StateOf<L>,
 ) -> Result<Consistent<L::Scalar, Dyn>, Error> {
     let mut consistent = state.clone();
-    BOTH.into_iter().try_for_each(|level| search(system, level, &mut consistent))?;
+    BOTH.into_iter().try_for_each(|target| search(system, target, &mut consistent))?;
     let adjustment = Adjustment::between(state, &consistent);
     Ok((consistent, adjustment))
 }
 
 /// Checks that a state satisfies the constraints, to √ε of the size of their terms.
 pub(crate) fn check<L: ManyBodies<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
-    BOTH.into_iter().try_for_each(|level| {
-        with_scratch(|reduced: &mut Reduced<L::Scalar>| {
-            reduced.evaluate(system, (state.t, state.q.as_slice(), state.v.as_slice()));
-            let x = level.of(state);
-            let is_off = |row: &usize| !reduced.is_within(*row, level, x, power_of_epsilon(0.5));
-            match (0..reduced.rows()).find(is_off) {
+    BOTH.into_iter().try_for_each(|target| {
+        with_rows(system, state, |rows| {
+            let is_off = |row: &usize| !rows.is_within(*row, target, state, power_of_epsilon(0.5));
+            match rows.indices().find(is_off) {
                 None => Ok(()),
                 Some(row) => Err(Error::Inconsistent {
                     constraint: name(system, row),
-                    rate: level == Level::Velocity,
-                    residual: reduced.residual(row, level).to_f64(),
+                    rate: target == Correction::Velocities,
+                    residual: rows.residual(row, target).to_f64(),
                     time: state.t.to_f64(),
                 }),
             }
@@ -59,99 +59,94 @@ pub(crate) fn check<L: ManyBodies<Scalar: Real>>(system: &L, state: &StateOf<L>)
     })
 }
 
-impl Level {
-    /// Coordinates or velocities of a state.
-    fn of<T: Real>(self, state: &State<T, Dyn>) -> &[T] {
-        match self {
-            Self::Position => state.q.as_slice(),
-            Self::Velocity => state.v.as_slice(),
-        }
-    }
+/// Calls a function with the constraints at a state.
+pub(super) fn with_rows<L: ManyBodies<Scalar: Real>, R>(
+    system: &L,
+    state: &StateOf<L>,
+    function: impl FnOnce(&ConstraintRows<L::Scalar>) -> R,
+) -> R {
+    with_scratch(|rows: &mut ConstraintRows<L::Scalar>| {
+        rows.clear();
+        system.constraints(state.t, state.q.as_slice(), state.v.as_slice(), rows);
+        function(rows)
+    })
 }
 
-impl<T: Real> Reduced<T> {
-    fn rows(&self) -> usize {
-        self.stated.rows.len()
-    }
-
+impl<T: Real> ConstraintRows<T> {
     /// Φ, zero for a velocity constraint, or F q̇ + b.
-    fn residual(&self, row: usize, level: Level) -> T {
-        let stated = &self.stated.rows[row];
-        match level {
-            Level::Position => stated.residual.unwrap_or(T::constant(0.0)),
-            Level::Velocity => stated.rate,
-        }
+    fn residual(&self, row: usize, target: Correction) -> T {
+        -target.right(&self.rows[row], || T::constant(0.0))
     }
 
-    /// Σ |F x| and Σ |F| of a row.
-    fn terms(&self, row: usize, x: &[T]) -> [T; 2] {
-        let pattern = &self.stated.pattern;
-        pattern.slopes(row).fold([T::constant(0.0); 2], |[terms, sensitivity], slope| {
-            let (size, x) = (Scalar::abs(self.stated.slopes[slope]), x[pattern.coordinate(slope)]);
+    /// Σ |F x| and Σ |F| of a row, where x are the coordinates or velocities.
+    fn terms(&self, row: usize, target: Correction, state: &State<T, Dyn>) -> [T; 2] {
+        let x = if target == Correction::Coordinates { &state.q } else { &state.v };
+        self.pattern.slopes(row).fold([T::constant(0.0); 2], |[terms, sensitivity], slope| {
+            let (size, x) = (Scalar::abs(self.slopes[slope]), x[self.pattern.coordinate(slope)]);
             [terms + size * Scalar::abs(x), sensitivity + size]
         })
     }
 
     /// True if a residual is at most `part` of its terms, plus ε^(3/4) of its sensitivity for terms near zero.
-    fn is_within(&self, row: usize, level: Level, x: &[T], part: T) -> bool {
-        let [terms, sensitivity] = self.terms(row, x);
+    fn is_within(&self, row: usize, target: Correction, state: &State<T, Dyn>, part: T) -> bool {
+        let [terms, sensitivity] = self.terms(row, target, state);
         let bound = part * terms + power_of_epsilon::<T>(0.75) * sensitivity;
-        is_within(Scalar::abs(self.residual(row, level)), bound)
+        is_within(Scalar::abs(self.residual(row, target)), bound)
     }
 
-    /// Corrects a state up to three times with one factorization. Returns whether only round-off is left.
-    fn settle<L: ManyBodies<Scalar = T>>(
-        &mut self,
-        system: &L,
-        level: Level,
-        state: &mut State<T, Dyn>,
-    ) -> bool {
-        for round in 0..=CORRECTIONS {
-            self.evaluate(system, (state.t, state.q.as_slice(), state.v.as_slice()));
-            let x = level.of(state);
-            let is_rounded = |row: usize| {
-                is_within(
-                    Scalar::abs(self.residual(row, level)),
-                    T::constant(SUM * T::EPSILON) * self.terms(row, x)[0],
-                )
-            };
-            if (0..self.rows()).all(is_rounded) {
-                return true;
-            }
-            if round == CORRECTIONS {
-                let part = T::constant(CANCELLED * T::EPSILON);
-                return (0..self.rows()).all(|row| self.is_within(row, level, x, part));
-            }
-            if round == 0 && self.factor_at(system, level, state).is_none() {
-                return false;
-            }
-            for row in 0..self.rows() {
-                self.multipliers[row] = -self.residual(row, level);
-            }
-            match level {
-                Level::Position => self.solve(state.q.as_mut_slice()),
-                Level::Velocity => self.solve(state.v.as_mut_slice()),
-            }
-        }
-        false
+    fn is_rounded(&self, row: usize, target: Correction, state: &State<T, Dyn>) -> bool {
+        let round_off = T::constant(SUM * T::EPSILON) * self.terms(row, target, state)[0];
+        is_within(Scalar::abs(self.residual(row, target)), round_off)
     }
 
-    /// Factorizes the rows of a level; `None` if they are not independent.
-    fn factor_at<L: ManyBodies<Scalar = T>>(
-        &mut self,
-        system: &L,
-        level: Level,
-        state: &State<T, Dyn>,
-    ) -> Option<()> {
-        let at = (state.t, state.q.as_slice(), state.v.as_slice());
-        doubt(self.factor(system, at, level == Level::Position)).is_finite().then_some(())
+    /// True if residuals are small enough to be round-off of cancelling terms.
+    fn are_negligible(&self, target: Correction, state: &State<T, Dyn>) -> bool {
+        let part = T::constant(CANCELLED * T::EPSILON);
+        self.indices().all(|row| self.is_within(row, target, state, part))
     }
 }
 
-/// Newton's search for a state on the constraints of a level.
+/// Corrects a state a few times. Returns whether only round-off is left.
+fn settle<L: ManyBodies<Scalar: Real>>(system: &L, target: Correction, state: &mut StateOf<L>) -> bool {
+    with_scratch(|step: &mut Vec<L::Scalar>| {
+        for _ in 0..CORRECTIONS {
+            if with_rows(system, state, |rows| rows.indices().all(|row| rows.is_rounded(row, target, state)))
+            {
+                return true;
+            }
+            step.clear();
+            step.resize(state.q.len(), L::Scalar::constant(0.0));
+            if !find_step(system, target, state, step) {
+                return false;
+            }
+            move_by(state, target, (step, L::Scalar::constant(1.0)));
+        }
+        with_rows(system, state, |rows| rows.are_negligible(target, state))
+    })
+}
+
+/// Adds the correction of a state to `step`. Returns false where the constraints are not independent.
+fn find_step<L: ManyBodies<Scalar: Real>>(
+    system: &L,
+    target: Correction,
+    state: &StateOf<L>,
+    step: &mut [L::Scalar],
+) -> bool {
+    let at = (state.t, state.q.as_slice(), state.v.as_slice());
+    with_scratch(|multipliers: &mut Vec<L::Scalar>| {
+        doubt(system.correct(at, target, (step, multipliers))).is_finite()
+    })
+}
+
+fn move_by<T: Real>(state: &mut State<T, Dyn>, target: Correction, (step, part): (&[T], T)) {
+    let unknowns = if target == Correction::Coordinates { &mut state.q } else { &mut state.v };
+    unknowns.iter_mut().zip(step).for_each(|(x, change)| *x += *change * part);
+}
+
+/// Newton's search for a state on the constraints.
 struct Projection<'a, L> {
     system: &'a L,
-    level: Level,
+    target: Correction,
 }
 
 /// A state, and how far it is from the constraints.
@@ -166,10 +161,10 @@ struct Trial<L: ManyBodies> {
 
 fn search<L: ManyBodies<Scalar: Real>>(
     system: &L,
-    level: Level,
+    target: Correction,
     state: &mut StateOf<L>,
 ) -> Result<(), Error> {
-    let mut projection = Projection { system, level };
+    let mut projection = Projection { system, target };
     let start = projection.trial(state.clone());
     *state = newton::find(&mut projection, start)?.0.state;
     Ok(())
@@ -177,26 +172,31 @@ fn search<L: ManyBodies<Scalar: Real>>(
 
 impl<L: ManyBodies<Scalar: Real>> Projection<'_, L> {
     fn trial(&self, state: StateOf<L>) -> Trial<L> {
-        with_scratch(|reduced: &mut Reduced<L::Scalar>| {
-            reduced.evaluate(self.system, (state.t, state.q.as_slice(), state.v.as_slice()));
-            let (zero, x) = (L::Scalar::constant(0.0), self.level.of(&state));
-            let mut farthest = (zero, 0);
-            let mut is_negligible = true;
-            for row in 0..reduced.rows() {
-                let [terms, sensitivity] = reduced.terms(row, x);
-                let value = beyond_round_off(reduced.residual(row, self.level), terms);
+        let zero = L::Scalar::constant(0.0);
+        let (distance, row, residual, is_negligible) = with_rows(self.system, &state, |rows| {
+            let mut farthest = (zero, 0, zero);
+            for row in rows.indices() {
+                let [terms, sensitivity] = rows.terms(row, self.target, &state);
+                let residual = rows.residual(row, self.target);
+                let value = beyond_round_off(residual, terms);
                 let distance = if sensitivity > zero { value / sensitivity } else { value };
                 // NaN counts as the largest distance.
-                if farthest.0 == farthest.0 && exceeds(distance, farthest.0) {
-                    farthest = (distance, row);
+                if farthest.0 >= zero && exceeds(distance, farthest.0) {
+                    farthest = (distance, row, residual);
                 }
-                let part = L::Scalar::constant(CANCELLED * L::Scalar::EPSILON);
-                is_negligible &= reduced.is_within(row, self.level, x, part);
             }
-            let (distance, row) = farthest;
-            let residual = if reduced.rows() > 0 { reduced.residual(row, self.level) } else { zero };
-            Trial { state, distance, row, residual, is_negligible }
-        })
+            (farthest.0, farthest.1, farthest.2, rows.are_negligible(self.target, &state))
+        });
+        Trial { state, distance, row, residual, is_negligible }
+    }
+
+    fn not_projected(&self, trial: &Trial<L>, iterations: usize) -> Error {
+        Error::NotProjected {
+            constraint: name(self.system, trial.row),
+            residual: trial.residual.to_f64(),
+            iterations,
+            time: trial.state.t.to_f64(),
+        }
     }
 }
 
@@ -209,21 +209,11 @@ impl<L: ManyBodies<Scalar: Real>> Search for Projection<'_, L> {
 
     fn linearize(&mut self, trial: &Trial<L>) -> Result<DVector<L::Scalar>, Error> {
         let mut step = DVector::from_element(trial.state.q.len(), L::Scalar::constant(0.0));
-        if trial.distance == L::Scalar::constant(0.0) {
+        let is_there = trial.distance == L::Scalar::constant(0.0);
+        if is_there || find_step(self.system, self.target, &trial.state, step.as_mut_slice()) {
             return Ok(step);
         }
-        with_scratch(|reduced: &mut Reduced<L::Scalar>| {
-            if reduced.factor_at(self.system, self.level, &trial.state).is_none() {
-                return Err(reduced
-                    .fault(self.system, &trial.state)
-                    .unwrap_or_else(|| self.not_projected(trial, 0)));
-            }
-            for row in 0..reduced.rows() {
-                reduced.multipliers[row] = -reduced.residual(row, self.level);
-            }
-            reduced.solve(step.as_mut_slice());
-            Ok(step)
-        })
+        Err(fault(self.system, &trial.state).unwrap_or_else(|| self.not_projected(trial, 0)))
     }
 
     fn left(&self, _: &Self::Linear, trial: &Trial<L>) -> Left<L::Scalar> {
@@ -239,27 +229,12 @@ impl<L: ManyBodies<Scalar: Real>> Search for Projection<'_, L> {
     ) -> Result<impl Iterator<Item = Trial<L>>, Error> {
         Ok(halvings::<L::Scalar>(converged).map(move |part| {
             let mut state = trial.state.clone();
-            let unknowns = match self.level {
-                Level::Position => &mut state.q,
-                Level::Velocity => &mut state.v,
-            };
-            unknowns.iter_mut().zip(step.iter()).for_each(|(x, change)| *x += *change * part);
+            move_by(&mut state, self.target, (step.as_slice(), part));
             self.trial(state)
         }))
     }
 
     fn not_found(&self, _: &Self::Linear, trial: &Trial<L>, steps: usize) -> Error {
         self.not_projected(trial, steps)
-    }
-}
-
-impl<L: ManyBodies<Scalar: Real>> Projection<'_, L> {
-    fn not_projected(&self, trial: &Trial<L>, iterations: usize) -> Error {
-        Error::NotProjected {
-            constraint: name(self.system, trial.row),
-            residual: trial.residual.to_f64(),
-            iterations,
-            time: trial.state.t.to_f64(),
-        }
     }
 }

@@ -7,7 +7,8 @@
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
-use super::rows::{ConstraintRows, Pattern, Row};
+use super::Correction;
+use super::rows::{ConstraintRows, Pattern};
 use crate::number::Scalar;
 use crate::numerics::sparse::SparseLdl;
 use crate::system::ManyBodies;
@@ -21,8 +22,6 @@ pub(super) struct Reduced<T> {
     inverse: Vec<T>,
     /// Values of M⁻¹ Fᵀ.
     moved: Vec<T>,
-    /// Right-hand side r, then λ.
-    pub(super) multipliers: Vec<T>,
 }
 
 /// Where each value comes from and goes to, for rows of one pattern.
@@ -52,12 +51,11 @@ struct Moved {
 impl<T: Scalar> Default for Reduced<T> {
     fn default() -> Self {
         Self {
-            stated: ConstraintRows { pattern: Pattern::default(), rows: Vec::new(), slopes: Vec::new() },
+            stated: ConstraintRows::default(),
             plan: Plan::default(),
             ldl: SparseLdl::of(Vec::new()),
             inverse: Vec::new(),
             moved: Vec::new(),
-            multipliers: Vec::new(),
         }
     }
 }
@@ -70,21 +68,19 @@ impl<T: Scalar> Reduced<T> {
         if self.stated.pattern != self.plan.pattern || q.len() != self.plan.coordinates {
             self.ldl = self.plan.renew(&self.stated.pattern, q.len());
         }
-        self.multipliers.resize(self.stated.rows.len(), T::constant(0.0));
     }
 
-    /// Factorizes F M⁻¹ Fᵀ of all constraints at a state, or of the holonomic ones. Returns the smallest ratio of a pivot to its
+    /// Factorizes F M⁻¹ Fᵀ of the constraints that concern `target`. Returns the smallest ratio of a pivot to its
     /// diagonal entry.
     pub(super) fn factor<L: ManyBodies<Scalar = T>>(
         &mut self,
         system: &L,
         at: (T, &[T], &[T]),
-        is_of_positions: bool,
+        target: Correction,
     ) -> T {
         self.evaluate(system, at);
         self.invert(system, at);
-        let is_left_out = |stated: &Row<T>| is_of_positions && stated.residual.is_none();
-        for (row, _) in self.stated.rows.iter().enumerate().filter(|(_, stated)| is_left_out(stated)) {
+        for (row, _) in self.stated.rows.iter().enumerate().filter(|(_, stated)| !target.concerns(stated)) {
             self.stated.slopes[self.plan.pattern.slopes(row)].fill(T::constant(0.0));
         }
         let slopes = &self.stated.slopes;
@@ -97,7 +93,7 @@ impl<T: Scalar> Reduced<T> {
         }
         // A constraint that is left out has a row of its own, and a multiplier of zero.
         for (_, &value) in
-            self.stated.rows.iter().zip(&self.plan.diagonal).filter(|(stated, _)| is_left_out(stated))
+            self.stated.rows.iter().zip(&self.plan.diagonal).filter(|(stated, _)| !target.concerns(stated))
         {
             self.ldl.values()[value] = T::constant(1.0);
         }
@@ -115,18 +111,14 @@ impl<T: Scalar> Reduced<T> {
         }
     }
 
-    /// Σ F x of a row.
-    pub(super) fn along(&self, row: usize, x: &[T]) -> T {
-        let (slopes, pattern) = (&self.stated.slopes, &self.plan.pattern);
-        let terms = pattern.slopes(row).map(|slope| slopes[slope] * x[pattern.coordinate(slope)]);
-        terms.fold(T::constant(0.0), |sum, term| sum + term)
-    }
-
-    /// Replaces the right-hand sides by the multipliers, and adds M⁻¹ Fᵀ λ to `x`.
-    pub(super) fn solve(&mut self, x: &mut [T]) {
-        self.ldl.solve(&mut self.multipliers);
-        for (row, &multiplier) in self.multipliers.iter().enumerate() {
-            for entry in self.plan.starts[row]..self.plan.starts[row + 1] {
+    /// Corrects `x` by M⁻¹ Fᵀ λ, and writes the multipliers.
+    pub(super) fn solve(&mut self, target: Correction, (x, multipliers): (&mut [T], &mut Vec<T>)) {
+        multipliers.clear();
+        let rows = self.stated.rows.iter().enumerate();
+        multipliers.extend(rows.map(|(at, row)| target.right(row, || self.stated.along(at, x))));
+        self.ldl.solve(multipliers);
+        for (entries, &multiplier) in self.plan.starts.windows(2).zip(&*multipliers) {
+            for entry in entries[0]..entries[1] {
                 let coordinate = self.plan.moved[entry].coordinate;
                 x[coordinate] = x[coordinate] + self.moved[entry] * multiplier;
             }

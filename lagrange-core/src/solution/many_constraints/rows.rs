@@ -6,7 +6,7 @@ use crate::number::Scalar;
 
 /// Constraints of [`ManyBodies`](crate::ManyBodies) at a state: for each a row F of coefficients of the velocities, and how far the state is
 /// off it. Rows are stated in the order of the names of the constraints.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct ConstraintRows<T> {
     pub(super) pattern: Pattern,
     pub(super) rows: Vec<Row<T>>,
@@ -37,6 +37,12 @@ pub(super) struct Row<T> {
     pub(super) bias: T,
 }
 
+impl<T> Default for ConstraintRows<T> {
+    fn default() -> Self {
+        Self { pattern: Pattern::default(), rows: Vec::new(), slopes: Vec::new() }
+    }
+}
+
 impl<T: Scalar> ConstraintRows<T> {
     /// Begins a row: Φ of a holonomic constraint, and for each constraint F q̇ + b and its rate of change at q̈ = 0.
     pub fn row(&mut self, residual: Option<T>, rate: T, bias: T) {
@@ -51,6 +57,18 @@ impl<T: Scalar> ConstraintRows<T> {
         self.pattern.elements.extend(element);
         self.pattern.own.push(own);
         self.slopes.push(slope);
+    }
+
+    /// Indices of the rows.
+    pub(super) fn indices(&self) -> core::ops::Range<usize> {
+        0..self.rows.len()
+    }
+
+    /// Σ F x of a row.
+    pub(super) fn along(&self, row: usize, x: &[T]) -> T {
+        let terms =
+            self.pattern.slopes(row).map(|slope| self.slopes[slope] * x[self.pattern.coordinate(slope)]);
+        terms.fold(T::constant(0.0), |sum, term| sum + term)
     }
 
     pub(super) fn clear(&mut self) {

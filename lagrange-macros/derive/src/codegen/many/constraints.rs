@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::ManyEmitter;
-use crate::mechanics::many::{ConstraintRow, Inertia, ManyConstraint, Scatter};
+use crate::mechanics::many::{ConstraintRow, ManyConstraint, Scatter, element};
 use crate::resolve::many::Slot;
 use crate::symbolic::Id;
 use crate::syntax::numbers;
@@ -19,6 +19,7 @@ impl ManyEmitter<'_> {
         let solved = self.equations.inertia.iter().map(|block| self.solve(block));
         let rows = self.equations.constraints.iter().map(|constraint| self.rows(constraint));
         let name = self.write_constraint_name();
+        let correct = self.equations.band.iter().map(|band| self.correct(band));
         quote! {
             fn free_accelerations(&self, t: #scalar, q: &[#scalar], v: &[#scalar], a: &mut [#scalar]) {
                 #free
@@ -40,6 +41,8 @@ impl ManyEmitter<'_> {
                 #lengths
                 #({ #rows })*
             }
+
+            #(#correct)*
 
             #name
         }
@@ -112,21 +115,12 @@ impl ManyEmitter<'_> {
 
     fn entry(&self, slot: usize, slope: &TokenStream) -> TokenStream {
         let slot = &self.problem.many.slots[slot];
-        let (element, own) = self.element(slot);
-        let places = element.iter().map(|slot| self.style.place_of_slot(slot));
+        let (element, own) = element(&self.equations.inertia, slot);
+        let places = element
+            .into_iter()
+            .map(|(array, number)| self.style.place_of_slot(&Slot { array, number, ..slot.clone() }));
         let own = Literal::usize_unsuffixed(own);
         quote! { rows.entry([#(#places),*], #own, #slope); }
-    }
-
-    /// Slots that M couples with a slot, itself included, and its place among them.
-    fn element(&self, slot: &Slot) -> (Vec<Slot>, usize) {
-        let place = |block: &Inertia| block.rows.iter().position(|row| *row == (slot.array, slot.number));
-        let found = self.equations.inertia.iter().find_map(|block| Some((block, place(block)?)));
-        let Some((block, own)) = found.filter(|(block, _)| !is_diagonal(block)) else {
-            return (vec![slot.clone()], 0);
-        };
-        let all = block.rows.iter().map(|&(array, number)| Slot { array, number, ..slot.clone() });
-        (all.collect(), own)
     }
 
     fn write_constraint_name(&self) -> TokenStream {
@@ -163,20 +157,5 @@ impl ManyEmitter<'_> {
                 ::core::result::Result::Ok(())
             }
         }
-    }
-}
-
-fn is_diagonal(block: &Inertia) -> bool {
-    let matrix = &block.equations.forms[0].matrix;
-    let is_apart =
-        |(i, row): (usize, &Vec<Id>)| row.iter().enumerate().all(|(j, entry)| i == j || *entry == Id::ZERO);
-    matrix.iter().enumerate().all(is_apart)
-}
-
-impl ConstraintRow {
-    /// All expressions of the row.
-    fn roots(&self) -> impl Iterator<Item = Id> {
-        let slopes = self.slopes.iter().flat_map(|part| &part.values).map(|(_, slope)| *slope);
-        self.residual.into_iter().chain([self.rate, self.bias]).chain(slopes)
     }
 }

@@ -1,5 +1,6 @@
 //! Emits systems whose numbers of bodies are known at run time: loops over elements.
 
+mod band;
 mod checks;
 mod constraints;
 mod indices;

@@ -21,7 +21,7 @@ impl ManyEmitter<'_> {
     }
 
     /// The same for a program in terms of some expressions.
-    fn results(&self, roots: &[Id], program: &Program) -> (TokenStream, Vec<TokenStream>) {
+    pub(super) fn results(&self, roots: &[Id], program: &Program) -> (TokenStream, Vec<TokenStream>) {
         let mark = self.mark();
         let sums = self.sums_before(roots, usize::MAX);
         let kernel = self.style.write("loop", program, &vec![ResultShape::Number; program.results.len()]);
@@ -152,7 +152,7 @@ impl ManyEmitter<'_> {
     }
 
     /// Entries of M that only some elements have.
-    fn guarded(&self, Guarded { conditions, values }: &Guarded) -> TokenStream {
+    pub(super) fn guarded(&self, Guarded { conditions, values }: &Guarded) -> TokenStream {
         let roots: Vec<Id> = values.iter().map(|(_, value)| *value).collect();
         let names = values.iter().map(|(term, _)| &self.style.names[&Variable::Term(*term).symbol()]);
         let (statements, results) = self.values(&roots);

@@ -5,6 +5,7 @@
 //! added to it. That is ∂L/∂q_k = Σ over iterations and slots of [index of the slot = k] ∂ℓ/∂slot, without a search for the iterations.
 //! Slots that meet in one element, such as both ends of a bond from an atom to itself, add up as the chain rule demands.
 
+mod band;
 mod conservation;
 mod constraints;
 mod hamilton;
@@ -17,6 +18,7 @@ use crate::resolve::Problem;
 use crate::resolve::many::Range;
 use crate::symbolic::{Forward, Graph, Id};
 use crate::variables::{Variable, drift, has_velocity};
+pub(crate) use band::{Band, Place, element};
 pub(crate) use conservation::ManyConserved;
 pub(crate) use constraints::{ConstraintRow, ManyConstraint};
 pub(crate) use hamilton::ManyHamilton;
@@ -41,6 +43,8 @@ pub(crate) struct ManyEquations {
     /// M by blocks, one for each set of coordinates that share it.
     pub(crate) inertia: Vec<Inertia>,
     pub(crate) constraints: Vec<ManyConstraint>,
+    /// F M⁻¹ Fᵀ as a band, if it is one.
+    pub(crate) band: Option<Band>,
     /// E = p·q̇ − L
     pub(crate) energy: Id,
     /// The same by loops, to be printed.
@@ -123,6 +127,7 @@ pub(crate) fn derive(
     let momenta = rows::rows(graph, problem, &momentum, &[]);
     let hamilton = ManyHamilton::of(graph, problem, (&inertia, &momenta), (&energies, &rates));
     problem.coordinates = problem.many.labels(&problem.parameters);
+    let band = Band::of(graph, problem, (&constraints, &inertia));
     Some(ManyEquations {
         forces_are_free_of_velocities: constraints.is_empty()
             && !has_velocity(graph, &problem.many.with_bodies(graph, &all))
@@ -140,6 +145,7 @@ pub(crate) fn derive(
         energy_is_conserved: !has_forces
             && !depends_on_time
             && constraints.iter().flat_map(|constraint| &constraint.rows).all(|row| row.is_homogeneous),
+        band,
         constraints,
     })
 }
