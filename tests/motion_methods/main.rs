@@ -5,6 +5,7 @@ mod combinations;
 mod heun;
 mod lengths;
 mod many_bodies;
+mod many_constraints;
 mod midpoint;
 mod one_line;
 mod radau;

@@ -78,8 +78,9 @@ impl Display for Error {
             ),
             Self::Inconsistent { constraint, rate, residual, time } => write!(
                 f,
-                "the state violates {constraint} at t = {time}: its {} is {residual:e}, not 0; call `make_consistent` first",
-                if *rate { "rate F q_dot + b" } else { "residual" }
+                "the state violates {constraint} at t = {time}: its {} is {residual:e}, not 0; call `{}` first",
+                if *rate { "rate F q_dot + b" } else { "residual" },
+                if let Row::WrittenConstraint(_) = constraint { "project" } else { "make_consistent" }
             ),
             Self::NoGradient { constraint, time } => write!(
                 f,

@@ -10,7 +10,7 @@ use crate::solution::system_checks::SystemChecks;
 use crate::solution::vector_field::VectorField;
 use crate::statistics::Statistics;
 use crate::system::{StateOf, System};
-use crate::vector::{Length, StaticLength};
+use crate::vector::Length;
 
 /// A motion during its integration: state, working memory of the method, and statistics.
 pub(crate) struct Run<L, P, F = <L as System>::Field>
@@ -197,7 +197,7 @@ where
     if <L::Length as Length>::CONSTANT.is_none() {
         F::Checks::check_entries(system, state)?;
     }
-    if <L::M as StaticLength>::COUNT > 0 && <P::Interpolant as Interpolant<_, _>>::IS_PROJECTED {
+    if F::HAS_CONSTRAINTS && <P::Interpolant as Interpolant<_, _>>::IS_PROJECTED {
         F::Checks::check_constraints(system, state)?;
     }
     method.resume(system, memory, state, statistics)

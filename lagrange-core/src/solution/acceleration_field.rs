@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::names::Entry;
 use crate::number::{Parts, Real, Scalar, are_finite};
 use crate::system::{State, StateOf, System};
-use crate::vector::{Array, Numbers, PhaseVector, VectorOf};
+use crate::vector::{Array, Length, Numbers, PhaseVector, VectorOf};
 
 /// Accelerations that a system states, in the place of equations that are solved for them. `K` tells what else the system states.
 #[derive(Clone, Copy, Debug)]
@@ -53,11 +53,14 @@ pub trait StatedField<L: System<Scalar: Real>>: NamedField<L> {
         Ok(())
     }
 
-    /// Projects a state near the constraints onto them, to round-off.
+    /// True if the system has constraints.
+    const HAS_CONSTRAINTS: bool = false;
+
+    /// Projects coordinates and velocities near the constraints onto them, to round-off.
     ///
     /// # Errors
     /// [`Error::NotProjected`].
-    fn project(_: &L, _: &mut StateOf<L>) -> Result<(), Error> {
+    fn project(_: &L, _t: L::Scalar, _: [&mut [L::Scalar]; 2]) -> Result<(), Error> {
         Ok(())
     }
 }
@@ -83,6 +86,8 @@ where
     Self: StatedField<L>,
 {
     const HOLDS_VELOCITY: bool = true;
+
+    const HAS_CONSTRAINTS: bool = <Self as StatedField<L>>::HAS_CONSTRAINTS;
 
     type Checks = Self;
 
@@ -121,8 +126,14 @@ where
 
     fn project(system: &L, point: &StagePoint<L::Scalar, L::Length>) -> Result<StateOf<L>, Error> {
         let mut state = <Self as VectorField<L>>::state(system, point);
-        <Self as StatedField<L>>::project(system, &mut state)?;
+        <Self as StatedField<L>>::project(system, state.t, [state.q.entries_mut(), state.v.entries_mut()])?;
         Ok(state)
+    }
+
+    #[inline]
+    fn settle(system: &L, point: &mut StagePoint<L::Scalar, L::Length>) -> Result<(), Error> {
+        let (q, v) = point.y.flat_mut().split_at_mut(system.length().count());
+        <Self as StatedField<L>>::project(system, point.t, [q, v])
     }
 }
 
@@ -182,8 +193,7 @@ where
     }
 
     fn adjust(system: &L, state: &StateOf<L>) -> Result<Consistent<L::Scalar, L::Length>, Error> {
-        let mut settled = state.clone();
-        <Self as StatedField<L>>::project(system, &mut settled)?;
+        let settled = <Self as VectorField<L>>::project(system, &StagePoint::of(state))?;
         let adjustment = Adjustment::between(state, &settled);
         Ok((settled, adjustment))
     }

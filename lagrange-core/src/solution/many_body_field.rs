@@ -65,7 +65,9 @@ impl<L: ManyBodies<Scalar: Real>> StatedField<L> for ManyBodyField {
         many_constraints::check(system, state)
     }
 
-    fn project(system: &L, state: &mut StateOf<L>) -> Result<(), Error> {
-        many_constraints::project(system, state)
+    const HAS_CONSTRAINTS: bool = L::HAS_CONSTRAINTS;
+
+    fn project(system: &L, t: L::Scalar, halves: [&mut [L::Scalar]; 2]) -> Result<(), Error> {
+        many_constraints::project(system, t, halves)
     }
 }

@@ -16,6 +16,9 @@ pub trait VectorField<L: System<Scalar: Real>> {
     /// rates.
     const HOLDS_VELOCITY: bool;
 
+    /// True if steps end off the constraints, and are projected onto them.
+    const HAS_CONSTRAINTS: bool = <L::M as StaticLength>::COUNT > 0;
+
     /// Checks of states, and names for messages.
     type Checks: SystemChecks<L>;
 
@@ -43,6 +46,16 @@ pub trait VectorField<L: System<Scalar: Real>> {
     /// Those of [`Simulate::make_consistent`](crate::Simulate::make_consistent), and of the search for the
     /// velocity.
     fn project(system: &L, point: &StagePoint<L::Scalar, L::Length>) -> Result<StateOf<L>, Error>;
+
+    /// Moves the phase at the end of a step to the nearest one on the constraints.
+    ///
+    /// # Errors
+    /// Those of [`project`](Self::project).
+    #[inline]
+    fn settle(system: &L, point: &mut StagePoint<L::Scalar, L::Length>) -> Result<(), Error> {
+        point.y = Self::phase(system, &Self::project(system, point)?);
+        Ok(())
+    }
 
     /// Returns the entry of the phase in this half, 0 or 1, that belongs to a coordinate.
     fn entry(system: &L, half: usize, coordinate: usize) -> Entry {

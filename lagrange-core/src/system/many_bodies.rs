@@ -109,6 +109,9 @@ pub trait ManyBodies: System<Length = Dyn, M = Const<0>, Field = ManyBodyField> 
     /// True if the energy is conserved, as the derivation proved.
     const ENERGY_IS_CONSERVED: bool;
 
+    /// True if the system has [constraints](Self::constraints).
+    const HAS_CONSTRAINTS: bool = false;
+
     /// Hash of the struct and of the attributes that determine its motion; 0 for a manual implementation.
     const DIGEST: u32;
 

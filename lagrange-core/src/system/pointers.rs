@@ -19,10 +19,13 @@ use super::pack::Pack;
 use super::state::{Solution, State};
 use super::structure::{ConstantMassMatrix, HolonomicConstraints, Unconstrained, VelocityFreeForces};
 use super::taylor_series::{RightHandSides, TaylorSeries};
-#[cfg(feature = "alloc")]
-use crate::error::Error;
 use crate::number::{Broadcast, PowerSeries};
 use crate::vector::{Matrix, Vector, ViewOf};
+#[cfg(feature = "alloc")]
+use crate::{
+    error::Error,
+    solution::many_constraints::{ConstraintRows, Correction},
+};
 
 /// Forwards every method and constant. Those with a default must be forwarded too, since the default would hide
 /// the system's own.
@@ -133,7 +136,39 @@ macro_rules! forward {
         #[diagnostic::do_not_recommend]
         impl<L: ManyBodies> ManyBodies for $pointer {
             const ENERGY_IS_CONSERVED: bool = L::ENERGY_IS_CONSERVED;
+            const HAS_CONSTRAINTS: bool = L::HAS_CONSTRAINTS;
             const DIGEST: u32 = L::DIGEST;
+
+            fn free_accelerations(&self, t: L::Scalar, q: &[L::Scalar], v: &[L::Scalar], a: &mut [L::Scalar]) {
+                L::free_accelerations(self, t, q, v, a);
+            }
+
+            fn divide_by_masses(&self, t: L::Scalar, q: &[L::Scalar], v: &[L::Scalar], forces: &mut [L::Scalar]) {
+                L::divide_by_masses(self, t, q, v, forces);
+            }
+
+            fn constraints(
+                &self,
+                t: L::Scalar,
+                q: &[L::Scalar],
+                v: &[L::Scalar],
+                rows: &mut ConstraintRows<L::Scalar>,
+            ) {
+                L::constraints(self, t, q, v, rows);
+            }
+
+            fn correct(
+                &self,
+                at: (L::Scalar, &[L::Scalar], &[L::Scalar]),
+                target: Correction,
+                results: (&mut [L::Scalar], &mut Vec<L::Scalar>),
+            ) -> L::Scalar {
+                L::correct(self, at, target, results)
+            }
+
+            fn write_constraint_name(&self, constraint: usize, to: &mut dyn fmt::Write) -> fmt::Result {
+                L::write_constraint_name(self, constraint, to)
+            }
 
             fn write_name(&self, coordinate: usize, to: &mut dyn fmt::Write) -> fmt::Result {
                 L::write_name(self, coordinate, to)

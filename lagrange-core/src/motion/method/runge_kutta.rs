@@ -14,7 +14,7 @@ use crate::solution::named_field::NamedField;
 use crate::solution::vector_field::{StagePoint, VectorField, VelocityField};
 use crate::statistics::Statistics;
 use crate::system::{State, StateOf, System};
-use crate::vector::{Element, Length, Numbers, PhaseVector, SpareVectors, StaticLength, each};
+use crate::vector::{Element, Length, Numbers, PhaseVector, SpareVectors, each};
 
 /// Returns the state a time `h` later, or earlier if `h` is negative, by one step of the classical Runge–Kutta method
 /// of order 4 (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, table II.1.2).
@@ -190,7 +190,7 @@ impl<L: System<Scalar: Real>, F: VelocityField<L>> Method<L, F> for RungeKutta4 
         statistics.evaluations += 4;
         unchecked(system, h, state, spare);
         state.t = time;
-        if (const { <L::M as StaticLength>::COUNT > 0 } || !is_finite(state))
+        if (const { F::HAS_CONSTRAINTS } || !is_finite(state))
             && let Err(error) = mend::<L, F>(system, from, h, state, statistics)
         {
             state.clone_from(from);

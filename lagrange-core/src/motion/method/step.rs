@@ -321,7 +321,7 @@ impl<P: Pair> Adaptive<P> {
         (h, time): (L::Scalar, L::Scalar),
         statistics: &mut Statistics,
     ) -> Result<(L::Scalar, Array<bool, L::M>), Refusal<L::Scalar>> {
-        let has_constraints = const { <L::M as StaticLength>::COUNT > 0 };
+        let has_constraints = const { F::HAS_CONSTRAINTS };
         let PairMemory { slopes, stage_multipliers: multipliers, spare, .. } = memory;
         let (slopes, multipliers) = (&mut **slopes, &mut **multipliers);
         stages::<P, L, F>(system, from, h, (slopes, multipliers, spare), (1, P::STAGES), statistics)?;
@@ -339,7 +339,7 @@ impl<P: Pair> Adaptive<P> {
             false => self.check_error(slopes, h, [&from.y, &next.y], spare)?,
         };
         if has_constraints {
-            next.y = F::phase(system, &F::project(system, next)?);
+            F::settle(system, next)?;
         }
         if !(IS_FIXED && F::HOLDS_VELOCITY) && (has_constraints || !needs_last) {
             let found = slope::<L, F>(system, next, None, &mut slopes[last::<P>()], statistics)?;

@@ -22,11 +22,22 @@ const CORRECTIONS: usize = 3;
 /// What is projected, in turn.
 const BOTH: [Correction; 2] = [Correction::Coordinates, Correction::Velocities];
 
-/// Projects a state near the constraints onto them, to round-off. Allocates nothing where a few corrections suffice.
-pub(crate) fn project<L: ManyBodies<Scalar: Real>>(system: &L, state: &mut StateOf<L>) -> Result<(), Error> {
-    BOTH.into_iter().try_for_each(|target| match settle(system, target, state) {
-        true => Ok(()),
-        false => search(system, target, state),
+/// Projects coordinates and velocities near the constraints onto them, to round-off. Allocates nothing where a few corrections suffice.
+pub(crate) fn project<L: ManyBodies<Scalar: Real>>(
+    system: &L,
+    t: L::Scalar,
+    [q, v]: [&mut [L::Scalar]; 2],
+) -> Result<(), Error> {
+    BOTH.into_iter().try_for_each(|target| {
+        if settle(system, target, t, [&mut *q, &mut *v]) {
+            return Ok(());
+        }
+        let [from_q, from_v] = [&*q, &*v].map(DVector::from_column_slice);
+        let mut state = State { t, q: from_q, v: from_v };
+        search(system, target, &mut state)?;
+        q.copy_from_slice(state.q.as_slice());
+        v.copy_from_slice(state.v.as_slice());
+        Ok(())
     })
 }
 
@@ -44,8 +55,8 @@ pub(crate) fn make_consistent<L: ManyBodies<Scalar: Real>>(
 /// Checks that a state satisfies the constraints, to √ε of the size of their terms.
 pub(crate) fn check<L: ManyBodies<Scalar: Real>>(system: &L, state: &StateOf<L>) -> Result<(), Error> {
     BOTH.into_iter().try_for_each(|target| {
-        with_rows(system, state, |rows| {
-            let is_off = |row: &usize| !rows.is_within(*row, target, state, power_of_epsilon(0.5));
+        with_rows(system, at(state), |rows| {
+            let is_off = |row: &usize| !rows.is_within(*row, target, at(state), power_of_epsilon(0.5));
             match rows.indices().find(is_off) {
                 None => Ok(()),
                 Some(row) => Err(Error::Inconsistent {
@@ -59,15 +70,22 @@ pub(crate) fn check<L: ManyBodies<Scalar: Real>>(system: &L, state: &StateOf<L>)
     })
 }
 
+/// Time, coordinates and velocities.
+type At<'a, T> = (T, &'a [T], &'a [T]);
+
+fn at<T: Real>(state: &State<T, Dyn>) -> At<'_, T> {
+    (state.t, state.q.as_slice(), state.v.as_slice())
+}
+
 /// Calls a function with the constraints at a state.
-pub(super) fn with_rows<L: ManyBodies<Scalar: Real>, R>(
+fn with_rows<L: ManyBodies<Scalar: Real>, R>(
     system: &L,
-    state: &StateOf<L>,
+    (t, q, v): At<L::Scalar>,
     function: impl FnOnce(&ConstraintRows<L::Scalar>) -> R,
 ) -> R {
     with_scratch(|rows: &mut ConstraintRows<L::Scalar>| {
         rows.clear();
-        system.constraints(state.t, state.q.as_slice(), state.v.as_slice(), rows);
+        system.constraints(t, q, v, rows);
         function(rows)
     })
 }
@@ -79,8 +97,8 @@ impl<T: Real> ConstraintRows<T> {
     }
 
     /// Σ |F x| and Σ |F| of a row, where x are the coordinates or velocities.
-    fn terms(&self, row: usize, target: Correction, state: &State<T, Dyn>) -> [T; 2] {
-        let x = if target == Correction::Coordinates { &state.q } else { &state.v };
+    fn terms(&self, row: usize, target: Correction, (_, q, v): At<T>) -> [T; 2] {
+        let x = if target == Correction::Coordinates { q } else { v };
         self.pattern.slopes(row).fold([T::constant(0.0); 2], |[terms, sensitivity], slope| {
             let (size, x) = (Scalar::abs(self.slopes[slope]), x[self.pattern.coordinate(slope)]);
             [terms + size * Scalar::abs(x), sensitivity + size]
@@ -88,58 +106,63 @@ impl<T: Real> ConstraintRows<T> {
     }
 
     /// True if a residual is at most `part` of its terms, plus ε^(3/4) of its sensitivity for terms near zero.
-    fn is_within(&self, row: usize, target: Correction, state: &State<T, Dyn>, part: T) -> bool {
-        let [terms, sensitivity] = self.terms(row, target, state);
+    fn is_within(&self, row: usize, target: Correction, at: At<T>, part: T) -> bool {
+        let [terms, sensitivity] = self.terms(row, target, at);
         let bound = part * terms + power_of_epsilon::<T>(0.75) * sensitivity;
         is_within(Scalar::abs(self.residual(row, target)), bound)
     }
 
-    fn is_rounded(&self, row: usize, target: Correction, state: &State<T, Dyn>) -> bool {
-        let round_off = T::constant(SUM * T::EPSILON) * self.terms(row, target, state)[0];
+    fn is_rounded(&self, row: usize, target: Correction, at: At<T>) -> bool {
+        let round_off = T::constant(SUM * T::EPSILON) * self.terms(row, target, at)[0];
         is_within(Scalar::abs(self.residual(row, target)), round_off)
     }
 
     /// True if residuals are small enough to be round-off of cancelling terms.
-    fn are_negligible(&self, target: Correction, state: &State<T, Dyn>) -> bool {
+    fn are_negligible(&self, target: Correction, at: At<T>) -> bool {
         let part = T::constant(CANCELLED * T::EPSILON);
-        self.indices().all(|row| self.is_within(row, target, state, part))
+        self.indices().all(|row| self.is_within(row, target, at, part))
     }
 }
 
-/// Corrects a state a few times. Returns whether only round-off is left.
-fn settle<L: ManyBodies<Scalar: Real>>(system: &L, target: Correction, state: &mut StateOf<L>) -> bool {
+/// Corrects coordinates or velocities a few times. Returns whether only round-off is left.
+fn settle<L: ManyBodies<Scalar: Real>>(
+    system: &L,
+    target: Correction,
+    t: L::Scalar,
+    [q, v]: [&mut [L::Scalar]; 2],
+) -> bool {
     with_scratch(|step: &mut Vec<L::Scalar>| {
         for _ in 0..CORRECTIONS {
-            if with_rows(system, state, |rows| rows.indices().all(|row| rows.is_rounded(row, target, state)))
-            {
+            let at = (t, &*q, &*v);
+            if with_rows(system, at, |rows| rows.indices().all(|row| rows.is_rounded(row, target, at))) {
                 return true;
             }
             step.clear();
-            step.resize(state.q.len(), L::Scalar::constant(0.0));
-            if !find_step(system, target, state, step) {
+            step.resize(q.len(), L::Scalar::constant(0.0));
+            if !find_step(system, target, at, step) {
                 return false;
             }
-            move_by(state, target, (step, L::Scalar::constant(1.0)));
+            let unknowns = if target == Correction::Coordinates { &mut *q } else { &mut *v };
+            move_by(unknowns, (step, L::Scalar::constant(1.0)));
         }
-        with_rows(system, state, |rows| rows.are_negligible(target, state))
+        let at = (t, &*q, &*v);
+        with_rows(system, at, |rows| rows.are_negligible(target, at))
     })
 }
 
-/// Adds the correction of a state to `step`. Returns false where the constraints are not independent.
+/// Adds the correction at a state to `step`. Returns false where the constraints are not independent.
 fn find_step<L: ManyBodies<Scalar: Real>>(
     system: &L,
     target: Correction,
-    state: &StateOf<L>,
+    at: At<L::Scalar>,
     step: &mut [L::Scalar],
 ) -> bool {
-    let at = (state.t, state.q.as_slice(), state.v.as_slice());
     with_scratch(|multipliers: &mut Vec<L::Scalar>| {
         doubt(system.correct(at, target, (step, multipliers))).is_finite()
     })
 }
 
-fn move_by<T: Real>(state: &mut State<T, Dyn>, target: Correction, (step, part): (&[T], T)) {
-    let unknowns = if target == Correction::Coordinates { &mut state.q } else { &mut state.v };
+fn move_by<T: Real>(unknowns: &mut [T], (step, part): (&[T], T)) {
     unknowns.iter_mut().zip(step).for_each(|(x, change)| *x += *change * part);
 }
 
@@ -173,10 +196,10 @@ fn search<L: ManyBodies<Scalar: Real>>(
 impl<L: ManyBodies<Scalar: Real>> Projection<'_, L> {
     fn trial(&self, state: StateOf<L>) -> Trial<L> {
         let zero = L::Scalar::constant(0.0);
-        let (distance, row, residual, is_negligible) = with_rows(self.system, &state, |rows| {
+        let (distance, row, residual, is_negligible) = with_rows(self.system, at(&state), |rows| {
             let mut farthest = (zero, 0, zero);
             for row in rows.indices() {
-                let [terms, sensitivity] = rows.terms(row, self.target, &state);
+                let [terms, sensitivity] = rows.terms(row, self.target, at(&state));
                 let residual = rows.residual(row, self.target);
                 let value = beyond_round_off(residual, terms);
                 let distance = if sensitivity > zero { value / sensitivity } else { value };
@@ -185,7 +208,7 @@ impl<L: ManyBodies<Scalar: Real>> Projection<'_, L> {
                     farthest = (distance, row, residual);
                 }
             }
-            (farthest.0, farthest.1, farthest.2, rows.are_negligible(self.target, &state))
+            (farthest.0, farthest.1, farthest.2, rows.are_negligible(self.target, at(&state)))
         });
         Trial { state, distance, row, residual, is_negligible }
     }
@@ -210,7 +233,7 @@ impl<L: ManyBodies<Scalar: Real>> Search for Projection<'_, L> {
     fn linearize(&mut self, trial: &Trial<L>) -> Result<DVector<L::Scalar>, Error> {
         let mut step = DVector::from_element(trial.state.q.len(), L::Scalar::constant(0.0));
         let is_there = trial.distance == L::Scalar::constant(0.0);
-        if is_there || find_step(self.system, self.target, &trial.state, step.as_mut_slice()) {
+        if is_there || find_step(self.system, self.target, at(&trial.state), step.as_mut_slice()) {
             return Ok(step);
         }
         Err(fault(self.system, &trial.state).unwrap_or_else(|| self.not_projected(trial, 0)))
@@ -229,7 +252,8 @@ impl<L: ManyBodies<Scalar: Real>> Search for Projection<'_, L> {
     ) -> Result<impl Iterator<Item = Trial<L>>, Error> {
         Ok(halvings::<L::Scalar>(converged).map(move |part| {
             let mut state = trial.state.clone();
-            move_by(&mut state, self.target, (step.as_slice(), part));
+            let unknowns = if self.target == Correction::Coordinates { &mut state.q } else { &mut state.v };
+            move_by(unknowns.as_mut_slice(), (step.as_slice(), part));
             self.trial(state)
         }))
     }

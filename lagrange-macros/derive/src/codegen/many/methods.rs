@@ -57,9 +57,11 @@ impl ManyEmitter<'_> {
         let (write_name, check, visit) = (self.write_name(), self.check(), self.visit_numbers());
         let (zero, view) = (self.style.constant(0.0), view());
         let is_conserved = self.equations.energy_is_conserved;
+        let has_constraints = !self.equations.constraints.is_empty();
         let constrained = self.constrained(&self.free_accelerations());
         quote! {
             const ENERGY_IS_CONSERVED: bool = #is_conserved;
+            const HAS_CONSTRAINTS: bool = #has_constraints;
             const DIGEST: u32 = #digest;
 
             #write_name
