@@ -4,6 +4,7 @@
 //!
 //! Both are timed in turn; the medians count.
 
+use std::cell::RefCell;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -151,6 +152,43 @@ fn net(&Net { n, k, l }: &Net, r: &[f64], a: &mut [f64]) {
     }
 }
 
+/// Masses on rods, one below the other.
+#[derive(Lagrangian)]
+#[coordinates(r: [n, 3])]
+#[parameter(m: [n])]
+#[lagrangian(sum(i in 0..n, m[i]/2*dot(r_dot[i], r_dot[i]) - m[i]*g*r[i][2]))]
+#[constraint(rod[0]: (dot(r[0], r[0]) - l^2)/2 = 0)]
+#[constraint(rod[i in 1..n]: (dot(r[i] - r[i-1], r[i] - r[i-1]) - l^2)/2 = 0)]
+struct Rods {
+    m: Vec<f64>,
+    g: f64,
+    l: f64,
+}
+
+/// Multipliers at rest by Thomas' elimination; `work` has each rod with its pivot and right-hand side.
+fn rods(Rods { m, g, .. }: &Rods, r: &[f64], a: &mut [f64], work: &mut [([f64; 3], f64, f64)]) {
+    let dot = |x: &[f64; 3], y: &[f64; 3]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+    let (mut above, mut last, mut light) = ([0.0; 3], ([0.0; 3], 1.0, 0.0), 0.0);
+    for ((here, m), work) in r.as_chunks::<3>().0.iter().zip(m).zip(&mut *work) {
+        let rod = [here[0] - above[0], here[1] - above[1], here[2] - above[2]];
+        let beside = -dot(&rod, &last.0) * light;
+        let factor = beside * last.1;
+        let own = dot(&rod, &rod) * (1.0 / m + light);
+        // Gravity accelerates both ends alike, but the first rod hangs from a point.
+        let pull = if light == 0.0 { g * rod[2] } else { 0.0 };
+        last = (rod, 1.0 / (own - factor * beside), pull - factor * last.2);
+        *work = last;
+        (above, light) = (*here, 1.0 / m);
+    }
+    let mut below = [0.0; 3];
+    for ((a, m), (rod, inverse, right)) in a.as_chunks_mut::<3>().0.iter_mut().zip(m).zip(work).rev() {
+        let multiplier = (*right + dot(rod, &below) / m) * *inverse;
+        let force = rod.map(|x| x * multiplier);
+        *a = [0, 1, 2].map(|c| (force[c] - below[c]) / m - if c == 2 { *g } else { 0.0 });
+        below = force;
+    }
+}
+
 /// Chain and cluster with literals as lengths.
 macro_rules! with_literals {
     ($chain:ident, $cluster:ident, $n:literal) => {
@@ -237,6 +275,11 @@ fn main() {
     }
     for n in [3, 30, 300] {
         compare("net", &Net { n, k: 2.0, l: 0.5 }, 2 * n * (n - 1), net);
+    }
+    for n in [10, 1_000, 100_000] {
+        let work = RefCell::new(vec![([0.0; 3], 0.0, 0.0); n]);
+        let system = Rods { m: (0..n).map(|i| 1.0 + (i % 3) as f64).collect(), g: 9.81, l: 0.1 };
+        compare("rods", &system, n, |system, r, a| rods(system, r, a, &mut work.borrow_mut()));
     }
     println!("against literals:");
     let beta = black_box(0.7);

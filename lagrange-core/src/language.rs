@@ -621,14 +621,15 @@
 //! vectors, `Vec<[f64; 3]>`. Expressions take single elements. An index is a sum of running indices, lengths and whole numbers,
 //! `q[n-1-i]`, or an entry of a table of type `Vec<usize>` or `Vec<[usize; 2]>`, `r[bond[b][0]]` with `#[parameter(bond:
 //! [bonds, 2])]`. Sums over lengths nest, `sum(i in 0..n, sum(j in 0..i, …))` over pairs. In L they are added, and multiplied by
-//! what contains no such sum; forces and observables take them anywhere. Definitions and forces may be families over
-//! lengths. Velocities that multiply each other in L belong to one element.
+//! what contains no such sum; forces, constraints and observables take them anywhere. Definitions, forces and constraints may be
+//! families over lengths. Velocities that multiply each other in L belong to one element.
 //!
 //! The struct implements [`ManyBodies`](crate::ManyBodies), which has the energy, the momenta and states, in the place of
 //! [`Lagrangian`](crate::Lagrangian). Where the momentum or the angular momentum is proved to be conserved, it has the methods
 //! `total_momentum` and `total_angular_momentum`. It moves by pairs, by [`RungeKutta4`](crate::RungeKutta4) and, if its
-//! forces contain no velocities, by `Verlet`. There are no frames, supplied functions, constraints, contacts, frictions and
-//! `#[power]`, no definitions by recursion, and no accelerations in observables; each is an error at its place.
+//! forces contain no velocities and it has no constraints, by `Verlet`. There are no frames, supplied functions, contacts, frictions and
+//! `#[power]`, no definitions by recursion, and no accelerations and multipliers in observables; each is an error at its place.
+//! Constraints have to be independent ([`multipliers`](crate::ManyBodies::multipliers) are a method).
 //!
 //! ```
 //! use lagrange_core::prelude::*;

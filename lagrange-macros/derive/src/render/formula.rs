@@ -147,7 +147,10 @@ impl Formula {
     }
 
     pub(super) fn contains(&self, formula: &Self) -> bool {
-        self == formula || self.parts().into_iter().any(|part| part.contains(formula))
+        let of_multiplier = |name: &String| Self::labelled(name, 0).contains(formula);
+        self == formula
+            || self.parts().into_iter().any(|part| part.contains(formula))
+            || matches!(self, Self::Multiplier(name) if of_multiplier(name))
     }
 
     /// Returns whether a name stands in the formula, by itself or with indices behind its own.

@@ -13,12 +13,15 @@ use super::reading::Names;
 use super::remark::{Fragment, Remark};
 use super::{FROM_ZERO, Forms, html, latex};
 use crate::diagnostics::Diagnostics;
-use crate::mechanics::many::{ElementRows, ElementSum, ManyConserved, ManyEquations, Over, Pattern, Region};
+use crate::mechanics::many::{
+    ConstraintRow, ElementRows, ElementSum, ManyConserved, ManyConstraint, ManyEquations, Over, Pattern,
+    Region,
+};
 use crate::mechanics::{self, Derived, Symmetry};
 use crate::resolve::many::{Affine, Range, Total, totals};
 use crate::resolve::{Limit, Problem, families, vector};
 use crate::symbolic::{Graph, Id, Rational};
-use crate::syntax::Declaration;
+use crate::syntax::{Constraint, Declaration};
 
 /// Renders a system whose number of bodies is known at run time.
 pub(crate) fn render_many(
@@ -89,9 +92,9 @@ impl Page<'_> {
             false => (Vec::new(), vec![energy]),
         };
         let vectors = equations.conserved.iter().filter_map(|conserved| self.conserved_vector(conserved));
-        let lagrangian = self.lagrangian();
         let mut sections = vec![
-            section("Lagrangian", lagrangian),
+            section("Lagrangian", self.lagrangian()),
+            section("Constraints", self.constraints_of_all(equations)),
             Section {
                 note: self.unwritten(equations),
                 ..section("Equations of motion", self.rows_of_all(equations))
@@ -102,7 +105,8 @@ impl Page<'_> {
             section("Hamiltonian", self.hamiltonian_of_all(equations).into_iter().collect()),
             section("Hamilton's equations", self.canonical_of_all(equations)),
         ];
-        for section in &mut sections[1..] {
+        // The Lagrangian and the constraints are as the user wrote them.
+        for section in &mut sections[2..] {
             section.lines.iter_mut().for_each(|line| line.map(|formula| self.as_written(formula)));
         }
         let name = self.declaration.ident.to_string();
@@ -115,6 +119,22 @@ impl Page<'_> {
             latex::latex(in_latex, name.trim_start_matches("r#"), &sections),
             html::html(in_mathml, &sections),
         ]
+    }
+
+    fn constraints_of_all(&self, equations: &ManyEquations) -> Vec<Line> {
+        let line = |(stated, derived): (&Constraint, &ManyConstraint)| {
+            let kind = match &derived.rows[0] {
+                ConstraintRow { residual: None, .. } => "on the velocities",
+                ConstraintRow { is_homogeneous: true, .. } => "holonomic",
+                _ => "holonomic, rheonomic",
+            };
+            Line {
+                label: Some(Notation::UNICODE.write(&self.target(&stated.target))),
+                equation: Equation::Known(self.written(&stated.left), self.written(&stated.right)),
+                remark: Remark::of(vec![Fragment::words(kind)]),
+            }
+        };
+        self.declaration.constraints.iter().zip(&equations.constraints).map(line).collect()
     }
 
     /// Note on arrays whose elements have no equation of one form.
