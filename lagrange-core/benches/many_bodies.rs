@@ -165,27 +165,32 @@ struct Rods {
     l: f64,
 }
 
-/// Multipliers at rest by Thomas' elimination; `work` has each rod with its pivot and right-hand side.
-fn rods(Rods { m, g, .. }: &Rods, r: &[f64], a: &mut [f64], work: &mut [([f64; 3], f64, f64)]) {
+/// Accelerations by Thomas' elimination; `work` has each rod with its pivot and right-hand side.
+fn rods(Rods { m, g, .. }: &Rods, r: &[f64], v: &[f64], a: &mut [f64], work: &mut [([f64; 3], f64, f64)]) {
     let dot = |x: &[f64; 3], y: &[f64; 3]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-    let (mut above, mut last, mut light) = ([0.0; 3], ([0.0; 3], 1.0, 0.0), 0.0);
-    for ((here, m), work) in r.as_chunks::<3>().0.iter().zip(m).zip(&mut *work) {
-        let rod = [here[0] - above[0], here[1] - above[1], here[2] - above[2]];
-        let beside = -dot(&rod, &last.0) * light;
-        let factor = beside * last.1;
-        let own = dot(&rod, &rod) * (1.0 / m + light);
+    let less = |x: &[f64; 3], y: &[f64; 3]| [x[0] - y[0], x[1] - y[1], x[2] - y[2]];
+    let (r, v, a) = (r.as_chunks::<3>().0, v.as_chunks::<3>().0, a.as_chunks_mut::<3>().0);
+    let (mut above, mut speed, mut light) = ([0.0; 3], [0.0; 3], 0.0);
+    let (mut before, mut pivot, mut known) = ([0.0; 3], 1.0, 0.0);
+    for i in 0..m.len() {
+        let (rod, turn) = (less(&r[i], &above), less(&v[i], &speed));
+        let own = 1.0 / m[i];
+        let beside = -dot(&rod, &before) * light;
+        let factor = beside * pivot;
         // Gravity accelerates both ends alike, but the first rod hangs from a point.
-        let pull = if light == 0.0 { g * rod[2] } else { 0.0 };
-        last = (rod, 1.0 / (own - factor * beside), pull - factor * last.2);
-        *work = last;
-        (above, light) = (*here, 1.0 / m);
+        let pull = if i == 0 { g * rod[2] } else { 0.0 };
+        pivot = 1.0 / (dot(&rod, &rod) * (own + light) - factor * beside);
+        known = pull - dot(&turn, &turn) - factor * known;
+        work[i] = (rod, pivot, known);
+        (before, above, speed, light) = (rod, r[i], v[i], own);
     }
-    let mut below = [0.0; 3];
-    for ((a, m), (rod, inverse, right)) in a.as_chunks_mut::<3>().0.iter_mut().zip(m).zip(work).rev() {
-        let multiplier = (*right + dot(rod, &below) / m) * *inverse;
-        let force = rod.map(|x| x * multiplier);
-        *a = [0, 1, 2].map(|c| (force[c] - below[c]) / m - if c == 2 { *g } else { 0.0 });
-        below = force;
+    let (mut below, mut last) = ([0.0; 3], 0.0);
+    for i in (0..m.len()).rev() {
+        let ((rod, pivot, known), light) = (work[i], 1.0 / m[i]);
+        let multiplier = (known + dot(&rod, &below) * light * last) * pivot;
+        a[i] = [0, 1, 2].map(|c| (rod[c] * multiplier - below[c] * last) * light);
+        a[i][2] -= g;
+        (below, last) = (rod, multiplier);
     }
 }
 
@@ -230,13 +235,23 @@ fn compare<L: System<Scalar = f64, Length = Dyn>>(
     count: usize,
     others: impl Fn(&L, &[f64], &mut [f64]),
 ) {
+    compare_moving(name, system, (count, 0.0), |system, q, _, a| others(system, q, a));
+}
+
+/// The same with velocities of some size.
+fn compare_moving<L: System<Scalar = f64, Length = Dyn>>(
+    name: &str,
+    system: &L,
+    (count, speed): (usize, f64),
+    others: impl Fn(&L, &[f64], &[f64], &mut [f64]),
+) {
     let n = system.length().0;
     let q: Vec<f64> = (0..n).map(|i| 0.7 * (i / 3) as f64 + (1.0 + 1.7 * i as f64).sin()).collect();
     let q: Vec<f64> = if name.contains("chain") { q.iter().map(|x| x.sin()).collect() } else { q };
-    let v = vec![0.0; n];
+    let v: Vec<f64> = (0..n).map(|i| speed * (2.3 * i as f64).cos()).collect();
     let (mut a, mut b) = (vec![0.0; n], vec![0.0; n]);
     system.accelerations(0.0, &q, &v, &mut a);
-    others(system, &q, &mut b);
+    others(system, &q, &v, &mut b);
     let scale = b.iter().fold(1.0, |most: f64, b| most.max(b.abs()));
     assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-11 * scale), "{name}");
     let repeats = (2_000_000 / count.max(1)).clamp(1, 100_000);
@@ -248,7 +263,7 @@ fn compare<L: System<Scalar = f64, Length = Dyn>>(
     let mut times: Vec<[f64; 2]> = (0..ROUNDS)
         .map(|_| {
             let one = timed(&mut || system.accelerations(0.0, black_box(&q), &v, black_box(&mut a)));
-            let other = timed(&mut || others(system, black_box(&q), black_box(&mut b)));
+            let other = timed(&mut || others(system, black_box(&q), &v, black_box(&mut b)));
             [one, other]
         })
         .collect();
@@ -279,7 +294,10 @@ fn main() {
     for n in [10, 1_000, 100_000] {
         let work = RefCell::new(vec![([0.0; 3], 0.0, 0.0); n]);
         let system = Rods { m: (0..n).map(|i| 1.0 + (i % 3) as f64).collect(), g: 9.81, l: 0.1 };
-        compare("rods", &system, n, |system, r, a| rods(system, r, a, &mut work.borrow_mut()));
+        let others = |system: &Rods, r: &[f64], v: &[f64], a: &mut [f64]| {
+            rods(system, r, v, a, &mut work.borrow_mut());
+        };
+        compare_moving("rods", &system, (n, 1.0), others);
     }
     println!("against literals:");
     let beta = black_box(0.7);

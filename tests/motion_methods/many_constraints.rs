@@ -254,4 +254,29 @@ fn errors_name_a_constraint_by_its_index() {
     let start = molecule.project(&molecule.state(q, v)).unwrap().0;
     let error = twice.integrate(start, 1.0, Dop853::default()).map(|_| ()).unwrap_err();
     assert!(matches!(error, Error::Dependent { .. }), "{error}");
+
+    let start = molecule.state(q, v);
+    let astray = Molecule { bond: vec![[0, 6]; 7], ..molecule.clone() };
+    assert!(matches!(astray.project(&start).unwrap_err(), Error::FieldIndex { .. }));
+    assert!(matches!(
+        molecule.multipliers(&molecule.at_rest([0.0; 3])).unwrap_err(),
+        Error::StateLength { .. }
+    ));
+    let massless = Molecule { m: vec![0.0; 6], ..molecule.clone() };
+    let error = massless.multipliers(&start).unwrap_err();
+    assert!(
+        matches!(error, Error::EquationsNotFinite { row: Row::Written(name), .. } if &*name == "r[0][0]"),
+        "{error}"
+    );
+}
+
+/// A field of a constraint that is changed during a motion ends it, by name.
+#[test]
+fn a_change_that_violates_a_constraint_is_told() {
+    let chain = Chain::of(3);
+    let mut motion = Motion::new(chain.clone(), chain.at_rest(chain.at(|_| 0.4)), Dop853::default()).unwrap();
+    motion.advance_to(0.5).unwrap();
+    motion.system_mut().l = 0.4;
+    let error = motion.advance_to(1.0).unwrap_err();
+    assert!(error.to_string().contains("the state violates constraint `rod[0]`"), "{error}");
 }

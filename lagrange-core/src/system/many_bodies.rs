@@ -12,6 +12,7 @@ use crate::number::{Real, Scalar};
 use crate::solution::consistent::Consistent;
 use crate::solution::many_body_field::ManyBodyField;
 use crate::solution::many_constraints::{self, ConstraintRows, Correction};
+use crate::solution::system_checks::SystemChecks;
 
 /// A system of any number of bodies, as `#[derive(Lagrangian)]` emits it where the length of a coordinate has a name
 /// ([the language](crate::language#any-number-of-bodies)).
@@ -200,12 +201,14 @@ pub trait ManyBodies: System<Length = Dyn, M = Const<0>, Field = ManyBodyField> 
     /// Multipliers λ of the constraints at a state, in the order of the constraints and of their elements.
     ///
     /// # Errors
-    /// [`Error::Dependent`], [`Error::NoGradient`] and [`Error::EquationsNotFinite`].
+    /// [`Error::Dependent`], [`Error::NoGradient`] and [`Error::EquationsNotFinite`]; [`Error::StateLength`] and those of
+    /// [`check`](Self::check); [`Error::StateNotFinite`].
     fn multipliers(&self, state: &State<Self::Scalar, Dyn>) -> Result<DVector<Self::Scalar>, Error>
     where
         Self: Sized,
         Self::Scalar: Real,
     {
+        <ManyBodyField as SystemChecks<Self>>::check_entries(self, state)?;
         many_constraints::multipliers(self, state)
     }
 
@@ -213,12 +216,13 @@ pub trait ManyBodies: System<Length = Dyn, M = Const<0>, Field = ManyBodyField> 
     /// all. Each correction is the least in the metric of the mass matrix. Returns the state and its displacement.
     ///
     /// # Errors
-    /// [`Error::NotProjected`], [`Error::Dependent`] and [`Error::NoGradient`].
+    /// [`Error::NotProjected`], and those of [`multipliers`](Self::multipliers).
     fn project(&self, state: &State<Self::Scalar, Dyn>) -> Result<Consistent<Self::Scalar, Dyn>, Error>
     where
         Self: Sized,
         Self::Scalar: Real,
     {
+        <ManyBodyField as SystemChecks<Self>>::check_entries(self, state)?;
         many_constraints::make_consistent(self, state)
     }
 

@@ -79,6 +79,27 @@ fn rods() {
     both!(Rods6, 6);
 }
 
+macro_rules! nested {
+    ($name:ident, $rows:tt, $columns:tt, $($field:tt)*) => {
+        /// Sums over a fixed range of sums that begin behind the element.
+        #[derive(lagrange_core::Lagrangian)]
+        #[coordinates(phi: [$rows, $columns])]
+        #[lagrangian(sum(i in 0..$rows, sum(j in 0..$columns, phi_dot[i][j]^2/2)))]
+        #[force(phi[l in 0..$rows-1][0]: sum(s in 0..$columns-1, sum(k in l+1..$rows, phi[k][s]*phi[l][s+1])))]
+        #[constraint(C[l in 0..$rows-1]: phi[l][0] + sum(s in 0..$columns-1, sum(k in l+1..$rows, phi[k][s]^2/4)) = 0)]
+        struct $name { $($field)* }
+    };
+}
+
+nested!(Nested, rows, columns, rows: usize, columns: usize,);
+nested!(Nested32, 3, 2,);
+
+#[test]
+fn bounds_of_inner_sums_have_the_index_of_the_constraint() {
+    let mut random = Random(16);
+    agree_with_constraints::<6>(&Nested { rows: 3, columns: 2 }, &Nested32 {}, &mut random);
+}
+
 /// A molecule of atoms at constant distances.
 #[derive(lagrange_core::Lagrangian)]
 #[coordinates(r: [atoms, 3])]

@@ -139,6 +139,10 @@ impl<T: Real> Reduced<T> {
     /// The constraint that is not finite, or depends on others, at the state for which the matrix was factorized last.
     fn fault<L: ManyBodies<Scalar = T>>(&self, system: &L, state: &StateOf<L>) -> Option<Error> {
         let (time, v) = (state.t.to_f64(), state.v.as_slice());
+        if let Some(coordinate) = self.massless() {
+            let row = Row::Written(WrittenName::of(|to| system.write_name(coordinate, to)));
+            return Some(Error::EquationsNotFinite { row, time });
+        }
         for (row, stated) in self.stated.rows.iter().enumerate() {
             let constraint = name(system, row);
             if ![stated.rate, stated.bias, self.stated.along(row, v)].iter().all(|x| x.is_finite()) {

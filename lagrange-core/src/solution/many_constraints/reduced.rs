@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 
 use super::Correction;
 use super::rows::{ConstraintRows, Pattern};
-use crate::number::Scalar;
+use crate::number::{Real, Scalar};
 use crate::numerics::sparse::SparseLdl;
 use crate::system::ManyBodies;
 
@@ -123,6 +123,15 @@ impl<T: Scalar> Reduced<T> {
                 x[coordinate] = x[coordinate] + self.moved[entry] * multiplier;
             }
         }
+    }
+
+    /// Coordinate whose inverse mass is not finite.
+    pub(super) fn massless(&self) -> Option<usize>
+    where
+        T: Real,
+    {
+        let at = self.inverse.iter().position(|inverse| !inverse.is_finite())?;
+        Some(at % self.plan.coordinates)
     }
 
     /// Row that depends most on others, and the ratio of its pivot to its diagonal entry.

@@ -236,6 +236,12 @@ impl Lowering<'_> {
 
     /// Lowers `lambda(no_slip)` or `lambda(rod[3])`.
     fn lambda(&mut self, name: &Name, arguments: &[Expression], place: Place) -> Option<Value> {
+        if self.many.is_open() {
+            return self.report(
+                place,
+                "where the number of coordinates is known when the program runs, multipliers are not in expressions yet: the method `multipliers` computes them from a state",
+            );
+        }
         if self.setting != Setting::Observable {
             return self.report(
                 place,

@@ -58,10 +58,14 @@ impl ManyEmitter<'_> {
         let Total { level, range, body } = &self.problem.many.totals[k];
         let (many, graph) = (&self.problem.many, self.style.graph);
         let bodies = many.with_bodies_from(graph, &[*body], level + 1);
-        let others = totals(graph, &bodies).into_iter().filter(|&k| many.totals[k].level <= *level);
-        let levels = self.problem.levels(graph, &bodies).into_iter();
-        let levels = levels.chain(range.from.levels()).chain(range.to.levels()).filter(|outer| outer < level);
-        levels.map(|outer| outer + 1).chain(others.map(|k| self.depth_of_sum(k))).max().unwrap_or(0)
+        let (others, within): (Vec<usize>, Vec<usize>) =
+            totals(graph, &bodies).into_iter().partition(|&k| many.totals[k].level <= *level);
+        let ranges = within.into_iter().map(|k| &many.totals[k].range).chain([range]);
+        let bounds = ranges.flat_map(|range| range.from.levels().chain(range.to.levels()));
+        let levels =
+            self.problem.levels(graph, &bodies).into_iter().chain(bounds).filter(|outer| outer < level);
+        let others = others.into_iter().map(|k| self.depth_of_sum(k));
+        levels.map(|outer| outer + 1).chain(others).max().unwrap_or(0)
     }
 
     /// Loops that compute these sums, one for each range.

@@ -97,12 +97,11 @@ fn place(lanes: &mut Vec<Vec<Place>>, constraints: &[ManyConstraint], places: im
 impl Place {
     /// True if two constraints never have the same position.
     fn is_apart(&self, other: &Self) -> bool {
-        let ends =
-            |place: &Self| [&place.rounds.from, &place.rounds.to].map(|end| end.plus_number(place.offset));
-        let ([from, to], [from_other, to_other]) = (ends(self), ends(other));
-        let is_at_most =
-            |one: &Affine, other: &Affine| other.plus(one, -1).as_number().is_some_and(|rest| rest >= 0);
-        is_at_most(&to, &from_other) || is_at_most(&to_other, &from)
+        let positions = |Self { rounds, offset, .. }: &Self| Range {
+            from: rounds.from.plus_number(*offset),
+            to: rounds.to.plus_number(*offset),
+        };
+        positions(self).is_apart(&positions(other))
     }
 }
 

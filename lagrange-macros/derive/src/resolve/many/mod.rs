@@ -123,6 +123,8 @@ pub(crate) struct OpenForce {
 pub(crate) struct OpenConstraint {
     pub(crate) ranges: Vec<Range>,
     pub(crate) place: Place,
+    /// Numbers in each bracket behind its name.
+    pub(super) brackets: Vec<Range>,
     /// For each component the slot of its multiplier, and the residual as written, left − right.
     pub(crate) rows: Vec<(usize, Id)>,
 }
@@ -141,6 +143,15 @@ impl Range {
     /// Indices of an array.
     pub(crate) fn up_to(length: &Affine) -> Self {
         Self { from: Affine::number(0), to: length.clone() }
+    }
+}
+
+impl Range {
+    /// True if no number is in both, known without the values of lengths.
+    pub(crate) fn is_apart(&self, other: &Self) -> bool {
+        let is_at_most =
+            |one: &Affine, other: &Affine| other.plus(one, -1).as_number().is_some_and(|rest| rest >= 0);
+        is_at_most(&self.to, &other.from) || is_at_most(&other.to, &self.from)
     }
 }
 

@@ -77,36 +77,47 @@ impl Lowering<'_> {
         let place = constraint.left.place.to(constraint.right.place);
         let residual = self.residual(constraint)?;
         residual.flat().into_iter().for_each(|row| self.reject_kink("a constraint", row, place));
-        let (name, lengths) = (&constraint.target.name, residual.shape().lengths);
-        let known = self.many.multipliers.iter().position(|known| known.name == name.text);
-        let array = known.unwrap_or_else(|| {
-            self.many.multipliers.push(Array {
-                name: name.text.clone(),
-                open: Vec::new(),
-                lengths: lengths.clone(),
-                place: name.place,
-            });
-            self.many.multipliers.len() - 1
-        });
+        let bracket = |index: &Affine| match index.levels().next() {
+            Some(level) => self.many.ranges[level].clone(),
+            None => Range { from: index.clone(), to: index.plus_number(1) },
+        };
+        let brackets: Vec<Range> = indices.iter().map(bracket).collect();
+        let array = self.multiplier_array(constraint, residual.shape().lengths, &brackets)?;
         let indices: Vec<Index> = indices.iter().cloned().map(Index::Affine).collect();
-        let slots: Vec<Slot> = self
-            .many
-            .slots
-            .iter()
-            .filter(|slot| slot.array == self.many.arrays.len() + array)
-            .cloned()
-            .collect();
-        let is_twice =
-            slots.iter().any(|slot| slot.indices == indices || slot.indices.len() != indices.len());
-        if self.many.multipliers[array].lengths != lengths || is_twice {
-            return self.report(name.place, format!("two constraints are called `{}`", name.text));
-        }
-        let array = self.many.arrays.len() + array;
         let rows = residual.flat().into_iter().enumerate().map(|(number, row)| {
             let row = self.within_loops(row);
             (self.slot(Slot { array, indices: indices.clone(), number }), row)
         });
-        Some(OpenConstraint { rows: rows.collect(), ranges: self.many.ranges.clone(), place })
+        Some(OpenConstraint { rows: rows.collect(), ranges: self.many.ranges.clone(), place, brackets })
+    }
+
+    /// Array of the multipliers of the constraints of a name, which none of these elements has yet.
+    fn multiplier_array(
+        &mut self,
+        constraint: &Constraint,
+        lengths: Vec<usize>,
+        brackets: &[Range],
+    ) -> Option<usize> {
+        let (name, coordinates) = (&constraint.target.name, self.many.arrays.len());
+        let Some(array) = self.many.multipliers.iter().position(|known| known.name == name.text) else {
+            let open = Vec::new();
+            self.many.multipliers.push(Array { name: name.text.clone(), open, lengths, place: name.place });
+            return Some(coordinates + self.many.multipliers.len() - 1);
+        };
+        let is_own = |known: &&OpenConstraint| {
+            known.rows.first().is_some_and(|(slot, _)| self.many.slots[*slot].array == coordinates + array)
+        };
+        let is_apart = |known: &OpenConstraint| {
+            known.brackets.len() == brackets.len()
+                && known.brackets.iter().zip(brackets).any(|(known, new)| known.is_apart(new))
+        };
+        let is_new = self.many.constraints.iter().filter(is_own).all(is_apart);
+        if is_new && self.many.multipliers[array].lengths == lengths {
+            return Some(coordinates + array);
+        }
+        self.report(name.place, format!(
+            "two constraints are called `{0}`: elements of one name have other indices, as `{0}[0]` and `{0}[i in 1..n]`, and one shape", name.text
+        ))
     }
 
     fn check_shape(&mut self, value: &Value, lengths: &[usize], force: &Force) -> Option<()> {
