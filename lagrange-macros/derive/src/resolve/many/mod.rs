@@ -149,9 +149,18 @@ impl Range {
 impl Range {
     /// True if no number is in both, known without the values of lengths.
     pub(crate) fn is_apart(&self, other: &Self) -> bool {
-        let is_at_most =
-            |one: &Affine, other: &Affine| other.plus(one, -1).as_number().is_some_and(|rest| rest >= 0);
-        is_at_most(&self.to, &other.from) || is_at_most(&other.to, &self.from)
+        self.is_before(other, |gap| gap.as_number().is_some_and(|gap| gap >= 0))
+    }
+
+    /// True if no number is in both once lengths are large enough.
+    pub(crate) fn is_apart_at_last(&self, other: &Self) -> bool {
+        let grows = |gap: &Affine| !gap.terms.is_empty() && gap.terms.iter().all(|(_, factor)| *factor > 0);
+        self.is_before(other, |gap| grows(gap) || gap.as_number().is_some_and(|gap| gap >= 0))
+    }
+
+    /// True if one of two ranges ends before the other begins, as judged by the gap between them.
+    fn is_before(&self, other: &Self, is_gap: impl Fn(&Affine) -> bool) -> bool {
+        is_gap(&other.from.plus(&self.to, -1)) || is_gap(&self.from.plus(&other.to, -1))
     }
 }
 

@@ -109,7 +109,7 @@ impl Lowering<'_> {
         };
         let is_apart = |known: &OpenConstraint| {
             known.brackets.len() == brackets.len()
-                && known.brackets.iter().zip(brackets).any(|(known, new)| known.is_apart(new))
+                && known.brackets.iter().zip(brackets).any(|(known, new)| known.is_apart_at_last(new))
         };
         let is_new = self.many.constraints.iter().filter(is_own).all(is_apart);
         if is_new && self.many.multipliers[array].lengths == lengths {
