@@ -30,3 +30,7 @@ pub(super) const NAMED: f64 = 0.1;
 /// larger. And the size of the coordinates up to which they follow, in units of their change in a step: angular rates are about
 /// 3 per step at most, so that velocities change, relatively, by at most 50 times as much as coordinates.
 pub(super) const FOLLOWED: f64 = 16.0;
+
+/// Corrections with which a projection reaches round-off at the end of a step: the step leaves a residual of about its tolerance, the first
+/// correction about the square of that.
+pub(super) const CORRECTIONS: usize = 3;

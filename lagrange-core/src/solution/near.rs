@@ -11,7 +11,7 @@ mod tests;
 use super::consistent::level::Level;
 use crate::number::limits::{ACCUMULATED, CANCELLED, SUM};
 use crate::number::{Real, Scalar, sum};
-use crate::solution::limits::{ASIDE, FOLLOWED};
+use crate::solution::limits::{ASIDE, CORRECTIONS, FOLLOWED};
 use crate::system::{Lagrangian, SolutionOf, State, StateOf};
 use crate::vector::{Array, Entrywise, StaticLength, Vector, from_fn, vector, zeros};
 
@@ -31,7 +31,7 @@ pub(crate) enum Corrections<T> {
 impl<T: Scalar> Corrections<T> {
     fn most(self) -> usize {
         match self {
-            Self::ToRoundOff => 3,
+            Self::ToRoundOff => CORRECTIONS,
             Self::OnceAfter(_) => 1,
         }
     }

@@ -160,7 +160,7 @@ fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Sy
             codegen::many::implementation(declaration, &graph, &problem, &equations, &forms, diagnostics)?;
         return Some(System::new(declaration, &problem, Vec::new(), facts, forms, tokens));
     }
-    codegen::refuse_hopeless(&graph, &problem, diagnostics)?;
+    codegen::refuse_hopeless(declaration, &graph, &problem, diagnostics)?;
     let derived = mechanics::derive(&mut graph, &problem, diagnostics)?;
     let rendered = render::render(declaration, &graph, &problem, &derived);
     let facts = Facts::new(&problem, &derived, &rendered);

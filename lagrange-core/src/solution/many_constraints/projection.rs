@@ -13,11 +13,9 @@ use crate::number::limits::{CANCELLED, SUM};
 use crate::number::{Real, Scalar, beyond_round_off, exceeds, is_within, power_of_epsilon};
 use crate::numerics::newton::{self, Left, Search, halvings};
 use crate::solution::consistent::{Adjustment, Consistent};
+use crate::solution::limits::CORRECTIONS;
 use crate::system::{ManyBodies, State, StateOf};
 use crate::vector::scratch::with_scratch;
-
-/// Corrections at the end of a step.
-const CORRECTIONS: usize = 3;
 
 /// What is projected, in turn.
 const BOTH: [Correction; 2] = [Correction::Coordinates, Correction::Velocities];

@@ -10,7 +10,7 @@ use super::style::FunctionContext;
 use crate::facts::Facts;
 use crate::mechanics::Derived;
 use crate::render::Rendered;
-use crate::resolve::Problem;
+use crate::resolve::{self, Problem};
 use crate::syntax::Declaration;
 
 /// System to be emitted.
@@ -140,9 +140,10 @@ impl FromIterator<Self> for Written {
     }
 }
 
-pub(super) fn too_long(what: &str) -> String {
+pub(super) fn too_long(declaration: &Declaration, what: &str) -> String {
+    let loops = resolve::loops_instead(&declaration.coordinates);
     format!(
-        "{what}: more than the {OPERATION_LIMIT} that one function may have. Name what recurs with `#[define(…)]`, recursively along chains, so that it is shared, or take coordinates with constraints between them"
+        "{what}: more than the {OPERATION_LIMIT} that one function may have. Name what recurs with `#[define(…)]`, recursively along chains, so that it is shared, or take coordinates with constraints between them{loops}"
     )
 }
 

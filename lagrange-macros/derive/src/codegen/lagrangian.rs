@@ -251,12 +251,12 @@ impl Emitter<'_> {
             let takes = format!("`{}` takes {count}", observable.unwrap_or(&kernel.name));
             let observables = &self.problem.observables;
             match observables.iter().find(|observed| Some(observed.label.text.as_str()) == observable) {
-                Some(observed) => diagnostics.error(observed.label.place, too_long(&takes)),
+                Some(observed) => diagnostics.error(observed.label.place, too_long(self.declaration, &takes)),
                 None => of_motion.push(takes),
             }
         }
         if !of_motion.is_empty() {
-            diagnostics.error(self.problem.place, too_long(&of_motion.join("; ")));
+            diagnostics.error(self.problem.place, too_long(self.declaration, &of_motion.join("; ")));
         }
     }
 

@@ -106,8 +106,13 @@ pub(crate) fn implementation(
 }
 
 /// Reports a Lagrangian that is far too long, before it is differentiated.
-pub(crate) fn refuse_hopeless(graph: &Graph, problem: &Problem, diagnostics: &mut Diagnostics) -> Option<()> {
+pub(crate) fn refuse_hopeless(
+    declaration: &Declaration,
+    graph: &Graph,
+    problem: &Problem,
+    diagnostics: &mut Diagnostics,
+) -> Option<()> {
     let Some(count) = passes::hopeless(graph, problem.lagrangian) else { return Some(()) };
-    diagnostics.error(problem.place, too_long(&format!("the Lagrangian takes {count}")));
+    diagnostics.error(problem.place, too_long(declaration, &format!("the Lagrangian takes {count}")));
     None
 }

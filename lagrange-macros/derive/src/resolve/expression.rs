@@ -4,7 +4,7 @@ use num_traits::Zero;
 
 use super::access::Access;
 use super::lowering::{Lowering, Setting};
-use super::many::Affine;
+use super::many::{Affine, loops_instead};
 use super::scope::{Entity, is_built_in};
 use super::value::Value;
 use crate::diagnostics::{Place, fault_message};
@@ -126,7 +126,11 @@ impl Lowering<'_> {
             return None;
         }
         let place = self.calls.first().copied().unwrap_or(place);
-        self.report(place, "with all that it is defined by, this grows beyond what can be derived")
+        let loops = loops_instead(self.coordinates);
+        self.report(
+            place,
+            format!("with all that it is defined by, this grows beyond what can be derived{loops}"),
+        )
     }
 
     pub(super) fn fault<T>(&mut self, fault: Fault, place: Place) -> Option<T> {

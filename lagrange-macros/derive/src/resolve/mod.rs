@@ -40,6 +40,7 @@ pub(crate) use function::Supplied;
 pub(crate) use label::{Label, entry_names, labels, vector, vectors};
 use lowering::Lowering;
 use many::Many;
+pub(crate) use many::loops_instead;
 pub(crate) use outline::{Observable, Outline, outline};
 pub(crate) use parameters::{Entry, Parameters, Switch, SwitchReading};
 pub(crate) use problem::{FrictionRows, Limit, Observed, Problem};

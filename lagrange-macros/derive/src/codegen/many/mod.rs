@@ -61,7 +61,8 @@ pub(crate) fn implementation(
     let tokens = emitter.implementations(forms);
     let refused = emitter.refused.into_inner();
     if let Some(first) = refused.first() {
-        diagnostics.error(problem.place, too_long(&format!("one round of a loop takes {first}")));
+        diagnostics
+            .error(problem.place, too_long(declaration, &format!("one round of a loop takes {first}")));
         return None;
     }
     Some(tokens)

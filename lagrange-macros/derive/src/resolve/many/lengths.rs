@@ -92,10 +92,6 @@ impl Many {
     /// Stays empty if no array has several elements.
     pub(in crate::resolve) fn attempt(declaration: &Declaration) -> Self {
         let mut many = Self { is_attempt: true, taken: names(declaration), ..Self::default() };
-        let apart = |lengths: &[usize]| match lengths {
-            [length, rest @ ..] if !rest.is_empty() || *length > VECTOR => (Some(*length), rest.to_vec()),
-            lengths => (None, lengths.to_vec()),
-        };
         let lengths = declaration.coordinates.iter().map(|coordinate| apart(&coordinate.lengths));
         let open: Vec<usize> = lengths.filter_map(|(open, _)| open).collect();
         if open.is_empty() {
@@ -241,5 +237,25 @@ fn is_table(element: &syn::Type) -> bool {
     match element {
         syn::Type::Array(array) => is_table(&array.elem),
         other => is_index(other),
+    }
+}
+
+/// Number of elements of an array, if it is no vector, and the lengths of an element.
+fn apart(lengths: &[usize]) -> (Option<usize>, Vec<usize>) {
+    match lengths {
+        [length, rest @ ..] if !rest.is_empty() || *length > VECTOR => (Some(*length), rest.to_vec()),
+        lengths => (None, lengths.to_vec()),
+    }
+}
+
+/// Advice where equations that are written out are too long, if they could be loops.
+pub(crate) fn loops_instead(coordinates: &[Coordinate]) -> &'static str {
+    let is_array =
+        |coordinate: &Coordinate| coordinate.open.is_empty() && apart(&coordinate.lengths).0.is_some();
+    match coordinates.iter().any(is_array) {
+        true => {
+            "; give the length of an array a name, `const N: usize = 100;` and `#[coordinates(r: [N, 3])]`: sums then become loops (any number of bodies)"
+        }
+        false => "",
     }
 }

@@ -19,7 +19,7 @@ use crate::diagnostics::Place;
 use crate::symbolic::Id;
 use crate::syntax::{Field, FieldShape, Name, numbers};
 pub(crate) use affine::{Affine, Unknown};
-pub(crate) use lengths::{Length, LengthSource};
+pub(crate) use lengths::{Length, LengthSource, loops_instead};
 pub(crate) use shift::NewIndices;
 pub(crate) use sum::totals;
 
