@@ -113,7 +113,8 @@ impl<T: Scalar> SparseLdl<T> {
             (row, T::constant(1.0) / (diagonal * self.inverse[place]))
         };
         let all = self.places.iter().enumerate().map(ratio);
-        all.reduce(|one, other| if one.1 <= other.1 || one.1 != one.1 { one } else { other })
+        let is_number = |ratio: T| ratio.partial_cmp(&ratio).is_some();
+        all.reduce(|one, other| if one.1 <= other.1 || !is_number(one.1) { one } else { other })
     }
 
     /// Factorizes a row below others, and returns the ratio of its pivot to its diagonal entry.

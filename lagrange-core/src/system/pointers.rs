@@ -161,7 +161,7 @@ macro_rules! forward {
                 &self,
                 at: (L::Scalar, &[L::Scalar], &[L::Scalar]),
                 target: Correction,
-                results: (&mut [L::Scalar], &mut Vec<L::Scalar>),
+                results: (&mut [L::Scalar], &mut alloc::vec::Vec<L::Scalar>),
             ) -> L::Scalar {
                 L::correct(self, at, target, results)
             }

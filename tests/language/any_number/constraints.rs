@@ -26,7 +26,7 @@ fn agree_with_constraints<const N: usize>(
         assert!((&found.v - open(&expected).v).amax() < 1e-10 * scale, "{}, not {}", found.v, expected.v);
         fixed
             .check_consistent(&State { q: fixed_length(&found.q), v: fixed_length(&found.v), ..near })
-            .unwrap();
+            .expect("a consistent state");
     }
 }
 

@@ -56,7 +56,7 @@ impl<T: Real, N: Length> Adjustment<T, N> {
     pub(crate) fn between(given: &State<T, N>, projected: &State<T, N>) -> Self {
         let change = |from: &VectorOf<T, N>, to: &VectorOf<T, N>| {
             let mut change = to.clone();
-            change.entries_mut().iter_mut().zip(from.entries()).for_each(|(to, from)| *to = *to - *from);
+            change.entries_mut().iter_mut().zip(from.entries()).for_each(|(to, from)| *to -= *from);
             change
         };
         Self { q: change(&given.q, &projected.q), v: change(&given.v, &projected.v) }
