@@ -104,7 +104,7 @@ fn accelerate<L: ManyBodies>(
 fn doubt<T: Scalar>(ratio: T) -> T {
     let [zero, nan] = [0.0, f64::NAN].map(T::constant);
     let is_single = T::constant(1.0 + f64::EPSILON) == T::constant(1.0);
-    let bound = if is_single { f64::from(f32::EPSILON).sqrt() } else { HALF_THE_DIGITS };
+    let bound = if is_single { Scalar::sqrt(f64::from(f32::EPSILON)) } else { HALF_THE_DIGITS };
     ratio.select_by_order(T::constant(bound), nan, nan, zero)
 }
 
