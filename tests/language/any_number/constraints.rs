@@ -79,6 +79,37 @@ fn rods() {
     both!(Rods6, 6);
 }
 
+macro_rules! girder {
+    ($name:ident, $n:tt, $($field:tt)*) => {
+        /// Constraints over two and three neighbours beside ones at both ends, and masses that differ at
+        /// one end: a band of several constraints at each position.
+        #[derive(lagrange_core::Lagrangian)]
+        #[coordinates(s: [$n], r: [$n, 3])]
+        #[parameter(m: [$n])]
+        #[lagrangian(sum(i in 0..$n, m[i]/2*dot(r_dot[i], r_dot[i]) + s_dot[i]^2*(1 + i)/2 - r[i][2]^2) + sum(i in 0..2, dot(r_dot[i], r_dot[i])))]
+        #[constraint(far[i in 1..$n-1]: norm(r[i+1] - r[i-1]) = d)]
+        #[constraint(root: r[0][2] = sin(t)*r[0][1])]
+        #[constraint(near[i in 0..$n-1]: dot(r[i+1] - r[i], r[i+1] - r[i]) + s[i]*s[i+1] = d)]
+        #[constraint(tip: r[$n-1][0] - r[$n-2][1] = s[$n-1]*t)]
+        #[constraint(roll[i in 0..$n]: s_dot[i] = r_dot[i][1]*cos(s[i]))]
+        struct $name { $($field)* d: f64 }
+    };
+}
+
+girder!(Girder, n, m: Vec<f64>,);
+girder!(Girder3, 3, m: [f64; 3],);
+girder!(Girder6, 6, m: [f64; 6],);
+
+#[test]
+fn several_constraints_at_each_element() {
+    let mut random = Random(17);
+    let m: [f64; 3] = positive(&mut random);
+    agree::<12>(&Girder { m: m.to_vec(), d: 1.3 }, &Girder3 { m, d: 1.3 }, &mut random);
+    let m: [f64; 6] = positive(&mut random);
+    let (many, fixed) = (Girder { m: m.to_vec(), d: 1.3 }, Girder6 { m, d: 1.3 });
+    agree_with_constraints::<24>(&many, &fixed, &mut random);
+}
+
 macro_rules! nested {
     ($name:ident, $rows:tt, $columns:tt, $($field:tt)*) => {
         /// Sums over a fixed range of sums that begin behind the element.

@@ -4,7 +4,7 @@
 //! lost half of its digits, no accelerations are given, and an error names the constraint. Where it has lost a third, residuals
 //! F q̈ + γ of the accelerations found give the digits back (Higham, *Accuracy and Stability of Numerical Algorithms*, 12).
 //!
-//! Constraints between neighbours along an array are eliminated [as a band](band), whose width the compiler knows: ten times as fast as
+//! Constraints between neighbours along an array are eliminated [as a band](band), whose width the compiler knows: five times as fast as
 //! those of [any pattern](reduced).
 
 mod band;
