@@ -9,7 +9,7 @@ use core::array::from_fn;
 use core::ops::Range;
 
 use super::Correction;
-use super::rows::Row;
+use super::rows::StatedRow;
 use crate::number::Scalar;
 use crate::numerics::ldl::poison;
 use crate::vector::scratch::with_scratch;
@@ -27,7 +27,7 @@ pub fn around<const C: usize>(ranges: [Range<usize>; C]) -> Range<usize> {
 #[derive(Clone, Copy, Debug)]
 pub struct BandRow<T, const O: usize, const D: usize> {
     index: usize,
-    row: Row<T>,
+    row: StatedRow<T>,
     slopes: Window<T, O, D>,
 }
 
@@ -35,7 +35,7 @@ impl<T: Scalar, const O: usize, const D: usize> BandRow<T, O, D> {
     /// Returns the constraint of this index, with Φ if it is holonomic, F q̇ + b, its rate of change at q̈ = 0, and F.
     #[inline(always)]
     pub fn new(index: usize, residual: Option<T>, rate: T, bias: T, slopes: [[T; D]; O]) -> Self {
-        Self { index, row: Row { residual, rate, bias }, slopes }
+        Self { index, row: StatedRow { residual, rate, bias }, slopes }
     }
 }
 

@@ -27,7 +27,7 @@ pub use band::{Band, BandRow, around};
 pub(crate) use projection::{check, make_consistent, project};
 use reduced::Reduced;
 pub use rows::ConstraintRows;
-use rows::Row as ConstraintRow;
+use rows::StatedRow;
 
 /// What a correction M⁻¹ Fᵀ λ makes satisfy the constraints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,12 +42,12 @@ pub enum Correction {
 
 impl Correction {
     /// True if a constraint acts on what is corrected.
-    fn concerns<T>(self, row: &ConstraintRow<T>) -> bool {
+    fn concerns<T>(self, row: &StatedRow<T>) -> bool {
         self != Self::Coordinates || row.residual.is_some()
     }
 
     /// What F δ has to be, where `along` is F times what is corrected.
-    fn right<T: Scalar>(self, row: &ConstraintRow<T>, along: impl FnOnce() -> T) -> T {
+    fn right<T: Scalar>(self, row: &StatedRow<T>, along: impl FnOnce() -> T) -> T {
         match self {
             Self::Coordinates => row.residual.map_or(T::constant(0.0), |residual| -residual),
             Self::Velocities => -row.rate,

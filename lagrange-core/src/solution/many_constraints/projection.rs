@@ -1,4 +1,4 @@
-//! Projection of states of systems of any number of bodies onto their constraints.
+//! OntoConstraints of states of systems of any number of bodies onto their constraints.
 //!
 //! Newton's iteration with corrections δ = M⁻¹ Fᵀ μ, F δ = −residual, which are least in the metric of M: of the coordinates onto Φ = 0,
 //! then of the velocities onto F q̇ + b = 0, as for [other systems](crate::solution::consistent).
@@ -165,13 +165,13 @@ fn move_by<T: Real>(unknowns: &mut [T], (step, part): (&[T], T)) {
 }
 
 /// Newton's search for a state on the constraints.
-struct Projection<'a, L> {
+struct OntoConstraints<'a, L> {
     system: &'a L,
     target: Correction,
 }
 
 /// A state, and how far it is from the constraints.
-struct Trial<L: ManyBodies> {
+struct Candidate<L: ManyBodies> {
     state: StateOf<L>,
     /// Largest distance from a constraint, each taken alone, beyond round-off; its row and residual.
     distance: L::Scalar,
@@ -185,14 +185,14 @@ fn search<L: ManyBodies<Scalar: Real>>(
     target: Correction,
     state: &mut StateOf<L>,
 ) -> Result<(), Error> {
-    let mut projection = Projection { system, target };
-    let start = projection.trial(state.clone());
-    *state = newton::find(&mut projection, start)?.0.state;
+    let mut search = OntoConstraints { system, target };
+    let start = search.candidate(state.clone());
+    *state = newton::find(&mut search, start)?.0.state;
     Ok(())
 }
 
-impl<L: ManyBodies<Scalar: Real>> Projection<'_, L> {
-    fn trial(&self, state: StateOf<L>) -> Trial<L> {
+impl<L: ManyBodies<Scalar: Real>> OntoConstraints<'_, L> {
+    fn candidate(&self, state: StateOf<L>) -> Candidate<L> {
         let zero = L::Scalar::constant(0.0);
         let (distance, row, residual, is_negligible) = with_rows(self.system, at(&state), |rows| {
             let mut farthest = (zero, 0, zero);
@@ -208,10 +208,10 @@ impl<L: ManyBodies<Scalar: Real>> Projection<'_, L> {
             }
             (farthest.0, farthest.1, farthest.2, rows.are_negligible(self.target, at(&state)))
         });
-        Trial { state, distance, row, residual, is_negligible }
+        Candidate { state, distance, row, residual, is_negligible }
     }
 
-    fn not_projected(&self, trial: &Trial<L>, iterations: usize) -> Error {
+    fn not_projected(&self, trial: &Candidate<L>, iterations: usize) -> Error {
         Error::NotProjected {
             constraint: name(self.system, trial.row),
             residual: trial.residual.to_f64(),
@@ -221,14 +221,14 @@ impl<L: ManyBodies<Scalar: Real>> Projection<'_, L> {
     }
 }
 
-impl<L: ManyBodies<Scalar: Real>> Search for Projection<'_, L> {
+impl<L: ManyBodies<Scalar: Real>> Search for OntoConstraints<'_, L> {
     type Scalar = L::Scalar;
     type Error = Error;
-    type Trial = Trial<L>;
+    type Trial = Candidate<L>;
     /// Correction of the coordinates or the velocities.
     type Linear = DVector<L::Scalar>;
 
-    fn linearize(&mut self, trial: &Trial<L>) -> Result<DVector<L::Scalar>, Error> {
+    fn linearize(&mut self, trial: &Candidate<L>) -> Result<DVector<L::Scalar>, Error> {
         let mut step = DVector::from_element(trial.state.q.len(), L::Scalar::constant(0.0));
         let is_there = trial.distance == L::Scalar::constant(0.0);
         if is_there || find_step(self.system, self.target, at(&trial.state), step.as_mut_slice()) {
@@ -237,7 +237,7 @@ impl<L: ManyBodies<Scalar: Real>> Search for Projection<'_, L> {
         Err(fault(self.system, &trial.state).unwrap_or_else(|| self.not_projected(trial, 0)))
     }
 
-    fn left(&self, _: &Self::Linear, trial: &Trial<L>) -> Left<L::Scalar> {
+    fn left(&self, _: &Self::Linear, trial: &Candidate<L>) -> Left<L::Scalar> {
         let is_rounded = trial.distance == L::Scalar::constant(0.0);
         Left { distance: trial.distance, is_rounded, is_negligible: is_rounded || trial.is_negligible }
     }
@@ -245,18 +245,18 @@ impl<L: ManyBodies<Scalar: Real>> Search for Projection<'_, L> {
     fn corrected(
         &self,
         step: &Self::Linear,
-        trial: &Trial<L>,
+        trial: &Candidate<L>,
         converged: bool,
-    ) -> Result<impl Iterator<Item = Trial<L>>, Error> {
+    ) -> Result<impl Iterator<Item = Candidate<L>>, Error> {
         Ok(halvings::<L::Scalar>(converged).map(move |part| {
             let mut state = trial.state.clone();
             let unknowns = if self.target == Correction::Coordinates { &mut state.q } else { &mut state.v };
             move_by(unknowns.as_mut_slice(), (step.as_slice(), part));
-            self.trial(state)
+            self.candidate(state)
         }))
     }
 
-    fn not_found(&self, _: &Self::Linear, trial: &Trial<L>, steps: usize) -> Error {
+    fn not_found(&self, _: &Self::Linear, trial: &Candidate<L>, steps: usize) -> Error {
         self.not_projected(trial, steps)
     }
 }

@@ -16,7 +16,7 @@ use crate::system::ManyBodies;
 /// Equations for the multipliers at a state, and memory for the next ones.
 pub(super) struct Reduced<T> {
     pub(super) stated: ConstraintRows<T>,
-    plan: Plan,
+    layout: Layout,
     ldl: SparseLdl<T>,
     /// M⁻¹, as results of the divisions one behind the other.
     inverse: Vec<T>,
@@ -26,7 +26,7 @@ pub(super) struct Reduced<T> {
 
 /// Where each value comes from and goes to, for rows of one pattern.
 #[derive(Default)]
-struct Plan {
+struct Layout {
     pattern: Pattern,
     coordinates: usize,
     /// Coordinates with a one in each division by M.
@@ -52,7 +52,7 @@ impl<T: Scalar> Default for Reduced<T> {
     fn default() -> Self {
         Self {
             stated: ConstraintRows::default(),
-            plan: Plan::default(),
+            layout: Layout::default(),
             ldl: SparseLdl::of(Vec::new()),
             inverse: Vec::new(),
             moved: Vec::new(),
@@ -65,8 +65,8 @@ impl<T: Scalar> Reduced<T> {
     pub(super) fn evaluate<L: ManyBodies<Scalar = T>>(&mut self, system: &L, (t, q, v): (T, &[T], &[T])) {
         self.stated.clear();
         system.constraints(t, q, v, &mut self.stated);
-        if self.stated.pattern != self.plan.pattern || q.len() != self.plan.coordinates {
-            self.ldl = self.plan.renew(&self.stated.pattern, q.len());
+        if self.stated.pattern != self.layout.pattern || q.len() != self.layout.coordinates {
+            self.ldl = self.layout.renew(&self.stated.pattern, q.len());
         }
     }
 
@@ -81,19 +81,19 @@ impl<T: Scalar> Reduced<T> {
         self.evaluate(system, at);
         self.invert(system, at);
         for (row, _) in self.stated.rows.iter().enumerate().filter(|(_, stated)| !target.concerns(stated)) {
-            self.stated.slopes[self.plan.pattern.slopes(row)].fill(T::constant(0.0));
+            self.stated.slopes[self.layout.pattern.slopes(row)].fill(T::constant(0.0));
         }
         let slopes = &self.stated.slopes;
         self.moved.clear();
-        self.moved.extend(self.plan.moved.iter().map(|at| slopes[at.slope] * self.inverse[at.inverse]));
-        for (value, ends) in self.ldl.values().iter_mut().zip(self.plan.product_starts.windows(2)) {
-            let products = self.plan.products[ends[0]..ends[1]].iter();
+        self.moved.extend(self.layout.moved.iter().map(|at| slopes[at.slope] * self.inverse[at.inverse]));
+        for (value, ends) in self.ldl.values().iter_mut().zip(self.layout.product_starts.windows(2)) {
+            let products = self.layout.products[ends[0]..ends[1]].iter();
             *value = products
                 .fold(T::constant(0.0), |sum, &(slope, moved)| sum + slopes[slope] * self.moved[moved]);
         }
         // A constraint that is left out has a row of its own, and a multiplier of zero.
         for (_, &value) in
-            self.stated.rows.iter().zip(&self.plan.diagonal).filter(|(stated, _)| !target.concerns(stated))
+            self.stated.rows.iter().zip(&self.layout.diagonal).filter(|(stated, _)| !target.concerns(stated))
         {
             self.ldl.values()[value] = T::constant(1.0);
         }
@@ -104,8 +104,8 @@ impl<T: Scalar> Reduced<T> {
     fn invert<L: ManyBodies<Scalar = T>>(&mut self, system: &L, (t, q, v): (T, &[T], &[T])) {
         let count = q.len();
         self.inverse.clear();
-        self.inverse.resize(count * self.plan.ones.len(), T::constant(0.0));
-        for (ones, x) in self.plan.ones.iter().zip(self.inverse.chunks_exact_mut(count.max(1))) {
+        self.inverse.resize(count * self.layout.ones.len(), T::constant(0.0));
+        for (ones, x) in self.layout.ones.iter().zip(self.inverse.chunks_exact_mut(count.max(1))) {
             ones.iter().for_each(|&one| x[one] = T::constant(1.0));
             system.divide_by_masses(t, q, v, x);
         }
@@ -117,9 +117,9 @@ impl<T: Scalar> Reduced<T> {
         let rows = self.stated.rows.iter().enumerate();
         multipliers.extend(rows.map(|(at, row)| target.right(row, || self.stated.along(at, x))));
         self.ldl.solve(multipliers);
-        for (entries, &multiplier) in self.plan.starts.windows(2).zip(&*multipliers) {
+        for (entries, &multiplier) in self.layout.starts.windows(2).zip(&*multipliers) {
             for entry in entries[0]..entries[1] {
-                let coordinate = self.plan.moved[entry].coordinate;
+                let coordinate = self.layout.moved[entry].coordinate;
                 x[coordinate] = x[coordinate] + self.moved[entry] * multiplier;
             }
         }
@@ -131,7 +131,7 @@ impl<T: Scalar> Reduced<T> {
         T: Real,
     {
         let at = self.inverse.iter().position(|inverse| !inverse.is_finite())?;
-        Some(at % self.plan.coordinates)
+        Some(at % self.layout.coordinates)
     }
 
     /// Row that depends most on others, and the ratio of its pivot to its diagonal entry.
@@ -143,8 +143,8 @@ impl<T: Scalar> Reduced<T> {
     }
 }
 
-impl Plan {
-    /// Plans the values for a pattern of rows.
+impl Layout {
+    /// Finds the layout of the values for a pattern of rows.
     fn renew<T: Scalar>(&mut self, pattern: &Pattern, coordinates: usize) -> SparseLdl<T> {
         *self = Self { pattern: pattern.clone(), coordinates, starts: alloc::vec![0], ..Self::default() };
         let rows = pattern.starts.len();

@@ -9,7 +9,7 @@ use crate::number::Scalar;
 #[derive(Debug)]
 pub struct ConstraintRows<T> {
     pub(super) pattern: Pattern,
-    pub(super) rows: Vec<Row<T>>,
+    pub(super) rows: Vec<StatedRow<T>>,
     pub(super) slopes: Vec<T>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Pattern {
 
 /// A constraint without its coefficients.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row<T> {
+pub(super) struct StatedRow<T> {
     /// Φ, if the constraint is holonomic.
     pub(super) residual: Option<T>,
     /// F q̇ + b
@@ -47,7 +47,7 @@ impl<T: Scalar> ConstraintRows<T> {
     /// Begins a row: Φ of a holonomic constraint, and for each constraint F q̇ + b and its rate of change at q̈ = 0.
     pub fn row(&mut self, residual: Option<T>, rate: T, bias: T) {
         self.pattern.starts.push(self.slopes.len());
-        self.rows.push(Row { residual, rate, bias });
+        self.rows.push(StatedRow { residual, rate, bias });
     }
 
     /// Adds a coefficient to the row that was begun last: `slope` of the velocity of coordinate `element[own]`. The other coordinates of
