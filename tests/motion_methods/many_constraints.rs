@@ -255,6 +255,14 @@ fn errors_name_a_constraint_by_its_index() {
     let error = twice.integrate(start, 1.0, Dop853::default()).map(|_| ()).unwrap_err();
     assert!(matches!(error, Error::Dependent { .. }), "{error}");
 
+    // Of the bonds [1, 2] and [2, 1] the one that is eliminated last, not one behind them.
+    let pair = Molecule { bond: vec![[0, 1], [1, 2], [2, 1], [3, 4]], d: vec![1.0; 4], ..molecule.clone() };
+    let error = pair.multipliers(&pair.state(q, v)).unwrap_err();
+    assert!(
+        matches!(error, Error::Dependent { constraint: Row::WrittenConstraint(name), .. } if ["rod[1]", "rod[2]"].contains(&&*name)),
+        "{error}"
+    );
+
     let start = molecule.state(q, v);
     let astray = Molecule { bond: vec![[0, 6]; 7], ..molecule.clone() };
     assert!(matches!(astray.project(&start).unwrap_err(), Error::FieldIndex { .. }));

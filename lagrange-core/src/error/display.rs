@@ -88,7 +88,7 @@ impl Display for Error {
             ),
             Self::Dependent { constraint, time } => write!(
                 f,
-                "{constraint} depends on others at t = {time}, so that its multiplier is not determined; leave out a constraint that others imply, or start beside a pose like this one"
+                "{constraint} depends on others at t = {time}, so that its multiplier is not determined; leave out a constraint that others imply, check that all can hold together and that no mass is 10⁷ times another, or start beside a pose like this one"
             ),
             Self::DependentToFirstOrder { constraints, time } => write!(
                 f,

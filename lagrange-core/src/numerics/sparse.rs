@@ -103,18 +103,16 @@ impl<T: Scalar> SparseLdl<T> {
         })
     }
 
-    /// Row whose pivot is smallest beside its diagonal entry, in the matrix factorized last, and their ratio. NaN is smallest.
-    pub(crate) fn weakest(&self) -> Option<(usize, T)>
-    where
-        T: PartialOrd,
-    {
-        let ratio = |(row, &place): (usize, &usize)| {
+    /// First row in the order of elimination whose ratio of the pivot to its diagonal entry is not trusted, in the matrix factorized
+    /// last: it depends on rows before it. Ratios behind it tell nothing.
+    pub(crate) fn dependent(&self, is_trusted: impl Fn(T) -> bool) -> Option<usize> {
+        let mut order: Vec<(usize, usize)> = self.places.iter().copied().zip(0..).collect();
+        order.sort_unstable();
+        let ratio = |place: usize| {
             let diagonal = self.matrix.values[self.matrix.starts[place + 1] - 1];
-            (row, T::constant(1.0) / (diagonal * self.inverse[place]))
+            T::constant(1.0) / (diagonal * self.inverse[place])
         };
-        let all = self.places.iter().enumerate().map(ratio);
-        let is_number = |ratio: T| ratio.partial_cmp(&ratio).is_some();
-        all.reduce(|one, other| if one.1 <= other.1 || !is_number(one.1) { one } else { other })
+        order.into_iter().find(|(place, _)| !is_trusted(ratio(*place))).map(|(_, row)| row)
     }
 
     /// Factorizes a row below others, and returns the ratio of its pivot to its diagonal entry.
@@ -284,7 +282,7 @@ mod tests {
             let mut ldl = SparseLdl::of(pair());
             write(&mut ldl, |i, j| if i == j { diagonal[i] } else { 2.0 });
             let pivot = ldl.factor();
-            (pivot, ldl.weakest().map(|(row, _)| row))
+            (pivot, ldl.dependent(|ratio| ratio > 0.6))
         };
         assert_eq!(pivot([4.0, 2.0, 1.0]), (0.5, Some(1)));
         assert_eq!(pivot([4.0, 1.0, 1.0]), (0.0, Some(1)));

@@ -198,7 +198,7 @@ pub trait ManyBodies: System<Length = Dyn, M = Const<0>, Field = ManyBodyField> 
         Ok(())
     }
 
-    /// Multipliers λ of the constraints at a state, in the order of the constraints and of their elements.
+    /// Multipliers λ of the constraints at a state that satisfies them, in the order of the attributes and, for each, of its elements.
     ///
     /// # Errors
     /// [`Error::Dependent`], [`Error::NoGradient`] and [`Error::EquationsNotFinite`]; [`Error::StateLength`] and those of

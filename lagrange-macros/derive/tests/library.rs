@@ -206,3 +206,42 @@ fn a_refusal_is_an_error_of_any_program() {
         System::parse("struct System;").map_err(Into::into);
     assert!(refused.expect_err("no attributes").to_string().contains("`#[coordinates(…)]` is missing"));
 }
+
+fn printed(text: &str) -> String {
+    System::parse(text).expect("a system").to_string()
+}
+
+/// Even powers of a distance keep its bars: a vector has a square, but no sixth power.
+#[test]
+fn powers_of_distances_are_those_of_norms() {
+    let text = "#[coordinates(r: [n, 3])]
+#[lagrangian(sum(i in 0..n, dot(r_dot[i], r_dot[i])/2) - sum(i in 0..n, sum(j in 0..i, (s/norm(r[i] - r[j]))^6)))]
+struct Gas { n: usize, s: f64 }";
+    let equations = printed(text);
+    let row = "r̈[i] = 6 s⁶ Σ(j ≠ i) (r[i] − r[j])/|r[i] − r[j]|⁸";
+    assert!(equations.contains(row), "{equations}");
+    let equations = printed(
+        "#[coordinates(r: [2, 3])]
+#[lagrangian(dot(r_dot[0], r_dot[0])/2 + dot(r_dot[1], r_dot[1])/2 - (s/norm(r[0] - r[1]))^6)]
+struct Pair { s: f64 }",
+    );
+    for line in ["r[1]: r̈[1] = 6 s⁶ (r[1] − r[0])/|r[0] − r[1]|⁸", "+ s⁶/|r[0] − r[1]|⁶"] {
+        assert!(equations.contains(line), "{equations}");
+    }
+}
+
+/// Multipliers under a sum over a table have its index, and belong into it.
+#[test]
+fn multipliers_stand_in_the_sums_of_their_constraints() {
+    let equations = printed(
+        "#[coordinates(x: [n])]
+#[parameter(bond: [bonds, 2])]
+#[lagrangian(sum(i in 0..n, x_dot[i]^2/2))]
+#[constraint(rod[b in 0..bonds]: x[bond[b][0]] - 2*x[bond[b][1]] = 1)]
+struct Chain { n: usize, bond: Vec<[usize; 2]> }",
+    );
+    let row = "ẍ[i] = Σ(bond[j][0] = i) λ_rod[j] − 2 Σ(bond[j][1] = i) λ_rod[j]";
+    assert!(equations.contains(row), "{equations}");
+    let stated = "rod[b = 0 … bonds − 1]: x[bond[b][0]] − 2 x[bond[b][1]] = 1   (holonomic)";
+    assert!(equations.contains(stated), "{equations}");
+}

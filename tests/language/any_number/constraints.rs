@@ -220,6 +220,28 @@ fn sums_in_constraints() {
     names_agree(&many, &fixed);
 }
 
+macro_rules! mixed {
+    ($name:ident, $n:tt, $($field:tt)*) => {
+        /// A velocity constraint beside holonomic ones, of which a sum keeps the matrix from being a band.
+        #[derive(lagrange_core::Lagrangian)]
+        #[coordinates(r: [$n, 2])]
+        #[lagrangian(sum(i in 0..$n, (1 + i)*dot(r_dot[i], r_dot[i])/2))]
+        #[constraint(mean: sum(i in 0..$n, r[i][0]^2) = 3)]
+        #[constraint(blade[i in 0..$n-1]: r_dot[i][1]*cos(r[i][0]) = r_dot[i+1][0])]
+        #[constraint(rod[i in 1..$n]: dot(r[i] - r[i-1], r[i] - r[i-1]) = 1)]
+        struct $name { $($field)* }
+    };
+}
+
+mixed!(Mixed, n, n: usize,);
+mixed!(Mixed4, 4,);
+
+#[test]
+fn velocity_constraints_are_left_out_where_coordinates_are_projected() {
+    let mut random = Random(18);
+    agree_with_constraints::<8>(&Mixed { n: 4 }, &Mixed4 {}, &mut random);
+}
+
 macro_rules! sheet {
     ($name:ident, $rows:tt, $columns:tt, $($field:tt)*) => {
         /// Rods along the rows of a lattice, and bars between rows.

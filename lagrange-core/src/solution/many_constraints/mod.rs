@@ -152,8 +152,8 @@ impl<T: Real> Reduced<T> {
                 return Some(Error::NoGradient { constraint, time });
             }
         }
-        let weakest = self.weakest().filter(|(_, ratio)| !doubt(*ratio).is_finite());
-        weakest.map(|(row, _)| Error::Dependent { constraint: name(system, row), time })
+        let dependent = self.dependent(|ratio| doubt(ratio).is_finite());
+        dependent.map(|row| Error::Dependent { constraint: name(system, row), time })
     }
 }
 

@@ -134,12 +134,9 @@ impl<T: Scalar> Reduced<T> {
         Some(at % self.layout.coordinates)
     }
 
-    /// Row that depends most on others, and the ratio of its pivot to its diagonal entry.
-    pub(super) fn weakest(&self) -> Option<(usize, T)>
-    where
-        T: PartialOrd,
-    {
-        self.ldl.weakest()
+    /// Row that depends on others.
+    pub(super) fn dependent(&self, is_trusted: impl Fn(T) -> bool) -> Option<usize> {
+        self.ldl.dependent(is_trusted)
     }
 }
 

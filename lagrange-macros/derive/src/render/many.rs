@@ -14,8 +14,7 @@ use super::remark::{Fragment, Remark};
 use super::{FROM_ZERO, Forms, html, latex};
 use crate::diagnostics::Diagnostics;
 use crate::mechanics::many::{
-    ConstraintRow, ElementRows, ElementSum, ManyConserved, ManyConstraint, ManyEquations, Over, Pattern,
-    Region,
+    ElementRows, ElementSum, ManyConserved, ManyConstraint, ManyEquations, Over, Pattern, Region,
 };
 use crate::mechanics::{self, Derived, Symmetry};
 use crate::resolve::many::{Affine, Range, Total, totals};
@@ -123,10 +122,11 @@ impl Page<'_> {
 
     fn constraints_of_all(&self, equations: &ManyEquations) -> Vec<Line> {
         let line = |(stated, derived): (&Constraint, &ManyConstraint)| {
-            let kind = match &derived.rows[0] {
-                ConstraintRow { residual: None, .. } => "on the velocities",
-                ConstraintRow { is_homogeneous: true, .. } => "holonomic",
-                _ => "holonomic, rheonomic",
+            let is_scleronomic = derived.rows.iter().all(|row| row.is_homogeneous);
+            let kind = match (derived.rows[0].residual, is_scleronomic) {
+                (None, _) => "on the velocities",
+                (Some(_), true) => "holonomic",
+                (Some(_), false) => "holonomic, rheonomic",
             };
             Line {
                 label: Some(Notation::UNICODE.write(&self.target(&stated.target))),

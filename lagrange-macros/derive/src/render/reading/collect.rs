@@ -191,7 +191,11 @@ impl Collector<'_, '_> {
             (Some(NamedRoot { name, is_below, .. }), Some(twice)) => {
                 (power(name.clone(), twice.abs()), twice.is_negative() != *is_below)
             }
-            _ => (self.unnamed(atom, exponent.abs()), exponent.is_negative()),
+            _ if exponent.is_negative() => {
+                let of_norm = self.power_of_norm(atom, exponent.abs());
+                (of_norm.unwrap_or_else(|| self.unnamed(atom, exponent.abs())), true)
+            }
+            _ => (self.unnamed(atom, exponent), false),
         }
     }
 
@@ -214,6 +218,12 @@ impl Collector<'_, '_> {
         {
             return power(norm, exponent);
         }
+        // The square of a vector is written (p − e A)², other powers as those of its norm.
+        if !exponent.is_one()
+            && let Some(power) = self.power_of_norm(atom, exponent)
+        {
+            return power;
+        }
         let written = self.atom(atom);
         match self.expansion.atoms.meaning(atom) {
             Meaning::Sum(sum) if exponent.is_integer() => {
@@ -223,6 +233,17 @@ impl Collector<'_, '_> {
             }
             _ => power(written, exponent),
         }
+    }
+
+    /// Whole power of a sum of products of vectors that is ± the square of one, such as |a − b|⁶.
+    fn power_of_norm(&self, atom: Atom, exponent: Rational) -> Option<Formula> {
+        let Meaning::Sum(sum) = self.expansion.atoms.meaning(atom) else { return None };
+        let (is_negative, square) = self.dotted_sum(sum)?.sign_and_magnitude();
+        let Formula::Power(vector, two) = square else { return None };
+        let is_square = *two == Formula::Number(Rational::from_integer(2)) && exponent.is_integer();
+        let twice = symbolic::times(exponent, Rational::from_integer(2)).filter(|_| is_square)?;
+        let norm = Formula::Call("norm".to_owned(), vec![*vector]);
+        Some(power(norm, twice).signed(is_negative && exponent.numer() % 2 != 0))
     }
 
     pub(super) fn atom(&self, atom: Atom) -> Formula {
