@@ -30,7 +30,7 @@ pub(crate) struct SparseLdl<T> {
 
 /// A list of entries for each row or column, each with its place along it.
 struct Lists<V> {
-    /// First entry of each list, and the number of all entries.
+    /// Index of the first entry of each list and, at the end, the number of all entries.
     starts: Vec<usize>,
     places: Vec<usize>,
     values: Vec<V>,
@@ -54,7 +54,8 @@ impl<V: Copy> Lists<V> {
 }
 
 impl<T: Scalar> SparseLdl<T> {
-    /// Analyses a pattern: for each row the others in whose columns it has entries. The pattern is symmetric.
+    /// Chooses the order of elimination for matrices of a symmetric pattern. `neighbours` has, for each row, the columns of its entries
+    /// beside the diagonal.
     pub(crate) fn of(neighbours: Vec<BTreeSet<usize>>) -> Self {
         let count = neighbours.len();
         let (order, below) = eliminated(neighbours.clone());

@@ -20,7 +20,7 @@ use crate::number::{Real, Scalar, larger};
 use crate::numerics::newton::{self, Left, Search};
 
 /// Search for a shot that meets the conditions, at an arclength if there is one.
-struct Correction<'a, L: Linearized<Scalar: Real>, D> {
+struct OrbitCorrection<'a, L: Linearized<Scalar: Real>, D> {
     problem: &'a Problem<L::Scalar>,
     method: &'a D,
     arc: Option<&'a Arc<L::Scalar>>,
@@ -43,7 +43,7 @@ struct CorrectionEquations<T> {
     failure: RefCell<Option<Error>>,
 }
 
-impl<L, D> Correction<'_, L, D>
+impl<L, D> OrbitCorrection<'_, L, D>
 where
     L: Linearized<Scalar: Real> + Clone,
     D: DifferentiableMethod<L> + Clone,
@@ -75,7 +75,7 @@ where
     }
 }
 
-impl<L, D> Search for Correction<'_, L, D>
+impl<L, D> Search for OrbitCorrection<'_, L, D>
 where
     L: Linearized<Scalar: Real> + Clone,
     D: DifferentiableMethod<L> + Clone,
@@ -155,7 +155,7 @@ impl<T: Real> Problem<T> {
         D: DifferentiableMethod<L> + Clone,
     {
         let shot = self.shoot(chain, method)?;
-        let mut search = Correction { problem: self, method, arc, tolerance, guess: shot.chain.period };
+        let mut search = OrbitCorrection { problem: self, method, arc, tolerance, guess: shot.chain.period };
         let (found, steps) = newton::find(&mut search, DampedShot { shot, damping: T::constant(DAMPING) })?;
         Ok((found.shot, steps))
     }

@@ -245,3 +245,30 @@ struct Chain { n: usize, bond: Vec<[usize; 2]> }",
     let stated = "rod[b = 0 … bonds − 1]: x[bond[b][0]] − 2 x[bond[b][1]] = 1   (holonomic)";
     assert!(equations.contains(stated), "{equations}");
 }
+
+/// A constraint whose forces act from outside takes the momentum from what is conserved, and one that moves takes the energy.
+#[test]
+fn constraints_from_outside_conserve_less() {
+    let held = |constraint: &str| {
+        printed(&format!(
+            "#[coordinates(r: [n, 3])]
+#[lagrangian(sum(i in 0..n, dot(r_dot[i], r_dot[i])/2))]
+#[constraint({constraint})]
+struct Chain {{ n: usize, l: f64 }}"
+        ))
+    };
+    let conserved = |text: &str, name: &str| {
+        let section = text.split("Conserved").nth(1).unwrap_or_default();
+        section.split("\n\n").next().unwrap_or_default().contains(name)
+    };
+    for (constraint, expected) in [
+        ("rod[i in 1..n]: norm(r[i] - r[i-1]) = l", [true, true, true]),
+        ("hung: norm(r[0]) = l", [false, true, true]),
+        ("floor: r[0][2] = 0", [false, false, true]),
+        ("carried: r[0][2] = sin(t)", [false, false, false]),
+        ("apart[i in 1..n]: norm(r[i] - r[i-1]) = l + t", [true, true, false]),
+    ] {
+        let text = held(constraint);
+        assert_eq!(["P = ", "J = ", "E = "].map(|name| conserved(&text, name)), expected, "{text}");
+    }
+}

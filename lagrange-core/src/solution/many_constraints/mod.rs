@@ -1,8 +1,9 @@
 //! Accelerations of systems of any number of bodies with constraints.
 //!
 //! M q̈ = h + Fᵀλ and F q̈ = −γ give (F M⁻¹ Fᵀ) λ = −γ − F M⁻¹ h. Constraints are taken to be independent: where a pivot of F M⁻¹ Fᵀ has
-//! lost half of its digits, no accelerations are given, and an error names the constraint. Where it has lost a third, residuals
-//! F q̈ + γ of the accelerations found give the digits back (Higham, *Accuracy and Stability of Numerical Algorithms*, 12).
+//! lost half of its digits, no accelerations are given, and an error names the constraint. Where it has lost a third, the equations are
+//! solved once more for what the accelerations leave of F q̈ + γ, which restores the digits (iterative refinement; Higham, *Accuracy
+//! and Stability of Numerical Algorithms*, 12).
 //!
 //! Constraints between neighbours along an array are eliminated [as a band](band), whose width the compiler knows: five times as fast as
 //! those of [any pattern](reduced).
@@ -41,7 +42,7 @@ pub enum Correction {
 }
 
 impl Correction {
-    /// True if a constraint acts on what is corrected.
+    /// True if a constraint restricts what is corrected: coordinates are restricted by holonomic constraints alone.
     fn concerns<T>(self, row: &StatedRow<T>) -> bool {
         self != Self::Coordinates || row.residual.is_some()
     }

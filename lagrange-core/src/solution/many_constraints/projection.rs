@@ -69,16 +69,16 @@ pub(crate) fn check<L: ManyBodies<Scalar: Real>>(system: &L, state: &StateOf<L>)
 }
 
 /// Time, coordinates and velocities.
-type At<'a, T> = (T, &'a [T], &'a [T]);
+type StateSlices<'a, T> = (T, &'a [T], &'a [T]);
 
-fn at<T: Real>(state: &State<T, Dyn>) -> At<'_, T> {
+fn at<T: Real>(state: &State<T, Dyn>) -> StateSlices<'_, T> {
     (state.t, state.q.as_slice(), state.v.as_slice())
 }
 
 /// Calls a function with the constraints at a state.
 fn with_rows<L: ManyBodies<Scalar: Real>, R>(
     system: &L,
-    (t, q, v): At<L::Scalar>,
+    (t, q, v): StateSlices<L::Scalar>,
     function: impl FnOnce(&ConstraintRows<L::Scalar>) -> R,
 ) -> R {
     with_scratch(|rows: &mut ConstraintRows<L::Scalar>| {
@@ -95,7 +95,7 @@ impl<T: Real> ConstraintRows<T> {
     }
 
     /// Σ |F x| and Σ |F| of a row, where x are the coordinates or velocities.
-    fn terms(&self, row: usize, target: Correction, (_, q, v): At<T>) -> [T; 2] {
+    fn terms(&self, row: usize, target: Correction, (_, q, v): StateSlices<T>) -> [T; 2] {
         let x = if target == Correction::Coordinates { q } else { v };
         self.pattern.slopes(row).fold([T::constant(0.0); 2], |[terms, sensitivity], slope| {
             let (size, x) = (Scalar::abs(self.slopes[slope]), x[self.pattern.coordinate(slope)]);
@@ -104,19 +104,19 @@ impl<T: Real> ConstraintRows<T> {
     }
 
     /// True if a residual is at most `part` of its terms, plus ε^(3/4) of its sensitivity for terms near zero.
-    fn is_within(&self, row: usize, target: Correction, at: At<T>, part: T) -> bool {
+    fn is_within(&self, row: usize, target: Correction, at: StateSlices<T>, part: T) -> bool {
         let [terms, sensitivity] = self.terms(row, target, at);
         let bound = part * terms + power_of_epsilon::<T>(0.75) * sensitivity;
         is_within(Scalar::abs(self.residual(row, target)), bound)
     }
 
-    fn is_rounded(&self, row: usize, target: Correction, at: At<T>) -> bool {
+    fn is_rounded(&self, row: usize, target: Correction, at: StateSlices<T>) -> bool {
         let round_off = T::constant(SUM * T::EPSILON) * self.terms(row, target, at)[0];
         is_within(Scalar::abs(self.residual(row, target)), round_off)
     }
 
     /// True if residuals are small enough to be round-off of cancelling terms.
-    fn are_negligible(&self, target: Correction, at: At<T>) -> bool {
+    fn are_negligible(&self, target: Correction, at: StateSlices<T>) -> bool {
         let part = T::constant(CANCELLED * T::EPSILON);
         self.indices().all(|row| self.is_within(row, target, at, part))
     }
@@ -152,7 +152,7 @@ fn settle<L: ManyBodies<Scalar: Real>>(
 fn find_step<L: ManyBodies<Scalar: Real>>(
     system: &L,
     target: Correction,
-    at: At<L::Scalar>,
+    at: StateSlices<L::Scalar>,
     step: &mut [L::Scalar],
 ) -> bool {
     with_scratch(|multipliers: &mut Vec<L::Scalar>| {

@@ -1,4 +1,4 @@
-//! Constraints between neighbours along one axis, whose F M⁻¹ Fᵀ is a band.
+//! Constraints between neighbours along one axis: only entries of F M⁻¹ Fᵀ near its diagonal are not zero.
 
 use super::{ConstraintRow, Inertia, ManyConstraint};
 use crate::resolve::Problem;

@@ -41,7 +41,7 @@ pub(super) fn find(
         .flat_map(|constraint| constraint.rows.iter().map(|row| (constraint.ranges.len(), row)))
         .collect();
     if patterns.iter().all(|pattern| is_moved(graph, problem, pattern, dimension))
-        && rows.iter().all(|&row| has_no_force(graph, problem, row, dimension))
+        && rows.iter().all(|&row| is_free_of(Symmetry::Translation, graph, problem, row, dimension))
     {
         let of =
             |graph: &mut Graph, all: &[Component]| (0..dimension).map(|c| momentum(graph, all, c)).collect();
@@ -49,7 +49,7 @@ pub(super) fn find(
     }
     let turns = !planes(dimension).is_empty()
         && patterns.iter().all(|pattern| is_turned(graph, problem, pattern, dimension))
-        && rows.iter().all(|&row| has_no_moment(graph, problem, row, dimension));
+        && rows.iter().all(|&row| is_free_of(Symmetry::Rotation, graph, problem, row, dimension));
     if turns {
         let by_velocity: (fn(usize) -> Variable, usize) = (Variable::Coordinate, 1);
         let of = |graph: &mut Graph, all: &[Component]| {
@@ -123,32 +123,23 @@ fn coefficients(
     is_own.then(|| row.slopes.iter().flat_map(|part| &part.values).map(component).collect())
 }
 
-/// True if the forces of a constraint add up to zero.
-fn has_no_force(
+/// True if the forces of a constraint add up to zero, or for rotations their moments.
+fn is_free_of(
+    symmetry: Symmetry,
     graph: &mut Graph,
     problem: &Problem,
     row: (usize, &ConstraintRow),
     dimension: usize,
 ) -> bool {
     let Some(all) = coefficients(problem, row, dimension) else { return false };
-    (0..dimension).all(|component| {
-        let sum = momentum(graph, &all, component);
-        is_zero(graph, problem, sum)
-    })
-}
-
-/// True if the moments of the forces of a constraint add up to zero.
-fn has_no_moment(
-    graph: &mut Graph,
-    problem: &Problem,
-    row: (usize, &ConstraintRow),
-    dimension: usize,
-) -> bool {
-    let Some(all) = coefficients(problem, row, dimension) else { return false };
-    planes(dimension).iter().all(|&plane| {
-        let sum = moment(graph, &all, plane, (Variable::Coordinate, 1));
-        is_zero(graph, problem, sum)
-    })
+    let sums: Vec<Id> = match symmetry {
+        Symmetry::Translation => (0..dimension).map(|component| momentum(graph, &all, component)).collect(),
+        Symmetry::Rotation => {
+            let by_velocity: (fn(usize) -> Variable, usize) = (Variable::Coordinate, 1);
+            planes(dimension).iter().map(|&plane| moment(graph, &all, plane, by_velocity)).collect()
+        }
+    };
+    sums.into_iter().all(|sum| is_zero(graph, problem, sum))
 }
 
 /// Planes of the components of a moment, each from one axis to another.

@@ -235,7 +235,8 @@ impl Collector<'_, '_> {
         }
     }
 
-    /// Whole power of a sum of products of vectors that is ± the square of one, such as |a − b|⁶.
+    /// Integer power of a sum that is the square of a vector or its negative, written as a power of the norm: |a − b|⁶ for the third
+    /// power of (a − b)².
     fn power_of_norm(&self, atom: Atom, exponent: Rational) -> Option<Formula> {
         let Meaning::Sum(sum) = self.expansion.atoms.meaning(atom) else { return None };
         let (is_negative, square) = self.dotted_sum(sum)?.sign_and_magnitude();
