@@ -13,13 +13,15 @@ pub use crate::function::gradients::{along, write_gradients};
 pub use crate::number::numeric::{only_where, sin_cos_of_small};
 pub use crate::solution::eliminate::nan_if_ill_conditioned;
 #[cfg(feature = "alloc")]
-pub use crate::solution::many_constraints::{Band, BandRow, around, write_constrained_accelerations};
+pub use crate::solution::many_constraints::{Band, BandRow, around, trust, write_constrained_accelerations};
 pub use crate::solution::switched::{ConstraintRow, Switched, SwitchedFactorOf, accelerations};
 pub use crate::system::defect::{Defect, asymmetry, distortion};
 pub use crate::system::equations::equations;
 pub use crate::system::member::FieldMember;
 pub use crate::system::switch::{FrictionState, Switch, holds, keeps, slides, slip, start, sticks};
 pub use crate::vector::Array;
+#[cfg(feature = "alloc")]
+pub use crate::vector::scratch::with_scratch;
 #[cfg(feature = "alloc")]
 pub use alloc::vec::Vec;
 
@@ -57,6 +59,16 @@ pub fn write_accelerations<L: Lagrangian>(
 ) {
     let state = State { t, q: L::N::vector(*q), v: L::N::vector(*v) };
     *a = L::N::entries(system.accelerations_unchecked(&state).accelerations);
+}
+
+/// Copies coordinates and velocities to vectors, in the place of what these hold.
+#[cfg(feature = "alloc")]
+#[inline]
+pub fn copy<T: Scalar>(from: [&[T]; 2], to: [&mut Vec<T>; 2]) {
+    for (from, to) in from.into_iter().zip(to) {
+        to.clear();
+        to.extend_from_slice(from);
+    }
 }
 
 /// The first `count` elements of a vector of all coordinates, each of `D` numbers.

@@ -13,7 +13,7 @@ std::thread_local! {
 
 /// Calls a function with scratch memory, in which it finds what an earlier call left. Memory is kept for later calls on the same thread:
 /// once calls have been nested as deeply, no new one is made. Without `std` each call has a new one.
-pub(crate) fn with_scratch<S: Default + 'static, R>(function: impl FnOnce(&mut S) -> R) -> R {
+pub fn with_scratch<S: Default + 'static, R>(function: impl FnOnce(&mut S) -> R) -> R {
     #[cfg(feature = "std")]
     let mut scratch: S = on_unused(Vec::pop).flatten().unwrap_or_default();
     #[cfg(not(feature = "std"))]

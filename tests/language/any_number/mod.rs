@@ -2,5 +2,6 @@
 
 mod checks;
 mod constraints;
+mod recursions;
 mod sums_in_sums;
 mod written_out;

@@ -101,12 +101,18 @@ fn accelerate<L: ManyBodies>(
     });
 }
 
+/// One where a pivot is more than √ε of the entry that it is what is left of, else zero; NaN for NaN.
+#[inline]
+pub fn trust<T: Scalar>(pivot: T, whole: T) -> T {
+    let [zero, one] = [0.0, 1.0].map(T::constant);
+    let is_single = T::constant(1.0 + f64::EPSILON) == one;
+    let bound = if is_single { Scalar::sqrt(f64::from(f32::EPSILON)) } else { HALF_THE_DIGITS };
+    (pivot * whole).select_by_order(T::constant(bound) * whole * whole, zero, zero, one)
+}
+
 /// Zero, or NaN where the smallest ratio of a pivot to its diagonal entry is below √ε or not a number.
 fn doubt<T: Scalar>(ratio: T) -> T {
-    let [zero, nan] = [0.0, f64::NAN].map(T::constant);
-    let is_single = T::constant(1.0 + f64::EPSILON) == T::constant(1.0);
-    let bound = if is_single { Scalar::sqrt(f64::from(f32::EPSILON)) } else { HALF_THE_DIGITS };
-    ratio.select_by_order(T::constant(bound), nan, nan, zero)
+    T::constant(0.0) / trust(ratio, T::constant(1.0))
 }
 
 /// Multipliers at a state, in the order of the constraints.

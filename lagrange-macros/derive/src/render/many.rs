@@ -85,17 +85,19 @@ impl FamilyLines {
 impl Page<'_> {
     fn many_forms(&self, equations: &ManyEquations) -> [String; 3] {
         let section = |heading, lines| Section { heading, lines, note: None };
-        let energy = self.energy_of_all(&equations.energies);
+        let has_energy = !equations.energies.is_empty();
+        let energy: Vec<Line> =
+            has_energy.then(|| self.energy_of_all(&equations.energies)).into_iter().collect();
         let (conserved, changing) = match equations.energy_is_conserved {
-            true => (vec![energy], Vec::new()),
-            false => (Vec::new(), vec![energy]),
+            true => (energy, Vec::new()),
+            false => (Vec::new(), energy),
         };
         let vectors = equations.conserved.iter().filter_map(|conserved| self.conserved_vector(conserved));
         let mut sections = vec![
             section("Lagrangian", self.lagrangian()),
             section("Constraints", self.constraints_of_all(equations)),
             Section {
-                note: self.unwritten(equations),
+                note: self.unwritten(equations).or_else(|| self.carried(equations)),
                 ..section("Equations of motion", self.rows_of_all(equations))
             },
             section("Conserved", vectors.chain(conserved).collect()),
@@ -144,6 +146,20 @@ impl Page<'_> {
         let names = names.join(", ");
         (!names.is_empty())
             .then(|| format!("Not written out for {names}: its elements have no equation of one form."))
+    }
+
+    /// Note on multipliers that no constraint has, and on how the equations are solved.
+    fn carried(&self, equations: &ManyEquations) -> Option<String> {
+        let length = &equations.recursion.as_ref()?.length;
+        let names = self.problem.many.recursions.iter().map(|recursion| {
+            let name = &self.problem.many.array(recursion.array).name;
+            format!("λ_{name} on `{name}`")
+        });
+        let (names, length) =
+            (names.collect::<Vec<_>>().join(", "), length.text(|unknown| self.problem.many.name(unknown)));
+        Some(format!(
+            "Definitions exert forces: {names}. They are eliminated from the last element to the first; a step costs time proportional to {length}."
+        ))
     }
 
     fn rows_of_all(&self, equations: &ManyEquations) -> Vec<Line> {

@@ -235,7 +235,7 @@ impl Lowering<'_> {
             Definition::Wrong => return None,
             Definition::Pending => return self.too_early(first, name),
             Definition::Function => return self.without_parentheses(name),
-            Definition::Open { .. } => {
+            Definition::Open | Definition::Recursion(_) => {
                 let text = &name.text;
                 let message = format!("take an element of this family, `{text}[i]`");
                 return self.report(name.place, message);

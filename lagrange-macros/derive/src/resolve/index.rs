@@ -107,10 +107,18 @@ impl Lowering<'_> {
         let Some((own, rest)) = indices.split_at_checked(rank) else {
             return self.report(name.place, format!("`{}` takes {rank} indices", name.text));
         };
-        let path: Vec<_> = own.iter().map(|(_, index)| self.affine(index)).collect();
-        let path: Option<Vec<_>> = path.into_iter().collect();
         let place = name.place.to(own[rank - 1].1.place);
-        let mut value = self.open_family_element(first, name, &path?, place)?;
+        let mut value = match self.definitions[first] {
+            Definition::Recursion(array) => {
+                let index = self.position(own[0].1)?;
+                self.recursion_element(array, index, place)?
+            }
+            _ => {
+                let path: Vec<_> = own.iter().map(|(_, index)| self.affine(index)).collect();
+                let path: Option<Vec<_>> = path.into_iter().collect();
+                self.open_family_element(first, name, &path?, place)?
+            }
+        };
         for &indexed in rest {
             value = self.item(&value, indexed)?;
         }

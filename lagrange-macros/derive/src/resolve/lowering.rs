@@ -33,10 +33,10 @@ pub(super) enum Definition {
     Pending,
     Value(Value),
     Family(Family),
-    /// A family whose range is known when the program runs; closed while its own body is lowered.
-    Open {
-        is_open: bool,
-    },
+    /// A family whose range is known when the program runs.
+    Open,
+    /// A family defined by recursion along such a range: index of its array.
+    Recursion(usize),
     Function,
     /// An error in the definition has been reported.
     Wrong,

@@ -78,6 +78,7 @@ fn resolved(
         lowering.diagnostics.is_empty().then_some(())?;
     }
     lowering.define_all();
+    lowering.many.stated_recursions = lowering.constraints_of_recursions();
     let lagrangian = declaration.lagrangian.as_ref().and_then(|lagrangian| lowering.scalar(lagrangian));
     if let (Some(value), Some(written)) = (lagrangian, &declaration.lagrangian) {
         lowering.reject_kink("the Lagrangian", value, written.place);

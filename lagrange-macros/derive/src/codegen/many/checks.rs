@@ -10,7 +10,7 @@ use crate::syntax::numbers;
 impl ManyEmitter<'_> {
     pub(super) fn write_name(&self) -> TokenStream {
         let lengths = self.style.lengths();
-        let arrays = self.problem.many.arrays.iter().map(|array| {
+        let arrays = self.problem.many.coordinates().iter().map(|array| {
             let (count, written) = (self.style.count(array), self.written(array));
             quote! {
                 let count: usize = #count;

@@ -67,7 +67,7 @@ impl FunctionContext<'_> {
 
     /// Number of all coordinates.
     pub(super) fn count_of_all(&self) -> TokenStream {
-        let counts = self.problem.many.arrays.iter().map(|array| self.count(array));
+        let counts = self.problem.many.coordinates().iter().map(|array| self.count(array));
         quote!(#(#counts)+*)
     }
 

@@ -13,9 +13,12 @@ impl ManyEmitter<'_> {
     pub(super) fn system(&self) -> TokenStream {
         let scalar = self.style.types.scalar;
         let (lengths, count) = (self.style.lengths(), self.style.count_of_all());
-        let accelerations = match self.equations.constraints.is_empty() {
-            true => self.free_accelerations(),
-            false => quote!(__lagrange::generated::write_constrained_accelerations(self, t, [q, v], a)),
+        let accelerations = match (&self.equations.recursion, self.equations.constraints.is_empty()) {
+            (Some(recursion), _) => self.eliminated(recursion),
+            (None, true) => self.free_accelerations(),
+            (None, false) => {
+                quote!(__lagrange::generated::write_constrained_accelerations(self, t, [q, v], a))
+            }
         };
         quote! {
             type Scalar = #scalar;
@@ -51,11 +54,18 @@ impl ManyEmitter<'_> {
         let (scalar, digest) = (self.style.types.scalar, self.declaration.digest);
         let state = quote!(&__lagrange::generic::State<#scalar, __lagrange::nalgebra::Dyn>);
         let (lengths, count) = (self.style.lengths(), self.style.count_of_all());
-        let [lagrangian, energy] =
-            [self.problem.lagrangian, self.equations.energy].map(|root| self.number(root));
-        let momenta = self.scatters(&self.equations.momentum);
+        let lagrangian = self.at_state(&self.number(self.problem.lagrangian));
+        let energy = self.energy();
+        let (momenta, of_recursion) = (self.scatters(&self.equations.momentum), self.momenta_of_recursion());
         let (write_name, check, visit) = (self.write_name(), self.check(), self.visit_numbers());
-        let (zero, view) = (self.style.constant(0.0), view());
+        let zero = self.style.constant(0.0);
+        let momenta = self.at_state(&quote! {
+            let mut p = __lagrange::nalgebra::DVector::from_element(q.len(), #zero);
+            let cells = ::core::cell::Cell::from_mut(p.as_mut_slice()).as_slice_of_cells();
+            #momenta
+            #of_recursion
+            p.resize_vertically(#count, #zero)
+        });
         let is_conserved = self.equations.energy_is_conserved;
         let has_constraints = !self.equations.constraints.is_empty();
         let constrained = self.constrained(&self.free_accelerations());
@@ -71,24 +81,28 @@ impl ManyEmitter<'_> {
 
             fn lagrangian(&self, state: #state) -> #scalar {
                 #lengths
-                #view
                 #lagrangian
             }
 
             fn energy(&self, state: #state) -> #scalar {
                 #lengths
-                #view
                 #energy
             }
 
             fn momenta(&self, state: #state) -> __lagrange::nalgebra::DVector<#scalar> {
                 #lengths
-                #view
-                let mut p = __lagrange::nalgebra::DVector::from_element(#count, #zero);
-                let cells = ::core::cell::Cell::from_mut(p.as_mut_slice()).as_slice_of_cells();
                 #momenta
-                p
             }
+        }
+    }
+
+    /// The energy of a state. Recursions may depend on the time, so that p·q̇ is not what the velocities of all arrays give.
+    fn energy(&self) -> TokenStream {
+        match self.equations.recursion {
+            Some(_) => quote! {
+                __lagrange::ManyBodies::momenta(self, state).dot(&state.v) - __lagrange::ManyBodies::lagrangian(self, state)
+            },
+            None => self.at_state(&self.number(self.equations.energy)),
         }
     }
 
@@ -128,7 +142,7 @@ impl ManyEmitter<'_> {
     }
 
     fn method(&self, doc: &str, name: &TokenStream, lengths: &[usize], values: &[Id]) -> TokenStream {
-        let (scalar, view, starts) = (self.style.types.scalar, view(), self.style.lengths());
+        let (scalar, starts) = (self.style.types.scalar, self.style.lengths());
         let (statements, results) = self.values(values);
         let (returns, result) = match lengths {
             [] => (quote!(#scalar), quote!(#(#results)*)),
@@ -149,19 +163,13 @@ impl ManyEmitter<'_> {
                 )
             }
         };
+        let body = self.at_state(&quote! { #statements #result });
         quote! {
             #[doc = #doc]
             #name(&self, state: &__lagrange::generic::State<#scalar, __lagrange::nalgebra::Dyn>) -> #returns {
                 #starts
-                #view
-                #statements
-                #result
+                #body
             }
         }
     }
-}
-
-/// Bindings of the parts of a state.
-fn view() -> TokenStream {
-    quote! { let (t, q, v) = (state.t, state.q.as_slice(), state.v.as_slice()); }
 }

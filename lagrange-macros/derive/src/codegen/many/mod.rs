@@ -5,6 +5,7 @@ mod checks;
 mod constraints;
 mod indices;
 mod methods;
+mod recursion;
 mod scatter;
 mod stub;
 mod values;
@@ -17,7 +18,7 @@ use super::bounds::bounded_generics;
 use super::emitter::{runtime, too_long};
 use super::style::FunctionContext;
 use crate::diagnostics::Diagnostics;
-use crate::mechanics::many::ManyEquations;
+use crate::mechanics::many::{ManyEquations, Recursion};
 use crate::render::Forms;
 use crate::resolve::Problem;
 use crate::symbolic::Graph;
@@ -48,7 +49,8 @@ pub(crate) fn implementation(
     diagnostics: &mut Diagnostics,
 ) -> Option<TokenStream> {
     let terms = equations.inertia.iter().flat_map(|block| &block.guarded).flat_map(|guarded| &guarded.values);
-    let terms = terms.map(|(term, _)| term + 1).max().unwrap_or(0);
+    let of_recursion = equations.recursion.iter().map(Recursion::terms);
+    let terms = terms.map(|(term, _)| term + 1).chain(of_recursion).max().unwrap_or(0);
     let style = FunctionContext::new(graph, (&declaration.ident, problem), (Some(0), 0), 0, [0, terms]);
     let emitter = ManyEmitter {
         declaration,
@@ -76,6 +78,9 @@ impl ManyEmitter<'_> {
         let runtime = runtime(self.declaration);
         let (system, bodies) = (self.system(), self.many_bodies());
         let inherent = self.inherent();
+        let extension = self.extension(
+            &quote!(impl #impl_generics __Extended<#scalar> for #ident #type_generics #where_clause),
+        );
         let equations = super::lagrangian::equations(&self.declaration.visibility, forms);
         let doc = &forms[0][2];
         let allowed = quote!(#[allow(
@@ -91,6 +96,8 @@ impl ManyEmitter<'_> {
             const _: () = {
                 // Import a single name that users will not choose.
                 use #runtime as __lagrange;
+
+                #extension
 
                 #[automatically_derived]
                 #allowed

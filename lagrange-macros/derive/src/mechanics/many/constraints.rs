@@ -4,7 +4,7 @@ use super::patterns::{self, Pattern};
 use super::{Scatter, gradient, slots};
 use crate::diagnostics::Diagnostics;
 use crate::resolve::Problem;
-use crate::resolve::many::Range;
+use crate::resolve::many::{OpenConstraint, Range};
 use crate::symbolic::{Graph, Id};
 use crate::variables::{Variable, drift, has_velocity};
 
@@ -58,11 +58,6 @@ fn row(
     ranges: &[Range],
     (multiplier, stated): (usize, Id),
 ) -> ConstraintRow {
-    let mut drift = drift(graph, problem.many.slots.len());
-    let mut rate_of = |graph: &mut Graph, problem: &mut Problem, root: Id| {
-        problem.many.follow_totals(graph, &mut drift, &[root]);
-        drift.of(graph, root)
-    };
     let all = problem.many.with_bodies(graph, &[stated]);
     let (residual, rate) = match has_velocity(graph, &all) {
         true => (None, stated),
@@ -74,6 +69,25 @@ fn row(
     let slopes =
         parts.iter().map(|part| slopes(graph, part)).filter(|part| !part.values.is_empty()).collect();
     ConstraintRow { multiplier, residual, rate, bias, slopes, is_homogeneous }
+}
+
+/// Rate of change of an expression at q̈ = 0.
+pub(super) fn rate_of(graph: &mut Graph, problem: &mut Problem, root: Id) -> Id {
+    let mut drift = drift(graph, problem.many.slots.len());
+    problem.many.follow_totals(graph, &mut drift, &[root]);
+    drift.of(graph, root)
+}
+
+/// The constraints that state recursions, to be printed.
+pub(super) fn of_recursions(graph: &mut Graph, problem: &mut Problem) -> Vec<ManyConstraint> {
+    let stated = std::mem::take(&mut problem.many.stated_recursions);
+    let mut derived = |OpenConstraint { ranges, rows, .. }: &OpenConstraint| {
+        let rows = rows.iter().map(|&stated| row(graph, problem, ranges, stated)).collect();
+        ManyConstraint { ranges: ranges.clone(), rows }
+    };
+    let all = stated.iter().flatten().map(&mut derived).collect();
+    problem.many.stated_recursions = stated;
+    all
 }
 
 /// Coefficients of the velocities in a part of F q̇ + b.

@@ -46,20 +46,25 @@ pub(super) struct MassEntry {
 }
 
 /// Solves for the accelerations of each element. Reports velocities of different elements that meet, and coordinates without a
-/// velocity in L.
+/// velocity in L. The arrays `chained` share a block, whose elements may have no mass.
 pub(super) fn blocks(
     graph: &mut Graph,
     problem: &mut Problem,
-    patterns: &[Pattern],
+    (patterns, chained): (&[Pattern], &[usize]),
     diagnostics: &mut Diagnostics,
 ) -> Option<(Vec<Inertia>, Vec<MassEntry>)> {
     let mut entries = Vec::new();
     for pattern in patterns {
         entries.extend(entries_of(graph, problem, pattern, diagnostics)?);
     }
-    let groups = groups(problem, &entries);
-    let blocks: Vec<Option<Inertia>> =
-        groups.into_iter().map(|arrays| block(graph, problem, &arrays, &entries, diagnostics)).collect();
+    let groups = groups(problem, &entries, chained);
+    let blocks: Vec<Option<Inertia>> = groups
+        .into_iter()
+        .map(|arrays| {
+            let is_chained = chained.contains(&arrays[0]);
+            block(graph, problem, (&arrays, is_chained), &entries, diagnostics)
+        })
+        .collect();
     Some((blocks.into_iter().collect::<Option<_>>()?, entries))
 }
 
@@ -166,10 +171,12 @@ pub(super) fn at_element(
 }
 
 /// Arrays whose elements share entries of M, in the order of the coordinates.
-fn groups(problem: &Problem, entries: &[MassEntry]) -> Vec<Vec<usize>> {
+fn groups(problem: &Problem, entries: &[MassEntry], chained: &[usize]) -> Vec<Vec<usize>> {
     let mut group: Vec<usize> = (0..problem.many.arrays.len()).collect();
-    for MassEntry { rows: [(one, _), (other, _)], .. } in entries {
-        let (one, other) = (group[*one], group[*other]);
+    let by_mass = entries.iter().map(|entry| entry.rows.map(|(array, _)| array));
+    let by_recursion = chained.windows(2).map(|pair| [pair[0], pair[1]]);
+    for [one, other] in by_mass.chain(by_recursion) {
+        let (one, other) = (group[one], group[other]);
         group.iter_mut().filter(|known| **known == other.max(one)).for_each(|known| *known = other.min(one));
     }
     let arrays = |first: usize| (0..group.len()).filter(|&array| group[array] == first).collect();
@@ -179,7 +186,7 @@ fn groups(problem: &Problem, entries: &[MassEntry]) -> Vec<Vec<usize>> {
 fn block(
     graph: &mut Graph,
     problem: &Problem,
-    arrays: &[usize],
+    (arrays, may_be_massless): (&[usize], bool),
     entries: &[MassEntry],
     diagnostics: &mut Diagnostics,
 ) -> Option<Inertia> {
@@ -207,7 +214,8 @@ fn block(
         mass[i][j] = graph.add(mass[i][j], value);
     }
     let partly = || massless(problem, &rows, entries);
-    if let Some((row, message)) = undetermined(graph, problem, &rows, &mass).or_else(partly) {
+    let mut fault = || undetermined(graph, problem, &rows, &mass).or_else(partly);
+    if !may_be_massless && let Some((row, message)) = fault() {
         diagnostics.error(problem.many.arrays[rows[row].0].place, message);
         return None;
     }

@@ -8,9 +8,11 @@
 mod band;
 mod conservation;
 mod constraints;
+mod elimination;
 mod hamilton;
 mod inertia;
 mod patterns;
+mod recursion;
 mod rows;
 
 use crate::diagnostics::Diagnostics;
@@ -24,6 +26,7 @@ pub(crate) use constraints::{ConstraintRow, ManyConstraint};
 pub(crate) use hamilton::ManyHamilton;
 pub(crate) use inertia::{Guarded, Inertia};
 pub(crate) use patterns::{Pattern, patterns};
+pub(crate) use recursion::{Recursion, Step};
 pub(crate) use rows::{ElementRows, ElementSum, Over, Region};
 
 /// Values that loop iterations add to elements of the coordinates.
@@ -40,20 +43,21 @@ pub(crate) struct ManyEquations {
     pub(crate) momentum: Vec<Scatter>,
     /// h = ∂L/∂q + Q − (dp/dt at q̈ = 0), without the forces of constraints.
     pub(crate) forcing: Vec<Scatter>,
-    /// M by blocks, one for each set of coordinates that share it.
+    /// M by blocks, one for each set of coordinates that share it, but for those of `recursion`.
     pub(crate) inertia: Vec<Inertia>,
+    pub(crate) recursion: Option<Recursion>,
     pub(crate) constraints: Vec<ManyConstraint>,
     /// F M⁻¹ Fᵀ as a band, if it is one.
     pub(crate) band: Option<Band>,
     /// E = p·q̇ − L
     pub(crate) energy: Id,
-    /// The same by loops, to be printed.
+    /// The same by loops, to be printed; empty if it has no such form.
     pub(crate) energies: Vec<Pattern>,
     /// Equations of the elements of each array, to be printed; `None` where they have another form.
     pub(crate) rows: Vec<Option<Vec<ElementRows>>>,
     pub(crate) conserved: Vec<ManyConserved>,
     pub(crate) energy_is_conserved: bool,
-    /// p of the elements of each array, to be printed, as `rows`.
+    /// p of the elements of each array, to be printed, as `rows`; empty with recursions.
     pub(crate) momenta: Vec<Option<Vec<ElementRows>>>,
     /// `None` if momenta do not determine the velocities of each element alone.
     pub(crate) hamilton: Option<ManyHamilton>,
@@ -106,7 +110,17 @@ pub(crate) fn derive(
         push_both(graph, [&mut forcing, &mut rates], (&force.ranges, force.values.clone()));
         problem.many.forces.push(force);
     }
-    let (inertia, mass) = inertia::blocks(graph, problem, &patterns, diagnostics)?;
+    if let ([_, ..], Some(constraint)) = (&problem.many.recursions[..], problem.many.constraints.first()) {
+        diagnostics.error(constraint.place, "constraints beside definitions by recursion are not derived yet: take the positions as coordinates, and a constraint in the place of the recursion, `rod[i in 1..n]: norm(r[i] - r[i-1]) = l`");
+        return None;
+    }
+    let chained = recursion::arrays(graph, problem, diagnostics)?;
+    let (mut inertia, mass) = inertia::blocks(graph, problem, (&patterns, &chained), diagnostics)?;
+    let is_chained = |block: &mut Inertia| chained.contains(&block.rows[0].0);
+    let recursion = match inertia.extract_if(.., is_chained).next() {
+        Some(block) => Some(Recursion::of(graph, problem, block, diagnostics)?),
+        None => None,
+    };
     let parts: Vec<Id> =
         energies.iter().map(|Pattern { ranges, body, .. }| problem.summed(graph, ranges, *body)).collect();
     let energy = graph.total(parts);
@@ -114,22 +128,38 @@ pub(crate) fn derive(
     let all: Vec<Id> = forcing.iter().flat_map(|scatter| &scatter.values).map(|(_, value)| *value).collect();
     let depends_on_time = depends_on_time(graph, problem);
     let constraints = constraints::derive(graph, problem, diagnostics)?;
-    let conserved =
-        if has_forces { Vec::new() } else { conservation::find(graph, problem, (&patterns, &constraints)) };
+    let conserved = match has_forces || recursion.is_some() {
+        true => Vec::new(),
+        false => conservation::find(graph, problem, (&patterns, &constraints)),
+    };
+    let recursions = constraints::of_recursions(graph, problem);
+    let stated = || constraints.iter().chain(&recursions);
     let is_even = patterns.iter().all(|pattern| is_even(graph, pattern));
     let mut printed = forcing.clone();
     for Scatter { ranges, values } in
-        constraints.iter().flat_map(|constraint| constraint.forces(graph)).collect::<Vec<_>>()
+        stated().flat_map(|constraint| constraint.forces(graph)).collect::<Vec<_>>()
     {
         push_both(graph, [&mut printed, &mut rates], (&ranges, values));
     }
     let rows = rows::rows(graph, problem, &printed, &mass);
-    let momenta = rows::rows(graph, problem, &momentum, &[]);
-    let hamilton = ManyHamilton::of(graph, problem, (&inertia, &momenta), (&energies, &rates));
+    let momenta = match recursion {
+        Some(_) => Vec::new(),
+        None => rows::rows(graph, problem, &momentum, &[]),
+    };
+    let hamilton = match recursion {
+        Some(_) => None,
+        None => ManyHamilton::of(graph, problem, (&inertia, &momenta), (&energies, &rates)),
+    };
+    // Where recursions depend on the time, p·q̇ is not the sum over all velocities, and the energy has no form of its own.
+    let is_homogeneous = stated().flat_map(|constraint| &constraint.rows).all(|row| row.is_homogeneous);
+    if recursion.is_some() && !is_homogeneous {
+        energies.clear();
+    }
     problem.coordinates = problem.many.labels(&problem.parameters);
     let band = Band::of(graph, problem, (&constraints, &inertia));
     Some(ManyEquations {
         forces_are_free_of_velocities: constraints.is_empty()
+            && recursion.is_none()
             && !has_velocity(graph, &problem.many.with_bodies(graph, &all))
             && inertia.iter().all(|block| !block.has_velocity(graph)),
         momentum,
@@ -142,9 +172,8 @@ pub(crate) fn derive(
         hamilton,
         is_even,
         conserved,
-        energy_is_conserved: !has_forces
-            && !depends_on_time
-            && constraints.iter().flat_map(|constraint| &constraint.rows).all(|row| row.is_homogeneous),
+        energy_is_conserved: !has_forces && !depends_on_time && is_homogeneous,
+        recursion,
         band,
         constraints,
     })

@@ -96,7 +96,12 @@ impl Lowering<'_> {
     }
 
     /// Variables of one element of a coordinate.
-    fn slots(&mut self, array: usize, indices: Vec<Index>, variable: fn(usize) -> Variable) -> Value {
+    pub(super) fn slots(
+        &mut self,
+        array: usize,
+        indices: Vec<Index>,
+        variable: fn(usize) -> Variable,
+    ) -> Value {
         let lengths = self.many.arrays[array].lengths.clone();
         let entries: Vec<_> = (0..numbers(&lengths))
             .map(|number| {

@@ -7,6 +7,7 @@
 mod affine;
 mod element;
 mod lengths;
+mod recursion;
 mod shift;
 mod statements;
 mod sum;
@@ -20,6 +21,7 @@ use crate::symbolic::Id;
 use crate::syntax::{Field, FieldShape, Name, numbers};
 pub(crate) use affine::{Affine, Unknown};
 pub(crate) use lengths::{Length, LengthSource, loops_instead};
+pub(crate) use recursion::OpenRecursion;
 pub(crate) use shift::NewIndices;
 pub(crate) use sum::totals;
 
@@ -27,8 +29,11 @@ pub(crate) use sum::totals;
 #[derive(Default)]
 pub(crate) struct Many {
     pub(crate) lengths: Vec<Length>,
-    /// Coordinates as declared.
+    /// Coordinates as declared, and behind them an array for each recursion.
     pub(crate) arrays: Vec<Array>,
+    pub(crate) recursions: Vec<OpenRecursion>,
+    /// The constraints that state each recursion, of its element 0 and of the others.
+    pub(crate) stated_recursions: Vec<[OpenConstraint; 2]>,
     pub(crate) fields: Vec<OpenField>,
     /// Elements of coordinates in use; `Variable::Coordinate(k)` is slot k.
     pub(crate) slots: IndexSet<Slot>,

@@ -133,15 +133,27 @@ impl Lowering<'_> {
     /// Lowers a definition of a family once for its whole range, so that errors in it are reported where they stand.
     pub(in crate::resolve) fn open_definition(&mut self, index: usize, first: usize) {
         let define = &self.defines[index];
-        if index != first || !matches!(self.definitions[first], Definition::Pending) {
-            let message = "a family whose range is known when the program runs is one definition: write the first and the last terms where they are used";
-            self.diagnostics.error(define.target.name.place, message);
+        let own = &define.target.name.text;
+        let mut names_itself = false;
+        define.body.names(&mut |name| names_itself |= name.text == *own);
+        let found = match names_itself && !self.many.is_attempt {
+            true => self.recursion(index, first),
+            false => self.open_family(index, first),
+        };
+        if found.is_none() {
             self.definitions[first] = Definition::Wrong;
-            return;
         }
-        self.definitions[first] = Definition::Open { is_open: false };
-        let found = self.inside_all(&define.target.indices, &mut |lowering, _| lowering.lower(&define.body));
-        self.definitions[first] = found.map_or(Definition::Wrong, |_| Definition::Open { is_open: true });
+    }
+
+    fn open_family(&mut self, index: usize, first: usize) -> Option<()> {
+        let define = &self.defines[index];
+        if index != first || !matches!(self.definitions[first], Definition::Pending) {
+            let message = "a family whose range is known when the program runs is one definition, unless it is a recursion: write the first and the last terms where they are used";
+            return self.report(define.target.name.place, message);
+        }
+        self.inside_all(&define.target.indices, &mut |lowering, _| lowering.lower(&define.body))?;
+        self.definitions[first] = Definition::Open;
+        Some(())
     }
 
     /// Element of a family whose range is known at run time: its body, with these indices.
@@ -153,12 +165,6 @@ impl Lowering<'_> {
         place: Place,
     ) -> Option<Value> {
         let define = &self.defines[first];
-        if matches!(self.definitions[first], Definition::Open { is_open: false }) {
-            return self.report(place, format!(
-                "`{}` is defined by itself along a length that is known when the program runs, which is not derived yet: take positions as coordinates",
-                name.text
-            ));
-        }
         let mut bound = Vec::new();
         for (index, at) in define.target.indices.iter().zip(path) {
             match index {
@@ -232,7 +238,7 @@ impl Lowering<'_> {
 
     /// True if a family is defined over a range that is known at run time.
     pub(in crate::resolve) fn is_open_definition(&self, first: usize) -> bool {
-        matches!(self.definitions[first], Definition::Open { .. })
+        matches!(self.definitions[first], Definition::Open | Definition::Recursion(_))
     }
 
     /// Reports an observable that is a family over a range known at run time.
