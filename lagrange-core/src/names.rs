@@ -80,7 +80,7 @@ impl WrittenName {
     const ROOM: usize = 39;
 
     /// Returns the name that a function writes.
-    pub(crate) fn of(write: impl FnOnce(&mut dyn fmt::Write) -> fmt::Result) -> Self {
+    pub fn of(write: impl FnOnce(&mut dyn fmt::Write) -> fmt::Result) -> Self {
         let mut name = Self { text: [0; Self::ROOM], length: 0 };
         // Writing to memory does not fail; after an error of the function's own the name is what it wrote until then.
         write(&mut name).ok();

@@ -166,6 +166,13 @@ macro_rules! forward {
                 L::correct(self, at, target, results)
             }
 
+            fn multipliers(&self, state: &State<L::Scalar, Dyn>) -> Result<DVector<L::Scalar>, Error>
+            where
+                L::Scalar: crate::number::Real,
+            {
+                L::multipliers(self, state)
+            }
+
             fn write_constraint_name(&self, constraint: usize, to: &mut dyn fmt::Write) -> fmt::Result {
                 L::write_constraint_name(self, constraint, to)
             }

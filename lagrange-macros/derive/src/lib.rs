@@ -49,12 +49,14 @@ mod syntax;
 mod system;
 mod variables;
 
+pub use codegen::{Arguments, Elimination, ParameterField, Tape, Tapes, Unsupported};
 use diagnostics::{Diagnostics, Place};
 use facts::Facts;
 use lagrange_symbolic as symbolic;
 use proc_macro2::{Span, TokenStream, TokenTree};
 pub use refusal::{Diagnostic, Location, Refusal};
 use syntax::Declaration;
+use system::Derivation;
 pub use system::{Constraint, Equations, System};
 
 /// Returns what the derive macro emits: the [tokens](System::tokens) of the system, or its errors as calls of
@@ -158,7 +160,8 @@ fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Sy
         let facts = Facts::of_many(&equations);
         let tokens =
             codegen::many::implementation(declaration, &graph, &problem, &equations, &forms, diagnostics)?;
-        return Some(System::new(declaration, &problem, Vec::new(), facts, forms, tokens));
+        let derivation = Derivation { graph, problem, derived: None };
+        return Some(System::new(declaration, derivation, facts, forms, tokens));
     }
     codegen::refuse_hopeless(declaration, &graph, &problem, diagnostics)?;
     let derived = mechanics::derive(&mut graph, &problem, diagnostics)?;
@@ -166,6 +169,6 @@ fn derive(declaration: &Declaration, diagnostics: &mut Diagnostics) -> Option<Sy
     let facts = Facts::new(&problem, &derived, &rendered);
     let tokens =
         codegen::implementation(declaration, &graph, &problem, &derived, &rendered, &facts, diagnostics)?;
-    let constraints = system::constraints(&problem, &derived);
-    Some(System::new(declaration, &problem, constraints, facts, rendered.forms, tokens))
+    let derivation = Derivation { graph, problem, derived: Some(derived) };
+    Some(System::new(declaration, derivation, facts, rendered.forms, tokens))
 }

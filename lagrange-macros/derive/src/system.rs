@@ -1,15 +1,17 @@
 //! A derived system, for use outside of a compiler.
 
 use std::fmt::{self, Debug, Display, Formatter};
+use std::rc::Rc;
 
 use proc_macro2::TokenStream;
 
+use crate::codegen::{Tapes, Unsupported};
 use crate::facts::{Classification, ConstraintKind, Facts};
 use crate::mechanics::Derived;
 use crate::refusal::Refusal;
 use crate::render::Forms;
 use crate::resolve::{Label, Observed, Problem};
-use crate::symbolic::Id;
+use crate::symbolic::{Graph, Id};
 use crate::syntax::Declaration;
 
 /// A mechanical system with its equations of motion.
@@ -51,6 +53,15 @@ pub struct System {
     facts: Facts,
     forms: Forms,
     tokens: TokenStream,
+    derivation: Rc<Derivation>,
+}
+
+/// Expressions of a system, and what was derived from them.
+pub(crate) struct Derivation {
+    pub(crate) graph: Graph,
+    pub(crate) problem: Problem,
+    /// `None` if lengths of arrays are fields.
+    pub(crate) derived: Option<Derived>,
 }
 
 /// A scalar constraint.
@@ -117,12 +128,14 @@ impl System {
 
     pub(crate) fn new(
         declaration: &Declaration,
-        problem: &Problem,
-        constraints: Vec<Constraint>,
+        derivation: Derivation,
         facts: Facts,
         forms: Forms,
         tokens: TokenStream,
     ) -> Self {
+        let problem = &derivation.problem;
+        let constraints =
+            derivation.derived.as_ref().map_or_else(Vec::new, |derived| constraints(problem, derived));
         let parameters = problem.parameters.by_field().into_iter().map(|k| problem.parameters.name(k));
         Self {
             name: declaration.ident.to_string().trim_start_matches("r#").to_owned(),
@@ -134,6 +147,7 @@ impl System {
             facts,
             forms,
             tokens,
+            derivation: Rc::new(derivation),
         }
     }
 
@@ -191,13 +205,28 @@ impl System {
         &self.tokens
     }
 
+    /// Compiles the functions of the system to [`Tapes`], which are evaluated without a compiler. The crate `lagrange-interpreter` moves
+    /// systems by them.
+    ///
+    /// # Errors
+    ///
+    /// [`Unsupported`] for contacts, friction, switched constraints, lengths that are fields, supplied functions, rotations in fields, and
+    /// other numbers than `f64`.
+    pub fn tapes(&self) -> Result<Tapes, Unsupported> {
+        let Derivation { graph, problem, derived } = &*self.derivation;
+        match (Unsupported::of(problem), derived) {
+            (None, Some(derived)) => Ok(Tapes::of(graph, problem, derived)),
+            (unsupported, _) => Err(unsupported.unwrap_or(Unsupported::OpenLength(String::new()))),
+        }
+    }
+
     pub(crate) fn into_tokens(self) -> TokenStream {
         self.tokens
     }
 }
 
 /// The constraints of a system, with what was found about each.
-pub(crate) fn constraints(problem: &Problem, derived: &Derived) -> Vec<Constraint> {
+fn constraints(problem: &Problem, derived: &Derived) -> Vec<Constraint> {
     let kinds = derived.equations.kinds.iter().zip(&derived.equations.integrability.classes);
     let constraint = |((label, _), (&kind, &classification)): ((&Label, &Id), _)| Constraint {
         name: label.text.clone(),

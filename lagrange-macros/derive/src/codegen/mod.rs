@@ -8,6 +8,7 @@ mod count;
 mod defects;
 mod eliminate;
 mod emitter;
+mod evaluation;
 mod facts;
 mod forces;
 mod inputs;
@@ -52,6 +53,7 @@ use bounds::FUNCTION_ORDER;
 #[cfg(test)]
 pub(crate) use count::Count;
 use emitter::{Emitter, too_long};
+pub use evaluation::{Arguments, Elimination, ParameterField, Tape, Tapes, Unsupported};
 use linearized::Changing;
 use series::TaylorPrograms;
 use solving::Solving;

@@ -34,7 +34,7 @@ impl Parameters {
     }
 
     /// Returns whether the type of a field says that its entries form unit quaternions.
-    pub(super) fn is_unit_quaternion(&self, field: usize) -> bool {
+    pub(crate) fn is_unit_quaternion(&self, field: usize) -> bool {
         self.fields[field].shape.as_ref().is_ok_and(|shape| shape.layout.inside == Inside::UnitQuaternion)
     }
 
@@ -62,7 +62,7 @@ impl Parameters {
     }
 
     /// Entry whose symbol stands for this one: in a symmetric matrix, the one in the upper triangle.
-    pub(super) fn representative(&self, entry: Entry) -> Entry {
+    pub(crate) fn representative(&self, entry: Entry) -> Entry {
         match self.property(entry.field) {
             Some(Property::Symmetric) => entry.min(self.mirrored(entry)),
             _ => entry,

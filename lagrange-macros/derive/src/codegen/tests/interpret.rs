@@ -1,9 +1,10 @@
-//! Interpreter of schedules and bodies, for tests without a compiler.
+//! Interpreter of function bodies, for tests without a compiler.
 
 use rustc_hash::FxHashMap;
 
+use crate::codegen::Tape;
 use crate::codegen::body::{Chunk, FunctionBody, Given, Local, Operand, SineAndCosine, Slot, Statement};
-use crate::codegen::operation::{Call, Operation, Register};
+use crate::codegen::operation::{Call, Register};
 use crate::codegen::schedule::Schedule;
 use crate::symbolic::Symbol;
 use crate::variables::Variable;
@@ -11,52 +12,10 @@ use crate::variables::Variable;
 #[path = "../../../tests/symbolic/functions.rs"]
 pub(crate) mod functions;
 
-impl Operation<f64> {
-    /// Evaluates the operation on numeric operands.
-    fn value(self, input: impl Fn(Symbol) -> f64) -> f64 {
-        match self {
-            Self::Constant(bits) => f64::from_bits(bits),
-            Self::Input(symbol) => input(symbol),
-            Self::Negate(x) => -x,
-            Self::Add(x, y) => x + y,
-            Self::Subtract(x, y) => x - y,
-            Self::Multiply(x, y) => x * y,
-            Self::Divide(x, y) => x / y,
-            Self::MultiplyAdd(x, y, z) => x * y + z,
-            Self::SubtractProduct(x, y, z) => z - x * y,
-            Self::Minimum(x, y) => x.min(y),
-            Self::Maximum(x, y) => x.max(y),
-            Self::Where(x, y) => {
-                if x == 0.0 {
-                    0.0
-                } else {
-                    y
-                }
-            }
-            Self::NanIfIllConditioned(least, most) => {
-                if least > 6e-6 && most < 1.0 / 6e-6 {
-                    0.0
-                } else {
-                    f64::NAN
-                }
-            }
-            Self::SquareRoot(x) => x.sqrt(),
-            Self::Function(function, x) => functions::apply(function, &x),
-            Self::Atan2(y, x) => y.atan2(x),
-            Self::Power(x, y) => x.powf(y),
-            Self::Result { .. } => f64::NAN,
-        }
-    }
-}
-
 impl Schedule {
     /// Evaluates the results for given inputs.
     pub(crate) fn values(&self, results: &[Register], input: impl Fn(Symbol) -> f64) -> Vec<f64> {
-        let mut values: Vec<f64> = Vec::new();
-        for &operation in &self.operations {
-            values.push(operation.with_operands(|register| values[register.index()]).value(&input));
-        }
-        results.iter().map(|result| values[result.index()]).collect()
+        Tape::of(self, results).results_by(input)
     }
 }
 
@@ -157,7 +116,7 @@ impl<I: Fn(Symbol) -> f64> Frame<'_, I> {
             }
             Operand::SpillSlots(place) => self.waiting[*place],
             Operand::Of(operation) => {
-                operation.as_ref().clone().with_operands(|operand| self.value(&operand)).value(&self.input)
+                operation.as_ref().clone().value(&self.input, |operand| self.value(&operand))
             }
         }
     }
