@@ -28,7 +28,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! `#[derive(Lagrangian)]` compiles the same text to the same operations, about five times as fast, and has more: contacts and friction,
+//! `#[derive(Lagrangian)]` compiles the same text to the same operations, which take a fifth to a tenth of the time, and has more: contacts and friction,
 //! lengths that are fields, functions of one's own, other number types, Taylor's method, geometric methods and derivatives of motions.
 //! What a model cannot do is an error: [`Unsupported`] names it.
 //!
@@ -39,8 +39,10 @@ mod error;
 mod many_bodies;
 mod model;
 mod parameters;
+#[cfg(test)]
+mod tests;
 
 pub use error::{ModelError, ParameterError};
-pub use lagrange_derive::{Refusal, System, Unsupported};
+pub use lagrange_derive::{Diagnostic, Refusal, System, Unsupported};
 pub use model::Model;
 pub use parameters::{Parameters, Values};

@@ -183,15 +183,9 @@ systems! {
     #[lagrangian(sum(i in 0..10, m[i]/2*(vx[i]^2 + vy[i]^2) - m[i]*g*y[i]))]
     struct ChainOfTen { m: [f64; 10], l: [f64; 10], g: f64 }
 
-    #[coordinates(theta: [24])]
-    #[define(vx[0] = l[0]*cos(theta[0])*theta_dot[0])]
-    #[define(vx[i in 1..24] = vx[i-1] + l[i]*cos(theta[i])*theta_dot[i])]
-    #[define(vy[0] = l[0]*sin(theta[0])*theta_dot[0])]
-    #[define(vy[i in 1..24] = vy[i-1] + l[i]*sin(theta[i])*theta_dot[i])]
-    #[define(y[0] = -l[0]*cos(theta[0]))]
-    #[define(y[i in 1..24] = y[i-1] - l[i]*cos(theta[i]))]
-    #[lagrangian(sum(i in 0..24, m[i]/2*(vx[i]^2 + vy[i]^2) - m[i]*g*y[i]))]
-    struct ChainOfTwentyFour { m: [f64; 24], l: [f64; 24], g: f64 }
+    #[coordinates(x: [24])]
+    #[lagrangian(sum(i in 0..24, 30*x_dot[i]^2 - x[i]^2 + sum(j in 0..i, cos(x[i] - x[j] + k)*x_dot[i]*x_dot[j])))]
+    struct CoupledByAll { k: f64 }
 
     #[coordinates(r: [8, 2])]
     #[lagrangian(sum(i in 0..8, m/2*dot(r_dot[i], r_dot[i]) - m*g*r[i][1]))]
