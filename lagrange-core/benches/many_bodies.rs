@@ -194,6 +194,44 @@ fn rods(Rods { m, g, .. }: &Rods, r: &[f64], v: &[f64], a: &mut [f64], work: &mu
     }
 }
 
+/// Links in a plane, by their angles against the vertical.
+#[derive(Lagrangian)]
+#[coordinates(q: [n])]
+#[parameter(m: [n]; l: [n])]
+#[define(x[0] = l[0]*sin(q[0]); y[0] = -l[0]*cos(q[0]))]
+#[define(x[i in 1..n] = x[i-1] + l[i]*sin(q[i]); y[i in 1..n] = y[i-1] - l[i]*cos(q[i]))]
+#[lagrangian(sum(i in 0..n, m[i]/2*(der(x[i])^2 + der(y[i])^2) - m[i]*g*y[i]))]
+struct Links {
+    m: Vec<f64>,
+    l: Vec<f64>,
+    g: f64,
+}
+
+/// Accelerations by articulated bodies, without a check of pivots; `work` has what the second sweep needs.
+fn links(Links { m, l, g }: &Links, q: &[f64], v: &[f64], a: &mut [f64], work: &mut [[f64; 7]]) {
+    let n = q.len();
+    let (m, l, v, a, work) = (&m[..n], &l[..n], &v[..n], &mut a[..n], &mut work[..n]);
+    let (mut xx, mut xy, mut yy, mut x, mut y) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for i in (0..n).rev() {
+        let (sin, cos) = q[i].sin_cos();
+        let (j_x, j_y) = (l[i] * cos, l[i] * sin);
+        let (c_x, c_y) = (-j_y * v[i] * v[i], j_x * v[i] * v[i]);
+        (xx, yy) = (xx + m[i], yy + m[i]);
+        (x, y) = (x - xx * c_x - xy * c_y, y - m[i] * g - xy * c_x - yy * c_y);
+        let (u_x, u_y) = (xx * j_x + xy * j_y, xy * j_x + yy * j_y);
+        let pivot = 1.0 / (u_x * j_x + u_y * j_y);
+        let (k_x, k_y, own) = (u_x * pivot, u_y * pivot, (j_x * x + j_y * y) * pivot);
+        work[i] = [k_x, k_y, own, j_x, j_y, c_x, c_y];
+        (xx, xy, yy) = (xx - u_x * k_x, xy - u_x * k_y, yy - u_y * k_y);
+        (x, y) = (x - u_x * own, y - u_y * own);
+    }
+    let (mut x, mut y) = (0.0, 0.0);
+    for (a, [k_x, k_y, own, j_x, j_y, c_x, c_y]) in a.iter_mut().zip(work) {
+        *a = *own - *k_x * x - *k_y * y;
+        (x, y) = (x + *j_x * *a + *c_x, y + *j_y * *a + *c_y);
+    }
+}
+
 /// Chain and cluster with literals as lengths.
 macro_rules! with_literals {
     ($chain:ident, $cluster:ident, $n:literal) => {
@@ -298,6 +336,15 @@ fn main() {
             rods(system, r, v, a, &mut work.borrow_mut());
         };
         compare_moving("rods", &system, (n, 1.0), others);
+    }
+    for n in [3, 20, 1_000, 100_000] {
+        let work = RefCell::new(vec![[0.0; 7]; n]);
+        let some = |own: f64| (0..n).map(|i| own + 0.1 * (i as f64).sin()).collect();
+        let system = Links { m: some(1.0), l: some(0.8), g: 9.81 };
+        let others = |system: &Links, q: &[f64], v: &[f64], a: &mut [f64]| {
+            links(system, q, v, a, &mut work.borrow_mut());
+        };
+        compare_moving("links", &system, (n, 1.0), others);
     }
     println!("against literals:");
     let beta = black_box(0.7);

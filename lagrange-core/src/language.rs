@@ -628,7 +628,9 @@
 //! [`Lagrangian`](crate::Lagrangian). Where the momentum or the angular momentum is proved to be conserved, it has the methods
 //! `total_momentum` and `total_angular_momentum`. It moves by pairs, by [`RungeKutta4`](crate::RungeKutta4) and, if its
 //! forces contain no velocities and it has no constraints, by `Verlet`. There are no frames, supplied functions, contacts, frictions and
-//! `#[power]`, no definitions by recursion, and no accelerations and multipliers in observables; each is an error at its place.
+//! `#[power]`, and no accelerations and multipliers in observables; each is an error at its place. A definition by recursion,
+//! `#[define(x[0] = …)]` with `#[define(x[i in 1..n] = x[i-1] + …)]` or `x[parent[i]]`, defines places from the coordinates of its own
+//! index; it stands in systems without constraints, and is eliminated in time proportional to n.
 //! Constraints have to be independent ([`multipliers`](crate::ManyBodies::multipliers) are a method).
 //!
 //! ```
