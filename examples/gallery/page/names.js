@@ -6,14 +6,20 @@ const GREEK = Object.fromEntries(
     "Omega Ω Gamma Γ Delta Δ Theta Θ Phi Φ Psi Ψ energy E").split(" ").reduce(
     (pairs, word, i, words) => (i % 2 ? pairs : [...pairs, [word, words[i + 1]]]), []));
 
+/// A letter or the name of one, and the digits behind it.
+function apart(word) {
+  const [, letter, digits] = word.match(/^(.*?)(\d*)$/);
+  return digits && (GREEK[letter] || letter.length === 1) ? [letter, digits] : [word];
+}
+
 function escaped(text) {
   return text.replace(/[&<>]/g, sign => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[sign]);
 }
 
-/// `theta_1` as θ with an index, `no_slip` as two words.
+/// `theta_1` and `theta1` as θ with an index, `no_slip` as two words.
 function pretty(name) {
   const [, base, indices] = name.match(/^([^[]*)(.*)$/);
-  const [first, ...rest] = base.split("_");
+  const [first, ...rest] = base.split("_").flatMap((word, k) => (k === 0 ? apart(word) : [word]));
   const below = [...rest.map(word => GREEK[word] ?? word), ...[...indices.matchAll(/\d+/g)].map(([digit]) => digit)];
   const letter = GREEK[first] ?? first;
   if ([...letter].length === 1) return `<i>${escaped(letter)}</i>` + (below.length ? `<sub>${escaped(below.join(" "))}</sub>` : "");
