@@ -220,3 +220,33 @@ fn an_element_without_inertia_is_named() {
     let error = chain.integrate(straight, 0.1, Dop853::default()).unwrap_err().to_string();
     assert!(error.contains("q[2]"), "{error}");
 }
+
+/// Any number type, a length that is a const generic, and names that the emitted code uses, too.
+#[derive(lagrange_core::Lagrangian)]
+#[coordinates(pivot: [N])]
+#[parameter(element: [N])]
+#[define(rows[0] = element[0]*sin(pivot[0]); whole[0] = -element[0]*cos(pivot[0]))]
+#[define(rows[i in 1..N] = rows[i-1] + element[i]*sin(pivot[i]); whole[i in 1..N] = whole[i-1] - element[i]*cos(pivot[i]))]
+#[lagrangian(sum(i in 0..N, (der(rows[i])^2 + der(whole[i])^2)/2 - memory*whole[i]))]
+struct Generic<T, const N: usize> {
+    element: Vec<T>,
+    memory: T,
+}
+
+#[test]
+fn any_number_type() {
+    let (q, v) = ([0.5, 0.25, -0.75], [1.0, -0.5, 0.25]);
+    let double = Generic::<f64, 3> { element: vec![1.0; 3], memory: 9.75 };
+    let single = Generic::<f32, 3> { element: vec![1.0; 3], memory: 9.75 };
+    let mut a = [0.0; 3];
+    double.accelerations(0.0, &q, &v, &mut a);
+    let (q_single, v_single, mut a_single) = (q.map(|q| q as f32), v.map(|v| v as f32), [0.0; 3]);
+    single.accelerations(0.0, &q_single, &v_single, &mut a_single);
+    assert!(
+        a.iter().zip(a_single).all(|(a, single)| (a - f64::from(single)).abs() < 1e-5),
+        "{a:?}, {a_single:?}"
+    );
+    let energies =
+        [double.energy(&double.state(q, v)), single.energy(&single.state(q_single, v_single)).into()];
+    assert!((energies[0] - energies[1]).abs() < 1e-5, "{energies:?}");
+}

@@ -99,9 +99,14 @@ impl ManyEmitter<'_> {
     /// The energy of a state. Recursions may depend on the time, so that p·q̇ is not what the velocities of all arrays give.
     fn energy(&self) -> TokenStream {
         match self.equations.recursion {
-            Some(_) => quote! {
-                __lagrange::ManyBodies::momenta(self, state).dot(&state.v) - __lagrange::ManyBodies::lagrangian(self, state)
-            },
+            Some(_) => {
+                let zero = self.style.constant(0.0);
+                quote! {
+                    let momenta = __lagrange::ManyBodies::momenta(self, state);
+                    let product = momenta.iter().zip(&state.v).fold(#zero, |sum, (p, v)| sum + *p * *v);
+                    product - __lagrange::ManyBodies::lagrangian(self, state)
+                }
+            }
             None => self.at_state(&self.number(self.equations.energy)),
         }
     }
