@@ -61,7 +61,7 @@ pub fn write_accelerations<L: Lagrangian>(
     *a = L::N::entries(system.accelerations_unchecked(&state).accelerations);
 }
 
-/// Copies coordinates and velocities to vectors, in the place of what these hold.
+/// Replaces the entries of two vectors by coordinates and velocities.
 #[cfg(feature = "alloc")]
 #[inline]
 pub fn copy<T: Scalar>(from: [&[T]; 2], to: [&mut Vec<T>; 2]) {

@@ -1,9 +1,7 @@
 //! General solution of the equations of motion, where the elimination of the emitted code is not to be trusted or would be too long.
 
+use lagrange_core::generated::trust;
 use lagrange_core::nalgebra::{DMatrix, DVector, FullPivLU};
-
-/// Smallest acceptable ratio of the pivots of the scaled KKT matrix, √ε: half of the digits are then left.
-const LEAST_RATIO: f64 = 1.490_116_119_384_765_6e-8;
 
 /// M by rows, h, F by rows and γ, of M x = h + Fᵀλ and F x + γ = 0.
 pub(crate) struct DenseEquations<'a> {
@@ -30,8 +28,7 @@ impl DenseEquations<'_> {
         let right = DVector::from_iterator(n + m, right.zip(&scales).map(|(right, scale)| right * scale));
         let factored = FullPivLU::new(matrix);
         let pivots = factored.u().diagonal().abs();
-        // NaN fails the comparison.
-        let is_regular = pivots.min() > LEAST_RATIO * pivots.max();
+        let is_regular = trust(pivots.min(), pivots.max()) == 1.0;
         let solved = is_regular.then(|| factored.solve(&right)).flatten()?;
         Some(solved.component_mul(&DVector::from_vec(scales)))
     }

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::fmt::{self, Debug, Formatter};
 
+use lagrange_core::generated::nan_if_ill_conditioned;
 use lagrange_core::nalgebra::{DVector, Dyn};
 use lagrange_core::{Error, generic};
 use lagrange_derive::facts::ConstraintKind;
@@ -14,9 +15,6 @@ use crate::parameters::{ParameterNames, Parameters, Values};
 
 /// Time, coordinates and velocities.
 pub(crate) type State = generic::State<f64, Dyn>;
-
-/// Smallest pivot of an elimination that is trusted, ε^(1/3): a third of the digits is then lost. The emitted code has the same bound.
-const LEAST_PIVOT: f64 = 6.055_454_452_393_343e-6;
 
 /// A mechanical system that was read from a text, with values of its parameters. It moves as every system of `lagrange-core` whose number
 /// of coordinates is known when the program runs.
@@ -199,11 +197,12 @@ impl Model {
     }
 }
 
-/// Writes the results of an elimination before its pivot, as far as there is room. Returns false if they are not to be trusted.
+/// Writes the results of an elimination before its pivot, as far as there is room. Returns false if they are not to be trusted, by the
+/// bound of the emitted code.
 fn write_trusted(found: &[f64], to: &mut [f64]) -> bool {
     let Some((pivot, found)) = found.split_last() else { return false };
     to.iter_mut().zip(found).for_each(|(to, value)| *to = *value);
-    *pivot > LEAST_PIVOT && found.iter().all(|value| value.is_finite())
+    nan_if_ill_conditioned(*pivot, 1.0) == 0.0 && found.iter().all(|value| value.is_finite())
 }
 
 /// Arguments of a function of the state.

@@ -221,6 +221,33 @@ fn an_element_without_inertia_is_named() {
     assert!(error.contains("q[2]"), "{error}");
 }
 
+macro_rules! signs {
+    ($name:ident, $n:tt, $($field:tt)*) => {
+        /// Masses of both signs: what is left of a pivot may have another sign than the whole.
+        #[derive(lagrange_core::Lagrangian)]
+        #[coordinates(q: [$n])]
+        #[define(x[0] = q[0])]
+        #[define(x[i in 1..$n] = x[i-1] + q[i])]
+        #[lagrangian(sum(i in 0..$n, der(x[i])^2/2 - k*q_dot[i]^2 - cos(x[i])))]
+        struct $name { $($field)* k: f64 }
+    };
+}
+
+signs!(Signs, n, n: usize,);
+signs!(Signs2, 2,);
+
+#[test]
+fn masses_of_both_signs() {
+    let (q, v) = ([0.5, 1.25], [0.75, -0.5]);
+    let mut a = [f64::NAN; 2];
+    Signs { n: 2, k: 1.2 }.accelerations(0.0, &q, &v, &mut a);
+    let expected = Signs2 { k: 1.2 }.solve(&State::new(q, v)).expect("a regular mass matrix").accelerations;
+    assert!(
+        a.iter().zip(&expected).all(|(a, expected)| (a - expected).abs() < 1e-14 * expected.abs()),
+        "{a:?}, not {expected}"
+    );
+}
+
 /// Any number type, a length that is a const generic, and names that the emitted code uses, too.
 #[derive(lagrange_core::Lagrangian)]
 #[coordinates(pivot: [N])]

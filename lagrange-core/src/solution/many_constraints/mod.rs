@@ -19,7 +19,6 @@ use nalgebra::{ComplexField, DVector};
 
 use crate::error::Error;
 use crate::names::{Row, WrittenName};
-use crate::number::limits::HALF_THE_DIGITS;
 use crate::number::{Real, Scalar};
 use crate::solution::eliminate::nan_if_ill_conditioned;
 use crate::system::{ManyBodies, StateOf};
@@ -101,18 +100,23 @@ fn accelerate<L: ManyBodies>(
     });
 }
 
-/// One where a pivot is more than √ε of the entry that it is what is left of, else zero; NaN for NaN.
+/// One where a pivot of any sign is more than √ε of the entry that it is what is left of, else zero; NaN for NaN.
 #[inline]
 pub fn trust<T: Scalar>(pivot: T, whole: T) -> T {
     let [zero, one] = [0.0, 1.0].map(T::constant);
-    let is_single = T::constant(1.0 + f64::EPSILON) == one;
-    let bound = if is_single { Scalar::sqrt(f64::from(f32::EPSILON)) } else { HALF_THE_DIGITS };
-    (pivot * whole).select_by_order(T::constant(bound) * whole * whole, zero, zero, one)
+    (pivot * pivot).select_by_order(T::constant(epsilon::<T>()) * whole * whole, zero, zero, one)
 }
 
 /// Zero, or NaN where the smallest ratio of a pivot to its diagonal entry is below √ε or not a number.
 fn doubt<T: Scalar>(ratio: T) -> T {
-    T::constant(0.0) / trust(ratio, T::constant(1.0))
+    let [zero, nan] = [0.0, f64::NAN].map(T::constant);
+    ratio.select_by_order(T::constant(Scalar::sqrt(epsilon::<T>())), nan, nan, zero)
+}
+
+/// Relative round-off of a number type.
+fn epsilon<T: Scalar>() -> f64 {
+    let is_single = T::constant(1.0 + f64::EPSILON) == T::constant(1.0);
+    if is_single { f32::EPSILON.into() } else { f64::EPSILON }
 }
 
 /// Multipliers at a state, in the order of the constraints.

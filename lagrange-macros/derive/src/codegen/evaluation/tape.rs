@@ -53,7 +53,7 @@ pub struct Arguments<'a> {
     pub accelerations: &'a [f64],
     /// Multipliers λ, one for each constraint.
     pub multipliers: &'a [f64],
-    /// Results of [`Elimination::factor`](super::Elimination::factor).
+    /// Factorization of the mass matrix and of the constraints, as [`Elimination::factor`](super::Elimination::factor) returns it.
     pub factor: &'a [f64],
     /// Right-hand side h of the equations of motion, one entry for each coordinate.
     pub forcing: &'a [f64],
@@ -61,7 +61,7 @@ pub struct Arguments<'a> {
     pub bias: &'a [f64],
 }
 
-/// Groups of registers, in their order.
+/// Parts of the registers, in the order in which they are stored.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Group {
     Constants,
@@ -157,7 +157,7 @@ impl Tape {
     }
 }
 
-/// Appends the results of operations.
+/// Computes operations one after the other, and appends the value of each to the registers.
 fn run(operations: &[Operation], registers: &mut Vec<f64>) {
     for operation in operations {
         let value = operation.value(|_| f64::NAN, |register| registers[register.index()]);
@@ -165,7 +165,7 @@ fn run(operations: &[Operation], registers: &mut Vec<f64>) {
     }
 }
 
-/// Group of each operation of a schedule.
+/// For each operation of a schedule, the part of the registers that its value belongs to.
 fn groups(schedule: &Schedule) -> Vec<Group> {
     let mut groups = Vec::with_capacity(schedule.operations.len());
     for operation in &schedule.operations {

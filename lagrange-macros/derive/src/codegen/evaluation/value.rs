@@ -1,4 +1,4 @@
-//! Values of single operations.
+//! Evaluates a single operation on numbers.
 
 use crate::codegen::operation::Operation;
 use crate::symbolic::{Function, Symbol};

@@ -169,7 +169,7 @@ impl ManyEmitter<'_> {
         }
     }
 
-    /// True if forces, M or slopes depend on what recursions define.
+    /// True if the forces, the mass matrix or ∂f/∂q depend on numbers that a recursion defines, so that these have to be computed first.
     fn reads_recursions(&self, recursion: &Recursion) -> bool {
         let many = &self.problem.many;
         let forces =
@@ -241,7 +241,7 @@ impl ManyEmitter<'_> {
         }
     }
 
-    /// Bindings of what the elements behind one add up to: in a chain that is what the last iteration passed on.
+    /// `let` statements that read the sums over the elements behind one. In a chain the last iteration passed them on.
     fn bind_behind(&self, recursion: &Recursion) -> TokenStream {
         match recursion.is_chain() {
             true => {
@@ -306,7 +306,7 @@ impl ManyEmitter<'_> {
         }
     }
 
-    /// Bindings of terms to what the row of an element holds.
+    /// `let` statements that read terms from the row of an element.
     fn bind_row(&self, recursion: &Recursion, terms: impl Iterator<Item = usize> + Clone) -> TokenStream {
         let element = local("element");
         let names = terms.clone().map(|term| &self.style.names[&Variable::Term(term).symbol()]);
@@ -314,7 +314,7 @@ impl ManyEmitter<'_> {
         quote! { #(let #names = #element[#offsets];)* }
     }
 
-    /// Bindings of terms to the numbers of an element in `cells`.
+    /// `let` statements that read terms from the numbers of an element in `cells`.
     fn bind_cells(&self, terms: &[usize], rows: &[(usize, usize)], index: &Index) -> TokenStream {
         let names = terms.iter().map(|&term| &self.style.names[&Variable::Term(term).symbol()]);
         let places = rows.iter().map(|row| self.place(row, index));

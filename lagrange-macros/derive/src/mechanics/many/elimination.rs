@@ -1,6 +1,8 @@
 //! Elimination of the element of a recursion, in the graph: zeros and ones in its matrices leave no operations.
 
 use super::constraints::rate_of;
+use std::ops::Range;
+
 use super::gradient;
 use super::recursion::Step;
 use crate::resolve::Problem;
@@ -66,45 +68,37 @@ impl Elimination<'_> {
         [g, j]: [&Matrix; 2],
         gamma: &[Id],
     ) -> (Vec<[Id; 2]>, [Vec<Id>; 2], Vec<Id>) {
-        let (q, c) = (self.forces[0].len(), gamma.len());
-        let (behind, [h_q, h_c]) =
-            (symbols(graph, self.behind), self.forces.each_ref().map(|terms| symbols(graph, terms)));
+        let c = gamma.len();
         let triangle = c * (c + 1) / 2;
-        let part = |rows: std::ops::Range<usize>, columns: std::ops::Range<usize>| -> Matrix {
-            self.mass[rows].iter().map(|row| row[columns.clone()].to_vec()).collect()
-        };
-        let [m_qq, m_qc, m_cc] = [part(0..q, 0..q), part(0..q, q..q + c), part(q..q + c, q..q + c)];
+        let behind = symbols(graph, self.behind);
+        let [h_q, h_c] = self.forces.each_ref().map(|terms| symbols(graph, terms));
+        let [m_qq, m_qc, m_cc] = self.blocks();
         let [a, whole] = [0, triangle].map(|from| plus(graph, &symmetric(&behind[from..], c), &m_cc));
-        let (j_t, g_t) = (transposed(j), transposed(g));
-        let m_qc_j = times(graph, &m_qc, j);
-        let coupled = plus(graph, &m_qc_j, &transposed(&m_qc_j));
-        let own = plus(graph, &m_qq, &coupled);
-        let [d, whole] = [&a, &whole].map(|a| {
-            let a_j = times(graph, a, j);
-            let j_a_j = times(graph, &j_t, &a_j);
-            plus(graph, &j_a_j, &own)
-        });
-        let j_a = times(graph, &j_t, &a);
-        let pull = plus(graph, &j_a, &m_qc);
-        let u = times(graph, &pull, g);
+        let [d, whole] = [&a, &whole].map(|a| inertia(graph, [a, j], [&m_qq, &m_qc]));
         let a_gamma = along(graph, &a, gamma);
         let w = sum(graph, &[&behind[2 * triangle..], &h_c], &a_gamma);
-        let (j_w, m_qc_gamma) = (along(graph, &j_t, &w), along(graph, &m_qc, gamma));
-        let right = sum(graph, &[&j_w, &h_q], &m_qc_gamma);
-        let u_t = transposed(&u);
-        let mut sides = u_t.clone();
-        sides.push(right);
+        let j_t = transposed(j);
+        let (j_a, j_w) = (times(graph, &j_t, &a), along(graph, &j_t, &w));
+        let (pull, m_qc_gamma) = (plus(graph, &j_a, &m_qc), along(graph, &m_qc, gamma));
+        let u = times(graph, &pull, g);
+        let mut sides = transposed(&u);
+        sides.push(sum(graph, &[&j_w, &h_q], &m_qc_gamma));
         let reciprocals = symbols(graph, self.reciprocals);
         let pivots = solve(graph, d, &reciprocals, &mut sides);
         let d_g = sides.pop().unwrap_or_default();
         let d_u = transposed(&sides);
-        let a_g = times(graph, &a, g);
-        let (g_a_g, lost) = (times(graph, &g_t, &a_g), times(graph, &u_t, &d_u));
-        let (g_w, lost_pull) = (along(graph, &g_t, &w), along(graph, &u_t, &d_g));
-        let left: Matrix = g_a_g.iter().zip(&lost).map(|(whole, lost)| sum(graph, &[whole], lost)).collect();
-        let to_parent = [upper(&left), upper(&g_a_g), sum(graph, &[&g_w], &lost_pull)].concat();
+        let to_parent = to_parent(graph, [g, &a, &u], &w, (&d_u, &d_g));
         let pivots = pivots.into_iter().enumerate().map(|(i, pivot)| [pivot, whole[i][i]]).collect();
         (pivots, [d_u.concat(), d_g], to_parent)
+    }
+
+    /// M_qq, M_qc and M_cc.
+    fn blocks(&self) -> [Matrix; 3] {
+        let (q, n) = (self.forces[0].len(), self.mass.len());
+        let part = |rows: Range<usize>, columns: Range<usize>| -> Matrix {
+            self.mass[rows].iter().map(|row| row[columns.clone()].to_vec()).collect()
+        };
+        [part(0..q, 0..q), part(0..q, q..n), part(q..n, q..n)]
     }
 
     /// q̈ = D⁻¹g − D⁻¹U c̈₋ and c̈ = G c̈₋ + J q̈ + γ.
@@ -121,6 +115,24 @@ impl Elimination<'_> {
         let carried = sum(graph, &[&carried, &driven, gamma], &vec![Id::ZERO; gamma.len()]);
         [own, carried]
     }
+}
+
+/// JᵀAJ + JᵀM_cq + M_qc J + M_qq
+fn inertia(graph: &mut Graph, [a, j]: [&Matrix; 2], [m_qq, m_qc]: [&Matrix; 2]) -> Matrix {
+    let (a_j, m_qc_j) = (times(graph, a, j), times(graph, m_qc, j));
+    let j_a_j = times(graph, &transposed(j), &a_j);
+    let coupled = plus(graph, &m_qc_j, &transposed(&m_qc_j));
+    let own = plus(graph, m_qq, &coupled);
+    plus(graph, &j_a_j, &own)
+}
+
+/// P₋ = GᵀAG − UᵀD⁻¹U and GᵀAG by upper triangles, and p₋ = Gᵀw − UᵀD⁻¹g.
+fn to_parent(graph: &mut Graph, [g, a, u]: [&Matrix; 3], w: &[Id], (d_u, d_g): (&Matrix, &[Id])) -> Vec<Id> {
+    let (g_t, u_t, a_g) = (transposed(g), transposed(u), times(graph, a, g));
+    let (g_a_g, lost) = (times(graph, &g_t, &a_g), times(graph, &u_t, d_u));
+    let left: Matrix = g_a_g.iter().zip(&lost).map(|(whole, lost)| sum(graph, &[whole], lost)).collect();
+    let (g_w, lost) = (along(graph, &g_t, w), along(graph, &u_t, d_g));
+    [upper(&left), upper(&g_a_g), sum(graph, &[&g_w], &lost)].concat()
 }
 
 fn symbols(graph: &mut Graph, terms: &[usize]) -> Vec<Id> {

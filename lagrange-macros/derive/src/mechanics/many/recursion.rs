@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Then q̈ and c̈ follow from the first to the last. For links this is the articulated-body algorithm (Featherstone, *Rigid Body Dynamics
-//! Algorithms*, 7.3). Only D is divided by, so that elements without mass may stand between others.
+//! Algorithms*, 7.3). D is the only divisor, so that elements without mass may stand between others.
 
 use super::elimination::{Elimination, Matrix};
 use super::{Guarded, Inertia};

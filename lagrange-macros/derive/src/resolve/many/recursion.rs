@@ -15,7 +15,7 @@ use crate::variables::{Variable, has_velocity};
 pub(crate) struct OpenRecursion {
     /// Array of the elements, behind those of the coordinates.
     pub(crate) array: usize,
-    /// The element that the element i is defined from.
+    /// Index of the element from which the element i is defined.
     pub(crate) parent: Index,
     /// Numbers of the element 0.
     pub(crate) first: Vec<Id>,
@@ -48,22 +48,25 @@ impl Lowering<'_> {
         self.definitions[first] = Definition::Recursion(array);
         let range = Range { from: low, to: length };
         self.declare_local(running)?;
-        let (next, parent) = self.inside(range.clone(), running, |lowering| {
-            let body = lowering.lower(&define.body)?;
-            let is_alike = body.shape().lengths == value.shape().lengths;
-            if !is_alike {
-                let message =
-                    format!("`{}[0]` is {}, but this is {}", name.text, value.shape(), body.shape());
-                return lowering.report(define.body.place, message);
-            }
-            let next: Vec<Id> = body.flat().into_iter().map(|id| lowering.within_loops(id)).collect();
-            let parent = lowering.parent(array, &next, define.body.place)?;
-            Some((next, parent))
-        })?;
+        let (next, parent) =
+            self.inside(range.clone(), running, |lowering| lowering.next_element(index, array, &value))?;
         let first = value.flat();
         self.refuse_velocities(&[&first[..], &next].concat(), define.body.place)?;
         self.many.recursions.push(OpenRecursion { array, parent, first, next, range, place });
         Some(())
+    }
+
+    /// Numbers of the element of the current loop, of the shape of the element 0, and the index of the element before it.
+    fn next_element(&mut self, index: usize, array: usize, first: &Value) -> Option<(Vec<Id>, Index)> {
+        let define = &self.defines[index];
+        let value = self.lower(&define.body)?;
+        if value.shape().lengths != first.shape().lengths {
+            let (name, shape, expected) = (&define.target.name.text, value.shape(), first.shape());
+            return self.report(define.body.place, format!("`{name}[0]` is {expected}, but this is {shape}"));
+        }
+        let next: Vec<Id> = value.flat().into_iter().map(|id| self.within_loops(id)).collect();
+        let parent = self.parent(array, &next, define.body.place)?;
+        Some((next, parent))
     }
 
     /// Value of the element 0, the only one that a recursion begins with.
@@ -82,7 +85,7 @@ impl Lowering<'_> {
         })
     }
 
-    /// The element that the element of the current loop is defined from. It must come before it.
+    /// Index of the element from which that of the current loop is defined. It must come before it.
     fn parent(&mut self, array: usize, next: &[Id], place: Place) -> Option<Index> {
         let name = self.many.arrays[array].name.clone();
         let all = self.many.with_bodies(&self.graph, next);
